@@ -1,6 +1,6 @@
 """How planMotion does on MotionBenchMaker, beside VAMP and OMPL.
 
-    python benchmarks/planning.py [--robot panda] [--indices 1 2 3] [--seeds 0] [--tries 4] [--shapes meshes]
+    python benchmarks/planning.py [--robot panda] [--indices 1 2 3] [--seeds 0] [--restarts 4] [--shapes meshes]
     python benchmarks/planning.py --all --seeds 0 1 2 3 4  # all of it
     python benchmarks/planning.py --all --beside vamp=PYTHON mplib=PYTHON  # and others, in a Python that has them
 
@@ -192,7 +192,7 @@ def main():
     parser.add_argument("--indices", type=int, nargs="+", default=[1, 2, 3])
     parser.add_argument("--all", action="store_true", help="all 100 problems of each scene")
     parser.add_argument("--seeds", type=int, nargs="*", default=[0])
-    parser.add_argument("--tries", type=int, default=4)
+    parser.add_argument("--restarts", type=int, default=4)
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--rounds", type=int, default=1)
     parser.add_argument("--margin", type=float, default=0.0)
@@ -205,7 +205,7 @@ def main():
     indices = range(1, 101) if arguments.all else arguments.indices
     problems = list(robot.problems(arguments.scenes, indices))
     everything = []
-    names = ["tries", "margin", "optimize", "slices", "threads"]
+    names = ["restarts", "margin", "optimize", "slices", "threads"]
     for seed in arguments.seeds:
         options = {name: getattr(arguments, name) for name in names} | {"seed": seed}
         rows = [ours(problem, options, arguments.rounds) for problem in problems]

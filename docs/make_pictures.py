@@ -123,7 +123,9 @@ def movingFilm(folder: Path) -> None:
     turn = np.array([0.6, 0, 0, 0, 0, 0, 0])
     start, goal = C.getJointState() - turn, C.getJointState() + turn
     poses = [[-0.6, 0.35, 1.1, 1, 0, 0, 0], [0.6, 0.35, 1.1, 1, 0, 0, 0], [0.6, 1.5, 1.1, 0.7, 0, 0, 0.7]]
-    plan = ry.planMotion(C, goal, start, margin=0.01, obstacle_trajectories={"cart": (np.array([0.0, 2.0, 4.0]), np.array(poses))})
+    plan = ry.planMotion(
+        C, goal, start, margin=0.01, obstacle_trajectories={"cart": (np.array([0.0, 2.0, 4.0]), np.array(poses))}
+    )
     assert plan.feasible, plan.message
     at = 0.6 * plan.duration
     bend = plan.replan(C, at=at, goal=goal + np.array([0.3, 0.4, 0, 0.3, 0, 0, 0]))

@@ -36,7 +36,7 @@ C.view(True, "both went up by 10 cm")
 # Out of reach: an outcome, with the reason.
 result = ry.solveIk(C, {"l_gripper": [1.5, 0.4, 1.0]})
 print(result.feasible, result.status)
-assert result.status == ry.IkStatus.unreached
+assert result.status == ry.IkStatus.goal_unreachable
 print(result.message)
 
 # A thousand targets at once; threads share them, and the answers do not depend on how many there are.

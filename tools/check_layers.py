@@ -62,7 +62,10 @@ BELOW: dict[str, list[str]] = {
     "planning/search": [*_SCENE, "features", "nlp", "planning/steering"],
     "planning/smoothing": [*_PLANNING, "planning/steering", "planning/search"],
     "planning/dynamic_obstacles": [*_PLANNING, "planning/steering", "planning/search"],
-    "planning": [*_PLANNING, *(f"planning/{room}" for room in ("steering", "search", "smoothing", "dynamic_obstacles"))],
+    "planning": [
+        *_PLANNING,
+        *(f"planning/{room}" for room in ("steering", "search", "smoothing", "dynamic_obstacles")),
+    ],
     "logic": ["common", "gfile"],
     "task_planning": [*_PROBLEMS, "ik", "logic"],
     "task_planning/lgp": [*_PROBLEMS, "logic", "task_planning"],

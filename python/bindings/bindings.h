@@ -9,8 +9,8 @@
 
 #include "arrays.h"
 #include "kinds.h"
-#include "kinegraph/features/residual_cache.h"
 #include "kinegraph/collision/edge_checkers.h"
+#include "kinegraph/features/residual_cache.h"
 #include "kinegraph/scene/config.h"
 #include "recent_calls.h"
 

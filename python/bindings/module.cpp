@@ -3,15 +3,15 @@
 #include <cstdlib>
 
 #include "arguments.h"
-#include "task_planning/bind_tasks.h"
 #include "bindings.h"
 #include "call_errors.h"
 #include "control/control.h"
-#include "module_docs.h"
 #include "kinegraph/gfile/parser.h"
-#include "solvers/nlp_objects.h"
+#include "module_docs.h"
 #include "scene/scene_values.h"
 #include "simulation/simulation_objects.h"
+#include "solvers/nlp_objects.h"
+#include "task_planning/bind_tasks.h"
 
 using namespace kinegraph::python;
 using namespace nanobind::literals;

@@ -68,7 +68,7 @@ TEST_F(ConfigCalls, AResultSaysInAWordHowItEnded) {
   const IkResult reached = solveIk(config, {IkTarget::toPosition("tip", {0., -.5 * std::sin(.4), .5 * std::cos(.4)})});
   EXPECT_EQ(reached.str().rfind("solved in ", 0), 0u) << reached.str();
   const IkResult beyond = solveIk(config, {IkTarget::toPosition("tip", {0., 0., 2.})});
-  EXPECT_EQ(beyond.str(), "unreached: " + beyond.message);
+  EXPECT_EQ(beyond.str(), "goal_unreachable: " + beyond.message);
 }
 
 }  // namespace

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/features/eval.h"
 #include "kinegraph/api/model_path.h"
+#include "kinegraph/features/eval.h"
 #include "tests/support/expect_error.h"
 
 namespace kinegraph {

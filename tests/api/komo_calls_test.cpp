@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "kinegraph/common/errors.h"
 #include "kinegraph/api/solve_all.h"
+#include "kinegraph/common/errors.h"
 #include "kinegraph/trajectory_optimization/multi_start.h"
 #include "kinegraph/viewer/config_viewer.h"
 

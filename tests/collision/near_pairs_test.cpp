@@ -51,8 +51,7 @@ TEST(PlacedBodies, NeverDenyAPairWithinTheMarginAndDenyMostOfTheOthers) {
       for (int pair = 0; pair < bodies.pairs(); ++pair) {
         const bool may = bodies.mayBeNear(pair, margin);
         const auto [a, b] = config.getCollidablePairs()[pair];
-        const Proximity exact =
-            proximity(*state.model().body[a], state.pose(a), *state.model().body[b], state.pose(b));
+        const Proximity exact = proximity(*state.model().body[a], state.pose(a), *state.model().body[b], state.pose(b));
         EXPECT_EQ(bodies.proximity(pair).distance, exact.distance);
         if (exact.distance <= margin) {
           EXPECT_TRUE(may) << a << ", " << b << " at " << exact.distance << ", margin " << margin;

@@ -80,7 +80,7 @@ TEST(ParallelFor, AsksBetweenWhileItWaitsForTheOthersAndAtTheEnd) {
 
 TEST(ParallelFor, WhatBetweenThrowsWhileItWaitsIsPassedOnOnceTheOthersHaveEnded) {
   std::atomic<bool> other_runs = false, other_ended = false, stop = false;
-  const auto between = [&] {
+  const auto cancellation = [&] {
     if (!other_runs) return;
     stop = true;
     throw std::runtime_error("stop");
@@ -96,7 +96,7 @@ TEST(ParallelFor, WhatBetweenThrowsWhileItWaitsIsPassedOnOnceTheOthersHaveEnded)
                      while (!stop) std::this_thread::yield();
                      other_ended = true;
                    },
-                   between),
+                   cancellation),
                std::runtime_error);
   EXPECT_TRUE(other_ended);
 }

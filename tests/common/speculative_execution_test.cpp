@@ -37,7 +37,8 @@ TEST(SpeculativeExecutor, WhatIsNotBegunIsDoneWhereItIsGotAndNowhereElse) {
       ++done;
       return std::this_thread::get_id();
     };
-    const Speculative<std::thread::id> one = ahead.later<std::thread::id>(count), other = ahead.later<std::thread::id>(count);
+    const Speculative<std::thread::id> one = ahead.later<std::thread::id>(count),
+                                       other = ahead.later<std::thread::id>(count);
     EXPECT_EQ(one.get(), std::this_thread::get_id());
     EXPECT_EQ(one.get(), std::this_thread::get_id());
     EXPECT_EQ(done, 1);
@@ -103,8 +104,10 @@ TEST(SpeculativeExecutor, AnErrorIsThrownWhereTheResultIsGot) {
   for (const int threads : kThreads) {
     SpeculativeExecutor ahead(threads);
     const Speculative<int> good = ahead.later<int>([](const CancellationToken&) { return 1; });
-    const Speculative<int> bad = ahead.later<int>([](const CancellationToken&) -> int { throw std::runtime_error("bad"); });
-    const Speculative<int> not_got = ahead.later<int>([](const CancellationToken&) -> int { throw std::runtime_error("worse"); });
+    const Speculative<int> bad =
+        ahead.later<int>([](const CancellationToken&) -> int { throw std::runtime_error("bad"); });
+    const Speculative<int> not_got =
+        ahead.later<int>([](const CancellationToken&) -> int { throw std::runtime_error("worse"); });
     for (const Speculative<int>* later : {&bad, &good, &not_got}) later->begin();
     EXPECT_EQ(good.get(), 1);
     EXPECT_THROW(bad.get(), std::runtime_error);

@@ -14,8 +14,8 @@ namespace {
 constexpr double kExact = 1e-9;
 
 /// The conditions that only the solution meets (Karush, Kuhn, Tucker).
-void expectOptimal(const ActiveSet& model, const Eigen::MatrixXd& H, const Eigen::VectorXd& g,
-                   const Eigen::MatrixXd& A, const Eigen::VectorXd& b) {
+void expectOptimal(const ActiveSet& model, const Eigen::MatrixXd& H, const Eigen::VectorXd& g, const Eigen::MatrixXd& A,
+                   const Eigen::VectorXd& b) {
   const Eigen::VectorXd x = model.x();
   Eigen::VectorXd gradient = H * x + g;
   for (int i = 0; i < model.activeCount(); ++i) {

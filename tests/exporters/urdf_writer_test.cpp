@@ -5,8 +5,8 @@
 #include <filesystem>
 #include <fstream>
 
-#include "kinegraph/parsers/urdf_reader.h"
 #include "kinegraph/gfile/writer.h"
+#include "kinegraph/parsers/urdf_reader.h"
 #include "tests/exporters/random_scene.h"
 #include "tests/support/scene.h"
 #include "tests/support/temporary_folder.h"

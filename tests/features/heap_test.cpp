@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/features/eval.h"
 #include "kinegraph/collision/motion_check.h"
+#include "kinegraph/features/eval.h"
 #include "tests/support/crowd.h"
 
 using namespace kinegraph;

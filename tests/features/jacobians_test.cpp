@@ -198,8 +198,7 @@ TEST_P(EveryFeature, HasAJacobianThatScaleAndTargetTransformLikeTheValue) {
     if (rows == 0) continue;
     for (int order = least_order; order <= 2; ++order) {
       for (const MatrixXd& scale : {random(1, 1), random(rows, 1), random(2, rows)}) {
-        Residual residual(makeFeature(info.symbol, frames, *config.model()), scale, random(rows, 1), order,
-                          info.name);
+        Residual residual(makeFeature(info.symbol, frames, *config.model()), scale, random(rows, 1), order, info.name);
         ASSERT_EQ(residual.rows(), residual.mixesRows() ? 2 : rows);
         checkSamples(residual, config, rng,
                      cat(info.name, " of order ", order, ", scaled by ", scale.rows(), " x ", scale.cols(), ", with ",

@@ -45,8 +45,8 @@ TEST(LongChain, OfAThousandJointsRollsUpToAPolygon) {
 TEST(LongChain, TakesMemoryThatGrowsLikeItsJoints) {
   const Config config = chain();
   const KinematicModel& model = *config.model();
-  for (std::size_t size : {model.links.size(), model.steps.size(), model.column_dof.size(),
-                           model.column_before.size(), model.last_column.size(), model.frame_link.size()}) {
+  for (std::size_t size : {model.links.size(), model.steps.size(), model.column_dof.size(), model.column_before.size(),
+                           model.last_column.size(), model.frame_link.size()}) {
     EXPECT_LE(size, 3 * std::size_t(kJoints));
   }
 }

@@ -147,7 +147,7 @@ TEST(IkTarget, ABoundOfAFeatureIsKeptAndDoesNotPullWhereItHolds) {
 
 TEST(IkTarget, WhatIsMissedIsNamedWithWhatItIsRelativeTo) {
   const IkResult result = solveIk(twoHands(), {IkTarget::toPosition("tip_a", {9., 0., 0.}).relativeTo("tip_b")});
-  EXPECT_EQ(result.status, IkStatus::unreached);
+  EXPECT_EQ(result.status, IkStatus::goal_unreachable);
   EXPECT_NE(result.message.find("frame 'tip_a' misses its position relative to 'tip_b' by"), std::string::npos)
       << result.message;
 }

@@ -72,8 +72,7 @@ TEST(SolveIk, PosesFromRandomJointsOfThePandaAreReachedToTheTolerance) {
   const std::vector<IkResult> results = solveIkBatch(config, problems, withoutCollisions());
   for (std::size_t i = 0; i < results.size(); ++i) {
     const IkResult& result = results[i];
-    EXPECT_TRUE((result.q.array() >= model->lower.array()).all() &&
-                (result.q.array() <= model->upper.array()).all());
+    EXPECT_TRUE((result.q.array() >= model->lower.array()).all() && (result.q.array() <= model->upper.array()).all());
     if (!result.feasible()) continue;
     ++solved;
     const auto [distance, angle] = missOf(config, result.q, problems[i][0]);
@@ -122,7 +121,7 @@ TEST(SolveIk, WithoutAvoidanceCollisionsAreAllowed) {
 
 TEST(SolveIk, ATargetOutOfReachIsMissedByTheGapThatRemains) {
   const IkResult result = solveIk(planarArm(), {IkTarget::toPosition("tip", {0., 3., 0.})});
-  EXPECT_EQ(result.status, IkStatus::unreached);
+  EXPECT_EQ(result.status, IkStatus::goal_unreachable);
   EXPECT_NEAR(result.position_error, 1., 1e-6);
   EXPECT_NE(result.message.find("frame 'tip' misses its position by 1 m"), std::string::npos) << result.message;
 }

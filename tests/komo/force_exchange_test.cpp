@@ -18,7 +18,8 @@ Config ballAndBox() {
   return config;
 }
 
-constexpr ForceExchange kKinds[] = {ForceExchange::slide, ForceExchange::stick, ForceExchange::complementary, ForceExchange::bounce};
+constexpr ForceExchange kKinds[] = {ForceExchange::slide, ForceExchange::stick, ForceExchange::complementary,
+                                    ForceExchange::bounce};
 
 }  // namespace
 

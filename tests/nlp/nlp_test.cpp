@@ -157,7 +157,7 @@ TEST(CheckJacobian, AsksBetweenColumnsAndEndsWhereThatThrows) {
     phi << x.squaredNorm();
     J = 2. * x.transpose();
   });
-  const BetweenColumns stop = [&] {
+  const CancellationToken stop = [&] {
     if (++asked == 3) throw std::runtime_error("stop");
   };
   EXPECT_THROW(checkJacobian(nlp, VectorXd::Ones(9), 1e-5, stop), std::runtime_error);

@@ -19,8 +19,8 @@ TEST(LazyValidity, IsFoundOnceWhenItIsFirstAskedFor) {
 }
 
 TEST(LazyValidity, IsSoughtAnewWhereTheFirstWhoAskedGaveUp) {
-  const LazyValidity verdict([](const std::function<void()>& between) {
-    between();
+  const LazyValidity verdict([](const CancellationToken& cancellation) {
+    cancellation.check();
     return ValidityReport{};
   });
   EXPECT_THROW(verdict.get([] { throw std::runtime_error("enough"); }), std::runtime_error);

@@ -29,7 +29,7 @@ inline VectorXd poseAt(double x, double y, double angle = 0.) {
 /// A frame that is at these poses at these times.
 inline ObstacleTrajectory moves(const std::string& frame, const std::vector<std::pair<double, VectorXd>>& track) {
   ObstacleTrajectory obstacle{frame, VectorXd(Eigen::Index(track.size())),
-                          MatrixXd(Eigen::Index(track.size()), track.front().second.size())};
+                              MatrixXd(Eigen::Index(track.size()), track.front().second.size())};
   for (std::size_t i = 0; i < track.size(); ++i) {
     obstacle.times[Eigen::Index(i)] = track[i].first;
     obstacle.values.row(Eigen::Index(i)) = track[i].second.transpose();
@@ -39,8 +39,8 @@ inline ObstacleTrajectory moves(const std::string& frame, const std::vector<std:
 
 /// The least distance of the disc and anything else, by a look at every `step` s of the motion and for a while after it. What moves is
 /// placed as the text says: straight between poses, with a normalized quaternion; joints straight.
-inline double leastOfTime(Config C, const MotionPlan& plan, const std::vector<ObstacleTrajectory>& obstacles, double step,
-                          double after = 3.) {
+inline double leastOfTime(Config C, const MotionPlan& plan, const std::vector<ObstacleTrajectory>& obstacles,
+                          double step, double after = 3.) {
   double least = 1.;
   for (double t = 0.; t <= plan.duration() + after; t += step) {
     for (const ObstacleTrajectory& obstacle : obstacles) {

@@ -192,7 +192,8 @@ TEST(PlanFromVelocity, AmongWhatMovesItGoesOnWithItsAcceleration) {
     for (const double share : {.03, .1, .2, .3, .4, .8}) {
       for (const double speed : {.6, 1.}) {
         const double time = share * first.duration(), begin = time - .4;
-        options.obstacle_trajectories = {moves("cart", {{begin, poseAt(.4, -1.6)}, {begin + 2.4 / speed, poseAt(.4, .8)}})};
+        options.obstacle_trajectories = {
+            moves("cart", {{begin, poseAt(.4, -1.6)}, {begin + 2.4 / speed, poseAt(.4, .8)}})};
         PlanOptions later = options;
         later.obstacle_trajectories.front().times.array() -= time;
         const MotionPlan plan = first.replan(C, time, goal, later);

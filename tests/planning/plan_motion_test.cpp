@@ -42,7 +42,7 @@ TEST(PlanMotion, GoesThroughADoorInTimeAndKeepsTheMargin) {
 
 TEST(PlanMotion, ADoorThatIsTooNarrowIsProvenToBe) {
   const MotionPlan plan = planMotion(roomForABox(.28), kGoal, {.max_evaluations = 2000});
-  EXPECT_EQ(plan.status, PlanStatus::impossible);
+  EXPECT_EQ(plan.status, PlanStatus::infeasible);
   EXPECT_NE(plan.message.find("a ball of 150 mm inside of 'body' does not get past 'left', 'right'"), std::string::npos)
       << plan.message;
 }
@@ -76,11 +76,11 @@ TEST(PlanMotion, WhatStandsUprightIsWiderThanTheBallInIt) {
       const VectorXd start{{-1., .5, 0.}}, goal{{1., 1., 0.}};
       const MotionPlan plan = planMotion(C, goal, {.max_evaluations = 200}, start);
       if (door == too_narrow) {
-        EXPECT_EQ(plan.status, PlanStatus::impossible) << body << plan.message;
+        EXPECT_EQ(plan.status, PlanStatus::infeasible) << body << plan.message;
         EXPECT_NE(plan.message.find("there is no way: " + words + " does not get past"), std::string::npos)
             << plan.message;
       } else {
-        EXPECT_NE(plan.status, PlanStatus::impossible) << body << plan.message;
+        EXPECT_NE(plan.status, PlanStatus::infeasible) << body << plan.message;
       }
     }
   }
@@ -89,13 +89,13 @@ TEST(PlanMotion, WhatStandsUprightIsWiderThanTheBallInIt) {
                             "free, limits: [-2, -2, -2, -1, -1, -1, -1, 2, 2, 2, 1, 1, 1, 1]", .3);
   VectorXd start = VectorXd::Zero(7), goal = start;
   start.head<4>() << -1., .5, 0., 1., goal.head<4>() << 1., 1., 0., 1.;
-  EXPECT_NE(planMotion(C, goal, {.max_evaluations = 200}, start).status, PlanStatus::impossible);
+  EXPECT_NE(planMotion(C, goal, {.max_evaluations = 200}, start).status, PlanStatus::infeasible);
 }
 
 TEST(PlanMotion, ADoorThatIsWideEnoughIsNotProvenAway) {
   for (const double door : {.31, .35, .4}) {
     const MotionPlan plan = planMotion(roomForABox(door), kGoal, {.max_evaluations = 200});
-    EXPECT_NE(plan.status, PlanStatus::impossible) << door;
+    EXPECT_NE(plan.status, PlanStatus::infeasible) << door;
   }
 }
 
@@ -103,8 +103,8 @@ TEST(PlanMotion, TheTimeLimitAndTheWatchEndTheProof) {
   const MotionPlan late = planMotion(roomForABox(.28), kGoal, {.time_limit = 1e-6});
   EXPECT_EQ(late.status, PlanStatus::timeout) << late.message;
   int asked = 0;
-  const CancellationToken watch = [&] { return ++asked > 200; };
-  const MotionPlan stopped = planMotion(roomForABox(.28), kGoal, {.max_evaluations = 1}, std::nullopt, watch);
+  const CancellationToken cancellation = [&] { return ++asked > 200; };
+  const MotionPlan stopped = planMotion(roomForABox(.28), kGoal, {.max_evaluations = 1}, std::nullopt, cancellation);
   EXPECT_EQ(stopped.status, PlanStatus::cancelled) << stopped.message;
 }
 

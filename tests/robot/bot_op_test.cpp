@@ -311,7 +311,7 @@ TEST(BotOp, WhoEndsAWaitingCallHoldsTheRobot) {
   options.hyper_speed = 1.;
   options.watched = [] { return true; };  // as fast as time on the wall
   int looks = 0;
-  options.between = [&] {
+  options.cancellation = [&] {
     if (++looks > 4) throw Cancelled();
   };
   BotOp bot(C, std::make_shared<KinematicDriver>(C), options);

@@ -55,8 +55,8 @@ TEST(RobotLoop, IsStoppedByNumbersThatAreNotFinite) {
   EXPECT_EQ(loop.mode(), LoopMode::fault);
   EXPECT_NE(loop.fault().find("not finite"), std::string::npos);
   ASSERT_EQ(driver->stops().size(), 1u);
-  EXPECT_EQ(driver->commands().size(), 4u);   // nothing was written after
-  EXPECT_EQ(loop.state().q, pair(0., 0.));  // the last one that made sense
+  EXPECT_EQ(driver->commands().size(), 4u);  // nothing was written after
+  EXPECT_EQ(loop.state().q, pair(0., 0.));   // the last one that made sense
 }
 
 TEST(RobotLoop, IsStoppedByAnErrorOfTheRobotUntilItRecovers) {

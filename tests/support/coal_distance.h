@@ -27,8 +27,7 @@ inline std::unique_ptr<coal::ShapeBase> coalShape(const CollisionBody& body) {
 inline double coalDistance(const State& state) {
   double least = 1.;
   for (const auto& [a, b] : state.model().movingPairs()) {
-    const CollisionBody &body_a = *state.model().body[std::size_t(a)],
-                        &body_b = *state.model().body[std::size_t(b)];
+    const CollisionBody &body_a = *state.model().body[std::size_t(a)], &body_b = *state.model().body[std::size_t(b)];
     const RigidTransform X_a = state.pose(a), X_b = state.pose(b);
     const auto shape_a = coalShape(body_a), shape_b = coalShape(body_b);
     coal::DistanceRequest request;

@@ -13,7 +13,8 @@ TEST(ViolatedConstraint, IsToldInMetersAndNothingIsWhereAllHold) {
   const auto komo = std::make_shared<Komo>(C, 1., 1, 0);
   komo->addObjective({}, FeatureSymbol::jointLimits, {}, ObjectiveType::ineq, 1.);
   komo->addObjective({}, FeatureSymbol::position, {"hand"}, ObjectiveType::eq, 10., {0., 0., 2.});
-  EXPECT_NE(violatedConstraint(komo).find("position of hand is missed by 0.4"), std::string::npos) << violatedConstraint(komo);
+  EXPECT_NE(violatedConstraint(komo).find("position of hand is missed by 0.4"), std::string::npos)
+      << violatedConstraint(komo);
   const auto holds = std::make_shared<Komo>(C, 1., 1, 0);
   EXPECT_EQ(violatedConstraint(holds), "");
 }

@@ -212,12 +212,12 @@ TEST(Retime, WhoIsAskedNowAndThenMayEndIt) {
     options.corners = Corners::spline;
     options.intervals = 4000;
     int asked = 0;
-    options.between = [&] { ++asked; };
+    options.cancellation = [&] { ++asked; };
     retime(path, limitsOf(3, 1., 2., jerk), options);
     EXPECT_GT(asked, jerk > 0. ? 2000 : 200);
     for (const int last : {1, asked / 2, asked - 1}) {
       int count = 0;
-      options.between = [&] {
+      options.cancellation = [&] {
         if (++count == last) throw ValueError("enough");
       };
       expectError<ValueError>([&] { retime(path, limitsOf(3, 1., 2., jerk), options); }, {"enough"});
@@ -400,7 +400,7 @@ TEST(Retime, ManyIntervalsEndWhenAskedTo) {
     options.corners = Corners::spline;
     options.intervals = 1000000;
     int count = 0;
-    options.between = [&] {
+    options.cancellation = [&] {
       if (++count == 1000) throw ValueError("enough");
     };
     expectError<ValueError>([&] { retime(path, limitsOf(2, 1., 2., jerk), options); }, {"enough"});

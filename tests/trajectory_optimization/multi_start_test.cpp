@@ -46,9 +46,9 @@ TEST(SampleStarts, WhatIsCalledInBetweenMayThrowAndThePathStays) {
   const VectorXd before = komo->path().variables();
   int asked = 0;
   EXPECT_THROW(sampleStarts(*komo, 9, 0,
-                          [&] {
-                            if (++asked == 4) throw std::runtime_error("stop");
-                          }),
+                            [&] {
+                              if (++asked == 4) throw std::runtime_error("stop");
+                            }),
                std::runtime_error);
   EXPECT_EQ(komo->path().variables(), before);
   EXPECT_EQ(sampleStarts(*komo, 3, 0).size(), 3u);

@@ -44,7 +44,9 @@ def komo() -> Iterator[kg.KOMO]:
     komo.view_close()
 
 
-def test_a_path_is_played_and_can_be_looked_at_slice_by_slice(browser: Browser, start: Callable[..., KinematicModel]) -> None:
+def test_a_path_is_played_and_can_be_looked_at_slice_by_slice(
+    browser: Browser, start: Callable[..., KinematicModel]
+) -> None:
     path = "[[0, 0], [1, 0], [2, 1], [2, 1.5]]"
     program = start(
         PROGRAM + f"print('key', C.view_path({path}, .5), C.getJointState())\nC.view_path({path}, .1, True)"
@@ -160,7 +162,9 @@ def test_a_key_ends_the_playing(browser: Browser, start: Callable[..., Kinematic
     assert program.line("key") == str(ord("y"))
 
 
-def test_looking_around_while_a_motion_plays_does_not_end_it(browser: Browser, start: Callable[..., KinematicModel]) -> None:
+def test_looking_around_while_a_motion_plays_does_not_end_it(
+    browser: Browser, start: Callable[..., KinematicModel]
+) -> None:
     program = start("""
 import time
 C = kg.Config()

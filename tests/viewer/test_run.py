@@ -61,7 +61,9 @@ def test_time_contacts_and_forces_are_shown_with_each_step(config: kg.Config, br
     assert not browser.is_visible("#run")
 
 
-def test_a_simulation_is_paused_stepped_let_go_on_and_reset(browser: Browser, start: Callable[..., KinematicModel]) -> None:
+def test_a_simulation_is_paused_stepped_let_go_on_and_reset(
+    browser: Browser, start: Callable[..., KinematicModel]
+) -> None:
     program = start(
         WATCHED
         + """
@@ -97,7 +99,9 @@ print('end', S.get_t() < 1e9)
     assert program.end() == 0
 
 
-def test_a_body_is_pulled_by_the_mouse_and_the_force_is_shown(browser: Browser, start: Callable[..., KinematicModel]) -> None:
+def test_a_body_is_pulled_by_the_mouse_and_the_force_is_shown(
+    browser: Browser, start: Callable[..., KinematicModel]
+) -> None:
     program = start(
         WATCHED
         + """
@@ -149,7 +153,9 @@ def test_what_is_moved_on_the_page_is_there_in_the_next_step(config: kg.Config, 
     assert S.get_t() == pytest.approx(0.02)
 
 
-def test_ctrl_c_ends_a_paused_simulation_before_its_step(browser: Browser, start: Callable[..., KinematicModel]) -> None:
+def test_ctrl_c_ends_a_paused_simulation_before_its_step(
+    browser: Browser, start: Callable[..., KinematicModel]
+) -> None:
     program = start(
         WATCHED
         + """

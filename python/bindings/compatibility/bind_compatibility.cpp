@@ -3,8 +3,8 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "defaults.h"
 #include "compatibility/compatibility_docs.h"
+#include "defaults.h"
 #include "kinegraph/compatibility/earlier_methods.h"
 
 namespace kinegraph::python {

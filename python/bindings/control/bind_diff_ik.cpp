@@ -36,7 +36,8 @@ void makeDiffIk(DiffIk* self, const PyConfig& config, const std::optional<Number
 void bindDiffIk(nb::module_& m) {
   nb::enum_<DiffIkStatus>(m, "DiffIkStatus", "How a step of DiffIk ended.")
       .value("solved", DiffIkStatus::solved, "All limits and distances are kept.")
-      .value("constraints_relaxed", DiffIkStatus::constraints_relaxed, "Some could not be, or an equality; the message says which.");
+      .value("constraints_relaxed", DiffIkStatus::constraints_relaxed,
+             "Some could not be, or an equality; the message says which.");
   nb::class_<DiffIk>(m, "DiffIk",
                      "Differential inverse kinematics: joint velocities, step by step, that bring features to their "
                      "targets within limits of position, velocity and acceleration, without collisions.")

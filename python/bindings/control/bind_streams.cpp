@@ -6,8 +6,8 @@
 #include "bindings.h"
 #include "control/control.h"
 #include "control/streams_docs.h"
-#include "kinegraph/common/text.h"
 #include "kinegraph/api/servo.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph::python {
 
@@ -33,7 +33,7 @@ void servoFromPython(DiffIk& ik, const nb::object& config, const std::string& ta
     const nb::gil_scoped_acquire lock;
     config.attr("view")();
   };
-  options.between = [check = CheckInterrupts()]() mutable { check(); };
+  options.cancellation = [check = CheckInterrupts()]() mutable { check(); };
   PyConfig& scene = nb::cast<PyConfig&>(config);
   if (source.is_none()) {
     const nb::gil_scoped_release unlock;

@@ -7,7 +7,7 @@ inline constexpr char make[] =
     R"(For a scene, which it moves and looks at anew in each step; its posture is the one to stay near.
 
 Args:
-    config: The scene. It is shared: targets and obstacles may move between steps.
+    config: The scene. It is shared: targets and obstacles may move cancellation steps.
     velocity: Limits of |dq/dt|, one number or shape (n,), rad/s or m/s; None: the model's, as C.getVelocityLimits.
     acceleration: Limits of |d2q/dt2|, one number or shape (n,), rad/s^2 or m/s^2; None: none.
     posture: Cost per rad or m from the posture, beside the weights of tasks.
@@ -27,7 +27,7 @@ Args:
     weight: Multiplies its rows, beside other tasks and the posture.
     gain: Share of the error that one step takes away, in (0, 1].
     target: What it is to become, one number or one per row; None: zero.
-    level: Tasks of a higher level have what those of lower ones leave open; the posture comes last.
+    priority: Tasks of a higher priority number have what those of lower ones leave open; the posture comes last.
 Returns:
     Number of the task, for setTarget.
 Raises:

@@ -59,7 +59,7 @@ Raises:
     ArgumentError: Numbers that do not fit or are not finite; nothing has changed then.)";
 
 inline constexpr char at[] =
-    R"(The motion that the last call found, a cubic between slices. After its end it rests there.
+    R"(The motion that the last call found, a cubic cancellation slices. After its end it rests there.
 
 Args:
     time: After the last call, s.

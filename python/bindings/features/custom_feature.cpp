@@ -31,7 +31,8 @@ std::shared_ptr<const nb::object> sharedObject(nb::object object) {
 /// that of central differences over the dofs that move the frames.
 class CustomFeature final : public Feature {
  public:
-  CustomFeature(std::shared_ptr<const nb::object> function, std::string name, std::vector<int> frames, const State& scene)
+  CustomFeature(std::shared_ptr<const nb::object> function, std::string name, std::vector<int> frames,
+                const State& scene)
       : function_(std::move(function)), name_(std::move(name)), frames_(std::move(frames)) {
     rows_ = int(call(scene).y.size());
   }

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <functional>
 
-#include "solvers/sensitivity_docs.h"
 #include "ik/ik_objects.h"
-#include "kinegraph/common/text.h"
 #include "kinegraph/api/solution_parameters.h"
+#include "kinegraph/common/text.h"
 #include "python_names.h"
 #include "solvers/sensitivity.h"
+#include "solvers/sensitivity_docs.h"
 
 namespace kinegraph::python {
 
@@ -72,8 +72,8 @@ const IkResult& resultAt(const IkResults& results, std::ptrdiff_t index) {
 nb::class_<IkResult> bindResult(nb::module_& m) {
   nb::enum_<IkStatus>(m, "IkStatus", "How solveIk ended.")
       .value("solved", IkStatus::solved, "All targets within tolerance, no pair nearer than the margin.")
-      .value("unreached", IkStatus::unreached, "The nearest attempt misses a target.")
-      .value("colliding", IkStatus::colliding, "The nearest attempt meets its targets in collision.")
+      .value("goal_unreachable", IkStatus::goal_unreachable, "The nearest attempt misses a target.")
+      .value("in_collision", IkStatus::in_collision, "The nearest attempt meets its targets in collision.")
       .value("cancelled", IkStatus::cancelled, "Before there was an answer.");
   nb::class_<IkResult> bound(m, "IkResult", "What solveIk found.");
   bound

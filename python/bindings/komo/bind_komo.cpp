@@ -8,8 +8,6 @@
 
 #include "bindings.h"
 #include "defaults.h"
-#include "komo/komo_docs.h"
-#include "solvers/explanation_dicts.h"
 #include "features/feature_arguments.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
@@ -18,7 +16,9 @@
 #include "kinegraph/komo/report.h"
 #include "kinegraph/komo/step_limit.h"
 #include "kinegraph/solvers/nlp_solver.h"
+#include "komo/komo_docs.h"
 #include "komo/py_komo.h"
+#include "solvers/explanation_dicts.h"
 #include "solvers/solving.h"
 
 namespace kinegraph::python {

@@ -6,9 +6,9 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "defaults.h"
-#include "komo/komo_path_docs.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/komo/path/sub_problem.h"
+#include "komo/komo_path_docs.h"
 #include "komo/py_komo.h"
 
 namespace kinegraph::python {

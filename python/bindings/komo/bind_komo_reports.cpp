@@ -9,12 +9,12 @@
 #include <thread>
 
 #include "arguments.h"
-#include "komo/komo_reports_docs.h"
+#include "kinegraph/api/komo_motion.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/api/komo_motion.h"
 #include "kinegraph/komo/report.h"
 #include "kinegraph/viewer/recorded_page.h"
+#include "komo/komo_reports_docs.h"
 #include "komo/py_komo.h"
 #include "viewer/py_viewer.h"
 

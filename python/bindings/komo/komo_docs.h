@@ -35,8 +35,8 @@ Raises:
     ArgumentError: The feature cannot be made of these frames, times are not in the path, or a size does not fit.)";
 
 inline constexpr char addFreeMotion[] =
-    R"(Keeps all shapes that may collide apart, in slices and at all times between them; q goes straight from slice to slice,
-and objects that are attached move along. The solver first looks at the slices; where the motion between them comes too
+    R"(Keeps all shapes that may collide apart, in slices and at all times cancellation them; q goes straight from slice to slice,
+and objects that are attached move along. The solver first looks at the slices; where the motion cancellation them comes too
 near to something, it takes up the instants at which it does, and goes on. What it then calls feasible keeps the margin at
 all times. Where the start is nearer to something than the margin, the motion to the first slice keeps half of that.
 

@@ -3,8 +3,8 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "pickling.h"
 #include "komo/py_komo.h"
+#include "pickling.h"
 
 namespace kinegraph::python {
 

@@ -8,16 +8,16 @@
 #include <sstream>
 
 #include "arguments.h"
-#include "task_planning/bind_tasks.h"
 #include "bindings.h"
-#include "logic/logic_docs.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/logic/action_words.h"
 #include "kinegraph/logic/fol_reader.h"
 #include "kinegraph/logic/pddl.h"
 #include "kinegraph/task_planning/scene_facts.h"
+#include "logic/logic_docs.h"
 #include "logic/logic_objects.h"
 #include "solvers/solving.h"
+#include "task_planning/bind_tasks.h"
 
 namespace kinegraph::python {
 

@@ -3,9 +3,9 @@
 #include <nanobind/stl/vector.h>
 
 #include "defaults.h"
-#include "planning/path_finder_docs.h"
 #include "kinegraph/planning/path_finder.h"
 #include "option_class.h"
+#include "planning/path_finder_docs.h"
 #include "python_names.h"
 
 namespace kinegraph::python {

@@ -4,11 +4,11 @@
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
-#include "planning/path_lines_docs.h"
-#include "planning/plan_docs.h"
 #include "features/feature_arguments.h"
 #include "ik/ik_targets.h"
 #include "kinegraph/planning/refine_path.h"
+#include "planning/path_lines_docs.h"
+#include "planning/plan_docs.h"
 #include "planning/plan_objects.h"
 #include "python_names.h"
 
@@ -160,7 +160,8 @@ PyMotionPlan nextMotionPlan(PyMotionPlans& plans) {
 nb::typed<nb::dict, nb::str, Array> obstaclesAt(const PyMotionPlan& plan, double t) {
   nb::dict all;
   const std::vector<VectorXd> values = plan.obstaclesAt(t);
-  for (std::size_t i = 0; i < values.size(); ++i) all[plan.options.obstacle_trajectories[i].frame.c_str()] = toNumpy(values[i]);
+  for (std::size_t i = 0; i < values.size(); ++i)
+    all[plan.options.obstacle_trajectories[i].frame.c_str()] = toNumpy(values[i]);
   return nb::borrow<nb::typed<nb::dict, nb::str, Array>>(all);
 }
 
@@ -267,7 +268,8 @@ nb::class_<PyMotionPlan> bindMotionPlan(nb::module_& m) {
       .def_prop_ro(
           "message", [](const PyMotionPlan& p) { return inPython(p.message); },
           "\"\" if there is a motion; else why there is none.")
-      .def_ro("notes", &MotionPlan::warnings, "What is to be known of the motion, as that the start was in contact.")
+      .def_ro("warnings", &MotionPlan::warnings,
+              "Caveats of the motion, such as a start in contact: list of sentences.")
       .def_prop_ro(
           "path", [](const PyMotionPlan& p) { return toNumpy(p.path); },
           "Its postures, shape (K, n), rad or m, start and goal included.")
@@ -309,9 +311,9 @@ nb::class_<PyMotionPlan> bindMotionPlan(nb::module_& m) {
 
 const OptionClass<PlanOptions>& planOptionClass() {
   static const OptionClass<PlanOptions> options(
-      planOptionTable(),
-      {{"velocity", "acceleration", "jerk", "start_velocity", "start_acceleration", "constraints", "obstacle_trajectories"},
-       setLarge});
+      planOptionTable(), {{"velocity", "acceleration", "jerk", "start_velocity", "start_acceleration", "constraints",
+                           "obstacle_trajectories"},
+                          setLarge});
   return options;
 }
 

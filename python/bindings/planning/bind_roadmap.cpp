@@ -7,12 +7,12 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "planning/path_lines_docs.h"
-#include "planning/roadmap_docs.h"
 #include "features/feature_arguments.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/planning/roadmap.h"
 #include "pickling.h"
+#include "planning/path_lines_docs.h"
+#include "planning/roadmap_docs.h"
 #include "python_names.h"
 
 namespace kinegraph::python {
@@ -40,7 +40,8 @@ auto watched(const Work& work) {
 }
 
 RoadmapPath findPath(PyRoadmap& map, const Numbers& start, const Numbers& goal) {
-  return watched([&](const CancellationToken& watch) { return map.findPath(start.values, goal.values, watch); });
+  return watched(
+      [&](const CancellationToken& cancellation) { return map.findPath(start.values, goal.values, cancellation); });
 }
 
 nb::tuple mapState(const PyRoadmap& map) {
@@ -91,7 +92,7 @@ void bindRoadmap(nb::module_& m) {
       .def(
           "grow",
           [](PyRoadmap& map, int configurations) -> PyRoadmap& {
-            watched([&](const CancellationToken& watch) { map.grow(configurations, watch); });
+            watched([&](const CancellationToken& cancellation) { map.grow(configurations, cancellation); });
             return map;
           },
           "configurations"_a, kChain, docs::roadmap::grow)
@@ -122,7 +123,8 @@ void bindRoadmap(nb::module_& m) {
       .def_prop_ro("motions", &Roadmap::motions, "How many motions between postures it has.")
       .def_prop_ro("margin", &Roadmap::margin, "m, that all collidable pairs keep.")
       .def_prop_ro(
-          "configurations", [](const PyRoadmap& map) { return toNumpy(map.configurations()); }, "Shape (N, n), rad or m.")
+          "configurations", [](const PyRoadmap& map) { return toNumpy(map.configurations()); },
+          "Shape (N, n), rad or m.")
       .def("__repr__", [](const PyRoadmap& map) {
         return cat("<Roadmap of ", map.size(), " postures and ", map.motions(), " motions>");
       });

@@ -3,7 +3,7 @@
 namespace kinegraph::python::docs::path_finder {
 
 inline constexpr char type[] =
-    R"(Finds a path between two joint vectors, free of collisions at all times, as older scripts ask for it.
+    R"(Finds a path cancellation two joint vectors, free of collisions at all times, as older scripts ask for it.
 
     rrt = ry.RRT_PathFinder().setProblem(C)
     rrt.setStartGoal(q0, qT)
@@ -17,7 +17,7 @@ inline constexpr char make[] = R"(Without a problem.)";
 inline constexpr char setOptions[] = R"(Sets options by name.
 
 Args:
-    options: verbose, stepsize (rad or m between postures of the path), maxIters (effort), collisionTolerance (m, how deep
+    options: verbose, stepsize (rad or m cancellation postures of the path), maxIters (effort), collisionTolerance (m, how deep
         pairs may overlap); subsamples, p_connect and useBroadCollisions of older scripts have no effect.
 Returns:
     This path finder.

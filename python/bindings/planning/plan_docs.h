@@ -145,7 +145,7 @@ Returns:
     The key that was pressed, 0 if none.
 )";
 
-inline constexpr char shortcut[] = R"(A shorter path between the same ends, free at all times.
+inline constexpr char shortcut[] = R"(A shorter path cancellation the same ends, free at all times.
 
 Args:
     config: The scene.

@@ -92,7 +92,8 @@ nb::tuple planState(const PyMotionPlan& p) {
 void setScene(PyMotionPlan& plan) {
   Config still(*plan.config);
   if (!plan.options.obstacle_trajectories.empty()) {
-    plan.dynamic_scene = std::make_shared<const DynamicScene>(*plan.config, plan.options.obstacle_trajectories, "MotionPlan");
+    plan.dynamic_scene =
+        std::make_shared<const DynamicScene>(*plan.config, plan.options.obstacle_trajectories, "MotionPlan");
     still = plan.dynamic_scene->standing();
   }
   plan.scene = std::make_shared<const State>(still.state());

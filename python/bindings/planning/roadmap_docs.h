@@ -2,7 +2,7 @@
 
 namespace kinegraph::python::docs::roadmap {
 
-inline constexpr char type[] = R"(Postures and motions between them that are kept from query to query.
+inline constexpr char type[] = R"(Postures and motions cancellation them that are kept from query to query.
 
     map = ry.Roadmap(C, margin=.01).grow(500)
     answer = map.findPath(q0, q1)
@@ -23,7 +23,7 @@ Raises:
 inline constexpr char grow[] = R"(Adds free random postures, each with motions to the nearest ones.
 
 Args:
-    postures: How many.
+    configurations: How many.
 Returns:
     This map.
 Raises:

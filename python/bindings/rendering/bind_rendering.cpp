@@ -7,12 +7,12 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "defaults.h"
-#include "simulation/depth_noise.h"
-#include "rendering/rendering_docs.h"
-#include "rendering/images.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/rendering/depth_image.h"
+#include "rendering/images.h"
+#include "rendering/rendering_docs.h"
+#include "simulation/depth_noise.h"
 #include "viewer/py_viewer.h"
 
 namespace kinegraph::python {

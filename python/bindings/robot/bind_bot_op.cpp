@@ -7,16 +7,16 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "scene/contact_dicts.h"
-#include "robot/robot_docs.h"
-#include "rendering/images.h"
-#include "kinegraph/common/interrupt_watch.h"
 #include "kinegraph/api/bot_stage.h"
+#include "kinegraph/common/interrupt_watch.h"
 #include "kinegraph/robot/bot_op.h"
 #include "kinegraph/robot/kinematic_driver.h"
 #include "kinegraph/robot/simulated_driver.h"
-#include "robot/robot_objects.h"
 #include "parameters.h"
+#include "rendering/images.h"
+#include "robot/robot_docs.h"
+#include "robot/robot_objects.h"
+#include "scene/contact_dicts.h"
 #include "viewer/py_viewer.h"
 
 namespace kinegraph::python {
@@ -33,7 +33,7 @@ BotOpOptions optionsOf(PyConfig& config, bool realtime) {
     return stage->show(bot, shown, static_cast<PyConfig&>(shown).viewer, message);
   };
   options.watched = [stage] { return stage->isWatched(); };
-  options.between = checkInterrupt;
+  options.cancellation = checkInterrupt;
   if (options.realtime) options.interrupted = [watch = std::make_shared<InterruptWatch>()] { return watch->takeNew(); };
   return options;
 }

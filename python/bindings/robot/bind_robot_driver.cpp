@@ -5,11 +5,11 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "robot/robot_docs.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/robot/kinematic_driver.h"
 #include "kinegraph/robot/recorded_driver.h"
 #include "kinegraph/robot/simulated_driver.h"
+#include "robot/robot_docs.h"
 #include "robot/robot_objects.h"
 
 namespace kinegraph::python {

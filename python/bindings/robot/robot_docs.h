@@ -66,7 +66,7 @@ inline constexpr char moveAutoTimed[] =
     R"(Goes along a smooth path as fast as limits allow, and rests at its end. Does not wait.
 
 Args:
-    path: (K, n) joint values, as for move; the times between points are equal.
+    path: (K, n) joint values, as for move; the times cancellation points are equal.
     maxVel: No joint is faster, rad/s or m/s, nor than its own limit.
     maxAcc: No joint accelerates more, rad/s^2 or m/s^2, nor than its own limit.
 Raises:
@@ -158,7 +158,7 @@ Args:
     forKeyPressed: Until a key is pressed in the viewer. For this alone it does not wait if nobody watches.
     forTimeToEnd: Until the motion is over.
     forGripper: Until all grippers are done.
-    syncFrequency: s between two syncs.
+    syncFrequency: s cancellation two syncs.
 Returns:
     The key; ord('g') for grippers; else 0.
 Raises:
@@ -174,7 +174,7 @@ Raises:
     ArgumentError: There is no such gripper, or a number makes no sense.)";
 
 inline constexpr char gripperClose[] =
-    R"(Closes a gripper until something is between its fingers, and holds that. Does not wait.
+    R"(Closes a gripper until something is cancellation its fingers, and holds that. Does not wait.
 
 Args:
     id: Which one.
@@ -332,7 +332,8 @@ Args:
 Raises:
     FileError: It cannot be written.)";
 
-inline constexpr char RobotDriver[] = R"(What stands between BotOp and a robot. Subclasses drive robots of your own.
+inline constexpr char RobotDriver[] =
+    R"(What stands cancellation BotOp and a robot. Subclasses drive robots of your own.
 
 Write info, read, write and stop; where there is something to do, also connect, disconnect, recover, moveGripper, and for
 simulated robots step. Calls come from one thread at a time. What they raise stops the robot, and is told as a RobotFault.)";
@@ -436,9 +437,9 @@ inline constexpr char RecordedDriver_make[] = R"(A robot that says these things.
 
 Args:
     info: What robot it is.
-    readings: What read() gives, one after the other; then the last one for ever. If empty, the robot is where it was told to be.
-    start: (n,) where it is at first, without readings.
+    states: What read() gives, one after the other; then the last one for ever. If empty, the robot is where it was told to be.
+    start: (n,) where it is at first, without states.
 Raises:
-    ArgumentError: Neither readings nor a start.)";
+    ArgumentError: Neither states nor a start.)";
 
 }  // namespace kinegraph::python::docs::operation

@@ -4,10 +4,10 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings.h"
-#include "scene/collisions_docs.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/ignored_contacts.h"
 #include "kinegraph/scene/self_collisions.h"
+#include "scene/collisions_docs.h"
 
 namespace kinegraph::python {
 

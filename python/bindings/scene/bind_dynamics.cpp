@@ -2,8 +2,8 @@
 
 #include "bindings.h"
 #include "defaults.h"
-#include "scene/dynamics_docs.h"
 #include "kinegraph/scene/config_dynamics.h"
+#include "scene/dynamics_docs.h"
 
 namespace kinegraph::python {
 

@@ -4,7 +4,6 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "scene/formats_docs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/exporters/gltf_writer.h"
@@ -13,6 +12,7 @@
 #include "kinegraph/exporters/scene_writer.h"
 #include "kinegraph/exporters/urdf_writer.h"
 #include "kinegraph/gfile/writer.h"
+#include "scene/formats_docs.h"
 #include "scene/scene_values.h"
 
 namespace kinegraph::python {

@@ -4,9 +4,9 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "scene/frame_docs.h"
 #include "kinegraph/scene/loading/reader.h"
 #include "kinegraph/scene/tree/tree_edits.h"
+#include "scene/frame_docs.h"
 #include "scene/scene_values.h"
 
 namespace kinegraph::python {

@@ -4,11 +4,11 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "scene/frame_joint_docs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/tree/inertia_edits.h"
 #include "kinegraph/scene/tree/tree_edits.h"
+#include "scene/frame_joint_docs.h"
 
 namespace kinegraph::python {
 

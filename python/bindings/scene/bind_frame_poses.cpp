@@ -5,10 +5,10 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "scene/frame_poses_docs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/loading/reader.h"
+#include "scene/frame_poses_docs.h"
 
 namespace kinegraph::python {
 

@@ -5,10 +5,10 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "defaults.h"
-#include "scene/joints_docs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/motor_limits.h"
+#include "scene/joints_docs.h"
 
 namespace kinegraph::python {
 

@@ -7,11 +7,11 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "scene/meshes_docs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/convex_hull.h"
 #include "kinegraph/scene/frame_shapes.h"
+#include "scene/meshes_docs.h"
 
 namespace kinegraph::python {
 

@@ -4,12 +4,12 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "scene/scene_docs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/scene/loading/reader.h"
 #include "kinegraph/scene/tree/scene_bytes.h"
+#include "scene/scene_docs.h"
 
 namespace kinegraph::python {
 

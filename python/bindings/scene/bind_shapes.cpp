@@ -7,10 +7,10 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "scene/shapes_docs.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 #include "kinegraph/scene/frame_shapes.h"
+#include "scene/shapes_docs.h"
 
 namespace kinegraph::python {
 

@@ -53,7 +53,7 @@ Raises:
 inline constexpr char pairs[] =
     R"(A tuple per pair of frames that carry shapes and may collide: two names, the reason, the share of postures in which they
 collide. "adjacent": one joint connects them; "always": in nearly all postures; "never": in none; "sometimes": all others, and
-those with a joint between them that slides without limits.)";
+those with a joint cancellation them that slides without limits.)";
 
 inline constexpr char coll_totalViolation[] = R"(How deep all collidable pairs overlap, at the present q.
 

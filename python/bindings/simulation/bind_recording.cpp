@@ -4,12 +4,12 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "simulation/simulation_docs.h"
+#include "kinegraph/api/recorded_motion.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/api/recorded_motion.h"
-#include "viewer/py_viewer.h"
+#include "simulation/simulation_docs.h"
 #include "simulation/simulation_objects.h"
+#include "viewer/py_viewer.h"
 
 namespace kinegraph::python {
 

@@ -5,14 +5,14 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "scene/contact_dicts.h"
-#include "simulation/depth_noise.h"
-#include "simulation/simulation_docs.h"
-#include "rendering/images.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/simulation/simulation.h"
 #include "option_class.h"
+#include "rendering/images.h"
+#include "scene/contact_dicts.h"
+#include "simulation/depth_noise.h"
+#include "simulation/simulation_docs.h"
 #include "simulation/simulation_objects.h"
 
 namespace kinegraph::python {
@@ -56,9 +56,9 @@ void stepSimulation(PySimulation& s, const Numbers& u, double tau, ControlMode m
   {
     const nb::gil_scoped_release unlock;
     CheckInterrupts check;
-    std::function<void()> between;
-    if (tau > kLong) between = [&] { check(); };
-    s.simulation.advance(u.values, tau, mode, between);
+    CancellationToken cancellation;
+    if (tau > kLong) cancellation = [&] { check(); };
+    s.simulation.advance(u.values, tau, mode, cancellation);
   }
   s.simulation.publish();
   if (watcher) watcher->hasStepped(s.simulation);
@@ -214,7 +214,8 @@ void bindMeasuring(nb::class_<PySimulation>& simulation) {
           "frame"_a, "point"_a, "target"_a, docs::simulation::pull)
       .def(
           "endPerturbation", [](S& s) { s.simulation.endPerturbation(); }, docs::simulation::endPerturbation)
-      .def("getPerturbation", getPerturbation, nb::sig("def getPerturbation(self) -> dict | None"), docs::simulation::getPerturbation)
+      .def("getPerturbation", getPerturbation, nb::sig("def getPerturbation(self) -> dict | None"),
+           docs::simulation::getPerturbation)
       .def(
           "clearPerturbations", [](S& s) { s.simulation.clearPerturbations(); }, docs::simulation::clearPerturbations);
 }

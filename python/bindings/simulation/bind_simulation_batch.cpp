@@ -3,11 +3,11 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "simulation/simulation_batch_docs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/simulation/simulation.h"
 #include "kinegraph/simulation/simulation_batch.h"
+#include "simulation/simulation_batch_docs.h"
 #include "simulation/simulation_objects.h"
 
 namespace kinegraph::python {

@@ -5,12 +5,12 @@
 #include <limits>
 
 #include "bindings.h"
-#include "simulation/simulation_docs.h"
+#include "kinegraph/api/simulation_view.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/api/simulation_view.h"
-#include "viewer/py_viewer.h"
+#include "simulation/simulation_docs.h"
 #include "simulation/simulation_objects.h"
+#include "viewer/py_viewer.h"
 
 namespace kinegraph::python {
 

@@ -70,7 +70,7 @@ inline constexpr char closeGrippers[] = R"(Moves the fingers of all environments
 
 Args:
     gripperFrameName: A frame of the link that carries the fingers.
-    widths: m between the fingers, one number or (N,).
+    widths: m cancellation the fingers, one number or (N,).
     speed: m/s of each finger.
     force: N of each finger.
 Raises:

@@ -164,7 +164,7 @@ inline constexpr char setSplineRef[] =
 Args:
     path: (K, n) control points, or (n,) for one.
     times: (K,) in s, or one number: the time of all, in equal parts.
-    append: After the present spline, at rest in between; else from now on, smoothly.
+    append: After the present spline, at rest in cancellation; else from now on, smoothly.
 Raises:
     ArgumentError: Shapes do not fit, or times are not positive and rising.)";
 
@@ -192,18 +192,18 @@ inline constexpr char moveGripper[] = R"(Moves fingers to a width, in the steps 
 
 Args:
     gripperFrameName: A frame of the link that carries the fingers, such as "l_gripper".
-    width: m between the fingers.
+    width: m cancellation the fingers.
     speed: m/s of each finger.
 Raises:
     FrameNotFound: There is no such frame.
     ArgumentError: It has no gripper, or a number makes no sense.)";
 
 inline constexpr char closeGripper[] =
-    R"(Closes fingers with a force, until something is in between, in the steps that follow.
+    R"(Closes fingers with a force, until something is in cancellation, in the steps that follow.
 
 Args:
     gripperFrameName: A frame of the link that carries the fingers.
-    width: m between the fingers if nothing is.
+    width: m cancellation the fingers if nothing is.
     speed: m/s of each finger.
     force: N of each finger.
 Raises:
@@ -225,7 +225,7 @@ inline constexpr char getGripperWidth[] = R"(How far fingers are apart.
 Args:
     gripperFrameName: As for moveGripper.
 Returns:
-    m between the fingers: twice the joint's value.
+    m cancellation the fingers: twice the joint's value.
 Raises:
     FrameNotFound: There is no such frame.
     ArgumentError: It has no gripper.)";

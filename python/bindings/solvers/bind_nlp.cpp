@@ -9,15 +9,15 @@
 
 #include "bindings.h"
 #include "defaults.h"
-#include "solvers/nlp_docs.h"
-#include "solvers/explanation_dicts.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/nlp/test_problems.h"
 #include "kinegraph/solvers/explanation.h"
 #include "kinegraph/solvers/problems/penalty_nlp.h"
-#include "solvers/nlp_objects.h"
 #include "komo/py_komo.h"
+#include "solvers/explanation_dicts.h"
+#include "solvers/nlp_docs.h"
+#include "solvers/nlp_objects.h"
 #include "solvers/solving.h"
 
 namespace kinegraph::python {

@@ -4,12 +4,12 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "defaults.h"
-#include "solvers/sampler_docs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/solvers/sampling/sampler.h"
-#include "solvers/nlp_objects.h"
 #include "option_class.h"
+#include "solvers/nlp_objects.h"
+#include "solvers/sampler_docs.h"
 #include "solvers/solving.h"
 
 namespace kinegraph::python {

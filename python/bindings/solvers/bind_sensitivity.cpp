@@ -1,12 +1,12 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "solvers/sensitivity_docs.h"
+#include "kinegraph/api/solution_parameters.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/api/solution_parameters.h"
 #include "python_names.h"
 #include "solvers/sensitivity.h"
+#include "solvers/sensitivity_docs.h"
 
 namespace kinegraph::python {
 

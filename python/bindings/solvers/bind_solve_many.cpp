@@ -8,13 +8,13 @@
 
 #include "bindings.h"
 #include "defaults.h"
-#include "solvers/solve_many_docs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/trajectory_optimization/multi_start.h"
-#include "solvers/nlp_objects.h"
 #include "komo/py_komo.h"
 #include "python_names.h"
+#include "solvers/nlp_objects.h"
+#include "solvers/solve_many_docs.h"
 #include "solvers/solving.h"
 
 namespace kinegraph::python {

@@ -74,7 +74,7 @@ inline constexpr char setProgress[] = R"(Sets a function that is called while it
 Args:
     function: Called with a dict of evals (of this solve), x, f, sos, ineq, eq; False as its answer ends the solve. None: no more
         calls.
-    seconds: Least time between two calls, s.
+    seconds: Least time cancellation two calls, s.
 Returns:
     The solver itself.
 Raises:

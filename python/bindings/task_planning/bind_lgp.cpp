@@ -7,13 +7,13 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "defaults.h"
-#include "task_planning/lgp_docs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/task_planning/lgp/lgp_tool.h"
 #include "logic/logic_objects.h"
-#include "task_planning/py_manipulation.h"
 #include "python_names.h"
+#include "task_planning/lgp_docs.h"
+#include "task_planning/py_manipulation.h"
 #include "task_planning/task_objects.h"
 
 namespace kinegraph::python {
@@ -242,7 +242,7 @@ void makeTool(PyLgpTool* self, const PyConfig& C, std::shared_ptr<Abstraction> t
               const nb::object& results) {
   LgpOptions options;
   options.threads = threads;
-  options.between = asksForInterrupts();
+  options.cancellation = asksForInterrupts();
   options.tells = [](const std::string& line) {
     const nb::gil_scoped_acquire lock;
     nb::print(inPython(line).c_str());

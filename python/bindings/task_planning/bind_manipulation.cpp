@@ -4,11 +4,11 @@
 #include <nanobind/stl/vector.h>
 
 #include "arguments.h"
-#include "task_planning/bind_tasks.h"
 #include "bindings.h"
-#include "task_planning/manipulation_docs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "task_planning/bind_tasks.h"
+#include "task_planning/manipulation_docs.h"
 #include "task_planning/py_manipulation.h"
 
 namespace kinegraph::python {

@@ -2,12 +2,12 @@
 #include <nanobind/stl/vector.h>
 
 #include "arrays.h"
-#include "task_planning/task_plays_docs.h"
 #include "kinegraph/api/task_execution.h"
 #include "kinegraph/api/task_view.h"
-#include "robot/robot_objects.h"
 #include "python_names.h"
+#include "robot/robot_objects.h"
 #include "task_planning/task_objects.h"
+#include "task_planning/task_plays_docs.h"
 
 namespace kinegraph::python {
 
@@ -57,7 +57,8 @@ void bindTaskPlays(nb::module_& m) {
       [](nb::handle plan, const PyConfig& C) {
         return PyConfig{taskPlanOf(plan).failedConfiguration(C), nullptr};
       },
-      "plan"_a, "C"_a, nb::sig("def failedConfiguration(plan: TaskPlan, C: Config) -> Config"), docs::task_plays::failedConfiguration);
+      "plan"_a, "C"_a, nb::sig("def failedConfiguration(plan: TaskPlan, C: Config) -> Config"),
+      docs::task_plays::failedConfiguration);
   m.def(
       "showTask", [](PyConfig& C, PyConfig& scene, const Numbers& q) { showTask(C, scene, q.values); }, "C"_a,
       "scene"_a, "q"_a, docs::task_plays::show);

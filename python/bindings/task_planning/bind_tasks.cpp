@@ -9,15 +9,15 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "task_planning/tasks_docs.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/logic/fol_reader.h"
 #include "kinegraph/task_planning/search/check_task_plan.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/search/plan_task.h"
-#include "task_planning/py_manipulation.h"
 #include "python_names.h"
+#include "task_planning/py_manipulation.h"
 #include "task_planning/task_objects.h"
+#include "task_planning/tasks_docs.h"
 
 namespace kinegraph::python {
 
@@ -238,7 +238,7 @@ PyTaskPlans plansOf(const PyConfig& C, const std::string& goal, const std::optio
   if (velocity) options.velocity = velocity->values;
   if (acceleration) options.acceleration = acceleration->values;
   options.threads = threads;
-  options.between = [check = CheckInterrupts()]() mutable { check(); };
+  options.cancellation = [check = CheckInterrupts()]() mutable { check(); };
   options.helper = [] { return std::make_shared<PyManipulation>(); };
   PyConfig scene{Config(C), nullptr};
   const nb::gil_scoped_release unlock;

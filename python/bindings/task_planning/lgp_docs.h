@@ -179,7 +179,7 @@ Returns:
 )" KINEGRAPH_LGP_NO_PLAN;
 
 inline constexpr char get_piecewiseMotionProblem[] =
-    R"(The motion of one action between its waypoints, with attachments as they are then.
+    R"(The motion of one action cancellation its waypoints, with attachments as they are then.
 
 Args:
     phase: 0: the first action.

@@ -85,7 +85,7 @@ Returns:
     A line per action.)";
 
 inline constexpr char holderOf[] =
-    R"(The hand that an object hangs below without a joint of q in between.
+    R"(The hand that an object hangs below without a joint of q in cancellation.
 
 Args:
     C: The scene.

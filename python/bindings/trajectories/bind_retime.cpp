@@ -4,11 +4,11 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "trajectories/retime_docs.h"
+#include "kinegraph/api/retime_robot.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/api/retime_robot.h"
 #include "python_names.h"
+#include "trajectories/retime_docs.h"
 
 namespace kinegraph::python {
 
@@ -43,7 +43,7 @@ struct Request {
     options.corners = cornersOfName(corners);
     options.tolerance = tolerance;
     options.intervals = intervals;
-    options.between = [check = CheckInterrupts()]() mutable { check(); };
+    options.cancellation = [check = CheckInterrupts()]() mutable { check(); };
     if (start_velocity) options.start_velocity = start_velocity->values;
     if (end_velocity) options.end_velocity = end_velocity->values;
     if (start_acceleration) options.start_acceleration = start_acceleration->values;

@@ -2,9 +2,9 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "trajectories/spline_docs.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/trajectories/b_spline.h"
+#include "trajectories/spline_docs.h"
 
 namespace kinegraph::python {
 

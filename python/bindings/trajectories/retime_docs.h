@@ -15,10 +15,10 @@ Args:
     acceleration: Limit of |d2q/dt2|, rad/s^2 or m/s^2.
     jerk: Limit of |d3q/dt3|, rad/s^3 or m/s^3; None for none.
     corners: What becomes of corners: "blend" rounds them within tolerance, "stop" stands still at each, "spline" takes a
-        cubic spline through all points, which may be far from the lines between them.
+        cubic spline through all points, which may be far from the lines cancellation them.
     tolerance: By which a blend may miss its corner, in every dof, rad or m.
     is_free: A function that says whether a blend may be taken: is_free(points, deviation) -> bool, with points (M, n)
-        along it, between which it leaves their chords by at most deviation in every dof. Where it says no, smaller
+        along it, cancellation which it leaves their chords by at most deviation in every dof. Where it says no, smaller
         blends are tried, and then the motion stops at the corner. None: all may be taken.
     start_velocity: dq/dt at the start, shape (n,), along the path; None: at rest.
     end_velocity: dq/dt at the end, shape (n,), along the path; None: at rest.

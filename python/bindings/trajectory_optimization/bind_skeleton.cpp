@@ -3,13 +3,13 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings.h"
-#include "trajectory_optimization/skeleton_docs.h"
 #include "features/feature_arguments.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/komo/path/sub_problem.h"
 #include "kinegraph/trajectory_optimization/skeleton.h"
 #include "komo/py_komo.h"
+#include "trajectory_optimization/skeleton_docs.h"
 
 namespace kinegraph::python {
 

@@ -2,10 +2,10 @@
 #include <nanobind/stl/string.h>
 
 #include "bindings.h"
-#include "trajectory_optimization/spline_motion_docs.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/trajectory_optimization/spline_motion.h"
 #include "komo/py_komo.h"
+#include "trajectory_optimization/spline_motion_docs.h"
 
 namespace kinegraph::python {
 

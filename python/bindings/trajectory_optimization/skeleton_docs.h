@@ -57,11 +57,11 @@ Raises:
     FrameNotFound: A name of an entry that is not in the scene.)";
 
 inline constexpr char getKomo_waypoints[] =
-    R"(A KOMO of one slice per phase, with costs on the distances between them and from home.
+    R"(A KOMO of one slice per phase, with costs on the distances cancellation them and from home.
 
 Args:
     Configuration: The scene.
-    lenScale: Scale of the costs on the distances between slices; 0 leaves them out.
+    lenScale: Scale of the costs on the distances cancellation slices; 0 leaves them out.
     homingScale: Scale of the costs on the distance from home; 0 leaves them out.
     collScale: Not used; older scripts pass it.
 Returns:
@@ -74,7 +74,7 @@ inline constexpr char getKomo_finalSlice[] =
 
 Args:
     Configuration: The scene.
-    lenScale: Scale of the costs on the distance between the slices; 0 leaves them out.
+    lenScale: Scale of the costs on the distance cancellation the slices; 0 leaves them out.
     homingScale: Scale of the costs on the distance from home; 0 leaves them out.
     collScale: Not used; older scripts pass it.
 Returns:
@@ -83,7 +83,7 @@ Raises:
     FrameNotFound: A name of an entry that is not in the scene.)";
 
 inline constexpr char getTwoWaypointProblem[] =
-    R"(What is needed to plan the motion between two waypoints that are solved.
+    R"(What is needed to plan the motion cancellation two waypoints that are solved.
 
 Args:
     t2: The phase in which the motion is.

@@ -3,12 +3,12 @@
 #include <nanobind/stl/vector.h>
 
 #include "bindings.h"
-#include "viewer/pictures_docs.h"
-#include "rendering/images.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/rendering/framing.h"
 #include "kinegraph/viewer/draw_quad.h"
+#include "rendering/images.h"
+#include "viewer/pictures_docs.h"
 #include "viewer/py_viewer.h"
 
 namespace kinegraph::python {

@@ -7,13 +7,13 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "defaults.h"
-#include "viewer/viewer_docs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/viewer/motions.h"
 #include "kinegraph/viewer/recorded_page.h"
 #include "kinegraph/viewer/watch_file.h"
 #include "viewer/py_viewer.h"
+#include "viewer/viewer_docs.h"
 
 namespace kinegraph::python {
 

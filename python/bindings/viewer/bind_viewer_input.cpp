@@ -7,10 +7,10 @@
 #include <cmath>
 
 #include "bindings.h"
-#include "viewer/viewer_input_docs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "viewer/py_viewer.h"
+#include "viewer/viewer_input_docs.h"
 
 namespace kinegraph::python {
 

@@ -130,14 +130,14 @@ class FrankaDriver(RobotDriver):
 
     def read(self) -> RobotState:
         """Where arm and hand are, what they feel, and what is wrong."""
-        state = self._panda.get_state()
-        error = str(state.current_errors) if state.current_errors else ""
+        arm = self._panda.get_state()
+        error = str(arm.current_errors) if arm.current_errors else ""
         grippers = []
         if self._hand is not None:
             state, problem = self._hand.state()
             grippers, error = [state], error or problem
-        time = state.time.to_sec()
-        return RobotState(time, state.q, state.dq, state.tau_J, state.tau_ext_hat_filtered, grippers, error)
+        time = arm.time.to_sec()
+        return RobotState(time, arm.q, arm.dq, arm.tau_J, arm.tau_ext_hat_filtered, grippers, error)
 
     def write(self, command: RobotCommand) -> None:
         """Leaves a setpoint.

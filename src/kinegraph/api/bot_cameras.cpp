@@ -2,8 +2,8 @@
 #include "kinegraph/api/bot_cameras.h"
 
 #include "kinegraph/api/bot_stage.h"
-#include "kinegraph/robot/simulated_driver.h"
 #include "kinegraph/rendering/depth_image.h"
+#include "kinegraph/robot/simulated_driver.h"
 
 namespace kinegraph {
 

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kinegraph/robot/bot_op.h"
 #include "kinegraph/rendering/camera_renderer.h"
+#include "kinegraph/robot/bot_op.h"
 
 namespace kinegraph {
 

@@ -1,7 +1,7 @@
 // What a Komo does with the rooms above it.
-#include "kinegraph/common/text.h"
 #include "kinegraph/api/komo_motion.h"
 #include "kinegraph/api/solve_all.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/trajectory_optimization/multi_start.h"
 #include "kinegraph/viewer/config_viewer.h"
 

@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <vector>
 
+#include "kinegraph/api/names.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/api/names.h"
 
 namespace kinegraph {
 

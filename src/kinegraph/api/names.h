@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kinegraph/features/registry.h"
 #include "kinegraph/api/model_path.h"
+#include "kinegraph/features/registry.h"
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/solvers/sampling/sampler.h"
 #include "kinegraph/solvers/solve_many.h"

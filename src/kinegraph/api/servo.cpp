@@ -16,7 +16,7 @@ using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
 constexpr double kPicture = 1. / 30.;  // s from one to the next
-constexpr Seconds kCheckPeriod(.02);          // between two looks at whether the call shall end
+constexpr Seconds kCheckPeriod(.02);   // between two looks at whether the call shall end
 
 void place(Frame& frame, const VectorXd& pose) {
   if (pose.size() != 3 && pose.size() != 7)
@@ -28,10 +28,10 @@ void place(Frame& frame, const VectorXd& pose) {
   }
 }
 
-void waitUntil(Clock::time_point end, const std::function<void()>& between) {
+void waitUntil(Clock::time_point end, const CancellationToken& cancellation) {
   for (auto now = Clock::now(); now < end; now = Clock::now()) {
     std::this_thread::sleep_until(std::min(end, now + std::chrono::duration_cast<Clock::duration>(kCheckPeriod)));
-    if (between) between();
+    cancellation.check();
   }
 }
 
@@ -55,8 +55,9 @@ void driveBy(DiffIk& ik, Config& config, const std::function<void(double t)>& mo
       shown_at = t;
     }
     ik.step(options.dt);
-    if (options.between) options.between();
-    if (options.realtime) waitUntil(begun + std::chrono::duration_cast<Clock::duration>(Seconds(t)), options.between);
+    options.cancellation.check();
+    if (options.realtime)
+      waitUntil(begun + std::chrono::duration_cast<Clock::duration>(Seconds(t)), options.cancellation);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/control/diff_ik.h"
 #include "kinegraph/control/gamepad.h"
 #include "kinegraph/control/target_file.h"
@@ -22,7 +23,7 @@ struct ServoOptions {
 
   /// Shows the scene and takes over what people dragged; empty: Config::view.
   std::function<void(Config&)> view;
-  std::function<void()> between;  ///< called while it waits and after each step; what it throws ends the call
+  CancellationToken cancellation;  ///< called while it waits and after each step; what it throws ends the call
 };
 
 /// Steps a DiffIk, which has a task at the frame `target`, while that frame moves: by a file or a function, by a gamepad, or

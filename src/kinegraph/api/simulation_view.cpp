@@ -5,9 +5,9 @@
 #include <thread>
 #include <utility>
 
+#include "kinegraph/api/bot_stage.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/api/bot_stage.h"
 #include "kinegraph/simulation/simulation_impl.h"
 
 namespace kinegraph {
@@ -171,12 +171,12 @@ int Simulation::view(bool pause, const std::string& message) {
   return view->view(*this, pause, text);
 }
 
-int Simulation::run(double seconds, double tau, double speed, const std::function<void()>& between) {
+int Simulation::run(double seconds, double tau, double speed, const CancellationToken& cancellation) {
   if (!(seconds >= 0.) || !(tau > 0.))
     throw ValueError(cat("Simulation.run: seconds ", seconds, ", tau ", tau, "; expected 0 or more, and more than 0"));
   if (const auto view = std::dynamic_pointer_cast<SimulationView>(impl_->watcher))
     return view->run(*this, seconds, tau, speed);
-  if (seconds > 0.) multi_step(seconds, tau, between);
+  if (seconds > 0.) multi_step(seconds, tau, cancellation);
   return 0;
 }
 

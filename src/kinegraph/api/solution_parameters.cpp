@@ -7,8 +7,8 @@
 #include "kinegraph/common/parallel.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/komo/komo.h"
-#include "kinegraph/komo/path_description.h"
 #include "kinegraph/komo/path_components.h"
+#include "kinegraph/komo/path_description.h"
 
 namespace kinegraph {
 

@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinegraph/api/task_view.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/api/task_view.h"
 
 namespace kinegraph {
 

@@ -5,10 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include "kinegraph/geometry/distance/separation.h"
 #include "kinegraph/collision/motion_bounds.h"
 #include "kinegraph/collision/motion_check.h"
 #include "kinegraph/collision/placed_samples.h"
+#include "kinegraph/geometry/distance/separation.h"
 
 namespace kinegraph {
 

@@ -3,9 +3,9 @@
 #include <memory>
 #include <optional>
 
-#include "kinegraph/geometry/distance/box_tree.h"
 #include "kinegraph/collision/motion_bounds.h"
 #include "kinegraph/collision/near_pairs.h"
+#include "kinegraph/geometry/distance/box_tree.h"
 
 namespace kinegraph {
 

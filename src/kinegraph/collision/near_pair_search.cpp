@@ -5,10 +5,7 @@
 namespace kinegraph {
 
 NearPairSearch::NearPairSearch(std::shared_ptr<const KinematicModel> model, const std::vector<int>& frames)
-    : model_(std::move(model)),
-      frames_(frames),
-      link_pose_(model_->links.size()),
-      link_moved_(model_->links.size()) {
+    : model_(std::move(model)), frames_(frames), link_pose_(model_->links.size()), link_moved_(model_->links.size()) {
   for (const ContactRules::Body& body : model_->contacts.bodies) {
     const auto frame = std::size_t(body.frame);
     const bool wanted = frames.empty() || std::find(frames.begin(), frames.end(), body.frame) != frames.end();

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/collision/near_pair_search.h"
+#include "kinegraph/geometry/distance/proximity.h"
 
 namespace kinegraph {
 

@@ -51,8 +51,8 @@ PlacedSamples::PlacedSamples(const State& scene, const LinkBodies& bodies, const
       spheres_(bodies.groups.size()),
       placed_(bodies.bodies.size()) {
   const KinematicModel& model = scene.model();
-  model_ = {int(model.links.size()), int(model.steps.size()), int(model.column_dof.size()), model.dofs,
-            parameters_->link.data(),  parameters_->step.data()};
+  model_ = {int(model.links.size()),  int(model.steps.size()), int(model.column_dof.size()), model.dofs,
+            parameters_->link.data(), parameters_->step.data()};
   const std::size_t all = kMost / std::size_t(kernel_->width),
                     pose_rows = std::size_t(model_.links) * LaneMemory::kPerPose;
   layOutLanes(storage_, kernel_->width,

@@ -5,9 +5,9 @@
 #include <memory>
 #include <vector>
 
+#include "kinegraph/collision/sample_kernel.h"
 #include "kinegraph/geometry/distance/separation.h"
 #include "kinegraph/kinematics/link_bodies.h"
-#include "kinegraph/collision/sample_kernel.h"
 
 namespace kinegraph {
 

@@ -1,9 +1,9 @@
 // The kernel of sample_kernel.h for registers of `kLanes` doubles. Each source file that includes this is compiled for
 // its own instruction set; all names are local to it.
 
-#include "kinegraph/kinematics/place_lanes.h"
 #include "kinegraph/collision/sample_kernel.h"
 #include "kinegraph/collision/support_lanes.h"
+#include "kinegraph/kinematics/place_lanes.h"
 #include "kinegraph/math/lane_transpose.h"
 
 namespace kinegraph::lanes {

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "kinegraph/geometry/distance/collision_body.h"
 #include "kinegraph/collision/motion_bounds.h"
+#include "kinegraph/geometry/distance/collision_body.h"
 
 namespace kinegraph {
 

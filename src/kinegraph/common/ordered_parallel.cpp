@@ -16,14 +16,13 @@ namespace {
 
 using Job = std::function<void(int, const CancellationToken&)>;
 using Take = std::function<bool(int)>;
-using Between = std::function<void()>;
 
 constexpr std::chrono::milliseconds kLook{20};
 
 class JobsAhead {
  public:
-  JobsAhead(int count, int threads, const Job& job, const Between& between)
-      : count_(count), threads_(threads), job_(job), between_(between), ended_(std::size_t(count)) {
+  JobsAhead(int count, int threads, const Job& job, const CancellationToken& cancellation)
+      : count_(count), threads_(threads), job_(job), cancellation_(cancellation), ended_(std::size_t(count)) {
     const int workers = std::min(count, threads);
     workers_.reserve(std::size_t(workers));
     try {
@@ -78,18 +77,18 @@ class JobsAhead {
   }
 
   void wait(int job) {
-    if (between_) between_();  // also where no job takes long
+    cancellation_.check();  // also where no job takes long
     std::unique_lock lock(mutex_);
     while (!changed_.wait_for(lock, kLook, [&] { return ended_[std::size_t(job)].is_over; })) {
       lock.unlock();
-      if (between_) between_();
+      cancellation_.check();
       lock.lock();
     }
   }
 
   const int count_, threads_;
   const Job& job_;
-  const Between& between_;
+  const CancellationToken& cancellation_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::atomic<bool> over_ = false;
@@ -100,14 +99,15 @@ class JobsAhead {
 
 }  // namespace
 
-void orderedParallelFor(int count, int threads, const Job& job, const Take& take, const Between& between) {
-  if (threads > 1 && count > 0) return JobsAhead(count, threads, job, between).run(take);
+void orderedParallelFor(int count, int threads, const Job& job, const Take& take,
+                        const CancellationToken& cancellation) {
+  if (threads > 1 && count > 0) return JobsAhead(count, threads, job, cancellation).run(take);
   const CancellationToken stopped = [&] {
-    if (between) between();
+    cancellation.check();
     return false;
   };
   for (int i = 0; i < count; ++i) {
-    if (between) between();
+    cancellation.check();
     job(i, stopped);
     if (!take(i)) return;
   }

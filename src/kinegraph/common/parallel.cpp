@@ -18,12 +18,12 @@ constexpr std::chrono::milliseconds kWatch{20};
 
 class Parts {
  public:
-  Parts(int count, int part, const std::function<void(int, int, int)>& work, const std::function<void()>& between)
+  Parts(int count, int part, const std::function<void(int, int, int)>& work, const CancellationToken& cancellation)
       : count_(count),
         part_(part),
         parts_(count / part + (count % part > 0)),
         work_(work),
-        between_(between),
+        cancellation_(cancellation),
         failed_(parts_) {}
 
   void run(int threads) {
@@ -63,9 +63,9 @@ class Parts {
 
   /// On the calling thread. False: stop.
   bool askBetween() {
-    if (!between_ || stopped_) return !stopped_;
+    if (!cancellation_ || stopped_) return !stopped_;
     try {
-      between_();
+      cancellation_.check();
       return true;
     } catch (...) {
       stopped_ = std::current_exception();
@@ -93,7 +93,7 @@ class Parts {
 
   const int count_, part_, parts_;
   const std::function<void(int, int, int)>& work_;
-  const std::function<void()>& between_;
+  const CancellationToken& cancellation_;
   std::atomic<int> next_ = 0, busy_ = 0;  ///< part to take next; other threads that still run
   std::mutex mutex_;
   std::condition_variable all_done_;
@@ -104,8 +104,8 @@ class Parts {
 }  // namespace
 
 void parallelFor(int count, int part, int threads, const std::function<void(int, int, int)>& work,
-              const std::function<void()>& between) {
-  Parts(count, part, work, between).run(threads);
+                 const CancellationToken& cancellation) {
+  Parts(count, part, work, cancellation).run(threads);
 }
 
 }  // namespace kinegraph

@@ -33,7 +33,7 @@ struct SpeculativeExecutor::Item {
 
 class SpeculativeExecutor::Crew {
  public:
-  Crew(int threads, std::function<void()> between) : threads_(threads), between_(std::move(between)) {}
+  Crew(int threads, CancellationToken cancellation) : threads_(threads), cancellation_(std::move(cancellation)) {}
   ~Crew() { rest(); }
 
   void begin(const std::shared_ptr<Item>& item, Priority wanted) {
@@ -144,9 +144,9 @@ class SpeculativeExecutor::Crew {
 
   /// False: the calling thread is to end all.
   bool ask() {
-    if (!between_ || std::this_thread::get_id() != caller_) return true;
+    if (!cancellation_ || std::this_thread::get_id() != caller_) return true;
     try {
-      between_();
+      cancellation_.check();
       return true;
     } catch (...) {
       interruption_ = std::current_exception();
@@ -167,23 +167,24 @@ class SpeculativeExecutor::Crew {
   }
 
   const int threads_;
-  const std::function<void()> between_;
+  const CancellationToken cancellation_;
   std::thread::id caller_ = std::this_thread::get_id();
   std::mutex mutex_;
   std::condition_variable changed_;
   std::atomic<bool> is_over_ = false;
-  std::exception_ptr interruption_;  ///< of the calling thread, by `between`, until all rest
+  std::exception_ptr interruption_;  ///< of the calling thread, by `cancellation`, until all rest
   std::vector<std::shared_ptr<Item>> queue_;
   std::vector<std::jthread> workers_;
 };
 
-SpeculativeExecutor::SpeculativeExecutor(int threads, std::function<void()> between)
-    : crew_(std::make_shared<Crew>(threads, std::move(between))) {}
+SpeculativeExecutor::SpeculativeExecutor(int threads, CancellationToken cancellation)
+    : crew_(std::make_shared<Crew>(threads, std::move(cancellation))) {}
 SpeculativeExecutor::~SpeculativeExecutor() { rest(); }
 
 void SpeculativeExecutor::rest() { crew_->rest(); }
 
-SpeculativeExecutor::Task::Task(std::shared_ptr<Crew> crew, Work work) : crew_(std::move(crew)), item_(std::make_shared<Item>()) {
+SpeculativeExecutor::Task::Task(std::shared_ptr<Crew> crew, Work work)
+    : crew_(std::move(crew)), item_(std::make_shared<Item>()) {
   item_->work = std::move(work);
 }
 

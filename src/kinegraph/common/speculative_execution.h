@@ -5,6 +5,7 @@
 #include <optional>
 #include <utility>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/common/ordered_parallel.h"
 
 namespace kinegraph {
@@ -26,9 +27,9 @@ enum class Priority { surely, likely, maybe };
 /// itself. All else is for the calling thread, which is the one that made this, or has called `rest` last.
 class SpeculativeExecutor {
  public:
-  /// `threads`: with the calling one. `between`, where given, is asked on the calling thread whenever its work asks whether
+  /// `threads`: with the calling one. `cancellation`, where given, is asked on the calling thread whenever its work asks whether
   /// it is stopped, and every 20 ms while it waits; it may throw to end all, from the call that gets a result.
-  explicit SpeculativeExecutor(int threads, std::function<void()> between = {});
+  explicit SpeculativeExecutor(int threads, CancellationToken cancellation = {});
   ~SpeculativeExecutor();  ///< as `rest`
   SpeculativeExecutor(const SpeculativeExecutor&) = delete;
   SpeculativeExecutor& operator=(const SpeculativeExecutor&) = delete;

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/control/active_set.h"
 #include "kinegraph/features/eval.h"
-#include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph {
@@ -26,7 +26,7 @@ struct DiffIkOptions {
 };
 
 enum class DiffIkStatus {
-  solved,    ///< all limits and distances are kept
+  solved,               ///< all limits and distances are kept
   constraints_relaxed,  ///< some could not be, or an equality; `message()` says which
 };
 
@@ -80,7 +80,7 @@ class DiffIk {
     std::vector<std::string> frames;
     double weight, gain;
     VectorXd target;
-    int priority;                       ///< of an equality: kEquality
+    int priority;                    ///< of an equality: kEquality
     std::vector<Residual> residual;  ///< one
     VectorXd y;
     Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J;
@@ -124,7 +124,7 @@ class DiffIk {
   std::vector<Meaning> meanings_;
   std::vector<GaveWay> gave_way_;
   std::vector<int> priorities_, active_rows_;  ///< ascending; rows that hold the last step back
-  MatrixXd open_, turned_, reduced_cost_;  ///< open_: directions that are left, its first open_count_ columns
+  MatrixXd open_, turned_, reduced_cost_;      ///< open_: directions that are left, its first open_count_ columns
   VectorXd along_;
   int open_count_ = 0;
   ActiveSet program_rigid_, program_elastic_;

@@ -3,8 +3,8 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/exporters/mesh_export.h"
-#include "kinegraph/parsers/xml.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
+#include "kinegraph/parsers/xml.h"
 
 namespace kinegraph {
 

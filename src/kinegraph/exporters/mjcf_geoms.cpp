@@ -5,10 +5,10 @@
 
 #include "kinegraph/common/file_paths.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/parsers/xml.h"
 #include "kinegraph/exporters/stl_writer.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
+#include "kinegraph/parsers/xml.h"
 
 namespace kinegraph {
 

@@ -8,9 +8,9 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/exporters/mjcf_geoms.h"
-#include "kinegraph/parsers/xml.h"
 #include "kinegraph/exporters/srdf_writer.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
+#include "kinegraph/parsers/xml.h"
 
 namespace kinegraph {
 

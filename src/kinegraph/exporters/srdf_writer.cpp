@@ -4,8 +4,8 @@
 #include <set>
 
 #include "kinegraph/common/text.h"
-#include "kinegraph/parsers/xml.h"
 #include "kinegraph/kinematics/contact_rules.h"
+#include "kinegraph/parsers/xml.h"
 
 namespace kinegraph {
 

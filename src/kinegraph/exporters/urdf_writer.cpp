@@ -6,13 +6,13 @@
 #include <set>
 
 #include "kinegraph/common/text.h"
-#include "kinegraph/parsers/urdf_model.h"
-#include "kinegraph/parsers/xml.h"
 #include "kinegraph/exporters/srdf_writer.h"
 #include "kinegraph/exporters/stl_writer.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
+#include "kinegraph/parsers/urdf_model.h"
+#include "kinegraph/parsers/xml.h"
 
 namespace kinegraph {
 

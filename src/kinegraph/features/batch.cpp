@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "kinegraph/collision/edge_check.h"
+#include "kinegraph/collision/limit_check.h"
+#include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/parallel.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/collision/edge_check.h"
 #include "kinegraph/kinematics/lane_kinematics.h"
-#include "kinegraph/collision/limit_check.h"
-#include "kinegraph/collision/near_pairs.h"
 
 namespace kinegraph {
 
@@ -41,7 +41,7 @@ void forEach(const Worker& first, int count, const BatchOptions& options, const 
   const auto part = [&](int worker, int from, int to) {
     for (int i = from; i < to; ++i) one(workers[worker], i);
   };
-  parallelFor(count, kPart, threads, part, options.between);
+  parallelFor(count, kPart, threads, part, options.cancellation);
 }
 
 /// Calls finish(worker, first, count) after run has evaluated the rows for configurations first .. first + count - 1.
@@ -56,7 +56,7 @@ void forLanes(const LaneKinematics& model, int count, const BatchOptions& option
     model.run(scratch[worker], batch(worker, from, to - from));
     finish(worker, from, to - from);
   };
-  parallelFor(count, kPart, threads, part, options.between);
+  parallelFor(count, kPart, threads, part, options.cancellation);
 }
 
 /// evalBatch where the feature is made of rows that kernels in lanes have.
@@ -249,7 +249,7 @@ void areFreeInLanes(const State& scene, const Eigen::Ref<const RowMatrix>& Q, do
       count = 0;
     }
   };
-  parallelFor(int(Q.rows()), kPart, crew.size(), part, options.between);
+  parallelFor(int(Q.rows()), kPart, crew.size(), part, options.cancellation);
 }
 
 }  // namespace
@@ -285,7 +285,7 @@ void areMotionsFree(const State& scene, const Eigen::Ref<const RowMatrix>& from,
       free[i] = withinLimits(scene.model(), a) && withinLimits(scene.model(), b) && crew.of(worker).isFree(a, b);
     }
   };
-  parallelFor(int(from.rows()), kPart, crew.size(), part, options.between);
+  parallelFor(int(from.rows()), kPart, crew.size(), part, options.cancellation);
 }
 
 }  // namespace kinegraph

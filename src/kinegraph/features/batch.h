@@ -4,9 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "kinegraph/collision/edge_checkers.h"
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/features/residual.h"
 #include "kinegraph/geometry/distance/proximity.h"
-#include "kinegraph/collision/edge_checkers.h"
 
 namespace kinegraph {
 
@@ -15,10 +16,10 @@ using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::R
 
 /// How the functions below share their work. The results do not depend on it.
 struct BatchOptions {
-  int threads = 1;                     ///< the calling one included
-  std::function<void()> between = {};  ///< called on the calling thread every few configurations; may throw to stop
-  int lanes = 0;                       ///< configurations side by side: one of laneWidths(), 0 for the widest
-  EdgeCheckers* checkers = nullptr;    ///< what areValid and areMotionsFree keep for the next call; none: nothing
+  int threads = 1;                      ///< the calling one included
+  CancellationToken cancellation = {};  ///< called on the calling thread every few configurations; may throw to stop
+  int lanes = 0;                        ///< configurations side by side: one of laneWidths(), 0 for the widest
+  EdgeCheckers* checkers = nullptr;     ///< what areValid and areMotionsFree keep for the next call; none: nothing
 };
 
 // What follows evaluates many configurations of a scene, the rows of Q (N x dofs), and needs no memory per

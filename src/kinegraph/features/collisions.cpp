@@ -9,7 +9,8 @@ namespace kinegraph {
 
 namespace {
 
-std::vector<std::pair<int, int>> pairsOf(const KinematicModel& model, const std::vector<int>& frames, PairChoice choice) {
+std::vector<std::pair<int, int>> pairsOf(const KinematicModel& model, const std::vector<int>& frames,
+                                         PairChoice choice) {
   const auto named = [&](int frame) { return std::find(frames.begin(), frames.end(), frame) != frames.end(); };
   std::vector<std::pair<int, int>> pairs;
   for (const auto& pair : model.collidable()) {
@@ -35,7 +36,8 @@ void forNearOf(const BodyPairs& pairs, const State& state, double margin, const 
 
 }  // namespace
 
-CollisionPairs::CollisionPairs(const KinematicModel& model, const std::vector<int>& frames, double margin, PairChoice choice)
+CollisionPairs::CollisionPairs(const KinematicModel& model, const std::vector<int>& frames, double margin,
+                               PairChoice choice)
     : margin_(margin), moving_bodies_(model, {}) {
   const std::vector<std::pair<int, int>> pairs = pairsOf(model, frames, choice);
   std::vector<std::pair<int, int>> moving;
@@ -78,8 +80,8 @@ void CollisionPairs::forNear(const State& state, const Visit& visit) const {
             [&](int place, int a, int b, const Proximity& near) { visit(moving_[std::size_t(place)], a, b, near); });
 }
 
-AccumulatedCollisions::AccumulatedCollisions(const std::vector<int>& frames, const KinematicModel& model, PairChoice choice,
-                                             double margin)
+AccumulatedCollisions::AccumulatedCollisions(const std::vector<int>& frames, const KinematicModel& model,
+                                             PairChoice choice, double margin)
     : frames_(frames), choice_(choice), margin_(margin) {
   if (model.contacts.bodies.size() <= NearPairs::kFew) pairs_.emplace(model, frames, margin, choice);
 }

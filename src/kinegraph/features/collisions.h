@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "kinegraph/features/feature.h"
 #include "kinegraph/collision/near_pairs.h"
+#include "kinegraph/features/feature.h"
 
 namespace kinegraph {
 
@@ -55,7 +55,8 @@ class CollisionPairs {
 ///     y = sum max(0, margin - distance)      1 row, m
 class AccumulatedCollisions final : public Feature {
  public:
-  AccumulatedCollisions(const std::vector<int>& frames, const KinematicModel& model, PairChoice choice, double margin = 0.);
+  AccumulatedCollisions(const std::vector<int>& frames, const KinematicModel& model, PairChoice choice,
+                        double margin = 0.);
 
   int rows() const override { return 1; }
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;

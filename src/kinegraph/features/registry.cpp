@@ -51,8 +51,7 @@ Ids dofsOf(const Ids& frames, const KinematicModel& model, const FeatureInfo& in
 const Geometry& boxOf(int frame, const KinematicModel& model, const FeatureInfo& info) {
   const auto& geometry = model.geometry[frame];
   if (!geometry || shapeKind(geometry->type).body != ShapeKind::Body::box) {
-    throw ValueError(
-        cat(info.name, ": frame '", model.frame_name[frame], "' must have a shape of type ssBox or box"));
+    throw ValueError(cat(info.name, ": frame '", model.frame_name[frame], "' must have a shape of type ssBox or box"));
   }
   return *geometry;
 }

@@ -9,8 +9,7 @@ const std::shared_ptr<Residual>& ResidualCache::get(const State& scene, FeatureS
                                                     VectorXd target, int order) {
   constexpr std::size_t kKept = 8;
   for (Entry& entry : entries_) {
-    if (entry.symbol != symbol || entry.model != scene.sharedModel() || entry.order != order ||
-        entry.frames != frames)
+    if (entry.symbol != symbol || entry.model != scene.sharedModel() || entry.order != order || entry.frames != frames)
       continue;
     entry.residual->setScale(std::move(scale));
     entry.residual->setTarget(std::move(target));

@@ -82,11 +82,11 @@ IkResult IkSearch::finish(IkJob& job, bool cancelled, const Stop& stop) {
   result.evals = job.evals;
   result.status = job.feasible    ? IkStatus::solved
                   : job.cancelled ? IkStatus::cancelled
-                  : targetsMet()  ? IkStatus::colliding
-                                  : IkStatus::unreached;
+                  : targetsMet()  ? IkStatus::in_collision
+                                  : IkStatus::goal_unreachable;
   if (!job.feasible) result.message = explain();
   if (problem_->in_the_way.empty() || result.status == IkStatus::cancelled) return result;
-  if (job.feasible) result.status = IkStatus::colliding;
+  if (job.feasible) result.status = IkStatus::in_collision;
   result.message = cat(result.message, result.message.empty() ? "" : "; ", problem_->in_the_way);
   return result;
 }
@@ -213,8 +213,8 @@ std::vector<std::string> IkSearch::bindingLimits() {
     }
     const bool low = x_[v] <= problem_->lower[v] && push < -least, high = x_[v] >= problem_->upper[v] && push > least;
     if (!low && !high) continue;
-    reasons.push_back(cat("joint '", jointName(model, problem_->dofs[v]), "' is at its ", low ? "lower" : "upper",
-                          " limit ", x_[v]));
+    reasons.push_back(
+        cat("joint '", jointName(model, problem_->dofs[v]), "' is at its ", low ? "lower" : "upper", " limit ", x_[v]));
   }
   return reasons;
 }

@@ -118,9 +118,8 @@ void IkProblem::requireAtRest(const Task& task) const {
   if (mover < 0) return;
   const std::string against = task.reference < 0 ? "" : cat(" against '", task.target.relative_to, "'");
   throw ValueError(cat("solveIk: the target of ", task.name(), " is where frame '", from, "' is, which moves", against,
-                       " with joint '", jointName(*model, mover),
-                       "', as the targets do; to meet it wherever it goes, ", "say relativeTo '", from,
-                       "'; to go where it is now, give its pose as numbers"));
+                       " with joint '", jointName(*model, mover), "', as the targets do; to meet it wherever it goes, ",
+                       "say relativeTo '", from, "'; to go where it is now, give its pose as numbers"));
 }
 
 void IkProblem::choosePairs() {

@@ -5,10 +5,10 @@
 #include <utility>
 #include <vector>
 
+#include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/ik/ik_task.h"
 #include "kinegraph/ik/low_discrepancy.h"
 #include "kinegraph/ik/solve_ik.h"
-#include "kinegraph/collision/near_pairs.h"
 
 namespace kinegraph {
 

@@ -3,9 +3,9 @@
 #include <functional>
 #include <limits>
 
+#include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/ik/damped_step.h"
 #include "kinegraph/ik/ik_problem.h"
-#include "kinegraph/collision/near_pairs.h"
 
 namespace kinegraph {
 

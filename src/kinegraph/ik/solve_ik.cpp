@@ -23,10 +23,10 @@ std::string ikStatusName(IkStatus status) {
   switch (status) {
     case IkStatus::solved:
       return "solved";
-    case IkStatus::unreached:
-      return "unreached";
-    case IkStatus::colliding:
-      return "colliding";
+    case IkStatus::goal_unreachable:
+      return "goal_unreachable";
+    case IkStatus::in_collision:
+      return "in_collision";
     case IkStatus::cancelled:
       return "cancelled";
   }

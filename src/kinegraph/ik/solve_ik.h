@@ -11,10 +11,10 @@
 namespace kinegraph {
 
 enum class IkStatus {
-  solved,     ///< all targets within tolerance, no pair nearer than the margin
-  unreached,  ///< in no attempt; the nearest one misses a target
-  colliding,  ///< in no attempt; the nearest one meets its targets with pairs nearer than the margin
-  cancelled,  ///< before there was an answer
+  solved,            ///< all targets within tolerance, no pair nearer than the margin
+  goal_unreachable,  ///< in no attempt; the nearest one misses a target
+  in_collision,      ///< in no attempt; the nearest one meets its targets with pairs nearer than the margin
+  cancelled,         ///< before there was an answer
 };
 
 std::string ikStatusName(IkStatus status);

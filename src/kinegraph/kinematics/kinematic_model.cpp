@@ -9,8 +9,7 @@ namespace kinegraph {
 
 void nameFrames(KinematicModel& model, std::vector<std::string> names) {
   model.frame_name = std::move(names);
-  for (std::size_t i = 0; i < model.frame_name.size(); ++i)
-    model.frame_index.try_emplace(model.frame_name[i], int(i));
+  for (std::size_t i = 0; i < model.frame_name.size(); ++i) model.frame_index.try_emplace(model.frame_name[i], int(i));
 }
 
 int frameId(const KinematicModel& model, std::string_view name, std::string_view who) {

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "kinegraph/kinematics/lane_model.h"
 #include "kinegraph/kinematics/kinematic_model.h"
+#include "kinegraph/kinematics/lane_model.h"
 
 namespace kinegraph {
 

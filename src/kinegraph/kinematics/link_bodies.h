@@ -3,8 +3,8 @@
 #include <memory>
 #include <vector>
 
-#include "kinegraph/geometry/distance/collision_body.h"
 #include "kinegraph/geometry/distance/box_tree.h"
+#include "kinegraph/geometry/distance/collision_body.h"
 #include "kinegraph/kinematics/state.h"
 
 namespace kinegraph {

@@ -42,8 +42,8 @@ template <class V>
 
 /// The pose at `from` times the constant one (R, p). `turn` says what is special in R.
 template <class V>
-[[gnu::always_inline]] inline Place<V> moved(const typename V::Scalar* from, const ConstantRotation& turn, const double* R,
-                                             const double* p) {
+[[gnu::always_inline]] inline Place<V> moved(const typename V::Scalar* from, const ConstantRotation& turn,
+                                             const double* R, const double* p) {
   const auto column = [from](int k) __attribute__((always_inline)) { return loadVector<V>(from + 3 * k); };
   Place<V> X;
   X.p = column(3);

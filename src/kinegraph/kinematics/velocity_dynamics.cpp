@@ -82,8 +82,7 @@ LinkColumns findColumns(const State& state, const VelocityLayout& layout, const 
         }
       } else {
         for (int k = 0; k < count; ++k)
-          out.columns.push_back(
-              {layout.place[std::size_t(model.column_dof[index + k])], column(state, index + k), {}});
+          out.columns.push_back({layout.place[std::size_t(model.column_dof[index + k])], column(state, index + k), {}});
       }
       index += count;
       for (std::size_t c = begin; c < out.columns.size(); ++c) V.add(v[out.columns[c].velocity], out.columns[c].motion);

@@ -58,7 +58,8 @@ void sortUnique(FramePairs& pairs) {
 }
 
 /// In a slice, or on the way to it; frames are those of the slice whose Program this is.
-Constrained forbiddenIn(const std::vector<Objective>& objectives, const KinematicModel& model, int slice, bool on_the_way) {
+Constrained forbiddenIn(const std::vector<Objective>& objectives, const KinematicModel& model, int slice,
+                        bool on_the_way) {
   Constrained found;
   for (const Objective& objective : objectives) {
     if (objective.on_the_way != on_the_way || slice < objective.from || slice > objective.to) continue;
@@ -124,9 +125,9 @@ std::vector<SliceMotion> constrainedMotions(const Path& path, const std::vector<
   return motions;
 }
 
-ValidityReport judge(const std::vector<SliceMotion>& motions, const std::function<void()>& between) {
+ValidityReport judge(const std::vector<SliceMotion>& motions, const CancellationToken& cancellation) {
   constexpr double kTolerance = 1e-5;  // m
-  const std::vector<PathContact> contacts = contactsOf(motions, 0., kTolerance, between);
+  const std::vector<PathContact> contacts = contactsOf(motions, 0., kTolerance, cancellation);
   if (contacts.empty()) return {};
   const auto deepest = std::ranges::min_element(contacts, {}, &PathContact::distance);
   return {false, deepest->str()};

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/komo/objective.h"
 #include "kinegraph/komo/path/path_motion.h"
 
@@ -16,7 +17,7 @@ std::vector<SliceMotion> constrainedMotions(const Path& path, const std::vector<
 /// Is there any? Looks at no values.
 bool constrainsAnyMotion(const Path& path, const std::vector<Objective>& objectives);
 
-/// Are they free, to 1e-5 m? Names the deepest contact. `between` is called between motions, and may throw.
-ValidityReport judge(const std::vector<SliceMotion>& motions, const std::function<void()>& between);
+/// Are they free, to 1e-5 m? Names the deepest contact. `cancellation` is called between motions, and may throw.
+ValidityReport judge(const std::vector<SliceMotion>& motions, const CancellationToken& cancellation);
 
 }  // namespace kinegraph

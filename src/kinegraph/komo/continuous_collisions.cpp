@@ -131,7 +131,7 @@ std::vector<Objective> withSamples(std::vector<Objective> objectives, const Path
 }
 
 FilledSamples fillSamples(Objective& objective, SliceMotions& motions, bool is_solution,
-                            std::vector<CheckedMotion>& looked_at) {
+                          std::vector<CheckedMotion>& looked_at) {
   FilledSamples filled;
   looked_at.resize(objective.samples.size());
   for (int i = 0; i < int(objective.samples.size()); ++i) {

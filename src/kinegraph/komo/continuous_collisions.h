@@ -45,7 +45,7 @@ struct FilledSamples {
 /// near. Motions that have hardly moved since they were looked at are left out. `is_solution`: all are looked at, and
 /// at all times; instants are added to those that are not free.
 FilledSamples fillSamples(Objective& objective, SliceMotions& motions, bool is_solution,
-                            std::vector<CheckedMotion>& looked_at);
+                          std::vector<CheckedMotion>& looked_at);
 
 /// As many instants that are empty for each motion.
 void keepRoom(Objective& objective, int count);

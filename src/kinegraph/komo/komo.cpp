@@ -177,12 +177,12 @@ void Komo::addFrameDof(const std::string& name, const std::string& parent, Joint
 }
 
 std::vector<PathContact> Komo::checkMotion(double margin, double tolerance,
-                                           const std::function<void()>& between) const {
+                                           const CancellationToken& cancellation) const {
   path().requireBuilt("checkMotion");
   if (!std::isfinite(margin)) throw ValueError(cat("checkMotion: margin is ", margin, "; expected a distance in m"));
   if (!(tolerance > 0.) || !std::isfinite(tolerance))
     throw ValueError(cat("checkMotion: tolerance is ", tolerance, "; expected a distance > 0 in m"));
-  return contactsOf(motionsOf(path()), margin, tolerance, between);
+  return contactsOf(motionsOf(path()), margin, tolerance, cancellation);
 }
 
 std::string Komo::addContactForce(const std::vector<double>& times, const std::string& object, const std::string& from,
@@ -196,7 +196,7 @@ std::string Komo::addFreeContactForce(const std::vector<double>& times, const st
 }
 
 std::string Komo::addForceExchange(const std::vector<double>& times, const std::string& object, const std::string& from,
-                              ForceExchange kind, double friction) {
+                                   ForceExchange kind, double friction) {
   return kinegraph::addForceExchange(motion_, {times, object, from, kind, friction});
 }
 

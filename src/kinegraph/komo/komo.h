@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/features/scale.h"
 #include "kinegraph/komo/force_exchange.h"
 #include "kinegraph/komo/motion_problem.h"
-#include "kinegraph/komo/path/path_motion.h"
 #include "kinegraph/komo/path/path_initialization.h"
+#include "kinegraph/komo/path/path_motion.h"
 #include "kinegraph/nlp/nlp.h"
 
 namespace kinegraph {
@@ -102,7 +103,7 @@ class Komo {
 
   /// A point that moves along both surfaces, and a force there: see exchanges.h.
   std::string addForceExchange(const std::vector<double>& times, const std::string& object, const std::string& from,
-                          ForceExchange kind, double friction = .5);
+                               ForceExchange kind, double friction = .5);
 
   std::vector<Interaction> interactions() const { return motion_.contacts.interactions(motion_.path); }
 
@@ -124,7 +125,7 @@ class Komo {
   /// the way, at any time and not just at samples of them; pairs within margin + tolerance (m) may count. Throws
   /// ValueError for a margin that is not finite, and a tolerance that is not positive.
   std::vector<PathContact> checkMotion(double margin = 0., double tolerance = 1e-5,
-                                       const std::function<void()>& between = {}) const;
+                                       const CancellationToken& cancellation = {}) const;
 
   /// Do all pairs keep `margin` (m) apart, at all times?
   bool isFree(double margin = 0.) const { return checkMotion(margin).empty(); }

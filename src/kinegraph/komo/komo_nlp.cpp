@@ -8,8 +8,8 @@
 #include "kinegraph/komo/collision_report.h"
 #include "kinegraph/komo/continuous_collisions.h"
 #include "kinegraph/komo/komo.h"
-#include "kinegraph/komo/path_description.h"
 #include "kinegraph/komo/path_components.h"
+#include "kinegraph/komo/path_description.h"
 #include "kinegraph/nlp/evaluation_sizes.h"
 #include "kinegraph/nlp/initial_guesses.h"
 #include "kinegraph/nlp/lazy_constraints.h"
@@ -117,7 +117,7 @@ class KomoNlp final : public Nlp, public InitialGuesses, public LazyConstraints 
     std::vector<SliceMotion> motions = constrainedMotions(komo_->path(), problem_.objectives());
     if (motions.empty()) return nullptr;
     return std::make_shared<LazyValidity>(
-        [motions = std::move(motions)](const std::function<void()>& between) { return judge(motions, between); });
+        [motions = std::move(motions)](const CancellationToken& cancellation) { return judge(motions, cancellation); });
   }
 
   Refinement refine(const VectorXd& x, VectorXd& dual) override {
@@ -272,7 +272,7 @@ class KomoNlp final : public Nlp, public InitialGuesses, public LazyConstraints 
   PathProblem problem_;
   MotionProbe probe_{kFreeTolerance};
   std::vector<std::vector<CheckedMotion>> looked_at_;  ///< per objective, per motion
-  VectorXd free_at_;                              ///< where a solver found nothing to take up
+  VectorXd free_at_;                                   ///< where a solver found nothing to take up
   int structure_;
   Separation separation_;
   bool separation_is_known_ = false;

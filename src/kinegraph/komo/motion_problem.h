@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kinegraph/komo/path/contacts.h"
 #include "kinegraph/komo/objective_list.h"
+#include "kinegraph/komo/path/contacts.h"
 
 namespace kinegraph {
 

@@ -99,8 +99,8 @@ Made collisionsIn(const Objective& objective, const Path& path, const Ids& ids, 
     const auto place = std::size_t(slice - objective.from);
     const bool has_samples = place < objective.samples.size();
     return std::make_unique<SampledCollisions>(form, is_sum ? objective.margin : far,
-                                         has_samples ? objective.samples[place] : std::vector<CollisionSample>(),
-                                         sameDofs(path, slice), path.state(slice - 1));
+                                               has_samples ? objective.samples[place] : std::vector<CollisionSample>(),
+                                               sameDofs(path, slice), path.state(slice - 1));
   }
   const KinematicModel& model = path.state(slice).model();
   if (is_sum) return std::make_unique<AccumulatedCollisions>(ids, model, PairChoice::motion, objective.margin);

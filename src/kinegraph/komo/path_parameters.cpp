@@ -5,8 +5,8 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/komo/komo.h"
-#include "kinegraph/komo/path_description.h"
 #include "kinegraph/komo/path_components.h"
+#include "kinegraph/komo/path_description.h"
 
 namespace kinegraph {
 

@@ -288,7 +288,7 @@ void PathProblem::evaluateTerms(const Path& path, std::span<const int> terms, Ve
 }
 
 void PathProblem::setSamples(const Path& path, const Contacts& contacts, const Term& term,
-                              std::vector<CollisionSample> samples) {
+                             std::vector<CollisionSample> samples) {
   Objective& objective = objectives_[std::size_t(term.objective)];
   objective.samples[std::size_t(term.slice - objective.from)] = std::move(samples);
   residuals_[std::size_t(term.residual)] = residualIn(objective, path, contacts.forces(), term.slice);

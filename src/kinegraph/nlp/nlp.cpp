@@ -167,9 +167,9 @@ std::string describeNotFinite(const Nlp& nlp, const VectorXd& phi, const Jacobia
 
 namespace {
 
-void ask(Nlp& nlp, const VectorXd& x, const BetweenColumns& between) {
+void ask(Nlp& nlp, const VectorXd& x, const CancellationToken& cancellation) {
   try {
-    if (between) between();
+    cancellation.check();
   } catch (...) {
     nlp.leaveAt(x);
     throw;
@@ -178,7 +178,7 @@ void ask(Nlp& nlp, const VectorXd& x, const BetweenColumns& between) {
 
 /// Calls found(JacobianCheck) for every entry of J, and leaves the problem at x.
 template <typename Found>
-void compareWithDifferences(Nlp& nlp, const VectorXd& x, double step, const BetweenColumns& between,
+void compareWithDifferences(Nlp& nlp, const VectorXd& x, double step, const CancellationToken& cancellation,
                             const Found& found) {
   const int rows = int(nlp.types().size());
   Jacobian J = nlp.makeJacobian();
@@ -186,7 +186,7 @@ void compareWithDifferences(Nlp& nlp, const VectorXd& x, double step, const Betw
   nlp.evaluate(x, phi, &J);
   const MatrixXd analytic = J.toDense();
   for (int i = 0; i < nlp.dimension(); ++i) {
-    ask(nlp, x, between);
+    ask(nlp, x, cancellation);
     VectorXd moved = x;
     moved[i] = x[i] + step;
     nlp.evaluate(moved, plus, nullptr);
@@ -221,18 +221,18 @@ VectorXd costGradient(Nlp& nlp, const VectorXd& x) {
 
 }  // namespace
 
-JacobianCheck checkJacobian(Nlp& nlp, const VectorXd& x, double step, const BetweenColumns& between) {
+JacobianCheck checkJacobian(Nlp& nlp, const VectorXd& x, double step, const CancellationToken& cancellation) {
   JacobianCheck worst;
-  compareWithDifferences(nlp, x, step, between, [&](const JacobianCheck& entry) {
+  compareWithDifferences(nlp, x, step, cancellation, [&](const JacobianCheck& entry) {
     if (entry.error > 0. || !std::isfinite(entry.error)) worst = worst.row < 0 || worse(entry, worst) ? entry : worst;
   });
   return worst;
 }
 
 std::vector<JacobianCheck> worstJacobianEntries(Nlp& nlp, const VectorXd& x, double tolerance, int count, double step,
-                                                const BetweenColumns& between) {
+                                                const CancellationToken& cancellation) {
   std::vector<JacobianCheck> entries;
-  compareWithDifferences(nlp, x, step, between, [&](const JacobianCheck& entry) {
+  compareWithDifferences(nlp, x, step, cancellation, [&](const JacobianCheck& entry) {
     if (!(entry.error <= tolerance)) entries.push_back(entry);
   });
   std::stable_sort(entries.begin(), entries.end(), worse);
@@ -240,12 +240,12 @@ std::vector<JacobianCheck> worstJacobianEntries(Nlp& nlp, const VectorXd& x, dou
   return entries;
 }
 
-JacobianCheck checkHessian(Nlp& nlp, const VectorXd& x, double step, const BetweenColumns& between) {
+JacobianCheck checkHessian(Nlp& nlp, const VectorXd& x, double step, const CancellationToken& cancellation) {
   MatrixXd H = MatrixXd::Zero(x.size(), x.size());
   JacobianCheck worst;
   if (!hasCostRows(nlp) || !nlp.addCostHessian(x, H)) return worst;
   for (int i = 0; i < x.size(); ++i) {
-    ask(nlp, x, between);
+    ask(nlp, x, cancellation);
     VectorXd plus = x, minus = x;
     plus[i] += step;
     minus[i] -= step;

@@ -5,11 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/common/random.h"
 #include "kinegraph/math/pose.h"
-#include "kinegraph/nlp/validity_report.h"
 #include "kinegraph/nlp/row_description.h"
 #include "kinegraph/nlp/separation.h"
+#include "kinegraph/nlp/validity_report.h"
 
 namespace kinegraph {
 
@@ -167,23 +168,23 @@ double largestViolation(const std::vector<ObjectiveType>& types, const VectorXd&
 /// Which residual, or row of J (which may be null), has a number that is not finite, in words; empty if none has.
 std::string describeNotFinite(const Nlp& nlp, const VectorXd& phi, const Jacobian* J);
 
-/// The largest relative difference of a Jacobian from central differences, and where it is. `between`, where given, is
+/// The largest relative difference of a Jacobian from central differences, and where it is. `cancellation`, where given, is
 /// called before each column; it may throw, and the problem is then left at x without being evaluated there.
 struct JacobianCheck {
   double error = 0.;  ///< |analytic - numeric| / max(1, |numeric|)
   int row = -1, column = -1;
   double analytic = 0., numeric = 0.;
 };
-using BetweenColumns = std::function<void()>;
-JacobianCheck checkJacobian(Nlp& nlp, const VectorXd& x, double step = 1e-5, const BetweenColumns& between = {});
+JacobianCheck checkJacobian(Nlp& nlp, const VectorXd& x, double step = 1e-5,
+                            const CancellationToken& cancellation = {});
 
 /// All entries whose difference is above the tolerance or not a number, the worst first, at most `count`.
 std::vector<JacobianCheck> worstJacobianEntries(Nlp& nlp, const VectorXd& x, double tolerance, int count,
-                                                double step = 1e-5, const BetweenColumns& between = {});
+                                                double step = 1e-5, const CancellationToken& cancellation = {});
 
 /// The same for addCostHessian and central differences of the gradient of sum_f phi. Nothing to find (row -1) where
 /// there are no f residuals, or no Hessian is offered.
-JacobianCheck checkHessian(Nlp& nlp, const VectorXd& x, double step = 1e-5, const BetweenColumns& between = {});
+JacobianCheck checkHessian(Nlp& nlp, const VectorXd& x, double step = 1e-5, const CancellationToken& cancellation = {});
 
 /// A problem without constraints as one function:  sum_f phi + sum_sos phi^2, its gradient, and 2 J_sos^T J_sos + the
 /// Hessian of the f residuals. Throws ValueError if there are other residuals.

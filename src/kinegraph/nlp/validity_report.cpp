@@ -2,10 +2,10 @@
 
 namespace kinegraph {
 
-const ValidityReport& LazyValidity::get(const std::function<void()>& between) const {
+const ValidityReport& LazyValidity::get(const CancellationToken& cancellation) const {
   const std::lock_guard lock(mutex_);
   if (!known_) {
-    known_ = judge_(between ? between : [] {});
+    known_ = judge_(cancellation ? cancellation : [] {});
     judge_ = nullptr;  // and what it holds
   }
   return *known_;

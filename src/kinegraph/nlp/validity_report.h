@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 
+#include "kinegraph/common/cancellation.h"
+
 namespace kinegraph {
 
 /// Is a motion free of collisions at all times, and not just at those that constraints look at?
@@ -17,12 +19,12 @@ struct ValidityReport {
 class LazyValidity {
  public:
   /// Calls the function that it is given from time to time; that may throw, and the next one who asks begins anew.
-  using Judge = std::function<ValidityReport(const std::function<void()>& between)>;
+  using Judge = std::function<ValidityReport(const CancellationToken& cancellation)>;
 
   explicit LazyValidity(Judge judge) : judge_(std::move(judge)) {}
   explicit LazyValidity(ValidityReport known) : known_(std::move(known)) {}
 
-  const ValidityReport& get(const std::function<void()>& between = {}) const;
+  const ValidityReport& get(const CancellationToken& cancellation = {}) const;
 
  private:
   mutable std::mutex mutex_;

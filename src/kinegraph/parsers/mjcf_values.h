@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/math/pose.h"
 #include "kinegraph/parsers/findings.h"
 #include "kinegraph/parsers/mjcf_document.h"
-#include "kinegraph/math/pose.h"
 
 namespace kinegraph {
 

@@ -22,7 +22,7 @@ double shareOf(double velocity, double acceleration, double most_velocity, doubl
 }  // namespace
 
 AccelerationRamp rampDown(const VectorXd& q, const VectorXd& velocity, const VectorXd& acceleration,
-                   const MotionLimits& limits) {
+                          const MotionLimits& limits) {
   const Eigen::Index n = q.size();
   VectorXd jerk = VectorXd::Zero(n), until = VectorXd::Zero(n);
   for (Eigen::Index j = 0; j < n; ++j) {

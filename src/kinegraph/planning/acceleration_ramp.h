@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kinegraph/trajectories/scaling_grid.h"
 #include "kinegraph/trajectories/path_curve.h"
+#include "kinegraph/trajectories/scaling_grid.h"
 
 namespace kinegraph {
 
@@ -15,7 +15,7 @@ struct AccelerationRamp {
 /// along the curve at a constant ds/dt, which is |velocity| at its end, has the accelerations of the start at first. Where
 /// it would hardly move at the end, there is no curve.
 AccelerationRamp rampDown(const VectorXd& q, const VectorXd& velocity, const VectorXd& acceleration,
-                   const MotionLimits& limits);
+                          const MotionLimits& limits);
 
 /// The Bernstein coefficients of a piece of a curve.
 std::vector<VectorXd> bernsteinOf(const PathCurve& curve, int piece);

@@ -39,8 +39,8 @@ std::string describePairs(const KinematicModel& model, const std::vector<Clearan
   std::vector<std::string> words;
   for (std::size_t i = 0; i < std::min(pairs.size(), kNamed); ++i) {
     const ClearanceCheck::Nearest& pair = pairs[i];
-    words.push_back(cat("'", model.frame_name[std::size_t(pair.a)], "' and '",
-                        model.frame_name[std::size_t(pair.b)], "' ",
+    words.push_back(cat("'", model.frame_name[std::size_t(pair.a)], "' and '", model.frame_name[std::size_t(pair.b)],
+                        "' ",
                         pair.distance < 0. ? cat("overlap by ", formatLength(-pair.distance))
                                            : cat("are ", formatLength(pair.distance), " apart")));
   }
@@ -49,7 +49,7 @@ std::string describePairs(const KinematicModel& model, const std::vector<Clearan
 }
 
 Endpoint checkEndpoint(Steering& steering, const KinematicModel& model, const VectorXd& q, double margin,
-                   const std::string& what, const char* who) {
+                       const std::string& what, const char* who) {
   requireState(q, model.dofs, what, who);
   Endpoint end;
   end.q = q;

@@ -9,9 +9,9 @@ namespace kinegraph {
 
 /// A start or goal of a motion, and what is wrong with it.
 struct Endpoint {
-  VectorXd q;           ///< within the limits
-  std::string problem;  ///< "" if a motion can begin or end there; else why not, as "the start collides: ..."
-  double verified_margin = 0.;     ///< least distance of a pair, m; the margin and more count as the margin
+  VectorXd q;                   ///< within the limits
+  std::string problem;          ///< "" if a motion can begin or end there; else why not, as "the start collides: ..."
+  double verified_margin = 0.;  ///< least distance of a pair, m; the margin and more count as the margin
   std::vector<ClearanceCheck::Nearest> near;  ///< pairs nearer than the margin, the deepest first
 
   bool isFree() const { return problem.empty(); }
@@ -21,7 +21,7 @@ struct Endpoint {
 /// a wrong length and numbers that are not finite throw ValueError with `who` in front. Pairs may keep less than the
 /// margin, as long as they keep the lesser of it and 0.
 Endpoint checkEndpoint(Steering& steering, const KinematicModel& model, const VectorXd& q, double margin,
-                   const std::string& what, const char* who);
+                       const std::string& what, const char* who);
 
 /// The demands with margins that hold around the ends that keep less.
 Clearance clearanceAround(double margin, const std::vector<const Endpoint*>& ends);

@@ -31,7 +31,8 @@ double farthest(const Extent& box, int i, int j) {
 }
 
 /// Where a step of a joint can bring what is in a box.
-void moveExtent(Extent& box, const LaneModel::Step& step, const MotionStep& kind, int dof, const KinematicModel& model) {
+void moveExtent(Extent& box, const LaneModel::Step& step, const MotionStep& kind, int dof,
+                const KinematicModel& model) {
   if (kind.slides()) {
     const double a = step.factor * model.lower[dof], b = step.factor * model.upper[dof];
     box.low[step.axis] += std::min(a, b);
@@ -164,7 +165,7 @@ class PlaceGrid {
   }
 
   /// Is there no path of open cells from the start's cell to one of the goals'? Notes obstacles that close cells.
-  bool separates(const VectorXd& start, const std::vector<VectorXd>& goals, const CancellationToken& watch) {
+  bool separates(const VectorXd& start, const std::vector<VectorXd>& goals, const CancellationToken& cancellation) {
     if (!is_possible_) return false;
     std::set<std::size_t> wanted;
     for (const VectorXd& goal : goals) wanted.insert(cellOf(goal));
@@ -174,7 +175,7 @@ class PlaceGrid {
       const std::size_t cell = front.back();
       front.pop_back();
       if (wanted.count(cell)) return false;
-      if (++visited_ % kCellsPerLook == 0 && watch && watch()) return false;
+      if (++visited_ % kCellsPerLook == 0 && cancellation && cancellation()) return false;
       forNeighbors(cell, [&](std::size_t next) {
         if (state_[next] != Cell::unknown) return;
         state_[next] = isClosed(next) ? Cell::closed : Cell::reached;
@@ -253,8 +254,8 @@ class PlaceGrid {
 
 }  // namespace
 
-std::string proveInfeasible(const State& scene, const VectorXd& start, const std::vector<VectorXd>& goals, double margin,
-                       const CancellationToken& watch) {
+std::string proveInfeasible(const State& scene, const VectorXd& start, const std::vector<VectorXd>& goals,
+                            double margin, const CancellationToken& cancellation) {
   const KinematicModel& model = scene.model();
   std::vector<Core> cores;
   for (const Core& body : thickestBodies(scene)) {
@@ -263,9 +264,9 @@ std::string proveInfeasible(const State& scene, const VectorXd& start, const std
     if (std::optional<Core> upright = uprightOf(body, scene, name)) cores.push_back(std::move(*upright));
   }
   for (const Core& core : cores) {
-    if (watch && watch()) return "";
+    if (cancellation && cancellation()) return "";
     PlaceGrid grid(scene, core, margin);
-    if (!grid.separates(start, goals, watch)) continue;
+    if (!grid.separates(start, goals, cancellation)) continue;
     std::vector<std::string> names;
     for (const int frame : grid.closers()) {
       if (names.size() < 4) names.push_back(cat("'", model.frame_name[std::size_t(frame)], "'"));

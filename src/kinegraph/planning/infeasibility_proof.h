@@ -3,8 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/planning/steering/clearance_check.h"
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/planning/search/path_search.h"
+#include "kinegraph/planning/steering/clearance_check.h"
 
 namespace kinegraph {
 
@@ -17,7 +18,7 @@ namespace kinegraph {
 /// arithmetic). A cell is closed if the ball, or what else is there, comes nearer than the margin to one obstacle that never
 /// moves wherever in the cell its center is. Where no path of open cells, corners included, joins the places, there is no way.
 /// The watch may end it.
-std::string proveInfeasible(const State& scene, const VectorXd& start, const std::vector<VectorXd>& goals, double margin,
-                       const CancellationToken& watch = {});
+std::string proveInfeasible(const State& scene, const VectorXd& start, const std::vector<VectorXd>& goals,
+                            double margin, const CancellationToken& cancellation = {});
 
 }  // namespace kinegraph

@@ -1,8 +1,8 @@
 #include "kinegraph/planning/motion_plan.h"
 
+#include "kinegraph/collision/edge_check.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/collision/edge_check.h"
 #include "kinegraph/planning/endpoints.h"
 
 namespace kinegraph {
@@ -15,10 +15,10 @@ std::string planStatusName(PlanStatus status) {
       return "invalid_start";
     case PlanStatus::invalid_goal:
       return "invalid_goal";
-    case PlanStatus::unreached:
-      return "unreached";
-    case PlanStatus::impossible:
-      return "impossible";
+    case PlanStatus::goal_unreachable:
+      return "goal_unreachable";
+    case PlanStatus::infeasible:
+      return "infeasible";
     case PlanStatus::no_path_found:
       return "no_path_found";
     case PlanStatus::no_timing_found:
@@ -39,7 +39,8 @@ MotionState MotionPlan::at(double t) const {
 
 std::vector<VectorXd> MotionPlan::obstaclesAt(double t) const {
   std::vector<VectorXd> values;
-  for (std::size_t i = 0; dynamic_scene && i < dynamic_scene->obstacles().size(); ++i) values.push_back(dynamic_scene->valuesAt(int(i), t));
+  for (std::size_t i = 0; dynamic_scene && i < dynamic_scene->obstacles().size(); ++i)
+    values.push_back(dynamic_scene->valuesAt(int(i), t));
   return values;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/planning/endpoints.h"
 #include "kinegraph/planning/plan_options.h"
 #include "kinegraph/planning/search/path_search.h"
@@ -13,15 +14,15 @@
 namespace kinegraph {
 
 enum class PlanStatus {
-  solved,         ///< there is a motion, free at all times
-  invalid_start,  ///< the start collides, or is out of limits
-  invalid_goal,   ///< all goals do
-  unreached,      ///< no posture was found at which the goal's targets or conditions hold
-  impossible,     ///< proven: a ball inside of a body does not fit through where it would have to go
-  no_path_found,         ///< none was found within the effort
-  no_timing_found,      ///< ways were found, but no times at which to go along them that keep clear of moving obstacles
-  timeout,    ///< nor within the time limit
-  cancelled,      ///< by the watch
+  solved,            ///< there is a motion, free at all times
+  invalid_start,     ///< the start collides, or is out of limits
+  invalid_goal,      ///< all goals do
+  goal_unreachable,  ///< no posture was found at which the goal's targets or conditions hold
+  infeasible,        ///< proven: a ball inside of a body does not fit through where it would have to go
+  no_path_found,     ///< none was found within the effort
+  no_timing_found,   ///< ways were found, but no times at which to go along them that keep clear of moving obstacles
+  timeout,           ///< nor within the time limit
+  cancelled,         ///< by the watch
 };
 
 std::string planStatusName(PlanStatus status);
@@ -38,19 +39,19 @@ struct PlanStage {
 class MotionPlan {
  public:
   PlanStatus status = PlanStatus::cancelled;
-  std::string message;             ///< "" if solved, else why there is no motion
+  std::string message;                ///< "" if solved, else why there is no motion
   std::vector<std::string> warnings;  ///< what is to be known of the motion, as that the start was in contact
-  MatrixXd path;                   ///< (K, n): its postures, start and goal included; no rows if there is none
-  MatrixXd raw_path;              ///< the same before it was shortened
-  TimedPath timed;                 ///< when it is where; see at()
-  double length = 0.;              ///< of the path, Euclidean in q
-  int goal = -1;                   ///< which of several goal postures was reached, in the order given
+  MatrixXd path;                      ///< (K, n): its postures, start and goal included; no rows if there is none
+  MatrixXd raw_path;                  ///< the same before it was shortened
+  TimedPath timed;                    ///< when it is where; see at()
+  double length = 0.;                 ///< of the path, Euclidean in q
+  int goal = -1;                      ///< which of several goal postures was reached, in the order given
   std::vector<PlanStage> stages;
   std::vector<SearchReport> attempts;  ///< with trees
-  std::vector<MotionTree> trees;        ///< of the last attempt: of the start and of the goals
-  std::vector<MetObstacle> obstacles;   ///< where there is no way: what most motions ended at, the first one most often
-  double margin = 0.;                   ///< m, that the motion keeps but around ends that keep less
-  double verified_margin = 0.;                     ///< m, that all of it was verified to keep
+  std::vector<MotionTree> trees;       ///< of the last attempt: of the start and of the goals
+  std::vector<MetObstacle> obstacles;  ///< where there is no way: what most motions ended at, the first one most often
+  double margin = 0.;                  ///< m, that the motion keeps but around ends that keep less
+  double verified_margin = 0.;         ///< m, that all of it was verified to keep
 
   bool feasible() const { return status == PlanStatus::solved; }
 
@@ -69,7 +70,8 @@ class MotionPlan {
   /// 0 then. If the rest of the present motion leads to the goal and is free, it stays. No options: optionsAt(t). Throws
   /// ValueError if there is no motion.
   MotionPlan replan(const Config& config, double t, const std::optional<MotionGoal>& goal = std::nullopt,
-                    const std::optional<PlanOptions>& options = std::nullopt, const CancellationToken& watch = {}) const;
+                    const std::optional<PlanOptions>& options = std::nullopt,
+                    const CancellationToken& cancellation = {}) const;
 
   /// A copy of the scene that was planned in, and lines in it along which frames went: "start tree" (blue) and "goal tree"
   /// (orange) of the last attempt, "first way" (gray), and the "path" (green) that came of it. Where there is none, the
@@ -91,10 +93,10 @@ class MotionPlan {
   std::string explain() const;
   std::string str() const;  ///< "solved: 5 postures, 2.31 s" or the status and the message
 
-  PlanOptions options;                        ///< that it was planned with
+  PlanOptions options;                                ///< that it was planned with
   std::shared_ptr<const DynamicScene> dynamic_scene;  ///< null where nothing moves but the robot
-  std::shared_ptr<const State> scene;         ///< that it was planned in
-  std::shared_ptr<const JointSpace> space;    ///< of its joints
+  std::shared_ptr<const State> scene;                 ///< that it was planned in
+  std::shared_ptr<const JointSpace> space;            ///< of its joints
 };
 
 }  // namespace kinegraph

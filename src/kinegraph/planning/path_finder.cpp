@@ -76,14 +76,14 @@ PathFinder& PathFinder::setExplicitCollisionPairs(std::vector<std::pair<std::str
   return *this;
 }
 
-SolverResult PathFinder::solve(std::uint64_t seed, const CancellationToken& watch) {
+SolverResult PathFinder::solve(std::uint64_t seed, const CancellationToken& cancellation) {
   if (!config_) throw ValueError("PathFinder: there is no scene; call setProblem before solve");
   if (start_.size() == 0) throw ValueError("PathFinder: there are no start and goal; call setStartGoal before solve");
   const double began = processorTime();
   const State scene =
       pairs_.empty() ? config_->state() : onlyPairs(*config_, pairs_, "setExplicitCollisionPairs").state();
   SolverResult result;
-  path_ = search(scene, seed, watch, result);
+  path_ = search(scene, seed, cancellation, result);
   result.done = true;
   result.feasible = path_.rows() > 0;
   result.status = result.feasible ? SolverStatus::converged : result.status;
@@ -94,7 +94,8 @@ SolverResult PathFinder::solve(std::uint64_t seed, const CancellationToken& watc
 }
 
 /// No rows if there is no path; the result then says why.
-MatrixXd PathFinder::search(const State& scene, std::uint64_t seed, const CancellationToken& watch, SolverResult& result) {
+MatrixXd PathFinder::search(const State& scene, std::uint64_t seed, const CancellationToken& cancellation,
+                            SolverResult& result) {
   const JointSpace space(scene.model());
   space.requireRanges(kPathFinder);
   const double margin = -options_.collisionTolerance;
@@ -114,7 +115,7 @@ MatrixXd PathFinder::search(const State& scene, std::uint64_t seed, const Cancel
   request.goals = {ends[1].q};
   request.seed = seed;
   request.evaluations = kEffortPerIteration * options_.maxIters;
-  request.watch = watch;
+  request.cancellation = cancellation;
   const Way way = searchPath(request);
   for (const SearchReport& attempt : way.attempts) result.evals += int(attempt.samples);
   result.totalEvals = result.evals;
@@ -126,7 +127,7 @@ MatrixXd PathFinder::search(const State& scene, std::uint64_t seed, const Cancel
     return {};
   }
   Steering shortening(request.constraints);
-  const std::vector<VectorXd> points = shorten(shortening, way.points, {.seed = seed, .watch = watch});
+  const std::vector<VectorXd> points = shorten(shortening, way.points, {.seed = seed, .cancellation = cancellation});
   result.message = cat(way.is_line ? "the straight motion is free" : "found by trees");
   return resampleBySteps(space, space.unroll(points), options_.stepsize);
 }

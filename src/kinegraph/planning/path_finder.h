@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/common/option_table.h"
 #include "kinegraph/planning/search/path_search.h"
 #include "kinegraph/scene/config.h"
@@ -53,7 +54,7 @@ class PathFinder {
 
   /// x has the path's postures, at most stepsize apart, start and goal included; it is empty if there is no path. evals
   /// is the number of postures drawn. The same seed gives the same path. Throws ValueError for what makes no sense.
-  SolverResult solve(std::uint64_t seed = 0, const CancellationToken& watch = {});
+  SolverResult solve(std::uint64_t seed = 0, const CancellationToken& cancellation = {});
 
   /// The path that was found, K x n; no rows before there is one.
   const MatrixXd& path() const { return path_; }
@@ -67,7 +68,7 @@ class PathFinder {
   const Config* config() const { return config_; }
 
  private:
-  MatrixXd search(const State& scene, std::uint64_t seed, const CancellationToken& watch, SolverResult& result);
+  MatrixXd search(const State& scene, std::uint64_t seed, const CancellationToken& cancellation, SolverResult& result);
 
   PathFinderOptions options_;
   const Config* config_ = nullptr;

@@ -30,7 +30,7 @@ std::vector<double> spreadTimes(double end) {
 class PlanAmongObstacles {
  public:
   PlanAmongObstacles(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
-                  const CancellationToken& watch, const KnownCurves& known)
+                     const CancellationToken& cancellation, const KnownCurves& known)
       : goal_(goal),
         options_(options),
         start_(start),
@@ -39,8 +39,10 @@ class PlanAmongObstacles {
         scene_(std::make_shared<const DynamicScene>(config, options.obstacle_trajectories, "planMotion")),
         still_(scene_->standing()),
         check_(*scene_, options.margin),
-        watch_([this, &watch] { return (watch && watch()) || secondsSinceBegin() > options_.time_limit; }),
-        user_watch_(watch) {}
+        cancellation_([this, &cancellation] {
+          return (cancellation && cancellation()) || secondsSinceBegin() > options_.time_limit;
+        }),
+        user_cancellation_(cancellation) {}
 
   MotionPlan run() {
     keepWhatStartKeeps();
@@ -62,7 +64,7 @@ class PlanAmongObstacles {
 
  private:
   double secondsSinceBegin() const { return std::chrono::duration<double>(Clock::now() - began_).count(); }
-  bool isDone() const { return (best_.feasible() && best_.duration() <= kEnough * least_) || watch_(); }
+  bool isDone() const { return (best_.feasible() && best_.duration() <= kEnough * least_) || cancellation_(); }
 
   /// A start that is nearer to an obstacle than the margin: that distance is kept.
   void keepWhatStartKeeps() {
@@ -74,13 +76,13 @@ class PlanAmongObstacles {
   }
 
   void tryIn(const Config& scene, std::uint64_t seed, const char* how) {
-    if (watch_()) return;
+    if (cancellation_()) return;
     PlanOptions still = options_;
     still.obstacle_trajectories.clear();
     still.seed = seed;
     if (was_reached_) still.max_evaluations = std::min(still.max_evaluations, kOtherEffort);
     still.time_limit = options_.timeLeft(secondsSinceBegin());
-    MotionPlan plan = planFromVelocity(scene, goal_, still, start_, user_watch_, known_);
+    MotionPlan plan = planFromVelocity(scene, goal_, still, start_, user_cancellation_, known_);
     if (!plan.feasible()) {
       if (!was_reached_) failure_ = std::move(plan);
       return;
@@ -93,7 +95,7 @@ class PlanAmongObstacles {
     const Clock::time_point began = Clock::now();
     const long before = check_.evaluations;
     if (!was_reached_) least_ = plan.duration();
-    const DynamicTiming timing = timeAmongObstacles(plan.timed, limits_, check_, watch_);
+    const DynamicTiming timing = timeAmongObstacles(plan.timed, limits_, check_, cancellation_);
     const bool fits = timing.was_found && !check_.contact(plan.timed.curve(), timing.scaling, limits_.acceleration);
     plan.stages.push_back({"obstacle_trajectories", std::chrono::duration<double>(Clock::now() - began).count(),
                            check_.evaluations - before, cat("a way ", how, fits ? "" : " that could not be timed")});
@@ -152,13 +154,13 @@ class PlanAmongObstacles {
     KnownCurves known = known_;
     known.to_goal.clear();
     for (const VectorXd& refuge : refuges(failed_goal_)) {
-      if (watch_()) return;
+      if (cancellation_()) return;
       still.time_limit = options_.timeLeft(secondsSinceBegin());
-      const MotionPlan aside = planFromVelocity(still_, MotionGoal(refuge), still, start_, user_watch_, known);
+      const MotionPlan aside = planFromVelocity(still_, MotionGoal(refuge), still, start_, user_cancellation_, known);
       PlanOptions at_rest = still;
       at_rest.time_limit = options_.timeLeft(secondsSinceBegin());
       at_rest.start_velocity = at_rest.start_acceleration = {};
-      MotionPlan onward = planFromVelocity(still_, goal_, at_rest, refuge, user_watch_, {});
+      MotionPlan onward = planFromVelocity(still_, goal_, at_rest, refuge, user_cancellation_, {});
       if (!aside.feasible() || !onward.feasible()) continue;
       onward.timed = inTurn(aside.timed, onward.timed);
       onward.path = onward.raw_path = onward.timed.path;
@@ -173,17 +175,20 @@ class PlanAmongObstacles {
   static void setScaling(MotionPlan& plan, const DynamicTiming& timing) {
     const TimedPath& timed = plan.timed;
     VectorXd times = timed.times;
-    for (Eigen::Index i = 0; i < times.size(); ++i) times[i] = timing.scaling.timeOf(timed.curve().marks()[std::size_t(i)]);
+    for (Eigen::Index i = 0; i < times.size(); ++i)
+      times[i] = timing.scaling.timeOf(timed.curve().marks()[std::size_t(i)]);
     const double length = std::max(timed.curve().length(), 1e-300);
     for (const DynamicTiming::Wait& wait : timing.waits)
       plan.warnings.push_back(cat("waits for ", wait.seconds, " s from ", wait.begin, " s on, at ",
-                               std::lround(100. * wait.place / length), " % of the way"));
-    plan.timed = TimedPath::fromParts(RetimeStatus::timed, "", timed.path, std::move(times), timed.curve(), timing.scaling);
+                                  std::lround(100. * wait.place / length), " % of the way"));
+    plan.timed =
+        TimedPath::fromParts(RetimeStatus::timed, "", timed.path, std::move(times), timed.curve(), timing.scaling);
   }
 
   void fail(MotionPlan& plan, const DynamicTiming& timing) const {
-    plan.status = watch_() ? (user_watch_ && user_watch_() ? PlanStatus::cancelled : PlanStatus::timeout)
-                           : PlanStatus::no_timing_found;
+    plan.status = cancellation_()
+                      ? (user_cancellation_ && user_cancellation_() ? PlanStatus::cancelled : PlanStatus::timeout)
+                      : PlanStatus::no_timing_found;
     plan.message = timing.was_found ? "the timing that was found could not be verified" : timing.message;
     plan.path.resize(0, 0);
     plan.timed = {};
@@ -199,8 +204,8 @@ class PlanAmongObstacles {
   const Config still_;  ///< the scene without obstacles
   DynamicCheck check_;
   const Clock::time_point began_ = Clock::now();
-  const CancellationToken watch_;
-  const CancellationToken& user_watch_;
+  const CancellationToken cancellation_;
+  const CancellationToken& user_cancellation_;
   MotionPlan best_, failure_;
   VectorXd failed_goal_;  ///< where the first way ends
   std::vector<std::string> notes_;
@@ -211,8 +216,8 @@ class PlanAmongObstacles {
 }  // namespace
 
 MotionPlan planAmongObstacles(const Config& config, const MotionGoal& goal, const PlanOptions& options,
-                           const VectorXd& start, const CancellationToken& watch, const KnownCurves& known) {
-  return PlanAmongObstacles(config, goal, options, start, watch, known).run();
+                              const VectorXd& start, const CancellationToken& cancellation, const KnownCurves& known) {
+  return PlanAmongObstacles(config, goal, options, start, cancellation, known).run();
 }
 
 }  // namespace kinegraph

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/planning/plan_from_velocity.h"
 
 namespace kinegraph {
@@ -12,6 +13,6 @@ namespace kinegraph {
 /// there is none, ways by postures to which no obstacle comes are tried: the robot steps aside, and waits there. The
 /// motion is checked at all times once more.
 MotionPlan planAmongObstacles(const Config& config, const MotionGoal& goal, const PlanOptions& options,
-                           const VectorXd& start, const CancellationToken& watch, const KnownCurves& known);
+                              const VectorXd& start, const CancellationToken& cancellation, const KnownCurves& known);
 
 }  // namespace kinegraph

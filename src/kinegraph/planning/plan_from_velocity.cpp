@@ -48,7 +48,7 @@ PathCurve marked(const PathCurve& curve) {
 class PlanFromVelocity {
  public:
   PlanFromVelocity(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
-               const CancellationToken& watch)
+                   const CancellationToken& cancellation)
       : config_(config),
         goal_(goal),
         options_(options),
@@ -56,7 +56,7 @@ class PlanFromVelocity {
         start_(start),
         velocity_(options.start_velocity),
         acceleration_(options.start_acceleration),
-        watch_(watch),
+        cancellation_(cancellation),
         limits_(limitsFromStart(planLimits(config, options), options)),
         space_(*config.model()),
         scene_(config.state()) {
@@ -79,7 +79,7 @@ class PlanFromVelocity {
   }
 
  private:
-  bool isCancelled() const { return watch_ && watch_(); }
+  bool isCancelled() const { return cancellation_ && cancellation_(); }
   bool isStopped() const { return isCancelled() || seconds() > options_.time_limit; }
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count(); }
 
@@ -100,7 +100,7 @@ class PlanFromVelocity {
   /// From an end of the first piece on, in the time that is left.
   MotionPlan planOnward(const VectorXd& from) {
     at_rest_.time_limit = options_.timeLeft(seconds());
-    return planFromRest(config_, goal_, at_rest_, from, watch_);
+    return planFromRest(config_, goal_, at_rest_, from, cancellation_);
   }
 
   void tryAll(const KnownCurves& known) {
@@ -177,8 +177,8 @@ class PlanFromVelocity {
 
   /// Where it goes first: a curve, its end, and how.
   struct Lead {
-    PathCurve curve;  ///< no pieces: there is none, and its end is the start
-    TimeScaling scaling;      ///< that ends at rest; no phases: it is timed with what follows
+    PathCurve curve;      ///< no pieces: there is none, and its end is the start
+    TimeScaling scaling;  ///< that ends at rest; no phases: it is timed with what follows
     std::string how;
     VectorXd end = {}, velocity = {};  ///< of easing: there
   };
@@ -226,8 +226,7 @@ class PlanFromVelocity {
       return;
     }
     MatrixXd points(2, start_.size());
-    points << ramp.end.transpose(),
-        (ramp.end + farther * distanceToRest(ramp.velocity) * ramp.velocity).transpose();
+    points << ramp.end.transpose(), (ramp.end + farther * distanceToRest(ramp.velocity) * ramp.velocity).transpose();
     const PathCurve line = polyline(points);
     Lead lead = ramp;
     lead.curve = ramp.curve.pieces() > 0 ? joined(ramp.curve, line, false) : line;
@@ -302,7 +301,7 @@ class PlanFromVelocity {
   PlanOptions at_rest_;
   const VectorXd start_, velocity_;
   const VectorXd acceleration_;
-  const CancellationToken& watch_;
+  const CancellationToken& cancellation_;
   const std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
   const MotionLimits limits_;
   const JointSpace space_;
@@ -326,11 +325,11 @@ MotionLimits limitsFromStart(MotionLimits limits, const PlanOptions& options) {
   return limits;
 }
 
-MotionPlan planFromVelocity(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
-                        const CancellationToken& watch, const KnownCurves& known) {
+MotionPlan planFromVelocity(const Config& config, const MotionGoal& goal, const PlanOptions& options,
+                            const VectorXd& start, const CancellationToken& cancellation, const KnownCurves& known) {
   const bool at_rest = options.start_velocity.size() == 0 || options.start_velocity.isZero(0.);
-  if (at_rest && known.to_goal.empty()) return planFromRest(config, goal, options, start, watch);
-  return PlanFromVelocity(config, goal, options, start, watch).run(known);
+  if (at_rest && known.to_goal.empty()) return planFromRest(config, goal, options, start, cancellation);
+  return PlanFromVelocity(config, goal, options, start, cancellation).run(known);
 }
 
 }  // namespace kinegraph

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/planning/motion_plan.h"
 #include "kinegraph/scene/config.h"
 
@@ -27,7 +28,8 @@ MotionLimits limitsFromStart(MotionLimits limits, const PlanOptions& options);
 /// the motion stops there. The fastest of these counts. Known curves to where it is at rest come last.
 ///
 /// With options.start_acceleration a curve leads to the line, on which each dof's acceleration goes to zero at a constant jerk.
-MotionPlan planFromVelocity(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
-                        const CancellationToken& watch, const KnownCurves& known = {});
+MotionPlan planFromVelocity(const Config& config, const MotionGoal& goal, const PlanOptions& options,
+                            const VectorXd& start, const CancellationToken& cancellation,
+                            const KnownCurves& known = {});
 
 }  // namespace kinegraph

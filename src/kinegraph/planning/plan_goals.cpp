@@ -17,11 +17,12 @@ constexpr int kDrawsPerGoal = 4;
 class GoalFinder {
  public:
   GoalFinder(const Config& config, const VectorXd& start, Steering& steering, const PlanOptions& options,
-             const CancellationToken& watch)
-      : config_(config), steering_(steering), options_(options), watch_(watch), start_(start) {}
+             const CancellationToken& cancellation)
+      : config_(config), steering_(steering), options_(options), cancellation_(cancellation), start_(start) {}
 
   GoalConfigurations of(const MotionGoal& goal) {
-    const int kinds = !goal.configurations.empty() + !goal.targets.empty() + !goal.conditions.empty() + !goal.state.empty();
+    const int kinds =
+        !goal.configurations.empty() + !goal.targets.empty() + !goal.conditions.empty() + !goal.state.empty();
     if (kinds != 1)
       throw ValueError(cat(kGoalsOf, ": the goal ", kinds ? "is of several kinds" : "is empty",
                            "; expected joint vectors, targets, conditions, or the name of a joint state"));
@@ -43,7 +44,9 @@ class GoalFinder {
                                 [&](const Endpoint& end) { return steering_.space().distance(end.q, q) < kSame; });
   }
 
-  bool hasEnough() const { return int(found_.ends.size()) >= options_.max_goal_samples || (watch_ && watch_()); }
+  bool hasEnough() const {
+    return int(found_.ends.size()) >= options_.max_goal_samples || (cancellation_ && cancellation_());
+  }
 
   /// Solutions of inverse kinematics from the start, and from random postures of the joints that move the targets.
   void fromTargets(const std::vector<IkTarget>& targets) {
@@ -111,16 +114,17 @@ class GoalFinder {
   const Config& config_;
   Steering& steering_;
   const PlanOptions& options_;
-  const CancellationToken& watch_;
+  const CancellationToken& cancellation_;
   const VectorXd start_;
   GoalConfigurations found_;
 };
 
 }  // namespace
 
-GoalConfigurations goalConfigurations(const Config& config, const MotionGoal& goal, const VectorXd& start, Steering& steering,
-                          const PlanOptions& options, const CancellationToken& watch) {
-  return GoalFinder(config, start, steering, options, watch).of(goal);
+GoalConfigurations goalConfigurations(const Config& config, const MotionGoal& goal, const VectorXd& start,
+                                      Steering& steering, const PlanOptions& options,
+                                      const CancellationToken& cancellation) {
+  return GoalFinder(config, start, steering, options, cancellation).of(goal);
 }
 
 }  // namespace kinegraph

@@ -17,11 +17,11 @@ constexpr double kCurveFactors[] = {1.05, 1.5, 2.5, 4.};
 
 /// From a start acceleration, or without it where nothing can be timed so, and then a note says it.
 MotionPlan planWith(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
-                    const CancellationToken& watch, const KnownCurves& known) {
+                    const CancellationToken& cancellation, const KnownCurves& known) {
   const auto began = std::chrono::steady_clock::now();
   const auto plan_by = [&](const PlanOptions& by) {
-    return by.obstacle_trajectories.empty() ? planFromVelocity(config, goal, by, start, watch, known)
-                             : planAmongObstacles(config, goal, by, start, watch, known);
+    return by.obstacle_trajectories.empty() ? planFromVelocity(config, goal, by, start, cancellation, known)
+                                            : planAmongObstacles(config, goal, by, start, cancellation, known);
   };
   MotionPlan plan = plan_by(options);
   const bool accelerates = options.start_acceleration.size() > 0 && !options.start_acceleration.isZero(0.);
@@ -77,13 +77,13 @@ KnownCurves knownCurves(const TimedPath& running, double time, double s, double 
 }  // namespace
 
 MotionPlan planMotion(const Config& config, const MotionGoal& goal, const PlanOptions& options,
-                      const std::optional<VectorXd>& start, const CancellationToken& watch) {
+                      const std::optional<VectorXd>& start, const CancellationToken& cancellation) {
   options.validateFor(config.getJointDimension());
-  return planWith(config, goal, options, start.value_or(config.getJointState()), watch, {});
+  return planWith(config, goal, options, start.value_or(config.getJointState()), cancellation, {});
 }
 
 MotionPlan MotionPlan::replan(const Config& config, double time, const std::optional<MotionGoal>& goal,
-                              const std::optional<PlanOptions>& given, const CancellationToken& watch) const {
+                              const std::optional<PlanOptions>& given, const CancellationToken& cancellation) const {
   if (!std::isfinite(time)) throw ValueError("replan: the time is not finite");
   const MotionState now = at(time);
   PlanOptions next = given.value_or(optionsAt(time));
@@ -101,8 +101,8 @@ MotionPlan MotionPlan::replan(const Config& config, double time, const std::opti
   const MotionLimits limits = planLimits(config, next);
   const KnownCurves known = knownCurves(timed, held, std::clamp(state.s, phase.begin.s, phase.end), state.speed, limits,
                                         areSame(limits, planLimits(config, options)), goal.has_value());
-  return planWith(config, goal ? *goal : MotionGoal(VectorXd(path.bottomRows(1).transpose())), next, now.q, watch,
-                  known);
+  return planWith(config, goal ? *goal : MotionGoal(VectorXd(path.bottomRows(1).transpose())), next, now.q,
+                  cancellation, known);
 }
 
 }  // namespace kinegraph

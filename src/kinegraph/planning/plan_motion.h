@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/planning/motion_plan.h"
 #include "kinegraph/planning/plan_options.h"
 #include "kinegraph/scene/config.h"
@@ -22,6 +23,6 @@ namespace kinegraph {
 /// (planFromVelocity). Where nothing can be timed so, it begins without the acceleration, and a note says so.
 /// Among options.obstacle_trajectories, the times keep it clear of what moves, and it waits where it has to (planAmongObstacles).
 MotionPlan planMotion(const Config& config, const MotionGoal& goal, const PlanOptions& options = {},
-                      const std::optional<VectorXd>& start = std::nullopt, const CancellationToken& watch = {});
+                      const std::optional<VectorXd>& start = std::nullopt, const CancellationToken& cancellation = {});
 
 }  // namespace kinegraph

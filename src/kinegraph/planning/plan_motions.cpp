@@ -16,25 +16,26 @@ MotionPlans::MotionPlans(const Config& config, MotionGoal goal, PlanOptions opti
       goal_(std::move(goal)),
       options_(std::move(options)),
       start_(start.value_or(config_.getJointState())),
-      ask_([this] { return watch_ && watch_(); }) {
+      user_cancellation_([this] { return cancellation_ && cancellation_(); }) {
   options_.validateFor(config_.getJointDimension());
-  if (!options_.obstacle_trajectories.empty() || (options_.start_velocity.size() > 0 && !options_.start_velocity.isZero(0.)))
+  if (!options_.obstacle_trajectories.empty() ||
+      (options_.start_velocity.size() > 0 && !options_.start_velocity.isZero(0.)))
     throw ValueError("planMotions: moving obstacles and start_velocity are not known here; call planMotion");
   if (options_.improvement_evaluations == 0) options_.improvement_evaluations = kImprove;
 }
 
 MotionPlans::~MotionPlans() = default;
 
-std::optional<MotionPlan> MotionPlans::next(const CancellationToken& watch) {
-  watch_ = watch;
+std::optional<MotionPlan> MotionPlans::next(const CancellationToken& cancellation) {
+  cancellation_ = cancellation;
   std::optional<MotionPlan> plan;
   if (planner_) {
     plan = planner_->better();
   } else {
-    planner_ = std::make_unique<Planner>(config_, options_, ask_);
+    planner_ = std::make_unique<Planner>(config_, options_, user_cancellation_);
     plan = planner_->run(goal_, start_);
   }
-  watch_ = {};
+  cancellation_ = {};
   if (plan) plan->options = options_;
   return plan;
 }

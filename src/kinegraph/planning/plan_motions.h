@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/planning/plan_motion.h"
 
 namespace kinegraph {
@@ -26,14 +27,14 @@ class MotionPlans {
   MotionPlans(const MotionPlans&) = delete;
 
   /// The next motion; where there is none, the first one says why. None after the last one.
-  std::optional<MotionPlan> next(const CancellationToken& watch = {});
+  std::optional<MotionPlan> next(const CancellationToken& cancellation = {});
 
  private:
   const Config config_;
   const MotionGoal goal_;
   PlanOptions options_;
   const VectorXd start_;
-  CancellationToken watch_, ask_;
+  CancellationToken cancellation_, user_cancellation_;
   std::unique_ptr<Planner> planner_;  ///< made by the first call
 };
 

@@ -45,7 +45,8 @@ const OptionTable<PlanOptions>& planOptionTable() {
         "",
         "What is made small: 'time', 'length', or 'clearance' (the largest margin that is found, then the time).",
         {"time", "length", "clearance"}},
-       {"restarts", &O::restarts, "", "Ways that are searched and shortened; the best one counts.", Range::atLeastOne()},
+       {"restarts", &O::restarts, "", "Ways that are searched and shortened; the best one counts.",
+        Range::atLeastOne()},
        {"blend", &O::blend, "rad or m", "By how much corners may be rounded, in every dof; 0 stops at them.",
         Range::notNegative()},
        {"max_start_penetration", &O::max_start_penetration, "m",
@@ -53,8 +54,8 @@ const OptionTable<PlanOptions>& planOptionTable() {
         Range::notNegative()},
        {"constraint_tolerance", &O::constraint_tolerance, "",
         "Violation of each row of the constraints that is allowed, in its own unit.", Range::positive()},
-       {"max_goal_samples", &O::max_goal_samples, "", "Most postures that are looked for where the goal is targets or conditions.",
-        Range::atLeastOne()},
+       {"max_goal_samples", &O::max_goal_samples, "",
+        "Most postures that are looked for where the goal is targets or conditions.", Range::atLeastOne()},
        {"max_evaluations", &O::max_evaluations, "",
         "Effort of the search of the first way, at most: looks at up to eight postures side by side, or at a motion at "
         "all times; "
@@ -97,7 +98,8 @@ void PlanOptions::validateFor(int dofs) const {
     throw ValueError(cat("planMotion: start_velocity has ", start_velocity.size(), " numbers; expected ", dofs));
   if (!timing && (slices > 0 || !obstacle_trajectories.empty() || start_velocity.size() > 0))
     throw ValueError("planMotion: slices, obstacle_trajectories and start_velocity need timing");
-  if (slices > 0 && (optimize != "time" || !constraints.empty() || !obstacle_trajectories.empty() || start_velocity.size() > 0))
+  if (slices > 0 &&
+      (optimize != "time" || !constraints.empty() || !obstacle_trajectories.empty() || start_velocity.size() > 0))
     throw ValueError(
         "planMotion: slices is for optimize 'time', without constraints, obstacle_trajectories and start_velocity");
   if (slices == 1 || slices > kMostSlices)

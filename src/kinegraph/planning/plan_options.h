@@ -7,8 +7,8 @@
 
 #include "kinegraph/common/option_table.h"
 #include "kinegraph/ik/solve_ik.h"
-#include "kinegraph/planning/steering/manifold.h"
 #include "kinegraph/planning/dynamic_obstacles/dynamic_scene.h"
+#include "kinegraph/planning/steering/manifold.h"
 
 namespace kinegraph {
 
@@ -56,9 +56,10 @@ struct PlanOptions {
   std::vector<MotionConstraint> constraints = {};  ///< that hold all along the path
   VectorXd start_velocity = {};                    ///< dq/dt with which the motion begins, rad/s or m/s; empty: at rest
   VectorXd start_acceleration = {};                ///< d2q/dt2, with start_velocity and limits of the jerk; empty: none
-  bool prove_infeasibility = true;                               ///< where no way is found, a proof that there is none is looked for
+  bool prove_infeasibility = true;                 ///< where no way is found, a proof that there is none is looked for
   bool timing = true;                              ///< the path gets times; else `timed` is empty
-  std::vector<ObstacleTrajectory> obstacle_trajectories = {};  ///< what moves meanwhile; times count from the begin of the motion, s
+  std::vector<ObstacleTrajectory> obstacle_trajectories =
+      {};  ///< what moves meanwhile; times count from the begin of the motion, s
 
   void validate() const;  ///< throws ValueError naming the first field that makes no sense
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "kinegraph/planning/smooth_motion.h"
-#include "kinegraph/planning/retreat_motion.h"
 #include "kinegraph/planning/infeasibility_proof.h"
 #include "kinegraph/planning/plan_goals.h"
 #include "kinegraph/planning/plan_timing.h"
+#include "kinegraph/planning/retreat_motion.h"
+#include "kinegraph/planning/smooth_motion.h"
 
 namespace kinegraph {
 
@@ -30,21 +30,21 @@ std::string noteOf(const Way& way) {
 
 }  // namespace
 
-Planner::Planner(const Config& config, const PlanOptions& options, const CancellationToken& watch)
+Planner::Planner(const Config& config, const PlanOptions& options, const CancellationToken& cancellation)
     : config_(config),
       options_(options),
       limits_(planLimits(config, options)),
       contexts_(options.threads),
-      ask_(watch),
-      watch_([this] { return isCancelled() || isLate(); }),
+      user_cancellation_(cancellation),
+      cancellation_([this] { return isCancelled() || isLate(); }),
       draws_(*config.model()) {
   plan_.space = std::make_shared<const JointSpace>(*config.model());
   plan_.scene = std::make_shared<const State>(config.state());
   planning_constraints_ = {.scene = plan_.scene.get(),
-              .space = &draws_,
-              .clearance = {.margin = options.margin},
-              .constraints = options.constraints,
-              .constraint_tolerance = options.constraint_tolerance};
+                           .space = &draws_,
+                           .clearance = {.margin = options.margin},
+                           .constraints = options.constraints,
+                           .constraint_tolerance = options.constraint_tolerance};
 }
 
 MotionPlan Planner::run(const MotionGoal& goal, const VectorXd& start) {
@@ -53,7 +53,7 @@ MotionPlan Planner::run(const MotionGoal& goal, const VectorXd& start) {
   return plan_;
 }
 
-bool Planner::isCancelled() { return ask_ && ask_() && (cancelled_ = true); }
+bool Planner::isCancelled() { return user_cancellation_ && user_cancellation_() && (cancelled_ = true); }
 
 bool Planner::isLate() const { return secondsSince(began_) > options_.time_limit; }
 
@@ -84,7 +84,7 @@ Planner::SearchEndpoint Planner::searchEndpoint(Steering& steering, Endpoint end
   const std::optional<VectorXd> inside = retreatFromContact(config_, steering, end, options_.margin);
   if (!inside) return gate;
   plan_.warnings.push_back(cat("the ", what, " is in contact: ", describePairs(*config_.model(), end.near),
-                            what == "start" ? "; the motion first leaves it" : "; the motion comes to it last"));
+                               what == "start" ? "; the motion first leaves it" : "; the motion comes to it last"));
   gate.inside = *inside;
   gate.leaves = true;
   gate.deepest = end.near.front().distance - 2. * Clearance::kTolerance;
@@ -95,11 +95,14 @@ Planner::SearchEndpoint Planner::searchEndpoint(Steering& steering, Endpoint end
 
 bool Planner::checkEndpoints(const MotionGoal& goal, const VectorXd& start) {
   Steering& steering = contexts_.of(0, planning_constraints_);
-  start_ = searchEndpoint(steering, checkEndpoint(steering, *config_.model(), start, options_.margin, "start", kWho), "start");
+  start_ = searchEndpoint(steering, checkEndpoint(steering, *config_.model(), start, options_.margin, "start", kWho),
+                          "start");
   if (!start_.end.isFree()) return fail(PlanStatus::invalid_start, start_.end.problem);
-  GoalConfigurations configurations = goalConfigurations(config_, goal, start_.end.q, steering, options_, watch_);
+  GoalConfigurations configurations =
+      goalConfigurations(config_, goal, start_.end.q, steering, options_, cancellation_);
   if (!configurations.was_reached)
-    return watch_() ? failStopped(configurations.message) : fail(PlanStatus::unreached, configurations.message);
+    return cancellation_() ? failStopped(configurations.message)
+                           : fail(PlanStatus::goal_unreachable, configurations.message);
   std::string problem;
   for (std::size_t i = 0; i < configurations.ends.size(); ++i) {
     SearchEndpoint gate = searchEndpoint(steering, configurations.ends[i], "goal");
@@ -110,11 +113,13 @@ bool Planner::checkEndpoints(const MotionGoal& goal, const VectorXd& start) {
       problem = gate.end.problem;
     }
   }
-  endStage("ends", steering.evaluations(), cat(goals_.size(), " of ", configurations.ends.size(), " goal postures are free"));
+  endStage("ends", steering.evaluations(),
+           cat(goals_.size(), " of ", configurations.ends.size(), " goal postures are free"));
   if (goals_.empty()) return fail(PlanStatus::invalid_goal, problem);
   if (plan_.warnings.size() > 3) plan_.warnings.resize(3);
   for (const std::string& name : steering.manifold().sampled())
-    plan_.warnings.push_back(cat("the constraint ", name, " was looked at every ", Steering::kSpacing, " along the way"));
+    plan_.warnings.push_back(
+        cat("the constraint ", name, " was looked at every ", Steering::kSpacing, " along the way"));
   return true;
 }
 
@@ -139,7 +144,7 @@ PathQuery Planner::request() {
   request.seed = options_.seed;
   request.evaluations = options_.max_evaluations;
   request.threads = options_.threads;
-  request.watch = watch_;
+  request.cancellation = cancellation_;
   request.steering = &contexts_.of(0, planning_constraints_);
   return request;
 }
@@ -162,7 +167,7 @@ bool Planner::findPath() {
 /// With the largest margin for which a way is found soon.
 Way Planner::searchWithRoom() {
   for (const double margin : kMargins) {
-    if (margin <= options_.margin || watch_()) continue;
+    if (margin <= options_.margin || cancellation_()) continue;
     planning_constraints_.clearance = withEndsAt(margin);
     PathQuery asked = request();
     asked.evaluations = std::max(1l, asked.evaluations / 20);
@@ -208,7 +213,7 @@ bool Planner::failSearch(const Way& way) {
     proof = proveInfeasible(*plan_.scene, start_.inside, goals, tight ? 0. : options_.margin, is_enough);
     endStage("prove", 0, proof.empty() ? "no proof that there is none" : "");
   }
-  if (!proof.empty()) return fail(PlanStatus::impossible, cat(proof, "; ", words));
+  if (!proof.empty()) return fail(PlanStatus::infeasible, cat(proof, "; ", words));
   if (way.was_stopped || cancelled_) return failStopped(words);
   return fail(PlanStatus::no_path_found, words);
 }
@@ -221,7 +226,7 @@ VectorXd Planner::weight() const {
 void Planner::improve(const Way& first) {
   tries_ = options_.restarts;
   best_ = improvePath(first, request(),
-                     {.tries = options_.restarts, .weight = weight(), .late = [this] { return isLate(); }}, contexts_);
+                      {.tries = options_.restarts, .weight = weight(), .late = [this] { return isLate(); }}, contexts_);
   endStage("shorten", best_.evaluations,
            first.is_line ? "" : cat("the best of ", options_.restarts, options_.restarts == 1 ? " way" : " ways"));
   const double before = best_.cost;
@@ -267,7 +272,7 @@ std::optional<MotionPlan> Planner::better() {
   if (!plan_.feasible() || best_.way.is_line) return std::nullopt;
   const bool by_length = options_.optimize == "length" || !options_.timing;
   const auto value = [&](const MotionPlan& plan) { return by_length ? plan.length : plan.duration(); };
-  while (further_ < options_.improvement_evaluations && !watch_()) {
+  while (further_ < options_.improvement_evaluations && !cancellation_()) {
     const double cost = best_.cost;
     improveFurther();
     if (best_.cost >= cost) continue;
@@ -357,7 +362,7 @@ void Planner::bend() {
   if (leaves || !plan_.timed.feasible() || !config_.model()->unit_norms.empty()) return;
   const double before = plan_.timed.duration();
   std::optional<SmoothedMotion> bent =
-      smoothMotion(config_, exactly(), plan_.timed, limits_, verified_margin(), options_.slices, watch_);
+      smoothMotion(config_, exactly(), plan_.timed, limits_, verified_margin(), options_.slices, cancellation_);
   if (bent) {
     plan_.path = std::move(bent->path);
     plan_.timed = std::move(bent->timed);
@@ -367,8 +372,8 @@ void Planner::bend() {
 }
 
 MotionPlan planFromRest(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
-                        const CancellationToken& watch) {
-  Planner planner(config, options, watch);
+                        const CancellationToken& cancellation) {
+  Planner planner(config, options, cancellation);
   MotionPlan plan = planner.run(goal, start);
   while (std::optional<MotionPlan> better = planner.better()) plan = std::move(*better);
   return plan;

@@ -2,9 +2,10 @@
 
 #include <chrono>
 
-#include "kinegraph/planning/smoothing/improve_path.h"
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/planning/motion_plan.h"
 #include "kinegraph/planning/plan_options.h"
+#include "kinegraph/planning/smoothing/improve_path.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph {
@@ -21,7 +22,7 @@ namespace kinegraph {
 class Planner {
  public:
   /// All of them must stay.
-  Planner(const Config& config, const PlanOptions& options, const CancellationToken& watch);
+  Planner(const Config& config, const PlanOptions& options, const CancellationToken& cancellation);
 
   MotionPlan run(const MotionGoal& goal, const VectorXd& start);
 
@@ -71,8 +72,8 @@ class Planner {
   const PlanOptions& options_;
   const MotionLimits limits_;
   SteeringContexts contexts_;
-  const CancellationToken& ask_;  ///< of the caller
-  const CancellationToken watch_;
+  const CancellationToken& user_cancellation_;  ///< of the caller
+  const CancellationToken cancellation_;
   const Clock::time_point began_ = Clock::now();
   Clock::time_point stage_began_ = began_;
   bool cancelled_ = false;
@@ -89,6 +90,6 @@ class Planner {
 
 /// What a Planner finds with all of options.improvement_evaluations.
 MotionPlan planFromRest(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
-                        const CancellationToken& watch);
+                        const CancellationToken& cancellation);
 
 }  // namespace kinegraph

@@ -33,7 +33,8 @@ MatrixXd shortcut(const Config& config, const MatrixXd& path, const RefineOption
   requireFreePath(config, steering, path, "shortcut");
   std::vector<VectorXd> points;
   for (Eigen::Index k = 0; k < path.rows(); ++k) points.push_back(path.row(k).transpose());
-  return space.unroll(shorten(steering, std::move(points), {.seed = options.seed, .watch = options.watch}));
+  return space.unroll(
+      shorten(steering, std::move(points), {.seed = options.seed, .cancellation = options.cancellation}));
 }
 
 MatrixXd smooth(const Config& config, const MatrixXd& path, const RefineOptions& options) {

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/planning/search/path_search.h"
 #include "kinegraph/scene/config.h"
 
@@ -11,7 +12,7 @@ struct RefineOptions {
   double margin = 0.;      ///< m, that all collidable pairs keep
   double blend = .05;      ///< rad or m, by which smooth may miss corners, in every dof
   std::uint64_t seed = 0;  ///< of the places that shortcut joins
-  CancellationToken watch = {};
+  CancellationToken cancellation = {};
 };
 
 /// A shorter path between the same ends, rows of `path` (K, n), free at all times. Throws ValueError for a path of

@@ -76,7 +76,8 @@ bool leavesWell(const Config& config, Steering& steering, const Endpoint& end, c
 
 }  // namespace
 
-std::optional<VectorXd> retreatFromContact(const Config& config, Steering& steering, const Endpoint& end, double margin) {
+std::optional<VectorXd> retreatFromContact(const Config& config, Steering& steering, const Endpoint& end,
+                                           double margin) {
   if (end.near.empty()) return std::nullopt;
   const double deepest = std::min(0., end.near.front().distance);
   for (const double wanted : {margin + kAway, .5 * kAway}) {

@@ -18,8 +18,8 @@ constexpr char kMagic[8] = {'K', 'G', 'R', 'O', 'A', 'D', '0', '2'};
 constexpr char kEarlierMagic[8] = {'K', 'G', 'R', 'O', 'A', 'D', '0', '1'};  // without how it draws on
 
 std::unique_ptr<Steering> steeringFor(const State& scene, const JointSpace& space, double margin) {
-  return std::make_unique<Steering>(
-      PlanningConstraints{.scene = &scene, .space = &space, .clearance = {.margin = margin, .guard = Clearance::kGuard}});
+  return std::make_unique<Steering>(PlanningConstraints{
+      .scene = &scene, .space = &space, .clearance = {.margin = margin, .guard = Clearance::kGuard}});
 }
 
 /// FNV-1a of bytes.
@@ -71,11 +71,11 @@ int Roadmap::addNode(const VectorXd& q) {
   return node;
 }
 
-void Roadmap::grow(int configurations, const CancellationToken& watch) {
+void Roadmap::grow(int configurations, const CancellationToken& cancellation) {
   if (configurations < 0) throw ValueError(cat("Roadmap.grow: ", configurations, " postures; expected 0 or more"));
   const VectorXd like = scene_->q();
   for (long tries = 1000l * configurations; configurations > 0 && tries > 0; --tries) {
-    if (tries % 16 == 0 && watch && watch()) return;
+    if (tries % 16 == 0 && cancellation && cancellation()) return;
     const VectorXd q = space_->sample(rng_, like);
     if (!steering_->check().isFree(q)) continue;
     addNode(q);
@@ -137,15 +137,15 @@ std::vector<int> Roadmap::shortestPath(int from, int to) const {
 }
 
 /// Motions of a path that are all free: the shortest, then the next one where one of its motions turns out blocked.
-std::vector<int> Roadmap::freePath(int from, int to, const CancellationToken& watch) {
-  while (!(watch && watch())) {
+std::vector<int> Roadmap::freePath(int from, int to, const CancellationToken& cancellation) {
+  while (!(cancellation && cancellation())) {
     const std::vector<int> path = shortestPath(from, to);
     if (std::ranges::all_of(path, [&](int e) { return edgeIsFree(edges_[std::size_t(e)]); })) return path;
   }
   return {};
 }
 
-RoadmapPath Roadmap::findPath(const VectorXd& start, const VectorXd& goal, const CancellationToken& watch) {
+RoadmapPath Roadmap::findPath(const VectorXd& start, const VectorXd& goal, const CancellationToken& cancellation) {
   RoadmapPath answer;
   const long before = steering_->evaluations();
   int ends[2];
@@ -164,7 +164,7 @@ RoadmapPath Roadmap::findPath(const VectorXd& start, const VectorXd& goal, const
     const auto known = std::ranges::find(nodes_, q);
     ends[i] = known == nodes_.end() ? addNode(q) : int(known - nodes_.begin());
   }
-  const std::vector<int> path = freePath(ends[0], ends[1], watch);
+  const std::vector<int> path = freePath(ends[0], ends[1], cancellation);
   std::vector<VectorXd> points = {nodes_[std::size_t(ends[0])]};
   int node = ends[0];
   for (const int e : path) {
@@ -174,7 +174,7 @@ RoadmapPath Roadmap::findPath(const VectorXd& start, const VectorXd& goal, const
   }
   if (node == ends[1]) {
     points.front() = start;
-    answer.path = space_->unroll(shorten(*steering_, std::move(points), {.watch = watch}));
+    answer.path = space_->unroll(shorten(*steering_, std::move(points), {.cancellation = cancellation}));
   } else {
     answer.message = cat("no path in a map of ", size(), " postures and ", motions(), " motions; grow adds more");
   }

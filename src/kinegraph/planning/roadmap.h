@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/planning/endpoints.h"
 #include "kinegraph/planning/search/path_search.h"
 #include "kinegraph/scene/config.h"
@@ -37,10 +38,10 @@ class Roadmap {
   explicit Roadmap(const Config& config, double margin = 0., std::uint64_t seed = 0);
 
   /// Adds that many free random postures, each with motions to the nearest ones. Throws ValueError for less than 0.
-  void grow(int configurations, const CancellationToken& watch = {});
+  void grow(int configurations, const CancellationToken& cancellation = {});
 
   /// Throws ValueError for joint vectors of a wrong length.
-  RoadmapPath findPath(const VectorXd& start, const VectorXd& goal, const CancellationToken& watch = {});
+  RoadmapPath findPath(const VectorXd& start, const VectorXd& goal, const CancellationToken& cancellation = {});
 
   /// The scene is another one now, with the same joints; else ValueError.
   void setScene(const Config& config);
@@ -62,7 +63,7 @@ class Roadmap {
 
   int size() const { return int(nodes_.size()); }
   int motions() const { return int(edges_.size()); }
-  MatrixXd configurations() const;                            ///< (N, n)
+  MatrixXd configurations() const;                      ///< (N, n)
   std::vector<std::pair<int, int>> motionEnds() const;  ///< places of postures
   double margin() const { return margin_; }
 
@@ -78,7 +79,7 @@ class Roadmap {
   bool nodeIsFree(int node);
   bool edgeIsFree(Edge& edge);
   std::vector<int> shortestPath(int from, int to) const;
-  std::vector<int> freePath(int from, int to, const CancellationToken& watch);
+  std::vector<int> freePath(int from, int to, const CancellationToken& cancellation);
   std::uint64_t sceneCode() const;
 
   std::shared_ptr<const State> scene_;

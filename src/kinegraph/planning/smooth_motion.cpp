@@ -19,7 +19,7 @@ constexpr double kRounding = 1e-9;     // by which a joint may be beyond its lim
 
 /// From the motion's start to its end; empty where KOMO finds none that is free.
 MatrixXd solvedPath(const Config& config, const TimedPath& motion, double margin, int slices,
-                    const CancellationToken& watch) {
+                    const CancellationToken& cancellation) {
   Config scene(config);
   const VectorXd start = motion.at(0.).q, goal = motion.at(motion.duration()).q;
   scene.setJointState(start);
@@ -39,7 +39,7 @@ MatrixXd solvedPath(const Config& config, const TimedPath& motion, double margin
   Rng rng(0);
   solver.setInitialization(komo->path().variables());
   const SolverResult result =
-      solver.solve(false, rng, [&](const VectorXd&, const VectorXd&) { return !(watch && watch()); });
+      solver.solve(false, rng, [&](const VectorXd&, const VectorXd&) { return !(cancellation && cancellation()); });
   if (!result.feasible) return {};
   path.bottomRows(slices) = komo->getPath();
   path.bottomRows(1) = goal.transpose();
@@ -67,9 +67,10 @@ bool keepsLimits(const PathCurve& curve, const MatrixXd& limits) {
 }  // namespace
 
 std::optional<SmoothedMotion> smoothMotion(const Config& config, Steering& steering, const TimedPath& motion,
-                                     const MotionLimits& limits, double margin, int slices, const CancellationToken& watch) {
+                                           const MotionLimits& limits, double margin, int slices,
+                                           const CancellationToken& cancellation) {
   if (!motion.feasible() || motion.duration() == 0. || margin < 0.) return std::nullopt;
-  const MatrixXd path = solvedPath(config, motion, margin, slices, watch);
+  const MatrixXd path = solvedPath(config, motion, margin, slices, cancellation);
   if (path.rows() == 0) return std::nullopt;
   const PathCurve curve = cubicSpline(path);
   if (curve.degree() > 3 || !keepsLimits(curve, config.getJointLimits())) return std::nullopt;

@@ -2,8 +2,9 @@
 
 #include <optional>
 
-#include "kinegraph/planning/steering/steering.h"
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/planning/search/path_search.h"
+#include "kinegraph/planning/steering/steering.h"
 #include "kinegraph/scene/config.h"
 #include "kinegraph/trajectories/retime.h"
 
@@ -21,6 +22,7 @@ struct SmoothedMotion {
 /// of joints, and is faster. Straight motions from row to row of the path are free, too.
 /// Source: Toussaint, A tutorial on Newton methods for constrained trajectory optimization, 2017.
 std::optional<SmoothedMotion> smoothMotion(const Config& config, Steering& steering, const TimedPath& motion,
-                                     const MotionLimits& limits, double margin, int slices, const CancellationToken& watch);
+                                           const MotionLimits& limits, double margin, int slices,
+                                           const CancellationToken& cancellation);
 
 }  // namespace kinegraph

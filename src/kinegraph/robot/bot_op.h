@@ -7,6 +7,7 @@
 #include <mutex>
 #include <thread>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/robot/robot_loop.h"
 
 namespace kinegraph {
@@ -24,8 +25,8 @@ struct BotOpOptions {
 
   /// Shows a scene, which is where robot and world are; returns the key pressed since the last time, or 0.
   std::function<int(const BotOp&, Config&, const std::string& message)> show;
-  std::function<bool()> watched;  ///< does somebody look at what is shown?
-  std::function<void()> between;  ///< called now and then while a call waits; what it throws ends the call
+  std::function<bool()> watched;   ///< does somebody look at what is shown?
+  CancellationToken cancellation;  ///< called now and then while a call waits; what it throws ends the call
 
   /// Where time is real, asked before each period, by the thread that moves the robot: true holds the robot, whatever
   /// the rest of the program does meanwhile.
@@ -50,7 +51,7 @@ struct StepObservation {
 /// they should be; but what it has that the simulated world has not, is added there.
 ///
 /// Calls throw ValueError for arguments that make no sense and for motions beyond limits of the robot, and RobotFault if
-/// it was stopped. Where `between` throws, as Ctrl-C does in Python, the robot is held first.
+/// it was stopped. Where `cancellation` throws, as Ctrl-C does in Python, the robot is held first.
 class BotOp {
  public:
   /// A simulated robot in a copy of `config`, shown by its viewer; `use_real_robot` is refused, as that takes a driver.
@@ -190,7 +191,7 @@ class BotOp {
   void advanceVirtually(double seconds);
   void waitRealtime(double seconds, bool keys_end_it);
   void pace();
-  void look();  ///< calls `between`, holds the robot if that throws
+  void look();  ///< calls `cancellation`, holds the robot if that throws
   void runThread(const std::stop_token& stop);
   void requireRunning(const char* call) const;
   int show(Config& C, const std::string& message);

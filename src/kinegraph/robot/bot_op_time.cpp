@@ -45,9 +45,9 @@ void BotOp::stepOnce(const Lock&) {
 
 void BotOp::look() {
   looked_ = Clock::now();
-  if (!options_.between) return;
+  if (!options_.cancellation) return;
   try {
-    options_.between();
+    options_.cancellation.check();
   } catch (...) {
     const Lock lock(mutex_);
     holdNow();

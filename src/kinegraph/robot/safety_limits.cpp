@@ -12,8 +12,7 @@ constexpr double kLimitSlack = 2e-3;  // rad or m beyond a limit that checked mo
 
 }  // namespace
 
-void limitCommand(RobotCommand& command, const VectorXd& last, const VectorXd& last_velocity,
-                      const RobotInfo& robot) {
+void limitCommand(RobotCommand& command, const VectorXd& last, const VectorXd& last_velocity, const RobotInfo& robot) {
   const double h = command.period;
   for (Eigen::Index i = 0; i < last.size(); ++i) {
     const double fastest = robot.velocity[i], hardest = robot.acceleration[i];

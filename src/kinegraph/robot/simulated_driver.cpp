@@ -26,12 +26,12 @@ RobotInfo SimulatedDriver::info() {
 
 RobotState SimulatedDriver::read() {
   RobotState state{simulation_.get_t(),
-                       simulation_.get_q(),
-                       simulation_.get_qDot(),
-                       simulation_.getJointTorques(),
-                       simulation_.getExternalTorques(),
-                       {},
-                       {}};
+                   simulation_.get_q(),
+                   simulation_.get_qDot(),
+                   simulation_.getJointTorques(),
+                   simulation_.getExternalTorques(),
+                   {},
+                   {}};
   for (const SceneGripper& gripper : grippers_)
     state.grippers.push_back(
         {simulation_.getGripperWidth(gripper.info.name), simulation_.gripperIsDone(gripper.info.name)});

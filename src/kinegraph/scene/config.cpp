@@ -11,9 +11,9 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/gfile/parser.h"
-#include "kinegraph/scene/tree/named_states.h"
 #include "kinegraph/scene/loading/reader.h"
 #include "kinegraph/scene/loading/robot_semantics.h"
+#include "kinegraph/scene/tree/named_states.h"
 
 namespace kinegraph {
 
@@ -421,7 +421,9 @@ std::string Config::report() const {
   return text;
 }
 
-std::vector<std::string> Config::contactWarnings() const { return describe(kinegraph::contactWarnings(*scene_), *scene_); }
+std::vector<std::string> Config::contactWarnings() const {
+  return describe(kinegraph::contactWarnings(*scene_), *scene_);
+}
 
 std::vector<std::string> Config::takeWarnings() { return std::exchange(warnings_, {}); }
 

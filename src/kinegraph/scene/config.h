@@ -7,8 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "kinegraph/common/random.h"
 #include "kinegraph/collision/motion_check.h"
+#include "kinegraph/common/random.h"
 #include "kinegraph/scene/frame.h"
 
 namespace kinegraph {

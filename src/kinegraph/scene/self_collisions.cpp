@@ -6,12 +6,12 @@
 #include <numbers>
 #include <optional>
 
+#include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/parallel.h"
 #include "kinegraph/common/random.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/kinematics/chains.h"
-#include "kinegraph/collision/near_pairs.h"
 
 namespace kinegraph {
 
@@ -44,7 +44,8 @@ Ranges rangesOf(const KinematicModel& model, const VectorXd& q) {
     if (!std::isfinite(ranges.upper[dof])) ranges.upper[dof] = std::max(q[dof], ranges.lower[dof]) + reach;
     ranges.unbounded[std::size_t(dof)] = !turns[std::size_t(dof)];
   }
-  for (const KinematicModel::DofRange& norm : model.unit_norms) {  // a direction that is drawn evenly has no limits to miss
+  for (const KinematicModel::DofRange& norm :
+       model.unit_norms) {  // a direction that is drawn evenly has no limits to miss
     for (int dof = norm.first; dof < norm.first + norm.count; ++dof) ranges.unbounded[std::size_t(dof)] = 0;
   }
   return ranges;
@@ -185,7 +186,7 @@ SelfCollisionMatrix selfCollisionMatrix(const Config& config, const SelfCollisio
     forColumnsBetween(*model, a, b, [&](int column) {
       unbounded = unbounded || ranges.unbounded[std::size_t(model->column_dof[std::size_t(column)])];
     });
-    const Reason reason = adjacent(*model, a, b)                                ? Reason::adjacent
+    const Reason reason = adjacent(*model, a, b)                                  ? Reason::adjacent
                           : unbounded                                             ? Reason::sometimes
                           : counts[i] == 0                                        ? Reason::never
                           : double(counts[i]) >= options.always * options.samples ? Reason::always

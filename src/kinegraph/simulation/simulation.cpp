@@ -81,8 +81,8 @@ void Simulation::update() {
   s.rebuild();
 }
 
-void Simulation::advance(const VectorXd& u, double tau, ControlMode mode, const std::function<void()>& between) {
-  impl_->world->step(u, tau, mode, between);
+void Simulation::advance(const VectorXd& u, double tau, ControlMode mode, const CancellationToken& cancellation) {
+  impl_->world->step(u, tau, mode, cancellation);
   impl_->warnOfTurns();
   if (!isRecording()) return;
   std::vector<double> numbers{tau, double(int(mode))};

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/rendering/camera_renderer.h"
 #include "kinegraph/rendering/depth_image.h"
 #include "kinegraph/scene/config.h"
@@ -46,10 +47,10 @@ class Simulation {
   /// leave all bounds; the state is that before the call.
   void step(const VectorXd& u = {}, double tau = .01, ControlMode mode = ControlMode::none);
 
-  /// The same in three parts, for those who hold a lock on the Config: the second does not touch it. `between`, where
+  /// The same in three parts, for those who hold a lock on the Config: the second does not touch it. `cancellation`, where
   /// given, is called between inner steps and may throw to stop: the state is then that before the call.
   void update();  ///< takes in frames that are new in the Config
-  void advance(const VectorXd& u, double tau, ControlMode mode, const std::function<void()>& between = {});
+  void advance(const VectorXd& u, double tau, ControlMode mode, const CancellationToken& cancellation = {});
   void publish();  ///< sets joints and free bodies in the Config
 
   double get_t() const;              ///< s
@@ -84,8 +85,8 @@ class Simulation {
   double getTimeToSplineEnd() const;            ///< s; negative after it
   void resetSplineRef(double ctrl_time = -1.);  ///< a spline that stays at the present q; from that time on, or now
 
-  /// round(tau_step / tau_sim) steps in spline mode; `between`, where given, as in advance, which undoes one of them.
-  void multi_step(double tau_step, double tau_sim, const std::function<void()>& between = {});
+  /// round(tau_step / tau_sim) steps in spline mode; `cancellation`, where given, as in advance, which undoes one of them.
+  void multi_step(double tau_step, double tau_sim, const CancellationToken& cancellation = {});
 
   // --- grippers and things that are attached -------------------------------------------------------------------------
 
@@ -152,8 +153,8 @@ class Simulation {
 
   /// Steps of `tau` s along the spline for so many seconds: as fast as it can be computed or, while a browser shows it, as fast
   /// as the clock on the wall times `speed` (<= 0: as fast as possible). Ends early if somebody presses q or Escape there.
-  /// Returns the last key pressed there, or 0. `between`, where given and nothing is shown, as in advance.
-  int run(double seconds, double tau = .01, double speed = 1., const std::function<void()>& between = {});
+  /// Returns the last key pressed there, or 0. `cancellation`, where given and nothing is shown, as in advance.
+  int run(double seconds, double tau = .01, double speed = 1., const CancellationToken& cancellation = {});
 
   /// Who looks on, or null.
   void setWatcher(std::shared_ptr<SimulationWatcher> watcher);

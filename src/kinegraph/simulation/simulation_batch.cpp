@@ -36,14 +36,14 @@ struct SimulationBatch::Impl {
             cat(call, ": ", what, " has ", value, "; expected finite numbers ", may_be_least ? ">= " : "> ", least));
     }
   }
-  void perform(const std::function<void(int)>& work, const std::function<void()>& between) const {
+  void perform(const std::function<void(int)>& work, const CancellationToken& cancellation) const {
     const int part = std::max(1, int(environments.size()) / (8 * threads));
     parallelFor(
         int(environments.size()), part, threads,
         [&](int, int from, int to) {
           for (int i = from; i < to; ++i) work(i);
         },
-        between);
+        cancellation);
   }
 };
 
@@ -77,7 +77,7 @@ std::vector<std::string> SimulationBatch::freeFrames() const {
 }
 
 void SimulationBatch::step(const MatrixXd& u, double tau, ControlMode mode, int repeat,
-                           const std::function<void()>& between) {
+                           const CancellationToken& cancellation) {
   const char* call = "SimulationBatch.step";
   if (repeat < 1) throw ValueError(cat(call, ": repeat is ", repeat, "; expected at least 1"));
   const int columns = controlSize(mode, dofs());
@@ -102,7 +102,7 @@ void SimulationBatch::step(const MatrixXd& u, double tau, ControlMode mode, int 
           }
         }
       },
-      between);
+      cancellation);
   if (bad < size()) throw Error(cat(call, ": environment ", bad, ": ", reason));
 }
 

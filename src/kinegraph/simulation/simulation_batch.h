@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/scene/config.h"
 #include "kinegraph/simulation/simulation_options.h"
 #include "kinegraph/simulation/simulation_state.h"
@@ -26,11 +27,11 @@ class SimulationBatch {
   int dofs() const;  ///< n, of q
   std::vector<std::string> freeFrames() const;
 
-  /// All environments go on by `tau` s in `repeat` steps; a row of `u` (size x n) for each. `between` is called now and then on
+  /// All environments go on by `tau` s in `repeat` steps; a row of `u` (size x n) for each. `cancellation` is called now and then on
   /// the calling thread and may throw. Throws ValueError for a matrix that does not fit; nothing has changed then. Where numbers
   /// of an environment leave all bounds, it stays as it was before, and Error says which one after all others have stepped.
   void step(const MatrixXd& u = {}, double tau = .01, ControlMode mode = ControlMode::none, int repeat = 1,
-            const std::function<void()>& between = {});
+            const CancellationToken& cancellation = {});
 
   VectorXd times() const;           ///< s
   MatrixXd q() const;               ///< size x n

@@ -162,21 +162,21 @@ void Simulation::resetSplineRef(double ctrl_time) {
   impl_->note(Recording::Call::Kind::reset_spline, {ctrl_time});
 }
 
-void Simulation::multi_step(double tau_step, double tau_sim, const std::function<void()>& between) {
+void Simulation::multi_step(double tau_step, double tau_sim, const CancellationToken& cancellation) {
   expectPositive("Simulation.multi_step", "tau_step", tau_step);
   expectPositive("Simulation.multi_step", "tau_sim", tau_sim);
   const double steps = std::round(tau_step / tau_sim);
   if (steps > 1e7) throw ValueError(cat("Simulation.multi_step: ", steps, " steps are too many"));
   if (impl_->watcher) {
     for (int i = 0; i < int(steps); ++i) {
-      if (between) between();
+      cancellation.check();
       step({}, tau_sim, ControlMode::spline);
     }
     return;
   }
   update();
   for (int i = 0; i < int(steps); ++i) {
-    if (between) between();
+    cancellation.check();
     advance({}, tau_sim, ControlMode::spline);
   }
   publish();

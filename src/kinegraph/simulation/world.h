@@ -6,9 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
+#include "kinegraph/simulation/gyroscopic_forces.h"
 #include "kinegraph/simulation/reference.h"
 #include "kinegraph/simulation/scene_model.h"
-#include "kinegraph/simulation/gyroscopic_forces.h"
 
 namespace kinegraph {
 
@@ -78,7 +79,7 @@ class World {
   /// Steps for tau seconds. Throws ValueError for a control vector that does not fit the mode; then nothing has changed.
   /// Throws Error where numbers leave all bounds; then the state is as before the call.
   void checkCommand(const VectorXd& u, double tau, ControlMode mode) const;
-  void step(const VectorXd& u, double tau, ControlMode mode, const std::function<void()>& between = {});
+  void step(const VectorXd& u, double tau, ControlMode mode, const CancellationToken& cancellation = {});
 
   WorldState state() const;
   void setState(const WorldState& state);

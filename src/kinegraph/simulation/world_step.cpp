@@ -46,7 +46,7 @@ void World::checkCommand(const VectorXd& u, double tau, ControlMode mode) const 
   }
 }
 
-void World::step(const VectorXd& u, double tau, ControlMode mode, const std::function<void()>& between) {
+void World::step(const VectorXd& u, double tau, ControlMode mode, const CancellationToken& cancellation) {
   checkCommand(u, tau, mode);
   const MujocoErrors thrown;
   const WorldState before = state();
@@ -57,7 +57,7 @@ void World::step(const VectorXd& u, double tau, ControlMode mode, const std::fun
     too_fast_.clear();
     reference_.command(*model_, u, tau, mode, options_);
     for (int i = 0; i < steps; ++i) {
-      if (between) between();
+      cancellation.check();
       if (!is_kinematic_) reference_.stayNear(*model_, data_->qpos, data_->qvel);
       reference_.prepare(*model_, data_->time, h, i + 1 == steps, options_);
       is_kinematic_ ? followReferences(h) : innerStep(h);

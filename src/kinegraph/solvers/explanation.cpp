@@ -278,15 +278,15 @@ Explanation findConflicts(Nlp& nlp, const VectorXd& x, double tolerance, const E
 
 }  // namespace
 
-Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance, const std::function<void()>& between) {
+Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance, const CancellationToken& cancellation) {
   if (x.size() != nlp.dimension())
     throw ValueError(cat("explain: x has ", x.size(), " numbers; the problem has ", nlp.dimension(), " variables"));
   VectorXd no_multipliers;
   nlp.refine(x, no_multipliers);
-  if (!between) return findConflicts(nlp, x, tolerance, {});
+  if (!cancellation) return findConflicts(nlp, x, tolerance, {});
   try {
     return findConflicts(nlp, x, tolerance, [&](const VectorXd&, const VectorXd&) {
-      between();
+      cancellation.check();
       return true;
     });
   } catch (...) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/nlp/nlp.h"
 
 namespace kinegraph {
@@ -58,8 +59,8 @@ struct Explanation {
 
 /// Finds which constraints contradict each other around `x`. From there it minimizes the violation alone; what is
 /// violated at that point, with the bounds that hold it there, is the conflict. Each part of it is then given up in
-/// turn, to see whether the others can hold and how far it has to give way. Leaves the problem at `x`. `between`, where
+/// turn, to see whether the others can hold and how far it has to give way. Leaves the problem at `x`. `cancellation`, where
 /// given, is called at every evaluation, and may throw.
-Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance = 1e-3, const std::function<void()>& between = {});
+Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance = 1e-3, const CancellationToken& cancellation = {});
 
 }  // namespace kinegraph

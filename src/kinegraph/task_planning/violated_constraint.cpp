@@ -9,9 +9,9 @@
 
 namespace kinegraph {
 
-std::string violatedConstraint(const std::shared_ptr<Komo>& komo, const std::function<void()>& between) {
+std::string violatedConstraint(const std::shared_ptr<Komo>& komo, const CancellationToken& cancellation) {
   const VectorXd x = komo->path().variables();
-  const Explanation explanation = explain(*makeNlp(komo), x, 1e-3, between);
+  const Explanation explanation = explain(*makeNlp(komo), x, 1e-3, cancellation);
   if (explanation.conflicts.empty()) return "";
   const Conflict& worst = explanation.conflicts[std::size_t(std::max(explanation.best, 0))];
   if (!worst.details.empty()) return worst.details[0];

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinegraph/trajectories/jerk_limited_program.h"
 #include "kinegraph/trajectories/s_curve_profile.h"
 #include "kinegraph/trajectories/scaling_proof.h"
-#include "kinegraph/trajectories/jerk_limited_program.h"
 
 namespace kinegraph {
 
@@ -196,12 +196,14 @@ Shares sharesOf(const JerkLimitedProgram& model, const ScalingProof& proof, cons
   return shares;
 }
 
-void addProgram(TimeScaling& scaling, const JerkLimitedProgram& model, const ScalingGrid& places, const ScalingBudget& effort) {
+void addProgram(TimeScaling& scaling, const JerkLimitedProgram& model, const ScalingGrid& places,
+                const ScalingBudget& effort) {
   const auto restTime = [](double width, double b) { return 3. * width / std::sqrt(b); };
   const int last = places.intervals() - 1, end = model.first() + model.count();
   if (model.first() == 1) {
     const double w = places.width(0), time = restTime(w, model.at(0)[0]);
-    scaling.add({0., {places.place(0), 0., 0., 6. * w / (time * time * time)}, 0., places.place(1), places.piece(0)}, time);
+    scaling.add({0., {places.place(0), 0., 0., 6. * w / (time * time * time)}, 0., places.place(1), places.piece(0)},
+                time);
   }
   for (int k = 0; k < model.count(); ++k) {
     effort.pause(k);
@@ -212,11 +214,11 @@ void addProgram(TimeScaling& scaling, const JerkLimitedProgram& model, const Sca
   if (end == last) {
     const double w = places.width(last), b = model.at(model.count() - 1)[2], time = restTime(w, b);
     scaling.add({0.,
-             {places.place(last), std::sqrt(b), -2. * b / (3. * w), 6. * w / (time * time * time)},
-             0.,
-             places.place(last + 1),
-             places.piece(last)},
-            time);
+                 {places.place(last), std::sqrt(b), -2. * b / (3. * w), 6. * w / (time * time * time)},
+                 0.,
+                 places.place(last + 1),
+                 places.piece(last)},
+                time);
   }
 }
 
@@ -231,8 +233,8 @@ void tighten(JerkLimitedProgram& model, const Shares& shares, const ScalingBudge
 }
 
 /// The law of a section that is curved; empty if there is none.
-TimeScaling curvedLawOnce(const ScalingGrid& grid, const Section& section, const TimeScaling& first, const MotionLimits& limits,
-                      const ConstraintSource& rows, const ScalingBudget& effort) {
+TimeScaling curvedLawOnce(const ScalingGrid& grid, const Section& section, const TimeScaling& first,
+                          const MotionLimits& limits, const ConstraintSource& rows, const ScalingBudget& effort) {
   const ScalingGrid places(grid.curve(), SectionPlaces(grid, section, first, limits, effort).all(), effort);
   const ScalingProof proof(places, limits);
   JerkLimitedProgram model(places, limits, rows, section.from, section.to, effort);
@@ -262,10 +264,10 @@ TimeScaling curvedLawOnce(const ScalingGrid& grid, const Section& section, const
 
 /// The same, with half as many places as long as rounding spoils it: the condition of the matrices grows with the fourth
 /// power of their number. A law that is spoiled is slower than one of few places.
-TimeScaling curvedLaw(const ScalingGrid& grid, const Section& section, const TimeScaling& first, const MotionLimits& limits,
-                  const ConstraintSource& rows, const ScalingBudget& effort) {
+TimeScaling curvedLaw(const ScalingGrid& grid, const Section& section, const TimeScaling& first,
+                      const MotionLimits& limits, const ConstraintSource& rows, const ScalingBudget& effort) {
   if (effort.intervals <= kSafePlaces) return curvedLawOnce(grid, section, first, limits, rows, effort);
-  ScalingBudget fewer{kSafePlaces, effort.between};
+  ScalingBudget fewer{kSafePlaces, effort.cancellation};
   TimeScaling safe = curvedLawOnce(grid, section, first, limits, rows, fewer);
   for (fewer.intervals = std::min(effort.intervals, kMostPlaces); fewer.intervals > kSafePlaces; fewer.intervals /= 2) {
     TimeScaling scaling = curvedLawOnce(grid, section, first, limits, rows, fewer);
@@ -277,7 +279,8 @@ TimeScaling curvedLaw(const ScalingGrid& grid, const Section& section, const Tim
 }  // namespace
 
 JerkLimitedScaling jerkLimitedScaling(const ScalingGrid& grid, const SquaredSpeeds& first, double start_acceleration,
-                    const MotionLimits& limits, const ConstraintSource& rows, const ScalingBudget& effort) {
+                                      const MotionLimits& limits, const ConstraintSource& rows,
+                                      const ScalingBudget& effort) {
   JerkLimitedScaling smooth;
   const TimeScaling fast = scalingOf(grid, limits, first, effort);
   for (const Section& section : sectionsOf(grid, first, start_acceleration)) {

@@ -27,6 +27,7 @@ struct JerkLimitedScaling {
 /// Source: Verscheure, Demeulenaere, Swevers, De Schutter, Diehl, Time-optimal path tracking for robots: a convex
 /// optimization approach, 2009; Lipp, Boyd, Variations and extension of the convex-concave procedure, 2016.
 JerkLimitedScaling jerkLimitedScaling(const ScalingGrid& grid, const SquaredSpeeds& first, double start_acceleration,
-                    const MotionLimits& limits, const ConstraintSource& rows, const ScalingBudget& effort);
+                                      const MotionLimits& limits, const ConstraintSource& rows,
+                                      const ScalingBudget& effort);
 
 }  // namespace kinegraph

@@ -10,7 +10,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double kFirstSlack = 1e-3;  // of a limit, at least
-constexpr double kStartRoom = .7;    // of each limit, that the start may use
+constexpr double kStartRoom = .7;     // of each limit, that the start may use
 constexpr double kToBoundary = .95;   // of the way to where a slack ends
 constexpr int kBlocksAtOnce = 64;     // until somebody may end it
 constexpr double kFixed = 1e30;       // on the diagonal of what is given
@@ -35,7 +35,7 @@ double JerkLimitedProgram::duration() const {
 void JerkLimitedProgram::parallelFor(const std::function<void(const JerkLimitedKernel::Block*, int)>& visit) const {
   const int count = int(blocks_.size());
   for (int n = 0; n < count; n += kBlocksAtOnce) {
-    if (effort_.between) effort_.between();
+    effort_.cancellation.check();
     visit(blocks_.data() + n, std::min(kBlocksAtOnce, count - n));
   }
 }

@@ -13,8 +13,9 @@ constexpr double kGivenSpan = 1e6;  // stands for an open side of a row, in unit
 
 }  // namespace
 
-JerkLimitedProgram::JerkLimitedProgram(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& rows, SectionEnd begin,
-                             SectionEnd end, const ScalingBudget& effort)
+JerkLimitedProgram::JerkLimitedProgram(const ScalingGrid& grid, const MotionLimits& limits,
+                                       const ConstraintSource& rows, SectionEnd begin, SectionEnd end,
+                                       const ScalingBudget& effort)
     : first_(begin.at_rest ? 1 : 0),
       count_(grid.intervals() - int(begin.at_rest) - int(end.at_rest)),
       ends_{begin, end},

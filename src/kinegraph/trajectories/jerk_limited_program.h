@@ -4,8 +4,8 @@
 #include <functional>
 #include <vector>
 
-#include "kinegraph/trajectories/scaling_grid.h"
 #include "kinegraph/trajectories/jerk_limited_kernel.h"
+#include "kinegraph/trajectories/scaling_grid.h"
 
 namespace kinegraph {
 
@@ -29,8 +29,8 @@ using Quadratic = std::array<double, 3>;
 class JerkLimitedProgram {
  public:
   /// `effort` must stay.
-  JerkLimitedProgram(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& rows, SectionEnd begin,
-                SectionEnd end, const ScalingBudget& effort);
+  JerkLimitedProgram(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& rows,
+                     SectionEnd begin, SectionEnd end, const ScalingBudget& effort);
 
   /// Takes the shape `start` of b, in the middle of each interval of the grid, as where `improve` begins; `gap` is how far
   /// it is thought to be from the least duration, as a share.
@@ -101,9 +101,9 @@ class JerkLimitedProgram {
   std::vector<Kind> kinds_;  ///< of the rows of a block: velocity, acceleration, given; jerk where intervals begin, end
   int jerks_ = 0;            ///< dofs whose jerk is limited
   std::vector<Rows> rows_;
-  std::vector<JerkLimitedKernel::Block> blocks_;     ///< the last one has what holds at the end
-  Array slope_[3], by_barrier_[3], matrix_[6];  ///< on the coefficients of each interval, see JerkLimitedKernel::Sums
-  std::vector<std::array<double, 3>> band_;     ///< diagonal, and one and two below it
+  std::vector<JerkLimitedKernel::Block> blocks_;  ///< the last one has what holds at the end
+  Array slope_[3], by_barrier_[3], matrix_[6];    ///< on the coefficients of each interval, see JerkLimitedKernel::Sums
+  std::vector<std::array<double, 3>> band_;       ///< diagonal, and one and two below it
   std::vector<double> gradient_;
   double barrier_ = 0.;
   Gap gap_;

@@ -207,7 +207,8 @@ VectorXd excessOf(const TimeScaling& scaling, const ConstraintSource& rows, cons
   for (std::size_t i = 0; i < scaling.phases().size(); ++i) {
     effort.pause(int(i));
     const ScalingPhase& phase = scaling.phases()[i];
-    const double time = (i + 1 < scaling.phases().size() ? scaling.phases()[i + 1].time : scaling.duration()) - phase.time;
+    const double time =
+        (i + 1 < scaling.phases().size() ? scaling.phases()[i + 1].time : scaling.duration()) - phase.time;
     for (int k = 0; k <= kParts; ++k) {
       const ScalingState state = phase.at(time * k / kParts);
       const ScalingConstraints at = rows.at(state.s, phase.piece);
@@ -228,8 +229,8 @@ struct EndSpeeds {
   double start, end, start_acceleration;
 };
 
-Timing timingOf(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& rows, const EndSpeeds& ends,
-                const ScalingBudget& effort) {
+Timing timingOf(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& rows,
+                const EndSpeeds& ends, const ScalingBudget& effort) {
   Timing timing;
   SquaredSpeeds& speeds = timing.speeds = fastestSpeeds(grid, limits, rows, ends.start, ends.end, effort);
   if (speeds.failure != ScalingFailure::none) return timing;
@@ -244,8 +245,8 @@ Timing timingOf(const ScalingGrid& grid, const MotionLimits& limits, const Const
 }
 
 /// The same with rows, whose limits are narrowed by what they exceed between the places.
-Timing timingWithRows(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& given, const EndSpeeds& ends,
-                      const ScalingBudget& effort) {
+Timing timingWithRows(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& given,
+                      const EndSpeeds& ends, const ScalingBudget& effort) {
   ConstraintSource rows = given;
   Timing timing = timingOf(grid, limits, rows, ends, effort);
   for (int round = 0; round < kNarrowings && timing.speeds.failure == ScalingFailure::none; ++round) {
@@ -280,7 +281,7 @@ TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimit
     timed.times = VectorXd::Zero(path.rows());
     return timed;
   }
-  ScalingBudget effort{options.intervals, options.between};
+  ScalingBudget effort{options.intervals, options.cancellation};
   Timing timing;
   for (int trial = 0; trial == 0 || (mayDoWithMore(timing) && trial < kMostTrials); ++trial) {
     if (trial > 0) effort.intervals = std::max(effort.intervals, std::min(2 * effort.intervals, kMostIntervals));
@@ -301,7 +302,8 @@ TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimit
   return timed;
 }
 
-void motionAt(const PathCurve& curve, const TimeScaling& scaling, double t, double* q, double* velocity, double* acceleration) {
+void motionAt(const PathCurve& curve, const TimeScaling& scaling, double t, double* q, double* velocity,
+              double* acceleration) {
   const double held = std::clamp(t, 0., scaling.duration());
   const ScalingPhase& phase = scaling.phaseAt(held);
   const ScalingState state = phase.at(held - phase.time);

@@ -2,9 +2,11 @@
 
 #include <string>
 
-#include "kinegraph/trajectories/scaling_grid.h"
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/trajectories/path_curve.h"
+#include "kinegraph/trajectories/scaling_grid.h"
 #include "kinegraph/trajectories/time_scaling.h"
+#include "kinegraph/trajectories/trajectory.h"
 
 namespace kinegraph {
 
@@ -25,8 +27,8 @@ struct RetimeOptions {
   VectorXd start_velocity, end_velocity;  ///< (n,), rad/s or m/s, along the path; empty: at rest
   VectorXd start_acceleration;            ///< (n,), with limits of the jerk; empty: that of a constant speed
   int intervals = 100;                    ///< of the law, on what is curved
-  ConstraintSource rows;                         ///< further limits, such as torques; they hold at the ends of the intervals
-  std::function<void()> between;          ///< called now and then, and may throw to end it
+  ConstraintSource rows;                  ///< further limits, such as torques; they hold at the ends of the intervals
+  CancellationToken cancellation;         ///< called now and then, and may throw to end it
 
   void validate() const;  ///< throws ValueError
 };
@@ -43,13 +45,9 @@ PathCurve curveOf(const MatrixXd& path, const MotionLimits& limits, const Retime
 
 std::string retimeStatusName(RetimeStatus status);
 
-/// Where a motion is, and how it moves: (n,) each; rad or m, and s.
-struct MotionState {
-  VectorXd q, velocity, acceleration;
-};
-
 /// The motion of a law along a curve at t s, held within 0 and the law's duration, which has phases; (n,) numbers each.
-void motionAt(const PathCurve& curve, const TimeScaling& scaling, double t, double* q, double* velocity, double* acceleration);
+void motionAt(const PathCurve& curve, const TimeScaling& scaling, double t, double* q, double* velocity,
+              double* acceleration);
 MotionState motionAt(const PathCurve& curve, const TimeScaling& scaling, double t);
 
 /// A path and when a motion is where on it.

@@ -53,8 +53,8 @@ struct PhaseAppender {
 
 }  // namespace
 
-bool addDoubleS(TimeScaling& scaling, double s0, double s1, double speed0, double speed1, const LineMotionLimits& limits,
-                int piece) {
+bool addDoubleS(TimeScaling& scaling, double s0, double s1, double speed0, double speed1,
+                const LineMotionLimits& limits, int piece) {
   const double way = s1 - s0;
   const auto needed = [&](double top) { return wayOf(speed0, top, limits) + wayOf(top, speed1, limits); };
   double low = std::max(speed0, speed1), high = limits.speed;

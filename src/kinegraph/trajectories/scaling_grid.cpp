@@ -44,7 +44,8 @@ double weightOf(const PathCurve& curve, const MotionLimits& limits, int piece, V
 
 }  // namespace
 
-ScalingGrid::ScalingGrid(const PathCurve& curve, const MotionLimits& limits, const ScalingBudget& effort, bool divide_lines)
+ScalingGrid::ScalingGrid(const PathCurve& curve, const MotionLimits& limits, const ScalingBudget& effort,
+                         bool divide_lines)
     : curve_(&curve), whole_lines_(!divide_lines) {
   std::vector<double> weight(std::size_t(curve.pieces()), 0.);
   VectorXd derivative(curve.dofs());

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/trajectories/path_curve.h"
 
 namespace kinegraph {
@@ -36,11 +37,11 @@ struct ConstraintSource {
 /// How finely a law is computed, and what is called now and then meanwhile, if anything is; it may throw to end it.
 struct ScalingBudget {
   int intervals = 100;
-  std::function<void()> between;
+  CancellationToken cancellation;
 
   /// Asked at the i-th step of what takes many.
   void pause(int i) const {
-    if (i % 64 == 0 && between) between();
+    if (i % 64 == 0 && cancellation) cancellation.check();
   }
 };
 

@@ -107,7 +107,7 @@ ScalingProof::ScalingProof(const ScalingGrid& grid, const MotionLimits& limits) 
 }
 
 double ScalingProof::velocityShare(const Tangent& tangent, const std::array<double, 3>& b, double most_speed,
-                               const Inverse& inverse) const {
+                                   const Inverse& inverse) const {
   auto q1 = tangentOf(tangent, grid_.degree());
   for (int k = 0; k <= q1.degree; ++k) q1.c[k] *= inverse.velocity;
   return shareOf(q1, speedOf(b), most_speed);
@@ -115,7 +115,7 @@ double ScalingProof::velocityShare(const Tangent& tangent, const std::array<doub
 
 /// q' b'/2 + q'' b, with both derivatives by the way as a share of the interval.
 double ScalingProof::accelerationShare(const Tangent& tangent, const std::array<double, 3>& b,
-                                   const Inverse& inverse) const {
+                                       const Inverse& inverse) const {
   const auto q1 = tangentOf(tangent, grid_.degree());
   const Speed speed = speedOf(b);
   auto acceleration = q1 * speed.derivative();
@@ -127,7 +127,7 @@ double ScalingProof::accelerationShare(const Tangent& tangent, const std::array<
 
 /// q''' b + 3/2 q'' b' + 1/2 q' b'', likewise, times the root of b.
 double ScalingProof::jerkShare(const Tangent& tangent, const std::array<double, 3>& b, double most_speed,
-                           const Inverse& inverse) const {
+                               const Inverse& inverse) const {
   const auto q1 = tangentOf(tangent, grid_.degree());
   const Speed speed = speedOf(b), slope = speed.derivative();
   auto jerk = q1;

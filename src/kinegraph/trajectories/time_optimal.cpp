@@ -232,7 +232,8 @@ int IntervalRows::worstAtRest(int interval) const {
 /// Both passes, and where they fail.
 class TwoPasses {
  public:
-  TwoPasses(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& source, const ScalingBudget& effort)
+  TwoPasses(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& source,
+            const ScalingBudget& effort)
       : grid_(grid),
         limits_(limits),
         effort_(effort),
@@ -318,7 +319,8 @@ SquaredSpeeds fastestSpeeds(const ScalingGrid& grid, const MotionLimits& limits,
   return TwoPasses(grid, limits, source, effort).run(start_speed * start_speed, end_speed * end_speed);
 }
 
-TimeScaling scalingOf(const ScalingGrid& grid, const MotionLimits& limits, const SquaredSpeeds& speeds, const ScalingBudget& effort) {
+TimeScaling scalingOf(const ScalingGrid& grid, const MotionLimits& limits, const SquaredSpeeds& speeds,
+                      const ScalingBudget& effort) {
   TimeScaling scaling;
   for (int i = 0; i < grid.intervals(); ++i) {
     effort.pause(i);

@@ -28,10 +28,11 @@ struct SquaredSpeeds {
 /// in the plane for each interval; forwards, the largest b that it leaves. b is quadratic in an interval, so that s'' may
 /// follow the limits there; every acceleration is a polynomial, and keeps what its Bernstein coefficients keep. Rows of
 /// the caller hold at both ends of each interval. Where all is linear (lines), the answer is exact.
-SquaredSpeeds fastestSpeeds(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& rows, double start_speed,
-                            double end_speed, const ScalingBudget& effort);
+SquaredSpeeds fastestSpeeds(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& rows,
+                            double start_speed, double end_speed, const ScalingBudget& effort);
 
 /// The law of these speeds. On lines it accelerates, cruises and brakes within the interval.
-TimeScaling scalingOf(const ScalingGrid& grid, const MotionLimits& limits, const SquaredSpeeds& speeds, const ScalingBudget& effort);
+TimeScaling scalingOf(const ScalingGrid& grid, const MotionLimits& limits, const SquaredSpeeds& speeds,
+                      const ScalingBudget& effort);
 
 }  // namespace kinegraph

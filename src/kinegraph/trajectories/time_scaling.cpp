@@ -26,8 +26,8 @@ double ScalingPhase::squaredSpeed(double s) const {
 }
 
 const ScalingPhase& TimeScaling::phaseAt(double t) const {
-  const auto after =
-      std::upper_bound(phases_.begin(), phases_.end(), t, [](double time, const ScalingPhase& p) { return time < p.time; });
+  const auto after = std::upper_bound(phases_.begin(), phases_.end(), t,
+                                      [](double time, const ScalingPhase& p) { return time < p.time; });
   return *(after == phases_.begin() ? after : after - 1);
 }
 
@@ -61,7 +61,8 @@ double polishedTime(const ScalingPhase& phase, const ScalingState& end) {
 }  // namespace
 
 std::vector<ScalingPhase>::const_iterator TimeScaling::phaseTo(double s) const {
-  return std::lower_bound(phases_.begin(), phases_.end(), s, [](const ScalingPhase& p, double at) { return p.end < at; });
+  return std::lower_bound(phases_.begin(), phases_.end(), s,
+                          [](const ScalingPhase& p, double at) { return p.end < at; });
 }
 
 double TimeScaling::squaredSpeedAt(double s) const {

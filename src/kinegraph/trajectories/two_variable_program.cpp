@@ -105,7 +105,7 @@ TwoVariableProgram::Answer TwoVariableProgram::farthest(double dx, double dy, co
 }
 
 double TwoVariableProgram::signedValue(int inequality, const Eigen::ArrayXd& of_rows,
-                                 const std::vector<double>& of_others) const {
+                                       const std::vector<double>& of_others) const {
   const int row = inequality / 2, rows = int(u.size());
   const double sign = inequality % 2 == 0 ? 1. : -1.;
   if (row < rows) return sign * of_rows[row];

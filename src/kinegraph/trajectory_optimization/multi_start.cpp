@@ -7,7 +7,7 @@
 
 namespace kinegraph {
 
-std::vector<VectorXd> sampleStarts(Komo& komo, int count, std::uint64_t seed, const std::function<void()>& between) {
+std::vector<VectorXd> sampleStarts(Komo& komo, int count, std::uint64_t seed, const CancellationToken& cancellation) {
   if (count < 1) throw ValueError(cat("solveFromMany: the number of starts is ", count, "; expected at least 1"));
   Rng rng(seed);
   std::vector<VectorXd> starts = {komo.path().variables()};
@@ -17,7 +17,7 @@ std::vector<VectorXd> sampleStarts(Komo& komo, int count, std::uint64_t seed, co
     ~Restore() { komo.path().setVariables(x); }
   } restore{komo, starts[0]};
   while (int(starts.size()) < count) {
-    if (between) between();
+    cancellation.check();
     komo.setRandomPath(rng);
     starts.push_back(komo.path().variables());
   }

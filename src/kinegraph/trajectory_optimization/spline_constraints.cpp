@@ -26,8 +26,8 @@ std::vector<std::pair<int, int>> segmentsOf(std::vector<int> columns) {
 
 }  // namespace
 
-SplineConstraints::SplineConstraints(const Path& path, std::shared_ptr<const SplineLayout> layout, std::vector<Objective> objectives,
-                       bool is_separate)
+SplineConstraints::SplineConstraints(const Path& path, std::shared_ptr<const SplineLayout> layout,
+                                     std::vector<Objective> objectives, bool is_separate)
     : layout_(std::move(layout)),
       objectives_(std::move(objectives)),
       is_separate_(is_separate),
@@ -40,7 +40,8 @@ SplineConstraints::SplineConstraints(const Path& path, std::shared_ptr<const Spl
   layOut(path);
 }
 
-SplineConstraints::SplineConstraints(const Path& path, const SplineConstraints& other, std::vector<Objective> objectives, bool is_separate)
+SplineConstraints::SplineConstraints(const Path& path, const SplineConstraints& other,
+                                     std::vector<Objective> objectives, bool is_separate)
     : layout_(other.layout_),
       objectives_(std::move(objectives)),
       is_separate_(is_separate),
@@ -127,7 +128,8 @@ void SplineConstraints::addTo(Jacobian& J) const {
   }
 }
 
-void SplineConstraints::place(const Path& path, const Term& term, double share, const VectorXd& weights, VectorXd& q) const {
+void SplineConstraints::place(const Path& path, const Term& term, double share, const VectorXd& weights,
+                              VectorXd& q) const {
   const VectorXd &from = path.state(term.slice - 1).q(), &to = path.state(term.slice).q();
   const Motion& motion = (*motions_)[std::size_t(term.slice)];
   for (const OtherDof& other : motion.others) {
@@ -140,7 +142,7 @@ void SplineConstraints::place(const Path& path, const Term& term, double share, 
 
 /// Adds a gradient by q, times a factor, to the row by c.
 void SplineConstraints::spread(const Motion& motion, double share, const VectorXd& weights, double factor,
-                        const SampledPairs::Gradient& gradient) {
+                               const SampledPairs::Gradient& gradient) {
   for (std::size_t d = 0; d < motion.splined.size(); ++d) {
     const double value = factor * gradient(0, motion.splined[d]);
     if (value == 0.) continue;
@@ -172,7 +174,7 @@ void SplineConstraints::evaluate(const Path& path, const VectorXd& c, int first_
 }
 
 void SplineConstraints::evaluateTerm(int number, const Path& path, const VectorXd& c, int first_row, VectorXd& phi,
-                              Jacobian* J) {
+                                     Jacobian* J) {
   const Term& term = terms_[std::size_t(number)];
   const Objective& objective = objectives_[std::size_t(term.objective)];
   const Motion& motion = (*motions_)[std::size_t(term.slice)];
@@ -191,7 +193,8 @@ void SplineConstraints::evaluateTerm(int number, const Path& path, const VectorX
   points_ = layout_->pointsOf(c);
   const std::vector<CollisionSample>& all = objective.samples[std::size_t(term.slice - objective.from)];
   const auto weightsOf = [&](double share) -> const VectorXd& {
-    const auto at = std::ranges::find_if(all, [&](const CollisionSample& i) { return !i.isEmpty() && i.share == share; });
+    const auto at =
+        std::ranges::find_if(all, [&](const CollisionSample& i) { return !i.isEmpty() && i.share == share; });
     return samples.weights[std::size_t(at - all.begin())];
   };
   const auto place_at = [&](double share, VectorXd& q) { place(path, term, share, weightsOf(share), q); };

@@ -22,9 +22,10 @@ class SplineConstraints {
   };
 
   SplineConstraints(const Path& path, std::shared_ptr<const SplineLayout> layout, std::vector<Objective> objectives,
-             bool is_separate);
+                    bool is_separate);
   /// Of the same path and layout, with other objectives or in the other form.
-  SplineConstraints(const Path& path, const SplineConstraints& other, std::vector<Objective> objectives, bool is_separate);
+  SplineConstraints(const Path& path, const SplineConstraints& other, std::vector<Objective> objectives,
+                    bool is_separate);
 
   int rows() const { return rows_; }
   const std::vector<Objective>& objectives() const { return objectives_; }
@@ -73,7 +74,7 @@ class SplineConstraints {
   double tau_;
   int rows_ = 0;
   std::vector<Term> terms_;
-  std::vector<Instants> samples_;                      ///< per term
+  std::vector<Instants> samples_;                       ///< per term
   std::shared_ptr<const std::vector<Motion>> motions_;  ///< per slice
   MatrixXd points_;                                     ///< of c
   VectorXd row_;                                        ///< of the Jacobian

@@ -78,7 +78,7 @@ std::vector<PathContact> SplineMotions::contacts(const SliceMotion& motion, doub
 }
 
 void SplineMotions::addContacts(const SliceMotion& motion, Part part, double margin,
-                                      std::vector<PathContact>& contacts) {
+                                std::vector<PathContact>& contacts) {
   const auto [begin, end] = part;
   SliceMotion line = curve_.line(motion.slice, begin, end);
   line.of_all = motion.of_all, line.pairs = motion.pairs;

@@ -25,12 +25,13 @@ std::shared_ptr<MappedNlp> inControlPoints(const std::shared_ptr<Komo>& komo, co
   return std::make_shared<MappedNlp>(makeNlp(komo, objectivesOf(*komo, false)), layout.map, layout.lower, layout.upper);
 }
 
-ValidityReport judge(SplineCurve& curve, const std::vector<SliceMotion>& motions, const std::function<void()>& between) {
+ValidityReport judge(SplineCurve& curve, const std::vector<SliceMotion>& motions,
+                     const CancellationToken& cancellation) {
   MotionProbe probe(kFreeTolerance);
   SplineMotions spline(curve, probe);
   std::vector<PathContact> contacts;
   for (const SliceMotion& motion : motions) {
-    if (between) between();
+    cancellation.check();
     std::ranges::copy(spline.contacts(motion, 0.), std::back_inserter(contacts));
   }
   if (contacts.empty()) return {};
@@ -111,8 +112,8 @@ std::shared_ptr<const LazyValidity> SplineNlp::motionValidity(const VectorXd& c)
   std::vector<SliceMotion> motions = constrainedMotions(komo_->path(), objectives);
   if (motions.empty()) return nullptr;
   return std::make_shared<LazyValidity>(
-      [motions = std::move(motions), curve = curve_](const std::function<void()>& between) mutable {
-        return judge(curve, motions, between);
+      [motions = std::move(motions), curve = curve_](const CancellationToken& cancellation) mutable {
+        return judge(curve, motions, cancellation);
       });
 }
 
@@ -152,7 +153,8 @@ Refinement SplineNlp::refine(const VectorXd& c, VectorXd& dual) {
 }
 
 /// Multipliers of rows of which there were fewer before.
-VectorXd SplineNlp::carriedOver(const VectorXd& dual, const SplineConstraints& before, const SplineConstraints& now) const {
+VectorXd SplineNlp::carriedOver(const VectorXd& dual, const SplineConstraints& before,
+                                const SplineConstraints& now) const {
   const int first = rowsOfSlices();
   VectorXd carried = VectorXd::Zero(first + now.rows());
   carried.head(first) = dual.head(first);

@@ -5,11 +5,11 @@
 
 #include "kinegraph/komo/continuous_collisions.h"
 #include "kinegraph/komo/komo.h"
-#include "kinegraph/nlp/mapped_nlp.h"
 #include "kinegraph/nlp/initial_guesses.h"
 #include "kinegraph/nlp/lazy_constraints.h"
-#include "kinegraph/trajectory_optimization/spline_curve.h"
+#include "kinegraph/nlp/mapped_nlp.h"
 #include "kinegraph/trajectory_optimization/spline_constraints.h"
+#include "kinegraph/trajectory_optimization/spline_curve.h"
 
 namespace kinegraph {
 
@@ -62,8 +62,8 @@ class SplineNlp final : public Nlp, public InitialGuesses, public LazyConstraint
   SplineCurve curve_;
   MotionProbe probe_{kFreeTolerance};
   std::vector<std::vector<CheckedMotion>> looked_at_;  ///< per objective, per motion
-  VectorXd free_at_;                              ///< where a solver found nothing to take up
-  VectorXd phi_;                                  ///< of the slices
+  VectorXd free_at_;                                   ///< where a solver found nothing to take up
+  VectorXd phi_;                                       ///< of the slices
   Separation separation_;
   bool separation_is_known_ = false;
 };

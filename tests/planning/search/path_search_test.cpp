@@ -59,7 +59,7 @@ TEST(SearchPath, TheWatchEndsTheSearch) {
   Asked asked{room(.3)};
   PathQuery request = asked.request(2);
   int asked_for = 0;
-  request.watch = [&] { return ++asked_for > 20; };
+  request.cancellation = [&] { return ++asked_for > 20; };
   const Way way = searchPath(request);
   EXPECT_TRUE(way.points.empty());
   EXPECT_TRUE(way.was_stopped);

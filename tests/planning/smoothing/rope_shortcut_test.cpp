@@ -20,7 +20,8 @@ TEST(TightenPath, LiesAroundCornersAsAStringDoes) {
     const Way way = searchPath(request);
     ASSERT_FALSE(way.points.empty());
     Steering steering(request.constraints);
-    const std::vector<VectorXd> rough = shorten(steering, way.points, {.cuts = 10}), tightened = tightenPath(steering, rough);
+    const std::vector<VectorXd> rough = shorten(steering, way.points, {.cuts = 10}),
+                                tightened = tightenPath(steering, rough);
     EXPECT_EQ(tightened.front(), way.points.front());
     EXPECT_EQ(tightened.back(), way.points.back());
     EXPECT_GE(leastDistance(asked.C, tightened), 0.);
@@ -67,7 +68,9 @@ TEST(TightenPath, FinerCornersAreShorter) {
   Steering steering(request.constraints);
   const std::vector<VectorXd> coarse = tightenPath(steering, way.points, {.refinements = 0}),
                               fine = tightenPath(steering, way.points, {.refinements = 2});
-  const auto excess = [&](const std::vector<VectorXd>& path) { return lengthOf(asked.space, path) - tightenedLength(); };
+  const auto excess = [&](const std::vector<VectorXd>& path) {
+    return lengthOf(asked.space, path) - tightenedLength();
+  };
   EXPECT_GT(excess(fine), 0.);
   EXPECT_LT(excess(fine), .5 * excess(coarse)) << "sides of half the length leave a quarter of it";
   EXPECT_LT(coarse.size(), fine.size());

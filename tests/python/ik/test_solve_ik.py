@@ -108,7 +108,7 @@ def test_a_dict_asks_for_a_position_and_directions_of_axes(panda):
 
 def test_a_target_out_of_reach_is_explained(panda):
     result = ry.solveIk(panda, {"l_gripper": [3.0, 0.0, 0.7]})
-    assert not result and not result.feasible and result.status == ry.IkStatus.unreached
+    assert not result and not result.feasible and result.status == ry.IkStatus.goal_unreachable
     assert "frame 'l_gripper' misses its position by" in result.message and result.message in repr(result)
     assert result.attempts == 100 and 1.0 < result.position_error < 3.0
 

@@ -26,7 +26,7 @@ FOUND = {
     "08_solve_ik": [
         r"<IkResult solved in 1 attempt",
         r"moved by 0\.1 m",
-        r"False IkStatus\.unreached",
+        r"False IkStatus\.goal_unreachable",
         r"7\d\d of 1000 reached",
     ],
     "09_own_features": [r"gripper at height 1\.1000 m, 0\.1500 m from the post", r"the straight way there is free"],
@@ -45,7 +45,7 @@ FOUND = {
     "11_plan_motions": [
         r"^solved: \d+ postures, length 1\.[23]\d+",
         r"clearance: 10(?:\.\d)? mm",
-        r"impossible: there is no way: a ball of 150 mm inside of 'body' does not get past 'left', 'right'",
+        r"infeasible: there is no way: a ball of 150 mm inside of 'body' does not get past 'left', 'right'",
     ],
     "17_pick_and_place": [r"-- feasible: pick and place", r"-- feasible: sub_motion 1"],
     "18_plan_a_task": [

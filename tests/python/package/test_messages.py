@@ -78,7 +78,7 @@ def test_results_of_solvers_and_of_inverse_kinematics_speak_python() -> None:
         assert isinstance(state[at], str)
         state[at] = text
         if isinstance(result, ry.IkResult):
-            state[1] = int(ry.IkStatus.unreached.value)
+            state[1] = int(ry.IkStatus.goal_unreachable.value)
         result = type(result).__new__(type(result))
         result.__setstate__(tuple(state))
         assert result.message == ours

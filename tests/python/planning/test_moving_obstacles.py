@@ -113,8 +113,10 @@ def test_tracks_that_make_no_sense_are_refused(cart: ry.Config) -> None:
     ]:
         with pytest.raises(ry.ArgumentError, match=said):
             ry.planMotion(cart, q, obstacle_trajectories=moving)
-    with pytest.raises(ry.ArgumentError, match="no option 'movng'; similar names: moving"):
-        ry.planMotion(cart, q, movng={})
+    with pytest.raises(
+        ry.ArgumentError, match="no option 'obstacle_trajectores'; similar names: obstacle_trajectories"
+    ):
+        ry.planMotion(cart, q, obstacle_trajectores={})
     with pytest.raises(ry.FrameNotFound):
         ry.planMotion(cart, q, obstacle_trajectories={"crt": ([0.0], POSES[:1])})
 
@@ -199,7 +201,7 @@ def test_a_running_bot_takes_a_new_plan_without_a_stop(cart: ry.Config) -> None:
 def test_plans_get_better_while_one_waits(cart: ry.Config) -> None:
     start, goal = ends(cart)
     cart.getFrame("cart").setPose([0, 0.35, 1.1, 1, 0, 0, 0])
-    options = {"margin": 0.01, "optimize": "length", "tries": 1, "improve": 20000}
+    options = {"margin": 0.01, "optimize": "length", "restarts": 1, "improvement_evaluations": 20000}
     plans = list(ry.planMotions(cart, goal, start, **options))
     lengths = [plan.length for plan in plans]
     assert lengths == sorted(lengths, reverse=True) and len(set(lengths)) == len(lengths)

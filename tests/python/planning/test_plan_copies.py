@@ -50,7 +50,9 @@ def test_a_copy_goes_on_as_the_plan_does(column: ry.Config) -> None:
     }
     z = column.eval(ry.FS.vectorZ, ["l_gripper"])[0]
     tilt = ry.MotionConstraint(ry.FS.vectorZ, ["l_gripper"], scale=[[0, 0, 1.0]], target=z)
-    plan = ry.planMotion(column, q + TURN, q - TURN, margin=0.01, obstacle_trajectories=moving, jerk=60, constraints=[tilt])
+    plan = ry.planMotion(
+        column, q + TURN, q - TURN, margin=0.01, obstacle_trajectories=moving, jerk=60, constraints=[tilt]
+    )
     again = pickle.loads(pickle.dumps(plan))
     assert plan.feasible and again.notes == plan.warnings
     np.testing.assert_array_equal(again.obstaclesAt(1.3)["cart"], plan.obstaclesAt(1.3)["cart"])

@@ -203,7 +203,7 @@ box(cart): {shape: box, size: [0.2, 0.2, 0.2], Q: [0, 0, 0.0998], contact: 1}
     [
         ([0.0, 1.0, 1.57], "invalid_goal", "the goal collides: 'left' and 'body' overlap by"),
         ([5.0, 1.0, 1.57], "invalid_goal", "the goal is out of limits: base:0 is at 5, 3 beyond"),
-        ({"body": [9.0, 0.0, 0.0]}, "unreached", "the goal is out of reach: .*body"),
+        ({"body": [9.0, 0.0, 0.0]}, "goal_unreachable", "the goal is out of reach: .*body"),
     ],
 )
 def test_a_goal_that_cannot_be_is_told(goal: object, status: str, words: str) -> None:
@@ -221,7 +221,7 @@ def test_a_start_that_collides_is_told() -> None:
 
 def test_where_no_way_is_found_the_message_says_what_is_in_the_way() -> None:
     plan = ry.planMotion(room(0.31), GOAL, max_evaluations=3000)
-    assert plan.status in (ry.PlanStatus.no_path_found, ry.PlanStatus.impossible)
+    assert plan.status in (ry.PlanStatus.no_path_found, ry.PlanStatus.infeasible)
     assert "most motions ended at 'left'" in plan.message or "most motions ended at 'right'" in plan.message
     assert len(plan.trees) == 2 and plan.trees[0][0].shape[1] == 3
 

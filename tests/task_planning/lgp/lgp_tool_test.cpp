@@ -164,7 +164,7 @@ TEST(LgpTool, BetweenMayEndIt) {
   for (const int threads : {1, 2}) {
     LgpOptions options;
     options.threads = threads;
-    options.between = [] { throw std::runtime_error("enough"); };
+    options.cancellation = [] { throw std::runtime_error("enough"); };
     LgpTool lgp(problem.C, problem.tamp, options);
     expectError<std::runtime_error>([&] { lgp.solve(0); }, {"enough"});
   }

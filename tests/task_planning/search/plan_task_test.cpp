@@ -255,7 +255,7 @@ TEST(PlanTask, MistakesAreToldBeforeAnythingIsSearched) {
 
 TEST(PlanTask, BetweenMayEndIt) {
   TaskOptions options;
-  options.between = [] { throw std::runtime_error("pressed"); };
+  options.cancellation = [] { throw std::runtime_error("pressed"); };
   EXPECT_THROW(planTask(cubesOnATable(3), "(on b0 b1) (on b1 b2)", options), std::runtime_error);
 }
 

@@ -4,8 +4,8 @@
 
 namespace kinegraph {
 
-SampledCollisions::SampledCollisions(Form form, double most, std::vector<CollisionSample> samples, std::vector<int> same_dofs,
-                         const State& begin)
+SampledCollisions::SampledCollisions(Form form, double most, std::vector<CollisionSample> samples,
+                                     std::vector<int> same_dofs, const State& begin)
     : form_(form), most_(most), samples_(int(samples.size())), same_dofs_(std::move(same_dofs)) {
   if (!std::ranges::all_of(samples, &CollisionSample::isEmpty))
     pairs_ = std::make_unique<SampledPairs>(std::move(samples), most, begin);
@@ -34,7 +34,8 @@ void SampledCollisions::spread(double s, int row, const SampledPairs::Gradient& 
   }
 }
 
-void SampledCollisions::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
+void SampledCollisions::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y,
+                             JacobianRows* J) const {
   const bool is_sum = form_ == Form::sum;
   y.setConstant(is_sum ? 0. : -most_);
   if (!pairs_) return;

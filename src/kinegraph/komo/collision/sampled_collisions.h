@@ -19,7 +19,7 @@ class SampledCollisions final : public Feature {
   /// `most` in m. `same_dofs`: per dof of the first configuration that of the second, or -1 for those that keep their
   /// value. `begin` is any State of the first one.
   SampledCollisions(Form form, double most, std::vector<CollisionSample> samples, std::vector<int> same_dofs,
-              const State& begin);
+                    const State& begin);
 
   int rows() const override { return form_ == Form::sum ? 1 : samples_; }
   int order() const override { return 1; }

@@ -24,8 +24,7 @@ SampledPairs::SampledPairs(std::vector<CollisionSample> samples, double most, co
 
 bool SampledPairs::isNear(const CollisionSample& sample, bool with_gradient, double& distance) {
   const auto& [share, a, b] = sample;
-  const CollisionBody &body_a = *state_.model().body[std::size_t(a)],
-                      &body_b = *state_.model().body[std::size_t(b)];
+  const CollisionBody &body_a = *state_.model().body[std::size_t(a)], &body_b = *state_.model().body[std::size_t(b)];
   const RigidTransform X_WA = state_.pose(a), X_WB = state_.pose(b);
   if (areFar(body_a, X_WA, body_b, X_WB, most_)) return false;
   const Proximity near = proximity(body_a, X_WA, body_b, X_WB);

@@ -131,7 +131,7 @@ class TwoTrees {
 }  // namespace
 
 std::vector<VectorXd> treePath(EdgeChecker& checker, const TreeBounds& room, const VectorXd& from, const VectorXd& to,
-                              Rng& rng, int growths) {
+                               Rng& rng, int growths) {
   VectorXd rest = to - from;
   rest(room.dofs).setZero();
   if (!rest.isZero(0.) || !checker.isFree(from.data()) || !checker.isFree(to.data())) return {};

@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "kinegraph/common/random.h"
 #include "kinegraph/collision/edge_check.h"
+#include "kinegraph/common/random.h"
 
 namespace kinegraph {
 
@@ -18,6 +18,6 @@ struct TreeBounds {
 /// if they do not meet, or if `from` and `to` differ in a dof that may not move.
 /// Source: Kuffner, LaValle, RRT-Connect, 2000.
 std::vector<VectorXd> treePath(EdgeChecker& checker, const TreeBounds& room, const VectorXd& from, const VectorXd& to,
-                              Rng& rng, int growths);
+                               Rng& rng, int growths);
 
 }  // namespace kinegraph

@@ -232,8 +232,7 @@ void Path::addFrame(const std::string& name, const std::string& parent, JointTyp
 
 void Path::updateRootObjects(const Config& config) {
   const auto model = config.model();
-  if (model != given_.model &&
-      (model->frame_name != given_.model->frame_name || model->dofs != given_.model->dofs)) {
+  if (model != given_.model && (model->frame_name != given_.model->frame_name || model->dofs != given_.model->dofs)) {
     throw ValueError(
         "KOMO: updateRootObjects needs the configuration that the KOMO was made from, with the same frames, joints and "
         "shapes");

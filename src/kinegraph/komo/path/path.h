@@ -31,7 +31,7 @@ class Path {
   const Modes& modes() const { return modes_; }
   const PathLayout& layout() const { return layout_; }
   int revision() const { return revision_; }
-  int dofs() const { return given_.model->dofs; }                      ///< of the given configuration
+  int dofs() const { return given_.model->dofs; }                        ///< of the given configuration
   const std::vector<int>& shownFrames() const { return shown_frames_; }  ///< without those that only modes need
 
   // --- states ------------------------------------------------------------------------------------------------------

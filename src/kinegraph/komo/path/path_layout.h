@@ -13,10 +13,10 @@ namespace kinegraph {
 /// the start.
 struct PathLayout {
   int dimension = 0;
-  bool plain = true;                                  ///< x is just the q of the slices from 0 on, one after the other
-  std::vector<std::vector<int>> column;               ///< per slice and dof; -1: constant
+  bool plain = true;                     ///< x is just the q of the slices from 0 on, one after the other
+  std::vector<std::vector<int>> column;  ///< per slice and dof; -1: constant
   std::vector<std::vector<KinematicModel::DofRange>> owned;  ///< per slice: its dofs that are in x at this slice
-  VectorXd lower, upper;                              ///< per entry of x
+  VectorXd lower, upper;                                     ///< per entry of x
 };
 
 /// `prefix` is the number of slices before the start; `stable` the frames whose original joints are shared by all slices.

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <optional>
 
-#include "kinegraph/common/text.h"
 #include "kinegraph/collision/motion_bounds.h"
 #include "kinegraph/collision/near_pairs.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph {
 
@@ -212,11 +212,11 @@ std::string PathContact::str() const {
 }
 
 std::vector<PathContact> contactsOf(const std::vector<SliceMotion>& motions, double margin, double tolerance,
-                                    const std::function<void()>& between) {
+                                    const CancellationToken& cancellation) {
   std::vector<PathContact> contacts;
   MotionProbe probe(tolerance);
   for (const SliceMotion& motion : motions) {
-    if (between) between();
+    cancellation.check();
     if (const auto contact = probe.firstContact(motion, margin)) contacts.push_back(describe(motion, *contact));
   }
   return contacts;

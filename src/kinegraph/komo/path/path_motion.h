@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kinegraph/collision/edge_check.h"
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/komo/path/path.h"
 
 namespace kinegraph {
@@ -82,8 +83,8 @@ struct PathContact {
 };
 
 /// The first pair of each motion that comes nearer than `margin` (m), at any time and not just at samples of them;
-/// pairs within margin + tolerance may count. `between` is called between motions, and may throw.
+/// pairs within margin + tolerance may count. `cancellation` is called between motions, and may throw.
 std::vector<PathContact> contactsOf(const std::vector<SliceMotion>& motions, double margin, double tolerance,
-                                    const std::function<void()>& between = {});
+                                    const CancellationToken& cancellation = {});
 
 }  // namespace kinegraph

@@ -79,7 +79,7 @@ std::optional<DynamicContact> DynamicCheck::contactIn(const Piece& piece, const 
 }
 
 std::optional<DynamicContact> DynamicCheck::contact(const PathCurve& curve, const TimeScaling& scaling,
-                                                  const VectorXd& acceleration, double start) {
+                                                    const VectorXd& acceleration, double start) {
   const std::vector<ScalingPhase>& phases = scaling.phases();
   for (std::size_t i = 0; i < phases.size(); ++i) {
     Piece piece{curve, phases[i], acceleration, start};

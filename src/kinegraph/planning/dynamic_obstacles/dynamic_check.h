@@ -45,8 +45,8 @@ class DynamicCheck {
   double clearance(const VectorXd& q, double t, double most);
 
   /// What the motion of a law along a curve meets first, if it begins at `start` s. `acceleration`, (n,), is what it keeps.
-  std::optional<DynamicContact> contact(const PathCurve& curve, const TimeScaling& scaling, const VectorXd& acceleration,
-                                       double start = 0.);
+  std::optional<DynamicContact> contact(const PathCurve& curve, const TimeScaling& scaling,
+                                        const VectorXd& acceleration, double start = 0.);
 
   /// The pair of the last question that was answered no, ids of frames of the scene.
   std::pair<int, int> lastPair() const;

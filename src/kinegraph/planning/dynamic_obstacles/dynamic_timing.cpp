@@ -27,12 +27,13 @@ struct FreeTime {
 
 class TimeSearch {
  public:
-  TimeSearch(const TimedPath& fastest, const MotionLimits& limits, DynamicCheck& check, const CancellationToken& watch)
+  TimeSearch(const TimedPath& fastest, const MotionLimits& limits, DynamicCheck& check,
+             const CancellationToken& cancellation)
       : curve_(fastest.curve()),
         fastest_(fastest.scaling()),
         limits_(limits),
         check_(check),
-        watch_(watch),
+        cancellation_(cancellation),
         step_(std::clamp(kStepShare * fastest_.duration(), kLeastStep, kMostStep)) {
     const std::vector<ScalingPhase>& phases = fastest_.phases();
     start_speed_ = phases.front().begin.speed;
@@ -229,7 +230,7 @@ class TimeSearch {
     nodes_.push_back({0, interval, 0.});
     expand(0);
     while (!queue_.empty() && result_.tries < kMostTries) {
-      if (watch_ && watch_()) return;
+      if (cancellation_ && cancellation_()) return;
       const Entry entry = queue_.top();
       queue_.pop();
       if (!take(entry)) continue;
@@ -314,7 +315,7 @@ class TimeSearch {
   }
 
   std::string failure() const {
-    if (watch_ && watch_()) return "stopped before a timing was found";
+    if (cancellation_ && cancellation_()) return "stopped before a timing was found";
     const DynamicContact& met = *result_.met;
     return cat("no timing along the way was found in ", result_.tries, " tries: without waiting, ", words(met.a, met.b),
                " at ", met.time, " s, ", std::lround(100. * met.place / std::max(curve_.length(), 1e-300)),
@@ -325,7 +326,7 @@ class TimeSearch {
   const TimeScaling& fastest_;
   const MotionLimits& limits_;
   DynamicCheck& check_;
-  const CancellationToken& watch_;
+  const CancellationToken& cancellation_;
   const double step_;  ///< of departures, s
   double start_speed_, first_stop_;
   std::vector<double> places_, passes_;  ///< of stations: s, and when the fastest law passes
@@ -341,8 +342,8 @@ class TimeSearch {
 }  // namespace
 
 DynamicTiming timeAmongObstacles(const TimedPath& fastest, const MotionLimits& limits, DynamicCheck& check,
-                             const CancellationToken& watch) {
-  return TimeSearch(fastest, limits, check, watch).run();
+                                 const CancellationToken& cancellation) {
+  return TimeSearch(fastest, limits, check, cancellation).run();
 }
 
 }  // namespace kinegraph

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/planning/dynamic_obstacles/dynamic_check.h"
 #include "kinegraph/planning/search/path_search.h"
 #include "kinegraph/trajectories/retime.h"
@@ -18,8 +19,8 @@ struct DynamicTiming {
   TimeScaling scaling;
   std::vector<Wait> waits;
   std::optional<DynamicContact> met;  ///< what the fastest law meets first
-  std::string message;               ///< where none was found: why
-  long tries = 0;                    ///< motions from one stop to another that were checked
+  std::string message;                ///< where none was found: why
+  long tries = 0;                     ///< motions from one stop to another that were checked
 };
 
 /// Times a curve whose fastest law is known; it is kept where nothing is in its way. At its end the robot stays, and
@@ -32,6 +33,6 @@ struct DynamicTiming {
 /// planning for dynamic environments, 2011; Kant, Zucker, Toward efficient trajectory planning: the path-velocity
 /// decomposition, 1986.
 DynamicTiming timeAmongObstacles(const TimedPath& fastest, const MotionLimits& limits, DynamicCheck& check,
-                             const CancellationToken& watch = {});
+                                 const CancellationToken& cancellation = {});
 
 }  // namespace kinegraph

@@ -52,7 +52,8 @@ void MotionTree::cut(int i) {
     if (removed) continue;
     nodes_[verified_margin] = nodes_[k];
     if (parent >= 0) nodes_[verified_margin].parent = place[std::size_t(parent)];
-    std::copy_n(values_.begin() + std::ptrdiff_t(k * dofs_), dofs_, values_.begin() + std::ptrdiff_t(verified_margin * dofs_));
+    std::copy_n(values_.begin() + std::ptrdiff_t(k * dofs_), dofs_,
+                values_.begin() + std::ptrdiff_t(verified_margin * dofs_));
     ++verified_margin;
   }
   nodes_.resize(verified_margin);

@@ -49,7 +49,7 @@ class Attempts {
 
   bool askWatch() {
     try {
-      if (request_.watch && request_.watch()) stopped_ = true;
+      if (request_.cancellation && request_.cancellation()) stopped_ = true;
     } catch (...) {
       stopped_ = true;
       throw;
@@ -118,7 +118,7 @@ std::optional<Way> straightWay(const PathQuery& request, Steering& steering) {
   std::sort(lines.begin(), lines.end());
   for (const auto& [length, ends] : lines) {
     const VectorXd &start = request.starts[std::size_t(ends.first)], &goal = request.goals[std::size_t(ends.second)];
-    if (request.watch && request.watch()) break;
+    if (request.cancellation && request.cancellation()) break;
     if (!steering.isFree(start, goal)) continue;
     Way way;
     way.points = {start, goal};

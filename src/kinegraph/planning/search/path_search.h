@@ -2,12 +2,10 @@
 
 #include <atomic>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/planning/search/tree_search.h"
 
 namespace kinegraph {
-
-/// Asked now and then by the calling thread; true ends a search, which then gives the best that it has. It may throw.
-using CancellationToken = std::function<bool()>;
 
 /// What is asked of searchPath.
 struct PathQuery {
@@ -18,7 +16,7 @@ struct PathQuery {
   long evaluations = 1000000;  ///< postures drawn, and evaluations of Steering, in all attempts together, at most
   int threads = 1;
   bool tries_line = true;  ///< first the straight motions, from each start to each goal
-  CancellationToken watch = {};
+  CancellationToken cancellation = {};
   Steering* steering = nullptr;  ///< of the same demands, for the calling thread; must stay. None: it makes its own
 };
 
@@ -33,11 +31,11 @@ struct Way {
   std::vector<VectorXd> points;  ///< empty: none. Straight motions between them are free at all times
   int start = 0, goal = 0;       ///< which ones it joins
   bool is_line = false;
-  bool was_stopped = false;             ///< by the watch
-  long evaluations = 0;                      ///< of the attempts that count
+  bool was_stopped = false;            ///< by the watch
+  long evaluations = 0;                ///< of the attempts that count
   std::vector<SearchReport> attempts;  ///< those that count: up to the one that succeeded
-  PairCounts hits;                      ///< what their motions ran into
-  std::vector<MotionTree> trees;        ///< of the last attempt that counts: of the starts and of the goals
+  PairCounts hits;                     ///< what their motions ran into
+  std::vector<MotionTree> trees;       ///< of the last attempt that counts: of the starts and of the goals
 };
 
 /// A way from one of the starts to one of the goals: the straight one if it is free, else by attempts with trees

@@ -19,9 +19,9 @@ namespace kinegraph {
 class TreeSearch {
  public:
   struct Options {
-    double range = 1.;       ///< longest motion that is added at once, in joint space
-    std::uint64_t seed = 0;  ///< of the random postures
-    long evaluations = 100000;    ///< postures drawn and postures looked at, together, at most
+    double range = 1.;          ///< longest motion that is added at once, in joint space
+    std::uint64_t seed = 0;     ///< of the random postures
+    long evaluations = 100000;  ///< postures drawn and postures looked at, together, at most
   };
 
   /// `steering` must stay. Starts and goals are free.

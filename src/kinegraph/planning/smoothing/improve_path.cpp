@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "kinegraph/common/parallel.h"
-#include "kinegraph/planning/smoothing/shortcut.h"
 #include "kinegraph/planning/smoothing/rope_shortcut.h"
+#include "kinegraph/planning/smoothing/shortcut.h"
 
 namespace kinegraph {
 
@@ -22,12 +22,13 @@ double costOf(const JointSpace& space, const VectorXd& weight, const std::vector
 
 }  // namespace
 
-ShortcutResult improvePath(const Way& first, const PathQuery& request, const ImprovePathOptions& options, SteeringContexts& contexts) {
+ShortcutResult improvePath(const Way& first, const PathQuery& request, const ImprovePathOptions& options,
+                           SteeringContexts& contexts) {
   std::vector<ShortcutResult> candidates(std::size_t(first.is_line ? 1 : options.tries));
   const auto pull = [&](Steering& steering, ShortcutResult& candidate) {
     std::vector<VectorXd> points =
         tightenPath(steering, candidate.points,
-                 {.weight = options.weight, .refinements = options.refinements, .watch = options.late});
+                    {.weight = options.weight, .refinements = options.refinements, .cancellation = options.late});
     const double cost = costOf(*request.constraints.space, options.weight, points);
     if (cost >= candidate.cost) return;
     candidate.points = std::move(points);
@@ -38,7 +39,7 @@ ShortcutResult improvePath(const Way& first, const PathQuery& request, const Imp
     ShortcutResult& candidate = candidates[std::size_t(i)];
     Steering& steering = contexts.of(worker, request.constraints);
     const long before = steering.evaluations();
-    const CancellationToken watch = worker == 0 ? request.watch : options.late;
+    const CancellationToken cancellation = worker == 0 ? request.cancellation : options.late;
     if (number == 0) {
       candidate.way = first;
     } else {
@@ -47,14 +48,15 @@ ShortcutResult improvePath(const Way& first, const PathQuery& request, const Imp
       other.evaluations = std::min(request.evaluations, kTryEffort * (first.evaluations + 1000));
       other.threads = 1;
       other.tries_line = false;
-      other.watch = watch;
+      other.cancellation = cancellation;
       other.steering = &steering;
-      if (watch && watch()) return;
+      if (cancellation && cancellation()) return;
       candidate.way = searchPath(other);
       candidate.evaluations = steering.evaluations() - before;
       if (candidate.way.points.empty()) return;
     }
-    ShortcutOptions shortening{.weight = options.weight, .seed = request.seed + std::uint64_t(number), .watch = watch};
+    ShortcutOptions shortening{
+        .weight = options.weight, .seed = request.seed + std::uint64_t(number), .cancellation = cancellation};
     if (!steering.isConstrained()) {  // what is pulled taut needs little more than that its postures are joined
       shortening.cuts = kCuts;
       shortening.corners = false;
@@ -67,7 +69,7 @@ ShortcutResult improvePath(const Way& first, const PathQuery& request, const Imp
   parallelFor(
       int(candidates.size()), 1, request.threads, [&](int worker, int i, int) { attempt(worker, i); },
       [&] {
-        if (request.watch) request.watch();
+        if (request.cancellation) request.cancellation();
       });
   long evaluations = 0;
   for (const ShortcutResult& candidate : candidates) evaluations += candidate.evaluations;
@@ -76,11 +78,12 @@ ShortcutResult improvePath(const Way& first, const PathQuery& request, const Imp
   return best;
 }
 
-void tighten(ShortcutResult& best, const PathQuery& request, const VectorXd& weight, int refinements, SteeringContexts& contexts) {
+void tighten(ShortcutResult& best, const PathQuery& request, const VectorXd& weight, int refinements,
+             SteeringContexts& contexts) {
   Steering& steering = contexts.of(0, request.constraints);
   const long before = steering.evaluations();
-  std::vector<VectorXd> points =
-      tightenPath(steering, best.points, {.weight = weight, .refinements = refinements, .watch = request.watch});
+  std::vector<VectorXd> points = tightenPath(
+      steering, best.points, {.weight = weight, .refinements = refinements, .cancellation = request.cancellation});
   const double cost = costOf(*request.constraints.space, weight, points);
   best.evaluations = steering.evaluations() - before;
   if (cost >= best.cost) return;

@@ -58,7 +58,7 @@ class RopeShortcut {
  private:
   using Points = std::vector<VectorXd>;
 
-  bool stopped() const { return options_.watch && options_.watch(); }
+  bool stopped() const { return options_.cancellation && options_.cancellation(); }
   double distance(const VectorXd& a, const VectorXd& b) const { return (b - a).cwiseProduct(weight_).norm(); }
 
   double length(const Points& points) const {
@@ -311,7 +311,8 @@ class RopeShortcut {
 
 }  // namespace
 
-std::vector<VectorXd> tightenPath(Steering& steering, const std::vector<VectorXd>& path, const RopeShortcutOptions& options) {
+std::vector<VectorXd> tightenPath(Steering& steering, const std::vector<VectorXd>& path,
+                                  const RopeShortcutOptions& options) {
   if (steering.isConstrained() || path.size() < 3) return path;
   steering.check().forget();  // which pair is met first must not depend on what was asked before
   return RopeShortcut(steering, path, options).run();

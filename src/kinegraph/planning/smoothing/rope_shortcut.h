@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/planning/search/path_search.h"
 
 namespace kinegraph {
@@ -8,7 +9,7 @@ struct RopeShortcutOptions {
   VectorXd weight = {};  ///< per dof, what length means; empty: ones
   int rounds = 20;       ///< at most
   int refinements = 2;   ///< of pieces that touch something: a shorter path, with more corners
-  CancellationToken watch = {};
+  CancellationToken cancellation = {};
 };
 
 /// Pulls a path taut, as a string that is drawn around the obstacles that it touches: shorter, with the same ends, and
@@ -20,6 +21,7 @@ struct RopeShortcutOptions {
 /// again. Without such rows the answer is the straight line; each row pulls at one place, and how far the others follow is
 /// known in closed form. So only the pulls are unknown, few numbers >= 0. Around a corner the path is a polygon: a
 /// refinement halves its sides and pulls again.
-std::vector<VectorXd> tightenPath(Steering& steering, const std::vector<VectorXd>& path, const RopeShortcutOptions& options = {});
+std::vector<VectorXd> tightenPath(Steering& steering, const std::vector<VectorXd>& path,
+                                  const RopeShortcutOptions& options = {});
 
 }  // namespace kinegraph

@@ -37,7 +37,7 @@ class Shortcutter {
     return sum;
   }
 
-  bool stopped() const { return options_.watch && options_.watch(); }
+  bool stopped() const { return options_.cancellation && options_.cancellation(); }
 
   /// Replaces what is between two places, i < j, if there is a free way that is shorter.
   bool join(std::size_t i, std::size_t j) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/planning/search/path_search.h"
 
 namespace kinegraph {
@@ -9,7 +10,7 @@ struct ShortcutOptions {
   int cuts = 200;          ///< tries to cut a corner between random places
   bool corners = true;     ///< are corners cut at the end?
   std::uint64_t seed = 0;  ///< of these places
-  CancellationToken watch = {};
+  CancellationToken cancellation = {};
 };
 
 /// Shortens a path whose straight motions are free; so are those of what it returns, at all times, with the same ends.

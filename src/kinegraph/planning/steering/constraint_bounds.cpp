@@ -46,12 +46,13 @@ ConstraintBounds::ConstraintBounds(const State& scene, const Residual& residual)
 
 /// The origin of a frame, as seen from a link that it hangs on.
 Rates ConstraintBounds::point(const MotionBounds& bounds, int frame, int ancestor) const {
-  return bounds.ratesOf(model_->frame_link[std::size_t(frame)],
-                        parameters_->frame_offset[std::size_t(frame)].p.norm(), ancestor);
+  return bounds.ratesOf(model_->frame_link[std::size_t(frame)], parameters_->frame_offset[std::size_t(frame)].p.norm(),
+                        ancestor);
 }
 
 /// The largest of a block's rows.
-Rates ConstraintBounds::ratesOf(const LaneRows::Block& block, const MotionBounds& bounds, const VectorXd& change) const {
+Rates ConstraintBounds::ratesOf(const LaneRows::Block& block, const MotionBounds& bounds,
+                                const VectorXd& change) const {
   using Block = LaneRows::Block;
   const auto link = [&](int frame) { return model_->frame_link[std::size_t(frame)]; };
   const auto ancestor = [&] { return bounds.commonLink(link(block.a), link(block.b)); };
@@ -88,7 +89,7 @@ Rates ConstraintBounds::ratesOf(const LaneRows::Block& block, const MotionBounds
 }
 
 void ConstraintBounds::eval(const MotionBounds& bounds, const VectorXd& change, Eigen::Ref<VectorXd> speed,
-                     Eigen::Ref<VectorXd> bend) const {
+                            Eigen::Ref<VectorXd> bend) const {
   speed.setZero(), bend.setZero();
   for (const LaneRows::Block& block : list_.blocks()) {
     const Rates rates = ratesOf(block, bounds, change);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kinegraph/features/residual.h"
 #include "kinegraph/collision/motion_bounds.h"
+#include "kinegraph/features/residual.h"
 
 namespace kinegraph {
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "kinegraph/features/eval.h"
-#include "kinegraph/planning/steering/joint_space.h"
-#include "kinegraph/planning/steering/constraint_bounds.h"
 #include "kinegraph/nlp/nlp.h"
+#include "kinegraph/planning/steering/constraint_bounds.h"
+#include "kinegraph/planning/steering/joint_space.h"
 
 namespace kinegraph {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/parsers/srdf_reader.h"
 #include "kinegraph/gfile/value.h"
+#include "kinegraph/parsers/srdf_reader.h"
 #include "kinegraph/scene/tree/diagnostics.h"
 
 namespace kinegraph {

@@ -124,12 +124,13 @@ std::shared_ptr<const Parameters> collectParameters(const SceneTree& scene, cons
   return parameters;
 }
 
-std::vector<LinkInertia> collectInertias(const SceneTree& scene, const KinematicModel& model, const Parameters& parameters) {
+std::vector<LinkInertia> collectInertias(const SceneTree& scene, const KinematicModel& model,
+                                         const Parameters& parameters) {
   std::vector<LinkInertia> links(model.links.size());
   for (const auto& frame : scene.frames()) {
     if (!frame->inertia) continue;
     links[model.frame_link[frame->id]].add({frame->inertia->mass, frame->inertia->com, frame->inertia->matrix},
-                                             parameters.frame_offset[frame->id]);
+                                           parameters.frame_offset[frame->id]);
   }
   return links;
 }

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/kinematics/dynamics.h"
 #include "kinegraph/collision/motion_check.h"
 #include "kinegraph/collision/near_pairs.h"
+#include "kinegraph/kinematics/dynamics.h"
 #include "kinegraph/kinematics/state.h"
 #include "kinegraph/scene/tree/frame_data.h"
 #include "kinegraph/scene/tree/name_index.h"
@@ -167,7 +167,8 @@ std::shared_ptr<const Parameters> collectParameters(const SceneTree& scene, cons
 void updateParameters(const FrameData& frame, const KinematicModel& model, Parameters& parameters);
 
 /// What each link of a compiled Program weighs: the sum of its frames' inertias.
-std::vector<LinkInertia> collectInertias(const SceneTree& scene, const KinematicModel& model, const Parameters& parameters);
+std::vector<LinkInertia> collectInertias(const SceneTree& scene, const KinematicModel& model,
+                                         const Parameters& parameters);
 
 /// Which shapes of a scene may collide; the rule is at Config::getCollidablePairs.
 ContactRules contactRules(const SceneTree& scene);

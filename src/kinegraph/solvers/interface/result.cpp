@@ -33,13 +33,13 @@ void SolverResult::setSums(const std::vector<ObjectiveType>& types, const Vector
   done = true;
 }
 
-std::optional<bool> SolverResult::free(const std::function<void()>& between) const {
+std::optional<bool> SolverResult::free(const CancellationToken& cancellation) const {
   if (!motion) return std::nullopt;
-  return motion->get(between).free;
+  return motion->get(cancellation).free;
 }
 
-std::string SolverResult::summary(const std::function<void()>& between) const {
-  if (!motion || !feasible || motion->get(between).free) return message;
+std::string SolverResult::summary(const CancellationToken& cancellation) const {
+  if (!motion || !feasible || motion->get(cancellation).free) return message;
   return cat(message, "; the motion is not free: ", motion->get().message);
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/nlp/nlp.h"
 
 namespace kinegraph {
@@ -30,16 +31,16 @@ struct SolverResult {
   double f = 0., sos = 0., ineq = 0., eq = 0.;  ///< sums at x, as sumErrors
   double violation = 0.;                        ///< of the worst constraint
   SolverStatus status = SolverStatus::stalled;
-  std::string message;                        ///< one line: why it stopped
+  std::string message;                         ///< one line: why it stopped
   std::shared_ptr<const LazyValidity> motion;  ///< of what lies between the slices of a path; null: nothing to say
   std::shared_ptr<Nlp> problem;  ///< what NlpSolver solved, for `explain`; null from the functions that solve
 
   /// Is the motion free of collisions at all times, between the slices of the path, too? None for problems that are no
-  /// motions, or do not forbid collisions. Found when first asked for; `between` is called meanwhile, and may throw.
-  std::optional<bool> free(const std::function<void()>& between = {}) const;
+  /// motions, or do not forbid collisions. Found when first asked for; `cancellation` is called meanwhile, and may throw.
+  std::optional<bool> free(const CancellationToken& cancellation = {}) const;
 
   /// The message; and where the constraints hold but the motion is not free, which shapes meet, when, and how deep.
-  std::string summary(const std::function<void()>& between = {}) const;
+  std::string summary(const CancellationToken& cancellation = {}) const;
 
   /// Fills f .. eq, violation, feasible and done from the residuals at x.
   void setSums(const std::vector<ObjectiveType>& types, const VectorXd& phi, double tolerance);

@@ -74,7 +74,7 @@ LgpFile readLgpFile(const Config& C, const std::string& path) {
 }  // namespace
 
 DefaultLgpAbstraction::DefaultLgpAbstraction(const Config& scene, const std::string& lgp_file,
-                                             std::function<void()> between)
+                                             CancellationToken cancellation)
     : LgpAbstraction(scene) {
   const LgpFile file = readLgpFile(C, lgp_file);
   explicitCollisions = file.coll;
@@ -82,9 +82,9 @@ DefaultLgpAbstraction::DefaultLgpAbstraction(const Config& scene, const std::str
   LogicProblem problem{"problem", domain, {}, domain.start, readLiterals(file.terminal, lgp_file)};
   for (Literal& fact : sceneFacts(C)) problem.start.push_back(std::move(fact));
   PlanSearch::Options options;
-  options.keep_going = [this, between = std::move(between)] {
+  options.keep_going = [this, cancellation = std::move(cancellation)] {
     try {
-      if (between) between();
+      cancellation.check();
     } catch (...) {
       interruption_ = std::current_exception();
     }
@@ -92,7 +92,8 @@ DefaultLgpAbstraction::DefaultLgpAbstraction(const Config& scene, const std::str
   };
   search_ = std::make_shared<PlanSearch>(ground(std::move(problem)), options);
   if (!search_->problem().unreachable.empty()) {
-    throw ParseError({lgp_file, 1, 1}, cat("the goal cannot be reached: ", join(diagnostics(search_->problem()), "; ")));
+    throw ParseError({lgp_file, 1, 1},
+                     cat("the goal cannot be reached: ", join(diagnostics(search_->problem()), "; ")));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/logic/plan_search.h"
 #include "kinegraph/task_planning/lgp/lgp_abstraction.h"
 
@@ -24,10 +25,10 @@ namespace kinegraph {
 /// default_LGP_TAMP_Abstraction.
 class DefaultLgpAbstraction : public LgpAbstraction {
  public:
-  /// Reads the files, and what the scene says in logic. `between` is asked now and then while logic is searched, and may
+  /// Reads the files, and what the scene says in logic. `cancellation` is asked now and then while logic is searched, and may
   /// throw to end it. Throws FileError; ParseError, with the place, for files that are wrong, words of the goal that are
   /// not known, and goals that no action leads to; FrameNotFound for a pair.
-  DefaultLgpAbstraction(const Config& C, const std::string& lgp_file, std::function<void()> between = {});
+  DefaultLgpAbstraction(const Config& C, const std::string& lgp_file, CancellationToken cancellation = {});
 
   const LogicDomain& domain() const { return search_->problem().problem.domain; }
 
@@ -58,7 +59,7 @@ class DefaultLgpAbstraction : public LgpAbstraction {
 
  private:
   std::shared_ptr<PlanSearch> search_;
-  std::exception_ptr interruption_;          ///< by `between`, while logic was searched
+  std::exception_ptr interruption_;          ///< by `cancellation`, while logic was searched
   std::map<std::string, std::string> held_;  ///< what each object sits at, in the problem that was set up last
   int count_ = 1;                            ///< of its actions
 };

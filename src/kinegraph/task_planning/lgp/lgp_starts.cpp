@@ -8,7 +8,7 @@
 namespace kinegraph {
 
 std::string LgpOptions::describe(const SolverResult& result) const {
-  return describes ? describes(result) : result.summary(between);
+  return describes ? describes(result) : result.summary(cancellation);
 }
 
 void LgpOptions::tell(const std::string& line) const {
@@ -58,7 +58,7 @@ LgpSolve solveFrom(const std::shared_ptr<Komo>& komo, const std::vector<VectorXd
         if (is_parallel) komo->path().setVariables(each[std::size_t(i)]->path().variables());
         return !solve.is_solved;
       },
-      options.between);
+      options.cancellation);
   return solve;
 }
 
@@ -74,7 +74,7 @@ void solveEach(const std::vector<std::shared_ptr<Komo>>& problems, const LgpOpti
         take(i, std::move(results[std::size_t(i)]));
         return true;
       },
-      options.between);
+      options.cancellation);
 }
 
 }  // namespace kinegraph

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/solvers/interface/options.h"
 #include "kinegraph/solvers/interface/result.h"
@@ -20,7 +21,7 @@ struct LgpOptions {
   std::function<bool(const SolverResult&)> accepts = {};           ///< none: SolverResult::feasible
   std::function<std::string(const SolverResult&)> describes = {};  ///< how a solve ended; none: SolverResult::summary
   std::function<void(const std::string& line)> tells = {};         ///< none: lines go to the standard output
-  std::function<void()> between = {};  ///< asked now and then on the calling thread; may throw to end it
+  CancellationToken cancellation = {};  ///< asked now and then on the calling thread; may throw to end it
 
   bool isSolved(const SolverResult& result) const { return accepts ? accepts(result) : result.feasible; }
   std::string describe(const SolverResult& result) const;

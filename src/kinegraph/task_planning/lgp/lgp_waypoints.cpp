@@ -40,7 +40,7 @@ bool LgpWaypoints::solve(const Plan& plan, int round) {
     komo = problem;
     x = solved.result.x;
   } else if (round == 0) {
-    const std::string missed = violatedConstraint(problem, options_.between);
+    const std::string missed = violatedConstraint(problem, options_.cancellation);
     const std::string cause =
         cat(planText({plan.back()}), ": ", missed.empty() ? options_.describe(solved.result) : missed);
     const auto known = std::find_if(causes_.begin(), causes_.end(), [&](const auto& c) { return c.first == cause; });

@@ -50,7 +50,7 @@ std::vector<MotionConstraint> gripConstraints(const Config& C, const std::string
 }
 
 MatrixXd guidedConfigurations(const Config& C, const VectorXd& q0, const VectorXd& q1,
-                        const std::vector<MotionConstraint>& constraints) {
+                              const std::vector<MotionConstraint>& constraints) {
   Config scene = C;
   const State state = scene.scene()->state();
   const JointSpace space(state.model());

@@ -16,7 +16,7 @@ std::vector<MotionConstraint> gripConstraints(const Config& C, const std::string
 /// Postures from q0 to q1 at which constraints hold to a tenth of a millimeter, .02 rad or m or less from one to the next:
 /// those on the straight line, each brought to the nearest one at which they hold. Empty where there are none, or they jump.
 MatrixXd guidedConfigurations(const Config& C, const VectorXd& q0, const VectorXd& q1,
-                        const std::vector<MotionConstraint>& constraints);
+                              const std::vector<MotionConstraint>& constraints);
 
 /// How a hand has moved on the handle since it took it: m, and the cosine of the turn that its grip does not allow.
 struct Slip {

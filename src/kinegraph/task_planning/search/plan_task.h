@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/task_planning/search/task_plan.h"
 #include "kinegraph/task_planning/task_waypoints.h"
 
@@ -21,7 +22,7 @@ struct TaskOptions {
   VectorXd velocity = {};      ///< most |dq/dt|, a number or one per dof, rad/s or m/s; empty: the model's, or 1
   VectorXd acceleration = {};  ///< most |d2q/dt2|, rad/s^2 or m/s^2; empty: what reaches full speed in half a second
   int threads = 1;             ///< that try variants, and motions, side by side: the plan is the same, to the bit
-  std::function<void()> between = {};  ///< asked now and then on the calling thread; may throw to end it
+  CancellationToken cancellation = {};  ///< asked now and then on the calling thread; may throw to end it
   std::function<std::shared_ptr<ManipulationHelper>()> helper = {};  ///< of waypoint problems; none: the usual kind
 };
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/common/speculative_execution.h"
 #include "kinegraph/task_planning/task_waypoints.h"
 
@@ -58,13 +59,14 @@ class TaskAttempt {
   struct Choice;
   struct Start;
 
-  static Start solve(const Problem& problem, Choice& choice, std::size_t start, int number, const CancellationToken& stopped);
+  static Start solve(const Problem& problem, Choice& choice, std::size_t start, int number,
+                     const CancellationToken& stopped);
   TaskCause causeOf(VectorXd x) const;
 
   SpeculativeExecutor& ahead_;
   std::shared_ptr<Problem> problem_;
   std::vector<std::shared_ptr<Choice>> choices_;  ///< of variants
-  std::vector<Speculative<Start>> starts_;              ///< of each choice, in order
+  std::vector<Speculative<Start>> starts_;        ///< of each choice, in order
 };
 
 }  // namespace kinegraph

@@ -7,10 +7,10 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/eval.h"
 #include "kinegraph/scene/motor_limits.h"
-#include "kinegraph/trajectories/retime.h"
 #include "kinegraph/task_planning/search/guided_motion.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/task_rules.h"
+#include "kinegraph/trajectories/retime.h"
 
 namespace kinegraph {
 
@@ -94,7 +94,8 @@ VectorXd perDof(const char* name, const VectorXd& given, const VectorXd& otherwi
 
 }  // namespace
 
-TaskMotions::TaskMotions(SpeculativeExecutor& ahead, MatrixXd limits, const std::vector<Literal>& start, std::uint64_t seed)
+TaskMotions::TaskMotions(SpeculativeExecutor& ahead, MatrixXd limits, const std::vector<Literal>& start,
+                         std::uint64_t seed)
     : ahead_(ahead),
       limits_(std::move(limits)),
       has_doors_(!wordsOf(start, "is_guided").empty()),
@@ -103,8 +104,8 @@ TaskMotions::TaskMotions(SpeculativeExecutor& ahead, MatrixXd limits, const std:
       seed_(seed) {}
 
 TaskMotions::Found TaskMotions::between(const Config& C, const VectorXd& q0, const VectorXd& q1,
-                                        const TaskAction& action, const TaskAction& before, const CancellationToken& stopped,
-                                        const std::function<int()>& threads) const {
+                                        const TaskAction& action, const TaskAction& before,
+                                        const CancellationToken& stopped, const std::function<int()>& threads) const {
   TaskMotions motions = *this;
   motions.stopped_ = stopped;
   motions.threads_ = threads;
@@ -244,8 +245,8 @@ MotionPlan TaskMotions::way(const Config& C, const VectorXd& start, const Vector
   MotionPlan found;
   for (const double margin : {kMargin, 0.}) {
     options.margin = margin;
-    options.prove_infeasibility = margin == 0. && !at_first_failure;           // who has another way does not ask why
-    const int most = has_doors_ ? kSearchBehindDoors : kSearch;  // what is shut off is soon given up
+    options.prove_infeasibility = margin == 0. && !at_first_failure;  // who has another way does not ask why
+    const int most = has_doors_ ? kSearchBehindDoors : kSearch;       // what is shut off is soon given up
     options.max_evaluations = margin == 0. ? most : most / 10;
     options.threads = threads_();
     found = planMotion(C, MotionGoal(goal), options, start, stopped_);
@@ -257,15 +258,16 @@ MotionPlan TaskMotions::way(const Config& C, const VectorXd& start, const Vector
 }
 
 /// The same, on another thread if one is free.
-Speculative<TaskMotions::Way> TaskMotions::pathSpeculatively(const Config& C, const VectorXd& start, const VectorXd& goal) const {
-  return ahead_.later<Way>(
-      [motions = *this, scene = std::make_shared<const Config>(C), start, goal](const CancellationToken& stopped) mutable {
-        motions.evaluations_ = 0;
-        motions.threads_ = [] { return 1; };
-        motions.stopped_ = [stopped, outer = motions.stopped_] { return stopped() || (outer && outer()); };
-        MotionPlan plan = motions.way(*scene, start, goal);
-        return Way{std::move(plan), motions.evaluations_};
-      });
+Speculative<TaskMotions::Way> TaskMotions::pathSpeculatively(const Config& C, const VectorXd& start,
+                                                             const VectorXd& goal) const {
+  return ahead_.later<Way>([motions = *this, scene = std::make_shared<const Config>(C), start,
+                            goal](const CancellationToken& stopped) mutable {
+    motions.evaluations_ = 0;
+    motions.threads_ = [] { return 1; };
+    motions.stopped_ = [stopped, outer = motions.stopped_] { return stopped() || (outer && outer()); };
+    MotionPlan plan = motions.way(*scene, start, goal);
+    return Way{std::move(plan), motions.evaluations_};
+  });
 }
 
 MotionPlan TaskMotions::taken(Way& way) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/common/speculative_execution.h"
 #include "kinegraph/planning/plan_motion.h"
 #include "kinegraph/task_planning/task_actions.h"

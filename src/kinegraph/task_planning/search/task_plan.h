@@ -14,9 +14,9 @@ class BotOp;
 struct TaskExecution;
 
 enum class TaskStatus {
-  solved,             ///< the plan passed checkTaskPlan
+  solved,      ///< the plan passed checkTaskPlan
   infeasible,  ///< no motion can do it
-  not_found,          ///< within the effort: that is no proof
+  not_found,   ///< within the effort: that is no proof
 };
 
 /// "solved", "proved impossible" or "not found"

@@ -70,7 +70,7 @@ TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptio
       may_regrasp_(!options.domain),
       best_(kNone),
       scene_(std::make_shared<const Config>(C_)),
-      ahead_(options.threads, options.between) {
+      ahead_(options.threads, options.cancellation) {
   begin(taskFacts(C_, goal_));
   std::set<std::string> missing;
   for (int a = 0; a < int(search_->problem().actions.size()); ++a) {
@@ -93,7 +93,7 @@ void TaskSearch::begin(std::vector<Literal> start) {
   PlanSearch::Options limits;
   limits.keep_going = [this] {
     try {
-      if (options_.between) options_.between();
+      options_.cancellation.check();
     } catch (...) {
       interruption_ = std::current_exception();
     }
@@ -284,7 +284,9 @@ Speculative<TaskTrials::Outcome> TaskSearch::outcomeOf(const Trial& trial, int s
   if (seed == 0)
     order.at_first_failure = [this, all = unknownBeginnings(trial.actions)] { expectAll(all, Priority::maybe); };
   return ahead_.later<TaskTrials::Outcome>(
-      [trials = trials_, order = std::move(order)](const CancellationToken& stopped) { return trials->run(order, stopped); });
+      [trials = trials_, order = std::move(order)](const CancellationToken& stopped) {
+        return trials->run(order, stopped);
+      });
 }
 
 /// A plan from the next waypoints that have one; none where there are no more.

@@ -41,10 +41,10 @@ class TaskSearch {
   /// A plan in logic whose motions are looked for, from other waypoints each.
   struct Trial {
     Actions actions;
-    std::vector<std::vector<Literal>> states;              ///< along them
-    int seed = 0;                                          ///< of the waypoints that come next
-    bool found = false;                                    ///< was there a plan?
-    std::optional<TaskFailure> failure = {};               ///< of motions
+    std::vector<std::vector<Literal>> states;                    ///< along them
+    int seed = 0;                                                ///< of the waypoints that come next
+    bool found = false;                                          ///< was there a plan?
+    std::optional<TaskFailure> failure = {};                     ///< of motions
     std::map<int, Speculative<TaskTrials::Outcome>> later = {};  ///< by seed
   };
 

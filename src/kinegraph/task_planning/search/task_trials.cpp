@@ -8,9 +8,9 @@
 
 namespace kinegraph {
 
-TaskTrials::TaskTrials(SpeculativeExecutor& ahead, const TaskAttempt::Settings& settings, std::shared_ptr<const Config> scene,
-                       std::shared_ptr<const Config> given, MatrixXd limits, std::vector<Literal> goal,
-                       std::vector<Literal> start)
+TaskTrials::TaskTrials(SpeculativeExecutor& ahead, const TaskAttempt::Settings& settings,
+                       std::shared_ptr<const Config> scene, std::shared_ptr<const Config> given, MatrixXd limits,
+                       std::vector<Literal> goal, std::vector<Literal> start)
     : ahead_(ahead),
       settings_(settings),
       scene_(std::move(scene)),

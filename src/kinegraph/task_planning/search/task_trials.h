@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/komo/path/sub_problem.h"
 #include "kinegraph/task_planning/search/task_attempts.h"
 #include "kinegraph/task_planning/search/task_motions.h"
@@ -48,7 +49,8 @@ class TaskTrials {
   Motions motionsBetween(const Config& C, const TaskWaypoints& waypoints) const;
   std::vector<TimedRows> moved(const Config& C, const std::shared_ptr<const Motions>& parts, Priority wanted,
                                const CancellationToken& stopped, Outcome& outcome) const;
-  std::vector<Literal> shutBy(const Config& C, const Motion& motion, const CancellationToken& stopped, Outcome& outcome) const;
+  std::vector<Literal> shutBy(const Config& C, const Motion& motion, const CancellationToken& stopped,
+                              Outcome& outcome) const;
   TaskPlan planOf(const Config& C, const TaskWaypoints& waypoints, const std::vector<TimedRows>& rows) const;
 
   SpeculativeExecutor& ahead_;

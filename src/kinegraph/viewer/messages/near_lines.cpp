@@ -1,7 +1,7 @@
 #include "kinegraph/viewer/messages/near_lines.h"
 
-#include "kinegraph/common/text.h"
 #include "kinegraph/collision/near_pairs.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph {
 

@@ -1,0 +1,46 @@
+#include "kinegraph/trajectories/trajectory.h"
+
+#include <cmath>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kLongestSampling = 1e8;  // rows of `sample`
+
+}  // namespace
+
+MotionState Trajectory::eval(double t) const {
+  const int n = dimension();
+  MotionState state{VectorXd(n), VectorXd(n), VectorXd(n)};
+  evalTo(t, state.q.data(), state.velocity.data(), state.acceleration.data());
+  return state;
+}
+
+MotionStates Trajectory::eval(const VectorXd& times) const {
+  const Eigen::Index count = times.size();
+  const int n = dimension();
+  MotionStates states{times, MatrixXd(count, n), MatrixXd(count, n), MatrixXd(count, n)};
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const MotionState state = eval(times[k]);
+    states.q.row(k) = state.q.transpose();
+    states.velocity.row(k) = state.velocity.transpose();
+    states.acceleration.row(k) = state.acceleration.transpose();
+  }
+  return states;
+}
+
+MotionStates Trajectory::sample(double rate) const {
+  if (!(rate > 0.) || !(duration() * rate < kLongestSampling))
+    throw ValueError(cat("Trajectory::sample: the rate is ", rate, " Hz; expected a positive number, and less than ",
+                         kLongestSampling, " samples"));
+  const auto steps = Eigen::Index(std::ceil(duration() * rate - 1e-9));
+  VectorXd times(steps + 1);
+  for (Eigen::Index k = 0; k <= steps; ++k) times[k] = steps > 0 ? duration() * double(k) / double(steps) : 0.;
+  return eval(times);
+}
+
+}  // namespace kinegraph
