@@ -70,7 +70,7 @@ TEST(Registry, EachRowHasAUnit) {
 
 /// KINEGRAPH_UPDATE_DOCS=1 writes the table anew.
 TEST(Registry, TheTableInTheDocumentsIsThatOfTheRegistry) {
-  const std::string path = std::string(KINEGRAPH_SOURCE_DIR) + "/docs/motion.md";
+  const std::string path = std::string(KINEGRAPH_SOURCE_DIR) + "/docs/features.md";
   std::stringstream text;
   text << std::ifstream(path).rdbuf();
   const std::string page = text.str();
