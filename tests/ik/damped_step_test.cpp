@@ -29,12 +29,13 @@ Sample draw(Rng& rng, int rows, int columns) {
   return s;
 }
 
-VectorXd stepOf(const Sample& s, double damping, bool pulls) {
+VectorXd stepOf(const Sample& s, double damping, bool with_preferred) {
   DampedStep step;
   step.resize(int(s.J.rows()), int(s.J.cols()));
   for (int c = 0; c < s.J.cols(); ++c) Eigen::Map<VectorXd>(step.column(c), s.J.rows()) = s.J.col(c);
   for (int r = 0; r < s.J.rows(); ++r) step.error(r) = s.e[r];
-  step.solve(s.x.data(), s.lower.data(), s.upper.data(), s.longest.data(), damping, pulls ? s.pull.data() : nullptr);
+  step.solve(s.x.data(), s.lower.data(), s.upper.data(), s.longest.data(), damping,
+             with_preferred ? s.pull.data() : nullptr);
   return step.step();
 }
 
@@ -42,8 +43,9 @@ TEST(DampedStep, MinimizesTheDampedSquares) {
   Rng rng(0);
   for (const auto& [rows, columns] : {std::pair(3, 7), {6, 7}, {6, 3}, {5, 9}}) {
     const Sample s = draw(rng, rows, columns);
-    for (const bool pulls : {false, true}) {
-      const VectorXd pull = pulls ? s.pull : VectorXd(VectorXd::Zero(columns)), dx = stepOf(s, .3, pulls);
+    for (const bool with_preferred : {false, true}) {
+      const VectorXd pull = with_preferred ? s.pull : VectorXd(VectorXd::Zero(columns)),
+                     dx = stepOf(s, .3, with_preferred);
       const VectorXd gradient = s.J.transpose() * (s.J * dx - s.e) + .3 * (dx - pull);
       EXPECT_LT(gradient.norm(), 1e-10);
     }

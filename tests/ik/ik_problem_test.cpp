@@ -103,12 +103,12 @@ TEST(IkProblem, AnswersAreWantedWhereTheWeightsSay) {
   config.setJointState(q);
   const std::vector<IkTarget> targets = {IkTarget::toPosition("finger", {0., 0., 0.})};
   IkOptions options;
-  EXPECT_FALSE(IkProblem(config, targets, options).pulls);
+  EXPECT_FALSE(IkProblem(config, targets, options).has_preference);
   options.start_weight = 3.;
   options.home_weight = 1.;
-  EXPECT_NEAR(IkProblem(config, targets, options).nearest[0], .75, 1e-15);
+  EXPECT_NEAR(IkProblem(config, targets, options).preferred[0], .75, 1e-15);
   options.start_weight = 0.;
-  EXPECT_NEAR(IkProblem(config, targets, options).nearest[0], 0., 1e-15);
+  EXPECT_NEAR(IkProblem(config, targets, options).preferred[0], 0., 1e-15);
 }
 
 TEST(IkProblem, WhatMakesNoSenseIsSaid) {

@@ -86,14 +86,14 @@ TEST(IkSearch, ApproachesThatOthersMadeAreJudgedAsItsOwn) {
   const auto problem = problemOf(config, problems[0]);
   for (const std::vector<IkTarget>& targets : problems) {
     const IkResult alone = IkSearch(problem).solve(targets, kNever);
-    IkSearch judge(problem);
+    IkSearch other(problem);
     IkJob job;
-    judge.open(job, targets);
+    other.open(job, targets);
     VectorXd x(problem->variables());
     for (int v = 0; v < x.size(); ++v) x[v] = alone.q[problem->dofs[v]];
     if (!alone.feasible()) continue;
-    EXPECT_TRUE(judge.judge(job, x, {true, 0., 1}, kNever)) << "an answer ends the search";
-    const IkResult result = judge.finish(job, false, kNever);
+    EXPECT_TRUE(other.assess(job, x, {true, 0., 1}, kNever)) << "an answer ends the search";
+    const IkResult result = other.finish(job, false, kNever);
     EXPECT_EQ(result.q, alone.q);
     EXPECT_EQ(result.status, IkStatus::solved);
     EXPECT_EQ(result.attempts, 1);

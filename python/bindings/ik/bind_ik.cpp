@@ -16,7 +16,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Looks for Ctrl-C, and draws how far it is, while a search runs without the interpreter lock.
+/// Checks for Ctrl-C and shows the progress of a search that runs without the interpreter lock.
 class Watch {
  public:
   Watch(std::size_t total, int verbose) : total_(total), verbose_(verbose), start_(Clock::now()) {}
@@ -46,32 +46,33 @@ class Watch {
   bool drawn_ = false;
 };
 
-nb::object solve(PyConfig& config, nb::handle targets, const std::optional<IkOptions>& given, int threads, int verbose,
+nb::object solve(PyConfig& config, nb::handle targets, const std::optional<IkOptions>& base, int threads, int verbose,
                  bool apply, nb::kwargs more) {
-  IkOptions options = given.value_or(IkOptions());
+  IkOptions options = base.value_or(IkOptions());
   setFields(options, more);
-  IkRequest request = readIkTargets(config, targets);
-  if (apply && request.is_batch)
-    throw ValueError(cat("solveIk: apply is for one problem; the targets are of ", request.problems.size()));
+  IkProblems problems = readIkTargets(config, targets);
+  if (apply && problems.is_batch)
+    throw ValueError(cat("solveIk: apply needs a single problem; the targets define ", problems.problems.size()));
   if (options.collisions) warnOfContacts(config);
-  const IkSolver solver(config, request.problems[0], options);
-  Watch watch(request.problems.size(), verbose);
+  const IkSolver solver(config, problems.problems[0], options);
+  Watch watch(problems.problems.size(), verbose);
   IkResults results;
   {
     const nb::gil_scoped_release unlock;
-    results = solver.solve(std::move(request.problems), threads, std::ref(watch));
+    results = solver.solve(std::move(problems.problems), threads, std::ref(watch));
     watch.finish();
   }
   if (verbose > 0)
     nb::print(
-        cat("solveIk: ", request.is_batch ? resultsText(results) : resultText(results[0]), " ", watch.seconds(), " s")
+        cat("solveIk: ", problems.is_batch ? resultsText(results) : resultText(results[0]), " ", watch.seconds(), " s")
             .c_str());
-  if (request.is_batch) return nb::cast(std::move(results));
+  if (problems.is_batch) return nb::cast(std::move(results));
   if (apply && results[0].feasible()) config.setJointState(results[0].q);
   return nb::cast(std::move(results[0]));
 }
 
-/// What type checkers are told of `solveIk`: targets with such keys and values, and `apply`, give a `result`.
+/// Returns a signature of `solveIk` for type checkers: targets with these types of keys and values, and `apply`, give a
+/// `result`.
 std::string signature(const std::string& frame, const std::string& target, const std::string& apply,
                       const std::string& result) {
   return cat("def solveIk(config: Config, targets: collections.abc.Mapping[", frame, ", ", target,
@@ -79,7 +80,7 @@ std::string signature(const std::string& frame, const std::string& target, const
              ", **fields: float) -> ", result);
 }
 
-/// One function with a signature for each kind of answer: only rows of arrays make a batch, for which `apply` is refused.
+/// Binds one function with several signatures: only arrays with several rows make a batch, which rejects `apply`.
 void bindSolveIk(nb::module_& m) {
   const auto bind = [&](const std::string& text, const auto&... doc) {
     m.def("solveIk", solve, "config"_a, "targets"_a, "options"_a = nb::none(), nb::kw_only(), "threads"_a = 1,

@@ -1,35 +1,35 @@
 #pragma once
 
-/// The manual of what bind_ik.cpp binds.
+/// Docstring of the function in bind_ik.cpp.
 namespace kinegraph::python::docs::ik {
 
 inline constexpr char solveIk[] =
-    R"(Joint values within their limits that bring frames to their targets, without collisions.
+    R"(Finds joint values within their limits that bring frames to their targets without collisions.
 
-The first attempt starts at the present q, the others at points spread within the limits. The scene stays as it is,
-unless apply is True and there is an answer. The same arguments give the same answer, with any number of threads.
+The first attempt starts at the present q, the others at points spread within the limits. The scene does not change,
+unless apply is True and there is a solution. The same arguments give the same answer, with any number of threads.
 
 Args:
     config: The scene.
-    targets: A dict from frames to where they are to be, in world coordinates (m): a position (3,), a pose (7,) =
-        x y z qw qx qy qz or (4, 4), the name of a frame or a Frame that has the pose; or a dict of position, pose,
-        quaternion, directions of the frame's axes x, y, z, and gaze: a point or frame that its z axis points at, or
-        another axis (3,) of it. With relativeTo, a frame, a dict is in the coordinates of that frame, which may move as
-        well; relativeTo alone means its pose. And from features to their values: (ry.FS.distance, "a", "b") to a number
-        or one per row, or to a dict of target or atMost, tolerance and scale; "centerOfMass" or a tuple of that and of
-        frames to a point. With rows (N, ...) there are N problems.
+    targets: A dict from frames to targets in world coordinates (m). A target is a position (3,), a pose (7,) =
+        x y z qw qx qy qz or (4, 4), or the name of a frame or a Frame with the desired pose. Or it is a dict with
+        position, pose, quaternion, directions of the frame's axes x, y, z, or gaze: a point or frame at which its z
+        axis points, or another `axis` (3,) of it. relativeTo, a frame that may move, defines the coordinates of a
+        dict; alone it means the pose of that frame. Keys may also be features: (ry.FS.distance, "a", "b") with a
+        number or one per component, or with a dict of target or atMost, tolerance and scale; "centerOfMass", or a
+        tuple of it and frames, with a point. Arrays (N, ...) define N problems.
     options: IkOptions, or None for the defaults.
-    threads: How many share the problems of a batch.
-    verbose: 1 prints a line at the end, and a progress bar on the way if it takes long.
-    apply: Sets the scene's q to the answer, if there is one.
+    threads: Number of threads for the problems of a batch.
+    verbose: 1 prints a line at the end, and a progress bar during long searches.
+    apply: Sets the scene's q to the solution, if there is one.
     fields: Any field of IkOptions by name, such as best=True, collisions=False, margin=.02, attempts=20; tolerance
         sets position_tolerance (m) and rotation_tolerance (rad).
 Returns:
-    IkResult, or IkResults for N problems. No answer is an outcome: result.feasible is False, and result.message says
-    what misses its target by how much, and which limits and pairs are in the way.
+    IkResult, or IkResults for N problems. Without a solution result.feasible is False, and result.message names the
+    missed targets with their errors, the active limits, and the colliding pairs.
 Raises:
-    FrameNotFound: A name that is not in the scene.
-    ArgumentError: Targets of a wrong shape, or that no active joint moves; a target that is where a frame is which the
-        targets move; an unknown option.)";
+    FrameNotFound: A frame is not in the scene.
+    ArgumentError: A target has a wrong shape, no active joint moves it, it is the pose of a frame that the targets
+        move, or an option is unknown.)";
 
 }  // namespace kinegraph::python::docs::ik

@@ -6,18 +6,19 @@
 #include "bindings.h"
 #include "kinegraph/ik/solve_ik.h"
 
-NB_MAKE_OPAQUE(std::vector<kinegraph::IkResult>)  // a type of its own in Python, and no list
+NB_MAKE_OPAQUE(std::vector<kinegraph::IkResult>)  // a separate Python type instead of a list
 
 namespace kinegraph::python {
 
-/// Answers of a batch.
+/// Results of a batch.
 using IkResults = std::vector<IkResult>;
 
-/// What Python prints of them.
+/// Return the texts that Python prints for results.
 std::string resultText(const IkResult& result);
 std::string resultsText(const IkResults& results);
 
-/// Sets options by name, and checks them; `tolerance` sets that of positions and of rotations. Throws ValueError.
+/// Sets options by name and validates them; `tolerance` sets the tolerances of positions and rotations. Throws
+/// ValueError.
 void setFields(IkOptions& options, nb::dict given);
 
 void bindIkOptions(nb::module_& m);

@@ -21,7 +21,7 @@ void setFields(IkOptions& options, nb::dict given) { ikOptions().setFields(optio
 
 void bindIkOptions(nb::module_& m) {
   nb::class_<IkOptions> options(
-      m, "IkOptions", "Settings of solveIk; every field can be given by name. tolerance sets both tolerances.");
+      m, "IkOptions", "Settings of solveIk; each field is also a keyword argument. tolerance sets both tolerances.");
   ikOptions().bind(options, "IkOptions", [] { return IkOptions(); });
 }
 

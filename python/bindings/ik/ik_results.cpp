@@ -21,7 +21,7 @@ std::string resultsText(const IkResults& results) {
 
 namespace {
 
-/// What the problems of a batch have in common, an entry each.
+/// Collects one number per problem of a batch.
 template <class NumberArray, class Read>
 NumberArray column(const IkResults& results, const char* dtype, Read read) {
   NewArray array = newArray(results.size());
@@ -70,26 +70,26 @@ const IkResult& resultAt(const IkResults& results, std::ptrdiff_t index) {
 }
 
 nb::class_<IkResult> bindResult(nb::module_& m) {
-  nb::enum_<IkStatus>(m, "IkStatus", "How solveIk ended.")
-      .value("solved", IkStatus::solved, "All targets within tolerance, no pair nearer than the margin.")
-      .value("goal_unreachable", IkStatus::goal_unreachable, "The nearest attempt misses a target.")
-      .value("in_collision", IkStatus::in_collision, "The nearest attempt meets its targets in collision.")
-      .value("cancelled", IkStatus::cancelled, "Before there was an answer.");
-  nb::class_<IkResult> bound(m, "IkResult", "What solveIk found.");
+  nb::enum_<IkStatus>(m, "IkStatus", "Outcome of solveIk.")
+      .value("solved", IkStatus::solved, "All targets are within tolerance, and no pair is closer than the margin.")
+      .value("goal_unreachable", IkStatus::goal_unreachable, "The best attempt misses a target.")
+      .value("in_collision", IkStatus::in_collision, "The best attempt meets its targets in collision.")
+      .value("cancelled", IkStatus::cancelled, "Cancelled before a solution was found.");
+  nb::class_<IkResult> bound(m, "IkResult", "Result of solveIk.");
   bound
       .def_prop_ro(
           "q", [](const IkResult& r) { return toNumpy(r.q); },
-          "The answer, shape (n,), rad or m, or the attempt that missed least; within the limits.")
-      .def_prop_ro("feasible", &IkResult::feasible, "True if there is an answer.")
-      .def_ro("status", &IkResult::status, "How it ended, an IkStatus.")
+          "The solution, or the attempt with the least error, shape (n,), rad or m; within the limits.")
+      .def_prop_ro("feasible", &IkResult::feasible, "True if there is a solution.")
+      .def_ro("status", &IkResult::status, "Outcome, an IkStatus.")
       .def_prop_ro(
           "message", [](const IkResult& r) { return inPython(r.message); },
-          "\"\" if solved; else what misses its target by how much, and what is in the way.")
+          "\"\" if solved; otherwise the missed targets with their errors, and colliding pairs.")
       .def_ro("position_error", &IkResult::position_error, "Position error of the worst target, m.")
       .def_ro("rotation_error", &IkResult::rotation_error, "Rotation error of the worst target, rad.")
       .def_ro("feature_error", &IkResult::feature_error,
-              "Error of the worst row of a feature, in its units times its scale.")
-      .def_ro("penetration", &IkResult::penetration, "How much nearer than the margin the worst pair is, m.")
+              "Largest component of a feature's error, in its units times its scale.")
+      .def_ro("penetration", &IkResult::penetration, "How much closer than the margin the worst pair is, m.")
       .def_ro("attempts", &IkResult::attempts, "Number of starting points that were used.")
       .def_ro("evals", &IkResult::evals, "Number of evaluations of the kinematics.")
       .def("__bool__", &IkResult::feasible)
@@ -101,11 +101,11 @@ nb::class_<IkResult> bindResult(nb::module_& m) {
 }
 
 nb::class_<IkResults> bindBatchResult(nb::module_& m) {
-  nb::class_<IkResults> bound(m, "IkResults", "What solveIk found for N problems. results[i] is the i-th IkResult.");
-  bound.def_prop_ro("q", allJoints, "The answers, shape (N, n), rad or m.")
+  nb::class_<IkResults> bound(m, "IkResults", "Results of solveIk for N problems. results[i] is the i-th IkResult.");
+  bound.def_prop_ro("q", allJoints, "The solutions, shape (N, n), rad or m.")
       .def_prop_ro(
           "feasible", [](const IkResults& r) { return column<FlagArray>(r, "bool", &IkResult::feasible); },
-          "True where there is an answer, shape (N,).")
+          "True for solved problems, shape (N,).")
       .def_prop_ro(
           "position_error", [](const IkResults& r) { return column<Array>(r, "float64", &IkResult::position_error); },
           "Position error of the worst target of each problem, shape (N,), m.")
@@ -114,10 +114,10 @@ nb::class_<IkResults> bindBatchResult(nb::module_& m) {
           "Rotation error of the worst target of each problem, shape (N,), rad.")
       .def_prop_ro(
           "feature_error", [](const IkResults& r) { return column<Array>(r, "float64", &IkResult::feature_error); },
-          "Error of the worst row of a feature of each problem, shape (N,), in its units times its scale.")
+          "Largest component of a feature's error in each problem, shape (N,), in its units times its scale.")
       .def_prop_ro(
           "penetration", [](const IkResults& r) { return column<Array>(r, "float64", &IkResult::penetration); },
-          "How much nearer than the margin the worst pair of each problem is, shape (N,), m.")
+          "How much closer than the margin the worst pair of each problem is, shape (N,), m.")
       .def_prop_ro(
           "attempts", [](const IkResults& r) { return column<CountArray>(r, "int64", &IkResult::attempts); },
           "Number of starting points that were used, shape (N,).")
@@ -131,7 +131,7 @@ nb::class_<IkResults> bindBatchResult(nb::module_& m) {
             for (const IkResult& result : r) messages.append(inPython(result.message));
             return messages;
           },
-          "One line per problem; \"\" where it is solved.")
+          "One line per problem; \"\" if it is solved.")
       .def("__len__", [](const IkResults& r) { return r.size(); })
       .def("__getitem__", resultAt, "index"_a, nb::rv_policy::copy)
       .def("__repr__", resultsText)

@@ -14,16 +14,16 @@ namespace {
 
 using Kind = IkTarget::Kind;
 
-constexpr char kCenterOfMass[] = "centerOfMass";  // the only feature with a key of its own
+constexpr char kCenterOfMass[] = "centerOfMass";  // the only feature with a text as key
 
 std::string typeName(nb::handle value) { return nb::cast<std::string>(nb::str(value.type().attr("__name__"))); }
 
-/// Numbers of one target: one row, or one per problem.
+/// Numbers of one target: one row for all problems, or one row per problem.
 struct Rows {
   std::string where;  ///< "targets['gripper']"
   Numbers numbers;
   std::size_t width = 0;
-  std::size_t count = 0;  ///< 0: one row for all problems
+  std::size_t count = 0;  ///< number of rows, 0 if one row serves all problems
 
   Eigen::Map<const VectorXd> row(std::size_t problem) const {
     return {numbers.values.data() + (count ? problem * width : 0), Eigen::Index(width)};
@@ -37,7 +37,7 @@ std::string shapeText(const Numbers& numbers) {
   return cat("has ", numbers.rank, " dimensions");
 }
 
-/// Throws unless the rows have one of `widths` numbers; 16 stands for 4 x 4.
+/// Reads rows with one of `widths` numbers, or throws; 16 means 4 x 4.
 Rows readRows(const std::string& where, nb::handle value, std::initializer_list<std::size_t> widths,
               const char* expected) {
   Rows rows{where, {}, 0, 0};
@@ -74,10 +74,10 @@ Pose poseFrom(const Rows& rows, std::size_t problem) {
   return Pose(T.topRightCorner<3, 1>(), Quaterniond(R).normalized());
 }
 
-/// A target before its rows are dealt out to the problems.
-struct Wish {
+/// A target together with its rows, which are distributed to the problems later.
+struct TargetRows {
   IkTarget target;
-  Rows rows;  ///< of width 0 where `target` is complete
+  Rows rows;  ///< width 0 if `target` is complete
 
   IkTarget of(std::size_t problem) const {
     IkTarget result = target;
@@ -103,25 +103,25 @@ class TargetReader {
     for (const auto& [key, value] : nb::borrow<nb::dict>(targets)) readTarget(key, value);
   }
 
-  IkRequest request() const {
-    IkRequest request;
+  IkProblems problems() const {
+    IkProblems all;
     std::size_t count = 1;
-    const Wish* leader = nullptr;
-    for (const Wish& wish : wishes_) {
-      if (wish.rows.count == 0) continue;
-      if (leader && wish.rows.count != count) {
-        throw ValueError(cat("solveIk: ", wish.rows.where, " has ", wish.rows.count, " rows, but ", leader->rows.where,
-                             " has ", count));
+    const TargetRows* leader = nullptr;
+    for (const TargetRows& entry : targets_) {
+      if (entry.rows.count == 0) continue;
+      if (leader && entry.rows.count != count) {
+        throw ValueError(cat("solveIk: ", entry.rows.where, " has ", entry.rows.count, " rows, but ",
+                             leader->rows.where, " has ", count));
       }
-      leader = &wish;
-      count = wish.rows.count;
+      leader = &entry;
+      count = entry.rows.count;
     }
-    request.is_batch = leader != nullptr;
-    request.problems.resize(count);
+    all.is_batch = leader != nullptr;
+    all.problems.resize(count);
     for (std::size_t i = 0; i < count; ++i) {
-      for (const Wish& wish : wishes_) request.problems[i].push_back(wish.of(i));
+      for (const TargetRows& entry : targets_) all.problems[i].push_back(entry.of(i));
     }
-    return request;
+    return all;
   }
 
  private:
@@ -145,35 +145,34 @@ class TargetReader {
     return config_.getFrame(nb::cast<std::string>(key)).getName();
   }
 
-  /// {(FS.distance, "a", "b"): -.1}, or in place of the number a dict of target or atMost, tolerance and scale.
+  /// Reads {(FS.distance, "a", "b"): -.1}; the number may be a dict of target or atMost, tolerance and scale.
   void readFeature(const FeatureSource& source, nb::handle key, bool listed, nb::handle value) {
     IkFeature feature{source, {}};
     where_ = cat("targets[", source.symbol() ? "FS." : "", source.name(), "]");
     for (std::size_t i = 1; listed && i < nb::len(key); ++i)
       feature.frames.push_back(nameOf(key[i], cat("a frame of ", where_)));
-    nb::object wanted = nb::borrow(value);
-    if (nb::isinstance<nb::dict>(value)) wanted = readBounds(nb::borrow<nb::dict>(value), feature);
+    nb::object goal = nb::borrow(value);
+    if (nb::isinstance<nb::dict>(value)) goal = readBounds(nb::borrow<nb::dict>(value), feature);
     IkTarget target = IkTarget::toFeature(feature);
-    if (!wanted.is_valid()) return add({target, {}});
+    if (!goal.is_valid()) return add({target, {}});
     const Residual residual = makeResidual(config_.state(), feature.source, feature.frames);
-    Rows rows = readValues(wanted, std::size_t(residual.feature().rows()));
+    Rows rows = readValues(goal, std::size_t(residual.feature().rows()));
     if (rows.count == 0) target.value = rows.row(0);
     add({target, rows});
   }
 
-  /// The part of a feature's dict that is its target; not valid if there is none.
+  /// Returns the target in the dict of a feature; invalid if there is none.
   nb::object readBounds(nb::dict parts, IkFeature& feature) const {
     const std::vector<std::string> known = {"target", "atMost", "tolerance", "scale"};
-    nb::object wanted;
+    nb::object goal;
     for (const auto& [part, value] : parts) {
       const std::string name = nb::cast<std::string>(nb::str(part)), where = cat(where_, "['", name, "']");
       if (std::ranges::find(known, name) == known.end())
         throw ValueError(
             cat("solveIk: ", where_, " has the key '", name, "'; expected ", join(known), similarHint(name, known)));
       if (name == "target" || name == "atMost") {
-        if (wanted.is_valid())
-          throw ValueError(cat("solveIk: ", where_, " has target and atMost; expected one of them"));
-        wanted = nb::borrow(value);
+        if (goal.is_valid()) throw ValueError(cat("solveIk: ", where_, " has target and atMost; expected one of them"));
+        goal = nb::borrow(value);
         feature.at_most = name == "atMost";
         continue;
       }
@@ -187,10 +186,10 @@ class TargetReader {
         feature.tolerance = numbers.values[0];
       }
     }
-    return wanted;
+    return goal;
   }
 
-  /// One number for all `width` rows of a feature, or one for each, or (N, width) for N problems.
+  /// Reads one number for all `width` components of a feature, or one for each, or (N, width) for N problems.
   Rows readValues(nb::handle value, std::size_t width) const {
     Numbers numbers;
     const bool read = readNumbers(value, numbers);
@@ -212,7 +211,7 @@ class TargetReader {
     readNumbersTarget(where_, value);
   }
 
-  /// A dict of position, directions, ...; `relativeTo` and `axis` are about the other parts.
+  /// Reads a dict of position, directions, ...; `relativeTo` and `axis` modify the other parts.
   void readParts(nb::dict parts) {
     if (parts.contains("relativeTo"))
       relative_to_ = config_.getFrame(nameOf(parts["relativeTo"], cat(where_, "['relativeTo']")));
@@ -281,7 +280,7 @@ class TargetReader {
     return std::nullopt;
   }
 
-  /// The pose of a frame as it is now, or a part of it.
+  /// Returns the present pose of a frame, or a part of it, as a target.
   IkTarget partOf(Kind kind, const Frame& there) const {
     IkTarget target = targetOf(kind);
     target.pose = relative_to_ ? there.getPose(*relative_to_) : there.getPose();
@@ -297,16 +296,16 @@ class TargetReader {
     return target;
   }
 
-  void add(Wish wish) { wishes_.push_back(std::move(wish)); }
+  void add(TargetRows entry) { targets_.push_back(std::move(entry)); }
 
   const Config& config_;
-  std::vector<Wish> wishes_;
+  std::vector<TargetRows> targets_;
   std::string frame_, where_;
-  std::optional<Frame> relative_to_;  ///< of the target that is being read
+  std::optional<Frame> relative_to_;  ///< for the present target
 };
 
 }  // namespace
 
-IkRequest readIkTargets(const Config& config, nb::handle targets) { return TargetReader(config, targets).request(); }
+IkProblems readIkTargets(const Config& config, nb::handle targets) { return TargetReader(config, targets).problems(); }
 
 }  // namespace kinegraph::python

@@ -1,9 +1,9 @@
 #pragma once
 
-// The step of inverse kinematics, for numbers S that are double or packs of doubles (one problem per lane); local to
-// each source file that includes it, as is lane_math.h. DampedStep and the kernels in lanes are made of it.
+// The step of inverse kinematics for numbers S that are double or packs of doubles (one problem per lane). Like
+// lane_math.h it is local to each source file that includes it. DampedStep and the kernels in lanes use it.
 //
-// What is not shared are the rows themselves, the targets' errors and Jacobians: see IkSearch::measureTargets.
+// The rows themselves, errors and Jacobians of the targets, are computed separately: see IkIterate.
 
 #include "kinegraph/math/lane_math.h"
 
@@ -11,28 +11,29 @@ namespace kinegraph::lanes {
 
 namespace {
 
-/// Little near the targets, so that convergence is quadratic. `square`: sum of squares of all rows.
+/// Returns a damping that is small near the targets, so that convergence is quadratic. `square`: sum of squares of all
+/// rows.
 template <class S>
 S dampingOf(S square) {
   constexpr double kLeast = 1e-9, kPerSquare = 1e-2, kMostSquares = 10.;
   return kLeast + kPerSquare * smaller(square, all<S>(kMostSquares));
 }
 
-/// The damped least squares problem within bounds that DampedStep describes, and memory to solve it in.
+/// The bounded damped least squares problem of DampedStep, and memory to solve it in.
 template <class S>
 struct DampedRows {
   int rows, variables;
   const S* jacobian;                      ///< (variables, rows)
   const S* error;                         ///< (rows)
-  const S* pull;                          ///< (variables), or null
+  const S* preferred;                     ///< (variables), or null
   const S* x;                             ///< (variables)
   const double *lower, *upper, *longest;  ///< (variables)
-  S* keep;                                ///< (variables): 0 where a bound holds
-  S* next;                                ///< (variables): the step, and in the end where it leads
+  S* keep;                                ///< (variables): 0 for variables that are held at a bound
+  S* next;                                ///< (variables): the step, finally the x it leads to
   S *A, *y, *inverse_pivots;              ///< scratch (rows, rows), (rows), (rows)
 };
 
-/// A = J keep J^T + damping, of which the lower triangle is computed, and y = error - J keep pull.
+/// Computes the lower triangle of A = J keep J^T + damping, and y = error - J keep preferred.
 template <int Rows, class S>
 [[gnu::always_inline]] inline void formRows(const DampedRows<S>& p, S damping) {
   const int m = Rows > 0 ? Rows : p.rows;
@@ -47,18 +48,18 @@ template <int Rows, class S>
       const S kept = p.keep[v] * J[r];
       for (int s = 0; s <= r; ++s) p.A[r * m + s] += kept * J[s];
     }
-    if (!p.pull) continue;
-    for (int r = 0; r < m; ++r) p.y[r] -= J[r] * (p.keep[v] * p.pull[v]);
+    if (!p.preferred) continue;
+    for (int r = 0; r < m; ++r) p.y[r] -= J[r] * (p.keep[v] * p.preferred[v]);
   }
 }
 
-/// Replaces y by A^-1 y. A pivot that rounding has made tiny or negative counts as a thousandth of the damping, the
-/// least that it can be.
+/// Replaces y by A^-1 y. A pivot that rounding made tiny or negative is replaced by a thousandth of the damping, its
+/// smallest possible value.
 template <int Rows, class S>
 [[gnu::always_inline]] inline void solveRows(const DampedRows<S>& p, S damping) {
   const int m = Rows > 0 ? Rows : p.rows;
   const S least = 1e-3 * damping;
-  for (int r = 0; r < m; ++r) {  // A = L D L^T in place, and y = L^-1 y on the way
+  for (int r = 0; r < m; ++r) {  // A = L D L^T in place, and y = L^-1 y in the same pass
     S* row = p.A + r * m;
     for (int s = 0; s < r; ++s) {
       S value = row[s];
@@ -82,7 +83,8 @@ template <int Rows, class S>
   }
 }
 
-/// next = keep (pull + J^T A^-1 (error - J keep pull)): the step that leaves alone what a bound holds.
+/// Computes the step of the variables that no bound holds: next = keep (preferred + J^T A^-1 (error - J keep
+/// preferred)).
 template <int Rows, class S>
 [[gnu::always_inline]] inline void stepOfKept(const DampedRows<S>& p, S damping) {
   const int m = Rows > 0 ? Rows : p.rows;
@@ -92,12 +94,12 @@ template <int Rows, class S>
     const S* J = p.jacobian + long(v) * m;
     S value{};
     for (int r = 0; r < m; ++r) value += J[r] * p.y[r];
-    if (p.pull) value += p.pull[v];
+    if (p.preferred) value += p.preferred[v];
     p.next[v] = p.keep[v] * value;
   }
 }
 
-/// Holds the variables at a bound that `next` would cross. Was there one?
+/// Holds the variables at a bound that `next` would cross. Returns true if there was one.
 template <class S>
 [[gnu::always_inline]] inline bool holdAtBounds(const DampedRows<S>& p) {
   auto changed = S{} < S{};
@@ -109,10 +111,10 @@ template <class S>
   return any(changed);
 }
 
-/// A part of a step: 1 / excess of it. For packs one division serves all variables, which is what these kernels spend
-/// their time on; the quotient of single numbers is exact to rounding. They differ in the last bit, and the recorded
+/// Divides a step by its excess. For packs one division serves all variables, because divisions dominate the run time
+/// of the kernels; for single numbers the quotient is exact to rounding. Both differ in the last bit, and the recorded
 /// answers of solveIk depend on both.
-struct Share {
+struct Scaled {
   template <class S>
   static S of(S step, S excess) {
     return (1. / excess) * step;
@@ -120,27 +122,27 @@ struct Share {
   static double of(double step, double excess) { return step / excess; }
 };
 
-/// Cuts the step where it is longer than the variables may move, all alike so that its direction stays (those without
-/// a longest step go all the way), and at the bounds; `next` is then where it leads.
+/// Scales the step down to the largest allowed one without changing its direction; variables without a largest step are
+/// not scaled. Then clips it at the bounds and replaces `next` by the resulting x.
 template <class S>
 [[gnu::always_inline]] inline void moveWithinBounds(const DampedRows<S>& p) {
   constexpr double kUnlimited = 1e300;
   S excess = all<S>(1.);
   for (int v = 0; v < p.variables; ++v) excess = larger(excess, magnitude(p.next[v]) / p.longest[v]);
   for (int v = 0; v < p.variables; ++v) {
-    const S step = p.longest[v] < kUnlimited ? Share::of(p.next[v], excess) : p.next[v];
+    const S step = p.longest[v] < kUnlimited ? Scaled::of(p.next[v], excess) : p.next[v];
     p.next[v] = smaller(larger(p.x[v] + step, all<S>(p.lower[v])), all<S>(p.upper[v]));
   }
 }
 
-/// The whole step, from x to next. What is held is solved without; the few passes are enough in practice, and what
-/// crosses a bound after the last one is cut there.
+/// Computes the whole step from x to next. Each pass solves again without the held variables. Few passes suffice in
+/// practice; variables that cross a bound after the last one are clipped.
 template <class S>
 [[gnu::always_inline]] inline void dampedStep(const DampedRows<S>& p, S damping) {
   constexpr int kPasses = 4;
   for (int v = 0; v < p.variables; ++v) p.keep[v] = all<S>(1.);
   for (int pass = 0; pass < kPasses; ++pass) {
-    switch (p.rows) {  // known to the compiler for the frequent ones: a position or rotation, and a pose
+    switch (p.rows) {  // compile-time sizes for the frequent cases: a position or rotation, and a pose
       case 3:
         stepOfKept<3>(p, damping);
         break;

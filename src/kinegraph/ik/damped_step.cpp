@@ -20,9 +20,9 @@ void DampedStep::resize(int rows, int columns) {
 }
 
 void DampedStep::solve(const double* x, const double* lower, const double* upper, const double* longest, double damping,
-                       const double* pull) {
+                       const double* preferred) {
   const lanes::DampedRows<double> rows{
-      rows_, columns_, J_.data(),    e_.data(),    pull,      x,         lower,
+      rows_, columns_, J_.data(),    e_.data(),    preferred, x,         lower,
       upper, longest,  keep_.data(), step_.data(), A_.data(), y_.data(), inverse_pivots_.data()};
   lanes::dampedStep(rows, damping);
   for (int c = 0; c < columns_; ++c) step_[c] -= x[c];

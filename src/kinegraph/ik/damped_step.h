@@ -6,12 +6,12 @@
 
 namespace kinegraph {
 
-/// The step dx of a damped least squares problem within bounds, computed in the space of the rows, which are few:
+/// The step dx of a bounded damped least squares problem, computed in the space of the rows, which are few:
 ///
-///     min |J dx - e|^2 + damping |dx - pull|^2      lower <= x + dx <= upper
+///     min |J dx - e|^2 + damping |dx - preferred|^2      lower <= x + dx <= upper
 ///
-/// For little damping it meets the rows and moves as `pull` says where they leave freedom. Variables at a bound that
-/// the step would cross are held, and the others solved for again. How it is computed is in damped_rows.h. Requests no
+/// For little damping it satisfies the rows, and follows `preferred` in the directions that they leave free. Variables
+/// at a bound that the step would cross are held, and the others are solved for again (damped_rows.h). Allocates no
 /// memory after `resize` to the largest size.
 class DampedStep {
  public:
@@ -19,18 +19,18 @@ class DampedStep {
   int rows() const { return rows_; }
   int columns() const { return columns_; }
 
-  double* column(int c) { return J_.data() + std::ptrdiff_t(c) * rows_; }  ///< of J, to be filled
+  double* column(int c) { return J_.data() + std::ptrdiff_t(c) * rows_; }  ///< of J, filled by the caller
   const double* column(int c) const { return J_.data() + std::ptrdiff_t(c) * rows_; }
   double& error(int r) { return e_[r]; }
-  double multiplier(int r) const { return y_[r]; }  ///< what pulls at row r; 0 for a row that is met for free
+  double multiplier(int r) const { return y_[r]; }  ///< Lagrange multiplier of row r; 0 if the row is inactive
 
-  /// Computes `step()`. Where an entry exceeds its `longest`, all that have a finite one are scaled down. `pull` may be
-  /// null.
+  /// Computes `step()`. If an entry exceeds its `longest`, all entries with a finite `longest` are scaled down.
+  /// `preferred` may be null.
   void solve(const double* x, const double* lower, const double* upper, const double* longest, double damping,
-             const double* pull);
+             const double* preferred);
   const VectorXd& step() const { return step_; }
 
-  /// The damping for rows whose sum of squares is `square`.
+  /// Returns the damping for rows with this sum of squares.
   static double damping(double square);
 
  private:

@@ -36,13 +36,13 @@ IkLaneModel::IkLaneModel(const IkProblem& problem)
 void IkLaneModel::addTasks(const IkProblem& problem) {
   for (const IkProblem::Task& task : problem.tasks) {
     IkKernelModel::Task lane_task{};
-    lane_task.placed = task.placed();
-    lane_task.directed = task.pointed();
-    lane_task.turned = task.turned();
+    lane_task.has_position = task.hasPosition();
+    lane_task.has_direction = task.hasDirection();
+    lane_task.has_rotation = task.hasRotation();
     lane_task.frame = links_.place(*problem.model, *problem.parameters, task.frame);
     lane_task.first_column = int(column_.size());
     for (int index : links_.chain(lane_task.frame.link)) {
-      column_.push_back({index, links_.column(index).variable, links_.column(index).turns});
+      column_.push_back({index, links_.column(index).variable, links_.column(index).is_rotation});
     }
     lane_task.columns = int(column_.size()) - lane_task.first_column;
     std::copy_n(task.target.axis.data(), 3, lane_task.axis);

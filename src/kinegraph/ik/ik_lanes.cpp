@@ -32,7 +32,7 @@ void IkLanes::solve(const std::vector<IkTarget>* problems, int count, IkResult* 
     for (int i = 0; i < count; ++i, ++done) results[i] = search_.solve(problems[i], stop);
     return;
   }
-  // All lanes step together; what differs between them, who is done and what comes next, is settled between the steps.
+  // All lanes step together. Finished attempts are replaced between the steps.
   for (int run = 0;; ++run) {
     if (run % 16 == 0 && stop()) cancelled_ = true;
     bool busy = false;
@@ -53,8 +53,8 @@ void IkLanes::solve(const std::vector<IkTarget>* problems, int count, IkResult* 
   }
 }
 
-/// Gives an idle lane an attempt: of an open problem that no lane works on, else of a new problem, else of the open one
-/// with the fewest attempts begun. False if there is none.
+/// Gives an idle lane an attempt: of an open problem without a lane, else of a new problem, else of the open problem
+/// with the fewest attempts started. Returns false if there is none.
 bool IkLanes::fill(int lane) {
   int chosen = -1;
   for (int o = 0; o < kernel_.lanes; ++o) {
@@ -92,7 +92,7 @@ void IkLanes::start(int lane, int open) {
   }
 }
 
-/// Looks at the errors of a lane after the kernel ran, and takes its step.
+/// Checks the errors of a lane after the kernel ran, and accepts its step.
 void IkLanes::advance(int lane) {
   const IkOptions& options = problem_->options;
   Lane& state = lanes_[lane];
@@ -112,17 +112,17 @@ void IkLanes::end(int lane, bool met) {
                         {met, std::sqrt(memory_.distance[lane]) + memory_.angle[lane], state.evals},
                         VectorXd(view_.variables())});
   for (int v = 0; v < view_.variables(); ++v) open.ended.back().x[v] = at(memory_.x, v, lane);
-  judgeEnded(state.open);
+  assessEnded(state.open);
 }
 
-/// Attempts end in any order, but are judged in that of their numbers: so the answer is the one that would have been
-/// found without lanes.
-void IkLanes::judgeEnded(int index) {
+/// Attempts end in any order but are assessed in the order of their numbers, so that the answer equals that of a search
+/// without lanes.
+void IkLanes::assessEnded(int index) {
   Open& open = open_[index];
   for (;;) {
     const auto next = std::ranges::find(open.ended, open.job.attempts, &Ended::attempt);
     if (next == open.ended.end()) return;
-    const bool decided = search_.judge(open.job, next->x, next->approach, *stop_);
+    const bool decided = search_.assess(open.job, next->x, next->approach, *stop_);
     if (decided) return close(index, false);
     open.ended.erase(next);
   }
@@ -133,7 +133,7 @@ void IkLanes::close(int index, bool cancelled) {
   results_[open.problem] = search_.finish(open.job, cancelled, *stop_);
   if (!cancelled) ++*done_;
   open.problem = -1;
-  for (Lane& lane : lanes_) {  // attempts that were begun ahead of need are given up
+  for (Lane& lane : lanes_) {  // abandons attempts that were started speculatively
     if (lane.open == index) lane.open = -1;
   }
 }

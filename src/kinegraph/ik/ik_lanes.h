@@ -9,13 +9,13 @@
 
 namespace kinegraph {
 
-/// The kinematics of a problem for ik_kernel.h, and who owns its arrays.
+/// The kinematics of a problem as arrays for ik_kernel.h, which this class owns.
 class IkLaneModel {
  public:
   explicit IkLaneModel(const IkProblem& problem);
 
-  /// False where a joint has quaternions, there are too many rows, or a target is not a place or direction in the
-  /// world: lanes cannot do these.
+  /// False if the lanes cannot solve the problem: a joint has quaternions, there are too many rows, or a target is
+  /// neither a pose nor a direction in the world.
   bool supported() const { return supported_; }
   IkKernelModel view() const;
 
@@ -27,7 +27,7 @@ class IkLaneModel {
   LaneLinks links_;
   std::vector<IkKernelModel::Task> task_;
   std::vector<IkKernelModel::Column> column_;
-  const double *lower_, *upper_, *longest_;  ///< the problem's
+  const double *lower_, *upper_, *longest_;  ///< owned by the problem
 };
 
 /// Memory for a number of lanes.
@@ -41,20 +41,20 @@ struct LaneBuffer {
   std::vector<double> storage_;
 };
 
-/// Solves problems that differ in their targets, several attempts side by side in the lanes of wide registers: of
-/// different problems while there are some, else of the same ones. Attempts of a problem are judged in their order, so
-/// that lanes and their number do not change answers.
+/// Solves problems that differ in their targets, several attempts side by side in the lanes of wide registers. Lanes
+/// take attempts of different problems first, then further attempts of the same ones. The attempts of a problem are
+/// assessed in their order, so the number of lanes does not change answers.
 class IkLanes {
  public:
-  /// `width`: number of lanes, one of laneWidths(), 0 for the most.
+  /// `width`: number of lanes, one of laneWidths(); 0 selects the largest.
   explicit IkLanes(std::shared_ptr<const IkProblem> problem, int width = 0);
 
-  /// results[i] answers problems[i]; `done` counts them.
+  /// Writes the result of problems[i] to results[i]; `done` counts solved problems.
   void solve(const std::vector<IkTarget>* problems, int count, IkResult* results, std::atomic<int>& done,
              const Stop& stop);
 
  private:
-  /// An attempt that has ended and waits for those before it to be judged.
+  /// An attempt that has ended and waits until all earlier ones are assessed.
   struct Ended {
     int attempt;
     IkApproach approach;
@@ -77,7 +77,7 @@ class IkLanes {
   void start(int lane, int open);
   void advance(int lane);
   void end(int lane, bool met);
-  void judgeEnded(int open);
+  void assessEnded(int open);
   void close(int open, bool cancelled);
   double& at(double* rows, int row, int lane) const { return rows[row * kernel_.lanes + lane]; }
 

@@ -14,17 +14,18 @@ namespace {
 using Kind = IkTarget::Kind;
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-constexpr double kMayTouch = 2e-3;  // m beyond the margin: pairs that may touch nearby
+constexpr double kMayTouch = 2e-3;  // m beyond the margin: pairs that may touch near the solution
 
 /// The rotation vector r of R = exp(r).
 Vector3d logarithm(const Matrix3d& R) {
-  const Eigen::AngleAxisd turn(R);
+  const Eigen::AngleAxisd rotation(R);
   const Vector3d twice_sine(R(2, 1) - R(1, 2), R(0, 2) - R(2, 0), R(1, 0) - R(0, 1));
-  return turn.angle() < 1e-4 ? Vector3d(.5 * twice_sine) : Vector3d(turn.angle() * turn.axis());
+  return rotation.angle() < 1e-4 ? Vector3d(.5 * twice_sine) : Vector3d(rotation.angle() * rotation.axis());
 }
 
-/// dr of R = exp(r) for a small turn w of R from the left, exp(w) R; for one from the right it is the transpose.
-Matrix3d turnsLogarithm(const Vector3d& r) {
+/// Derivative of r for R = exp(r) and a small rotation w from the left, exp(w) R. The transpose is the derivative for a
+/// rotation from the right.
+Matrix3d logarithmJacobian(const Vector3d& r) {
   const double angle = r.norm();
   const double k =
       angle < 1e-3 ? 1. / 12. : 1. / (angle * angle) - (1. + std::cos(angle)) / (2. * angle * std::sin(angle));
@@ -35,8 +36,8 @@ Matrix3d turnsLogarithm(const Vector3d& r) {
 class IkNlp final : public Nlp {
  public:
   explicit IkNlp(const IkResult& result)
-      : problem_(result.question->problem),
-        targets_(result.question->problems[std::size_t(result.number)]),
+      : problem_(result.request->problem),
+        targets_(result.request->problems[std::size_t(result.number)]),
         state_(problem_->model, problem_->parameters) {
     const IkProblem& problem = *problem_;
     lower_ = upper_ = result.q;
@@ -52,10 +53,10 @@ class IkNlp final : public Nlp {
       task_of_.insert(task_of_.end(), std::size_t(rowsOf(task)), int(i));
     }
     for (std::size_t i = 0; i < targets_.size(); ++i) setTarget(i, targets_[i]);
-    takeNearPairs(result.q);
+    findNearPairs(result.q);
     types_.insert(types_.end(), near_.size(), ObjectiveType::ineq);
     first_cost_ = int(types_.size());
-    if (problem.pulls) types_.insert(types_.end(), std::size_t(problem.variables()), ObjectiveType::sos);
+    if (problem.has_preference) types_.insert(types_.end(), std::size_t(problem.variables()), ObjectiveType::sos);
     linear_.assign(types_.size(), false);
     std::fill(linear_.begin() + first_cost_, linear_.end(), true);
   }
@@ -63,7 +64,7 @@ class IkNlp final : public Nlp {
   const IkProblem& problem() const { return *problem_; }
   const std::vector<IkTarget>& targets() const { return targets_; }
 
-  /// Moves the numbers of a target.
+  /// Replaces the numbers of a target.
   void setTarget(std::size_t i, const IkTarget& target) {
     const IkTask& task = problem_->tasks[i];
     if (task.residual) {
@@ -100,7 +101,7 @@ class IkNlp final : public Nlp {
     }
     evaluatePairs(row, phi);
     for (int v = 0; first_cost_ + v < phi.size(); ++v)
-      phi[first_cost_ + v] = q[problem_->dofs[std::size_t(v)]] - problem_->nearest[v];
+      phi[first_cost_ + v] = q[problem_->dofs[std::size_t(v)]] - problem_->preferred[v];
   }
 
   std::string rowName(int row) const override {
@@ -109,7 +110,8 @@ class IkNlp final : public Nlp {
       return cat(task.goal(), " of ", task.name());
     }
     if (row >= first_cost_)
-      return cat("distance from the posture, ", describeVariable(problem_->dofs[std::size_t(row - first_cost_)]).name);
+      return cat("distance from the preferred configuration, ",
+                 describeVariable(problem_->dofs[std::size_t(row - first_cost_)]).name);
     const auto [a, b] = problem_->pairs[std::size_t(near_[std::size_t(row) - task_of_.size()])];
     return cat("distance of '", problem_->model->frame_name[std::size_t(a)], "' and '",
                problem_->model->frame_name[std::size_t(b)], "'");
@@ -122,9 +124,9 @@ class IkNlp final : public Nlp {
   }
 
  private:
-  static int rowsOf(const IkTask& task) { return task.pointed() ? 3 : task.rows(); }
+  static int rowsOf(const IkTask& task) { return task.hasDirection() ? 3 : task.rows(); }
 
-  void takeNearPairs(const VectorXd& q) {
+  void findNearPairs(const VectorXd& q) {
     state_.setJoints(q.data());
     if (!problem_->bodies) return;
     PlacedBodies placed(*problem_->bodies);
@@ -134,8 +136,8 @@ class IkNlp final : public Nlp {
     });
   }
 
-  /// Adds to three rows what the motion of a frame's link does: `linear` to the velocity of a point, `angular` to the
-  /// angular velocity.
+  /// Adds the effect of the motion of a frame's link to three rows: `linear` times the velocity of a point, and
+  /// `angular` times the angular velocity.
   void addMotion(int row, int frame, const Vector3d& point, const Matrix3d& linear, const Matrix3d& angular) {
     if (frame < 0) return;
     const int n = dimension();
@@ -149,7 +151,7 @@ class IkNlp final : public Nlp {
     const RigidTransform X = state_.pose(task.frame),
                          A = task.reference < 0 ? RigidTransform() : state_.pose(task.reference);
     const Matrix3d one = Matrix3d::Identity(), zero = Matrix3d::Zero();
-    if (task.placed()) {
+    if (task.hasPosition()) {
       const Vector3d p = A * goal.p;
       phi.segment<3>(row) = X.p - p;
       if (J_) {
@@ -158,14 +160,14 @@ class IkNlp final : public Nlp {
       }
       row += 3;
     }
-    if (task.turned()) {
+    if (task.hasRotation()) {
       const Vector3d r = logarithm(X.R * (A.R * goal.R).transpose());
       phi.segment<3>(row) = r;
       if (!J_) return;
-      const Matrix3d turns = turnsLogarithm(r);
+      const Matrix3d turns = logarithmJacobian(r);
       addMotion(row, task.frame, X.p, zero, turns);
       addMotion(row, task.reference, X.p, zero, -turns.transpose());
-    } else if (task.pointed()) {
+    } else if (task.hasDirection()) {
       const bool gazes = task.kind() == Kind::gaze;
       const Vector3d axis = X.R * task.target.axis, point = A * goal.p;
       const Vector3d sight = gazes ? Vector3d(point - X.p) : Vector3d(A.R * goal.p);
@@ -210,18 +212,18 @@ class IkNlp final : public Nlp {
 
   std::shared_ptr<const IkProblem> problem_;
   std::vector<IkTarget> targets_;
-  std::vector<RigidTransform> goals_;  ///< per target; of a direction or gaze, p is it
-  std::vector<Residual> residuals_;    ///< of the features
-  std::vector<int> task_of_;           ///< per row of a target
-  std::vector<int> near_;              ///< pairs
+  std::vector<RigidTransform> goals_;  ///< per target; p holds a direction or the point of a gaze
+  std::vector<Residual> residuals_;    ///< of the feature tasks
+  std::vector<int> task_of_;           ///< per row of the targets
+  std::vector<int> near_;              ///< numbers of the near pairs
   int first_cost_ = 0;
   State state_;
-  Jacobian* J_ = nullptr;  ///< that is being filled
+  Jacobian* J_ = nullptr;  ///< the Jacobian that is being filled
 };
 
 const IkNlp& requireIk(const Nlp& nlp) {
   const auto* of_ik = dynamic_cast<const IkNlp*>(&nlp);
-  if (!of_ik) throw ValueError("the problem is not that of an answer of solveIk");
+  if (!of_ik) throw ValueError("the problem was not made from a result of solveIk");
   return *of_ik;
 }
 
@@ -230,7 +232,7 @@ class IkTargetNumbers final : public MovedParameter {
   IkTargetNumbers(const IkNlp& nlp, int target)
       : MovedParameter(cat("target of ", nlp.problem().tasks[std::size_t(target)].name()), namesOf(nlp, target)),
         target_(std::size_t(target)),
-        given_(nlp.targets()[target_]) {}
+        original_(nlp.targets()[target_]) {}
 
  private:
   static std::vector<std::string> namesOf(const IkNlp& nlp, int number) {
@@ -239,8 +241,8 @@ class IkTargetNumbers final : public MovedParameter {
     const auto add = [&](const char* what) {
       for (const char* axis : {"x", "y", "z"}) names.push_back(cat(what, " of ", task.name(), ", ", axis));
     };
-    if (task.placed()) add("target position");
-    if (task.turned()) add("target rotation");
+    if (task.hasPosition()) add("target position");
+    if (task.hasRotation()) add("target rotation");
     if (task.kind() == Kind::direction) add("target direction");
     if (task.kind() == Kind::gaze) add("gaze");
     for (int row = 0; task.residual && row < task.residual->feature().rows(); ++row)
@@ -249,7 +251,7 @@ class IkTargetNumbers final : public MovedParameter {
   }
 
   void move(Nlp& nlp, int number, double by) override {
-    IkTarget target = given_;
+    IkTarget target = original_;
     const IkNlp& problem = requireIk(nlp);
     const IkTask& task = problem.problem().tasks[target_];
     const Vector3d axis = Vector3d::Unit(number % 3);
@@ -260,7 +262,7 @@ class IkTargetNumbers final : public MovedParameter {
       target.value[number] += by;
     } else if (task.kind() == Kind::direction) {
       target.direction += by * axis;
-    } else if (task.turned() && (number >= 3 || !task.placed())) {
+    } else if (task.hasRotation() && (number >= 3 || !task.hasPosition())) {
       target.pose.q = Quaterniond(Eigen::AngleAxisd(by, axis)) * target.pose.q.normalized();
     } else {
       target.pose.p += by * axis;
@@ -269,15 +271,16 @@ class IkTargetNumbers final : public MovedParameter {
   }
 
   std::size_t target_;
-  IkTarget given_;
+  IkTarget original_;
 };
 
 }  // namespace
 
 std::shared_ptr<Nlp> makeNlp(const IkResult& result) {
-  if (!result.question)
-    throw ValueError("the result does not know what was asked, as one that was loaded: solve it here, then ask");
-  if (!result.feasible()) throw ValueError(cat("the result is no answer that could move: ", result.str()));
+  if (!result.request)
+    throw ValueError(
+        "the result has no problem, because it was loaded from a file; call solveIk in this process first");
+  if (!result.feasible()) throw ValueError(cat("the result is not a solution: ", result.str()));
   return std::make_shared<IkNlp>(result);
 }
 
@@ -293,9 +296,10 @@ int ikTargetNumber(const Nlp& nlp, const std::string& name) {
   }
   if (count > 1)
     throw NameError(
-        cat("there are ", count, " targets of '", name, "'; give the number of one, in the order of the targets"));
+        cat("there are ", count, " targets of '", name, "'; expected the number of one, in the order of the targets"));
   if (count == 0)
-    throw NameError(cat("there is no target of '", name, "'; they are of ", join(known), similarHint(name, known)));
+    throw NameError(
+        cat("there is no target of '", name, "'; the targets are of ", join(known), similarHint(name, known)));
   return found;
 }
 

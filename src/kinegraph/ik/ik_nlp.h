@@ -9,27 +9,32 @@
 
 namespace kinegraph {
 
-/// What solveIk was asked, which its results hold.
-struct IkQuestion {
+/// Input of solveIk, which its results hold for makeNlp.
+struct IkRequest {
   std::shared_ptr<const IkProblem> problem;
   std::vector<std::vector<IkTarget>> problems;
 };
 
-/// The problem that an answer of solveIk solves, around it: its targets as equalities of q (or bounds, as inequalities),
-/// the pairs that are near as inequalities, limits as bounds; and where the answer was to be near to a posture the
-/// squared distance from it. Joints that move no target are given. Throws ValueError for a result that is no answer, or
-/// that knows no question, as one that was loaded.
+/// Returns the optimization problem that an answer of solveIk solves, in the neighborhood of that answer. Targets are
+/// equalities of q, or inequalities for bounds; near pairs are inequalities, and limits are bounds. If the answer was
+/// moved close to a preferred configuration, the squared distance from it is the cost. Joints that move no target are
+/// fixed by bounds. Throws ValueError for a result without a solution or without a request, such as one loaded from a
+/// file.
 std::shared_ptr<Nlp> makeNlp(const IkResult& result);
 
-/// Number of a target, by the name of its frame or feature. Throws NameError if there is none, or more than one.
+/// Returns the number of a target from the name of its frame or feature. Throws NameError unless exactly one matches.
 int ikTargetNumber(const Nlp& nlp, const std::string& name);
 
 int ikTargetCount(const Nlp& nlp);
 
-/// The numbers of a target, in the order in which they were given: of a position or gaze x y z (m); of a pose these and a
-/// rotation vector (rad), by which it is turned about its own origin, R <- exp(r) R; of a rotation the vector alone; of a
-/// direction its entries; of a feature its value. With axes of what the target is relative to. `nlp` is that of a result.
-/// Throws ValueError for a target that is not there.
+/// Returns the numbers of a target as a parameter, in their original order:
+/// - position or gaze: x y z (m)
+/// - pose: x y z, then a rotation vector r (rad) about its own origin, R <- exp(r) R
+/// - rotation: the rotation vector alone
+/// - direction or feature: its entries
+///
+/// Axes are those of the frame that the target is relative to. `nlp` comes from makeNlp. Throws ValueError if there is
+/// no such target.
 std::shared_ptr<NlpParameter> ikTarget(const Nlp& nlp, int target);
 
 }  // namespace kinegraph

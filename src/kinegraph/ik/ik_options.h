@@ -6,7 +6,7 @@
 
 namespace kinegraph {
 
-/// Settings of solveIk; ikOptionTable() says what each one means.
+/// Settings of solveIk; ikOptionTable() documents each one.
 struct IkOptions {
   double position_tolerance = 1e-6;
   double rotation_tolerance = 1e-6;
@@ -19,11 +19,11 @@ struct IkOptions {
   double home_weight = 0.;
   std::uint64_t seed = 0;
 
-  /// Throws ValueError naming the first field that makes no sense.
+  /// Throws ValueError that names the first invalid field.
   void validate() const;
 };
 
-/// Name, unit, meaning and range of each field, for messages, bindings and documents.
+/// Name, unit, description and range of each field, for messages, bindings and documents.
 const OptionTable<IkOptions>& ikOptionTable();
 
 }  // namespace kinegraph

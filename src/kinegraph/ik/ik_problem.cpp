@@ -13,20 +13,20 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kLongestTurn = .5;  // rad
+constexpr double kLongestRotation = .5;  // rad
 
-/// Per dof: does it turn, so that without limits a full turn is worth trying?
-std::vector<char> turningDofs(const KinematicModel& model) {
-  std::vector<char> turns(model.dofs, 0);
+/// Per dof: true for rotations, whose starting points cover a full rotation if there are no limits.
+std::vector<char> rotationalDofs(const KinematicModel& model) {
+  std::vector<char> rotates(model.dofs, 0);
   for (std::size_t l = 1; l < model.links.size(); ++l) {
     const KinematicModel::Link& link = model.links[l];
     int dof = link.dof;
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
-      turns[dof] = model.steps[s].turns();
+      rotates[dof] = model.steps[s].rotates();
       dof += model.steps[s].dofs();
     }
   }
-  return turns;
+  return rotates;
 }
 
 }  // namespace
@@ -47,19 +47,19 @@ IkProblem::IkProblem(const Config& config, const std::vector<IkTarget>& targets,
   chooseVariables(state);
   for (const Task& task : tasks) requireAtRest(task);
   const double weight = options.start_weight + options.home_weight;
-  pulls = weight > 0.;
-  nearest.resize(variables());
+  has_preference = weight > 0.;
+  preferred.resize(variables());
   for (int v = 0; v < variables(); ++v) {
     const double home = model->home[dofs[v]], start = q[dofs[v]];
-    nearest[v] = pulls ? (options.start_weight * start + options.home_weight * home) / weight : start;
+    preferred[v] = has_preference ? (options.start_weight * start + options.home_weight * home) / weight : start;
   }
-  nearest = nearest.cwiseMax(lower).cwiseMin(upper);
+  preferred = preferred.cwiseMax(lower).cwiseMin(upper);
   if (options.collisions) choosePairs();
   bodies.emplace(*model, pairs);
 }
 
 void IkProblem::chooseVariables(const State& state) {
-  // Joints that move no target stay where they are, and need no columns.
+  // Joints that move no target keep their values and need no columns.
   variable.assign(model->dofs, -1);
   for (const Task& task : tasks) {
     const std::vector<int> moving = task.dofs(state);
@@ -69,7 +69,7 @@ void IkProblem::chooseVariables(const State& state) {
     }
     for (const int dof : moving) variable[dof] = 0;
   }
-  // Quaternions are not kept at norm one by the steps, so it is noted where they are.
+  // Steps do not preserve the norm of quaternions, so their variables are listed for normalize().
   for (const KinematicModel::DofRange& norm : model->unit_norms) {
     if (variable[norm.first] == 0) norms_.emplace_back(norm.first, norm.count);
   }
@@ -79,35 +79,35 @@ void IkProblem::chooseVariables(const State& state) {
     dofs.push_back(dof);
   }
   for (auto& norm : norms_) norm.first = variable[norm.first];
-  // Steps of angles are bounded, because their linear model is good for about half a radian. Where there is no limit,
-  // starting points are drawn around the present value: all angles, and a meter to both sides.
-  const std::vector<char> turns = turningDofs(*model);
+  // Steps of angles are bounded because their linear model is accurate up to about half a radian. Without limits,
+  // starting points are sampled around the present value: full rotations for angles, one meter to both sides otherwise.
+  const std::vector<char> rotates = rotationalDofs(*model);
   lower.resize(variables());
   upper.resize(variables());
   longest.resize(variables());
-  draw_lower_.resize(variables());
-  draw_upper_.resize(variables());
+  sample_lower_.resize(variables());
+  sample_upper_.resize(variables());
   for (int v = 0; v < variables(); ++v) {
     const int dof = dofs[v];
     lower[v] = model->lower[dof];
     upper[v] = model->upper[dof];
-    longest[v] = turns[dof] ? kLongestTurn : std::numeric_limits<double>::infinity();
-    const double reach = turns[dof] ? std::numbers::pi : 1.;
-    draw_lower_[v] = std::isfinite(lower[v]) ? lower[v] : std::min(q[dof], upper[v]) - reach;
-    draw_upper_[v] = std::isfinite(upper[v]) ? upper[v] : std::max(q[dof], lower[v]) + reach;
+    longest[v] = rotates[dof] ? kLongestRotation : std::numeric_limits<double>::infinity();
+    const double reach = rotates[dof] ? std::numbers::pi : 1.;
+    sample_lower_[v] = std::isfinite(lower[v]) ? lower[v] : std::min(q[dof], upper[v]) - reach;
+    sample_upper_[v] = std::isfinite(upper[v]) ? upper[v] : std::max(q[dof], lower[v]) + reach;
   }
-  // Entries of quaternions are drawn from the cube around the sphere, and brought to norm one.
+  // Entries of quaternions are sampled in the cube around the unit sphere and then normalized.
   for (const auto& [first, count] : norms_) {
     for (int v = first; v < first + count; ++v) {
-      longest[v] = kLongestTurn;
-      draw_lower_[v] = std::max(lower[v], -1.);
-      draw_upper_[v] = std::min(upper[v], 1.);
+      longest[v] = kLongestRotation;
+      sample_lower_[v] = std::max(lower[v], -1.);
+      sample_upper_[v] = std::min(upper[v], 1.);
     }
   }
   sequence_ = LowDiscrepancy(variables(), options.seed);
 }
 
-/// A pose that was taken from a frame must not be left by it while the targets are gone for.
+/// Throws ValueError if the targets move a frame whose pose was taken as a target.
 void IkProblem::requireAtRest(const Task& task) const {
   const std::string& from = task.target.taken_from;
   if (from.empty()) return;
@@ -117,9 +117,9 @@ void IkProblem::requireAtRest(const Task& task) const {
   });
   if (mover < 0) return;
   const std::string against = task.reference < 0 ? "" : cat(" against '", task.target.relative_to, "'");
-  throw ValueError(cat("solveIk: the target of ", task.name(), " is where frame '", from, "' is, which moves", against,
-                       " with joint '", jointName(*model, mover), "', as the targets do; to meet it wherever it goes, ",
-                       "say relativeTo '", from, "'; to go where it is now, give its pose as numbers"));
+  throw ValueError(cat("solveIk: the target of ", task.name(), " is the pose of frame '", from, "', which moves",
+                       against, " with joint '", jointName(*model, mover), "', like the targets; pass relativeTo '",
+                       from, "' to follow it, or its present pose as numbers"));
 }
 
 void IkProblem::choosePairs() {
@@ -129,11 +129,11 @@ void IkProblem::choosePairs() {
     const bool moved = anyColumnBetween(*model, pair.first, pair.second, moves);
     (moved ? pairs : unmoved).push_back(pair);
   }
-  if (!unmoved.empty()) describeStuck(unmoved);
+  if (!unmoved.empty()) describeBlocking(unmoved);
 }
 
-/// No answer can be free where other joints than the variables hold a pair too near.
-void IkProblem::describeStuck(const std::vector<std::pair<int, int>>& unmoved) {
+/// Describes pairs that are too close and that no variable can separate: no answer is collision-free then.
+void IkProblem::describeBlocking(const std::vector<std::pair<int, int>>& unmoved) {
   constexpr int kNamed = 3;
   State state(model, parameters);
   state.setJoints(q.data());
@@ -151,13 +151,13 @@ void IkProblem::describeStuck(const std::vector<std::pair<int, int>>& unmoved) {
   if (reasons.empty()) return;
   const std::size_t more = reasons.size() > kNamed ? reasons.size() - kNamed : 0;
   reasons.resize(reasons.size() - more);
-  in_the_way = cat(join(reasons, "; "), more > 0 ? cat("; and ", more, " more pairs") : "",
-                   "; no joint that moves a target parts them");
+  blocking = cat(join(reasons, "; "), more > 0 ? cat("; and ", more, " more pairs") : "",
+                 "; no joint that moves a target separates them");
 }
 
 void IkProblem::startingPoint(int i, double* x) const {
   for (int v = 0; v < variables(); ++v) {
-    x[v] = i == 0 ? q[dofs[v]] : draw_lower_[v] + (draw_upper_[v] - draw_lower_[v]) * sequence_.at(i, v);
+    x[v] = i == 0 ? q[dofs[v]] : sample_lower_[v] + (sample_upper_[v] - sample_lower_[v]) * sequence_.at(i, v);
   }
   normalize(x);
 }

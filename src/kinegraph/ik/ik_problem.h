@@ -12,20 +12,20 @@
 
 namespace kinegraph {
 
-/// What inverse kinematics needs of a Config, computed once: immutable, shared by all attempts, problems and threads.
-/// Its variables x are the dofs that move a target.
+/// The data of a Config that inverse kinematics needs, computed once. It is immutable and shared by all attempts,
+/// problems and threads. Its variables x are the dofs that move a target.
 struct IkProblem {
   using Task = IkTask;
 
-  /// Throws FrameNotFound, and ValueError for what makes no sense.
+  /// Throws FrameNotFound, and ValueError for invalid targets or options.
   IkProblem(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options);
 
   int variables() const { return int(dofs.size()); }
 
-  /// x of starting point i: the Config's own, or one of the sequence.
+  /// Writes starting point i: the Config's own x for i = 0, else a point of the sequence.
   void startingPoint(int i, double* x) const;
 
-  /// Brings quaternions among the dofs back to norm one.
+  /// Scales quaternions among the variables to norm one.
   void normalize(double* x) const;
 
   IkOptions options;
@@ -34,28 +34,28 @@ struct IkProblem {
   std::vector<Task> tasks;
   int rows = 0;
   std::vector<int> dofs;                   ///< entry of q per variable
-  std::vector<int> variable;               ///< per entry of q, -1 if it does not move
+  std::vector<int> variable;               ///< per entry of q; -1 for constant ones
   VectorXd q;                              ///< of the Config, within the limits
   VectorXd lower, upper;                   ///< per variable
-  VectorXd longest;                        ///< per variable: of a step
-  VectorXd nearest;                        ///< per variable: where answers are wanted
-  bool pulls = false;                      ///< the answer is to be brought as near to `nearest` as the targets allow
-  std::vector<std::pair<int, int>> pairs;  ///< of frames that the variables move relative to each other
-  std::optional<BodyPairs> bodies;         ///< of these pairs
-  std::string in_the_way;                  ///< pairs that collide whatever the variables are, in words; "" if none do
+  VectorXd longest;                        ///< per variable: largest step
+  VectorXd preferred;                      ///< per variable: x from which the cost of answers is measured
+  bool has_preference = false;             ///< answers are moved as close to `preferred` as the targets allow
+  std::vector<std::pair<int, int>> pairs;  ///< frames that the variables move relative to each other
+  std::optional<BodyPairs> bodies;         ///< the bodies of `pairs`
+  std::string blocking;  ///< description of the pairs that collide for all values of the variables; "" if none do
 
  private:
   void chooseVariables(const State& state);
   void requireAtRest(const Task& task) const;
   void choosePairs();
-  void describeStuck(const std::vector<std::pair<int, int>>& unmoved);
+  void describeBlocking(const std::vector<std::pair<int, int>>& unmoved);
 
-  VectorXd draw_lower_, draw_upper_;
+  VectorXd sample_lower_, sample_upper_;
   std::vector<std::pair<int, int>> norms_;  ///< first variable and count
   LowDiscrepancy sequence_{0, 0};
 };
 
-/// The frame whose joint has a dof.
+/// Returns the name of the frame whose joint has a dof.
 const std::string& jointName(const KinematicModel& model, int dof);
 
 }  // namespace kinegraph

@@ -2,167 +2,209 @@
 
 #include <algorithm>
 
+#include "kinegraph/common/text.h"
+#include "kinegraph/ik/ik_diagnosis.h"
+
 namespace kinegraph {
 
 IkSearch::IkSearch(std::shared_ptr<const IkProblem> problem)
-    : problem_(std::move(problem)),
-      state_(problem_->model, problem_->parameters),
-      placed_(*problem_->bodies),
-      q_(problem_->q),
-      x_(problem_->variables()),
-      pull_(problem_->variables()) {
-  for (const IkProblem::Task& task : problem_->tasks) {
-    if (task.residual) residuals_.push_back(*task.residual);
-  }
-}
+    : problem_(std::move(problem)), iterate_(*problem_), step_(problem_->variables()) {}
 
-void IkGoal::setDirection(const Vector3d& direction) {
-  p = direction;
-  t1 = p.unitOrthogonal();
-  t2 = p.cross(t1);
+IkResult IkSearch::solve(const std::vector<IkTarget>& targets, const Stop& stop) {
+  IkJob job;
+  open(job, targets);
+  VectorXd x(problem_->variables());
+  for (bool decided = false; !decided;) {
+    if (stop()) return finish(job, true, stop);
+    job_ = &job;
+    iterate_.select(job);
+    iterate_.setStartingPoint(job.attempts);
+    IkApproach made = approach();
+    made.evals = 0;  // the iterate has counted them
+    x = iterate_.x();
+    decided = assess(job, x, made, stop);
+  }
+  return finish(job, false, stop);
 }
 
 void IkSearch::open(IkJob& job, const std::vector<IkTarget>& targets) {
   job.attempts = job.evals = 0;
-  job.feasible = job.cancelled = job.kept_is_present = false;
-  job.least = std::numeric_limits<double>::infinity();
+  job.feasible = job.cancelled = job.best_is_current = false;
+  job.best_value = std::numeric_limits<double>::infinity();
   job.blocked.assign(problem_->pairs.size(), 0);
-  job.kept.resize(problem_->variables());
-  problem_->startingPoint(0, job.kept.data());
-  job.goals.resize(targets.size());
-  std::size_t feature = 0;
-  for (std::size_t i = 0; i < targets.size(); ++i) {
-    IkGoal& goal = job.goals[i];
-    if (targets[i].kind == IkTarget::Kind::feature) {
-      residuals_[feature++].setTarget(targets[i].value);
-    } else if (targets[i].kind == IkTarget::Kind::direction) {
-      goal.given.p = targets[i].direction.normalized();
-      goal.setDirection(goal.given.p);
-    } else {
-      goal.given = {targets[i].pose.q.normalized().toRotationMatrix(), targets[i].pose.p};
-      goal.R = goal.given.R;
-      goal.p = goal.given.p;
-    }
+  job.best.resize(problem_->variables());
+  problem_->startingPoint(0, job.best.data());
+  iterate_.setTargets(job, targets);
+}
+
+bool IkSearch::assess(IkJob& job, const VectorXd& x, const IkApproach& made, const Stop& stop) {
+  job_ = &job;
+  iterate_.select(job);
+  job.evals += made.evals;
+  job.best_is_current = false;
+  const int attempts = problem_->options.attempts;
+  ++job.attempts;
+  iterate_.setX(x);
+  double error = made.error;
+  Outcome outcome = Outcome::missed;
+  // The approach may come from lanes, whose angles are accurate to 2e-8 only. It is evaluated again here, and continued
+  // if it does not meet the targets exactly.
+  if (made.met) {
+    iterate_.evaluateTargets(false);
+    if (iterate_.targetsMet() || approach().met) outcome = avoidCollisions(stop);
+    if (outcome == Outcome::feasible && problem_->has_preference) outcome = approachPreferred(stop);
+    error = iterate_.errors().sum();
   }
+  job.cancelled = outcome == Outcome::cancelled;
+  const bool done = job.cancelled || job.attempts == attempts;
+  if (outcome != Outcome::feasible && job.feasible) return done;
+  // Answers are compared by their cost, failures by their error; any answer is better than a failure.
+  const bool first = outcome == Outcome::feasible && !job.feasible;
+  const double value = outcome == Outcome::feasible ? costOf(iterate_.x()) : error;
+  if (!first && value >= job.best_value) return done;
+  job.best_value = value;
+  job.best = iterate_.x();
+  job.feasible = outcome == Outcome::feasible;
+  job.best_is_current = job.feasible;
+  return done || (job.feasible && !problem_->options.best);
 }
 
-void IkSearch::moveTo(const VectorXd& x) {
-  for (int v = 0; v < problem_->variables(); ++v) q_[problem_->dofs[v]] = x[v];
-  state_.setJoints(q_.data());
-  ++job_->evals;
-}
-
-bool IkSearch::targetsMet() const {
-  return errors_.position <= problem_->options.position_tolerance &&
-         errors_.rotation <= problem_->options.rotation_tolerance && features_met_;
-}
-
-void IkSearch::stepTowardsTargets() {
-  step_.solve(x_.data(), problem_->lower.data(), problem_->upper.data(), problem_->longest.data(),
-              DampedStep::damping(square_), nullptr);
-  x_ += step_.step();
-  problem_->normalize(x_.data());
-}
-
-/// A step that also keeps the near pairs apart. Which pairs need a row is not known before the step is: those that it
-/// would bring too near get one and the step is solved again; those whose row pulls them together, which no inequality
-/// does, lose it. That is an active set method cut short after a few passes, as the next step looks again.
-void IkSearch::stepApart(const double* pull, double damping) {
-  const int variables = problem_->variables();
-  const double wanted = problem_->options.margin + kSlack;
-  for (int pass = 0; pass < 4; ++pass) {
-    const int rows =
-        problem_->rows + int(std::count_if(near_.begin(), near_.end(), [](const NearPair& n) { return n.active; }));
-    step_.resize(rows, variables);
-    std::fill_n(step_.column(0), rows * variables, 0.);
-    measureTargets(true);
-    int row = problem_->rows;
-    double square = square_;
-    for (std::size_t n = 0; n < near_.size(); ++n) {
-      if (!near_[n].active) continue;
-      step_.error(row) = wanted - near_[n].distance;
-      square += step_.error(row) * step_.error(row);
-      for (int v = 0; v < variables; ++v) step_.column(v)[row] = gradients_[n * variables + v];
-      ++row;
-    }
-    // More damping than on the way to the targets: rows of pairs that touch are often dependent.
-    step_.solve(x_.data(), problem_->lower.data(), problem_->upper.data(), problem_->longest.data(),
-                1e-7 + DampedStep::damping(square) + damping, pull);
-    bool changed = false;
-    row = problem_->rows;
-    for (std::size_t n = 0; n < near_.size(); ++n) {
-      if (near_[n].active) {
-        if (step_.multiplier(row++) < 0. && near_[n].distance >= problem_->options.margin)
-          near_[n].active = false, changed = true;
-        continue;
-      }
-      double predicted = near_[n].distance;
-      for (int v = 0; v < variables; ++v) predicted += gradients_[n * variables + v] * step_.step()[v];
-      if (predicted < wanted - 1e-9) near_[n].active = changed = true;
-    }
-    if (!changed) break;
+IkResult IkSearch::finish(IkJob& job, bool cancelled, const Stop& stop) {
+  job_ = &job;
+  iterate_.select(job);
+  job.cancelled = job.cancelled || cancelled;
+  if (cancelled || !job.best_is_current) {
+    iterate_.setX(job.best);
+    iterate_.evaluate();
   }
-  x_ += step_.step();
-  problem_->normalize(x_.data());
-}
-
-/// All errors at x_.
-void IkSearch::measure() {
-  moveTo(x_);
-  measureDistances();
-  step_.resize(problem_->rows, problem_->variables());
-  measureTargets(false);
+  // A failure is described at the point of least error, because the reasons that are reported hold there.
+  if (!job.feasible && !job.cancelled) job.feasible = polish(stop);
+  const IkIterate::Errors& errors = iterate_.errors();
+  IkResult result;
+  result.q = iterate_.q();
+  result.position_error = errors.position;
+  result.rotation_error = errors.rotation;
+  result.feature_error = errors.feature;
+  result.penetration = errors.penetration;
+  result.attempts = job.attempts;
+  result.evals = job.evals;
+  result.status = job.feasible            ? IkStatus::solved
+                  : job.cancelled         ? IkStatus::cancelled
+                  : iterate_.targetsMet() ? IkStatus::in_collision
+                                          : IkStatus::goal_unreachable;
+  if (!job.feasible) result.message = describeFailure(*problem_, job, iterate_);
+  if (problem_->blocking.empty() || result.status == IkStatus::cancelled) return result;
+  if (job.feasible) result.status = IkStatus::in_collision;
+  result.message = cat(result.message, result.message.empty() ? "" : "; ", problem_->blocking);
+  return result;
 }
 
 bool IkSearch::stalls(int step, double square, double& before) {
-  // Far from a solution Gauss-Newton may wander for a while, so that single steps say little: every five they must have
-  // halved the sum of squares, else another starting point is the better use of the time.
+  // Far from a solution Gauss-Newton may wander, so single steps say little. Five steps must halve the sum of squares;
+  // otherwise another starting point is the better use of the time.
   if (step % 5 != 4) return false;
   if (square > .5 * before) return true;
   before = square;
   return false;
 }
 
-/// From x_ to the targets.
+/// Steps from x towards the targets.
 IkApproach IkSearch::approach() {
-  const int steps = problem_->options.steps, size = problem_->rows * problem_->variables(), evals = job_->evals;
-  step_.resize(problem_->rows, problem_->variables());
+  const int steps = problem_->options.steps, evals = job_->evals;
   double before = 1e300;
   for (int i = 0;; ++i) {
-    moveTo(x_);
-    std::fill_n(step_.column(0), size, 0.);
-    measureTargets(true);
-    if (targetsMet() || i == steps || stalls(i, square_, before)) break;
-    stepTowardsTargets();
+    iterate_.evaluateTargets(true);
+    if (iterate_.targetsMet() || i == steps || stalls(i, iterate_.squaredTargets(), before)) break;
+    iterate_.stepTowardsTargets();
   }
-  return {targetsMet(), errors_.position + errors_.rotation + errors_.feature, job_->evals - evals};
+  const IkIterate::Errors& errors = iterate_.errors();
+  return {iterate_.targetsMet(), errors.position + errors.rotation + errors.feature, job_->evals - evals};
 }
 
-/// From x_ that meets the targets, and is measured, to one where also no pair collides.
+/// Moves from an evaluated x that meets the targets to one without collisions.
 IkSearch::Outcome IkSearch::avoidCollisions(const Stop& stop) {
-  errors_.penetration = 0.;
+  iterate_.assumeNoPenetration();
   if (problem_->pairs.empty()) return Outcome::feasible;
-  measureDistances();
-  if (errors_.penetration == 0.) return Outcome::feasible;
-  // The worst pair of every attempt is counted, because a failure is best told by what was mostly in the way.
-  ++job_->blocked[std::ranges::min_element(near_, {}, &NearPair::distance)->pair];
+  iterate_.evaluateDistances();
+  if (iterate_.errors().penetration == 0.) return Outcome::feasible;
+  // The worst pair of each attempt is counted, so that a failure can name the pair that collided most often.
+  ++job_->blocked[std::ranges::min_element(iterate_.nearPairs(), {}, &IkIterate::NearPair::distance)->pair];
   return moveApart(problem_->options.steps, stop);
 }
 
-/// Steps that mind the distances, until all is well. x_ is measured.
+/// Steps from an evaluated x, with the distances as constraints, until the iterate is feasible.
 IkSearch::Outcome IkSearch::moveApart(int steps, const Stop& stop) {
   double before = 1e300;
   for (int i = 0;; ++i) {
-    if (feasible()) return Outcome::feasible;
+    if (iterate_.feasible()) return Outcome::feasible;
     if (i == steps) return Outcome::missed;
-    if (i % 8 == 7) {  // slower than the way to the targets: which pairs are near changes as they move apart
-      if (errors_.sum() > .8 * before) return Outcome::missed;
-      before = errors_.sum();
+    if (i % 8 == 7) {  // more patient than approach: the set of near pairs changes as they move apart
+      if (iterate_.errors().sum() > .8 * before) return Outcome::missed;
+      before = iterate_.errors().sum();
     }
     if (stop()) return Outcome::cancelled;
-    stepApart(nullptr);
-    measure();
+    iterate_.stepApart(nullptr);
+    iterate_.evaluate();
   }
+}
+
+/// Moves from a feasible x to the point in its neighborhood that is nearest to the preferred one.
+IkSearch::Outcome IkSearch::approachPreferred(const Stop& stop) {
+  if (problem_->pairs.empty()) iterate_.forgetNearPairs();
+  const VectorXd& x = iterate_.x();
+  best_ = x;
+  double least = costOf(x), share = 1.;
+  const auto recordIfBetter = [&] {
+    if (!iterate_.feasible() || costOf(x) >= least) return;
+    least = costOf(x);
+    best_ = x;
+  };
+  Outcome outcome = Outcome::feasible;
+  for (int i = 0; i < 30 && outcome != Outcome::cancelled; ++i) {
+    const double before = costOf(x);
+    // The step goes all the way to `preferred` in the directions that the targets leave free. If it overshoots, as it
+    // does with curved constraints, a smaller share converges.
+    step_ = share * (problem_->preferred - x);
+    iterate_.stepApart(step_.data());
+    const double moved = iterate_.lastStep();
+    iterate_.evaluate();
+    recordIfBetter();
+    if (moved < 1e-5) break;
+    if (costOf(x) > before) share = std::max(.5 * share, .05);
+    if (stop()) outcome = Outcome::cancelled;
+  }
+  // The last step may have left the targets or collided; the next answer from there may still be the nearest.
+  if (outcome != Outcome::cancelled && !iterate_.feasible() && moveApart(10, stop) == Outcome::feasible)
+    recordIfBetter();
+  iterate_.setX(best_);
+  iterate_.evaluate();
+  return Outcome::feasible;
+}
+
+/// Reduces the error of the best failure as far as possible; true if that turned it into an answer. If the error is
+/// large, only sufficiently damped steps reduce it (Levenberg).
+bool IkSearch::polish(const Stop& stop) {
+  best_ = iterate_.x();
+  double least = iterate_.squaredError(), damping = 0.;
+  for (int i = 0; i < 200 && !stop(); ++i) {
+    iterate_.stepApart(nullptr, damping);
+    const double moved = iterate_.lastStep();
+    iterate_.evaluate();
+    if (iterate_.feasible()) return true;
+    if (iterate_.squaredError() < least) {
+      least = iterate_.squaredError();
+      best_ = iterate_.x();
+      damping *= .3;
+    } else {
+      iterate_.setX(best_);
+      iterate_.evaluate();
+      damping = std::max(4. * damping, 1e-3);
+    }
+    if (moved < 1e-8) break;
+  }
+  iterate_.setX(best_);
+  iterate_.evaluate();
+  return false;
 }
 
 }  // namespace kinegraph

@@ -11,35 +11,35 @@
 
 namespace kinegraph {
 
-/// A feature that is to have a value: |scale (y - target)| is at most the tolerance, in every row.
+/// A feature with a desired value: |scale (y - target)| is at most the tolerance in every component.
 struct IkFeature {
   FeatureSource source;
   std::vector<std::string> frames;
   double tolerance = 1e-6;  ///< in the feature's units times the scale
   Scale scale{};
-  bool at_most = false;  ///< scale (y - target) may be negative, too: y is at most the target
+  bool at_most = false;  ///< only an upper bound: scale (y - target) may be negative
 };
 
-/// Where a frame is to be, in the world or as seen from another frame, or what a feature is to be. Several targets may
-/// name the same frame.
+/// Desired pose, position, rotation or direction of a frame, in the world or relative to another frame, or desired
+/// value of a feature. Several targets may name the same frame.
 struct IkTarget {
   enum class Kind {
     pose,       ///< position and rotation
     position,   ///< of the origin, m
-    rotation,   ///< the position is free
-    direction,  ///< an axis of the frame points along a direction; rotation about it is free
-    gaze,       ///< an axis of the frame, from its origin on, points at a point
-    feature,    ///< of any frames
+    rotation,   ///< rotation only
+    direction,  ///< an axis of the frame is parallel to a direction; the rotation about it is free
+    gaze,       ///< an axis of the frame, which starts at its origin, points at a point
+    feature,    ///< value of a feature of any frames
   };
-  std::string frame;  ///< none of a feature
+  std::string frame;  ///< empty for features
   Kind kind = Kind::pose;
-  Pose pose;                          ///< of pose, position, rotation; its position is the point of a gaze
-  Vector3d axis = Vector3d::UnitZ();  ///< of direction and gaze: in the frame's coordinates
+  Pose pose;                          ///< for pose, position and rotation; its position is the point of a gaze
+  Vector3d axis = Vector3d::UnitZ();  ///< for direction and gaze: in the frame's coordinates
   Vector3d direction = Vector3d::UnitZ();
-  std::string relative_to{};  ///< the frame whose coordinates pose and direction are in; none: the world
-  std::string taken_from{};   ///< the frame whose present pose the numbers are, if they are: it must stay at them
+  std::string relative_to{};  ///< frame in whose coordinates pose and direction are given; empty for the world
+  std::string taken_from{};   ///< frame whose present pose the numbers repeat, if any; it must stay there
   std::shared_ptr<const IkFeature> feature{};
-  VectorXd value{};  ///< of a feature: its target; empty (0), 1 number for all rows, or one per row
+  VectorXd value{};  ///< for features: empty (0), one number for all components, or one per component
 
   static IkTarget toPose(std::string frame, const Pose& X_WF) { return {std::move(frame), Kind::pose, X_WF}; }
   static IkTarget toPosition(std::string frame, const Vector3d& p_WF) {
@@ -52,7 +52,7 @@ struct IkTarget {
     return {std::move(frame), Kind::direction, Pose(), axis, direction};
   }
 
-  /// Where another frame is at present. That it then stays there is checked: solveIk throws if the targets move it.
+  /// Targets the present pose or position of another frame. solveIk throws if the targets move that frame.
   static IkTarget toPose(std::string frame, const Frame& there) {
     return takenFrom(there, toPose(std::move(frame), there.getPose()));
   }
@@ -60,16 +60,16 @@ struct IkTarget {
     return takenFrom(there, toPosition(std::move(frame), there.getPose().p));
   }
 
-  /// An axis of the frame, such as the z axis of a camera, points at a point ...
+  /// Points an axis of the frame, such as the z axis of a camera, at a fixed point.
   static IkTarget toGaze(std::string frame, const Vector3d& point, const Vector3d& axis = Vector3d::UnitZ()) {
     return {std::move(frame), Kind::gaze, Pose(point, Quaterniond::Identity()), axis};
   }
-  /// ... or at the origin of another frame, wherever that goes.
+  /// Points an axis of the frame at the origin of another frame, which may move.
   static IkTarget toGaze(std::string frame, const Frame& at, const Vector3d& axis = Vector3d::UnitZ()) {
     return toGaze(std::move(frame), Vector3d(Vector3d::Zero()), axis).relativeTo(at.getName());
   }
 
-  /// Any feature of order 0 equals a target.
+  /// Requires that a feature of order 0 equals a target.
   static IkTarget toFeature(const IkFeature& feature, const Target& target = {}) {
     IkTarget result;
     result.kind = Kind::feature;
@@ -77,14 +77,15 @@ struct IkTarget {
     result.value = target.vector();
     return result;
   }
-  /// The common center of mass of frames, without any of all that moves, is at a point (m).
+  /// Requires that the common center of mass of frames is at a point (m). Without frames it is that of everything that
+  /// moves.
   static IkTarget toCenterOfMass(const Vector3d& point, std::vector<std::string> frames = {}, double tolerance = 1e-6) {
     return toFeature({centerOfMass(), std::move(frames), tolerance}, point);
   }
-  /// That feature; its rows are those of a position.
+  /// The feature of toCenterOfMass; its components are those of a position.
   static FeatureSource centerOfMass();
 
-  /// The same in the coordinates of another frame. Both may move.
+  /// Returns the same target in the coordinates of another frame. Both frames may move.
   IkTarget relativeTo(std::string other) const {
     IkTarget result = *this;
     result.relative_to = std::move(other);

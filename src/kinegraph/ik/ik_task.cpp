@@ -16,10 +16,10 @@ namespace {
 
 constexpr char kCenterOfMass[] = "centerOfMass";
 
-constexpr int kProbes = 3;          // random postures in which a dof must have an effect once
-constexpr double kNoEffect = 1e-9;  // of an entry of a Jacobian: rounding
+constexpr int kSamples = 3;         // random configurations; a dof counts if it has an effect in one of them
+constexpr double kNoEffect = 1e-9;  // largest entry of a Jacobian that is attributed to rounding
 
-std::shared_ptr<const Residual> makeRows(const State& scene, const IkTarget& target) {
+std::shared_ptr<const Residual> makeFeatureResidual(const State& scene, const IkTarget& target) {
   const IkFeature& feature = *target.feature;
   if (!(feature.tolerance > 0.))
     throw ValueError(cat("solveIk: the tolerance of ", feature.source.name(), " is ", feature.tolerance,
@@ -27,18 +27,18 @@ std::shared_ptr<const Residual> makeRows(const State& scene, const IkTarget& tar
   auto residual =
       std::make_shared<Residual>(makeResidual(scene, feature.source, feature.frames, feature.scale, target.value));
   if (residual->order() > 0)
-    throw ValueError(cat("solveIk: ", feature.source.name(), " is about ", residual->order() + 1,
-                         " configurations in time; expected a feature of one, such as position"));
+    throw ValueError(cat("solveIk: ", feature.source.name(), " needs ", residual->order() + 1,
+                         " configurations in time; expected a feature of one configuration, such as position"));
   return residual;
 }
 
 std::string quoted(const std::vector<std::string>& frames) {
-  std::vector<std::string> words;
-  for (const std::string& frame : frames) words.push_back(cat("'", frame, "'"));
-  return join(words);
+  std::vector<std::string> quotes;
+  for (const std::string& frame : frames) quotes.push_back(cat("'", frame, "'"));
+  return join(quotes);
 }
 
-/// Those of `dofs` that the rows depend on in one of some random postures.
+/// Returns those of `dofs` that influence the residual in at least one of several random configurations.
 std::vector<int> effective(const std::vector<int>& dofs, const State& scene, Residual residual) {
   const KinematicModel& model = scene.model();
   State state = scene;
@@ -46,7 +46,7 @@ std::vector<int> effective(const std::vector<int>& dofs, const State& scene, Res
   std::vector<char> acts(std::size_t(model.dofs), 0);
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J(residual.rows(), model.dofs);
   VectorXd y(residual.rows()), q = scene.q();
-  for (int probe = 0; probe < kProbes; ++probe) {
+  for (int probe = 0; probe < kSamples; ++probe) {
     for (const int dof : dofs) {
       const double at = scene.q()[dof];
       q[dof] = rng.uniform(std::max(model.lower[dof], at - 1.), std::min(model.upper[dof], at + 1.));
@@ -93,7 +93,7 @@ FeatureSource IkTarget::centerOfMass() {
 IkTask::IkTask(const State& scene, const IkTarget& given) : target(given) {
   requireNumbers(given);
   if (kind() == Kind::feature) {
-    residual = makeRows(scene, given);
+    residual = makeFeatureResidual(scene, given);
     return;
   }
   frame = frameId(scene.model(), given.frame, "solveIk");
@@ -102,7 +102,7 @@ IkTask::IkTask(const State& scene, const IkTarget& given) : target(given) {
 }
 
 int IkTask::rows() const {
-  return kind() == Kind::feature ? residual->rows() : kind() == Kind::pose ? 6 : pointed() ? 2 : 3;
+  return kind() == Kind::feature ? residual->rows() : kind() == Kind::pose ? 6 : hasDirection() ? 2 : 3;
 }
 
 std::vector<int> IkTask::dofs(const State& scene) const {
@@ -128,10 +128,10 @@ std::vector<int> IkTask::dofs(const State& scene) const {
     for (int dof = 0; dof < model.dofs; ++dof) found.insert(dof);
   }
   const std::vector<int> all(found.begin(), found.end());
-  // A base under two arms changes nothing between their hands. Of distances and users' functions that is not known, as
-  // they may be flat in the postures that are looked at.
-  const bool tells = symbol ? which == FeatureDofs::of_frames : target.feature->source.name() == kCenterOfMass;
-  return tells && !residual->tellsZeroRows() ? effective(all, scene, *residual) : all;
+  // A common base of two arms has no influence between their hands. This test is skipped for distances and custom
+  // functions, since these may be constant at the tested configurations.
+  const bool is_testable = symbol ? which == FeatureDofs::of_frames : target.feature->source.name() == kCenterOfMass;
+  return is_testable && !residual->reportsZeroRows() ? effective(all, scene, *residual) : all;
 }
 
 std::string IkTask::name() const {
@@ -169,7 +169,7 @@ std::string IkTask::unitOf(int row) const {
 
 void IkTask::requireSame(const IkTarget& other, std::size_t problem) const {
   bool same = target.frame == other.frame && kind() == other.kind && target.relative_to == other.relative_to &&
-              target.taken_from == other.taken_from && (!pointed() || target.axis == other.axis.normalized());
+              target.taken_from == other.taken_from && (!hasDirection() || target.axis == other.axis.normalized());
   if (same && kind() == Kind::feature && target.feature != other.feature) {
     const IkFeature &a = *target.feature, &b = *other.feature;
     same = a.source.name() == b.source.name() && a.source.symbol() == b.source.symbol() && a.frames == b.frames &&
@@ -177,7 +177,7 @@ void IkTask::requireSame(const IkTarget& other, std::size_t problem) const {
            a.scale.matrix().cols() == b.scale.matrix().cols() && a.scale.matrix() == b.scale.matrix();
   }
   if (!same)
-    throw ValueError(cat("solveIk: problem ", problem, " has other frames or kinds of targets than the first one"));
+    throw ValueError(cat("solveIk: problem ", problem, " must have the frames and kinds of targets of problem 0"));
   requireNumbers(other);
   if (kind() != Kind::feature) return;
   const Eigen::Index size = other.value.size(), rows = residual->feature().rows();

@@ -8,14 +8,13 @@
 
 namespace kinegraph {
 
-/// Points that fill the unit cube evenly, from the first one on: x_i = frac(shift + i a), with a_k = phi^-k and phi the
-/// root of phi^(d+1) = phi + 1.
-/// Source: Roberts, The unreasonable effectiveness of quasirandom sequences, 2018.
+/// A sequence of points whose every prefix fills the unit cube evenly: x_i = frac(shift + i a), with a_k = phi^-k and
+/// phi the root of phi^(d+1) = phi + 1.
 class LowDiscrepancy {
  public:
   LowDiscrepancy(int dimension, std::uint64_t seed) : step_(dimension), shift_(dimension) {
     double phi = 2.;
-    for (double before = 0.; dimension > 0 && std::abs(phi - before) > 1e-15;) {  // without dimensions there is no root
+    for (double before = 0.; dimension > 0 && std::abs(phi - before) > 1e-15;) {  // there is no root without dimensions
       before = phi;
       phi = std::pow(1. + phi, 1. / (dimension + 1.));
     }
@@ -27,7 +26,7 @@ class LowDiscrepancy {
     }
   }
 
-  /// Coordinate k of point i, in [0, 1).
+  /// Returns coordinate k of point i, in [0, 1).
   double at(int i, int k) const {
     const double x = shift_[k] + i * step_[k];
     return x - std::floor(x);

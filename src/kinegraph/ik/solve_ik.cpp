@@ -15,7 +15,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kLargestPart = 64;  // problems that a thread takes at a time
+constexpr int kLargestBatch = 64;  // problems that a thread takes at a time
 
 }  // namespace
 
@@ -57,19 +57,19 @@ IkSolver::IkSolver(const Config& config, const std::vector<IkTarget>& targets, c
 std::vector<IkResult> IkSolver::solve(std::vector<std::vector<IkTarget>> given, int threads,
                                       const IkWatch& watch) const {
   if (threads < 1) throw ValueError(cat("solveIk: threads is ", threads, "; expected at least 1"));
-  const auto question = std::make_shared<const IkQuestion>(problem_, std::move(given));
-  const std::vector<std::vector<IkTarget>>& problems = question->problems;
+  const auto request = std::make_shared<const IkRequest>(problem_, std::move(given));
+  const std::vector<std::vector<IkTarget>>& problems = request->problems;
   for (std::size_t i = 0; i < problems.size(); ++i) {
     const std::vector<IkProblem::Task>& tasks = problem_->tasks;
     if (problems[i].size() != tasks.size())
-      throw ValueError(cat("solveIk: problem ", i, " has other frames or kinds of targets than the first one"));
+      throw ValueError(cat("solveIk: problem ", i, " must have the frames and kinds of targets of problem 0"));
     for (std::size_t t = 0; t < tasks.size(); ++t) tasks[t].requireSame(problems[i][t], i);
   }
   std::vector<IkResult> results(problems.size());
   const int count = int(problems.size());
-  const auto answered = [&] {
+  const auto withRequest = [&] {
     for (int i = 0; i < count; ++i) {
-      results[std::size_t(i)].question = question;
+      results[std::size_t(i)].request = request;
       results[std::size_t(i)].number = i;
     }
     return std::move(results);
@@ -77,20 +77,20 @@ std::vector<IkResult> IkSolver::solve(std::vector<std::vector<IkTarget>> given, 
   std::atomic<int> done = 0;
   std::atomic<bool> stop = false;
   const std::function<bool()> stopped = [&] { return stop.load(std::memory_order_relaxed); };
-  const std::function<bool()> watching = [&] {  // on the calling thread
+  const std::function<bool()> watching = [&] {  // runs on the calling thread
     try {
       if (watch && watch(done)) stop = true;
     } catch (...) {
-      stop = true;  // for the other threads
+      stop = true;  // also stops the other threads
       throw;
     }
     return stopped();
   };
   if (threads == 1 || count <= 1) {
     IkLanes(problem_).solve(problems.data(), count, results.data(), done, watching);
-    return answered();
+    return withRequest();
   }
-  const int part = std::clamp(count / (4 * threads), 1, kLargestPart);
+  const int part = std::clamp(count / (4 * threads), 1, kLargestBatch);
   std::vector<std::optional<IkLanes>> searches(std::size_t(std::min(threads, count)));
   parallelFor(
       count, part, threads,
@@ -101,7 +101,7 @@ std::vector<IkResult> IkSolver::solve(std::vector<std::vector<IkTarget>> given, 
                       worker == 0 ? watching : stopped);
       },
       watching);
-  return answered();
+  return withRequest();
 }
 
 }  // namespace kinegraph

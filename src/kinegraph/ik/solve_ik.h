@@ -11,62 +11,66 @@
 namespace kinegraph {
 
 enum class IkStatus {
-  solved,            ///< all targets within tolerance, no pair nearer than the margin
-  goal_unreachable,  ///< in no attempt; the nearest one misses a target
-  in_collision,      ///< in no attempt; the nearest one meets its targets with pairs nearer than the margin
-  cancelled,         ///< before there was an answer
+  solved,            ///< all targets are within tolerance, and no pair is closer than the margin
+  goal_unreachable,  ///< no attempt succeeded; the best one misses a target
+  in_collision,      ///< no attempt succeeded; the best one meets its targets, but pairs are closer than the margin
+  cancelled,         ///< the search was cancelled before it found an answer
 };
 
 std::string ikStatusName(IkStatus status);
 
-struct IkQuestion;
+struct IkRequest;
 
 struct IkResult {
-  VectorXd q;  ///< (n,), within the limits: the answer, or the attempt that missed least
+  VectorXd q;  ///< (n,), within the limits: the answer, or the attempt with the least error
   IkStatus status = IkStatus::cancelled;
   double position_error = 0.;  ///< of the worst target, m
   double rotation_error = 0.;  ///< of the worst target, rad
-  double feature_error = 0.;   ///< of the worst row of a feature, in its units times its scale
-  double penetration = 0.;     ///< by which the worst pair is nearer than the margin, m
-  int attempts = 0;            ///< starting points used
-  int evals = 0;               ///< forward kinematics with Jacobian
-  std::string message{};       ///< "" if solved, else what misses what by how much, and what is in the way
-  std::shared_ptr<const IkQuestion> question{};  ///< for makeNlp (ik_nlp.h); null of a result that was loaded
-  int number = 0;                                ///< of the problem there
+  double feature_error = 0.;   ///< largest component of a feature's error, in its units times its scale
+  double penetration = 0.;     ///< how much closer than the margin the worst pair is, m
+  int attempts = 0;            ///< number of starting points used
+  int evals = 0;               ///< evaluations of the forward kinematics with Jacobian
+  std::string message{};       ///< "" if solved, else the missed targets with their errors, and the pairs that collide
+  std::shared_ptr<const IkRequest> request{};  ///< input of makeNlp (ik_nlp.h); null for results loaded from a file
+  int number = 0;                              ///< index of the problem in the request
 
   bool feasible() const { return status == IkStatus::solved; }
   std::string str() const;  ///< "solved in 2 attempts, within 1e-8 m and 3e-9 rad", or the status and the message
 };
 
-/// Called now and then by the calling thread, with the number of problems that are done; true ends the search, which
-/// then gives the best answers so far. It may throw.
+/// Called regularly by the calling thread with the number of solved problems. If it returns true, the search ends and
+/// returns the best answers so far. It may throw.
 using IkWatch = std::function<bool(int done)>;
 
-/// Joint values within their limits that bring frames to their targets, without collisions.
+/// Finds joint values within their limits that bring frames to their targets without collisions.
 ///
-/// Damped Gauss-Newton steps on positions and rotation vectors from many starting points: the Config's q, then an
-/// additive (Kronecker) low-discrepancy sequence. An attempt that reaches its targets in collision goes on with the
-/// distances as further rows. Joints that move none of the targets stay where they are: those that move a frame and what
-/// its target is relative to alike, too. The pairs that count
-/// are those that joints move apart; where one that only such joints move is too near, no answer is `solved`. The Config is not changed; the same arguments give the same bits. Throws
-/// FrameNotFound, and ValueError for targets that no active joint moves, and for those taken from a frame that the
-/// targets move. Source: Buss, Introduction to inverse
-/// kinematics with Jacobian transpose, pseudoinverse and damped least squares, 2004.
+/// The method takes damped Gauss-Newton steps on positions and rotation vectors from many starting points: first the q
+/// of the Config, then an additive (Kronecker) low-discrepancy sequence. An attempt that reaches its targets in
+/// collision continues with the distances as additional rows.
+///
+/// Joints that move no target relative to its reference frame keep their values. Only pairs that joints move relative
+/// to each other count as collisions. If such a pair is too close and only joints that keep their values could separate
+/// it, the status is not `solved`.
+///
+/// The Config is not changed, and the same arguments give the same bits. Throws FrameNotFound, and ValueError for
+/// targets that no active joint moves, and for targets taken from a frame that the targets move.
+/// Source: Buss, Introduction to inverse kinematics with Jacobian transpose, pseudoinverse and damped least squares,
+/// 2004.
 IkResult solveIk(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options = {},
                  const IkWatch& watch = {});
 
-/// One problem per entry of `problems`. All have the frames and kinds of the first one's targets; else ValueError.
-/// Every result is the one that `solveIk` would give, whatever the number of threads.
+/// Solves one problem per entry of `problems`. All must have the frames and kinds of the first one's targets; otherwise
+/// throws ValueError. Each result equals that of `solveIk`, for any number of threads.
 std::vector<IkResult> solveIkBatch(const Config& config, const std::vector<std::vector<IkTarget>>& problems,
                                    const IkOptions& options = {}, int threads = 1, const IkWatch& watch = {});
 
 struct IkProblem;
 
-/// The same in two parts: what can be computed before the targets' numbers are known, and the search. It keeps what it
-/// needs of the Config as it was, so that `solve` may run while the Config changes.
+/// solveIk in two stages: the constructor computes everything that does not depend on the numbers of the targets,
+/// `solve` searches. The solver copies the data of the Config, so `solve` may run while the Config changes.
 class IkSolver {
  public:
-  /// Of the targets all matters here but poses, directions and values.
+  /// Uses all of `targets` except their poses, directions and values.
   IkSolver(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options = {});
 
   std::vector<IkResult> solve(std::vector<std::vector<IkTarget>> problems, int threads = 1,
