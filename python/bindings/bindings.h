@@ -48,7 +48,7 @@ void bindShapes(nb::class_<Frame>& frame);
 void bindMeshes(nb::class_<Frame>& frame);
 void bindStructure(nb::class_<PyConfig>& config);
 void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config);
-void bindOwnFeatures(nb::module_& m);
+void bindCustomFeatures(nb::module_& m);
 void bindBatch(nb::class_<PyConfig>& config);
 void bindNlp(nb::module_& m);
 void bindSolvers(nb::module_& m);

@@ -27,7 +27,7 @@ nb::object featureState(const FeatureSource& feature) {
 
 FeatureSource featureFrom(nb::object object) {
   if (nb::isinstance<nb::int_>(object)) return FeatureSymbol(nb::cast<int>(object));
-  if (!nb::isinstance<nb::tuple>(object)) return ownFeature(object);
+  if (!nb::isinstance<nb::tuple>(object)) return customFeature(object);
   FeatureRecipe recipe{nb::cast<std::string>(object[0]), {}, nb::cast<double>(object[2])};
   if (!nb::object(object[1]).is_none()) recipe.contact = contactFrom(object[1]);
   return recipe;

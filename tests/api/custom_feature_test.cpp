@@ -28,7 +28,7 @@ const std::vector<std::string> kEnd = {"end"};
 
 TEST(CustomFeature, ValueAndJacobianAreWhatTheFunctionReturns) {
   const Config config = arm();
-  const FeatureSource mine = ownFeature(
+  const FeatureSource mine = customFeature(
       "mine", [](Frames f) { return FeatureValue(VectorXd(f[0].getPosition()), f[0].getPositionJacobian()); });
   const Evaluation own = eval(config, mine, kEnd), known = eval(config, FeatureSymbol::position, kEnd);
   EXPECT_EQ(own.y, known.y);
@@ -37,7 +37,7 @@ TEST(CustomFeature, ValueAndJacobianAreWhatTheFunctionReturns) {
 
 TEST(CustomFeature, WithoutAJacobianCentralDifferencesReplaceIt) {
   const Config config = arm();
-  const FeatureSource mine = ownFeature("mine", [](Frames f) { return FeatureValue(VectorXd(f[0].getPosition())); });
+  const FeatureSource mine = customFeature("mine", [](Frames f) { return FeatureValue(VectorXd(f[0].getPosition())); });
   const Evaluation own = eval(config, mine, kEnd), known = eval(config, FeatureSymbol::position, kEnd);
   EXPECT_LT((own.J - known.J).lpNorm<Eigen::Infinity>(), 1e-9);
   EXPECT_GT(known.J.norm(), .1);
@@ -46,7 +46,7 @@ TEST(CustomFeature, WithoutAJacobianCentralDifferencesReplaceIt) {
 
 TEST(CustomFeature, TheJacobianOfAPointAndOfTheRotationAreThoseOfTheRegistry) {
   const Config config = arm();
-  const FeatureSource axis = ownFeature("axis", [](Frames f) {
+  const FeatureSource axis = customFeature("axis", [](Frames f) {
     const Vector3d z = f[0].getRotationMatrix().col(2);
     return FeatureValue(VectorXd(z), -skew(z) * f[0].getAngularJacobian());
   });
@@ -58,7 +58,7 @@ TEST(CustomFeature, TheJacobianOfAPointAndOfTheRotationAreThoseOfTheRegistry) {
 TEST(CustomFeature, WithoutFramesAllDofsAreDifferentiated) {
   const Config config = arm();
   int calls = 0;
-  const FeatureSource constant = ownFeature("constant", [&calls](Frames frames) {
+  const FeatureSource constant = customFeature("constant", [&calls](Frames frames) {
     ++calls;
     return FeatureValue(double(frames.size()));
   });
@@ -69,11 +69,11 @@ TEST(CustomFeature, WithoutFramesAllDofsAreDifferentiated) {
 
 TEST(CustomFeature, ResultsOfAnotherSizeAreToldWithTheName) {
   const Config config = arm();
-  const FeatureSource wide = ownFeature("wide", [](Frames) { return FeatureValue(1., MatrixXd::Zero(2, 2)); });
+  const FeatureSource wide = customFeature("wide", [](Frames) { return FeatureValue(1., MatrixXd::Zero(2, 2)); });
   expectError<ValueError>([&] { eval(config, wide, kEnd); }, {"feature wide", "2 x 2", "expected 1 x 3"});
   int calls = 0;
   const FeatureSource growing =
-      ownFeature("growing", [&calls](Frames) { return FeatureValue(VectorXd(VectorXd::Zero(++calls))); });
+      customFeature("growing", [&calls](Frames) { return FeatureValue(VectorXd(VectorXd::Zero(++calls))); });
   expectError<ValueError>([&] { eval(config, growing, kEnd); }, {"feature growing", "returned 2 numbers", "time 1"});
 }
 

@@ -50,8 +50,8 @@ TEST(KomoMotion, ShowsWhereShapesTouchThatMustNot) {
     Config config = ballAtTable();
     config.getFrame("foot").setContact(0);
     Komo komo(config, 1., 2, 1);
-    const bool of_all = symbol == FeatureSymbol::accumulatedCollisions;
-    komo.addObjective({}, symbol, {}, of_all ? ObjectiveType::eq : ObjectiveType::ineq);
+    const bool all_pairs = symbol == FeatureSymbol::accumulatedCollisions;
+    komo.addObjective({}, symbol, {}, all_pairs ? ObjectiveType::eq : ObjectiveType::ineq);
     komo.setPath(MatrixXd{{.3}, {.43}});
     const ShownMotion motion = motionOf(komo);
     ASSERT_EQ(motion.touching.size(), motion.poses.size());

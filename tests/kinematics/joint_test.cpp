@@ -60,11 +60,11 @@ TEST(Joint, MotionsDoWhatTheListOfTheirKindsSays) {
     for (double& x : q) x += rng.uniform(.1, .4);
     const Pose X = motionPose(steps, kAxis, 1., q.data());
     const VectorXd longer = 3. * q;
-    EXPECT_EQ(X.p.isZero(0.), !steps[0].slides());
-    EXPECT_EQ(X.q.angularDistance(Quaterniond::Identity()) < 1e-3, !steps[0].turns() && !steps[0].orients());
+    EXPECT_EQ(X.p.isZero(0.), !steps[0].translates());
+    EXPECT_EQ(X.q.angularDistance(Quaterniond::Identity()) < 1e-3, !steps[0].rotates() && !steps[0].orients());
     EXPECT_EQ(X.isIdentity(0.), !steps[0].moves());
-    if (steps[0].slides()) EXPECT_LT((X.p - q[0] * steps[0].direction(kAxis)).norm(), 1e-15);
-    if (steps[0].turns()) EXPECT_LT((X.q.vec().normalized() - steps[0].direction(kAxis)).norm(), 1e-15);
+    if (steps[0].translates()) EXPECT_LT((X.p - q[0] * steps[0].direction(kAxis)).norm(), 1e-15);
+    if (steps[0].rotates()) EXPECT_LT((X.q.vec().normalized() - steps[0].direction(kAxis)).norm(), 1e-15);
     if (steps[0].orients())
       EXPECT_TRUE((X.inverse() * motionPose(steps, kAxis, 1., longer.data())).isIdentity(1e-15))
           << "only the direction";

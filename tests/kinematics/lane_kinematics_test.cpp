@@ -33,7 +33,7 @@ TEST(LaneKinematics, HasTheLinksThatMoveTheFramesAndNoOthers) {
   int turns = 0;
   for (const int column : chain) {
     variables.push_back(links.column(column).variable);
-    turns += links.column(column).turns;
+    turns += links.column(column).is_rotation;
   }
   std::sort(variables.begin(), variables.end());
   EXPECT_EQ(variables, (std::vector<int>{0, 1}));

@@ -38,11 +38,11 @@ struct Numbers {
 Numbers computed(UpdateState update, const State& state, const VectorXd& q) {
   const KinematicModel& model = state.model();
   const Parameters& parameters = state.parameters();
-  Numbers numbers{std::vector<double>(2 * model.turn_dof.size()), std::vector<double>(12 * model.links.size() + 1),
+  Numbers numbers{std::vector<double>(2 * model.angle_dof.size()), std::vector<double>(12 * model.links.size() + 1),
                   std::vector<double>(6 * model.column_dof.size() + 1)};
   for (const int k : {0, 4, 8}) numbers.poses[std::size_t(k)] = 1.;
-  update({parameters.link.data(), int(parameters.link.size()), parameters.step.data(), model.turn_dof.data(),
-          parameters.turn_factor.data(), int(model.turn_dof.size()), q.data(), numbers.turned.data(),
+  update({parameters.link.data(), int(parameters.link.size()), parameters.step.data(), model.angle_dof.data(),
+          parameters.angle_factor.data(), int(model.angle_dof.size()), q.data(), numbers.turned.data(),
           numbers.poses.data(), numbers.twists.data()});
   return numbers;
 }

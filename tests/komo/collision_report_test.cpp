@@ -41,7 +41,7 @@ TEST(ForbiddenMotions, NamedFramesCountAndOthersDoNot) {
   EXPECT_TRUE(constrainsAnyMotion(komo.path(), komo.objectives().all()));
   const std::vector<SliceMotion> motions = constrainedMotions(komo.path(), komo.objectives().all());
   ASSERT_EQ(motions.size(), 3u);
-  EXPECT_FALSE(motions[0].of_all);
+  EXPECT_FALSE(motions[0].all_pairs);
   ASSERT_EQ(motions[0].pairs.size(), 1u);
   const std::string contact = validityOf(komo);
   EXPECT_NE(contact.find("'ball' and 'post' overlap"), std::string::npos) << contact;

@@ -39,7 +39,7 @@ Komo aroundWall(int slices) {
 VectorXd sharesOf(const Objective& objective, std::size_t motion) {
   const std::vector<CollisionSample>& samples = objective.samples[motion];
   VectorXd shares(Eigen::Index(samples.size()));
-  for (std::size_t i = 0; i < samples.size(); ++i) shares[Eigen::Index(i)] = samples[i].share;
+  for (std::size_t i = 0; i < samples.size(); ++i) shares[Eigen::Index(i)] = samples[i].time;
   return shares;
 }
 
@@ -83,23 +83,23 @@ TEST(FreeMotion, AddsInstantsWhereTheMotionIsTooNear) {
   path << 0., 0., .3, 0., .7, 0., 1., 0.;
   komo.setPath(path);
   ASSERT_EQ(komo.objectives().size(), 2u);
-  Objective on_the_way = komo.objectives()[1];
-  EXPECT_EQ(on_the_way.from, 1) << "no motion leads to slice 0";
+  Objective between_slices = komo.objectives()[1];
+  EXPECT_EQ(between_slices.from, 1) << "no motion leads to slice 0";
   MotionProbe probe(kFreeTolerance);
   LinearSliceMotions lines(komo.path(), probe);
-  EXPECT_NEAR(addSamples(on_the_way, lines), .065, 1e-4);
-  ASSERT_EQ(on_the_way.samples.size(), 3u);
-  EXPECT_TRUE(near(sharesOf(on_the_way, 0), VectorXd::Constant(1, .5), 1e-9))
+  EXPECT_NEAR(addSamples(between_slices, lines), .065, 1e-4);
+  ASSERT_EQ(between_slices.samples.size(), 3u);
+  EXPECT_TRUE(near(sharesOf(between_slices, 0), VectorXd::Constant(1, .5), 1e-9))
       << "beside a motion that goes right through";
-  EXPECT_TRUE(near(sharesOf(on_the_way, 1), Eigen::Vector3d(.5, .25, .75), 1e-9));
-  EXPECT_TRUE(near(sharesOf(on_the_way, 2), VectorXd::Constant(1, .5), 1e-9));
-  const CollisionSample& sample = on_the_way.samples[1][0];
+  EXPECT_TRUE(near(sharesOf(between_slices, 1), Eigen::Vector3d(.5, .25, .75), 1e-9));
+  EXPECT_TRUE(near(sharesOf(between_slices, 2), VectorXd::Constant(1, .5), 1e-9));
+  const CollisionSample& sample = between_slices.samples[1][0];
   const std::vector<std::string>& names = komo.path().state(0).model().frame_name;
   EXPECT_EQ(names[std::size_t(sample.a)], "ball");
   EXPECT_EQ(names[std::size_t(sample.b)], "wall");
   path.col(0) << 0., .1, .2, .3;
   komo.setPath(path);
-  EXPECT_EQ(addSamples(on_the_way, lines), 0.) << "free";
+  EXPECT_EQ(addSamples(between_slices, lines), 0.) << "free";
   path.col(0) << .7, .6, .58, .3;
   komo.setPath(path);
   EXPECT_GT(measurePath(komo).per_slice(3, 1), 10. * .05) << "reports see it";

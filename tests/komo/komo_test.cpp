@@ -72,7 +72,7 @@ TEST(Komo, AKeptPathBeginsWhereTheConfigurationIsNow) {
   kept->updateRootObjects(config);
   EXPECT_EQ(kept->path().state(-1).q(), elsewhere);
   EXPECT_EQ(kept->path().state(-2).q(), elsewhere);
-  EXPECT_EQ(kept->path().given().config().getJointState(), elsewhere);
+  EXPECT_EQ(kept->path().initial().config().getJointState(), elsewhere);
   const auto fresh = reach(config);
   const SolverResult of_kept = solveAugmentedLagrangian(*nlp, start, SolverOptions{}),
                      of_fresh = solveAugmentedLagrangian(*makeNlp(fresh), start, SolverOptions{});

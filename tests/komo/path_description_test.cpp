@@ -26,7 +26,7 @@ std::vector<RowDescription> rowsOf(Komo komo, FeatureSymbol feature, const std::
   komo.addObjective({4.}, feature, frames, ObjectiveType::eq, scale, {}, order);
   const PathProblem problem(komo.path(), komo.contacts(), komo.objectives().all());
   std::vector<RowDescription> rows;
-  for (int row = 0; row < problem.rows(); ++row) rows.push_back(describePathRow(komo.path(), problem, row));
+  for (int row = 0; row < problem.rows(); ++row) rows.push_back(describePathComponent(komo.path(), problem, row));
   return rows;
 }
 

@@ -134,7 +134,7 @@ TEST(SplineMotion, MistakesAreNamed) {
   expectError<ValueError>([&] { SplineMotion(komo, {.points = 11}); }, {"points is 11", "1 to 10"});
   expectError<ValueError>([&] { SplineMotion(komo, {.points = 5, .degree = 0}); }, {"degree is 0"});
   expectError<ValueError>([&] { SplineMotion(komo, {.points = 10, .degree = 6, .ends_at_rest = false}); },
-                          {"10 slices do not tell 13 control points apart"});
+                          {"10 slices do not determine 13 control points"});
   const auto pose = std::make_shared<Komo>(arm(), 1., 1, 0);
   expectError<ValueError>([&] { SplineMotion(pose, {.points = 1}); }, {"order 0"});
 }

@@ -15,21 +15,21 @@ namespace kinegraph::python {
 
 namespace {
 
-/// Joint vectors, a row each. A single one, without a row, gets an answer without rows.
-struct JointRows {
+/// Joint vectors, one per row. The results for a single vector have no first axis.
+struct JointVectors {
   Eigen::Map<const RowMatrix> q;
   bool single;
 
   std::size_t count() const { return std::size_t(q.rows()); }
 
-  /// Of an array with a first axis for the rows.
+  /// Returns an array, or its only entry for a single joint vector.
   template <class Kind>
   Kind answer(const Kind& array) const {
     return single ? Kind(nb::object(array[nb::int_(0)])) : array;
   }
 };
 
-JointRows jointRows(const Numbers& Q, const PyConfig& config, const char* call, const char* name = "Q") {
+JointVectors jointVectors(const Numbers& Q, const PyConfig& config, const char* call, const char* name = "Q") {
   const std::size_t n = std::size_t(config.getJointDimension()), size = std::size_t(Q.values.size());
   const bool single = Q.rank == 1 && size == n && n > 0, empty = size == 0 && Q.rank <= 2 && Q.rank > 0;
   if (!single && !empty && (Q.rank != 2 || Q.columns() != n)) {
@@ -37,13 +37,13 @@ JointRows jointRows(const Numbers& Q, const PyConfig& config, const char* call, 
                          Q.rank == 2   ? cat("shape (", Q.rows, ", ", Q.columns(), ")")
                          : Q.rank == 1 ? cat("shape (", Q.rows, ",)")
                                        : cat(Q.rank, " dimensions"),
-                         "; expected (N, ", n, "), a joint vector per row, or (", n, ",), one joint vector"));
+                         "; expected (N, ", n, "), one joint vector per row, or (", n, ",), a single one"));
   }
   const std::size_t rows = single ? 1 : Q.rank == 2 ? Q.rows : 0;
   return {{Q.values.data(), Eigen::Index(rows), Eigen::Index(n)}, single};
 }
 
-/// Runs without the interpreter lock; from time to time, looks for Ctrl-C.
+/// Runs without the interpreter lock and regularly checks for Ctrl-C.
 template <class Work>
 void unlocked(int threads, const char* call, const Work& work) {
   if (threads < 1) throw ValueError(cat(call, ": threads is ", threads, "; expected 1 or more"));
@@ -59,7 +59,7 @@ nb::typed<nb::tuple, Array, Array> evalBatch(const PyConfig& config, const Featu
                                              const FrameNames& frames, const Numbers& Q,
                                              const std::optional<Numbers>& scale, const std::optional<Numbers>& target,
                                              int threads) {
-  const auto joints = jointRows(Q, config, "evalBatch");
+  const auto joints = jointVectors(Q, config, "evalBatch");
   const State scene = config.state();
   const Residual residual = makeResidual(scene, feature.source(), toNames(frames), toScale(scale), toTarget(target));
   const std::size_t count = joints.count(), rows = std::size_t(residual.rows()), n = std::size_t(scene.dofs());
@@ -73,7 +73,7 @@ nb::typed<nb::tuple, Array, Array> evalBatch(const PyConfig& config, const Featu
 }
 
 Array getFramePoses(const PyConfig& config, const Numbers& Q, const FrameNames& frames, int threads) {
-  const auto joints = jointRows(Q, config, "getFramePoses");
+  const auto joints = jointVectors(Q, config, "getFramePoses");
   const State scene = config.state();
   std::vector<int> ids;
   for (const std::string& name : toNames(frames)) ids.push_back(frameId(scene.model(), name, "getFramePoses"));
@@ -85,7 +85,7 @@ Array getFramePoses(const PyConfig& config, const Numbers& Q, const FrameNames& 
 }
 
 Array getFrameJacobians(const PyConfig& config, const Numbers& Q, const FrameNames& frames, int threads) {
-  const auto joints = jointRows(Q, config, "getFrameJacobians");
+  const auto joints = jointVectors(Q, config, "getFrameJacobians");
   const State scene = config.state();
   std::vector<int> ids;
   for (const std::string& name : toNames(frames)) ids.push_back(frameId(scene.model(), name, "getFrameJacobians"));
@@ -98,7 +98,7 @@ Array getFrameJacobians(const PyConfig& config, const Numbers& Q, const FrameNam
 }
 
 Array getDistances(const PyConfig& config, const Numbers& Q, int threads) {
-  const auto joints = jointRows(Q, config, "getDistances");
+  const auto joints = jointVectors(Q, config, "getDistances");
   const State scene = config.state();
   const std::size_t pairs = scene.model().collidable().size();
   const NewArray distances = newArray(joints.count(), pairs);
@@ -108,7 +108,7 @@ Array getDistances(const PyConfig& config, const Numbers& Q, int threads) {
   return joints.answer(distances.array);
 }
 
-/// Of the present q: (p,), (p, 2, 3), (p, 3).
+/// Returns nearest points at the present q: (p,), (p, 2, 3), (p, 3).
 nb::typed<nb::tuple, Array, Array, Array> nearestPointsHere(const PyConfig& config) {
   const State& state = config.state();
   if (!config.pairs || config.pairs->model() != state.sharedModel()) {
@@ -116,15 +116,15 @@ nb::typed<nb::tuple, Array, Array, Array> nearestPointsHere(const PyConfig& conf
   }
   const std::size_t pairs = state.model().collidable().size();
   const NewArray distances = newArray(pairs), points = newArray(pairs, 2, 3), normals = newArray(pairs, 3);
-  const NearestRow row{distances.data, points.data, normals.data};
-  config.pairs->forAll(state, [&](int pair, const Proximity& near) { row.write(pair, near); });
+  const NearestPointArrays arrays{distances.data, points.data, normals.data};
+  config.pairs->forAll(state, [&](int pair, const Proximity& near) { arrays.write(pair, near); });
   return nb::make_tuple(distances.array, points.array, normals.array);
 }
 
 nb::typed<nb::tuple, Array, Array, Array> getNearestPoints(const PyConfig& config, const std::optional<Numbers>& Q,
                                                            int threads) {
   if (!Q) return nearestPointsHere(config);
-  const auto joints = jointRows(*Q, config, "getNearestPoints");
+  const auto joints = jointVectors(*Q, config, "getNearestPoints");
   const State scene = config.state();
   const std::size_t pairs = scene.model().collidable().size();
   const NewArray distances = newArray(joints.count(), pairs), points = newArray(joints.count(), pairs, 2, 3),
@@ -136,7 +136,7 @@ nb::typed<nb::tuple, Array, Array, Array> getNearestPoints(const PyConfig& confi
 }
 
 FlagArray isValid(const PyConfig& config, const Numbers& Q, double margin, int threads) {
-  const auto joints = jointRows(Q, config, "isValid");
+  const auto joints = jointVectors(Q, config, "isValid");
   if (!std::isfinite(margin)) throw ValueError(cat("isValid: margin is ", margin, "; expected a distance in m"));
   warnOfContacts(config);
   const State scene = config.state();
@@ -150,10 +150,11 @@ FlagArray isValid(const PyConfig& config, const Numbers& Q, double margin, int t
 
 FlagArray isMotionFree(const PyConfig& config, const Numbers& from, const Numbers& to, double margin, double tolerance,
                        int threads) {
-  const auto starts = jointRows(from, config, "isMotionFree", "start"),
-             ends = jointRows(to, config, "isMotionFree", "end");
+  const auto starts = jointVectors(from, config, "isMotionFree", "start"),
+             ends = jointVectors(to, config, "isMotionFree", "end");
   if (starts.count() != ends.count())
-    throw ValueError(cat("isMotionFree: ", starts.count(), " starts and ", ends.count(), " ends"));
+    throw ValueError(
+        cat("isMotionFree: got ", starts.count(), " starts and ", ends.count(), " ends; expected equal numbers"));
   warnOfContacts(config);
   const State scene = config.state();
   const NewFlags free = newFlags(starts.count());

@@ -13,7 +13,7 @@
 namespace kinegraph::python {
 
 FeatureSource FeatureArgument::source() const {
-  return function.is_valid() ? ownFeature(function) : FeatureSource(symbol);
+  return function.is_valid() ? customFeature(function) : FeatureSource(symbol);
 }
 
 std::vector<std::string> toNames(const FrameNames& frames) {
@@ -30,7 +30,7 @@ VectorXd toTarget(const std::optional<Numbers>& target) { return target ? target
 
 namespace {
 
-/// A feature of named frames that is evaluated on whatever configuration is passed.
+/// A feature of named frames, which can be evaluated on any configuration.
 struct NamedFeature {
   FeatureSource source;
   std::vector<std::string> frames;
@@ -42,7 +42,7 @@ struct NamedFeature {
 
 using Evaluated = nb::typed<nb::tuple, Array, Array>;
 
-/// Evaluates straight into the arrays that are returned.
+/// Evaluates directly into the arrays that are returned.
 Evaluated evalInto(const PyConfig& config, Residual& residual, ReusedArrays& value, ReusedArrays& derivative) {
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   const std::size_t rows = std::size_t(residual.rows()), columns = std::size_t(config.getJointDimension());
@@ -68,13 +68,13 @@ Evaluated evalFeature(const PyConfig& config, const Unread<FeatureArgument>& fea
     if (target || residual.target().size() > 0) residual.setTarget(toTarget(target));
     return evalInto(config, residual, call->y, call->J);
   }
-  const FeatureArgument given = feature.read();
+  const FeatureArgument argument = feature.read();
   const std::vector<std::string> names = toNames(frames.read());
-  if (given.function.is_valid()) {
-    Residual own = makeResidual(scene, given.source(), names, toScale(scale), toTarget(target), order);
-    return evalInto(config, own);
+  if (argument.function.is_valid()) {
+    Residual custom = makeResidual(scene, argument.source(), names, toScale(scale), toTarget(target), order);
+    return evalInto(config, custom);
   }
-  const auto& residual = config.residuals.get(scene, given.symbol, names, toScale(scale), toTarget(target), order);
+  const auto& residual = config.residuals.get(scene, argument.symbol, names, toScale(scale), toTarget(target), order);
   RecentCalls::Call* call = config.calls.add(scene, feature.object, frames.object, order, residual);
   return call ? evalInto(config, *residual, call->y, call->J) : evalInto(config, *residual);
 }
@@ -84,8 +84,8 @@ Evaluated evalNamed(const NamedFeature& f, const PyConfig& config) {
     return evalInto(config, *config.residuals.get(config.state(), *symbol, f.frames, f.scale, f.target, f.order), f.y,
                     f.J);
   }
-  Residual own = makeResidual(config.state(), f.source, f.frames, f.scale, f.target, f.order);
-  return evalInto(config, own);
+  Residual custom = makeResidual(config.state(), f.source, f.frames, f.scale, f.target, f.order);
+  return evalInto(config, custom);
 }
 
 std::string describeFeature(const NamedFeature& f) {
@@ -98,8 +98,8 @@ void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config) {
   auto symbols = nb::enum_<FeatureSymbol>(m, "FS", nb::is_arithmetic(), "Feature symbols.");
   for (const auto& [name, symbol] : featureNames()) symbols.value(name.c_str(), symbol, featureInfo(symbol).value);
 
-  bindOwnFeatures(m);
-  nb::class_<NamedFeature>(m, "Feature", "A feature of named frames, evaluated on the configuration that is passed.")
+  bindCustomFeatures(m);
+  nb::class_<NamedFeature>(m, "Feature", "A feature of named frames, which can be evaluated on any configuration.")
       .def("eval", evalNamed, "config"_a, docs::features::evalOf)
       .def(
           "setScale",
@@ -131,7 +131,7 @@ void bindFeatures(nb::module_& m, nb::class_<PyConfig>& config) {
           [](const PyConfig& c, const FeatureArgument& feature, const FrameNames& frames,
              const std::optional<Numbers>& scale, const std::optional<Numbers>& target, int order) {
             NamedFeature f{feature.source(), toNames(frames), toScale(scale), toTarget(target), order};
-            makeResidual(c.state(), f.source, f.frames, f.scale, f.target, f.order);  // reports mistakes here
+            makeResidual(c.state(), f.source, f.frames, f.scale, f.target, f.order);  // reports errors now
             return f;
           },
           "featureSymbol"_a, "frames"_a = std::vector<std::string>(), "scale"_a = nb::none(), "target"_a = nb::none(),

@@ -11,29 +11,29 @@
 
 namespace kinegraph::python {
 
-/// A feature as users give it: a symbol of FS, or a function of frames.
+/// A feature argument: a symbol of FS, or a function of frames.
 struct FeatureArgument {
   FeatureSymbol symbol = FeatureSymbol::position;
-  nb::object function;  ///< null: the symbol
+  nb::object function;  ///< null for a symbol
 
   FeatureSource source() const;
 };
 
-/// Features that a Python function computes; `name` is for messages.
-FeatureSource ownFeature(nb::object function);
+/// Makes a feature from a Python function.
+FeatureSource customFeature(nb::object function);
 
-/// The function; None for a symbol.
+/// Returns the function; None for a symbol.
 nb::object functionOf(const FeatureSource& source);
 
-/// Frames as users give them: a name or a list of names.
+/// Frames argument: a name or a list of names.
 using FrameNames = std::variant<std::vector<std::string>, std::string>;
 
-/// An argument that is looked at before it is converted to a T.
+/// An argument that is inspected before its conversion to a T.
 template <class T>
 struct Unread {
   nb::handle object;
 
-  /// Throws what leads to the TypeError that a wrong argument gives.
+  /// Converts it, or throws the exception that leads to a TypeError.
   T read() const {
     T value;
     if (!nb::try_cast(object, value)) throw nb::next_overload();

@@ -1,6 +1,6 @@
 #pragma once
 
-/// The manual of what bind_features.cpp binds.
+/// Docstrings of the functions in bind_features.cpp.
 namespace kinegraph::python::docs::features {
 
 inline constexpr char evalOf[] = R"(Evaluates the feature at the present q of a scene.
@@ -15,29 +15,29 @@ Raises:
 inline constexpr char setScale[] = R"(Sets the factor.
 
 Args:
-    scale: A number, one per row of the feature, or a matrix.
+    scale: A number, one per component of the feature, or a matrix.
 Returns:
     The feature itself.
 Raises:
-    ArgumentError: By eval, where the size does not fit.)";
+    ArgumentError: By eval, if the size is wrong.)";
 
-inline constexpr char setTarget[] = R"(Sets what is subtracted before the scale.
+inline constexpr char setTarget[] = R"(Sets the target, which is subtracted before scaling.
 
 Args:
-    target: A number, or one per row of the feature, in the feature's units.
+    target: A number, or one per component of the feature, in the feature's units.
 Returns:
     The feature itself.
 Raises:
-    ArgumentError: By eval, where the size does not fit.)";
+    ArgumentError: By eval, if the size is wrong.)";
 
 inline constexpr char setOrder[] = R"(Sets the order of the time derivative.
 
 Args:
-    order: 0 for the value, 1 for the velocity, 2 for the acceleration; -1: what is usual for the feature.
+    order: 0 for the value, 1 for the velocity, 2 for the acceleration; -1 for the feature's own.
 Returns:
     The feature itself.)";
 
-inline constexpr char dim[] = R"(The number of rows of the feature.
+inline constexpr char dim[] = R"(Returns the number of components of the feature.
 
 Args:
     config: The scene.
@@ -46,41 +46,40 @@ Returns:
 Raises:
     FrameNotFound: The scene lacks a frame of the feature.)";
 
-inline constexpr char description[] = R"(The feature in words.
+inline constexpr char description[] = R"(Describes the feature.
 
 Args:
-    config: Not used; older scripts pass it.
+    config: Ignored; accepted for older scripts.
 Returns:
-    Its name, and those of its frames.)";
+    Its name, and the names of its frames.)";
 
-inline constexpr char eval[] = R"(A feature's value and Jacobian at the present q.
+inline constexpr char eval[] = R"(Evaluates a feature and its Jacobian at the present q.
 
 Args:
-    featureSymbol: A symbol of FS, or a function of your own. It is called with a FrameView per frame (without frames
-        with q) and returns y, or y and its Jacobian dy/dq (d, n); where that is left out, central differences
-        replace it.
-    frames: The name of a frame, or a list of names.
-    scale: A factor: a number, one per row of the feature, or a matrix.
-    target: Subtracted before the scale: a number, or one per row of the feature, in the feature's units.
-    order: Of the time derivative; -1: what is usual for the feature.
+    featureSymbol: A symbol of FS, or a custom function. It is called with a FrameView per frame (without frames: with
+        q) and returns y, or y and its Jacobian dy/dq (d, n). Without a Jacobian, central differences replace it.
+    frames: Name of a frame, or a list of names.
+    scale: Factor: a number, one per component of the feature, or a matrix.
+    target: Subtracted before scaling: a number, or one per component, in the feature's units.
+    order: Order of the time derivative; -1 for the feature's own.
 Returns:
     y = scale * (feature - target), shape (d,), and J = dy/dq, shape (d, n).
 Raises:
-    FrameNotFound: A name that is not in the scene.
-    ArgumentError: The feature cannot be made of these frames, or a scale or target of a wrong size.)";
+    FrameNotFound: A frame is not in the scene.
+    ArgumentError: The frames do not fit the feature, or a scale or target has a wrong size.)";
 
-inline constexpr char feature[] = R"(A feature object with eval(config), setScale, setTarget and setOrder.
+inline constexpr char feature[] = R"(Makes a feature object with eval(config), setScale, setTarget and setOrder.
 
 Args:
-    featureSymbol: A symbol of FS, or a function as for eval.
-    frames: The name of a frame, or a list of names.
-    scale: A factor: a number, one per row of the feature, or a matrix.
-    target: Subtracted before the scale: a number, or one per row of the feature, in the feature's units.
-    order: Of the time derivative; -1: what is usual for the feature.
+    featureSymbol: A symbol of FS, or a custom function as for eval.
+    frames: Name of a frame, or a list of names.
+    scale: Factor: a number, one per component of the feature, or a matrix.
+    target: Subtracted before scaling: a number, or one per component, in the feature's units.
+    order: Order of the time derivative; -1 for the feature's own.
 Returns:
     The Feature.
 Raises:
-    FrameNotFound: A name that is not in the scene.
-    ArgumentError: The feature cannot be made of these frames, or a scale or target of a wrong size.)";
+    FrameNotFound: A frame is not in the scene.
+    ArgumentError: The frames do not fit the feature, or a scale or target has a wrong size.)";
 
 }  // namespace kinegraph::python::docs::features

@@ -52,9 +52,9 @@ Frame addedFrame(PyKomo& komo, const std::string& name) {
 
 Frame addFrameDof(PyKomo& komo, const std::string& name, const std::string& parent, JointType type, bool stable,
                   const std::optional<std::string>& origin_name, const std::optional<Frame>& origin) {
-  FrameSpec demand{name, parent, type, stable, origin ? origin->getName() : origin_name.value_or("")};
-  if (origin) demand.origin_pose = origin->getPose();
-  kinegraph::addFrameDof(komo.path(), demand);
+  FrameSpec spec{name, parent, type, stable, origin ? origin->getName() : origin_name.value_or("")};
+  if (origin) spec.origin_pose = origin->getPose();
+  kinegraph::addFrameDof(komo.path(), spec);
   return addedFrame(komo, name);
 }
 
@@ -132,7 +132,7 @@ void bindObjectives(nb::class_<PyKomo>& komo) {
       .def("clearObjectives", &Komo::clearObjectives, "Removes all objectives.")
       .def(
           "addTimeOptimization",
-          [](PyKomo&) { throw Error("addTimeOptimization: durations are fixed; give them with setTiming"); },
+          [](PyKomo&) { throw Error("addTimeOptimization is not available; set durations with setTiming"); },
           docs::komo::addTimeOptimization);
 }
 
@@ -148,7 +148,7 @@ void bindSwitches(nb::class_<PyKomo>& komo) {
           "addRigidSwitch",
           [](PyKomo& k, double time, const std::vector<std::string>& frames, bool no_jump) {
             if (frames.size() != 2)
-              throw ValueError(cat("addRigidSwitch: frames are [parent, object], got ", frames.size()));
+              throw ValueError(cat("addRigidSwitch: frames must be [parent, object]; got ", frames.size()));
             k.addRigidSwitch(time, frames[0], frames[1], no_jump);
             warn(k);
           },
@@ -182,8 +182,9 @@ void bindContacts(nb::class_<PyKomo>& komo) {
 
 void bindKomo(nb::module_& m) {
   bindSwitchModes(m);
-  nb::class_<PyKomo> komo(m, "KOMO", "A motion problem: slices of a configuration, tied together by objectives.");
-  komo.def(nb::init<>(), "An empty problem; call setConfig and setTiming.")
+  nb::class_<PyKomo> komo(m, "KOMO",
+                          "A trajectory optimization problem: slices of a configuration, coupled by objectives.");
+  komo.def(nb::init<>(), "Makes an empty problem; call setConfig and setTiming.")
       .def(
           "__init__",
           [](PyKomo* self, const PyConfig& config, double phases, int slices, int order, bool collisions) {
@@ -202,11 +203,11 @@ void bindKomo(nb::module_& m) {
           "phases"_a, "slicesPerPhase"_a, "durationPerPhase"_a, "kOrder"_a, docs::komo::setTiming)
       .def(
           "nlp", [](std::shared_ptr<PyKomo> k) { return makeNlp(std::move(k)); },
-          "The problem for a solver. It keeps this object alive, which then holds the solution.")
+          "Returns the problem for a solver. It keeps this object alive, which receives the solution.")
       .def("optimize", optimize, "addInitializationNoise"_a = .01, "verbose"_a = 0, docs::komo::optimize)
-      .def("getCosts", costs, "The sum of the costs (f and sos) of the present path.")
+      .def("getCosts", costs, "Returns the sum of the costs (f and sos) of the present path.")
       .def("getConstraintViolations", violations,
-           "The sum of the violations of all constraints (eq and ineq) at the present path.")
+           "Returns the sum of the violations of all constraints (eq and ineq) at the present path.")
       .def(
           "explain",
           [](const std::shared_ptr<PyKomo>& k, double tolerance) { return textOf(explainPath(k, tolerance)); },

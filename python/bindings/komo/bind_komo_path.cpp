@@ -53,18 +53,18 @@ std::vector<PathContact> checkMotion(const PyKomo& komo, double margin, double t
 }
 
 void bindPathContact(nb::module_& m) {
-  nb::class_<PathContact>(m, "PathContact", "Two shapes that the motion between two slices brings too near.")
-      .def_ro("slice", &PathContact::slice, "The slice that the motion leads to.")
-      .def_ro("time", &PathContact::time, "Phase time at which they come too near; until then the motion is free.")
+  nb::class_<PathContact>(m, "PathContact", "Two shapes that come too close in the motion between two slices.")
+      .def_ro("slice", &PathContact::slice, "The last slice of the motion.")
+      .def_ro("time", &PathContact::time, "Phase time at which they first come too close.")
       .def_prop_ro(
-          "frames", [](const PathContact& c) { return std::pair(c.a, c.b); }, "Their names.")
-      .def_ro("distance", &PathContact::distance, "The least one until the slice, m; negative: penetration depth.")
-      .def_ro("deepest", &PathContact::deepest, "Phase time of the least distance.")
+          "frames", [](const PathContact& c) { return std::pair(c.a, c.b); }, "Names of their frames.")
+      .def_ro("distance", &PathContact::distance, "Smallest distance until the slice, m; negative: penetration depth.")
+      .def_ro("deepest", &PathContact::deepest, "Phase time of the smallest distance.")
       .def("__str__", &PathContact::str)
       .def("__repr__", [](const PathContact& c) { return cat("<PathContact: ", c.str(), ">"); });
 }
 
-/// A sequence of vectors, an array with a row per waypoint, or an array of arrays.
+/// Accepts a sequence of vectors, an array with one waypoint per row, or an array of arrays.
 std::vector<int> initWithWaypoints(PyKomo& komo, nb::iterable waypoints, int per_phase, bool interpolate,
                                    double towards_home, int) {
   std::vector<VectorXd> list;
@@ -76,17 +76,17 @@ std::vector<int> initWithWaypoints(PyKomo& komo, nb::iterable waypoints, int per
 
 void bindKomoPath(nb::module_& m, nb::class_<PyKomo>& komo) {
   bindPathContact(m);
-  komo.def("getT", &Komo::slices, "The number T of slices.")
+  komo.def("getT", &Komo::slices, "Returns the number T of slices.")
       .def(
           "getPath", [](const PyKomo& k, const std::vector<int>& frames) { return toNumpy(k.getPath(frames)); },
           "dofIndices"_a = std::vector<int>(), docs::komo_path::getPath)
       .def("getPath_qAll", ownDofs,
-           "A vector per slice, shape (k,): the dofs that belong to it, those of mode switches included.")
+           "Returns a vector per slice, shape (k,): the dofs that belong to it, including those of mode switches.")
       .def(
           "getPathTau", [](const PyKomo& k) { return toNumpy(VectorXd(VectorXd::Constant(k.slices(), k.tau()))); },
-          "The duration of each slice, shape (T,), s.")
+          "Returns the duration of each slice, shape (T,), s.")
       .def("getPathFrames", pathFrames,
-           "World poses of all frames in all slices, shape (T, frames, 7): x y z (m) qw qx qy qz.")
+           "Returns world poses of all frames in all slices, shape (T, frames, 7): x y z (m) qw qx qy qz.")
       .def(
           "getFrameState", [](const PyKomo& k, int t) { return toNumpy(k.getFrameState(t)); }, "t"_a,
           docs::komo_path::getFrameState)
@@ -101,7 +101,7 @@ void bindKomoPath(nb::module_& m, nb::class_<PyKomo>& komo) {
           [](const PyKomo& k) {
             return PyConfig{k.configuration(-k.order()), nullptr};
           },
-          "The scene with the frames that were added, as it is before the path; a copy.")
+          "Returns a copy of the scene before the path, including added frames.")
       .def(
           "getConfiguration",
           [](const PyKomo& k, int t) {

@@ -57,7 +57,7 @@ nb::dict entryOf(const Objective& objective, double error) {
 }
 
 Attributes report(const PyKomo& komo, bool with_specs, bool list_objectives, bool plot, bool sort) {
-  if (plot) emitWarning("KOMO.report: plots are not available; info_objectiveErrorTraces() has the numbers");
+  if (plot) emitWarning("KOMO.report: plots are not available; info_objectiveErrorTraces() returns the numbers");
   const PathErrors errors = measurePath(komo);
   Attributes out;
   if (with_specs) out["specs"] = specs(komo);
@@ -84,7 +84,7 @@ std::vector<std::string> objectiveTags(const PyKomo& komo) {
   return tags;
 }
 
-/// Pictures (getRgb) show the scene as it is in the slice `pictured`.
+/// Shows a motion. Pictures (getRgb) show the scene in the slice `pictured`.
 int show(PyKomo& komo, const ShownMotion& motion, bool pause, const std::string& text, int pictured) {
   if (!komo.viewer) komo.viewer = std::make_shared<PyViewer>();
   const std::shared_ptr<PyViewer> viewer = komo.viewer;
@@ -103,8 +103,8 @@ int viewKomo(PyKomo& komo, bool pause, Message text) {
 
 int viewSlice(PyKomo& komo, int slice, bool pause) {
   if (slice < -komo.order() || slice >= komo.slices()) {
-    throw ValueError(cat("view_slice: t is ", slice, "; there are slices 0 to ", komo.slices() - 1,
-                         ", and before them ", -komo.order(), " to -1"));
+    throw ValueError(cat("view_slice: t is ", slice, "; expected 0 to ", komo.slices() - 1, ", or ", -komo.order(),
+                         " to -1 before the path"));
   }
   ShownMotion motion = motionOf(komo);
   motion.start = ShownMotion::Start::pause;
@@ -112,7 +112,7 @@ int viewSlice(PyKomo& komo, int slice, bool pause) {
   return show(komo, motion, pause, cat("slice ", slice), slice);
 }
 
-/// A picture of each slice as PREFIX000000.png and so on, without a browser, with what the page tells of the slice.
+/// Saves a picture of each slice as PREFIX000000.png and so on, without a browser, with the page's text for the slice.
 void savePictures(PyKomo& komo, const std::string& prefix, const std::vector<std::string>& texts) {
   if (!komo.viewer) komo.viewer = std::make_shared<PyViewer>();
   nb::module_::import_("kinegraph.png").attr("removeNumbered")(prefix);
@@ -140,11 +140,11 @@ void bindKomoReports(nb::class_<PyKomo>& komo) {
   komo.def("report", report, "specs"_a = false, "listObjectives"_a = true, "plotOverTime"_a = false,
            "sortByError"_a = true, docs::komo_reports::report)
       .def(
-          "getFeatureNames", [](const PyKomo& k) { return residualTags(k); }, "A short name per residual.")
-      .def("info_objectiveNames", objectiveTags, "A short name per objective.")
+          "getFeatureNames", [](const PyKomo& k) { return residualTags(k); }, "Returns a short name per residual.")
+      .def("info_objectiveNames", objectiveTags, "Returns a short name per objective.")
       .def(
           "info_objectiveErrorTraces", [](const PyKomo& k) { return toNumpy(measurePath(k).per_slice); },
-          "Errors of the objectives by slice, shape (T, objectives).")
+          "Returns the errors of the objectives by slice, shape (T, objectives).")
       .def(
           "info_sliceErrors",
           [](const PyKomo& k, int t, const Numbers& traces) { return sliceErrors(k, t, traces.matrix()); }, "t"_a,
@@ -163,20 +163,20 @@ void bindKomoReports(nb::class_<PyKomo>& komo) {
             const std::string page = recordedScene(k.configuration(-k.order()), &motion, "KOMO Viewer");
             return nb::cast<std::string>(nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(page));
           },
-          "What notebooks show: the motion, which plays there without a program.")
+          "Returns a page for notebooks that plays the motion without a running program.")
       .def(
           "view_close",
           [](PyKomo& k) {
             if (k.viewer) k.viewer->endPage();
           },
-          "Ends the viewer.")
+          "Closes the viewer.")
       .def(
           "get_viewer",
           [](PyKomo& k) {
             if (!k.viewer) k.viewer = std::make_shared<PyViewer>();
             return k.viewer;
           },
-          "The viewer of this problem.")
+          "Returns the viewer of this problem.")
       .def(
           "set_viewer", [](PyKomo& k, std::shared_ptr<PyViewer> viewer) { k.viewer = std::move(viewer); }, "viewer"_a,
           docs::komo_reports::set_viewer);

@@ -1,60 +1,60 @@
 #pragma once
 
-/// The manual of what bind_komo_path.cpp binds.
+/// Docstrings of the functions in bind_komo_path.cpp.
 namespace kinegraph::python::docs::komo_path {
 
-inline constexpr char getPath[] = R"(The joint vectors of all slices.
+inline constexpr char getPath[] = R"(Returns the joint vectors of all slices.
 
 Args:
-    dofIndices: Ids of frames, to get only the dofs of their joints; [] for all.
+    dofIndices: Ids of frames, to return only the dofs of their joints; [] for all.
 Returns:
     Shape (T, n), rad or m.
 Raises:
-    ArgumentError: A frame without an active joint.)";
+    ArgumentError: A frame has no active joint.)";
 
-inline constexpr char getFrameState[] = R"(World poses of all frames in a slice.
+inline constexpr char getFrameState[] = R"(Returns world poses of all frames in a slice.
 
 Args:
     t: The slice.
 Returns:
     Shape (frames, 7): x y z (m) qw qx qy qz.
 Raises:
-    ArgumentError: There is no such slice.)";
+    ArgumentError: The slice does not exist.)";
 
-inline constexpr char getFrame[] = R"(A frame as it is in a slice.
+inline constexpr char getFrame[] = R"(Returns a frame as it is in a slice.
 
 Args:
-    frameName: Its name.
-    phaseTime: Time of the slice in phases.
+    frameName: Name of the frame.
+    phaseTime: Phase time of the slice.
 Returns:
     A copy of the frame.
 Raises:
-    FrameNotFound: There is no such frame.)";
+    FrameNotFound: The frame is not in the scene.)";
 
-inline constexpr char getConfiguration[] = R"(The scene in a slice.
+inline constexpr char getConfiguration[] = R"(Returns the scene in a slice.
 
 Args:
     t: The slice; -1 is the one before the first.
 Returns:
     A copy.
 Raises:
-    ArgumentError: There is no such slice.)";
+    ArgumentError: The slice does not exist.)";
 
 inline constexpr char getSubProblem[] =
-    R"(What is needed to plan the motion of a phase, for a KOMO with one slice per phase.
+    R"(Returns the input for planning the motion of a phase, for a KOMO with one slice per phase.
 
 Args:
     phase: The phase.
 Returns:
-    The scene at the beginning of the phase, q at the beginning, shape (n,), and q at the end, shape (n,).
+    The scene at the beginning of the phase, q at its beginning, shape (n,), and q at its end, shape (n,).
 Raises:
-    ArgumentError: There is no such phase.)";
+    ArgumentError: The phase does not exist.)";
 
 inline constexpr char getForceInteractions[] =
-    R"(Contact forces, a dict per force and slice: `from` pushes `onto` at `poa` (m) with `force` (N), both shape (3,), in
-the world.)";
+    R"(Returns the contact forces, a dict per force and slice: `from` pushes `onto` at `poa` (m) with `force` (N), both of
+shape (3,), in the world.)";
 
-inline constexpr char initWithConstant[] = R"(Starts with one joint vector in all slices.
+inline constexpr char initWithConstant[] = R"(Initializes all slices with one joint vector.
 
 Args:
     q: Shape (n,), rad or m.
@@ -62,49 +62,51 @@ Raises:
     ArgumentError: q has another size.)";
 
 inline constexpr char setConfigurations[] =
-    R"(Starts with the joint vector of a scene in all slices, as older scripts do it.
+    R"(Initializes all slices with the joint vector of a scene, for older scripts.
 
 Args:
     config: The scene.)";
 
-inline constexpr char initWithPath[] = R"(Starts with a path.
+inline constexpr char initWithPath[] = R"(Initializes the path.
 
 Args:
     q: Shape (T, n), rad or m.
 Raises:
     ArgumentError: q has another shape.)";
 
-inline constexpr char initWithWaypoints[] = R"(Starts with waypoint i at phase time (i + 1) / waypointSlicesPerPhase.
+inline constexpr char initWithWaypoints[] =
+    R"(Initializes the path with waypoint i at phase time (i + 1) / waypointSlicesPerPhase.
 
 Args:
     waypoints: Joint vectors, shape (k, n), rad or m.
-    waypointSlicesPerPhase: How many waypoints each phase has.
-    interpolate: Between them; False: each slice starts at the last waypoint before it.
-    qHomeInterpolate: Part of the way towards home, 0 .. 1.
-    verbose: Not used; older scripts pass it.
+    waypointSlicesPerPhase: Number of waypoints per phase.
+    interpolate: True interpolates between waypoints, False repeats each until the next one.
+    qHomeInterpolate: Pulls the middle of each interpolation towards home, 0 .. 1.
+    verbose: Ignored; accepted for older scripts.
 Returns:
     The slices of the waypoints.
 Raises:
-    ArgumentError: Waypoints of another size.)";
+    ArgumentError: A waypoint has another size.)";
 
-inline constexpr char initPhaseWithDofsPath[] = R"(Starts a phase with a path of some joints.
+inline constexpr char initPhaseWithDofsPath[] = R"(Initializes some joints in a phase with a path.
 
 Args:
     t_phase: The phase.
     dofIDs: Ids of the frames of the joints.
     path: Shape (slices of the phase, dofs of the joints), rad or m.
-    autoResamplePath: Interpolates a path with another number of rows.
+    autoResamplePath: True interpolates a path with another number of configurations.
 Raises:
-    ArgumentError: The path has another shape, or there is no such phase.)";
+    ArgumentError: The path has another shape, or the phase does not exist.)";
 
-inline constexpr char initRandom[] = R"(Starts at random joint vectors; ry.rnd_seed seeds them.
+inline constexpr char initRandom[] = R"(Initializes the path with random joint vectors; ry.rnd_seed seeds them.
 
 Args:
-    verbose: Not used; older scripts pass it.)";
+    verbose: Ignored; accepted for older scripts.)";
 
 inline constexpr char updateRootObjects[] =
-    R"(Takes over the constant poses of a scene, and its q as the one that the motion begins from. The path stays, for a
-warm start; targets of objectives stay, too.
+    R"(Copies the constant poses of a scene, and uses its q as the start of the motion.
+
+The path remains as a warm start, and the targets of objectives do not change.
 
 Args:
     config: The scene, with the frames and joints that the problem was made from.
@@ -112,28 +114,29 @@ Raises:
     ArgumentError: The scene has other frames.)";
 
 inline constexpr char checkMotion[] =
-    R"(Where the motion is not free of collisions. Between slices q goes straight, from the slice before the start on; what
-hangs where is as in the slice that the motion begins in, so that attached objects move along. All times count, and not
-just samples of them.
+    R"(Checks continuously that the motion between slices is collision-free.
+
+Between slices q moves linearly, from the slice before the first on. The kinematic structure is that of the slice in
+which a motion begins, so attached objects move along.
 
 Args:
-    margin: How near is too near, m.
+    margin: Closer pairs count as contacts, m.
     tolerance: Pairs within margin + tolerance may count, m; > 0.
 Returns:
-    A PathContact for each slice that the motion does not reach freely: the first pair to come too near on the way.
+    A PathContact for each slice that the motion does not reach collision-free: the first pair to come too close.
 Raises:
-    ArgumentError: A margin or tolerance that makes no sense.
-    Error: There is no path yet.)";
+    ArgumentError: The margin or the tolerance is invalid.
+    Error: The scene or the timing is missing.)";
 
 inline constexpr char isFree[] =
-    R"(Whether the motion is free of collisions at all times, straight in q from slice to slice; checkMotion says where not.
+    R"(Returns whether the motion is continuously collision-free, with q linear between slices; see checkMotion.
 
 Args:
-    margin: How far all pairs keep apart, m.
+    margin: Minimum distance of all pairs, m.
 Returns:
-    True if no pair comes nearer.
+    True if no pair comes closer.
 Raises:
-    ArgumentError: A margin that is not finite.
-    Error: There is no path yet.)";
+    ArgumentError: The margin is not finite.
+    Error: The scene or the timing is missing.)";
 
 }  // namespace kinegraph::python::docs::komo_path

@@ -13,7 +13,7 @@ namespace {
 nb::tuple toTuple(const Objective& o) {
   const nb::object feature = featureState(o.feature);
   return nb::make_tuple(o.name(), feature, o.frames, int(o.type), toNumpy(o.scale), toNumpy(o.target), o.order, o.times,
-                        o.from, o.to, o.time_integral, o.without_gravity, o.damped, o.margin, o.slack, o.on_the_way,
+                        o.from, o.to, o.time_integral, o.without_gravity, o.damped, o.margin, o.slack, o.between_slices,
                         o.frames_known);
 }
 

@@ -7,18 +7,18 @@
 
 namespace kinegraph::python {
 
-/// What Python calls a KOMO: the motion problem, and the viewer that `view()` opens at first use.
+/// The KOMO class of Python: the problem, and the viewer that `view()` opens on first use.
 struct PyKomo : Komo {
   std::shared_ptr<PyViewer> viewer;
 };
 
-/// Its slices: what is in them, and where they start.
+/// Methods for the slices: values and initialization.
 void bindKomoPath(nb::module_& m, nb::class_<PyKomo>& komo);
 
-/// What a KOMO says about itself, in words, numbers and pictures.
+/// Methods for reports, viewing and pictures.
 void bindKomoReports(nb::class_<PyKomo>& komo);
 
-/// copy.copy and pickle.
+/// Methods for copy.copy and pickle.
 void bindKomoCopies(nb::class_<PyKomo>& komo);
 
 }  // namespace kinegraph::python

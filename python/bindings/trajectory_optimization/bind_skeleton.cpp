@@ -23,19 +23,19 @@ void addEntry(Skeleton& skeleton, nb::handle times, nb::handle symbol, nb::handl
   const auto repr = [](nb::handle value) { return nb::cast<std::string>(nb::repr(value)); };
   if (!nb::try_cast(symbol, mode))
     throw ValueError(cat("Skeleton: ", repr(symbol), " is not a symbol; expected one of SY"));
-  const std::string what = switchModeName(mode);
+  const std::string name = switchModeName(mode);
   if (!nb::try_cast(times, at)) {
-    throw ValueError(cat("Skeleton: the times of ", what, " are ", repr(times), "; expected [at] or [from, to]"));
+    throw ValueError(cat("Skeleton: the times of ", name, " are ", repr(times), "; expected [at] or [from, to]"));
   }
   if (nb::try_cast(frames, one)) {
     names = {one};
   } else if (!nb::try_cast(frames, names)) {
-    throw ValueError(cat("Skeleton: the frames of ", what, " are ", repr(frames), "; expected a list of names"));
+    throw ValueError(cat("Skeleton: the frames of ", name, " are ", repr(frames), "; expected a list of names"));
   }
   skeleton.addEntry(at.list(), mode, names);
 }
 
-/// A flat list of times, symbol, frames, times, symbol, frames ...
+/// Adds a flat list of times, symbol, frames, times, symbol, frames ...
 void addList(Skeleton& skeleton, const nb::list& list) {
   if (list.size() % 3 != 0) {
     throw ValueError(
@@ -49,14 +49,14 @@ std::shared_ptr<PyKomo> wrapped(Komo komo) {
   return std::make_shared<PyKomo>(PyKomo{std::move(komo), nullptr});
 }
 
-void setSkeleton(PyKomo& komo, nb::handle given) {
+void setSkeleton(PyKomo& komo, nb::handle source) {
   Skeleton made;
-  const bool is_list = nb::isinstance<nb::list>(given);
-  if (is_list) addList(made, nb::cast<nb::list>(given));
-  const Skeleton& skeleton = is_list ? made : nb::cast<const Skeleton&>(given);
+  const bool is_list = nb::isinstance<nb::list>(source);
+  if (is_list) addList(made, nb::cast<nb::list>(source));
+  const Skeleton& skeleton = is_list ? made : nb::cast<const Skeleton&>(source);
   for (const Skeleton::Entry& entry : skeleton.entries()) {
     if (entry.symbol != SwitchMode::makeFree) continue;
-    throw ValueError("setSkeleton: makeFree changes the scene; give the frames free joints before the KOMO is made");
+    throw ValueError("setSkeleton: makeFree changes the scene; give the frames free joints before making the KOMO");
   }
   skeleton.addTo(komo);
   for (const std::string& warning : komo.takeWarnings()) emitWarning(warning);
@@ -73,14 +73,14 @@ Entries entriesOf(const Skeleton& skeleton) {
 }
 
 void bindEntries(nb::class_<Skeleton>& skeleton) {
-  skeleton.def(nb::init<>(), "Without entries.")
+  skeleton.def(nb::init<>(), "Makes a skeleton without entries.")
       .def("addEntry", addEntry, "timeInterval"_a, "symbol"_a, "frames"_a,
            nb::sig("def addEntry(self, timeInterval: numpy.typing.ArrayLike, symbol: SY, frames: typing.Sequence[str] "
                    "| str) -> None"),
            docs::skeleton::addEntry)
       .def("add", addList, "entries"_a, docs::skeleton::add)
-      .def("entries", entriesOf, "A list of ((from, to), symbol, frames), times in phases.")
-      .def("getMaxPhase", &Skeleton::maxPhase, "The last phase of any entry.")
+      .def("entries", entriesOf, "Returns a list of ((from, to), symbol, frames), times in phases.")
+      .def("getMaxPhase", &Skeleton::maxPhase, "Returns the last phase of any entry.")
       .def("addExplicitCollisions", &Skeleton::addExplicitCollisions, "collisions"_a,
            docs::skeleton::addExplicitCollisions)
       .def("addLiftPriors", &Skeleton::addLiftPriors, "lift"_a, docs::skeleton::addLiftPriors)
@@ -110,7 +110,7 @@ void bindEntries(nb::class_<Skeleton>& skeleton) {
       });
 }
 
-/// The problems that a skeleton makes.
+/// Binds the methods that make problems.
 void bindProblems(nb::class_<Skeleton>& skeleton) {
   skeleton
       .def(
@@ -151,8 +151,8 @@ void bindProblems(nb::class_<Skeleton>& skeleton) {
 void bindSkeleton(nb::module_& m) {
   nb::class_<Skeleton> skeleton(
       m, "Skeleton",
-      "What shall hold when: entries of times (in phases), a symbol of SY and frames. Makes motion "
-      "problems that obey them.");
+      "A schedule of modes and constraints: entries of phase times, a symbol of SY, and frames. Makes trajectory "
+      "optimization problems from them.");
   bindEntries(skeleton);
   bindProblems(skeleton);
   nb::object komo = nb::borrow(nb::type<PyKomo>());

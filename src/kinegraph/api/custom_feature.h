@@ -4,11 +4,12 @@
 #include <span>
 #include <string>
 
+#include "kinegraph/features/custom_feature.h"
 #include "kinegraph/features/feature_source.h"
 
 namespace kinegraph {
 
-/// A frame at one configuration, as a feature of your own sees it. It lives as long as the call that it is given to.
+/// A frame at one configuration, the argument of a custom feature. Valid during the call only.
 class FrameView {
  public:
   FrameView(const State& state, int frame) : state_(&state), frame_(frame) {}
@@ -20,10 +21,10 @@ class FrameView {
   Matrix3d getRotationMatrix() const { return state_->pose(frame_).R; }
   Pose getPose() const { return Pose(state_->pose(frame_)); }
 
-  /// 3 x n: derivative of the world position of a point of the frame, given in its coordinates (m).
+  /// Returns the derivative of the world position of a point of the frame, given in its coordinates (m): 3 x n.
   MatrixXd getPositionJacobian(const Vector3d& point = Vector3d::Zero()) const;
 
-  /// 3 x n: world angular velocity of the frame per velocity of q.
+  /// Returns the world angular velocity of the frame per velocity of q: 3 x n.
   MatrixXd getAngularJacobian() const;
 
  private:
@@ -31,21 +32,11 @@ class FrameView {
   int frame_;
 };
 
-/// What a feature of your own returns: y, and dy/dq (rows of y x n) where it is known.
-struct FeatureValue {
-  VectorXd y;
-  MatrixXd J;  ///< empty: central differences replace it
-
-  FeatureValue(double y) : y(VectorXd::Constant(1, y)) {}
-  FeatureValue(VectorXd y, MatrixXd J = {}) : y(std::move(y)), J(std::move(J)) {}
-  FeatureValue(double y, const MatrixXd& J) : y(VectorXd::Constant(1, y)), J(J) {}
-};
-
-/// The frames in the order in which the objective names them. It may be called by several threads at once.
+/// Receives the frames in the order in which the objective names them. Several threads may call it at once.
 using FeatureFunction = std::function<FeatureValue(std::span<const FrameView> frames)>;
 
-/// A function of frames as a feature like any other. `name` is for messages. It always returns the same number of
-/// values; ValueError if it does not, and for a Jacobian of another size.
-FeatureSource ownFeature(std::string name, FeatureFunction function);
+/// Makes a feature from a function of frames. `name` is for messages. The function must always return the same number of
+/// values; otherwise, and for a Jacobian of a wrong size, evaluation throws ValueError.
+FeatureSource customFeature(std::string name, FeatureFunction function);
 
 }  // namespace kinegraph

@@ -26,10 +26,10 @@ MotionBounds::StepBound MotionBounds::boundOf(const MotionStep& step, double sca
                                               const double* to) const {
   StepBound bound;
   const double change = std::abs(to[dof] - from[dof]);
-  if (step.slides()) {
+  if (step.translates()) {
     bound.move = scale * change;
     bound.reach = scale * std::max(std::abs(from[dof]), std::abs(to[dof]));
-  } else if (step.turns()) {
+  } else if (step.rotates()) {
     bound.turn = scale * change;
   } else if (step.orients()) {
     // q goes along a line, so that its direction turns in one plane: the angle's rate is D / |q|^2 with the constant

@@ -128,7 +128,7 @@ const std::vector<std::int64_t>& PlacedSamples::nearFixed(int group, double marg
 std::unique_ptr<PlacedSamples::Placed> PlacedSamples::unplaced(int index) const {
   auto placed = std::make_unique<Placed>();
   const LinkBodies::Body& body = bodies_->bodies[std::size_t(index)];
-  placed->offset.turn = classifyRotation(body.X_LB.R.data());
+  placed->offset.rotation = classifyRotation(body.X_LB.R.data());
   std::copy_n(body.X_LB.R.data(), 9, placed->offset.R);
   std::copy_n(body.X_LB.p.data(), 3, placed->offset.p);
   const Vector3d center = body.shape->boundCenter();

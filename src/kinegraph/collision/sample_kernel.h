@@ -17,7 +17,7 @@ struct SampleKernel {
 
   /// Something fixed to a link.
   struct Offset {
-    ConstantRotation turn;
+    ConstantRotation rotation;
     double R[9], p[3];  ///< in the link
     double center[3];   ///< of its box, in itself
   };

@@ -34,7 +34,7 @@ Place<Vector> placeAt(const double* poses, int link_rows, int link_row, int grou
 void placeSampleBody(const double* poses, int link_rows, int link_row, const SampleKernel::Offset& offset, int groups,
                      double* rows) {
   for (int g = 0; g < groups; ++g) {
-    const auto X = moved<Vector>(packs(poses) + long(g) * link_rows + link_row, offset.turn, offset.R, offset.p);
+    const auto X = moved<Vector>(packs(poses) + long(g) * link_rows + link_row, offset.rotation, offset.R, offset.p);
     Lane* to = packs(rows) + g * SampleKernel::kPerBody;
     storePlace(X, to);
     store(X.p + combine(X.R, offset.center), to + 12);

@@ -42,7 +42,7 @@ StrayBound::StrayBound(const State& scene)
     const auto is_it = [&](const LinkPair& pair) { return pair.a == first && pair.b == second; };
     if (std::ranges::none_of(pairs_, is_it)) pairs_.push_back({first, second, tree.commonLink(first, second)});
   }
-  has_slides_ = std::ranges::any_of(model_->steps, [](const MotionStep& step) { return step.slides(); });
+  has_slides_ = std::ranges::any_of(model_->steps, [](const MotionStep& step) { return step.translates(); });
   findReaches();
 }
 
@@ -65,7 +65,7 @@ void StrayBound::findReaches() {
       const MotionStep& step = model_->steps[std::size_t(s)];
       dof -= step.dofs();
       reach_[std::size_t(s)] = reach;
-      if (step.slides()) reach += std::abs(link.scale) * largest_[dof];
+      if (step.translates()) reach += std::abs(link.scale) * largest_[dof];
     }
     double& of_parent = behind[std::size_t(link.parent)];
     of_parent = std::max(of_parent, reach + offset_[std::size_t(index)]);
@@ -81,9 +81,9 @@ double StrayBound::moveOf(int index, const VectorXd& from, const VectorXd& to, c
   for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
     const MotionStep& step = model_->steps[std::size_t(s)];
     const int dofs = step.dofs();
-    if (step.slides()) {
+    if (step.translates()) {
       move += scale * std::abs(stray[dof]);
-    } else if (step.turns()) {
+    } else if (step.rotates()) {
       move += scale * std::abs(stray[dof]) * reach_[std::size_t(s)];
     } else if (step.orients()) {
       const double off = stray.segment(dof, dofs).norm(),

@@ -48,7 +48,7 @@ Mpc::Mpc(const Komo& komo, const MpcOptions& given) : options(given), komo_(std:
   separate_ = nlp->separation().problem;
   if (!separate_) separate_ = nlp;
   problem_ = std::make_unique<HorizonNlp>(separate_);
-  rows_ = pathRows(*separate_);
+  rows_ = pathComponents(*separate_);
   findLaterRows();
   Path& path = komo_->path();
   for (int t = -path.grid().order(); t < path.grid().slices(); ++t) {
@@ -58,7 +58,7 @@ Mpc::Mpc(const Komo& komo, const MpcOptions& given) : options(given), komo_(std:
   x_ = path.variables();
   dual_ = VectorXd::Zero(Eigen::Index(rows_.size()));
   shifted_x_ = feasible_x_ = x_, shifted_dual_ = dual_;
-  q_ = path.given().q, velocity_ = VectorXd::Zero(q_.size()), placed_ = q_;
+  q_ = path.initial().q, velocity_ = VectorXd::Zero(q_.size()), placed_ = q_;
   solver_.verbose = 0;
 }
 
@@ -69,7 +69,7 @@ void Mpc::requireProblem() const {
     throw ValueError(
         "Mpc: the KOMO has order 0, so that its slices do not know where the motion begins; make it with order 1 or 2");
   for (const Objective& objective : komo_->objectives()) {
-    if (objective.on_the_way)
+    if (objective.between_slices)
       throw ValueError("Mpc: addFreeMotion has no place in a horizon; use accumulatedCollisions with a margin");
   }
   if (options.receding && !path.layout().plain)
@@ -92,10 +92,10 @@ const std::vector<Mpc::Carried>& Mpc::carriedBy(int frame) {
   const auto [place, is_new] = carried_.try_emplace(frame);
   if (!is_new) return place->second;
   const Path& path = komo_->path();
-  const KinematicModel& model = *path.given().model;
+  const KinematicModel& model = *path.initial().model;
   const auto& offsets = parameters_.front()->frame_offset;
   const RigidTransform from = offsets[std::size_t(frame)].inverse();
-  for (const auto& below : path.given().tree->frames()) {
+  for (const auto& below : path.initial().tree->frames()) {
     const FrameData* parent = below->parent;
     while (parent && parent->id != frame) parent = parent->parent;
     if (!parent) continue;
@@ -112,8 +112,8 @@ const std::vector<Mpc::Carried>& Mpc::carriedBy(int frame) {
 
 void Mpc::setPoses(const std::string& name, const MatrixXd& poses) {
   Path& path = komo_->path();
-  const int frame = frameId(*path.given().model, name, "Mpc"), order = path.grid().order(), T = path.grid().slices();
-  const int link = path.given().model->frame_link[std::size_t(frame)];
+  const int frame = frameId(*path.initial().model, name, "Mpc"), order = path.grid().order(), T = path.grid().slices();
+  const int link = path.initial().model->frame_link[std::size_t(frame)];
   if (link != 0)
     throw ValueError(cat("Mpc: setPoses of '", name, "', which joints move; expected a frame of the world"));
   if ((poses.rows() != T && poses.rows() != 1) || (poses.cols() != 7 && poses.cols() != 3) || !poses.allFinite())
@@ -133,7 +133,7 @@ void Mpc::setPoses(const std::string& name, const MatrixXd& poses) {
 }
 
 void Mpc::updateRootObjects(const Config& config) {
-  const KinematicModel& given = *komo_->path().given().model;
+  const KinematicModel& given = *komo_->path().initial().model;
   const auto model = config.model();
   if (model->frame_name != given.frame_name || model->dofs != given.dofs)
     throw ValueError(
@@ -166,7 +166,7 @@ void Mpc::setTarget(int number, const MatrixXd& targets) {
   const MatrixXd& scale = residual.scale();
   VectorXd change(rows);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const PathRow& row = rows_[i];
+    const PathComponent& row = rows_[i];
     if (row.objective != number) continue;
     change = -targets.row(targets.rows() == 1 ? 0 : row.slice - objective.from).transpose();
     if (residual.target().size() == 1) change.array() += residual.target()[0];
@@ -270,7 +270,7 @@ void Mpc::setPresent(const VectorXd& q, const VectorXd& velocity) {
       path.setJoints(t, placed_);
       continue;
     }
-    const std::vector<int> dofs = path.dofsOf(path.given().joint_frames, t);
+    const std::vector<int> dofs = path.dofsOf(path.initial().joint_frames, t);
     for (std::size_t d = 0; d < dofs.size(); ++d) {
       const int variable = path.layout().column[std::size_t(t + order)][std::size_t(dofs[d])];
       if (variable >= 0) fix(variable, placed_[Eigen::Index(d)]);
@@ -358,7 +358,7 @@ MotionPoint Mpc::at(double time) const {
   const auto where = [&](int t) -> VectorXd {
     if (t < past_) return q_;
     if (path.layout().plain) return path.state(t).q();
-    const std::vector<int> dofs = path.dofsOf(path.given().joint_frames, t);
+    const std::vector<int> dofs = path.dofsOf(path.initial().joint_frames, t);
     VectorXd q(dofs.size());
     for (std::size_t d = 0; d < dofs.size(); ++d) q[Eigen::Index(d)] = path.state(t).q()[dofs[d]];
     return q;

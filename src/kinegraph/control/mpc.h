@@ -114,7 +114,7 @@ class Mpc {
   std::shared_ptr<Komo> komo_;
   std::shared_ptr<Nlp> separate_;  ///< with a row per pair in place of sums
   std::unique_ptr<HorizonNlp> problem_;
-  std::vector<PathRow> rows_;
+  std::vector<PathComponent> rows_;
   std::vector<int> later_;  ///< per row: that of its objective a slice later; in the last slice itself
   std::vector<std::shared_ptr<Parameters>> parameters_;  ///< per slice, those before the start first
   std::map<int, std::vector<Carried>> carried_;

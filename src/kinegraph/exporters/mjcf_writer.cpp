@@ -227,7 +227,7 @@ class MjcfWriter {
         const std::string name = unused("joint", moving == 1 ? frame.name : cat(frame.name, "_", index));
         joint_names_[{&frame, dof}] = name;
         text += cat("<joint name=\"", xmlEscaped(name), "\"");
-        if (!step.slides() && !anchor.isZero(0.)) text += cat(" pos=\"", mjcfVector(anchor), "\"");
+        if (!step.translates() && !anchor.isZero(0.)) text += cat(" pos=\"", mjcfVector(anchor), "\"");
         ++index;
       }
       if (step.kind == MotionStep::Kind::quaternion) {
@@ -239,7 +239,7 @@ class MjcfWriter {
         qpos_.push_back(2. * std::atan2(source.q[dof + 1], source.q[dof]));
       } else if (step.moves()) {
         const Vector3d direction = behind.q.conjugate() * (scale < 0. ? Vector3d(-axis) : axis);
-        text += cat(step.slides() ? " type=\"slide\"" : "", " axis=\"", mjcfVector(direction), "\"",
+        text += cat(step.translates() ? " type=\"slide\"" : "", " axis=\"", mjcfVector(direction), "\"",
                     range(frame, dof, std::abs(scale)), "/>\n");
         qpos_.push_back(std::abs(scale) * source.q[dof]);
       }

@@ -227,8 +227,8 @@ class UrdfWriter {
     for (const MotionStep& step : joint.steps) {
       const double scale = motionScale(frame) * step.sign;
       const Vector3d axis = step.direction(joint.axis);
-      if (step.slides() || step.turns()) {
-        chain.push_back(oneDof(frame, dof, step.slides() ? "prismatic" : "revolute", axis, scale));
+      if (step.translates() || step.rotates()) {
+        chain.push_back(oneDof(frame, dof, step.translates() ? "prismatic" : "revolute", axis, scale));
       } else if (step.kind == MotionStep::Kind::quaternion) {
         for (int i = 0; i < 3; ++i) chain.push_back(continuous(Vector3d::Unit(i)));
       } else if (step.orients()) {

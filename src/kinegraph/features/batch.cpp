@@ -14,8 +14,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kPart = 32;            ///< configurations that a thread takes at once
-constexpr double kTolerance = 1e-5;  ///< m; of no account where postures alone are looked at
+constexpr int kBatch = 32;           ///< configurations that a thread takes at once
+constexpr double kTolerance = 1e-5;  ///< m; irrelevant for checks of single configurations
 
 void checkJoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q) {
   if (Q.cols() != scene.dofs()) {
@@ -24,7 +24,7 @@ void checkJoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q) {
   }
   if (Q.outerStride() == Q.cols()) {
     const Eigen::Map<const VectorXd> all(Q.data(), Q.size());
-    if ((all - all).squaredNorm() == 0.) return;  // quicker than allFinite()
+    if ((all - all).squaredNorm() == 0.) return;  // faster than allFinite()
   } else if (Q.allFinite()) {
     return;
   }
@@ -33,22 +33,22 @@ void checkJoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q) {
   throw ValueError(cat("joint vectors: row ", row, " has numbers that are not finite"));
 }
 
-/// Calls one(worker, i) for each configuration, with a worker made from `first` for every thread.
+/// Calls one(worker, i) for each configuration, with a copy of `first` as worker for each thread.
 template <class Worker, class One>
 void forEach(const Worker& first, int count, const BatchOptions& options, const One& one) {
-  const int threads = std::clamp(options.threads, 1, std::max(1, (count + kPart - 1) / kPart));
+  const int threads = std::clamp(options.threads, 1, std::max(1, (count + kBatch - 1) / kBatch));
   std::vector<Worker> workers(std::size_t(threads), first);
   const auto part = [&](int worker, int from, int to) {
     for (int i = from; i < to; ++i) one(workers[worker], i);
   };
-  parallelFor(count, kPart, threads, part, options.cancellation);
+  parallelFor(count, kBatch, threads, part, options.cancellation);
 }
 
-/// Calls finish(worker, first, count) after run has evaluated the rows for configurations first .. first + count - 1.
+/// Runs the kernels on batches of configurations, and calls finish(worker, first, count) after each batch.
 template <class Batch, class Finish>
 void forLanes(const LaneKinematics& model, int count, const BatchOptions& options, const Batch& batch,
               const Finish& finish) {
-  const int threads = std::clamp(options.threads, 1, std::max(1, (count + kPart - 1) / kPart));
+  const int threads = std::clamp(options.threads, 1, std::max(1, (count + kBatch - 1) / kBatch));
   std::vector<LaneKinematics::Scratch> scratch;
   scratch.reserve(threads);
   for (int i = 0; i < threads; ++i) scratch.emplace_back(model, options.lanes);
@@ -56,20 +56,20 @@ void forLanes(const LaneKinematics& model, int count, const BatchOptions& option
     model.run(scratch[worker], batch(worker, from, to - from));
     finish(worker, from, to - from);
   };
-  parallelFor(count, kPart, threads, part, options.cancellation);
+  parallelFor(count, kBatch, threads, part, options.cancellation);
 }
 
-/// evalBatch where the feature is made of rows that kernels in lanes have.
+/// evalBatch for features that consist of rows with kernels in lanes.
 void evalInLanes(const State& scene, const Residual& residual, const LaneRowList& list,
                  const Eigen::Ref<const RowMatrix>& Q, Eigen::Ref<RowMatrix> y, JacobianRows* J,
                  const BatchOptions& options) {
   const LaneKinematics model(scene.model(), scene.parameters(), list);
   const int rows = residual.rows(), raw_rows = list.rows(), n = scene.dofs();
   const bool plain = residual.scale().size() == 0 && residual.target().size() == 0, mixes = residual.mixesRows();
-  RowMatrix raw_y, raw_J;  // of the configurations that each thread is at
+  RowMatrix raw_y, raw_J;  // of the present batch of each thread
   if (mixes) {
-    raw_y.resize(Eigen::Index(kPart) * options.threads, raw_rows);
-    raw_J.resize(J ? Eigen::Index(kPart) * options.threads * raw_rows : 0, n);
+    raw_y.resize(Eigen::Index(kBatch) * options.threads, raw_rows);
+    raw_J.resize(J ? Eigen::Index(kBatch) * options.threads * raw_rows : 0, n);
   }
   const auto batch = [&](int worker, int from, int count) {
     LaneBatch part{Q.data() + from * Q.outerStride(),
@@ -83,9 +83,9 @@ void evalInLanes(const State& scene, const Residual& residual, const LaneRowList
     if (J) part.J = J->data() + Eigen::Index(from) * rows * J->outerStride();
     if (J) part.row_stride = J->outerStride();
     if (mixes) {
-      part.y = raw_y.data() + Eigen::Index(worker) * kPart * raw_rows;
+      part.y = raw_y.data() + Eigen::Index(worker) * kBatch * raw_rows;
       part.y_stride = raw_rows;
-      if (J) part.J = raw_J.data() + Eigen::Index(worker) * kPart * raw_rows * n;
+      if (J) part.J = raw_J.data() + Eigen::Index(worker) * kBatch * raw_rows * n;
       part.row_stride = n;
     }
     part.J_stride = part.row_stride * raw_rows;
@@ -94,7 +94,7 @@ void evalInLanes(const State& scene, const Residual& residual, const LaneRowList
   const auto finish = [&](int worker, int from, int count) {
     for (int i = 0; i < count && !plain; ++i) {
       Eigen::Map<VectorXd> value(y.row(from + i).data(), rows);
-      const Eigen::Index first = Eigen::Index(from + i) * rows, raw = Eigen::Index(worker) * kPart + i;
+      const Eigen::Index first = Eigen::Index(from + i) * rows, raw = Eigen::Index(worker) * kBatch + i;
       if (!mixes && J) {
         JacobianRows own = J->middleRows(first, rows);
         residual.finish(value, &own);
@@ -185,39 +185,39 @@ void pairDistances(const State& scene, const Eigen::Ref<const RowMatrix>& Q, Eig
   });
 }
 
-void NearestRow::write(int pair, const Proximity& near) const {
+void NearestPointArrays::write(int pair, const Proximity& near) const {
   distances[pair] = near.distance;
   Eigen::Map<Vector3d>(points + 6 * pair) = near.point_a;
   Eigen::Map<Vector3d>(points + 6 * pair + 3) = near.point_b;
   Eigen::Map<Vector3d>(normals + 3 * pair) = near.normal;
 }
 
-void nearestPoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q, const NearestRow& first,
+void nearestPoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q, const NearestPointArrays& first,
                    const BatchOptions& options) {
   checkJoints(scene, Q);
   const std::size_t count = scene.model().collidable().size();
   forEach(std::pair(scene, PairDistances(scene.sharedModel())), int(Q.rows()), options, [&](auto& worker, int i) {
     auto& [state, pairs] = worker;
     const std::size_t before = std::size_t(i) * count;
-    const NearestRow row{first.distances + before, first.points + 6 * before, first.normals + 3 * before};
+    const NearestPointArrays arrays{first.distances + before, first.points + 6 * before, first.normals + 3 * before};
     state.setJoints(Q.row(i).data());
-    pairs.forAll(state, [&](int pair, const Proximity& near) { row.write(pair, near); });
+    pairs.forAll(state, [&](int pair, const Proximity& near) { arrays.write(pair, near); });
   });
 }
 
 namespace {
 
-/// A checker for each thread, which goes back to those that are kept.
-class Crew {
+/// One checker per thread, borrowed from the caller's checkers.
+class ThreadCheckers {
  public:
-  Crew(const State& scene, double margin, double tolerance, int count, const BatchOptions& options)
-      : kept_(options.checkers ? options.checkers : &own_) {
-    const int threads = std::clamp(options.threads, 1, std::max(1, (count + kPart - 1) / kPart));
-    while (int(checkers_.size()) < threads) checkers_.push_back(kept_->take(scene, margin, tolerance));
+  ThreadCheckers(const State& scene, double margin, double tolerance, int count, const BatchOptions& options)
+      : pool_(options.checkers ? options.checkers : &own_) {
+    const int threads = std::clamp(options.threads, 1, std::max(1, (count + kBatch - 1) / kBatch));
+    while (int(checkers_.size()) < threads) checkers_.push_back(pool_->take(scene, margin, tolerance));
   }
-  Crew(const Crew&) = delete;
-  ~Crew() {
-    for (auto& checker : checkers_) kept_->giveBack(std::move(checker));
+  ThreadCheckers(const ThreadCheckers&) = delete;
+  ~ThreadCheckers() {
+    for (auto& checker : checkers_) pool_->giveBack(std::move(checker));
   }
 
   int size() const { return int(checkers_.size()); }
@@ -225,15 +225,15 @@ class Crew {
 
  private:
   EdgeCheckers own_;
-  EdgeCheckers* kept_;
+  EdgeCheckers* pool_;
   std::vector<std::unique_ptr<EdgeChecker>> checkers_;
 };
 
-/// Rows within limits that follow one another are looked at side by side. `limit(i)` says whether row i is.
+/// Checks configurations within the limits side by side. `limit(i)` returns whether row i is within the limits.
 template <class Limit>
 void areFreeInLanes(const State& scene, const Eigen::Ref<const RowMatrix>& Q, double margin, std::span<bool> valid,
                     const BatchOptions& options, const Limit& limit) {
-  Crew crew(scene, margin, kTolerance, int(Q.rows()), options);
+  ThreadCheckers checkers(scene, margin, kTolerance, int(Q.rows()), options);
   const auto part = [&](int worker, int from, int to) {
     const double* rows[EdgeChecker::kLanes];
     int places[EdgeChecker::kLanes], count = 0;
@@ -244,12 +244,12 @@ void areFreeInLanes(const State& scene, const Eigen::Ref<const RowMatrix>& Q, do
         rows[count++] = Q.row(i).data();
       }
       if (count == 0 || (count < EdgeChecker::kLanes && i + 1 < to)) continue;
-      crew.of(worker).areFree({rows, std::size_t(count)}, free);
+      checkers.of(worker).areFree({rows, std::size_t(count)}, free);
       for (int k = 0; k < count; ++k) valid[places[k]] = free[k];
       count = 0;
     }
   };
-  parallelFor(int(Q.rows()), kPart, crew.size(), part, options.cancellation);
+  parallelFor(int(Q.rows()), kBatch, checkers.size(), part, options.cancellation);
 }
 
 }  // namespace
@@ -276,16 +276,17 @@ void areMotionsFree(const State& scene, const Eigen::Ref<const RowMatrix>& from,
                     double margin, double tolerance, std::span<bool> free, const BatchOptions& options) {
   checkJoints(scene, from);
   checkJoints(scene, to);
-  if (from.rows() != to.rows()) throw ValueError(cat("motions: ", from.rows(), " starts and ", to.rows(), " ends"));
+  if (from.rows() != to.rows())
+    throw ValueError(cat("motions: got ", from.rows(), " starts and ", to.rows(), " ends; expected equal numbers"));
   if (!(tolerance > 0.)) throw ValueError(cat("motions: tolerance is ", tolerance, "; expected a distance > 0 in m"));
-  Crew crew(scene, margin, tolerance, int(from.rows()), options);
+  ThreadCheckers checkers(scene, margin, tolerance, int(from.rows()), options);
   const auto part = [&](int worker, int first, int end) {
     for (int i = first; i < end; ++i) {
       const double *a = from.row(i).data(), *b = to.row(i).data();
-      free[i] = withinLimits(scene.model(), a) && withinLimits(scene.model(), b) && crew.of(worker).isFree(a, b);
+      free[i] = withinLimits(scene.model(), a) && withinLimits(scene.model(), b) && checkers.of(worker).isFree(a, b);
     }
   };
-  parallelFor(int(from.rows()), kPart, crew.size(), part, options.cancellation);
+  parallelFor(int(from.rows()), kBatch, checkers.size(), part, options.cancellation);
 }
 
 }  // namespace kinegraph

@@ -2,8 +2,8 @@
 
 namespace kinegraph {
 
-BoxRegion::BoxRegion(Kind kind, int thing, int box, const Geometry& geometry)
-    : dims_(kind == Kind::above ? 2 : 3), thing_(thing), box_(box) {
+BoxRegion::BoxRegion(Kind kind, int object, int box, const Geometry& geometry)
+    : dims_(kind == Kind::above ? 2 : 3), object_(object), box_(box) {
   half_ << geometry.size[0], geometry.size[1], geometry.size[2];
   half_ *= .5;
   const double rounding = geometry.size.size() > 3 ? geometry.size[3] : 0.;
@@ -12,7 +12,7 @@ BoxRegion::BoxRegion(Kind kind, int thing, int box, const Geometry& geometry)
 
 void BoxRegion::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const State& state = *states[0];
-  const Vector3d p_WA = state.position(thing_);
+  const Vector3d p_WA = state.position(object_);
   const RigidTransform X_WB = state.pose(box_);
   const Matrix3d R_BW = X_WB.R.transpose();
   const Vector3d p_BA = R_BW * (p_WA - X_WB.p);
@@ -23,18 +23,18 @@ void BoxRegion::eval(std::span<const State* const> states, double, Eigen::Ref<Ve
   for (double sign : {1., -1.}) {
     const Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 3, 3> rows = sign * R_BW.topRows(dims_);
     JacobianRows own = sign > 0. ? J->topRows(dims_) : J->bottomRows(dims_);
-    state.addJacobian(thing_, p_WA, rows, none, own);
+    state.addJacobian(object_, p_WA, rows, none, own);
     state.addJacobian(box_, p_WA, -rows, none, own);
   }
 }
 
 void StandingAbove::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const State& state = *states[0];
-  const Vector3d p_WA = state.position(thing_), p_WB = state.position(support_);
+  const Vector3d p_WA = state.position(object_), p_WB = state.position(support_);
   y[0] = p_WA.z() - p_WB.z() - gap_;
   if (!J) return;
   const Eigen::RowVector3d up(0., 0., 1.), none(0., 0., 0.);
-  state.addJacobian(thing_, p_WA, up, none, *J);
+  state.addJacobian(object_, p_WA, up, none, *J);
   state.addJacobian(support_, p_WB, -up, none, *J);
 }
 

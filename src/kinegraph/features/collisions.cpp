@@ -11,19 +11,19 @@ namespace {
 
 std::vector<std::pair<int, int>> pairsOf(const KinematicModel& model, const std::vector<int>& frames,
                                          PairChoice choice) {
-  const auto named = [&](int frame) { return std::find(frames.begin(), frames.end(), frame) != frames.end(); };
+  const auto is_listed = [&](int frame) { return std::find(frames.begin(), frames.end(), frame) != frames.end(); };
   std::vector<std::pair<int, int>> pairs;
   for (const auto& pair : model.collidable()) {
     if (choice == PairChoice::motion && !model.movesApart(pair.first, pair.second)) continue;
-    if (frames.empty() || named(pair.first) || named(pair.second)) pairs.push_back(pair);
+    if (frames.empty() || is_listed(pair.first) || is_listed(pair.second)) pairs.push_back(pair);
   }
   return pairs;
 }
 
-/// Calls visit(place, a, b, proximity) for the pairs nearer than `margin`.
+/// Calls visit(place, a, b, proximity) for the pairs closer than `margin`.
 template <class Visit>
 void forNearOf(const BodyPairs& pairs, const State& state, double margin, const Visit& visit) {
-  std::array<std::byte, 16384> buffer;  // enough for a hundred bodies without a request for memory
+  std::array<std::byte, 16384> buffer;  // holds a hundred bodies without allocation
   std::pmr::monotonic_buffer_resource memory(buffer.data(), buffer.size());
   PlacedBodies bodies(pairs, &memory);
   bodies.place(state);

@@ -10,21 +10,21 @@
 
 namespace kinegraph {
 
-/// Which collidable pairs a feature looks at: all of a scene, as it is; or those that joints move apart, which are all
-/// that can be asked of q.
+/// The collidable pairs that a feature considers: all pairs of the scene, or only pairs that joints move relative to
+/// each other, since q influences no others.
 enum class PairChoice { scene, motion };
 
-/// The collidable pairs, or those of them that involve one of given frames, where bodies are few. Pairs that no joint
-/// moves apart are measured once, until the scene changes.
+/// The collidable pairs, or those that involve one of given frames, for scenes with few bodies. Pairs that no joint
+/// separates are measured once, until the scene changes.
 class CollisionPairs {
  public:
-  /// `frames`: empty means all. Pairs count as near below `margin`, m.
+  /// Empty `frames` means all. Pairs closer than `margin` (m) are near.
   CollisionPairs(const KinematicModel& model, const std::vector<int>& frames, double margin, PairChoice choice);
 
   int size() const { return int(moving_.size() + fixed_.size()); }
 
-  /// Calls visit(pair, a, b, proximity) for the near pairs; a and b are the frames. For pairs that no joint moves
-  /// apart, points and normal are those of the link's own frame.
+  /// Calls visit(pair, a, b, proximity) for the near pairs; a and b are the frames. For pairs that no joint separates,
+  /// points and normal are in the coordinates of their link.
   template <class Visit>
   void forNear(const State& state, const Visit& visit) const;
 
@@ -35,7 +35,7 @@ class CollisionPairs {
   struct Near : Pair {
     Proximity proximity;
   };
-  /// The near ones among the fixed pairs, with these parameters of the scene.
+  /// The near fixed pairs for certain parameters of the scene.
   struct NearFixed {
     std::shared_ptr<const Parameters> parameters;
     std::vector<Near> pairs;
@@ -43,15 +43,16 @@ class CollisionPairs {
   std::shared_ptr<const NearFixed> nearFixed(const State& state) const;
 
   double margin_;
-  std::vector<int> moving_;  ///< pairs
-  std::vector<Pair> fixed_;  ///< both frames are on one link
+  std::vector<int> moving_;  ///< indices of pairs
+  std::vector<Pair> fixed_;  ///< both frames belong to the same link
   BodyPairs moving_bodies_;
   mutable std::mutex mutex_;
   mutable std::shared_ptr<const NearFixed> near_fixed_;
 };
 
-/// Sum of the penetration depths of all collidable pairs, or of those that involve one of the given frames; with a
-/// margin, of how much they lack to be that far apart:
+/// Sum of the penetration depths of all collidable pairs, or of those that involve one of the given frames. With a
+/// margin, closer pairs count as penetrating:
+///
 ///     y = sum max(0, margin - distance)      1 row, m
 class AccumulatedCollisions final : public Feature {
  public:
@@ -62,20 +63,22 @@ class AccumulatedCollisions final : public Feature {
   void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const override;
 
  private:
-  /// A search of its own for everyone who evaluates at the same time.
+  /// Returns a search for exclusive use, since several threads may evaluate at the same time.
   std::unique_ptr<NearPairSearch> borrow(const State& state) const;
 
   std::vector<int> frames_;
   PairChoice choice_;
   double margin_;
-  std::optional<CollisionPairs> pairs_;  ///< where bodies are few
+  std::optional<CollisionPairs> pairs_;  ///< for scenes with few bodies
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<NearPairSearch>> idle_;
 };
 
-/// The same pairs with a row each, so that an optimizer sees which are in trouble:
-///     y_i = max(-distance_i, -far)      m, positive where they penetrate
-/// Pairs farther apart than that (10 cm) are not looked at any closer. As inequality with target -m it keeps them m apart.
+/// Penetration depths of the same pairs, one row each, so that an optimizer can treat the pairs separately:
+///
+///     y_i = max(-distance_i, -far)      m, positive in penetration
+///
+/// Pairs farther apart than `far` are not measured exactly. As an inequality with target -m it keeps the pairs m apart.
 class PairCollisions final : public Feature {
  public:
   static constexpr double kFar = .1;  ///< m

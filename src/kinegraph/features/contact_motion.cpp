@@ -16,10 +16,10 @@ struct Normal {
   Vector3d n;
   RowMajor J;
 
-  Normal(const ContactForce& contact, const State& state, bool wants_jacobian) {
+  Normal(const ContactForce& contact, const State& state, bool with_jacobian) {
     const Witness witness(Witness::Kind::normal, contact.object, contact.from);
     const State* states[] = {&state};
-    if (!wants_jacobian) {
+    if (!with_jacobian) {
       witness.eval(states, 1., n, nullptr);
       return;
     }
@@ -29,8 +29,9 @@ struct Normal {
   }
 };
 
-/// Velocity between two configurations of what a body has at a point p, with the body's origin o and angular velocity
-/// w:
+/// Velocity of a point p that moves with a body, between two configurations, with the body's origin o and angular
+/// velocity w:
+///
 ///     v = (o(to) - o(from)) / tau + w x r,  r = p - o in `now`, which is one of the two
 struct PointVelocity {
   const State &from, &to, &now;
@@ -39,7 +40,7 @@ struct PointVelocity {
   Vector3d v, w, r;
   RowMajor J_w;
 
-  /// `columns`: of J for both configurations; 0: no Jacobian is wanted.
+  /// `columns`: of J for both configurations; 0 if no Jacobian is needed.
   PointVelocity(const State& from_, const State& to_, const State& now_, int body_, int point_, double tau_,
                 Eigen::Index columns)
       : from(from_),
@@ -60,21 +61,21 @@ struct PointVelocity {
     v = (to.position(body) - from.position(body)) / tau + w.cross(r);
   }
 
-  /// J += A dv/dq: `J_pair` has the columns of both configurations, `J_now` those of one of them.
+  /// Adds A dv/dq: `J_pair` has the columns of both configurations, `J_now` those of one of them.
   template <class Derived>
   void addJacobian(const Eigen::MatrixBase<Derived>& A, JacobianRows J_pair, JacobianRows J_now) const {
     using Rows = Eigen::Matrix<double, Derived::RowsAtCompileTime, 3>;
     const Eigen::Index n = J_pair.cols() / 2;
-    const Rows straight = A / tau, turned = A * skew(w), none = A * 0.;
-    to.addJacobian(body, to.position(body), straight, none, J_pair.rightCols(n));
-    from.addJacobian(body, from.position(body), -straight, none, J_pair.leftCols(n));
+    const Rows linear = A / tau, angular = A * skew(w), none = A * 0.;
+    to.addJacobian(body, to.position(body), linear, none, J_pair.rightCols(n));
+    from.addJacobian(body, from.position(body), -linear, none, J_pair.leftCols(n));
     J_pair -= (A * skew(r)) * J_w;
-    now.addJacobian(point, now.position(point), turned, none, J_now);
-    now.addJacobian(body, now.position(body), -turned, none, J_now);
+    now.addJacobian(point, now.position(point), angular, none, J_now);
+    now.addJacobian(body, now.position(body), -angular, none, J_now);
   }
 };
 
-/// The columns of the i-th of `count` configurations.
+/// Returns the columns of the i-th of `count` configurations.
 JacobianRows columnsOf(JacobianRows& J, int i, int count) {
   const Eigen::Index n = J.cols() / count;
   return J.middleCols(i * n, n);
@@ -180,18 +181,18 @@ void ForceTimesVelocity::eval(std::span<const State* const> states, double tau, 
 }
 
 void PushRadius::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
-  constexpr double kSlowest = 1e-3;  // m/s; below it the direction fades
+  constexpr double kSlowest = 1e-3;  // m/s; below it the direction fades to zero
   const State &before = *states[0], &now = *states[1];
   const Vector3d c = now.position(object_), p = now.position(point_), v = (c - before.position(object_)) / tau;
   const double speed = std::hypot(v.norm(), kSlowest);
   y = radius_ / speed * v - (c - p);
   if (!J) return;
   const Matrix3d one = Matrix3d::Identity(), none = Matrix3d::Zero();
-  const Matrix3d turn = radius_ / tau * (one / speed - v * v.transpose() / (speed * speed * speed));
+  const Matrix3d slope = radius_ / tau * (one / speed - v * v.transpose() / (speed * speed * speed));
   const Eigen::Index n = J->cols() / 2;
-  now.addJacobian(object_, c, Matrix3d(turn - one), none, J->rightCols(n));
+  now.addJacobian(object_, c, Matrix3d(slope - one), none, J->rightCols(n));
   now.addJacobian(point_, p, one, none, J->rightCols(n));
-  before.addJacobian(object_, before.position(object_), Matrix3d(-turn), none, J->leftCols(n));
+  before.addJacobian(object_, before.position(object_), Matrix3d(-slope), none, J->leftCols(n));
 }
 
 }  // namespace kinegraph

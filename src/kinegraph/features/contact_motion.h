@@ -4,9 +4,10 @@
 
 namespace kinegraph {
 
-/// The part of a contact force that pulls its two bodies together, n the normal from `from` to `object`, in units of
-/// the force:
-///     y = -n^T f / unit      1 row; at most 0 where the bodies push each other away
+/// Component of a contact force that pulls its two bodies together, with the normal n from `from` to `object`, in units
+/// of the force:
+///
+///     y = -n^T f / unit      1 row; at most 0 if the bodies push each other apart
 class PullingForce final : public Feature {
  public:
   explicit PullingForce(const ContactForce& contact) : contact_(contact) {}
@@ -18,7 +19,7 @@ class PullingForce final : public Feature {
   ContactForce contact_;
 };
 
-/// A contact force, N, in the world: y = f      3 rows; zero where there is none.
+/// A contact force, N, in the world: y = f      3 rows; zero in slices without the force.
 class ForceValue final : public Feature {
  public:
   explicit ForceValue(const ContactForce& contact) : contact_(contact) {}
@@ -30,10 +31,10 @@ class ForceValue final : public Feature {
   ContactForce contact_;
 };
 
-/// Velocity of `object` less that of `from` at the point of contact p, over the step before (m/s): with the bodies'
+/// Velocity of `object` relative to `from` at the point of contact p, over the previous step (m/s). With the bodies'
 /// origins o and angular velocities w,
-///     y = v_object - v_from,  v_b = (o_b(t) - o_b(t-1)) / tau + w_b x (p - o_b(t))      3 rows; zero where they stick
-///     to each other
+///
+///     y = v_object - v_from,  v_b = (o_b(t) - o_b(t-1)) / tau + w_b x (p - o_b(t))      3 rows; zero without sliding
 class SlidingVelocity final : public Feature {
  public:
   explicit SlidingVelocity(const ContactForce& contact) : contact_(contact) {}
@@ -46,8 +47,9 @@ class SlidingVelocity final : public Feature {
   ContactForce contact_;
 };
 
-/// Newton's law of impact at the point of contact in the middle one of three slices, v the velocities of `object`
-/// relative to `from` before and after it, n the normal (m/s):
+/// Newton's law of impact at the point of contact in the middle of three slices. v are the velocities of `object`
+/// relative to `from` before and after it, n is the normal (m/s):
+///
 ///     y = n^T (v_after + elasticity v_before)      1 row
 class ElasticBounce final : public Feature {
  public:
@@ -62,8 +64,9 @@ class ElasticBounce final : public Feature {
   double elasticity_;
 };
 
-/// Zero where bodies that are apart do not push each other, with their signed distance d: y = d n^T f / unit      1
-/// row, m
+/// Complementarity of distance and force: zero if bodies at a positive distance d exert no force on each other.
+///
+///     y = d n^T f / unit      1 row, m
 class ForceTimesDistance final : public Feature {
  public:
   explicit ForceTimesDistance(const ContactForce& contact) : contact_(contact) {}
@@ -75,7 +78,8 @@ class ForceTimesDistance final : public Feature {
   ContactForce contact_;
 };
 
-/// Zero where bodies that push each other do not come apart, v as in SlidingVelocity:
+/// Complementarity of velocity and force: zero if bodies that push each other do not separate, v as in SlidingVelocity:
+///
 ///     y = (n^T v) (n^T f) / unit      1 row, m/s
 class ForceTimesVelocity final : public Feature {
  public:
@@ -89,7 +93,8 @@ class ForceTimesVelocity final : public Feature {
   ContactForce contact_;
 };
 
-/// Zero where a point is behind the center c of a round object of radius r that moves with the velocity v:
+/// Zero if a point is behind the center c of a round object of radius r that moves with the velocity v:
+///
 ///     y = r v / sqrt(|v|^2 + 1e-6) - (c - p)      3 rows, m
 class PushRadius final : public Feature {
  public:

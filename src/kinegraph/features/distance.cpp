@@ -16,7 +16,7 @@ Proximity proximityOf(const State& state, int a, int b) {
   return proximity(bodyOf(state, a), state.pose(a), bodyOf(state, b), state.pose(b));
 }
 
-/// d / (|d| + eps) and its derivative.
+/// Returns d / (|d| + eps) and its derivative.
 Vector3d softDirection(const Vector3d& d, double eps, Matrix3d& derivative) {
   const double norm = d.norm(), soft = norm + eps;
   derivative = Matrix3d::Identity() / soft;
@@ -24,8 +24,8 @@ Vector3d softDirection(const Vector3d& d, double eps, Matrix3d& derivative) {
   return d / soft;
 }
 
-/// The derivative of a value that is known a little before and after. Where it has a kink or a jump, that of the
-/// smoother side.
+/// Returns the derivative from values before and after a point. At a discontinuity it is the one-sided derivative of
+/// the smoother side.
 Vector3d slopeAt(const Vector3d& before, const Vector3d& at, const Vector3d& after, double h) {
   const Vector3d back = at - before, ahead = after - at;
   const double larger = std::max(ahead.norm(), back.norm());
@@ -37,13 +37,14 @@ Vector3d slopeAt(const Vector3d& before, const Vector3d& at, const Vector3d& aft
 
 void addDistanceGradient(const State& state, int a, int b, const Proximity& near, double factor, JacobianRows& J) {
   const KinematicModel& model = state.model();
-  const Vector3d n = factor * near.rate * near.normal, turn_a = near.point_a.cross(n), turn_b = near.point_b.cross(n);
+  const Vector3d n = factor * near.rate * near.normal, moment_a = near.point_a.cross(n),
+                 moment_b = near.point_b.cross(n);
   int column_a = model.last_column[state.link(a)], column_b = model.last_column[state.link(b)];
-  while (column_a != column_b) {  // columns follow those above them
+  while (column_a != column_b) {  // columns come after their ancestors
     int& column = std::max(column_a, column_b) == column_a ? column_a : column_b;
     const State::Twist& twist = state.twist(column);
     const bool of_a = &column == &column_a;
-    const double rate = n.dot(twist.linear) + (of_a ? turn_a : turn_b).dot(twist.angular);
+    const double rate = n.dot(twist.linear) + (of_a ? moment_a : moment_b).dot(twist.angular);
     J(0, model.column_dof[column]) += of_a ? rate : -rate;
     column = model.column_before[column];
   }
@@ -80,12 +81,12 @@ void Witness::eval(std::span<const State* const> states, double, Eigen::Ref<Vect
   y = at;
   if (!J) return;
   const double h = 1e-6;
-  Matrix3d linear, angular;  // of A moving about `center` while B rests
+  Matrix3d linear, angular;  // of A moving about `center` while B is fixed
   const Vector3d center = near.core_a;
   for (int i = 0; i < 3; ++i) {
-    const auto moved = [&](double step, bool turn) {
+    const auto moved = [&](double step, bool rotates) {
       RigidTransform X = X_WA;
-      if (turn) {
+      if (rotates) {
         const Matrix3d R = axisRotation(i, step);
         X = {R * X_WA.R, center + R * (X_WA.p - center)};
       } else {
@@ -112,7 +113,7 @@ void Oppose::eval(std::span<const State* const> states, double tau, Eigen::Ref<V
   if (!J) {
     first_.eval(states, tau, v1, nullptr);
     second_.eval(states, tau, v2, nullptr);
-  } else {  // the rows above hold J1, then J1 + J2; the ones below D1 J1 - D2 J2 = (D1 + D2) J1 - D2 (J1 + J2)
+  } else {  // the rows above hold J1, then J1 + J2; the rows below D1 J1 - D2 J2 = (D1 + D2) J1 - D2 (J1 + J2)
     JacobianRows above = J->topRows(3);
     first_.eval(states, tau, v1, &above);
     if (central_) {

@@ -5,8 +5,8 @@
 
 namespace kinegraph {
 
-/// The negative distance of two shapes: y = -(signed gap), positive where they penetrate; J = -n^T (Jp_A - Jp_B) at the
-/// witness points. Frames without a shape count as points.
+/// Negative distance of two shapes: y = -(signed gap), positive in penetration; J = -n^T (Jp_A - Jp_B) at the witness
+/// points. Frames without a shape count as points.
 class NegDistance final : public Feature {
  public:
   NegDistance(int a, int b) : a_(a), b_(b) {}
@@ -18,9 +18,9 @@ class NegDistance final : public Feature {
   int a_, b_;
 };
 
-/// What the witness points of two shapes give, in the world. The Jacobian is that of the relative motion of the shapes,
-/// by central differences of the distance computation (step 1e-6), and of the motion of both together, in closed form.
-/// Where the nearest features switch it is a one-sided derivative.
+/// A value of the witness points of two shapes, in the world. Its Jacobian combines the relative motion of the shapes,
+/// by central differences of the distance computation (step 1e-6), and their common motion, in closed form. At changes
+/// of the nearest features it is a one-sided derivative.
 class Witness final : public Feature {
  public:
   enum class Kind {
@@ -28,7 +28,7 @@ class Witness final : public Feature {
     normal,       ///< unit, from B to A
     point_a,      ///< m
     point_b,      ///< m
-    core_vector,  ///< core_a - core_b, radii neglected, m
+    core_vector,  ///< core_a - core_b, without radii, m
   };
   Witness(Kind kind, int a, int b) : kind_(kind), a_(a), b_(b) {}
 
@@ -43,6 +43,7 @@ class Witness final : public Feature {
 };
 
 /// Two fingers on opposite sides of an object, v_i = core witness vector from object to finger i:
+///
 ///     y = v_1 + v_2                                                              3 rows, m
 ///     central: below it, 0.01 (2 p + n_1 - n_2), p the direction from finger 1 to finger 2, n_i that of v_i    6 rows
 class Oppose final : public Feature {
@@ -63,8 +64,8 @@ class Oppose final : public Feature {
   bool central_;
 };
 
-/// J += factor * d distance / dq, one row, for the nearest points of two frames. What moves both frames alike does not
-/// change their distance: only the dofs between them count.
+/// Adds factor * d distance / dq to the single row of J, for the nearest points of two frames. Only the dofs between
+/// the frames count, since a common motion does not change their distance.
 void addDistanceGradient(const State& state, int a, int b, const Proximity& near, double factor, JacobianRows& J);
 
 }  // namespace kinegraph

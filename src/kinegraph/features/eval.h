@@ -16,7 +16,7 @@ struct Evaluation {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J;
 };
 
-/// The residual of a feature of named frames of a scene. Errors name the feature, the frames and similar names.
+/// Makes the residual of a feature of named frames of a scene. Errors name the feature, the frames and similar names.
 Residual makeResidual(const State& scene, const FeatureSource& feature, const std::vector<std::string>& frames,
                       const Scale& scale = {}, const Target& target = {}, int order = -1);
 
@@ -24,7 +24,7 @@ Residual makeResidual(const State& scene, const FeatureSource& feature, const st
 Evaluation eval(const Config& config, const FeatureSource& feature, const std::vector<std::string>& frames,
                 const Scale& scale = {}, const Target& target = {}, int order = -1);
 
-/// The same for a residual that has been made, into `y` (rows) and `J` (rows x dofs, filled with zeros).
+/// Evaluates an existing residual into `y` (rows) and `J` (rows x dofs, filled with zeros).
 void eval(const Config& config, Residual& residual, Eigen::Ref<VectorXd> y, JacobianRows J);
 
 }  // namespace kinegraph

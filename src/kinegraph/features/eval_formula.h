@@ -1,7 +1,7 @@
 #pragma once
 
-// A formula of kinematics/row_formulas.h for the one configuration of a State; local to each source file that includes
-// it, as are the formulas.
+// Evaluates a formula of kinematics/row_formulas.h for a single State. Like the formulas it is local to each source
+// file that includes it.
 
 #include "kinegraph/features/feature.h"
 #include "kinegraph/kinematics/row_formulas.h"
@@ -14,14 +14,14 @@ using Vec3d = lanes::Vec3<double>;
 
 inline Vec3d vec3(const Vector3d& a) { return {a[0], a[1], a[2]}; }
 
-/// A dof, for the formulas.
+/// The motion of a dof, as input of the formulas.
 struct TwistMotion {
   Vec3d angular, linear;
 
   Vec3d velocityAt(const Vec3d& point) const { return linear + cross(angular, point); }
 };
 
-/// J += the Jacobian of the first rows of a formula of frames a and b (-1: of a alone).
+/// Adds the Jacobian of the first rows of a formula of frames a and b (b = -1: of a alone) to J.
 template <class Formula>
 void addFormulaRates(const Formula& formula, const State& state, int a, int b, Eigen::Index rows, JacobianRows J) {
   double* const entries = J.data();
@@ -37,7 +37,7 @@ void addFormulaRates(const Formula& formula, const State& state, int a, int b, E
   if (b >= 0) add(b, true);
 }
 
-/// y = the value of a formula, and J += its Jacobian if J is wanted.
+/// Sets y to the value of a formula, and adds its Jacobian to J unless J is null.
 template <class Formula>
 void evalFormula(const Formula& formula, const State& state, int a, int b, Eigen::Ref<VectorXd> y, JacobianRows* J) {
   formula.value(y.data());

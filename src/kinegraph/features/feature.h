@@ -8,33 +8,35 @@
 
 namespace kinegraph {
 
-/// A differentiable function of configurations: y(q), with J = dy/dq. Evaluating it does not change it, so that threads
-/// can share it.
+/// A differentiable function y(q) of configurations, with J = dy/dq. Evaluation is const, so threads may share a
+/// feature.
 ///
-/// Most features look at one configuration (order 0); velocities and higher orders of those are backward differences,
-/// which `Residual` makes. A feature that defines its own velocity (angularVel) looks at order() + 1 of them.
+/// Most features depend on one configuration (order 0). Their velocities and higher derivatives are backward
+/// differences, computed by `Residual`. Features that define their own velocity (angularVel) depend on order() + 1
+/// configurations.
 class Feature {
  public:
   virtual ~Feature() = default;
 
   virtual int rows() const = 0;
 
-  /// Number of configurations that eval takes, minus one.
+  /// Returns the number of configurations that eval needs, minus one.
   virtual int order() const { return 0; }
 
-  /// Value and Jacobian at `states`, oldest first: order() + 1 of them, `tau` seconds apart. `y` has rows() entries.
-  /// `J`, where given, has rows() rows and a block of columns per state, in the same order; it comes filled with zeros.
+  /// Computes value and Jacobian at `states`, oldest first: order() + 1 of them, `tau` seconds apart. `y` has rows()
+  /// entries. `J` may be null; otherwise it has rows() rows and a block of columns per state, in the same order, and
+  /// comes filled with zeros.
   virtual void eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
                     JacobianRows* J) const = 0;
 
-  /// First of four rows that are a quaternion, or -1. Its sign carries no meaning, and targets and differences pick the
-  /// nearer one.
+  /// Returns the first of four rows that form a quaternion, or -1. The sign of a quaternion is arbitrary; targets and
+  /// differences use the nearer one.
   virtual int quaternionRow() const { return -1; }
 
-  /// Is the Jacobian the same in all configurations?
+  /// Returns true if the Jacobian is the same in all configurations.
   virtual bool isLinear() const { return false; }
 
-  /// Can addCurvature tell the second derivatives? This may depend on the program of the state, not on its joints.
+  /// Returns true if addCurvature is available. This may depend on the model of the state, but not on its joints.
   virtual bool hasCurvature(const State& state) const {
     (void)state;
     return false;
@@ -46,11 +48,12 @@ class Feature {
     (void)state, (void)weights, (void)H;
   }
 
-  /// The value of a row that tells that its Jacobian is zero there; it has this value nowhere else.
+  /// Returns the value of rows whose Jacobian is zero, if there is such a value. Rows with a nonzero Jacobian never
+  /// have it.
   virtual std::optional<double> flatValue() const { return {}; }
 
-  /// Adds rows() rows to `list` with the same value and Jacobian, so that many configurations are evaluated at once;
-  /// false, and nothing added, where the feature is not made of what LaneRows::Block has.
+  /// Adds rows() rows with the same value and Jacobian to `list`, for the evaluation of many configurations at once.
+  /// Returns false, and adds nothing, if LaneRows::Block does not support the feature.
   virtual bool addLaneRows(LaneRowList& list) const {
     (void)list;
     return false;

@@ -22,12 +22,12 @@ const FeatureRecipe* FeatureSource::recipe() const {
 }
 
 const FeatureSource::Make* FeatureSource::maker() const {
-  const auto* own = std::get_if<2>(&source_);
-  return own ? &(*own)->make : nullptr;
+  const auto* custom = std::get_if<2>(&source_);
+  return custom ? &(*custom)->make : nullptr;
 }
 
 std::unique_ptr<Feature> FeatureSource::make(const std::vector<int>& frames, const State& state) const {
-  if (const auto* own = std::get_if<2>(&source_)) return (*own)->make(frames, state);
+  if (const auto* custom = std::get_if<2>(&source_)) return (*custom)->make(frames, state);
   if (const FeatureRecipe* known = recipe()) return makeFeature(*known, frames);
   try {
     return makeFeature(std::get<0>(source_), frames, state.model());

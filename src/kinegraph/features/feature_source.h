@@ -12,32 +12,33 @@
 
 namespace kinegraph {
 
-/// Where features come from: a symbol of the registry, a recipe, or a function of one's own that makes them.
+/// Source of a feature: a symbol of the registry, a recipe, or a custom function that makes it.
 class FeatureSource {
  public:
-  /// Makes a feature for the frames with these ids. `state` is of the scene, for what the feature needs to know of it.
+  /// Makes a feature for the frames with these ids. `state` is any State of the scene.
   using Make = std::function<std::unique_ptr<Feature>(const std::vector<int>& frames, const State& state)>;
 
   FeatureSource(FeatureSymbol symbol) : source_(symbol) {}
   FeatureSource(FeatureRecipe recipe) : source_(std::make_shared<const FeatureRecipe>(std::move(recipe))) {}
   FeatureSource(std::string name, Make make)
-      : source_(std::make_shared<const Own>(Own{std::move(name), std::move(make)})) {}
+      : source_(std::make_shared<const Custom>(Custom{std::move(name), std::move(make)})) {}
 
   bool operator==(FeatureSymbol symbol) const { return this->symbol() == symbol; }
-  std::optional<FeatureSymbol> symbol() const;  ///< none for others
+  std::optional<FeatureSymbol> symbol() const;  ///< empty for other sources
   const std::string& name() const;              ///< for messages
-  const FeatureRecipe* recipe() const;          ///< null for others
-  const Make* maker() const;                    ///< of one's own; null for others
+  const FeatureRecipe* recipe() const;          ///< null for other sources
+  const Make* maker() const;                    ///< custom function; null for other sources
 
-  /// Throws ValueError for frames that do not fit, as makeFeature does; the message ends with the frames' names.
+  /// Makes the feature. Throws ValueError for invalid frames, as makeFeature does; the message ends with the frames'
+  /// names.
   std::unique_ptr<Feature> make(const std::vector<int>& frames, const State& state) const;
 
  private:
-  struct Own {
+  struct Custom {
     std::string name;
     Make make;
   };
-  std::variant<FeatureSymbol, std::shared_ptr<const FeatureRecipe>, std::shared_ptr<const Own>> source_;
+  std::variant<FeatureSymbol, std::shared_ptr<const FeatureRecipe>, std::shared_ptr<const Custom>> source_;
 };
 
 }  // namespace kinegraph

@@ -18,15 +18,14 @@ bool isRigidlyJoined(const State& state, int a, int b) {
   return a == b || (state.link(a) == state.link(b) && state.link(a) > 0);
 }
 
-/// 1 if the force acts on the frame, -1 if its opposite does, 0 if neither.
+/// Returns 1 if the force acts on the frame, -1 if its reaction does, 0 otherwise.
 double signFor(const ContactForce& contact, const State& state, int frame) {
   if (!contact.isIn(state)) return 0.;
   const double on = isRigidlyJoined(state, contact.object, frame), back = isRigidlyJoined(state, contact.from, frame);
   return on - back;
 }
 
-/// Sums the forces on a frame and their torques about its center of mass; `forEach` visits them with their Jacobians'
-/// factors.
+/// Sum of the forces on a frame and of their torques about its center of mass.
 struct Wrench {
   Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
 
@@ -42,7 +41,7 @@ struct Wrench {
   }
 };
 
-/// J += A d force/dq + B d torque/dq.
+/// Adds A d force/dq + B d torque/dq to J.
 void addWrenchJacobian(const std::vector<ContactForce>& contacts, const State& state, int frame, const Factor& A,
                        const Factor& B, JacobianRows J) {
   const Vector3d center = frameCenterOfMass(state, frame);
@@ -58,7 +57,7 @@ void addWrenchJacobian(const std::vector<ContactForce>& contacts, const State& s
   }
 }
 
-/// The normal from b to a, and its Jacobian in the dofs of the state (`J` null: not wanted).
+/// Returns the normal from b to a, and its Jacobian by the dofs of the state unless `J` is null.
 Vector3d normalOf(const State& state, int a, int b, double tau, RowMajor* J) {
   const Witness normal(Witness::Kind::normal, a, b);
   const State* states[] = {&state};
@@ -118,21 +117,22 @@ Matrix3d inverseInertia(const Matrix3d& inertia) {
   return inertia.isZero() ? Matrix3d(10. * Matrix3d::Identity()) : Matrix3d(inertia.inverse());
 }
 
-/// y -= seconds (F / m, R I^-1 R^T T), and its Jacobian.
+/// Subtracts seconds (F / m, R I^-1 R^T T) from y, and its Jacobian from J.
 void subtractAccelerations(const std::vector<ContactForce>& contacts, const State& state, int frame,
                            const Matrix3d& inverse_inertia, double seconds, Eigen::Ref<VectorXd> y, JacobianRows* J) {
-  const double given = state.parameters().frame_mass[frame].mass, mass = given > 0. ? given : 1.;
+  const double known = state.parameters().frame_mass[frame].mass, mass = known > 0. ? known : 1.;
   const Wrench wrench(contacts, state, frame);
-  const Matrix3d R = state.pose(frame).R, turning = R * inverse_inertia * R.transpose();
+  const Matrix3d R = state.pose(frame).R, inverse_inertia_W = R * inverse_inertia * R.transpose();
   y.head<3>() -= seconds / mass * wrench.force;
-  y.tail<3>() -= seconds * turning * wrench.torque;
+  y.tail<3>() -= seconds * inverse_inertia_W * wrench.torque;
   if (!J) return;
-  Factor A = Factor::Zero(6, 3), B = A, turned = A;
+  Factor A = Factor::Zero(6, 3), B = A, rotation = A;
   A.topRows(3) = -seconds / mass * Matrix3d::Identity();
-  B.bottomRows(3) = -seconds * turning;
+  B.bottomRows(3) = -seconds * inverse_inertia_W;
   addWrenchJacobian(contacts, state, frame, A, B, *J);
-  turned.bottomRows(3) = -seconds * (turning * skew(wrench.torque) - skew(turning * wrench.torque));
-  state.addJacobian(frame, state.position(frame), Factor(Factor::Zero(6, 3)), turned, *J);
+  rotation.bottomRows(3) =
+      -seconds * (inverse_inertia_W * skew(wrench.torque) - skew(inverse_inertia_W * wrench.torque));
+  state.addJacobian(frame, state.position(frame), Factor(Factor::Zero(6, 3)), rotation, *J);
 }
 
 }  // namespace
@@ -145,7 +145,7 @@ NewtonEuler::NewtonEuler(int frame, double gravity, const Matrix3d& inertia, std
       inverse_inertia_(inverseInertia(inertia)),
       contacts_(std::move(contacts)) {}
 
-/// y += I_W^-1 (w x I_W w) tau. With w_B = R^T w it is R h(w_B) tau, h(w_B) = I^-1 (w_B x I w_B).
+/// Adds I_W^-1 (w x I_W w) tau to y. With w_B = R^T w it is R h(w_B) tau, h(w_B) = I^-1 (w_B x I w_B).
 void NewtonEuler::addGyroscopicTerm(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
                                     JacobianRows* J) const {
   if (inertia_.isZero()) return;
@@ -164,15 +164,15 @@ void NewtonEuler::addGyroscopicTerm(std::span<const State* const> states, double
   }
   const Matrix3d R = states[1]->pose(frame_).R;
   const Vector3d w = .5 * (before + after), w_B = R.transpose() * w;
-  const Vector3d turned = R * inverse_inertia_ * w_B.cross(inertia_ * w_B);
-  y.tail<3>() += tau * turned;
+  const Vector3d gyroscopic = R * inverse_inertia_ * w_B.cross(inertia_ * w_B);
+  y.tail<3>() += tau * gyroscopic;
   if (!J) return;
   const Matrix3d slope = R * inverse_inertia_ * (skew(w_B) * inertia_ - skew(inertia_ * w_B)) * R.transpose();
   J->block(3, 0, 3, 2 * n) += .5 * tau * slope * J_before;
   J->block(3, n, 3, 2 * n) += .5 * tau * slope * J_after;
-  Factor none = Factor::Zero(6, 3), by_turning = none;
-  by_turning.bottomRows(3) = tau * (slope * skew(w) - skew(turned));
-  states[1]->addJacobian(frame_, states[1]->position(frame_), none, by_turning, J->middleCols(n, n));
+  Factor none = Factor::Zero(6, 3), by_rotation = none;
+  by_rotation.bottomRows(3) = tau * (slope * skew(w) - skew(gyroscopic));
+  states[1]->addJacobian(frame_, states[1]->position(frame_), none, by_rotation, J->middleCols(n, n));
 }
 
 void NewtonEuler::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
@@ -198,18 +198,18 @@ void DampedMotion::eval(std::span<const State* const> states, double tau, Eigen:
   const Vector3d before = frameCenterOfMass(*states[0], frame_), now = frameCenterOfMass(*states[1], frame_);
   y.head<3>() = (now - before) / tau;
   y[2] += kSeconds * gravity_;
-  Vector3d turning;
+  Vector3d angular;
   if (!J) {
-    angular_.eval(states, tau, turning, nullptr);
-    y.tail<3>() = turning;
+    angular_.eval(states, tau, angular, nullptr);
+    y.tail<3>() = angular;
     return subtractAccelerations(contacts_, *states[1], frame_, inverse_inertia_, kSeconds, y, nullptr);
   }
   const Eigen::Index n = J->cols() / 2;
   states[0]->addPointJacobian(frame_, before, -1. / tau, J->block(0, 0, 3, n));
   states[1]->addPointJacobian(frame_, now, 1. / tau, J->block(0, n, 3, n));
   JacobianRows below = J->bottomRows(3), later = J->rightCols(n);
-  angular_.eval(states, tau, turning, &below);
-  y.tail<3>() = turning;
+  angular_.eval(states, tau, angular, &below);
+  y.tail<3>() = angular;
   subtractAccelerations(contacts_, *states[1], frame_, inverse_inertia_, kSeconds, y, &later);
 }
 
@@ -243,8 +243,8 @@ void FrictionCone::eval(std::span<const State* const> states, double tau, Eigen:
     y[0] = std::cos(std::atan(friction_)) - n.dot(z);
     if (!J) return;
     J->leftCols(Jn.cols()) -= z.transpose() * Jn;
-    const Eigen::RowVector3d none = Eigen::RowVector3d::Zero(), turned = n.transpose() * skew(z);
-    state.addJacobian(contact_.point, state.position(contact_.point), none, turned, *J);
+    const Eigen::RowVector3d none = Eigen::RowVector3d::Zero(), rotation = n.transpose() * skew(z);
+    state.addJacobian(contact_.point, state.position(contact_.point), none, rotation, *J);
     return;
   }
   const Vector3d f = contact_.value(state) / contact_.unit;

@@ -38,7 +38,7 @@ class JointLimits final : public Feature {
   std::vector<Limited> limited_;
 };
 
-/// One row per group of dofs that is a quaternion (or a point on the circle): y = |q_group|^2 - 1.
+/// One row per group of dofs that form a quaternion (or a point on the circle): y = |q_group|^2 - 1.
 class QuaternionNorms final : public Feature {
  public:
   explicit QuaternionNorms(std::vector<KinematicModel::DofRange> groups) : groups_(std::move(groups)) {}

@@ -10,9 +10,9 @@ namespace {
 
 const FrameMass& massOf(const State& state, int frame) { return state.parameters().frame_mass[frame]; }
 
-/// The common center of mass of frames, without any of all that moves; its Jacobian times `factor` is added to J. `who`
-/// asks for it, of the frame `of` or of none (-1).
-Vector3d addCenterOfMass(const State& state, const std::vector<int>& frames, double factor, const char* who, int of,
+/// Returns the common center of mass of frames, or of everything that moves without frames, and adds its Jacobian times
+/// `factor` to J. `caller` and the frame `of` (-1: none) are for messages.
+Vector3d addCenterOfMass(const State& state, const std::vector<int>& frames, double factor, const char* caller, int of,
                          JacobianRows* J) {
   const auto forEach = [&](const auto& visit) {
     if (!frames.empty()) {
@@ -32,7 +32,7 @@ Vector3d addCenterOfMass(const State& state, const std::vector<int>& frames, dou
   });
   if (!(total > 0.)) {
     const std::string whose = of < 0 ? "" : cat(" of '", state.model().frame_name[std::size_t(of)], "'");
-    throw ValueError(cat(who, whose, ": ", frames.empty() ? "nothing that moves" : "none of the frames listed",
+    throw ValueError(cat(caller, whose, ": ", frames.empty() ? "nothing that moves" : "none of the frames listed",
                          " has a mass; give them `mass: ..` or call setMass"));
   }
   if (!J) return moment / total;
@@ -48,7 +48,7 @@ void Energy::eval(std::span<const State* const> states, double tau, Eigen::Ref<V
   const Eigen::RowVector3d none = Eigen::RowVector3d::Zero();
   y[0] = 0.;
   for (int frame : frames_) {
-    const double given = massOf(*states[1], frame).mass, mass = given > 0. ? given : 1.;
+    const double known = massOf(*states[1], frame).mass, mass = known > 0. ? known : 1.;
     const Vector3d before = frameCenterOfMass(*states[0], frame), now = frameCenterOfMass(*states[1], frame),
                    velocity = (now - before) / tau;
     y[0] += mass * (.5 * velocity.squaredNorm() - kGravity.dot(now));

@@ -11,9 +11,9 @@ Eigen::Matrix<double, 4, 3> quaternionRates(const Quaterniond& q) {
   return E;
 }
 
-/// Not by the formulas of row_formulas.h: Eigen sums the trace and products of quaternions in another order, and the
-/// rates are a 4 x 3 matrix here, which all dofs share. Both round otherwise, and recorded answers depend on the last
-/// bits of both.
+/// Does not use row_formulas.h: Eigen sums the trace and products of quaternions in another order, and the rates here
+/// are a 4 x 3 matrix that all dofs share. Both round differently, and recorded results depend on the last bits of
+/// both.
 void Orientation::eval(std::span<const State* const> states, double, Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const State& state = *states[0];
   using Rates = Eigen::Matrix<double, 4, 3>;
@@ -56,15 +56,15 @@ void Axis::eval(std::span<const State* const> states, double, Eigen::Ref<VectorX
     case Kind::difference:
       return evalFormula(lanes::AxisOffsetRows<double>{u, vec3(state.pose(b_).R.col(axis_))}, state, a_, b_, y, J);
     case Kind::relative: {
-      // Not by RelativeAxisRows, which turns u and then changes its frame: here that is one matrix for all dofs, whose
-      // products round otherwise, and recorded answers depend on the last bits of both.
+      // Does not use RelativeAxisRows, which rotates u and then changes its frame. Here this is one matrix for all
+      // dofs, whose products round differently, and recorded results depend on the last bits of both.
       const Matrix3d R_BW = state.pose(b_).R.transpose(), none = Matrix3d::Zero();
       const Vector3d axis = state.pose(a_).R.col(axis_);
       y = R_BW * axis;
       if (!J) return;
-      const Matrix3d turn = -R_BW * skew(axis);
-      state.addJacobian(a_, Vector3d::Zero(), none, turn, *J);
-      state.addJacobian(b_, Vector3d::Zero(), none, -turn, *J);
+      const Matrix3d rates = -R_BW * skew(axis);
+      state.addJacobian(a_, Vector3d::Zero(), none, rates, *J);
+      state.addJacobian(b_, Vector3d::Zero(), none, -rates, *J);
     }
   }
 }
@@ -78,7 +78,7 @@ bool Axis::addLaneRows(LaneRowList& list) const {
   return true;
 }
 
-/// Relative to a frame only where that stands still.
+/// An axis relative to a frame is supported only if that frame is fixed.
 bool Axis::hasCurvature(const State& state) const {
   if (kind_ == Kind::relative && state.moves(b_)) return false;
   return state.hasCurvature(a_) && (kind_ == Kind::world || state.hasCurvature(b_));
@@ -102,7 +102,7 @@ bool AxisProduct::addLaneRows(LaneRowList& list) const {
   return true;
 }
 
-/// Where one of the frames stands still.
+/// Supported if one of the frames is fixed.
 bool AxisProduct::hasCurvature(const State& state) const {
   return !(state.moves(a_) && state.moves(b_)) && state.hasCurvature(a_) && state.hasCurvature(b_);
 }

@@ -58,7 +58,7 @@ class AxisProduct final : public Feature {
   int axis_a_, axis_b_, a_, b_;
 };
 
-/// The z axis of frame A less an axis of frame B:  y = R_WA e_z - R_WB e      3 rows
+/// The z axis of frame A minus an axis of frame B:  y = R_WA e_z - R_WB e      3 rows
 class AxisDifference final : public Feature {
  public:
   AxisDifference(int a, int b, int axis) : a_(a), b_(b), axis_(axis) {}
@@ -70,7 +70,7 @@ class AxisDifference final : public Feature {
   int a_, b_, axis_;
 };
 
-/// E(q) with dq = E(q) w for angular velocity w in the world.
+/// Returns E(q) with dq = E(q) w, for an angular velocity w in the world.
 Eigen::Matrix<double, 4, 3> quaternionRates(const Quaterniond& q);
 
 }  // namespace kinegraph

@@ -14,7 +14,7 @@ void Position::eval(std::span<const State* const> states, double, Eigen::Ref<Vec
       return evalFormula(lanes::OffsetRows<double>{p_a, vec3(state.position(b_))}, state, a_, b_, y, J);
     case Kind::relative: {
       const RigidTransform X = state.pose(b_);
-      // The value is not taken from the formula: Eigen sums x + (y + z), lanes (x + y) + z, and recorded answers depend
+      // Does not use the formula for the value: Eigen sums x + (y + z), lanes (x + y) + z, and recorded results depend
       // on the last bits of both.
       const Eigen::Matrix<double, Eigen::Dynamic, 3, 0, 3, 3> R_BW = X.R.transpose().topRows(rows_);
       y = R_BW * (state.position(a_) - X.p);
@@ -25,7 +25,7 @@ void Position::eval(std::span<const State* const> states, double, Eigen::Ref<Vec
   }
 }
 
-/// Relative to a frame only where that stands still.
+/// A position relative to a frame is supported only if that frame is fixed.
 bool Position::hasCurvature(const State& state) const {
   if (kind_ == Kind::relative && state.moves(b_)) return false;
   return state.hasCurvature(a_) && (kind_ == Kind::world || state.hasCurvature(b_));

@@ -5,10 +5,13 @@
 namespace kinegraph {
 
 /// Position of frame A (m):                                            J
+///
 ///     world                y = p_WA                                   Jp_A
 ///     difference to B      y = p_WA - p_WB                            Jp_A - Jp_B
 ///     relative to B        y = R_WB^T (p_WA - p_WB)                   R_WB^T (Jp_A - Jp_B at p_WA)
-/// `rows` limits the relative position to its first rows: the xy part is what a camera B sees (gazeAt).
+///
+/// `rows` limits the relative position to its first rows: the xy part is the offset from the axis of a camera B
+/// (gazeAt).
 class Position final : public Feature {
  public:
   enum class Kind { world, difference, relative };

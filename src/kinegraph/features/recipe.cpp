@@ -16,7 +16,7 @@ using Made = std::unique_ptr<Feature>;
 
 struct Maker {
   Made (*make)(const FeatureRecipe& recipe, const Ids& frames);
-  int frames;  ///< how many it needs; 0: it has a force, and looks at none
+  int frames;  ///< number of frames; 0 for features of a force, which take its frames
 };
 
 template <class T>
@@ -80,7 +80,7 @@ Made makeFeature(const FeatureRecipe& recipe, const Ids& frames) {
   }
   const Maker& maker = place->second;
   if (maker.frames == 0 && !recipe.contact)
-    throw ValueError(cat("feature ", recipe.name, " is about a contact force; none is given"));
+    throw ValueError(cat("feature ", recipe.name, " needs a contact force; none was given"));
   if (maker.frames > 0 && maker.frames != int(frames.size())) {
     throw ValueError(cat("feature ", recipe.name, " takes ", maker.frames, " frames, got ", frames.size()));
   }

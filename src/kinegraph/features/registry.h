@@ -10,7 +10,7 @@
 
 namespace kinegraph {
 
-/// Features by name. The numbers are those of the Python enum `ry.FS`.
+/// Names of features. The numbers are those of the Python enum `ry.FS`.
 enum class FeatureSymbol : int {
   position = 0,
   positionDiff = 1,
@@ -67,19 +67,19 @@ enum class FeatureSymbol : int {
   scalarProductZX = 53,
   scalarProductZY = 54,
   pairCollisions = 55,
-  negDistance = distance,  ///< other names
+  negDistance = distance,  ///< aliases
   jointState = qItself,
 };
 
-/// What a row of a feature is measured in.
+/// Unit of a component of a feature.
 enum class FeatureUnit {
-  none,               ///< a number without unit
+  none,               ///< dimensionless number
   meter,              ///< a length
   radian,             ///< an angle
-  joint,              ///< m or rad, as the joint of that row
-  quaternion,         ///< an entry of a unit quaternion, or of the difference of two
-  direction,          ///< an entry of a unit vector, or of the difference of two
-  cosine,             ///< the product of two unit vectors
+  joint,              ///< m or rad, depending on the joint of the component
+  quaternion,         ///< component of a unit quaternion, or of the difference of two
+  direction,          ///< component of a unit vector, or of the difference of two
+  cosine,             ///< product of two unit vectors
   meter_per_second,   ///< a velocity
   radian_per_second,  ///< an angular velocity
   newton,             ///< a force
@@ -87,57 +87,57 @@ enum class FeatureUnit {
   joule,              ///< an energy
 };
 
-/// "m", "rad/s", ...; "-" for none.
+/// Returns "m", "rad/s", ...; "-" for none.
 const char* unitName(FeatureUnit unit);
 
-/// Which joints a feature looks at.
+/// The joints on which a feature depends.
 enum class FeatureDofs {
-  of_frames,  ///< those that move its frames
-  of_joints,  ///< those that its frames have; without frames all
-  of_scene,   ///< those of all bodies that may collide, or all quaternions
+  of_frames,  ///< joints that move its frames
+  of_joints,  ///< joints of its frames; all joints if it has no frames
+  of_scene,   ///< joints of all bodies that may collide, or all quaternions
 };
 
-/// A row of the table of features: all that is said of a feature in one place.
+/// An entry of the table of features, with everything that is known about a feature.
 struct FeatureInfo {
   using Make = std::unique_ptr<Feature> (*)(const FeatureInfo& info, const std::vector<int>& frames,
                                             const KinematicModel& model);
 
   FeatureSymbol symbol;
   std::string name;
-  const char* alias;           ///< another name; null: there is none
-  const char* frames;          ///< what they are, one word each
-  int min_frames, max_frames;  ///< max -1: any number
-  const char* rows;            ///< their number, or what it depends on
-  FeatureUnit unit;            ///< of the first three rows, ...
+  const char* alias;           ///< another name; null if there is none
+  const char* frames;          ///< roles of the frames, one word each
+  int min_frames, max_frames;  ///< max -1 for any number
+  const char* rows;            ///< number of components, or the quantity that determines it
+  FeatureUnit unit;            ///< of the first three components, ...
   FeatureUnit later_unit;      ///< ... and of those after them
-  int order;                   ///< of the time derivative that it is by itself
-  bool second_derivatives;     ///< does it tell them (Feature::hasCurvature), for some frames at least?
+  int order;                   ///< order of its own time derivative
+  bool second_derivatives;     ///< Feature::hasCurvature may be true, at least for some frames
   FeatureDofs dofs;
-  const char* reported_as;  ///< what reports call it
-  const char* value;        ///< in words, for people
-  Make make;                ///< null: it is not available, and `value` says what is
+  const char* reported_as;  ///< name in reports
+  const char* value;        ///< description for users
+  Make make;                ///< null for unavailable features, whose `value` says why
 
   bool available() const { return make != nullptr; }
   FeatureUnit unitOf(int row) const { return row < 3 ? unit : later_unit; }
 };
 
-/// In the order in which people read them. No symbol is there twice.
+/// Returns the table in reading order. Each symbol occurs once.
 const std::vector<FeatureInfo>& featureRegistry();
 
-/// Throws NameError for a number that is no symbol.
+/// Throws NameError for a number that is not a symbol.
 const FeatureInfo& featureInfo(FeatureSymbol symbol);
 
-/// All names with their symbols, aliases included (`negDistance`, `jointState`).
+/// Returns all names with their symbols, including aliases (`negDistance`, `jointState`).
 const std::vector<std::pair<std::string, FeatureSymbol>>& featureNames();
 
-/// Throws NameError with the nearest names.
+/// Throws NameError with similar names.
 FeatureSymbol featureSymbolFromName(std::string_view name);
 
-/// The table of features as docs/motion.md has it.
+/// Returns the table of features as it is in docs/features.md.
 std::string featureTable();
 
-/// The feature of that symbol for the frames with these ids. Throws ValueError for a wrong number of frames, saying how
-/// many the symbol takes, and for frames that lack what it needs (a box, a joint).
+/// Makes the feature of a symbol for the frames with these ids. Throws ValueError for a wrong number of frames, and for
+/// frames that lack a box or joint that the feature needs.
 std::unique_ptr<Feature> makeFeature(FeatureSymbol symbol, const std::vector<int>& frames, const KinematicModel& model);
 
 }  // namespace kinegraph

@@ -12,7 +12,8 @@ Residual::Residual(std::shared_ptr<const Feature> feature, MatrixXd scale, Vecto
   if (order < 0) order = feature_->order();
   if (order < feature_->order()) {
     throw ValueError(cat(name_, " is defined on ", feature_->order() + 1,
-                         " consecutive configurations: its order is at least ", feature_->order(), ", not ", order));
+                         " consecutive configurations; expected an order of at least ", feature_->order(), ", got ",
+                         order));
   }
   differences_ = order - feature_->order();
   raw_.resize(feature_->rows());
@@ -79,11 +80,11 @@ void Residual::evalRaw(std::span<const State* const> states, double tau, Eigen::
 }
 
 void Residual::addCurvature(const State& state, std::span<const double> weights, Eigen::Ref<MatrixXd> H) {
-  const Eigen::Map<const VectorXd> given(weights.data(), Eigen::Index(weights.size()));
+  const Eigen::Map<const VectorXd> weight(weights.data(), Eigen::Index(weights.size()));
   if (mixesRows()) {
-    raw_.noalias() = scale_.transpose() * given;
+    raw_.noalias() = scale_.transpose() * weight;
   } else {
-    raw_ = given;
+    raw_ = weight;
     if (scale_.size() == 1) raw_ *= scale_(0, 0);
     if (scale_.size() > 1) raw_.array() *= scale_.col(0).array();
   }
@@ -104,7 +105,7 @@ void Residual::mix(Eigen::Ref<VectorXd> raw, JacobianRows* raw_jacobian, Eigen::
   if (J) *J += scale_.lazyProduct(*raw_jacobian);
 }
 
-/// Takes the quaternion's sign that is nearer to the target.
+/// Chooses the sign of the quaternion that is nearer to the target.
 void Residual::alignSign(Eigen::Ref<VectorXd> y, JacobianRows* J) const {
   const int row = feature_->quaternionRow();
   if (row < 0 || target_.size() != y.size() || y.segment<4>(row).dot(target_.segment<4>(row)) >= 0.) return;

@@ -7,7 +7,7 @@ namespace kinegraph {
 const std::shared_ptr<Residual>& ResidualCache::get(const State& scene, FeatureSymbol symbol,
                                                     const std::vector<std::string>& frames, MatrixXd scale,
                                                     VectorXd target, int order) {
-  constexpr std::size_t kKept = 8;
+  constexpr std::size_t kEntries = 8;
   for (Entry& entry : entries_) {
     if (entry.symbol != symbol || entry.model != scene.sharedModel() || entry.order != order || entry.frames != frames)
       continue;
@@ -17,9 +17,9 @@ const std::shared_ptr<Residual>& ResidualCache::get(const State& scene, FeatureS
   }
   Entry made{scene.sharedModel(), symbol, frames, order,
              std::make_shared<Residual>(makeResidual(scene, symbol, frames, scale, target, order))};
-  if (entries_.size() < kKept) return entries_.emplace_back(std::move(made)).residual;
+  if (entries_.size() < kEntries) return entries_.emplace_back(std::move(made)).residual;
   Entry& place = entries_[oldest_];
-  oldest_ = (oldest_ + 1) % kKept;
+  oldest_ = (oldest_ + 1) % kEntries;
   place = std::move(made);
   return place.residual;
 }

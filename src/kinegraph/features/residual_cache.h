@@ -9,15 +9,14 @@
 
 namespace kinegraph {
 
-/// Residuals of the last few questions about built-in features, so that the same question again costs its evaluation
-/// only.
+/// Residuals of built-in features from the last few calls, so that a repeated call only costs the evaluation.
 class ResidualCache {
  public:
   ResidualCache() = default;
   ResidualCache(const ResidualCache&) {}  ///< a copy starts empty
   ResidualCache& operator=(const ResidualCache&) { return *this; }
 
-  /// As makeResidual. Later calls may give it another scale and target.
+  /// Returns a residual as makeResidual does. Later calls may change its scale and target.
   const std::shared_ptr<Residual>& get(const State& scene, FeatureSymbol symbol, const std::vector<std::string>& frames,
                                        MatrixXd scale, VectorXd target, int order);
 

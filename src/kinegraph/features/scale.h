@@ -7,8 +7,8 @@
 
 namespace kinegraph {
 
-/// What a residual is multiplied by: nothing (1), a number, one per row of the feature, or a matrix that mixes rows.
-/// Made from whatever says that: `10.`, `{1., 1., .1}`, `Vector3d(1., 1., .1)`, a matrix.
+/// Factor of a residual: nothing (1), a number, one number per row of the feature, or a matrix that mixes rows.
+/// Converts from `10.`, `{1., 1., .1}`, `Vector3d(1., 1., .1)`, or a matrix.
 class Scale {
  public:
   Scale() = default;
@@ -26,7 +26,7 @@ class Scale {
   MatrixXd matrix_;
 };
 
-/// What is subtracted from a feature: nothing, a number from all rows, or one from each.
+/// Target of a feature: nothing (0), a number for all rows, or one number per row.
 class Target {
  public:
   Target() = default;

@@ -7,7 +7,7 @@
 
 namespace kinegraph {
 
-/// Features one below the other: a pose is a position and a quaternion.
+/// Concatenation of features: a pose is a position and a quaternion.
 class Stacked final : public Feature {
  public:
   explicit Stacked(std::vector<std::unique_ptr<Feature>> parts) : parts_(std::move(parts)) {}

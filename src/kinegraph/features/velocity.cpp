@@ -6,7 +6,7 @@ namespace kinegraph {
 
 namespace {
 
-/// The columns of J that belong to the earlier and the later configuration.
+/// The columns of J for the earlier and the later configuration.
 JacobianRows earlier(JacobianRows& J) { return J.leftCols(J.cols() / 2); }
 JacobianRows later(JacobianRows& J) { return J.rightCols(J.cols() / 2); }
 
@@ -19,10 +19,10 @@ void AngularVelocity::eval(std::span<const State* const> states, double tau, Eig
   if (step.w() < 0.) step.coeffs() *= -1.;
   y = 2. / tau * step.vec();
   if (!J) return;
-  const Matrix3d none = Matrix3d::Zero(), straight = step.w() / tau * Matrix3d::Identity(),
-                 turn = skew(step.vec()) / tau;
-  states[1]->addJacobian(frame_, Vector3d::Zero(), none, straight - turn, later(*J));
-  states[0]->addJacobian(frame_, Vector3d::Zero(), none, -straight - turn, earlier(*J));
+  const Matrix3d none = Matrix3d::Zero(), linear = step.w() / tau * Matrix3d::Identity(),
+                 rotation = skew(step.vec()) / tau;
+  states[1]->addJacobian(frame_, Vector3d::Zero(), none, linear - rotation, later(*J));
+  states[0]->addJacobian(frame_, Vector3d::Zero(), none, -linear - rotation, earlier(*J));
 }
 
 void LinearVelocity::eval(std::span<const State* const> states, double tau, Eigen::Ref<VectorXd> y,
@@ -38,7 +38,7 @@ void AlignWithMotion::eval(std::span<const State* const> states, double, Eigen::
                            JacobianRows* J) const {
   const Vector3d before = states[0]->position(b_), now = states[1]->position(b_), d = now - before;
   const Vector3d axis = states[0]->pose(a_).R.col(axis_);
-  constexpr double kShortest = 1e-4;  // m; below it the direction fades
+  constexpr double kShortest = 1e-4;  // m; below it the direction fades to zero
   const double soft = std::hypot(d.norm(), kShortest);
   y = d / soft - axis;
   if (!J) return;

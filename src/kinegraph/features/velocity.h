@@ -31,7 +31,8 @@ class LinearVelocity final : public Feature {
   int frame_;
 };
 
-/// Direction in which frame B moves, less an axis of frame A before the move:
+/// Direction of motion of frame B, minus an axis of frame A before the motion:
+///
 ///     y = d / sqrt(|d|^2 + 1e-8) - R_WA(t-1) e,  d = p_B(t) - p_B(t-1)      3 rows
 class AlignWithMotion final : public Feature {
  public:

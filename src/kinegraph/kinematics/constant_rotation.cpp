@@ -5,7 +5,7 @@
 namespace kinegraph {
 
 ConstantRotation classifyRotation(const double* R) {
-  ConstantRotation turn;
+  ConstantRotation rotation;
   bool moves = false;
   for (int k = 0; k < 3; ++k) {
     int ones = 0;
@@ -14,14 +14,14 @@ ConstantRotation classifyRotation(const double* R) {
       if (!(std::abs(entry - nearest) < 1e-15)) return {ConstantRotation::general};
       if (nearest == 0.) continue;
       ++ones;
-      turn.column[k] = static_cast<unsigned char>(i);
-      turn.sign[k] = nearest;
+      rotation.column[k] = static_cast<unsigned char>(i);
+      rotation.sign[k] = nearest;
     }
     if (ones != 1) return {ConstantRotation::general};
-    moves = moves || turn.column[k] != k || turn.sign[k] < 0;
+    moves = moves || rotation.column[k] != k || rotation.sign[k] < 0;
   }
-  turn.kind = moves ? ConstantRotation::quarters : ConstantRotation::none;
-  return turn;
+  rotation.kind = moves ? ConstantRotation::quarters : ConstantRotation::none;
+  return rotation;
 }
 
 }  // namespace kinegraph

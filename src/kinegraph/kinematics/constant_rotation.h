@@ -2,8 +2,8 @@
 
 namespace kinegraph {
 
-/// What is special in a constant rotation R that is multiplied from the right: most are identities or of quarter turns,
-/// where column k of the product is sign[k] times column[k] of the left factor.
+/// Structure of a constant rotation R that is multiplied from the right. Most are identities or quarter rotations; then
+/// column k of the product is sign[k] times column[k] of the left factor.
 struct ConstantRotation {
   enum Kind : unsigned char { none, quarters, general };
   Kind kind = none;
@@ -11,7 +11,7 @@ struct ConstantRotation {
   double sign[3] = {1., 1., 1.};
 };
 
-/// Of a rotation given by its columns. What misses a quarter turn by rounding (1e-15) counts as one.
+/// Classifies a rotation given by its columns. Deviations up to rounding (1e-15) from a quarter rotation are ignored.
 ConstantRotation classifyRotation(const double* R);
 
 }  // namespace kinegraph

@@ -18,7 +18,7 @@ bool ContactRules::allow(std::size_t i, std::size_t j) const {
   return true;
 }
 
-/// Does the contact flag of A exclude contacts with B's part, an ancestor that is few joints away?
+/// Returns true if the contact flag of A excludes contacts with B's part, an ancestor within a few joints.
 bool ContactRules::excludedByFlag(const Body& a, const Body& b) const {
   int left = -a.flag;
   for (int part = parts[std::size_t(a.part)].parent; part >= 0; part = parts[std::size_t(part)].parent) {

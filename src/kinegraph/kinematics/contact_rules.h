@@ -5,26 +5,27 @@
 
 namespace kinegraph {
 
-/// Which shapes may collide; the rule is at Config::getCollidablePairs. Pairs are not listed, as there are many.
+/// Rules for the pairs of shapes that may collide; Config::getCollidablePairs documents them. Pairs are not listed,
+/// because there may be many.
 struct ContactRules {
-  /// A frame with a joint, or a root, and all that is rigidly fixed to it.
+  /// A frame with a joint, or a root, together with all frames fixed to it.
   struct Part {
-    int parent = -1;  ///< the part it hangs on, or -1
+    int parent = -1;  ///< the part that it is attached to, or -1
     bool jointed = false;
   };
-  /// A frame with a shape that takes part.
+  /// A frame with a shape that may collide.
   struct Body {
     int frame = 0;
     int part = 0;
-    int flag = 0;   ///< of contact
-    int owner = 0;  ///< the frame whose exclusions hold for it, too
+    int flag = 0;   ///< contact flag
+    int owner = 0;  ///< the frame whose exclusions apply to it, too
   };
 
   std::vector<Part> parts;
   std::vector<Body> bodies;                   ///< by frame
   std::vector<std::pair<int, int>> excluded;  ///< pairs of frames (a < b), ascending
 
-  /// May these two bodies collide? They are places in `bodies`.
+  /// Returns true if these two bodies may collide; i and j are indices in `bodies`.
   bool allow(std::size_t i, std::size_t j) const;
 
  private:

@@ -6,7 +6,7 @@ namespace kinegraph {
 
 namespace {
 
-/// Velocities of all links, and accelerations for the given ddq; the world accelerates against gravity.
+/// Velocities of all links, and accelerations for given ddq; the world accelerates against gravity.
 struct LinkMotions {
   std::vector<Motion> velocity, acceleration;
 };
@@ -30,7 +30,7 @@ LinkMotions propagate(const State& state, const VectorXd& dq, const VectorXd* dd
         square += state.q()[dof] * state.q()[dof];
       }
       A.add(1., carried(V, own));
-      // Of a quaternion, w = 2 vec(dq q*) / |q|^2 also changes with the norm.
+      // For a quaternion, w = 2 vec(dq q*) / |q|^2 also changes with the norm.
       if (model.steps[s].dofs() > 1) A.add(-2. * norm_rate / std::max(square, 1e-100), own);
       V.add(1., own);
     }
@@ -71,7 +71,7 @@ void LinkInertia::add(const LinkInertia& part, const RigidTransform& X_LF) {
   const double total = mass + part.mass;
   const Vector3d part_com = X_LF * part.com;
   const Vector3d common = total > 0. ? Vector3d((mass * com + part.mass * part_com) / total) : com;
-  const auto about = [&](double m, const Vector3d& c) {  // parallel axes
+  const auto about = [&](double m, const Vector3d& c) {  // parallel axis theorem
     const Vector3d r = c - common;
     return Matrix3d(m * (r.squaredNorm() * Matrix3d::Identity() - r * r.transpose()));
   };

@@ -6,13 +6,13 @@
 
 namespace kinegraph {
 
-/// What a link weighs. Link 0 is the world; what it weighs never moves.
+/// Inertial parameters of a link. Link 0 is the world; its inertia has no effect.
 struct LinkInertia {
   double mass = 0.;                    ///< kg
   Vector3d com = Vector3d::Zero();     ///< center of mass in the link, m
   Matrix3d matrix = Matrix3d::Zero();  ///< about the center of mass, in the link's axes, kg m^2
 
-  /// The two together, rigidly joined; `X_LF` places `part` in the link.
+  /// Adds a rigidly attached part; `X_LF` is its pose in the link.
   void add(const LinkInertia& part, const RigidTransform& X_LF);
 };
 
@@ -24,24 +24,23 @@ struct EquationOfMotion {
   VectorXd F;  ///< n: Coriolis, centrifugal and gravity terms
 };
 
-/// Both terms at the state's q and the velocity dq. Redundant dofs (the norm of a quaternion) carry no inertia.
+/// Computes both terms at the state's q and the velocity dq. Redundant dofs (the norm of a quaternion) have no inertia.
 EquationOfMotion equationOfMotion(const State& state, const std::vector<LinkInertia>& inertias,
                                   const VectorXd& velocity, const Vector3d& gravity = kGravity);
 
-/// Generalized forces that give the acceleration ddq: recursive Newton-Euler, linear in the number of links.
-/// Source: Featherstone, Rigid Body Dynamics Algorithms, ch. 5, in world coordinates.
+/// Computes the generalized forces for the acceleration ddq by recursive Newton-Euler, linear in the number of links.
 VectorXd inverseDynamics(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& velocity,
                          const VectorXd& acceleration, const Vector3d& gravity = kGravity);
 
-/// The common center of mass of all moving links, in world coordinates; its mass beside it.
+/// Returns the total mass of all moving links, and their center of mass in world coordinates.
 std::pair<double, Vector3d> centerOfMass(const State& state, const std::vector<LinkInertia>& inertias);
 
-/// Kinetic and potential energy, J; the potential is 0 at the world's origin.
+/// Compute kinetic and potential energy, J; the potential is 0 at the world's origin.
 double kineticEnergy(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& velocity);
 double potentialEnergy(const State& state, const std::vector<LinkInertia>& inertias,
                        const Vector3d& gravity = kGravity);
 
-/// Center of the mass of one frame alone, in world coordinates, m.
+/// Returns the center of mass of a single frame, in world coordinates, m.
 inline Vector3d frameCenterOfMass(const State& state, int frame) {
   return state.pose(frame) * state.parameters().frame_mass[frame].com;
 }

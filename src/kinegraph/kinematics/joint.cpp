@@ -31,7 +31,7 @@ std::vector<MotionStep> genericSteps(std::string_view code) {
       steps.push_back({Kind::time});
     } else {
       throw ValueError(cat("generic joint code '", code, "': '", code[i],
-                           "' is none of x y z a b c (capitals negate), t, or a final wxyz"));
+                           "' is not one of x y z a b c (capitals negate), t, or a final wxyz"));
     }
   }
   return steps;
@@ -43,7 +43,7 @@ Quaterniond aboutAxis(int axis, double angle) {
   return q;
 }
 
-/// Rotation angle about the unit axis `a` that brings the identity nearest to `q`, in (-pi, pi].
+/// Returns the rotation angle about the unit axis `a` whose rotation is closest to `q`, in (-pi, pi].
 double twistAngle(const Quaterniond& q, const Vector3d& a) {
   const double along = q.vec().dot(a);
   if (std::abs(along) + std::abs(q.w()) < 1e-12) return 0.;
@@ -51,53 +51,53 @@ double twistAngle(const Quaterniond& q, const Vector3d& a) {
   return std::remainder(angle, 2. * M_PI) == -M_PI ? M_PI : std::remainder(angle, 2. * M_PI);
 }
 
-/// A joint type: a row here and its number in joint.h are all that it needs.
-struct JointRow {
+/// A joint type. A new type needs an entry here and its number in joint.h.
+struct JointInfo {
   std::string_view name;
   JointType type;
   std::vector<MotionStep> steps;
   bool has_inverses = false;  ///< see hasInverses
 };
 
-/// In the order of the types' numbers.
-const std::vector<JointRow>& jointRows() {
+/// The types in the order of their numbers.
+const std::vector<JointInfo>& jointTable() {
   static constexpr MotionStep x{Kind::translate, 0}, y{Kind::translate, 1}, z{Kind::translate, 2};
-  static constexpr MotionStep turn_x{Kind::rotate, 0}, turn_y{Kind::rotate, 1}, turn_z{Kind::rotate, 2};
-  static constexpr MotionStep turn{Kind::rotateAbout}, quaternion{Kind::quaternion}, circle{Kind::circle, 2};
-  static const std::vector<JointRow> rows = {
+  static constexpr MotionStep rotate_x{Kind::rotate, 0}, rotate_y{Kind::rotate, 1}, rotate_z{Kind::rotate, 2};
+  static constexpr MotionStep rotate_about{Kind::rotateAbout}, quaternion{Kind::quaternion}, circle{Kind::circle, 2};
+  static const std::vector<JointInfo> table = {
       {"none", JointType::none, {}},
-      {"hingeX", JointType::hingeX, {turn_x}, true},
-      {"hingeY", JointType::hingeY, {turn_y}, true},
-      {"hingeZ", JointType::hingeZ, {turn_z}, true},
+      {"hingeX", JointType::hingeX, {rotate_x}, true},
+      {"hingeY", JointType::hingeY, {rotate_y}, true},
+      {"hingeZ", JointType::hingeZ, {rotate_z}, true},
       {"transX", JointType::transX, {x}, true},
       {"transY", JointType::transY, {y}, true},
       {"transZ", JointType::transZ, {z}, true},
-      {"hinge", JointType::hinge, {turn}, true},
+      {"hinge", JointType::hinge, {rotate_about}, true},
       {"circleZ", JointType::circleZ, {circle}, true},
       {"transXY", JointType::transXY, {x, y}, true},
       {"trans3", JointType::trans3, {x, y, z}, true},
-      {"transXYPhi", JointType::transXYPhi, {x, y, turn_z}, true},
-      {"transYPhi", JointType::transYPhi, {y, turn_z}},
-      {"universal", JointType::universal, {turn_x, turn_y}},
+      {"transXYPhi", JointType::transXYPhi, {x, y, rotate_z}, true},
+      {"transYPhi", JointType::transYPhi, {y, rotate_z}},
+      {"universal", JointType::universal, {rotate_x, rotate_y}},
       {"rigid", JointType::rigid, {}, true},
       {"quatBall", JointType::quatBall, {quaternion}, true},
-      {"phiTransXY", JointType::phiTransXY, {turn_z, x, y}, true},
+      {"phiTransXY", JointType::phiTransXY, {rotate_z, x, y}, true},
       {"XBall", JointType::XBall, {x, quaternion}},
       {"free", JointType::free, {x, y, z, quaternion}, true},
-      {"generic", JointType::generic, {}},  // its steps are those of its code
+      {"generic", JointType::generic, {}},  // its steps follow from its code
       {"tau", JointType::tau, {{Kind::time}}},
   };
-  return rows;
+  return table;
 }
 
-const JointRow& jointRow(JointType type) {
+const JointInfo& jointInfo(JointType type) {
   const auto index = std::size_t(type);
-  if (index >= jointRows().size()) throw ValueError(cat("joint type ", int(type), " does not exist"));
-  return jointRows()[index];
+  if (index >= jointTable().size()) throw ValueError(cat("joint type ", int(type), " does not exist"));
+  return jointTable()[index];
 }
 
-/// What other formats call joints.
-constexpr std::pair<std::string_view, std::string_view> kWordsOfOthers[] = {
+/// Names of joint types in other formats.
+constexpr std::pair<std::string_view, std::string_view> kForeignNames[] = {
     {"revolute", "hingeX, hingeY or hingeZ, or hinge with axis: [x y z]"},
     {"continuous", "hingeX, hingeY or hingeZ without limits"},
     {"prismatic", "transX, transY or transZ"},
@@ -114,35 +114,35 @@ constexpr std::pair<std::string_view, std::string_view> kWordsOfOthers[] = {
 const std::vector<std::pair<std::string, JointType>>& jointTypeNames() {
   static const std::vector<std::pair<std::string, JointType>> names = [] {
     std::vector<std::pair<std::string, JointType>> all;
-    for (const JointRow& row : jointRows()) all.emplace_back(row.name, row.type);
+    for (const JointInfo& info : jointTable()) all.emplace_back(info.name, info.type);
     return all;
   }();
   return names;
 }
 
 std::string jointTypeName(JointType type) {
-  const bool known = std::size_t(type) < jointRows().size();
-  return known ? std::string(jointRow(type).name) : cat("joint type ", int(type));
+  const bool known = std::size_t(type) < jointTable().size();
+  return known ? std::string(jointInfo(type).name) : cat("joint type ", int(type));
 }
 
 JointType jointTypeFromName(std::string_view name) {
-  const std::string_view word = name.starts_with("JT_") ? name.substr(3) : name;
-  for (const JointRow& row : jointRows()) {
-    if (row.name == word) return row.type;
+  const std::string_view bare_name = name.starts_with("JT_") ? name.substr(3) : name;
+  for (const JointInfo& info : jointTable()) {
+    if (info.name == bare_name) return info.type;
   }
-  std::vector<std::string> words;
-  for (const JointRow& row : jointRows()) words.emplace_back(row.name);
-  const auto meant = std::find_if(std::begin(kWordsOfOthers), std::end(kWordsOfOthers),
-                                  [&](const auto& entry) { return entry.first == word; });
-  const std::string hint = meant != std::end(kWordsOfOthers) ? cat("; what others call ", word, " is ", meant->second)
-                                                             : similarHint(word, words);
-  throw ValueError(cat("unknown joint type '", name, "'; expected one of ", join(words), hint));
+  std::vector<std::string> names;
+  for (const JointInfo& info : jointTable()) names.emplace_back(info.name);
+  const auto meant = std::find_if(std::begin(kForeignNames), std::end(kForeignNames),
+                                  [&](const auto& entry) { return entry.first == bare_name; });
+  const std::string hint = meant != std::end(kForeignNames) ? cat("; use ", meant->second, " for ", bare_name)
+                                                            : similarHint(bare_name, names);
+  throw ValueError(cat("unknown joint type '", name, "'; expected one of ", join(names), hint));
 }
 
-bool hasInverses(JointType type) { return jointRow(type).has_inverses; }
+bool hasInverses(JointType type) { return jointInfo(type).has_inverses; }
 
 std::vector<MotionStep> motionSteps(JointType type, std::string_view code) {
-  return type == JointType::generic ? genericSteps(code) : jointRow(type).steps;
+  return type == JointType::generic ? genericSteps(code) : jointInfo(type).steps;
 }
 
 int motionDofs(const std::vector<MotionStep>& steps) {
@@ -191,10 +191,10 @@ Pose motionPose(const std::vector<MotionStep>& steps, const Vector3d& axis, doub
 
 namespace {
 
-/// Each step in turn takes what it can of the pose. Exact for all types but generic ones with several rotations.
+/// Lets each step in rotate_about absorb its part of the pose. Exact for all types except generic ones with several rotations.
 VectorXd projectInSequence(const std::vector<MotionStep>& steps, const Vector3d& axis, double scale, const Pose& X) {
   VectorXd q = motionIdentity(steps);
-  Pose rest = X;  // what the steps from here on have to make
+  Pose rest = X;  // the pose that the remaining steps must produce
   int i = 0;
   for (const MotionStep& step : steps) {
     const double factor = step.sign * (scale == 0. ? 1. : scale);
@@ -233,15 +233,15 @@ VectorXd projectInSequence(const std::vector<MotionStep>& steps, const Vector3d&
 
 VectorXd motionProject(const std::vector<MotionStep>& steps, const Vector3d& axis, double scale, const Pose& X) {
   VectorXd q = projectInSequence(steps, axis, scale, X);
-  const auto turns = [](const MotionStep& step) { return step.turns(); };
-  if (std::count_if(steps.begin(), steps.end(), turns) < 2) return q;
+  const auto rotates = [](const MotionStep& step) { return step.rotates(); };
+  if (std::count_if(steps.begin(), steps.end(), rotates) < 2) return q;
   const auto error = [&](const VectorXd& at) {
     const Pose E = X.inverse() * motionPose(steps, axis, scale, at.data());
     Vector6d e;
     e << E.p, 2. * (E.q.w() < 0. ? -1. : 1.) * E.q.vec();
     return e;
   };
-  for (int iteration = 0; iteration < 30; ++iteration) {  // Levenberg's method from there
+  for (int iteration = 0; iteration < 30; ++iteration) {  // refines the result by Levenberg's method
     const Vector6d e = error(q);
     if (e.norm() < 1e-14) break;
     MatrixXd J(6, q.size());

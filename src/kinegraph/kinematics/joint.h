@@ -9,7 +9,7 @@
 
 namespace kinegraph {
 
-/// Kinds of joints. The numbers are those of the Python enum `ry.JT`.
+/// Types of joints. The numbers are those of the Python enum `ry.JT`.
 enum class JointType : int {
   none = 0,
   hingeX = 1,
@@ -37,13 +37,13 @@ enum class JointType : int {
 const std::vector<std::pair<std::string, JointType>>& jointTypeNames();
 std::string jointTypeName(JointType type);
 
-/// Are the inverses of this type's motions motions of the same type, with other dofs?
+/// Returns true if the inverse of each motion of this type is a motion of the same type.
 bool hasInverses(JointType type);
 
-/// The type of that name, with or without the prefix "JT_". Throws ValueError with the legal and the nearest words.
+/// Parses a type name, with or without the prefix "JT_". Throws ValueError with the legal and the nearest names.
 JointType jointTypeFromName(std::string_view name);
 
-/// One elementary motion. Every joint type is a short sequence of them, each in the frame that the previous one
+/// An elementary motion. Each joint type is a short sequence of them, each relative to the frame that the previous one
 /// reached.
 struct MotionStep {
   using Kind = MotionKind;
@@ -54,32 +54,32 @@ struct MotionStep {
 
   const MotionFacts& facts() const { return kMotionFacts[int(kind)]; }
   int dofs() const { return facts().dofs; }
-  bool slides() const { return facts().effect == Effect::slides; }
-  bool turns() const { return facts().effect == Effect::turns; }
+  bool translates() const { return facts().effect == Effect::translates; }
+  bool rotates() const { return facts().effect == Effect::rotates; }
   bool orients() const { return facts().effect == Effect::orients; }
   bool moves() const { return facts().effect != Effect::none; }
 
-  /// The unit axis that it slides along or turns about, in the frame that the previous step reached; `joint_axis` is
-  /// the joint's own. Of no meaning for quaternions and time.
+  /// Returns the unit axis of the translation or rotation, in the frame that the previous step reached; `joint_axis` is
+  /// the joint's own axis. Undefined for quaternions and time.
   Vector3d direction(const Vector3d& joint_axis) const {
     return kind == Kind::rotateAbout ? joint_axis : Vector3d(Vector3d::Unit(axis));
   }
 };
 
-/// The steps of a joint type. `code` has a letter per dof for JointType::generic: x y z a b c (capital: negated), wxyz
-/// for a quaternion, t for time. Throws ValueError for a code that makes no sense.
+/// Returns the steps of a joint type. For JointType::generic, `code` has one letter per dof: x y z a b c (capital:
+/// negated), wxyz for a quaternion, t for time. Throws ValueError for an invalid code.
 std::vector<MotionStep> motionSteps(JointType type, std::string_view code = {});
 
-/// Number of dofs of a step sequence.
+/// Returns the number of dofs of a sequence of steps.
 int motionDofs(const std::vector<MotionStep>& steps);
 
-/// The dof values for which the motion is the identity: zeros, and 1 for the w (c) of a quaternion (circle).
+/// Returns the dofs of the identity motion: zeros, and 1 for the w (c) of a quaternion (circle).
 VectorXd motionIdentity(const std::vector<MotionStep>& steps);
 
-/// Relative pose of a joint with dofs `q`; `scale` multiplies every dof, `axis` is used by rotateAbout.
+/// Returns the relative pose of a joint with dofs `q`; `scale` multiplies each dof, rotateAbout uses `axis`.
 Pose motionPose(const std::vector<MotionStep>& steps, const Vector3d& axis, double scale, const double* q);
 
-/// The dofs that bring the motion nearest to the pose `X`: exact where the joint can reach it.
+/// Returns the dofs whose motion is closest to the pose `X`; exact if the joint can reach it.
 VectorXd motionProject(const std::vector<MotionStep>& steps, const Vector3d& axis, double scale, const Pose& X);
 
 }  // namespace kinegraph

@@ -18,21 +18,21 @@ namespace kinegraph {
 
 class CollisionBody;
 
-/// The compiled structure of a scene: what moves what. Immutable and shared by everything that computes; all numbers
-/// that people change between computations are in `Parameters` and in q.
+/// The compiled kinematic structure of a scene. It is immutable and shared by all computations. Numbers that may change
+/// between computations are in `Parameters` and in q.
 ///
-/// Frames between which no active joint lies move as one *link*. Link 0 is the world with everything fixed to it. Every
-/// other link is moved, relative to its parent link, by one active joint. Links are in topological order. Where a link
-/// has its axes is up to placeJoint.
+/// Frames without an active joint between them form one *link*. Link 0 is the world with everything fixed to it. Each
+/// other link is moved relative to its parent link by one active joint. Links are in topological order. placeJoint
+/// chooses the axes of a link.
 struct KinematicModel {
   struct Link {
     int parent = 0;
     int frame = -1;      ///< the frame that carries the joint
     int first_step = 0;  ///< its steps: [first_step, first_step + steps)
     int steps = 0;
-    int dof = 0;           ///< first entry in q; a mimicking link has that of its source
+    int dof = 0;           ///< first entry in q; mimicking links share that of their source
     int first_column = 0;  ///< its twist columns: [first_column, first_column + dofs)
-    int first_turn = 0;    ///< of its steps that turn, the first one's place in turn_dof
+    int first_angle = 0;   ///< index in angle_dof of the first of its steps that rotate
     double scale = 1.;
     Vector3d axis = Vector3d::UnitX();
   };
@@ -44,20 +44,19 @@ struct KinematicModel {
   int dofs = 0;             ///< length of q
   std::vector<Link> links;  ///< links[0] is the world
   std::vector<MotionStep> steps;
-  std::vector<int> column_dof;     ///< entry of q that drives a twist column
-  std::vector<int> column_before;  ///< of a twist column: the one before it in its chain, or -1
+  std::vector<int> column_dof;     ///< entry of q of a twist column
+  std::vector<int> column_before;  ///< per twist column: the previous one of its chain, or -1
   std::vector<int>
-      last_column;  ///< of link l: c = last_column[l], column_before[c], ... until -1 are those that move it
-  std::vector<char>
-      fixed_axes;             ///< per link: is each column that moves it one about or along an axis fixed to its links?
-  std::vector<int> turn_dof;  ///< entries of q that are angles, in the order of the steps, an even number of them
+      last_column;  ///< per link l: the columns that move it are c = last_column[l], column_before[c], ... until -1
+  std::vector<char> fixed_axes;  ///< per link: true if all columns that move it have axes fixed to links
+  std::vector<int> angle_dof;    ///< entries of q that are angles, in the order of the steps; an even number
 
   std::vector<std::string> frame_name;                    ///< per frame
-  std::unordered_map<std::string_view, int> frame_index;  ///< of names: the first frame of that name
+  std::unordered_map<std::string_view, int> frame_index;  ///< maps a name to the first frame with this name
   std::vector<int> frame_link;                            ///< per frame
-  std::vector<DofRange> frame_dofs;  ///< per frame: the dofs of its own active joint (of the source if it mimics)
-  VectorXd lower, upper;             ///< per dof; -inf, +inf where there is no limit
-  VectorXd home;                     ///< per dof: the q that the joint had when it was made
+  std::vector<DofRange> frame_dofs;  ///< per frame: the dofs of its active joint (of the source if it mimics)
+  VectorXd lower, upper;             ///< per dof; -inf, +inf without a limit
+  VectorXd home;                     ///< per dof: initial q of the joint
   VectorXd control_weight;           ///< per dof
   std::vector<DofRange> unit_norms;  ///< dofs that form a quaternion or circle
 
@@ -65,15 +64,14 @@ struct KinematicModel {
   std::vector<std::shared_ptr<const CollisionBody>> body;  ///< per frame, null without a shape
   ContactRules contacts;
 
-  /// All frame pairs (a < b) that may collide, ascending. Listed when first asked for; threads may ask.
+  /// Returns all pairs of frames (a < b) that may collide, ascending. The list is computed on first use; thread-safe.
   const std::vector<std::pair<int, int>>& collidable() const;
 
-  /// Are two frames on different links, so that a motion can part them or bring them together? Pairs for which it is
-  /// false are as near at every q: they say nothing about q.
+  /// Returns true if two frames are on different links, so that their distance may depend on q.
   bool movesApart(int a, int b) const { return frame_link[std::size_t(a)] != frame_link[std::size_t(b)]; }
 
-  /// Those of them that joints move apart, ascending: the pairs that count wherever it is asked whether a q or a motion
-  /// is free.
+  /// Returns the collidable pairs on different links, ascending: the pairs that collision checks of configurations and
+  /// motions consider.
   std::vector<std::pair<int, int>> movingPairs() const;
 
  private:
@@ -81,36 +79,37 @@ struct KinematicModel {
   mutable std::vector<std::pair<int, int>> collidable_;
 };
 
-/// What a frame weighs, as a point.
+/// Mass of a frame as a point.
 struct FrameMass {
   double mass = 0.;                 ///< kg
   Vector3d com = Vector3d::Zero();  ///< center of mass in the frame, m
 };
 
-/// The constants of a Program: where joints sit on their parent link and frames on their link, and what frames weigh.
+/// The constants of a KinematicModel: poses of joints on their parent links and of frames on their links, and masses of
+/// frames.
 struct Parameters {
   std::vector<LaneModel::Link> link;         ///< per link; set by placeJoint
   std::vector<LaneModel::Step> step;         ///< per step; its variable is a dof
-  std::vector<double> turn_factor;           ///< per entry of Program::turn_dof: the angle per unit of it
+  std::vector<double> angle_factor;          ///< per entry of KinematicModel::angle_dof: the angle per unit of it
   std::vector<RigidTransform> frame_offset;  ///< per frame: X_LF, the frame in its link
   std::vector<FrameMass> frame_mass;         ///< per frame
 };
 
-/// Room for all of them; frames are at the origin of their link, and weigh nothing.
+/// Returns default parameters: frames are at the origin of their link and have no mass.
 Parameters emptyParameters(const KinematicModel& model);
 
-/// Lets the joint of a link sit at X_PJ on its parent link, and returns the frame of the joint, as it is behind the
-/// joint, in the link. Links have their axes such that as few as possible are turned against those of the parent while
-/// their joints rest: where X_PJ has quarter turns, the axes of the joint are turned in its stead.
+/// Places the joint of a link at X_PJ on its parent link. Returns the pose of the joint frame, behind the joint, in the
+/// link. The axes of links are chosen parallel to those of the parent at zero joint values if possible: if X_PJ is a
+/// quarter rotation, the axes of the joint are rotated instead.
 RigidTransform placeJoint(const KinematicModel& model, int link, const RigidTransform& X_PJ, Parameters& parameters);
 
 /// Sets `frame_name` and `frame_index`.
 void nameFrames(KinematicModel& model, std::vector<std::string> names);
 
-/// The first frame of that name. Throws FrameNotFound with similar names; `who` is what asks for it.
-int frameId(const KinematicModel& model, std::string_view name, std::string_view who);
+/// Returns the first frame with this name. Throws FrameNotFound with similar names; `caller` starts the message.
+int frameId(const KinematicModel& model, std::string_view name, std::string_view caller);
 
-/// Fills `last_column`, `column_before`, `column_dof`, `fixed_axes` and `turn_dof` from `links` and `steps`.
+/// Computes `last_column`, `column_before`, `column_dof`, `fixed_axes` and `angle_dof` from `links` and `steps`.
 void connectChains(KinematicModel& model);
 
 }  // namespace kinegraph

@@ -1,5 +1,5 @@
 // The kernel of lane_model.h for registers of `kLanes` doubles. Each source file that includes this is compiled for its
-// own instruction set; all names are local to it.
+// own instruction set. All names are local to it.
 
 #include "kinegraph/kinematics/lane_model.h"
 #include "kinegraph/kinematics/place_lanes.h"
@@ -18,15 +18,15 @@ struct Memory {
   Lane *x, *pose, *motion, *frame, *y, *jacobian;
 };
 
-/// A twist column, for the formulas.
+/// The motion of a twist column, as input of the formulas.
 struct ColumnMotion {
-  bool turns;
-  Vector angular, point;  ///< a point of the axis; of what slides, the velocity
+  bool is_rotation;
+  Vector angular, point;  ///< a point on the axis; for translations, the velocity
 
-  Vector velocityAt(const Vector& at) const { return turns ? cross(angular, at - point) : point; }
+  Vector velocityAt(const Vector& at) const { return is_rotation ? cross(angular, at - point) : point; }
 };
 
-/// Who evaluates a block.
+/// Evaluates the formulas of a block.
 struct BlockRows {
   const LaneModel& model;
   const LaneRows& rows;
@@ -42,26 +42,26 @@ struct BlockRows {
 
   template <class Formula>
   void evaluate(const Formula& formula) const {
-    const int kept = Formula::kRows < block.rows ? Formula::kRows : block.rows;
+    const int rows = Formula::kRows < block.rows ? Formula::kRows : block.rows;
     Lane value[Formula::kRows];
     formula.value(value);
-    for (int r = 0; r < kept; ++r) memory.y[block.row + r] = value[r];
+    for (int r = 0; r < rows; ++r) memory.y[block.row + r] = value[r];
     if (with_jacobian) addRates(formula);
   }
 
   template <class Formula>
   void addRates(const Formula& formula) const {
-    const int kept = Formula::kRows < block.rows ? Formula::kRows : block.rows;
+    const int rows = Formula::kRows < block.rows ? Formula::kRows : block.rows;
     for (int e = block.first_entry; e < block.first_entry + block.entries; ++e) {
       const LaneRows::Entry& entry = rows.entry[e];
       const Lane* motion = memory.motion + entry.column * LaneMemory::kPerColumn;
       Lane rate[Formula::kRows];
-      formula.rate(ColumnMotion{entry.turns, load(motion), load(motion + 3)}, entry.of_b, rate);
+      formula.rate(ColumnMotion{entry.is_rotation, load(motion), load(motion + 3)}, entry.of_b, rate);
       Lane* to = memory.jacobian + long(block.row) * model.variables + entry.variable;
       if (entry.adds) {
-        for (int r = 0; r < kept; ++r) to[long(r) * model.variables] += rate[r];
+        for (int r = 0; r < rows; ++r) to[long(r) * model.variables] += rate[r];
       } else {
-        for (int r = 0; r < kept; ++r) to[long(r) * model.variables] = rate[r];
+        for (int r = 0; r < rows; ++r) to[long(r) * model.variables] = rate[r];
       }
     }
   }
@@ -117,7 +117,7 @@ void evaluateBlock(const BlockRows& at) {
 void evaluate(const LaneModel& model, const LaneRows& rows, const Memory& memory, bool with_jacobian) {
   for (int f = 0; f < rows.frames; ++f) {
     const LaneRows::Frame& frame = rows.frame[f];
-    storePlace(moved<Vector>(memory.pose + frame.link * LaneMemory::kPerPose, frame.turn, frame.R, frame.p),
+    storePlace(moved<Vector>(memory.pose + frame.link * LaneMemory::kPerPose, frame.rotation, frame.R, frame.p),
                memory.frame + f * LaneMemory::kPerPose);
   }
   for (int i = 0; i < rows.blocks; ++i) evaluateBlock({model, rows, rows.block[i], memory, with_jacobian});

@@ -29,10 +29,10 @@ std::vector<int> everyDof(const KinematicModel& model) {
   return dofs;
 }
 
-/// Do only rotations enter the values?
-bool isOfRotations(Block::Kind kind) { return kind >= Block::quaternion && kind <= Block::axis_product; }
+/// Returns true if the values depend on rotations only.
+bool dependsOnRotations(Block::Kind kind) { return kind >= Block::quaternion && kind <= Block::axis_product; }
 
-/// Does a motion of both frames together leave the values as they are?
+/// Returns true if a common motion of both frames does not change the values.
 bool isBetweenFrames(Block::Kind kind) {
   return kind == Block::relative || kind == Block::quaternion_relative || kind == Block::axis_relative ||
          kind == Block::axis_product;
@@ -60,7 +60,7 @@ LaneLinks::LaneLinks(const KinematicModel& model, const Parameters& parameters, 
       step.column = int(column_.size());
       step_.push_back(step);
       for (int k = 0; k < model.steps[s].dofs(); ++k) {
-        column_.push_back({variable[dof + k], !model.steps[s].slides()});
+        column_.push_back({variable[dof + k], !model.steps[s].translates()});
       }
     }
     lane_link_[l] = int(link_.size());
@@ -126,24 +126,24 @@ LaneKinematics::LaneKinematics(const KinematicModel& model, const Parameters& pa
     block.a = slot(block.a);
     block.b = two ? slot(block.b) : -1;
     connect(block);
-    block.b = std::max(block.b, 0);  // kernels may read it
+    block.b = std::max(block.b, 0);  // kernels may read it even if unused
   }
 }
 
-/// The entries of a block: those of frame a, then those of b, without what cannot change the values.
+/// Lists the entries of a block: those of frame a, then those of b, without columns that cannot change the values.
 void LaneKinematics::connect(Block& block) {
   block.first_entry = int(entry_.size());
   std::vector<int> of_a = links_.chain(frame_[block.a].link), of_b;
   if (block.b >= 0) of_b = links_.chain(frame_[block.b].link);
-  if (isBetweenFrames(block.kind)) {  // chains run from the frame to the world: what they share is at their ends
+  if (isBetweenFrames(block.kind)) {  // chains run from the frame to the world, so the common columns are at their ends
     while (!of_a.empty() && !of_b.empty() && of_a.back() == of_b.back()) of_a.pop_back(), of_b.pop_back();
   }
   std::vector<char> seen(links_.view().variables, 0);
   const auto add = [&](const std::vector<int>& chain, bool is_b) {
     for (int index : chain) {
       const LaneLinks::Column& column = links_.column(index);
-      if (isOfRotations(block.kind) && !column.turns) continue;
-      entry_.push_back({index, column.variable, column.turns, is_b, seen[column.variable] != 0});
+      if (dependsOnRotations(block.kind) && !column.is_rotation) continue;
+      entry_.push_back({index, column.variable, column.is_rotation, is_b, seen[column.variable] != 0});
       seen[column.variable] = 1;
     }
   };

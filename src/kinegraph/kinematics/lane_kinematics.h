@@ -7,26 +7,26 @@
 
 namespace kinegraph {
 
-/// The links of a Program that move some frames, for kernels in lanes.
+/// The links of a KinematicModel that move certain frames, for kernels in lanes.
 class LaneLinks {
  public:
-  /// `variable`: per dof of the Program, its number among the kernel's variables.
+  /// `variable`: per dof of the model, its number among the kernel's variables.
   LaneLinks(const KinematicModel& model, const Parameters& parameters, const std::vector<int>& frames,
             const std::vector<int>& variable, int variables);
 
   LaneModel view() const;
 
-  /// One of the frames, in its link.
+  /// Returns the pose of one of the frames in its link.
   LaneRows::Frame place(const KinematicModel& model, const Parameters& parameters, int frame) const;
 
-  /// A twist column: the variable that drives it, and whether it turns. Columns of dofs without motion are in no chain.
+  /// A twist column: its variable, and whether it is a rotation. Columns of dofs without motion are in no chain.
   struct Column {
     int variable;
-    bool turns;
+    bool is_rotation;
   };
   const Column& column(int index) const { return column_[index]; }
 
-  /// The columns that move a link of view().
+  /// Returns the columns that move a link of view().
   std::vector<int> chain(int link) const;
 
  private:
@@ -37,13 +37,13 @@ class LaneLinks {
   int variables_;
 };
 
-/// Rows that depend on poses of frames and on joints, one below the other, as a kernel in lanes takes them. What the
-/// kinds are is said in LaneRows::Block.
+/// A list of rows that depend on poses of frames and on joints, as input of the kernels in lanes. LaneRows::Block
+/// documents the kinds.
 class LaneRowList {
  public:
   void addPosition(LaneRows::Block::Kind kind, int a, int b = -1, int rows = 3) { add(kind, rows, a, b); }
   void addQuaternion(LaneRows::Block::Kind kind, int a, int b = -1) { add(kind, 4, a, b); }
-  void addPose(int frame);  ///< position, then the quaternion with its canonical sign
+  void addPose(int frame);  ///< position, then the quaternion with canonical sign
   void addAxis(LaneRows::Block::Kind kind, int axis, int a, int b = -1) { addAxes(kind, 3, axis, axis, a, b); }
   void addAxisProduct(int axis_a, int axis_b, int a, int b) {
     addAxes(LaneRows::Block::axis_product, 1, axis_a, axis_b, a, b);
@@ -62,8 +62,8 @@ class LaneRowList {
   int rows_ = 0;
 };
 
-/// Rows compiled for a scene: evaluates them for many configurations, in the lanes of wide registers. Threads can share
-/// it, with a Scratch each.
+/// Rows compiled for a scene. Evaluates many configurations in the lanes of wide registers. Threads may share it, each
+/// with its own Scratch.
 class LaneKinematics {
  public:
   LaneKinematics(const KinematicModel& model, const Parameters& parameters, const LaneRowList& list);

@@ -5,9 +5,9 @@
 
 namespace kinegraph {
 
-// Kinematics as flat numbers, for one configuration or several side by side, one per lane of a wide register. Nothing
-// in this file owns memory or has inline functions, because it is shared with code for other instruction sets.
-// Rotations are column-major.
+// Kinematics as plain arrays, for one configuration or several side by side, one per lane of a wide register. This file
+// defines neither owning types nor inline functions, because code for other instruction sets includes it. Rotations are
+// column-major.
 
 /// The links that move some frames, in topological order; link 0 is the world.
 struct LaneModel {
@@ -22,8 +22,8 @@ struct LaneModel {
   struct Link {
     int parent;
     int first_step, steps;
-    ConstantRotation turn;
-    double R[9], p[3];  ///< the base of the joint in the parent
+    ConstantRotation rotation;
+    double R[9], p[3];  ///< pose of the joint's base in the parent
   };
 
   int links, steps, columns, variables;
@@ -31,20 +31,20 @@ struct LaneModel {
   const Step* step;
 };
 
-/// What is asked of frames: rows of values, and where they depend on the variables.
+/// Rows of values of frames, and their dependence on the variables.
 struct LaneRows {
   struct Frame {
     int link;
-    ConstantRotation turn;
-    double R[9], p[3];  ///< in its link
+    ConstantRotation rotation;
+    double R[9], p[3];  ///< pose in its link
   };
-  /// What a twist column contributes to the rows of a block.
+  /// The contribution of a twist column to the rows of a block.
   struct Entry {
     int column;
     int variable;
-    bool turns;  ///< else it slides
-    bool of_b;   ///< moves frame b, not a
-    bool adds;   ///< to an earlier entry of the same variable
+    bool is_rotation;  ///< otherwise a translation
+    bool of_b;         ///< moves frame b instead of a
+    bool adds;         ///< adds to an earlier entry of the same variable
   };
   struct Block {
     enum Kind : unsigned char {
@@ -58,13 +58,13 @@ struct LaneRows {
       axis_offset,
       axis_relative,
       axis_product,  ///< (R_a e) . (R_b e') (1)
-      twist,         ///< no values; the Jacobian of p_a, and of the angular velocity (6)
+      twist,         ///< no values; Jacobian of p_a and of the angular velocity (6)
       joint,         ///< scale * x + shift (1)
     };
     Kind kind;
-    bool canonical;  ///< of a quaternion: of the two signs, that whose first entry other than 0 is positive
+    bool canonical;  ///< for quaternions: the first nonzero component is positive
     int row, rows;
-    int a, b;  ///< frames; of `joint`: the variable is a
+    int a, b;  ///< frames; for `joint`, a is the variable
     int axis_a, axis_b;
     int first_entry, entries;
     double scale, shift;
@@ -76,26 +76,26 @@ struct LaneRows {
   const Entry* entry;
 };
 
-/// Scratch: one row of lanes per number, aligned for the widest register.
+/// Scratch memory: one pack of lanes per number, aligned for the widest register.
 struct LaneMemory {
   static constexpr int kPerPose = 12, kPerColumn = 6;
 
   double* x;         ///< (variables)
-  double* pose;      ///< (links, 12); that of the world is the identity
-  double* motion;    ///< (columns, 6): angular velocity and a point of the axis, or 0 and the linear velocity
+  double* pose;      ///< (links, 12); the world's is the identity
+  double* motion;    ///< (columns, 6): angular velocity and a point on the axis, or 0 and the linear velocity
   double* frame;     ///< (frames, 12)
   double* y;         ///< (rows)
   double* jacobian;  ///< (rows, variables); comes filled with zeros
 };
 
-/// Configurations in, values and Jacobians out, a row each.
+/// Input configurations, output values and Jacobians, one row each.
 struct LaneBatch {
   const double* Q;
   long Q_stride;
   int count;
-  double* y;  ///< null: not wanted
+  double* y;  ///< null if not needed
   long y_stride;
-  double* J;        ///< null: not wanted
+  double* J;        ///< null if not needed
   long J_stride;    ///< between configurations
   long row_stride;  ///< between rows of one of them
 };
@@ -103,11 +103,11 @@ struct LaneBatch {
 using RunLanes = void (*)(const LaneModel& model, const LaneRows& rows, const LaneMemory& memory,
                           const LaneBatch& batch);
 
-/// The kernel for `width` lanes, one of laneWidths().
+/// Returns the kernel for `width` lanes, one of laneWidths().
 RunLanes laneKernel(int width);
 
 namespace lanes {
-/// One per instruction set.
+/// One function per instruction set.
 void runRowsBase(const LaneModel& model, const LaneRows& rows, const LaneMemory& memory, const LaneBatch& batch);
 void runRowsAvx2(const LaneModel& model, const LaneRows& rows, const LaneMemory& memory, const LaneBatch& batch);
 void runRowsAvx512(const LaneModel& model, const LaneRows& rows, const LaneMemory& memory, const LaneBatch& batch);

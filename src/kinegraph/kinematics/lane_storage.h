@@ -8,11 +8,11 @@
 
 namespace kinegraph {
 
-/// Gives each part (a pointer and its number of rows of `lanes` numbers) its place in `storage`, aligned for registers
-/// of that size. All zeros.
+/// Assigns each part (a pointer and its number of rows of `lanes` numbers) its place in `storage`, aligned for
+/// registers of this size. Fills the storage with zeros.
 template <std::size_t Parts>
 void layOutLanes(std::vector<double>& storage, int lanes, const std::pair<double**, std::size_t> (&parts)[Parts]) {
-  std::size_t rows = 1;  // one more, to begin at a multiple of the register's size
+  std::size_t rows = 1;  // one more row for alignment
   for (const auto& [part, size] : parts) rows += size;
   storage.assign(rows * lanes, 0.);
   const std::uintptr_t width = lanes * sizeof(double);
@@ -24,7 +24,7 @@ void layOutLanes(std::vector<double>& storage, int lanes, const std::pair<double
   }
 }
 
-/// Makes the pose of the world, the first one, the identity.
+/// Sets the pose of the world, the first one, to the identity.
 inline void setWorld(double* pose, int lanes) {
   for (int k : {0, 4, 8}) std::fill_n(pose + k * lanes, lanes, 1.);
 }

@@ -6,7 +6,7 @@ namespace kinegraph {
 
 namespace {
 
-/// A sphere around those of all bodies of a group.
+/// Computes a sphere around those of all bodies of a group.
 void bound(LinkBodies::Group& group, const std::vector<LinkBodies::Body>& bodies) {
   Vector3d low = Vector3d::Constant(1e300), high = -low;
   const auto centerOf = [](const LinkBodies::Body& body) { return body.X_LB * body.shape->boundCenter(); };
@@ -48,7 +48,7 @@ LinkBodies::LinkBodies(const State& scene) : model(scene.sharedModel()) {
   const auto linkOf = [&](const Body& body) { return model->frame_link[std::size_t(body.frame)]; };
   std::stable_sort(bodies.begin(), bodies.end(), [&](const Body& x, const Body& y) {
     const int a = linkOf(x), b = linkOf(y);
-    return a != 0 && b != 0 ? a < b : a > b;  // the world is the last
+    return a != 0 && b != 0 ? a < b : a > b;  // the world comes last
   });
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     const int link = linkOf(bodies[i]);

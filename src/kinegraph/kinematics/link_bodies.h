@@ -9,29 +9,29 @@
 
 namespace kinegraph {
 
-/// The bodies of a scene, grouped by the links that they are fixed to, and the pairs of them that count where it is
-/// asked whether a q is free. What is fixed to the world is a group of its own each: such bodies are not near one
-/// another.
+/// The collision bodies of a scene grouped by link, and the pairs that collision checks consider. Each body fixed to
+/// the world forms a group of its own, since such bodies need not be near each other.
 struct LinkBodies {
-  static constexpr std::size_t kMostListed = 64;  ///< bodies fixed to the world; of more, pairs are not listed
+  static constexpr std::size_t kMostListed = 64;  ///< maximum number of bodies fixed to the world for which pairs are
+                                                  ///< listed
 
   struct Body {
     std::shared_ptr<const CollisionBody> shape;
-    int frame, contact;  ///< id; place in the Program's ContactRules
+    int frame, contact;  ///< id; index in the model's ContactRules
     int group;
-    RigidTransform X_LB;  ///< in its link
-    double reach;         ///< no point of it is farther from the link's origin, m
+    RigidTransform X_LB;  ///< pose in its link
+    double reach;         ///< largest distance of its points from the link's origin, m
   };
   struct Group {
     int link;
     int first, last;  ///< bodies [first, last)
-    Vector3d center;  ///< of the bounding sphere, in the link
+    Vector3d center;  ///< center of the bounding sphere, in the link
     double radius, reach;
   };
   struct Pair {
-    int a, b;      ///< bodies, of which a moves
-    int ancestor;  ///< the last link that both hang on
-    bool convex;   ///< both of them
+    int a, b;      ///< bodies; a moves
+    int ancestor;  ///< last common ancestor of their links
+    bool convex;   ///< both bodies are convex
   };
   /// All pairs of two groups.
   struct Block {
@@ -48,11 +48,11 @@ struct LinkBodies {
   void appendPairs(int group_a, int group_b, std::vector<Pair>& to) const;
 
   std::vector<Body> bodies;
-  std::vector<Group> groups;  ///< those that move come first
-  int moving = 0;             ///< groups
+  std::vector<Group> groups;  ///< moving groups come first
+  int moving = 0;             ///< number of moving groups
   std::vector<Pair> pairs;
   std::vector<Block> blocks;
-  bool many = false;   ///< are the fixed bodies too many, so that `fixed_tree` has them and `blocks` have not?
+  bool many = false;   ///< there are more than kMostListed fixed bodies, which are in `fixed_tree` instead of `blocks`
   BoxTree fixed_tree;  ///< item i is group moving + i
   std::shared_ptr<const KinematicModel> model;
 };

@@ -1,15 +1,15 @@
 #pragma once
 
-// The formulas of features of frame poses, for numbers S that are double or packs of doubles (one configuration per
-// lane); local to each source file that includes it, as is lane_math.h. The features evaluate them for a State
+// Formulas of features of frame poses, for numbers S that are double or packs of doubles (one configuration per lane).
+// Like lane_math.h they are local to each source file that includes them. Features evaluate them for a State
 // (features/eval_formula.h), the kernels in lanes for many configurations (lane_kernel_body.h).
 //
-// A formula has `kRows` rows. `value` writes them; `rate` writes how they change with a motion, which has an `angular`
-// velocity and a `velocityAt(point)` of what it moves: frame a, or b if `of_b`. The motions differ: a State keeps the
-// velocity at the world's origin, lanes a point of the axis. So Jacobians of both agree to rounding, not in bits.
+// A formula has `kRows` rows. `value` computes them. `rate` computes their derivatives for a motion of frame a, or of b
+// if `of_b`, which has an `angular` velocity and a `velocityAt(point)`. A State stores the velocity at the world's
+// origin, lanes store a point on the axis. The Jacobians of both therefore agree up to rounding only.
 //
-// Of a State, three are computed otherwise, with other last bits: quaternions and axes relative to a frame
-// (features/orientation.cpp), and the value of relative positions (features/position.cpp). Why is said there.
+// Features of a State use other formulas in three cases, with other last bits: quaternions and axes relative to a frame
+// (features/orientation.cpp), and the value of relative positions (features/position.cpp). The reasons are given there.
 
 #include "kinegraph/math/lane_math.h"
 
@@ -17,7 +17,7 @@ namespace kinegraph::lanes {
 
 namespace {
 
-/// Transposed R, given by its columns, times a.
+/// Returns the transpose of R, given by its columns, times a.
 template <class S>
 Vec3<S> inFrame(const Vec3<S>* R, const Vec3<S>& a) {
   return {dot(R[0], a), dot(R[1], a), dot(R[2], a)};
@@ -50,7 +50,7 @@ struct OffsetRows {
   }
 };
 
-/// y = R_b^T (p_a - p_b): a motion of b alone moves a the other way, as seen from b.
+/// y = R_b^T (p_a - p_b): a motion of b alone moves a in the opposite direction relative to b.
 template <class S>
 struct RelativePositionRows {
   static constexpr int kRows = 3;
@@ -118,7 +118,7 @@ struct AxisProductRows {
   }
 };
 
-/// The velocities of a point p of frame a, and of the frame's rotation. They have no values.
+/// Velocity of a point p of frame a, and the frame's angular velocity. There are no values.
 template <class S>
 struct TwistRows {
   static constexpr int kRows = 6;
@@ -137,8 +137,7 @@ struct QuaternionOf {
   Vec3<S> v;
 };
 
-/// Of a rotation matrix, given by its columns; the entry of greatest size, or w where the trace is positive, is the
-/// positive one.
+/// Converts a rotation matrix, given by its columns. The largest component, or w if the trace is positive, is positive.
 template <class S>
 QuaternionOf<S> toQuaternion(const Vec3<S>* R) {
   const S trace = R[0].x + R[1].y + R[2].z;
@@ -164,7 +163,7 @@ QuaternionOf<S> negated(Mask mask, const QuaternionOf<S>& q) {
   return {mask ? -q.w : q.w, choose(mask, -q.v, q.v)};
 }
 
-/// Of the two signs, that whose first entry other than 0 is positive.
+/// Returns the sign for which the first nonzero component is positive.
 template <class S>
 QuaternionOf<S> canonical(const QuaternionOf<S>& q) {
   const auto z = q.v.z < 0.;
@@ -209,7 +208,7 @@ struct QuaternionRows {
   }
 };
 
-/// y = q_a - q_b, with the sign of q_b for which they are nearer
+/// y = q_a - q_b, with the sign of q_b that is nearer to q_a
 template <class S>
 struct QuaternionOffsetRows {
   static constexpr int kRows = 4;

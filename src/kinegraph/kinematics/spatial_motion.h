@@ -14,7 +14,7 @@ struct Motion {
   }
 };
 
-/// Rate of a velocity field B that is carried along by A: their Lie bracket.
+/// Returns the rate of a velocity field B that moves with A: their Lie bracket.
 inline Motion carried(const Motion& A, const Motion& B) {
   return {A.angular.cross(B.angular), A.angular.cross(B.linear) + A.linear.cross(B.angular)};
 }
@@ -29,7 +29,7 @@ struct Wrench {
   }
 };
 
-/// Rate of a wrench that is carried along by A.
+/// Returns the rate of a wrench that moves with A.
 inline Wrench carried(const Motion& A, const Wrench& w) {
   return {A.angular.cross(w.angular) + A.linear.cross(w.linear), A.angular.cross(w.linear)};
 }

@@ -12,7 +12,7 @@ State::State(std::shared_ptr<const KinematicModel> model, std::shared_ptr<const 
       q_(model_->home),
       link_pose_(model_->links.size() + 1),
       twists_(model_->column_dof.size() + 1),
-      turns_(model_->turn_dof.size()) {
+      sines_cosines_(model_->angle_dof.size()) {
   update();
 }
 
@@ -28,18 +28,19 @@ void State::setParameters(std::shared_ptr<const Parameters> parameters) {
 
 void State::update() {
   static_assert(sizeof(RigidTransform) == 12 * sizeof(double) && sizeof(Twist) == 6 * sizeof(double) &&
-                sizeof(Turn) == 2 * sizeof(double));
+                sizeof(SineCosine) == 2 * sizeof(double));
   static const UpdateState kernel = stateKernel();
   const KinematicModel& model = *model_;
   const Parameters& parameters = *parameters_;
-  kernel({parameters.link.data(), int(parameters.link.size()), parameters.step.data(), model.turn_dof.data(),
-          parameters.turn_factor.data(), int(model.turn_dof.size()), q_.data(),
-          reinterpret_cast<double*>(turns_.data()), link_pose_[0].R.data(), reinterpret_cast<double*>(twists_.data())});
+  kernel({parameters.link.data(), int(parameters.link.size()), parameters.step.data(), model.angle_dof.data(),
+          parameters.angle_factor.data(), int(model.angle_dof.size()), q_.data(),
+          reinterpret_cast<double*>(sines_cosines_.data()), link_pose_[0].R.data(),
+          reinterpret_cast<double*>(twists_.data())});
 }
 
 namespace {
 
-/// Columns [from, to). Apart, as there are seldom any.
+/// Clears the columns [from, to). Separate because it is rarely needed.
 [[gnu::noinline]] void clearColumns(double* rows, Eigen::Index stride, int from, int to) {
   for (int r = 0; r < 6; ++r) std::fill(rows + r * stride + from, rows + r * stride + to, 0.);
 }
@@ -52,7 +53,8 @@ void State::jacobian(int frame, const Vector3d& p_WQ, JacobianRows J) const {
   const double x = p_WQ[0], y = p_WQ[1], z = p_WQ[2];
   const int *before = model_->column_before.data(), *dof = model_->column_dof.data();
   const Twist* twists = twists_.data();
-  int done = dofs();  // entries from here on; up a chain dofs mostly descend, and what lies between them is zero
+  int done = dofs();  // entries from here on are written; dofs mostly descend along a chain, and those in between are
+                      // zero
   for (int c = model_->last_column[link(frame)]; c >= 0; c = before[c]) {
     if (dof[c] >= done) {
       J.setZero();
@@ -106,7 +108,7 @@ void State::addAngularJacobian(int frame, double factor, JacobianRows J) const {
   }
 }
 
-/// `velocity(twist)` is that of what is looked at.
+/// `velocity(twist)` is the velocity of the point or direction.
 template <class Velocity>
 void State::addCurvature(int frame, const Velocity& velocity, const Vector3d& weight, Eigen::Ref<MatrixXd> H) const {
   const int *before = model_->column_before.data(), *dof = model_->column_dof.data();

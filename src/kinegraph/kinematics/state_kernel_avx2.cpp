@@ -4,7 +4,7 @@ namespace kinegraph::lanes {
 
 namespace {
 
-/// As Packed3, in one register; the last number is 0.
+/// A vector as Packed3 in one register; the last number is 0.
 struct Wide3 {
   using Scalar = double;
   Pack<4> xyz;
@@ -22,7 +22,7 @@ inline Wide3 cross(const Wide3& a, const Wide3& b) {
 inline void load(const double* from, Wide3& to) { to = {Pack<4>{from[0], from[1], from[2], 0.}}; }
 inline void store(const Wide3& a, double* to) {
   __builtin_memcpy(to, &a.xyz, sizeof(a.xyz));
-}  // in order: see StateArrays
+}  // stores in order: see StateArrays
 
 }  // namespace
 

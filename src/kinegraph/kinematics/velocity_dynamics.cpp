@@ -12,10 +12,10 @@ namespace {
 
 constexpr int kQuaternion = 4, kAngular = 3;
 
-/// Where the velocities of each dof begin in v; of a quaternion, that of its first dof counts.
+/// First velocity in v of each dof; for quaternions, of the first of their dofs.
 struct VelocityLayout {
   std::vector<int> place;
-  std::vector<char> is_quaternion;  ///< per dof: does one begin here?
+  std::vector<char> is_quaternion;  ///< per dof: true for the first dof of a quaternion
   int size = 0;
 
   explicit VelocityLayout(const KinematicModel& model)
@@ -39,23 +39,24 @@ struct VelocityLayout {
   }
 };
 
-/// dq/dt of a quaternion (w, x, y, z) for the angular velocity in the axes that it gives: 1/2 q (0, w), per entry of w.
+/// Returns dq/dt of a quaternion (w, x, y, z) for an angular velocity w in its own axes: 1/2 q (0, w), one column per
+/// entry of w.
 Eigen::Matrix<double, kQuaternion, kAngular> quaternionRates(const Eigen::Ref<const Eigen::Vector4d>& q) {
   Eigen::Matrix<double, kQuaternion, kAngular> rates;
   rates << -q[1], -q[2], -q[3], q[0], -q[3], q[2], q[3], q[0], -q[1], -q[2], q[1], q[0];
   return .5 * rates;
 }
 
-/// How a link moves with an entry of v, and how that changes over time.
+/// Motion of a link per unit of an entry of v, and its rate.
 struct Column {
   int velocity;
   Motion motion, rate;
 };
 
-/// Columns of all links, and the velocity of each; a link has those of its parent first.
+/// Columns and velocities of all links; a link has the columns of its parent first.
 struct LinkColumns {
   std::vector<Column> columns;
-  std::vector<std::vector<int>> of_link;  ///< in `columns`
+  std::vector<std::vector<int>> of_link;  ///< per link: indices in `columns`
   std::vector<Motion> velocity;           ///< per link
 };
 
@@ -96,7 +97,7 @@ LinkColumns findColumns(const State& state, const VelocityLayout& layout, const 
   return out;
 }
 
-bool weighsNothing(const LinkInertia& inertia) { return inertia.mass == 0. && inertia.matrix.isZero(0.); }
+bool isMassless(const LinkInertia& inertia) { return inertia.mass == 0. && inertia.matrix.isZero(0.); }
 
 }  // namespace
 
@@ -126,14 +127,14 @@ RigidBodyDynamics rigidBodyDynamics(const State& state, const std::vector<LinkIn
   RigidBodyDynamics out{MatrixXd::Zero(layout.size, layout.size), MatrixXd::Zero(layout.size, layout.size),
                         VectorXd::Zero(layout.size)};
   for (std::size_t l = 1; l < inertias.size(); ++l) {
-    if (weighsNothing(inertias[l])) continue;
+    if (isMassless(inertias[l])) continue;
     const WorldInertia inertia(inertias[l], state.linkPose(int(l)));
     const Motion& V = motions.velocity[l];
     const Wrench momentum = inertia.times(V), weight = inertia.times({Vector3d::Zero(), -gravity});
     for (const int d : motions.of_link[l]) {
       const Column& column = motions.columns[std::size_t(d)];
       const Wrench wrench = inertia.times(column.motion);
-      // What the momentum changes by, split such that C + C^T is the rate of M.
+      // Rate of the momentum, split such that C + C^T is the rate of M.
       Wrench rate = inertia.times(column.rate);
       rate.add(.5, carried(V, wrench));
       rate.add(-.5, inertia.times(carried(V, column.motion)));
@@ -155,7 +156,7 @@ MatrixXd centroidalMomentumMatrix(const State& state, const std::vector<LinkIner
   const Vector3d center = centerOfMass(state, inertias).second;
   MatrixXd A = MatrixXd::Zero(6, layout.size);
   for (std::size_t l = 1; l < inertias.size(); ++l) {
-    if (weighsNothing(inertias[l])) continue;
+    if (isMassless(inertias[l])) continue;
     const WorldInertia inertia(inertias[l], state.linkPose(int(l)));
     for (const int c : motions.of_link[l]) {
       const Column& column = motions.columns[std::size_t(c)];

@@ -9,22 +9,22 @@ namespace {
 
 using FramePairs = std::vector<std::pair<int, int>>;  // ascending
 
-/// Collisions that are forbidden at a time.
+/// Collisions that are constrained in a slice or motion.
 struct Constrained {
   bool all = false;  ///< of all shapes that may collide
-  FramePairs named;  ///< some of these
-  FramePairs apart;  ///< frames that keep a distance; their shapes need not be among those
+  FramePairs named;  ///< pairs of such shapes
+  FramePairs apart;  ///< pairs of frames that keep a distance; their shapes need not be allowed to collide otherwise
 
   bool any() const { return all || !named.empty() || !apart.empty(); }
 };
 
 enum class Kind { none, all, named, apart };
 
-/// What an objective forbids in its slices.
+/// Returns the kind of constraint that an objective imposes in its slices.
 Kind kindOf(const Objective& objective) {
   using S = FeatureSymbol;
   const bool is_inequality = objective.type == ObjectiveType::ineq || objective.type == ObjectiveType::ineqB;
-  if (objective.order != 0 && !objective.on_the_way) return Kind::none;
+  if (objective.order != 0 && !objective.between_slices) return Kind::none;
   if (objective.feature == S::accumulatedCollisions || objective.feature == S::pairCollisions) {
     if (!is_inequality && objective.type != ObjectiveType::eq) return Kind::none;
     return objective.frames.empty() ? Kind::all : Kind::named;
@@ -57,12 +57,12 @@ void sortUnique(FramePairs& pairs) {
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
-/// In a slice, or on the way to it; frames are those of the slice whose Program this is.
-Constrained forbiddenIn(const std::vector<Objective>& objectives, const KinematicModel& model, int slice,
-                        bool on_the_way) {
+/// Returns the constraints in a slice, or on the motion to it. Frames are those of the kinematic model of the slice.
+Constrained constrainedIn(const std::vector<Objective>& objectives, const KinematicModel& model, int slice,
+                          bool between_slices) {
   Constrained found;
   for (const Objective& objective : objectives) {
-    if (objective.on_the_way != on_the_way || slice < objective.from || slice > objective.to) continue;
+    if (objective.between_slices != between_slices || slice < objective.from || slice > objective.to) continue;
     const Kind kind = kindOf(objective);
     if (kind == Kind::all) found.all = true;
     if (kind == Kind::named || kind == Kind::apart) addPairs(model, objective, kind, found);
@@ -72,7 +72,7 @@ Constrained forbiddenIn(const std::vector<Objective>& objectives, const Kinemati
   return found;
 }
 
-/// What is forbidden at both times.
+/// Returns the collisions that both constraints forbid.
 Constrained inBoth(const Constrained& one, const Constrained& other) {
   const auto common = [](const FramePairs& a, const FramePairs& b, FramePairs& to) {
     std::ranges::set_intersection(a, b, std::back_inserter(to));
@@ -88,13 +88,13 @@ Constrained inBoth(const Constrained& one, const Constrained& other) {
   return both;
 }
 
-Constrained forbiddenOnMotion(const Path& path, const std::vector<Objective>& objectives, int slice) {
+Constrained constrainedOnMotion(const Path& path, const std::vector<Objective>& objectives, int slice) {
   const KinematicModel& model = path.state(slice - 1).model();
-  Constrained found = forbiddenIn(objectives, model, slice, true);
+  Constrained found = constrainedIn(objectives, model, slice, true);
   if (path.grid().slicesPerPhase() == 1) return found;
-  Constrained at_end = forbiddenIn(objectives, model, slice, false);
+  Constrained at_end = constrainedIn(objectives, model, slice, false);
   const Constrained both =
-      slice == 0 ? std::move(at_end) : inBoth(forbiddenIn(objectives, model, slice - 1, false), at_end);
+      slice == 0 ? std::move(at_end) : inBoth(constrainedIn(objectives, model, slice - 1, false), at_end);
   found.all = found.all || both.all;
   found.named.insert(found.named.end(), both.named.begin(), both.named.end());
   found.apart.insert(found.apart.end(), both.apart.begin(), both.apart.end());
@@ -106,7 +106,7 @@ Constrained forbiddenOnMotion(const Path& path, const std::vector<Objective>& ob
 bool constrainsAnyMotion(const Path& path, const std::vector<Objective>& objectives) {
   const bool are_waypoints = path.grid().slicesPerPhase() == 1;
   return std::ranges::any_of(objectives, [&](const Objective& objective) {
-    return kindOf(objective) != Kind::none && (objective.on_the_way || !are_waypoints) &&
+    return kindOf(objective) != Kind::none && (objective.between_slices || !are_waypoints) &&
            std::max(objective.from, firstMotion(path)) <= objective.to;
   });
 }
@@ -114,18 +114,18 @@ bool constrainsAnyMotion(const Path& path, const std::vector<Objective>& objecti
 std::vector<SliceMotion> constrainedMotions(const Path& path, const std::vector<Objective>& objectives) {
   std::vector<SliceMotion> motions;
   for (int slice = firstMotion(path); slice < path.grid().slices(); ++slice) {
-    Constrained forbidden = forbiddenOnMotion(path, objectives, slice);
-    if (!forbidden.any()) continue;
+    Constrained constrained = constrainedOnMotion(path, objectives, slice);
+    if (!constrained.any()) continue;
     SliceMotion& motion = motions.emplace_back(motionInto(path, slice));
-    motion.of_all = forbidden.all;
-    if (!forbidden.all) motion.pairs = std::move(forbidden.named);
-    motion.pairs.insert(motion.pairs.end(), forbidden.apart.begin(), forbidden.apart.end());
+    motion.all_pairs = constrained.all;
+    if (!constrained.all) motion.pairs = std::move(constrained.named);
+    motion.pairs.insert(motion.pairs.end(), constrained.apart.begin(), constrained.apart.end());
     sortUnique(motion.pairs);
   }
   return motions;
 }
 
-ValidityReport judge(const std::vector<SliceMotion>& motions, const CancellationToken& cancellation) {
+ValidityReport reportCollisions(const std::vector<SliceMotion>& motions, const CancellationToken& cancellation) {
   constexpr double kTolerance = 1e-5;  // m
   const std::vector<PathContact> contacts = contactsOf(motions, 0., kTolerance, cancellation);
   if (contacts.empty()) return {};

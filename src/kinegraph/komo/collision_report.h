@@ -6,18 +6,20 @@
 
 namespace kinegraph {
 
-// Which motions between slices the constraints of a problem forbid to collide: those on the way to slices, and those
-// between two slices in both of which a collision is forbidden. It is that of all shapes, or of pairs: those of the
-// named frames of accumulatedCollisions and pairCollisions, and the two frames of an inequality on their distance. Where
-// slices are waypoints, one per phase, what is said of them says nothing of the motion.
+// Collects the motions between slices that the constraints of a problem require to be collision-free, and checks them.
+// A motion counts if an objective constrains the motions between slices, or if the objectives forbid a collision in
+// both of its slices. A constraint concerns either all shapes or certain pairs: those of the frames named in
+// accumulatedCollisions or pairCollisions, and the two frames of an inequality on their distance. With one slice per
+// phase the slices are waypoints, and constraints in slices imply nothing about the motions between them.
 
-/// The motions of which there is anything to say, with the pairs that count.
+/// Returns the constrained motions, with the pairs that count.
 std::vector<SliceMotion> constrainedMotions(const Path& path, const std::vector<Objective>& objectives);
 
-/// Is there any? Looks at no values.
+/// Returns true if constrainedMotions would find any. Depends only on the objectives, not on the present path.
 bool constrainsAnyMotion(const Path& path, const std::vector<Objective>& objectives);
 
-/// Are they free, to 1e-5 m? Names the deepest contact. `cancellation` is called between motions, and may throw.
-ValidityReport judge(const std::vector<SliceMotion>& motions, const CancellationToken& cancellation);
+/// Checks that the motions are collision-free up to 1e-5 m; the report names the deepest contact. `cancellation` is
+/// polled between motions, and may throw.
+ValidityReport reportCollisions(const std::vector<SliceMotion>& motions, const CancellationToken& cancellation);
 
 }  // namespace kinegraph

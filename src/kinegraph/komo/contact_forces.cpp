@@ -10,9 +10,9 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kLeastForce = 1e-3, kLargestForce = 10.;  ///< in weights of the object
+constexpr double kSmallestForce = 1e-3, kLargestForce = 10.;  ///< in units of the object's weight
 
-/// Where two bodies are nearest: the point on the first, and the direction to it from the second.
+/// Returns the point on `object` that is nearest to `from`, and the direction to it from there.
 std::pair<Vector3d, Vector3d> nearestPoint(const State& state, int object, int from) {
   const State* states[] = {&state};
   Vector3d point, normal;
@@ -21,38 +21,39 @@ std::pair<Vector3d, Vector3d> nearestPoint(const State& state, int object, int f
   return {point, normal};
 }
 
-/// The force that is demanded, on a path that does not have it yet. Throws for what does not fit.
-ContactForce readDemand(const Path& path, const ContactSpec& demand) {
+/// Validates the specification and returns its force, whose dofs do not exist yet. Throws if the specification does not
+/// fit the path.
+ContactForce readSpec(const Path& path, const ContactSpec& spec) {
   path.requireBuilt("addContactForceFrame");
   const KinematicModel& before = path.state(-path.grid().order()).model();
   ContactForce contact;
-  contact.object = frameId(before, demand.object, "addContactForceFrame");
-  contact.from = frameId(before, demand.from, "addContactForceFrame");
+  contact.object = frameId(before, spec.object, "addContactForceFrame");
+  contact.from = frameId(before, spec.from, "addContactForceFrame");
   if (contact.object == contact.from)
-    throw ValueError(cat("addContactForceFrame: '", demand.object, "' cannot push itself"));
-  if (!(demand.friction > 0.)) {
+    throw ValueError(cat("addContactForceFrame: '", spec.object, "' cannot push itself"));
+  if (!(spec.friction > 0.)) {
     throw ValueError(
-        cat("addContactForceFrame: the coefficient of friction is ", demand.friction, "; expected a positive number"));
+        cat("addContactForceFrame: the coefficient of friction is ", spec.friction, "; expected a positive number"));
   }
-  if (!(demand.mass > 0.))
-    throw ValueError(cat("addContactForceFrame: the mass is ", demand.mass, " kg; expected a positive number"));
-  contact.unit = -kGravity.z() * demand.mass;
-  contact.is_free = demand.is_free;
+  if (!(spec.mass > 0.))
+    throw ValueError(cat("addContactForceFrame: the mass is ", spec.mass, " kg; expected a positive number"));
+  contact.unit = -kGravity.z() * spec.mass;
+  contact.is_free = spec.is_free;
   return contact;
 }
 
-/// A joint whose dofs are a force.
+/// Returns a joint whose dofs are a force.
 Attachment forceDofs(bool is_free) {
   Attachment attachment;
   attachment.type = is_free ? JointType::trans3 : JointType::transZ;
   attachment.stable = false;
   attachment.uniform = true;
-  attachment.lower = VectorXd::Constant(is_free ? 3 : 1, is_free ? -kLargestForce : kLeastForce);
+  attachment.lower = VectorXd::Constant(is_free ? 3 : 1, is_free ? -kLargestForce : kSmallestForce);
   attachment.upper = VectorXd::Constant(is_free ? 3 : 1, kLargestForce);
   return attachment;
 }
 
-/// Starts with the point at X_WP in the world, and the weight of the object as force.
+/// Initializes the point at X_WP in the world, and the force with the weight of the object.
 void startContact(Path& path, const ContactForce& contact, const Pose& X_WP, const Vector3d& normal) {
   const int start = -path.grid().order();
   for (int t = start; t < path.grid().slices(); ++t) {
@@ -68,10 +69,11 @@ void startContact(Path& path, const ContactForce& contact, const Pose& X_WP, con
   }
 }
 
-/// The bodies touch at the point, its z axis is along their normals, and the force is within the cone of friction.
-void requireContact(MotionProblem& motion, const ContactSpec& demand, const ContactForce& contact,
+/// Adds the constraints: the bodies touch at the point, its z axis is along their normals, and the force is within the
+/// friction cone.
+void requireContact(MotionProblem& motion, const ContactSpec& spec, const ContactForce& contact,
                     const std::string& name) {
-  const std::string &object = demand.object, &from = demand.from;
+  const std::string &object = spec.object, &from = spec.from;
   const auto require = [&](const FeatureSource& feature, std::vector<std::string> frames, ObjectiveType type,
                            double scale) {
     motion.require({.feature = feature,
@@ -79,7 +81,7 @@ void requireContact(MotionProblem& motion, const ContactSpec& demand, const Cont
                     .type = type,
                     .scale = MatrixXd::Constant(1, 1, scale),
                     .order = 0,
-                    .times = demand.times});
+                    .times = spec.times});
   };
   const auto align = [&](const std::string& body, double sign) {
     require(FeatureRecipe{"pairNormalAlign", {}, sign}, {name, body}, ObjectiveType::sos, .1);
@@ -90,31 +92,31 @@ void requireContact(MotionProblem& motion, const ContactSpec& demand, const Cont
   require(FeatureRecipe{"pairNormalsOppose"}, {object, from, name}, ObjectiveType::sos, 1e1);
   align(object, 1.);
   align(from, -1.);
-  require(FeatureRecipe{"frictionCone", contact, demand.friction}, {object, from, name}, ObjectiveType::ineq, 1.);
+  require(FeatureRecipe{"frictionCone", contact, spec.friction}, {object, from, name}, ObjectiveType::ineq, 1.);
 }
 
 }  // namespace
 
-std::string addContactForce(MotionProblem& motion, const ContactSpec& demand) {
+std::string addContactForce(MotionProblem& motion, const ContactSpec& spec) {
   Path& path = motion.path;
-  ContactForce contact = readDemand(path, demand);
-  const auto [from, to] = path.grid().select(demand.times);
+  ContactForce contact = readSpec(path, spec);
+  const auto [from, to] = path.grid().select(spec.times);
   if (from > to) {
     throw ValueError(
-        cat("addContactForceFrame between '", demand.object, "' and '", demand.from, "': its times select no slice"));
+        cat("addContactForceFrame between '", spec.object, "' and '", spec.from, "': its times select no slice"));
   }
   const int start = -path.grid().order();
-  const double time = demand.times.empty() ? path.grid().timeOf(from) : demand.times[0];
-  const std::string name = cat("poa_", demand.object, "_", demand.from, "_", time);
+  const double time = spec.times.empty() ? path.grid().timeOf(from) : spec.times[0];
+  const std::string name = cat("poa_", spec.object, "_", spec.from, "_", time);
   const auto [point, normal] = nearestPoint(path.state(start), contact.object, contact.from);
-  addFrameDof(path, {.name = name, .parent = demand.object, .type = JointType::free, .stable = true});
+  addFrameDof(path, {.name = name, .parent = spec.object, .type = JointType::free, .stable = true});
   contact.point = frameId(path.state(start).model(), name, "addContactForceFrame");
-  contact.dofs = path.addDofs(name + "_force", from, to, forceDofs(demand.is_free));
+  contact.dofs = path.addDofs(name + "_force", from, to, forceDofs(spec.is_free));
   Pose X_WP;
-  X_WP.p = point + demand.distance * normal;
+  X_WP.p = point + spec.distance * normal;
   X_WP.q = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), normal);
   startContact(path, contact, X_WP, normal);
-  requireContact(motion, demand, contact, name);
+  requireContact(motion, spec, contact, name);
   motion.contacts.add(contact);
   return name;
 }

@@ -7,19 +7,19 @@
 
 namespace kinegraph {
 
-/// A force at a point that is fixed on an object, in some slices.
+/// Specification of a force at a point fixed on an object, in some slices.
 struct ContactSpec {
   std::vector<double> times;
   std::string object, from;
-  double friction;       ///< coefficient
+  double friction;       ///< friction coefficient
   double mass;           ///< kg; forces are in units of its weight
-  bool is_free = false;  ///< three dofs per slice; else one, along the z axis of the point
-  double distance = 0.;  ///< m: how far off the object the point starts
+  bool is_free = false;  ///< three dofs per slice; otherwise one, along the z axis of the point
+  double distance = 0.;  ///< initial distance of the point from the object, m
 };
 
-/// In the slices that its times select, `from` pushes `object` at a point where they touch, within the cone of friction.
-/// The point is a frame on the object, the same in all slices; its name is returned. Throws FrameNotFound and
-/// ValueError.
-std::string addContactForce(MotionProblem& motion, const ContactSpec& demand);
+/// Lets `from` push `object` at a point of contact, in the slices that the times select. The force is constrained to
+/// the friction cone. The point is a frame on the object, the same in all slices. Returns its name. Throws
+/// FrameNotFound and ValueError.
+std::string addContactForce(MotionProblem& motion, const ContactSpec& spec);
 
 }  // namespace kinegraph

@@ -10,13 +10,13 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kThrough = .01;   // m: what is so deep is not a corner that is cut
-constexpr double kReserve = 5e-3;  // m, beyond what a solver aims at: pairs that come so near count from then on
-constexpr double kSame = .1;       // share of the way: instants of a pair that are so near to each other say the same,
-constexpr double kEqual = 1e-9;    // and are the same
-constexpr double kMoved = .01;     // rad or m that a dof moves, at least, before a motion is looked at anew
+constexpr double kDeep = .01;      // m: a deeper contact is a motion through an obstacle, not a cut corner
+constexpr double kReserve = 5e-3;  // m beyond the distance that a solver aims for: closer pairs get a sample
+constexpr double kSame = .1;       // fraction of a motion: samples of a pair closer in time than this are redundant,
+constexpr double kEqual = 1e-9;    // and closer than this are identical
+constexpr double kMoved = .01;     // rad or m that a dof must move before its motion is checked again
 
-/// The margin that the motion can keep.
+/// Returns the margin that the motion can satisfy.
 double marginOf(const Objective& objective, int slice, SliceMotions& motions) {
   if (slice > 0 || objective.margin == 0.) return objective.margin;
   const double limit = objective.margin + 2. * kFreeTolerance, at_begin = motions.clearanceAtBegin(slice, limit);
@@ -27,11 +27,11 @@ int motionsOf(const Objective& objective) { return std::max(objective.to - objec
 
 bool has(const std::vector<CollisionSample>& samples, const CollisionSample& one, double near) {
   return std::ranges::any_of(samples, [&](const CollisionSample& other) {
-    return other.a == one.a && other.b == one.b && std::abs(other.share - one.share) <= near;
+    return other.a == one.a && other.b == one.b && std::abs(other.time - one.time) <= near;
   });
 }
 
-/// In place of an empty one. False if there is none.
+/// Replaces an empty sample. Returns false if there is none.
 bool fill(std::vector<CollisionSample>& samples, const CollisionSample& one) {
   const auto empty = std::ranges::find_if(samples, &CollisionSample::isEmpty);
   if (empty == samples.end()) return false;
@@ -43,7 +43,8 @@ void add(std::vector<CollisionSample>& samples, const CollisionSample& one) {
   if (!has(samples, one, kEqual) && !fill(samples, one)) samples.push_back(one);
 }
 
-/// What is too near on a motion: where it comes nearest on the way, else what was found at any time.
+/// Returns the contacts of a motion that violate the margin: the closest approaches if any were found, otherwise the
+/// contact found by the continuous check.
 std::vector<MotionContact> violationsOf(SliceMotions& motions, int slice, double margin) {
   const std::optional<MotionContact> hit = motions.tooNear(slice, margin);
   if (!hit) return {};
@@ -52,17 +53,17 @@ std::vector<MotionContact> violationsOf(SliceMotions& motions, int slice, double
   return found;
 }
 
-double lackOf(const MotionContact& contact, double margin) {
+double violationOf(const MotionContact& contact, double margin) {
   return std::max(margin + kFreeTolerance - contact.distance, kFreeTolerance);
 }
 
-/// Puts what was found in place of empty instants; what violates the margin also where there are others near to it. Was
-/// there any? `lack` becomes the largest one.
+/// Fills empty samples with the contacts. Contacts that violate the margin are added even if a sample is close in time.
+/// Returns true if a sample was filled. Raises `violation` to the largest one.
 bool fillWith(const std::vector<MotionContact>& found, double margin, std::vector<CollisionSample>& samples,
-              double& lack) {
+              double& violation) {
   bool any = false;
   for (const MotionContact& contact : found) {
-    lack = std::max(lack, margin - contact.distance);
+    violation = std::max(violation, margin - contact.distance);
     const CollisionSample sample{contact.time, contact.a, contact.b};
     const double near = contact.distance < margin ? kEqual : kSame;
     if (!has(samples, sample, near)) any = fill(samples, sample) || any;
@@ -70,13 +71,13 @@ bool fillWith(const std::vector<MotionContact>& found, double margin, std::vecto
   return any;
 }
 
-/// Where a motion goes right through something, the next one may do so a little earlier or later. So that it cannot,
-/// the motions around it get instants in their middle, and then in the middle of these.
-void guard(Objective& objective, int through, const MotionContact& contact) {
+/// A motion through an obstacle could move its collision to an adjacent motion. The motions around it therefore get
+/// samples in their middle, and at the second time in the middle of each half.
+void guard(Objective& objective, int motion, const MotionContact& contact) {
   const int count = int(objective.samples.size()), reach = std::max(2, count / 8);
-  for (int i = std::max(through - reach, 0); i <= std::min(through + reach, count - 1); ++i) {
+  for (int i = std::max(motion - reach, 0); i <= std::min(motion + reach, count - 1); ++i) {
     std::vector<CollisionSample>& samples = objective.samples[std::size_t(i)];
-    const auto at = [&](double share) { return CollisionSample{share, contact.a, contact.b}; };
+    const auto at = [&](double time) { return CollisionSample{time, contact.a, contact.b}; };
     if (!has(samples, at(.5), 0.)) {
       add(samples, at(.5));
     } else {
@@ -88,74 +89,75 @@ void guard(Objective& objective, int through, const MotionContact& contact) {
 
 }  // namespace
 
-bool CheckedMotion::isFar(const SliceMotion& motion) const {
+bool CheckedMotion::hasMoved(const SliceMotion& motion) const {
   const auto moved = [](const VectorXd& a, const VectorXd& b) { return (a - b).lpNorm<Eigen::Infinity>(); };
   return from.size() == 0 || std::max(moved(from, motion.from), moved(to, motion.to)) >= kMoved;
 }
 
-double farOf(const Objective& objective) {
+double cutoffDistance(const Objective& objective) {
   const double far = (objective.slack > 0. ? .5 : 1.) * PairCollisions::kFar,
                apart = objective.margin + objective.slack;
   return far + std::max(apart - .5 * far, 0.);
 }
 
-Refinement refinementOf(double lack) {
-  constexpr double kMuch = .01;  // m: so deep a motion that is nearly free is not, but one through a wall
-  return lack > kMuch ? Refinement::much : lack > 0. ? Refinement::little : Refinement::none;
+Refinement refinementOf(double violation) {
+  constexpr double kMuch = .01;  // m: deeper than any almost collision-free motion, but not than one through a wall
+  return violation > kMuch ? Refinement::much : violation > 0. ? Refinement::little : Refinement::none;
 }
 
 double addSamples(Objective& objective, SliceMotions& motions) {
-  double most = 0.;
+  double largest = 0.;
   const int count = motionsOf(objective);
   objective.samples.resize(std::size_t(count));
   for (int i = 0; i < count; ++i) {
     const int slice = objective.from + i;
     const double margin = marginOf(objective, slice, motions);
     for (const MotionContact& contact : violationsOf(motions, slice, margin)) {
-      const double lack = lackOf(contact, margin);
-      most = std::max(most, lack);
+      const double violation = violationOf(contact, margin);
+      largest = std::max(largest, violation);
       add(objective.samples[std::size_t(i)], {contact.time, contact.a, contact.b});
-      if (lack > kThrough) guard(objective, i, contact);
+      if (violation > kDeep) guard(objective, i, contact);
     }
   }
-  return most;
+  return largest;
 }
 
 std::vector<Objective> withSamples(std::vector<Objective> objectives, const Path& path) {
   MotionProbe probe(kFreeTolerance);
   LinearSliceMotions lines(path, probe);
   for (Objective& objective : objectives) {
-    if (objective.on_the_way) addSamples(objective, lines);
+    if (objective.between_slices) addSamples(objective, lines);
   }
   return objectives;
 }
 
 FilledSamples fillSamples(Objective& objective, SliceMotions& motions, bool is_solution,
-                          std::vector<CheckedMotion>& looked_at) {
+                          std::vector<CheckedMotion>& checked) {
   FilledSamples filled;
-  looked_at.resize(objective.samples.size());
+  checked.resize(objective.samples.size());
   for (int i = 0; i < int(objective.samples.size()); ++i) {
     const int slice = objective.from + i;
     const SliceMotion motion = motions.motionInto(slice);
-    CheckedMotion& last = looked_at[std::size_t(i)];
-    if (!is_solution && !last.isFar(motion)) continue;
+    CheckedMotion& last = checked[std::size_t(i)];
+    if (!is_solution && !last.hasMoved(motion)) continue;
     const double margin = marginOf(objective, slice, motions);
     std::vector<MotionContact> found;
     if (is_solution) {
       found = violationsOf(motions, slice, margin);
       if (found.empty()) continue;
-      for (const MotionContact& contact : found) filled.lack = std::max(filled.lack, lackOf(contact, margin));
+      for (const MotionContact& contact : found)
+        filled.violation = std::max(filled.violation, violationOf(contact, margin));
     } else {
       last = {motion.from, motion.to};
     }
     const double reach = margin < objective.margin ? margin : margin + objective.slack + kReserve;
     std::ranges::copy(motions.approaches(slice, reach), std::back_inserter(found));
-    if (fillWith(found, margin, objective.samples[std::size_t(i)], filled.lack)) filled.motions.push_back(i);
+    if (fillWith(found, margin, objective.samples[std::size_t(i)], filled.violation)) filled.motions.push_back(i);
   }
   return filled;
 }
 
-void keepRoom(Objective& objective, int count) {
+void reserveSamples(Objective& objective, int count) {
   objective.samples.resize(std::size_t(motionsOf(objective)));
   for (std::vector<CollisionSample>& samples : objective.samples) {
     const auto empty = std::ranges::count_if(samples, &CollisionSample::isEmpty);
@@ -163,10 +165,10 @@ void keepRoom(Objective& objective, int count) {
   }
 }
 
-void addApproaches(Objective& objective, SliceMotions& motions, double most) {
+void addApproaches(Objective& objective, SliceMotions& motions, double max_distance) {
   objective.samples.resize(std::size_t(motionsOf(objective)));
   for (std::size_t i = 0; i < objective.samples.size(); ++i) {
-    for (const MotionContact& contact : motions.approaches(objective.from + int(i), most))
+    for (const MotionContact& contact : motions.approaches(objective.from + int(i), max_distance))
       add(objective.samples[i], {contact.time, contact.a, contact.b});
   }
 }

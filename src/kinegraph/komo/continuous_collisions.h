@@ -5,52 +5,57 @@
 
 namespace kinegraph {
 
-// A motion that is to be free at all times is a problem with infinitely many constraints. It is solved with those of
-// the slices, and then again with those of the instants between them at which the solution is not free, until it is.
+// A continuously collision-free motion is a problem with infinitely many constraints. It is solved with the constraints
+// in the slices first. Collision samples are then added at the times between slices at which the solution collides, and
+// the problem is solved again until it is collision-free.
 // Source: Blankenship, Falk, Infinitely constrained optimization problems, 1976; Hauser, Semi-infinite programming for
 // trajectory optimization with non-convex obstacles, 2021.
 
-inline constexpr double kFreeTolerance = 1e-5;  ///< of checks of motions, m
-inline constexpr int kRoomOfMotion = 16;  ///< instants that a solver can take up before its problem is laid out anew
-inline constexpr double kNearToDetour = .05;  ///< m: what a detour comes so near to counts from its beginning on
+inline constexpr double kFreeTolerance = 1e-5;  ///< tolerance of continuous collision checks, m
+inline constexpr int kSpareSamplesPerMotion =
+    16;  ///< empty samples per motion that a solver can fill before its problem is
+         ///< rebuilt
+inline constexpr double kAlternativePathReach =
+    .05;  ///< m: an alternative path starts with samples for all pairs closer than
+          ///< this
 
-/// Pairs that are farther apart than that are not looked at any closer in the separate form of an objective of collisions, m.
-/// Of motions that are to be free it is half as much: what a step brings into the way is found as they are looked at.
-double farOf(const Objective& objective);
+/// Returns the distance (m) beyond which the separate form of a collision objective ignores a pair. It is half as large
+/// for continuously constrained motions, because the samples are updated after each step.
+double cutoffDistance(const Objective& objective);
 
-/// What it means for a solver that pairs are nearer than their margin by so much, at most, m.
-Refinement refinementOf(double lack);
+/// Translates the largest violation of a margin (m) to the solver's terms.
+Refinement refinementOf(double violation);
 
-/// Looks at the motions to the slices of an objective that is `on_the_way`, and adds instants at which pairs are nearer
-/// than its margin. Returns by how much at most, m; 0 if there are none. Where the path begins nearer than that, the
-/// first motion keeps half of what the beginning has.
+/// Checks the motions of an objective that is `between_slices`, and adds samples at which pairs are closer than its
+/// margin. Returns the largest violation, m; 0 if there is none. If the path begins closer than the margin, the margin
+/// of the first motion is half of the initial clearance.
 double addSamples(Objective& objective, SliceMotions& motions);
 
-/// The objectives, those on the way with the instants at which the path violates them.
+/// Returns the objectives with samples added at which the path violates them.
 std::vector<Objective> withSamples(std::vector<Objective> objectives, const Path& path);
 
-/// A motion between two slices, where it was when it was looked at last.
+/// The end points of a motion at its last check.
 struct CheckedMotion {
-  VectorXd from, to;  ///< empty: it was not yet
+  VectorXd from, to;  ///< empty before the first check
 
-  bool isFar(const SliceMotion& motion) const;
+  bool hasMoved(const SliceMotion& motion) const;
 };
 
 struct FilledSamples {
-  double lack = 0.;          ///< by how much a pair is nearer than the margin, at most, m
-  std::vector<int> motions;  ///< that have instants which were empty
+  double violation = 0.;     ///< largest violation of the margin, m
+  std::vector<int> motions;  ///< motions in which empty samples were filled
 };
 
-/// As addSamples, while a solver is at work: in place of empty instants only, and also where pairs nearly come so
-/// near. Motions that have hardly moved since they were looked at are left out. `is_solution`: all are looked at, and
-/// at all times; instants are added to those that are not free.
+/// Fills samples during a solver run. Unlike addSamples it only replaces empty samples, also for pairs that are close
+/// to violating the margin, and skips motions that have hardly moved since their last check. With `is_solution` it
+/// checks all motions continuously and adds samples to all that collide.
 FilledSamples fillSamples(Objective& objective, SliceMotions& motions, bool is_solution,
-                          std::vector<CheckedMotion>& looked_at);
+                          std::vector<CheckedMotion>& checked);
 
-/// As many instants that are empty for each motion.
-void keepRoom(Objective& objective, int count);
+/// Adds empty samples until each motion has at least `count`.
+void reserveSamples(Objective& objective, int count);
 
-/// Adds those at which pairs come nearer than `most` (m) on the way.
-void addApproaches(Objective& objective, SliceMotions& motions, double most);
+/// Adds samples at which pairs approach each other to less than `max_distance` (m).
+void addApproaches(Objective& objective, SliceMotions& motions, double max_distance);
 
 }  // namespace kinegraph

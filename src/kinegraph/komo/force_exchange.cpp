@@ -12,7 +12,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double kElasticity = .9;
-constexpr double kFirstForce = .1;  ///< in weights; not zero, where a cone of friction has its tip
+constexpr double kInitialForce = .1;  ///< in units of weight; nonzero because the friction cone has its tip at zero
 
 using enum ObjectiveType;
 
@@ -23,11 +23,11 @@ Vector3d nearest(const State& state, Witness::Kind kind, const ContactForce& con
   return value;
 }
 
-/// An exchange on its way into a motion: first its dofs, then what it demands of them.
-class NewForceExchange {
+/// Adds a force exchange to a problem: first its dofs, then the constraints on them.
+class ForceExchangeBuilder {
  public:
-  NewForceExchange(MotionProblem& motion, const ForceExchangeSpec& demand)
-      : motion_(motion), path_(motion.path), demand_(demand), pair_({demand.object, demand.from}) {
+  ForceExchangeBuilder(MotionProblem& motion, const ForceExchangeSpec& spec)
+      : motion_(motion), path_(motion.path), spec_(spec), pair_({spec.object, spec.from}) {
     path_.requireBuilt("addForceExchange");
     readFrames();
     readTimes();
@@ -40,7 +40,7 @@ class NewForceExchange {
   std::string add() {
     addDofs();
     startBetweenBodies();
-    demandKind();
+    requireKind();
     addCosts();
     motion_.contacts.add(contact_);
     return name_;
@@ -49,34 +49,32 @@ class NewForceExchange {
  private:
   void readFrames() {
     const KinematicModel& model = path_.state(-path_.grid().order()).model();
-    contact_.object = frameId(model, demand_.object, "contact");
-    contact_.from = frameId(model, demand_.from, "contact");
-    if (contact_.object == contact_.from) throw ValueError(cat("contact: '", demand_.object, "' cannot push itself"));
-    if (!(demand_.friction > 0.)) {
-      throw ValueError(
-          cat("contact: the coefficient of friction is ", demand_.friction, "; expected a positive number"));
+    contact_.object = frameId(model, spec_.object, "contact");
+    contact_.from = frameId(model, spec_.from, "contact");
+    if (contact_.object == contact_.from) throw ValueError(cat("contact: '", spec_.object, "' cannot push itself"));
+    if (!(spec_.friction > 0.)) {
+      throw ValueError(cat("contact: the coefficient of friction is ", spec_.friction, "; expected a positive number"));
     }
   }
 
   void readTimes() {
     const TimeGrid& grid = path_.grid();
-    const bool bounces = demand_.kind == ForceExchange::bounce;
+    const bool bounces = spec_.kind == ForceExchange::bounce;
     if (bounces && grid.order() < 2) {
-      throw ValueError(cat("bounce of '", demand_.object, "' off '", demand_.from,
+      throw ValueError(cat("bounce of '", spec_.object, "' off '", spec_.from,
                            "': speeds before and after it need a KOMO with kOrder 2; this one has ", grid.order()));
     }
-    std::tie(from_, to_) = grid.select(demand_.times);
+    std::tie(from_, to_) = grid.select(spec_.times);
     if (bounces) to_ = from_;
     if (from_ > to_ || from_ >= grid.slices()) {
-      throw ValueError(
-          cat("contact between '", demand_.object, "' and '", demand_.from, "': its times select no slice"));
+      throw ValueError(cat("contact between '", spec_.object, "' and '", spec_.from, "': its times select no slice"));
     }
   }
 
-  /// The point and the force, along the axes of the world.
+  /// Adds the point and the force, along the axes of the world.
   void addDofs() {
     const KinematicModel& before = path_.state(-path_.grid().order()).model();
-    const std::string wanted = cat("poa_", demand_.object, "_", demand_.from, "_", path_.grid().timeOf(from_));
+    const std::string wanted = cat("poa_", spec_.object, "_", spec_.from, "_", path_.grid().timeOf(from_));
     name_ = wanted;
     for (int count = 2; before.frame_index.contains(name_); ++count) name_ = cat(wanted, "_", count);
     path_.beginModes();
@@ -87,29 +85,29 @@ class NewForceExchange {
     contact_.dofs = path_.addDofs(name_ + "_force", from_, to_, three);
   }
 
-  /// The point starts in the middle between the bodies, the force along the normal.
+  /// Initializes the point halfway between the bodies, and the force along the normal.
   void startBetweenBodies() {
     for (int t = from_; t <= to_; ++t) {
       const State& now = path_.state(t);
       VectorXd q = now.q();
-      const auto& X_W0 = now.pose(0);  // of the frame that the dofs hang below
+      const auto& X_W0 = now.pose(0);  // pose of the parent frame of the dofs
       const Vector3d normal = nearest(now, Witness::Kind::normal, contact_);
       const Vector3d middle =
           .5 * (nearest(now, Witness::Kind::point_a, contact_) + nearest(now, Witness::Kind::point_b, contact_));
       q.segment<3>(now.model().frame_dofs[contact_.point].first) = X_W0.R.transpose() * (middle - X_W0.p);
-      q.segment<3>(now.model().frame_dofs[contact_.dofs].first) = kFirstForce * normal;
+      q.segment<3>(now.model().frame_dofs[contact_.dofs].first) = kInitialForce * normal;
       path_.setSlice(t, q.data());
     }
   }
 
-  void demandKind() {
-    switch (demand_.kind) {
+  void requireKind() {
+    switch (spec_.kind) {
       case ForceExchange::slide:
         return slide();
       case ForceExchange::stick:
         return stick();
       case ForceExchange::complementary:
-        return complement();
+        return makeComplementary();
       case ForceExchange::bounce:
         return bounce();
     }
@@ -117,32 +115,32 @@ class NewForceExchange {
 
   void slide() {
     touch(1e1);
-    require(about("pullingForce"), pair_, ineq, 1e2);
-    require(about("forceAlongNormal"), pair_, eq, 1e1);
+    require(recipe("pullingForce"), pair_, ineq, 1e2);
+    require(recipe("forceAlongNormal"), pair_, eq, 1e1);
   }
 
   void stick() {
     touch(1e2);
-    if (path_.grid().order() == 0)  // the cone points away from the other body
-      return require(about("frictionCone", demand_.friction), pair_, ineq, 1.);
-    require(about("pullingForce"), pair_, ineq, 1e1);
-    require(about("slidingVelocity"), pair_, eq, 1., 1, 1);
+    if (path_.grid().order() == 0)  // the cone's axis points away from the other body
+      return require(recipe("frictionCone", spec_.friction), pair_, ineq, 1.);
+    require(recipe("pullingForce"), pair_, ineq, 1e1);
+    require(recipe("slidingVelocity"), pair_, eq, 1., 1, 1);
   }
 
-  void complement() {
-    require(about("forceAlongNormal"), pair_, eq, 1e2);
-    require(about("pullingForce"), pair_, ineq, 1e2);
-    require(about("forceTimesDistance"), pair_, eq, 1e2);
-    if (path_.grid().order() >= 1) require(about("forceTimesVelocity"), pair_, eq, 1e2, 1);
+  void makeComplementary() {
+    require(recipe("forceAlongNormal"), pair_, eq, 1e2);
+    require(recipe("pullingForce"), pair_, ineq, 1e2);
+    require(recipe("forceTimesDistance"), pair_, eq, 1e2);
+    if (path_.grid().order() >= 1) require(recipe("forceTimesVelocity"), pair_, eq, 1e2, 1);
     require(FeatureSymbol::distance, pair_, ineq, 1e1);
   }
 
   void bounce() {
     touch(1e1);
-    require(about("forceAlongNormal"), pair_, eq, 1e1);
-    require(about("pullingForce"), pair_, ineq, 1e1);
+    require(recipe("forceAlongNormal"), pair_, eq, 1e1);
+    require(recipe("pullingForce"), pair_, ineq, 1e1);
     if (to_ + 1 >= path_.grid().slices()) return;
-    motion_.require({.feature = about("elasticBounce", kElasticity),
+    motion_.require({.feature = recipe("elasticBounce", kElasticity),
                      .frames = pair_,
                      .type = eq,
                      .scale = MatrixXd::Constant(1, 1, 1e1),
@@ -151,41 +149,41 @@ class NewForceExchange {
   }
 
   void touch(double scale) {
-    require(FeatureSymbol::distance, {demand_.object, name_}, eq, scale);
-    require(FeatureSymbol::distance, {demand_.from, name_}, eq, scale);
+    require(FeatureSymbol::distance, {spec_.object, name_}, eq, scale);
+    require(FeatureSymbol::distance, {spec_.from, name_}, eq, scale);
     require(FeatureSymbol::distance, pair_, eq, 1e1);
   }
 
-  /// On the force, and on how it and the point change.
+  /// Adds costs on the force, and on changes of the force and the point.
   void addCosts() {
-    const FeatureSource force = about("force");
+    const FeatureSource force = recipe("force");
     require(force, pair_, sos, 1e-4, 0);
     const int smooth = std::min(path_.grid().order(), 2);
     if (smooth == 0) return;
-    if (demand_.kind != ForceExchange::bounce) require(force, pair_, sos, 1e-2, smooth, smooth);
+    if (spec_.kind != ForceExchange::bounce) require(force, pair_, sos, 1e-2, smooth, smooth);
     require(FeatureSymbol::position, {name_}, sos, 1e-2, smooth, smooth);
   }
 
-  FeatureSource about(const char* what, double parameter = 0.) const {
-    return FeatureRecipe{what, contact_, parameter};
+  FeatureSource recipe(const char* quantity, double parameter = 0.) const {
+    return FeatureRecipe{quantity, contact_, parameter};
   }
 
-  /// In all slices of the contact but the first `later`.
+  /// Adds an objective in all slices of the contact except the first `skipped` ones.
   void require(const FeatureSource& feature, const std::vector<std::string>& frames, ObjectiveType type, double scale,
-               int order = -1, int later = 0) {
-    if (from_ + later > to_) return;
+               int order = -1, int skipped = 0) {
+    if (from_ + skipped > to_) return;
     motion_.require({.feature = feature,
                      .frames = frames,
                      .type = type,
                      .scale = MatrixXd::Constant(1, 1, scale),
                      .order = order,
                      .times = {path_.grid().timeOf(from_), path_.grid().timeOf(to_)}},
-                    later);
+                    skipped);
   }
 
   MotionProblem& motion_;
   Path& path_;
-  const ForceExchangeSpec& demand_;
+  const ForceExchangeSpec& spec_;
   std::vector<std::string> pair_;
   ContactForce contact_;
   std::string name_;
@@ -203,8 +201,8 @@ ForceExchange forceExchangeFromName(const std::string& name) {
   return ForceExchange(place - names.begin());
 }
 
-std::string addForceExchange(MotionProblem& motion, const ForceExchangeSpec& demand) {
-  return NewForceExchange(motion, demand).add();
+std::string addForceExchange(MotionProblem& motion, const ForceExchangeSpec& spec) {
+  return ForceExchangeBuilder(motion, spec).add();
 }
 
 }  // namespace kinegraph

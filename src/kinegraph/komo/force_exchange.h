@@ -7,27 +7,27 @@
 
 namespace kinegraph {
 
-/// What a contact that moves along both surfaces does to the bodies.
+/// Physical behavior of a contact that may move along both surfaces.
 enum class ForceExchange {
-  slide,          ///< they touch; the force is along the normal
-  stick,          ///< they touch and do not slide; at kOrder 0 the force is within the cone of friction
-  complementary,  ///< they do not overlap; the force is along the normal where they touch, and zero elsewhere
-  bounce,         ///< they touch in the first of the slices and fly apart with 0.9 of the speed; kOrder 2
+  slide,          ///< the bodies touch; the force is along the normal
+  stick,          ///< the bodies touch without sliding; at kOrder 0 the force is within the friction cone
+  complementary,  ///< the bodies do not overlap; the force is along the normal, and zero unless they touch
+  bounce,         ///< the bodies touch in the first slice and separate with 0.9 of the speed; requires kOrder 2
 };
 
-/// slide, stick, complementary or bounce. Throws NameError for other names, with those that are near.
+/// Parses slide, stick, complementary or bounce. Throws NameError for other names and suggests similar ones.
 ForceExchange forceExchangeFromName(const std::string& name);
 
 struct ForceExchangeSpec {
   std::vector<double> times;
   std::string object, from;
   ForceExchange kind;
-  double friction = .5;  ///< coefficient
+  double friction = .5;  ///< friction coefficient
 };
 
-/// In the slices that its times select, `object` and `from` may push each other: six more dofs per slice, the point
-/// where they do and the force on `object` there. Adds what the kind demands, and small costs on both. Returns the name
-/// of the point. Throws FrameNotFound and ValueError.
-std::string addForceExchange(MotionProblem& motion, const ForceExchangeSpec& demand);
+/// Lets `object` and `from` push each other in the slices that the times select. Adds six dofs per slice: the point of
+/// contact and the force on `object`; and adds the constraints of the kind and small costs on the dofs. Returns the
+/// name of the point. Throws FrameNotFound and ValueError.
+std::string addForceExchange(MotionProblem& motion, const ForceExchangeSpec& spec);
 
 }  // namespace kinegraph

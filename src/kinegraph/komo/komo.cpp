@@ -11,7 +11,7 @@ namespace kinegraph {
 
 namespace {
 
-/// As if shapes were that much larger together.
+/// Treats shapes as if they were larger by `margin` together.
 void setMargin(Objective& objective, double margin) {
   using S = FeatureSymbol;
   if (!std::isfinite(margin)) throw ValueError(cat("addObjective: margin is ", margin, "; expected a length in m"));
@@ -44,7 +44,7 @@ Komo Komo::clone() const {
 
 Komo::Parts Komo::parts() const {
   Parts parts;
-  if (!path().given().empty()) parts.config = path().given().config();
+  if (!path().initial().empty()) parts.config = path().initial().config();
   Path::Content content = path().content();
   if (content.states.empty()) return parts;
   const TimeGrid& grid = path().grid();
@@ -69,7 +69,7 @@ Komo::Komo(Parts parts) {
 
 void Komo::requireUntouched(const char* what) const {
   if (!objectives().empty() || !path().modes().empty())
-    throw Error(cat("KOMO: the ", what, " is set before the first objective or switch"));
+    throw Error(cat("KOMO: the ", what, " must be set before the first objective or switch"));
 }
 
 void Komo::setConfig(const Config& config) {
@@ -113,9 +113,9 @@ void Komo::addFreeMotion(const std::vector<double>& times, double margin, double
   motion_.require(objective);
   const auto [from, to] = path().grid().select(times);
   const int skipped =
-      from == 0 && firstMotion(path()) == 0 ? 0 : 1;  // motions that do not lead from a slice to another
+      from == 0 && firstMotion(path()) == 0 ? 0 : 1;  // excludes motions that do not start in a constrained slice
   if (from + skipped > to) return;
-  objective.on_the_way = true;
+  objective.between_slices = true;
   motion_.require(std::move(objective), skipped);
 }
 
@@ -123,13 +123,13 @@ void Komo::addControlObjective(const std::vector<double>& times, int order, doub
                                int delta_from, int delta_to) {
   path().requireBuilt("addControlObjective");
   if (order < 0) throw ValueError(cat("addControlObjective: order is ", order, "; expected 0, 1 or 2"));
-  const InitialConfiguration& given = path().given();
-  const KinematicModel& model = *given.model;
+  const InitialConfiguration& initial = path().initial();
+  const KinematicModel& model = *initial.model;
   std::vector<std::string> frames;
   std::vector<double> weights, home;
-  for (int frame : given.joint_frames) {
+  for (int frame : initial.joint_frames) {
     const auto [first, count] = model.frame_dofs[frame];
-    if (given.isShared(frame) || !(model.control_weight[first] > 0.)) continue;
+    if (initial.isShared(frame) || !(model.control_weight[first] > 0.)) continue;
     frames.push_back(model.frame_name[frame]);
     for (int i = first; i < first + count; ++i) {
       weights.push_back(scale * model.control_weight[i]);
@@ -139,7 +139,7 @@ void Komo::addControlObjective(const std::vector<double>& times, int order, doub
   const auto vector = [](const std::vector<double>& v) {
     return Eigen::Map<const VectorXd>(v.data(), Eigen::Index(v.size()));
   };
-  if (frames.size() == given.joint_frames.size()) frames.clear();
+  if (frames.size() == initial.joint_frames.size()) frames.clear();
   const bool from_home = order == 0 && target.vector().size() == 0;
   motion_.require({.feature = FeatureSymbol::qItself,
                    .frames = std::move(frames),

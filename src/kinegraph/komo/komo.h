@@ -21,13 +21,13 @@ struct SolveManyResult;
 struct SolverOptions;
 struct SolverResult;
 
-/// A motion problem: T configurations (slices) of a scene, tied together by objectives on features of k+1 consecutive
-/// ones. With one phase of one slice and order 0 it is inverse kinematics.
+/// A trajectory optimization problem: T configurations (slices) of a scene, coupled by objectives on features of k+1
+/// consecutive ones. With one phase of one slice and order 0 it is inverse kinematics.
 ///
-/// It is made of a `Path` (time grid, modes, states), an `ObjectiveList` and `Contacts`; the calls here say what people
-/// want in one line each, the parts say everything about themselves. Before slice 0 lie `order` copies of the given
-/// configuration, so that motions start there, at rest. Source: Toussaint, A tutorial on Newton methods for constrained
-/// trajectory optimization, 2017.
+/// It consists of a `Path` (time grid, modes, states), an `ObjectiveList` and `Contacts`. The methods here cover common
+/// use; the parts give access to everything else. The path is preceded by `order` copies of the initial configuration,
+/// so that motions start there, at rest.
+/// Source: Toussaint, A tutorial on Newton methods for constrained trajectory optimization, 2017.
 class Komo {
  public:
   Komo() = default;
@@ -35,10 +35,11 @@ class Komo {
   Komo& operator=(Komo&&) = default;
   Komo(const Config& config, double phases, int slices_per_phase, int order);
 
-  /// The same problem at the same path, to be solved beside this one, as on another thread.
+  /// Returns an independent copy of the problem and its path, for example to solve it on another thread.
   Komo clone() const;
 
-  /// All that a Komo consists of, to make it anew elsewhere, as in another process. Empty before there is a timing.
+  /// The complete content of a Komo, from which it can be reconstructed, for example in another process. Empty before
+  /// setTiming.
   struct Parts {
     Config config;
     double phases = 0., duration_per_phase = 1.;
@@ -48,38 +49,39 @@ class Komo {
     std::vector<ContactForce> contacts;
   };
   Parts parts() const;
-  explicit Komo(Parts parts);  ///< throws ValueError if they do not fit together
+  explicit Komo(Parts parts);  ///< throws ValueError if the parts are inconsistent
 
-  /// In either order, for a Komo made without arguments; before the first objective.
+  /// Complete a default-constructed Komo, in either order, before the first objective.
   void setConfig(const Config& config);
   void setTiming(double phases, int slices_per_phase, double duration_per_phase, int order);
 
   // --- objectives --------------------------------------------------------------------------------------------------
 
   /// Adds scale * (d^order feature / dt^order - target) in the slices that `times` selects (see TimeGrid::select).
-  /// `order` -1: the feature's own. For joint features no frames are the joints of the configuration as it was given.
-  /// `margin` (m) of accumulatedCollisions, pairCollisions and distance: shapes that are nearer count as colliding.
+  /// `order` -1 is the feature's own order. Joint features without frames use the joints of the initial configuration.
+  /// `margin` (m) applies to accumulatedCollisions, pairCollisions and distance: closer shapes count as colliding.
   /// Throws FrameNotFound and ValueError.
   void addObjective(const std::vector<double>& times, const FeatureSource& feature,
                     const std::vector<std::string>& frames, ObjectiveType type, const Scale& scale = {},
                     const Target& target = {}, int order = -1, double margin = 0.);
 
-  /// Sum of squares of the order-th derivative of the given configuration's dofs, weighted by their control weights and
-  /// integrated over time; order 0 is the distance from home.
+  /// Adds the sum of squares of the order-th derivative of the initial configuration's dofs, weighted by their control
+  /// weights and integrated over time. Order 0 penalizes the distance from home.
   void addControlObjective(const std::vector<double>& times, int order, double scale = 1., const Target& target = {},
                            int delta_from = 0, int delta_to = 0);
 
-  /// Keeps all pairs that may collide `margin` (m) apart in the slices that `times` selects, and at all times of the
-  /// motions between them, of that to the first slice, too; see free_motion.h. Throws ValueError for a margin below 0.
+  /// Keeps all pairs that may collide at least `margin` (m) apart in the slices that `times` selects, and continuously
+  /// along the motions between them, including the motion to the first slice; see continuous_collisions.h. Throws
+  /// ValueError for a margin below 0.
   void addFreeMotion(const std::vector<double>& times = {}, double margin = 1e-3, double scale = 10.);
 
-  /// Keeps quaternions among the dofs of a slice at norm one.
+  /// Constrains quaternions among the dofs of a slice to norm one.
   void addQuaternionNorms(const std::vector<double>& times = {}, double scale = 3., bool hard = true);
 
-  /// Removes the objectives, those of mode switches included; what the switches attached stays attached.
+  /// Removes all objectives, including those of mode switches. Attachments remain.
   void clearObjectives() { motion_.objectives.clear(); }
 
-  // --- changes of the structure along the path; see mode_switches.h ------------------------------------------------
+  // --- mode switches: changes of the kinematic structure along the path; see mode_switches.h -------------------------
 
   void addModeSwitch(const std::vector<double>& times, SwitchMode mode, const std::vector<std::string>& frames,
                      bool first = true);
@@ -88,20 +90,20 @@ class Komo {
                    const std::string& origin = {});
 
   // --- contact forces ----------------------------------------------------------------------------------------------
-  // What balances them is up to totalForce and physics.
+  // The features totalForce and physics balance them.
 
-  /// In the slices that `times` selects, `from` pushes `object` at a point where they touch, within the cone of
-  /// friction. The point is a frame on the object, the same in all slices; its name is returned. The force is along its
-  /// z axis: one more dof per slice, in units of the weight of `mass` kg, up to ten times that.
+  /// Lets `from` push `object` at a point of contact, within the friction cone, in the slices that `times` selects. The
+  /// point is a frame on the object, the same in all slices; returns its name. The force acts along its z axis: one
+  /// more dof per slice, in units of the weight of `mass` kg, at most ten times that.
   std::string addContactForce(const std::vector<double>& times, const std::string& object, const std::string& from,
                               double friction, double mass);
 
-  /// The same with a force of any direction in the cone, three dofs per slice. The point starts `distance` off the
-  /// object, m.
+  /// Adds a contact force of any direction in the friction cone, with three dofs per slice. The point starts `distance`
+  /// (m) away from the object.
   std::string addFreeContactForce(const std::vector<double>& times, const std::string& object, const std::string& from,
                                   double friction, double mass, double distance);
 
-  /// A point that moves along both surfaces, and a force there: see exchanges.h.
+  /// Adds a point of contact that moves along both surfaces, and a force there; see force_exchange.h.
   std::string addForceExchange(const std::vector<double>& times, const std::string& object, const std::string& from,
                                ForceExchange kind, double friction = .5);
 
@@ -112,59 +114,62 @@ class Komo {
   int slices() const { return path().grid().slices(); }  ///< T
   int order() const { return path().grid().order(); }    ///< k
   double tau() const { return path().grid().tau(); }     ///< s per slice
-  int dofs() const { return path().dofs(); }             ///< n, of the given configuration
+  int dofs() const { return path().dofs(); }             ///< n, of the initial configuration
 
   MatrixXd getPath(const std::vector<int>& frames = {}) const;  ///< T x n; see Path::joints
   MatrixXd getFrameState(int slice) const;                      ///< frames x 7; see Path::framePoses
-  Config configuration(int slice) const;                        ///< a copy of the scene as it is in a slice
+  Config configuration(int slice) const;                        ///< copy of the scene in a slice
   void updateRootObjects(const Config& config);                 ///< see Path::updateRootObjects
 
-  // --- the motion from slice to slice: q goes straight, objects that are attached move along; see path_motion.h --------
+  // --- the motion between slices: q moves linearly, attached objects move along; see path_motion.h
+  // ---------------------
 
-  /// Where the motion is not free: for each slice that it leads to, the first pair that comes nearer than `margin` (m) on
-  /// the way, at any time and not just at samples of them; pairs within margin + tolerance (m) may count. Throws
-  /// ValueError for a margin that is not finite, and a tolerance that is not positive.
+  /// Returns, for each slice whose preceding motion collides, the first pair that comes closer than `margin` (m). The
+  /// check is continuous; pairs within margin + tolerance (m) may count. Throws ValueError for a margin that is not
+  /// finite, and a tolerance that is not positive.
   std::vector<PathContact> checkMotion(double margin = 0., double tolerance = 1e-5,
                                        const CancellationToken& cancellation = {}) const;
 
-  /// Do all pairs keep `margin` (m) apart, at all times?
+  /// Returns true if all pairs stay `margin` (m) apart continuously.
   bool isFree(double margin = 0.) const { return checkMotion(margin).empty(); }
 
-  // --- where a solver starts; see path_starts.h ----------------------------------------------------------------------
+  // --- initialization; see path_initialization.h
+  // ----------------------------------------------------------------------
 
-  void setPath(const MatrixXd& path) { startAtPath(motion_.path, path); }
-  void setConstantPath(const VectorXd& q) { startAtConstant(motion_.path, q); }
-  void resetPath() { startAsGiven(motion_.path); }
-  void setRandomPath(Rng& rng) { startAtRandom(motion_.path, rng); }
+  void setPath(const MatrixXd& path) { initializePath(motion_.path, path); }
+  void setConstantPath(const VectorXd& q) { initializeConstant(motion_.path, q); }
+  void resetPath() { initializeFromStart(motion_.path); }
+  void setRandomPath(Rng& rng) { initializeRandom(motion_.path, rng); }
   std::vector<int> setWaypoints(const std::vector<VectorXd>& waypoints, const WaypointOptions& options = {}) {
-    return startAtWaypoints(motion_.path, waypoints, options);
+    return initializeWaypoints(motion_.path, waypoints, options);
   }
   void setPhasePath(int phase, const std::vector<int>& frames, const MatrixXd& path, bool resample = false) {
-    startPhaseAt(motion_.path, phase, frames, path, resample);
+    initializePhase(motion_.path, phase, frames, path, resample);
   }
 
-  // --- what rooms above add: defined in front, all in kinegraph/kinegraph.h ------------------------------------------
+  // --- defined in higher rooms; include kinegraph/kinegraph.h
+  // ----------------------------------------------------------
 
-  /// This problem for a solver, which leaves the path at its result. It must not outlive the Komo, nor may the Komo be
+  /// Returns this problem for a solver, which leaves the path at its result. The Komo must outlive it and must not be
   /// moved meanwhile; see makeNlp.
   std::shared_ptr<Nlp> nlp();
 
-  /// Solves from the present path, and leaves the path at the result. Not converging is a status, not an error.
+  /// Solves from the present path and leaves the path at the result. Failing to converge is a status, not an error.
   SolverResult solve();
   SolverResult solve(const SolverOptions& options);
 
   /// Solves from the present path and from `starts` - 1 random ones (by `seed`), and leaves the path at the best
-  /// result. Throws ValueError for less than one start or thread.
+  /// result. Throws ValueError for fewer than one start or thread.
   SolveManyResult solveFromMany(int starts, const SolveManyOptions& options, std::uint64_t seed = 0);
 
-  /// Shows all slices in the browser, with a time slider, the errors of the objectives, and what violates them in red;
-  /// `pause` waits for a key. Returns the key, or 0.
+  /// Shows all slices in the browser, with a time slider, the errors of the objectives, and violations in red. `pause`
+  /// waits for a key. Returns the key, or 0.
   int view(bool pause = false, const std::string& message = {});
 
-  /// Plays the slices, `seconds_per_slice` each, and waits until they have been played once; a key ends it.
+  /// Plays the slices once, `seconds_per_slice` each, and waits until the end or a key press. Returns the key, or 0.
   int viewPlay(bool pause = false, const std::string& message = {}, double seconds_per_slice = .1);
 
-  /// What shows this problem.
+  /// Returns the viewer of this problem, created on first use.
   ConfigViewer& viewer();
 
   // --- the parts ---------------------------------------------------------------------------------------------------
@@ -174,7 +179,7 @@ class Komo {
   const ObjectiveList& objectives() const { return motion_.objectives; }
   const Contacts& contacts() const { return motion_.contacts; }
 
-  /// What had no effect since this was last called.
+  /// Returns and clears the warnings about calls without effect.
   std::vector<std::string> takeWarnings() { return motion_.objectives.takeWarnings(); }
 
  private:
@@ -182,14 +187,14 @@ class Komo {
   void requireUntouched(const char* what) const;
 
   MotionProblem motion_;
-  std::shared_ptr<ConfigViewer> viewer_;  ///< null until there is something to show
+  std::shared_ptr<ConfigViewer> viewer_;  ///< null until first used
 };
 
-/// The problem of a Komo, for a solver. It keeps the Komo alive, and leaves it at the point last evaluated. Objectives
-/// that are added to the Komo later are not part of it; after a later change of the structure it throws Error.
+/// Returns the problem of a Komo for a solver. It keeps the Komo alive and leaves its path at the point last evaluated.
+/// Objectives added to the Komo later are not part of it. After a change of the kinematic structure it throws Error.
 std::shared_ptr<Nlp> makeNlp(std::shared_ptr<Komo> komo);
 
-/// The Komo that a problem was made from; null for other problems.
+/// Returns the Komo from which a problem was made; null for other problems.
 std::shared_ptr<Komo> komoOf(const Nlp& nlp);
 
 }  // namespace kinegraph

@@ -20,19 +20,19 @@ namespace {
 
 constexpr int kMostSeparateRows = 100000;
 
-/// Does the objective demand that a sum of overlaps is zero?
+/// Returns true if the objective requires a sum of overlaps to be zero.
 bool isSumOfOverlaps(const Objective& objective) {
-  return objective.feature == FeatureSymbol::accumulatedCollisions && (objective.order == 0 || objective.on_the_way) &&
-         objective.scale.size() <= 1 && objective.target.isZero(0.) &&
-         (objective.scale.size() == 0 || objective.scale(0) > 0.) &&
+  return objective.feature == FeatureSymbol::accumulatedCollisions &&
+         (objective.order == 0 || objective.between_slices) && objective.scale.size() <= 1 &&
+         objective.target.isZero(0.) && (objective.scale.size() == 0 || objective.scale(0) > 0.) &&
          (objective.type == ObjectiveType::eq || objective.type == ObjectiveType::ineq);
 }
 
-bool isOnTheWay(const Objective& objective) { return objective.on_the_way; }
+bool isBetweenSlices(const Objective& objective) { return objective.between_slices; }
 
-/// Has it rows for instants that are not known yet?
-bool keepsRoom(const Objective& objective) {
-  return objective.on_the_way && objective.feature == FeatureSymbol::pairCollisions;
+/// Returns true if the objective has rows for samples that are not known yet.
+bool hasSpareSamples(const Objective& objective) {
+  return objective.between_slices && objective.feature == FeatureSymbol::pairCollisions;
 }
 
 class KomoNlp final : public Nlp, public InitialGuesses, public LazyConstraints {
@@ -83,7 +83,7 @@ class KomoNlp final : public Nlp, public InitialGuesses, public LazyConstraints 
 
   void leaveAt(const VectorXd& x) override { komo_->path().setVariables(x); }
 
-  /// Overlaps of pairs in place of their sum.
+  /// Replaces sums of overlaps by the overlaps of pairs.
   Separation separation() override {
     if (separation_is_known_) return separation_;
     separation_is_known_ = true;
@@ -91,7 +91,7 @@ class KomoNlp final : public Nlp, public InitialGuesses, public LazyConstraints 
     std::vector<Objective> objectives = problem_.objectives();
     for (Objective& objective : objectives) {
       if (!isSumOfOverlaps(objective)) continue;
-      if (objective.on_the_way) keepRoom(objective, kRoomOfMotion);
+      if (objective.between_slices) reserveSamples(objective, kSpareSamplesPerMotion);
       objective.feature = FeatureSymbol::pairCollisions;
       objective.type = ObjectiveType::ineq;
       if (const double apart = objective.margin + objective.slack; apart != 0.)
@@ -116,19 +116,20 @@ class KomoNlp final : public Nlp, public InitialGuesses, public LazyConstraints 
     komo_->path().setVariables(x);
     std::vector<SliceMotion> motions = constrainedMotions(komo_->path(), problem_.objectives());
     if (motions.empty()) return nullptr;
-    return std::make_shared<LazyValidity>(
-        [motions = std::move(motions)](const CancellationToken& cancellation) { return judge(motions, cancellation); });
+    return std::make_shared<LazyValidity>([motions = std::move(motions)](const CancellationToken& cancellation) {
+      return reportCollisions(motions, cancellation);
+    });
   }
 
   Refinement refine(const VectorXd& x, VectorXd& dual) override {
-    if (std::ranges::none_of(problem_.objectives(), isOnTheWay)) return Refinement::none;
+    if (std::ranges::none_of(problem_.objectives(), isBetweenSlices)) return Refinement::none;
     requireStructure();
     komo_->path().setVariables(x);
     std::vector<Objective> objectives = problem_.objectives();
     if (const KomoNlp* solved = separate()) {
       if (solved->free_at_.size() == x.size() && solved->free_at_ == x) return Refinement::none;
       for (std::size_t i = 0; i < objectives.size(); ++i)
-        if (objectives[i].on_the_way) objectives[i].samples = solved->problem_.objectives()[i].samples;
+        if (objectives[i].between_slices) objectives[i].samples = solved->problem_.objectives()[i].samples;
     }
     const double lack = addSamplesTo(objectives);
     if (lack == 0.) return Refinement::none;
@@ -140,19 +141,19 @@ class KomoNlp final : public Nlp, public InitialGuesses, public LazyConstraints 
     return refinementOf(lack);
   }
 
-  bool hasRoom() const override { return std::ranges::any_of(problem_.objectives(), keepsRoom); }
+  bool hasRoom() const override { return std::ranges::any_of(problem_.objectives(), hasSpareSamples); }
 
   Refinement takeUp(const VectorXd& x, bool is_solution, VectorXd& phi, Jacobian& J, std::vector<int>& rows) override {
     requireStructure();
     komo_->path().setVariables(x);
     double lack = 0.;
-    looked_at_.resize(problem_.objectives().size());
+    checked_.resize(problem_.objectives().size());
     LinearSliceMotions lines(komo_->path(), probe_);
     for (std::size_t o = 0; o < problem_.objectives().size(); ++o) {
-      if (!keepsRoom(problem_.objectives()[o])) continue;
+      if (!hasSpareSamples(problem_.objectives()[o])) continue;
       Objective objective = problem_.objectives()[o];
-      const FilledSamples filled = fillSamples(objective, lines, is_solution, looked_at_[o]);
-      lack = std::max(lack, filled.lack);
+      const FilledSamples filled = fillSamples(objective, lines, is_solution, checked_[o]);
+      lack = std::max(lack, filled.violation);
       for (const int motion : filled.motions) fillMotion(o, objective, motion, phi, J, rows);
     }
     if (is_solution && lack == 0.) free_at_ = x;
@@ -163,34 +164,34 @@ class KomoNlp final : public Nlp, public InitialGuesses, public LazyConstraints 
     requireStructure();
     komo_->path().setVariables(x);
     LinearSliceMotions lines(komo_->path(), probe_);
-    return wayOf(lines, firstMotion(komo_->path()), komo_->slices() - 1);
+    return guessKindOf(lines, firstMotion(komo_->path()), komo_->slices() - 1);
   }
 
-  /// A detour, with its own instants: those at which it comes near to something, so that a step does not lead through
-  /// it.
+  /// Returns a path in another homotopy class, with samples at its closest approaches, so that a step does not lead
+  /// through an obstacle.
   std::optional<VectorXd> initialGuess(const VectorXd& x, int number) override {
     std::vector<Objective> objectives = problem_.objectives();
-    const auto on_the_way = std::ranges::find_if(objectives, isOnTheWay);
-    if (on_the_way == objectives.end()) return std::nullopt;
+    const auto between_slices = std::ranges::find_if(objectives, isBetweenSlices);
+    if (between_slices == objectives.end()) return std::nullopt;
     requireStructure();
     komo_->path().setVariables(x);
-    const double apart = on_the_way->margin + on_the_way->slack;
+    const double apart = between_slices->margin + between_slices->slack;
     std::optional<VectorXd> way = alternativePath(komo_->path(), apart, probe_, number);
     if (!way) return std::nullopt;
     *way = way->cwiseMax(lower_).cwiseMin(upper_);
     komo_->path().setVariables(*way);
     LinearSliceMotions lines(komo_->path(), probe_);
     for (Objective& objective : objectives) {
-      if (!objective.on_the_way) continue;
+      if (!objective.between_slices) continue;
       objective.samples.clear();
-      addApproaches(objective, lines, kNearToDetour);
+      addApproaches(objective, lines, kAlternativePathReach);
     }
     addSamplesTo(objectives);
     takeUp(std::move(objectives));
     return way;
   }
 
-  /// The present path, moved by a little noise so that it is not exactly at a singular posture, within the bounds.
+  /// Returns the present path with a little noise, to avoid exact singularities, clipped to the bounds.
   VectorXd initialPoint(Rng& rng) override {
     requireStructure();
     VectorXd x = komo_->path().variables();
@@ -206,11 +207,13 @@ class KomoNlp final : public Nlp, public InitialGuesses, public LazyConstraints 
                objectiveTypeName(objective.type), ")");
   }
 
-  RowDescription describeRow(int row) const override { return describePathRow(komo_->path(), problem_, row); }
+  RowDescription describeRow(int row) const override { return describePathComponent(komo_->path(), problem_, row); }
   VariableDescription describeVariable(int variable) const override {
     return describePathVariable(komo_->path(), variable);
   }
-  std::vector<std::string> detailsOf(int row) const override { return pathRowDetails(komo_->path(), problem_, row); }
+  std::vector<std::string> detailsOf(int row) const override {
+    return pathComponentDetails(komo_->path(), problem_, row);
+  }
 
   std::string report(int) const override {
     return cat("KOMO: ", komo_->slices(), " slices of ", komo_->dofs(), " dofs, order ", komo_->order(), ", ",
@@ -224,20 +227,20 @@ class KomoNlp final : public Nlp, public InitialGuesses, public LazyConstraints 
     throw Error("KOMO: a mode switch or frame was added after this nlp() was made; make a new one");
   }
 
-  /// Those at which the path violates the objectives; returns by how much, m.
+  /// Adds samples at which the path violates the objectives; returns the largest violation, m.
   double addSamplesTo(std::vector<Objective>& objectives) {
     double lack = 0.;
     LinearSliceMotions lines(komo_->path(), probe_);
     for (Objective& objective : objectives) {
-      if (objective.on_the_way) lack = std::max(lack, addSamples(objective, lines));
+      if (objective.between_slices) lack = std::max(lack, addSamples(objective, lines));
     }
     return lack;
   }
 
-  /// The separate form, where it is known.
+  /// The separate form, if it is known.
   const KomoNlp* separate() const { return static_cast<const KomoNlp*>(separation_.problem.get()); }
 
-  /// The instants of one motion of an objective in place of those that it had.
+  /// Replaces the samples of one motion of an objective.
   void fillMotion(std::size_t number, const Objective& objective, int motion, VectorXd& phi, Jacobian& J,
                   std::vector<int>& rows) {
     const auto isIt = [&](const PathProblem::Term& term) {
@@ -258,7 +261,8 @@ class KomoNlp final : public Nlp, public InitialGuesses, public LazyConstraints 
     separation_is_known_ = false;
   }
 
-  /// Multipliers of a separate form that has all terms of one before, and in each of them all rows of it, and more.
+  /// Transfers multipliers between separate forms. The new one has the same terms as the old one, each with the old
+  /// rows first.
   static VectorXd carriedOver(const VectorXd& dual, const Separation& before, const Separation& now) {
     const auto& old_terms = static_cast<const KomoNlp&>(*before.problem).problem_.terms();
     const auto& terms = static_cast<const KomoNlp&>(*now.problem).problem_.terms();
@@ -271,8 +275,8 @@ class KomoNlp final : public Nlp, public InitialGuesses, public LazyConstraints 
   std::shared_ptr<Komo> komo_;
   PathProblem problem_;
   MotionProbe probe_{kFreeTolerance};
-  std::vector<std::vector<CheckedMotion>> looked_at_;  ///< per objective, per motion
-  VectorXd free_at_;                                   ///< where a solver found nothing to take up
+  std::vector<std::vector<CheckedMotion>> checked_;  ///< per objective and motion
+  VectorXd free_at_;                                 ///< solution at which a solver found no further violations
   int structure_;
   Separation separation_;
   bool separation_is_known_ = false;
@@ -299,8 +303,8 @@ const std::vector<Objective>* objectivesOf(const Nlp& nlp) {
   return of_komo ? &of_komo->problem().objectives() : nullptr;
 }
 
-std::vector<PathRow> pathRows(const Nlp& nlp) {
-  std::vector<PathRow> rows;
+std::vector<PathComponent> pathComponents(const Nlp& nlp) {
+  std::vector<PathComponent> rows;
   const auto* of_komo = dynamic_cast<const KomoNlp*>(&nlp);
   if (!of_komo) return rows;
   rows.reserve(nlp.types().size());

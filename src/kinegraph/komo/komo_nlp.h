@@ -4,7 +4,7 @@
 
 namespace kinegraph {
 
-/// The problem of a Komo, which has slices, with these objectives in place of its own.
+/// Returns the problem of a Komo with at least one slice, with these objectives instead of its own.
 std::shared_ptr<Nlp> makeNlp(std::shared_ptr<Komo> komo, std::vector<Objective> objectives);
 
 }  // namespace kinegraph

@@ -13,12 +13,12 @@ using M = SwitchMode;
 
 bool isQuasiStatic(M mode) { return mode == M::quasiStatic || mode == M::quasiStaticOn; }
 
-/// Does the object obey physics?
+/// Returns true if the object obeys physics.
 bool isDynamic(M mode) {
   return mode == M::dynamic || mode == M::dynamicOn || mode == M::dynamicTrans || isQuasiStatic(mode);
 }
 
-/// Is nothing asked of the motion?
+/// Returns true if the motion is unconstrained.
 bool isMagic(M mode) { return mode == M::magic || mode == M::magicTrans; }
 
 bool movesAlone(M mode) {
@@ -31,10 +31,10 @@ void requireFrame(const Path& path, const std::string& name, const char* call) {
   frameId(firstModel(path), name, call);
 }
 
-/// The mode just before a slice.
+/// Returns the mode just before a slice.
 const Mode& modeBefore(const Path& path, int slice) { return path.mode(std::max(slice - 1, -path.grid().order())); }
 
-/// The pose or velocity of frames does not jump in a slice.
+/// Requires that the pose or velocity of frames is continuous in a slice.
 void addContinuity(MotionProblem& motion, FeatureSymbol feature, const std::vector<std::string>& frames, double scale,
                    int order, int slice) {
   if (slice < 0 || slice >= motion.path.grid().slices()) return;
@@ -46,13 +46,13 @@ void addContinuity(MotionProblem& motion, FeatureSymbol feature, const std::vect
                   .times = {motion.path.grid().timeOf(slice)}});
 }
 
-/// What a mode without a stable joint asks of the motion, in the slices [from, to].
+/// Adds the physics of a mode without a stable joint, in the slices [from, to].
 void addPhysics(MotionProblem& motion, M mode, const std::string& object, int from, int to) {
   const TimeGrid& grid = motion.path.grid();
   const bool damped = isQuasiStatic(mode);
   const int order = damped ? 1 : 2;
   if (grid.order() < order || from > to) return;
-  const auto rows = [&](ObjectiveType type, double scale, const std::vector<int>& chosen) {
+  const auto require = [&](ObjectiveType type, double scale, const std::vector<int>& chosen) {
     MatrixXd S = MatrixXd::Zero(Eigen::Index(chosen.size()), 6);
     for (std::size_t i = 0; i < chosen.size(); ++i) S(Eigen::Index(i), chosen[i]) = scale;
     motion.require({.feature = FeatureSymbol::physics,
@@ -67,35 +67,35 @@ void addPhysics(MotionProblem& motion, M mode, const std::string& object, int fr
   const std::vector<int> all = {0, 1, 2, 3, 4, 5};
   switch (mode) {
     case M::dynamicTrans:
-      return rows(ObjectiveType::eq, 1e2, {0, 1, 2});
+      return require(ObjectiveType::eq, 1e2, {0, 1, 2});
     case M::quasiStatic:
-      return rows(ObjectiveType::eq, 1e1, all);
+      return require(ObjectiveType::eq, 1e1, all);
     case M::quasiStaticOn:
-      rows(ObjectiveType::eq, 1e1, {0, 1, 5});
-      return rows(ObjectiveType::sos, 1., {2, 3, 4});
+      require(ObjectiveType::eq, 1e1, {0, 1, 5});
+      return require(ObjectiveType::sos, 1., {2, 3, 4});
     default:
-      return rows(ObjectiveType::eq, 1e2, all);
+      return require(ObjectiveType::eq, 1e2, all);
   }
 }
 
-/// [parent, object], both in the scene.
-std::pair<std::string, std::string> framesOf(const Path& path, const SwitchSpec& demand) {
-  std::vector<std::string> frames = demand.frames;
-  const bool alone = movesAlone(demand.mode);
-  if (frames.size() == 1 && alone) frames.insert(frames.begin(), path.given().model->frame_name.front());
-  const std::vector<double>& times = demand.times;
+/// Returns [parent, object], both in the scene.
+std::pair<std::string, std::string> framesOf(const Path& path, const SwitchSpec& spec) {
+  std::vector<std::string> frames = spec.frames;
+  const bool alone = movesAlone(spec.mode);
+  if (frames.size() == 1 && alone) frames.insert(frames.begin(), path.initial().model->frame_name.front());
+  const std::vector<double>& times = spec.times;
   if (times.empty() || times.size() > 2 || !(times[0] >= 0.)) {
-    throw ValueError("addModeSwitch: times is [from, to], both phase times; to -1 where the mode holds to the end");
+    throw ValueError("addModeSwitch: times must be [from, to], both phase times; to is -1 for a mode until the end");
   }
   if (frames.size() != 2) {
     throw ValueError(
-        cat("addModeSwitch: frames are [parent, object]", alone ? " or [object]" : "", ", got ", frames.size()));
+        cat("addModeSwitch: frames must be [parent, object]", alone ? " or [object]" : "", "; got ", frames.size()));
   }
   for (const std::string& name : frames) requireFrame(path, name, "addModeSwitch");
   return {frames[0], frames[1]};
 }
 
-/// Does it begin before the path ends? Leaves a warning if not.
+/// Returns true if the mode begins before the path ends. Otherwise adds a warning.
 bool begins(MotionProblem& motion, const char* call, double time) {
   const TimeGrid& grid = motion.path.grid();
   if (grid.sliceAt(time) < grid.slices()) return true;
@@ -104,27 +104,29 @@ bool begins(MotionProblem& motion, const char* call, double time) {
   return false;
 }
 
-/// That an object does not jump, where a mode begins or where the next one takes over, is about velocities.
-void requireVelocities(const Path& path, const SwitchSpec& demand, int from, int to) {
-  const bool ends = demand.times.size() == 2 && demand.times[1] >= 0. && to < path.grid().slices();
-  const bool at_start = demand.first && from >= 0, at_end = ends && !isDynamic(demand.mode);
-  if (path.grid().order() >= 1 || isMagic(demand.mode) || (!at_start && !at_end)) return;
+/// Checks that the path has velocities, which the continuity of an object at the beginning and end of a mode
+/// constrains.
+void requireVelocities(const Path& path, const SwitchSpec& spec, int from, int to) {
+  const bool ends = spec.times.size() == 2 && spec.times[1] >= 0. && to < path.grid().slices();
+  const bool at_start = spec.first && from >= 0, at_end = ends && !isDynamic(spec.mode);
+  if (path.grid().order() >= 1 || isMagic(spec.mode) || (!at_start && !at_end)) return;
   std::vector<std::string> otherwise;
   if (at_start) otherwise.push_back("first=false");
-  if (at_end) otherwise.push_back(cat("times [", demand.times[0], ", -1]"));
-  throw ValueError(cat(
-      "addModeSwitch: that the object does not jump is about velocities; it needs a KOMO with kOrder 1 or more, or ",
-      join(otherwise, " and ")));
+  if (at_end) otherwise.push_back(cat("times [", spec.times[0], ", -1]"));
+  throw ValueError(
+      cat("addModeSwitch: a continuous motion of the object constrains velocities; expected a KOMO with kOrder 1 or "
+          "more, or ",
+          join(otherwise, " and ")));
 }
 
 }  // namespace
 
-void addModeSwitch(MotionProblem& motion, const SwitchSpec& demand) {
+void addModeSwitch(MotionProblem& motion, const SwitchSpec& spec) {
   Path& path = motion.path;
   path.requireBuilt("addModeSwitch");
-  const auto [parent, object] = framesOf(path, demand);
-  const M mode = demand.mode;
-  const std::vector<double>& times = demand.times;
+  const auto [parent, object] = framesOf(path, spec);
+  const M mode = spec.mode;
+  const std::vector<double>& times = spec.times;
   const bool ends = times.size() == 2 && times[1] >= 0.;
   path.beginModes();
   if (!begins(motion, "addModeSwitch", times[0])) return;
@@ -132,22 +134,22 @@ void addModeSwitch(MotionProblem& motion, const SwitchSpec& demand) {
             to = ends ? path.grid().sliceAt(times[1]) : path.grid().slices() - 1;
   if (ends && to < from)
     throw ValueError(cat("addModeSwitch: times [", times[0], ", ", times[1], "] end before they begin"));
-  requireVelocities(path, demand, from, to);
+  requireVelocities(path, spec, from, to);
   const Mode& before = modeBefore(path, from);
   const FrameData& root = before.movableRoot(object, parent);
   const std::string root_name = root.name;
-  std::string held_by;  // where the object was in a stable mode until now
+  std::string parent_before;  // parent of the object if it was in a stable mode before
   if (const auto added = before.added.find(root.id); added != before.added.end() && added->second.stable)
-    held_by = added->second.parent;
+    parent_before = added->second.parent;
   path.attach(from, parent, object, attachmentOf(mode, before.config.getFrame(parent), before.config.getFrame(object)));
   if (isMagic(mode)) return;
   const bool dynamic = isDynamic(mode);
-  if (demand.first) {
+  if (spec.first) {
     const double scale = dynamic ? 1e2 : 1e1;
-    if (held_by.empty()) {
+    if (parent_before.empty()) {
       addContinuity(motion, FeatureSymbol::pose, {root_name}, scale, 1, from);
     } else {
-      addContinuity(motion, FeatureSymbol::poseRel, {object, held_by}, scale, 1, from);
+      addContinuity(motion, FeatureSymbol::poseRel, {object, parent_before}, scale, 1, from);
     }
     if (order >= 2 && !dynamic) addContinuity(motion, FeatureSymbol::linangVel, {object}, 1., 2, from + 1);
   }
@@ -174,26 +176,25 @@ void addRigidSwitch(MotionProblem& motion, double time, const std::string& paren
   if (path.grid().order() >= 2) addContinuity(motion, FeatureSymbol::linangVel, {object}, 1., 2, from + 1);
 }
 
-void addFrameDof(Path& path, const FrameSpec& demand) {
+void addFrameDof(Path& path, const FrameSpec& spec) {
   path.requireBuilt("addFrameDof");
   const KinematicModel& model = firstModel(path);
-  if (demand.name.empty() || model.frame_index.contains(demand.name)) {
-    throw ValueError(cat("addFrameDof: there is a frame '", demand.name, "' already; expected a new name"));
+  if (spec.name.empty() || model.frame_index.contains(spec.name)) {
+    throw ValueError(cat("addFrameDof: frame '", spec.name, "' exists already; expected a new name"));
   }
-  std::string below = demand.parent;
-  if (below.empty() && demand.type != JointType::none)
+  std::string below = spec.parent;
+  if (below.empty() && spec.type != JointType::none)
     below = model.frame_index.contains("world") ? "world" : model.frame_name.front();
   if (!below.empty()) requireFrame(path, below, "addFrameDof");
-  if (!demand.origin.empty()) requireFrame(path, demand.origin, "addFrameDof");
-  const JointType type = demand.type;
+  if (!spec.origin.empty()) requireFrame(path, spec.origin, "addFrameDof");
+  const JointType type = spec.type;
   if (type == JointType::hinge || type == JointType::generic || type == JointType::tau) {
     throw ValueError(cat("addFrameDof: a ", jointTypeName(type), " joint cannot be added to a motion problem"));
   }
   path.beginModes();
-  std::optional<Pose> origin = demand.origin_pose;
-  if (!origin && !demand.origin.empty())
-    origin = path.mode(-path.grid().order()).config.getFrame(demand.origin).getPose();
-  path.addFrame(demand.name, below, type, demand.stable, origin);
+  std::optional<Pose> origin = spec.origin_pose;
+  if (!origin && !spec.origin.empty()) origin = path.mode(-path.grid().order()).config.getFrame(spec.origin).getPose();
+  path.addFrame(spec.name, below, type, spec.stable, origin);
 }
 
 }  // namespace kinegraph

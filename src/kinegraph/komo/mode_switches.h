@@ -8,34 +8,37 @@
 
 namespace kinegraph {
 
-/// A mode that objects change to: from times[0] on, frames[1] hangs below frames[0] by a joint that `mode` says. Modes
-/// in which an object moves by itself take it alone, too.
+/// Specification of a mode switch: from times[0] on, frames[1] is attached to frames[0] by the joint of `mode`. Modes
+/// in which an object moves freely also accept the object alone.
 struct SwitchSpec {
-  std::vector<double> times;  ///< [from, to]; `to` where a next switch takes over; negative: it holds to the end
+  std::vector<double> times;  ///< [from, to]; `to` is the time of the next switch, negative for the end of the path
   SwitchMode mode;
   std::vector<std::string> frames;
-  bool first = true;  ///< keeps the motion continuous at the beginning, too
+  bool first = true;  ///< also requires continuity of the motion at the beginning
 };
 
-/// Changes the structure of the path, and adds what keeps the motion continuous where the mode begins and ends. Throws
-/// FrameNotFound and ValueError; leaves a warning if it begins beyond the end.
-void addModeSwitch(MotionProblem& motion, const SwitchSpec& demand);
+/// Changes the kinematic structure of the path, and adds objectives that make the motion continuous at the beginning
+/// and end of the mode. Throws FrameNotFound and ValueError. Adds a warning if the mode begins after the end of the
+/// path.
+void addModeSwitch(MotionProblem& motion, const SwitchSpec& spec);
 
-/// From `time` on, `object` sits at `parent`, without a joint. `no_jump`: it does not jump there.
+/// Attaches `object` rigidly to `parent` from `time` on. `no_jump` requires that its pose is continuous.
 void addRigidSwitch(MotionProblem& motion, double time, const std::string& parent, const std::string& object,
                     bool no_jump);
 
-/// A frame in all slices, with a joint whose dofs are the same in all of them (`stable`) or one set per slice.
+/// Specification of a frame in all slices, with a joint whose dofs are either shared by all slices (`stable`) or
+/// separate.
 struct FrameSpec {
   std::string name;
-  std::string parent{};  ///< empty: the world
-  JointType type;        ///< none: it does not move
+  std::string parent{};  ///< empty for the world
+  JointType type;        ///< none for a fixed frame
   bool stable;
-  std::string origin{};  ///< it moves relative to where this frame is now, relative to the parent; empty: to the parent
-  std::optional<Pose> origin_pose{};  ///< world pose to take in place of the origin's present one
+  std::string origin{};  ///< frame whose present pose, relative to the parent, is the origin of the joint; empty for
+                         ///< the parent's pose
+  std::optional<Pose> origin_pose{};  ///< world pose that replaces the present one of the origin
 };
 
-/// Throws FrameNotFound, and ValueError for a name that is there already and for joints that cannot be added.
-void addFrameDof(Path& path, const FrameSpec& demand);
+/// Adds a frame. Throws FrameNotFound, and ValueError for an existing name and for unsupported joints.
+void addFrameDof(Path& path, const FrameSpec& spec);
 
 }  // namespace kinegraph

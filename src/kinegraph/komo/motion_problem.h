@@ -5,7 +5,7 @@
 
 namespace kinegraph {
 
-/// A path, what is wanted of it, and the contact forces on it: what mode switches and contacts change together.
+/// A path, its objectives, and its contact forces, which mode switches and contacts modify together.
 struct MotionProblem {
   Path path;
   ObjectiveList objectives;

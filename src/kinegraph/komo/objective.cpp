@@ -20,16 +20,16 @@ namespace {
 using Ids = std::vector<int>;
 using Made = std::unique_ptr<Feature>;
 
-/// The joints of the given configuration, or of the frames with these ids, as they are in a slice.
+/// The joints of the initial configuration, or of the frames with these ids, as they are in a slice.
 Made jointsIn(const Objective& objective, const Path& path, const Ids& ids, int slice) {
-  const KinematicModel &model = path.state(slice).model(), &given = *path.given().model;
+  const KinematicModel &model = path.state(slice).model(), &initial_model = *path.initial().model;
   std::vector<JointsOfFrames::Part> parts;
-  const Ids& frames = ids.empty() ? path.given().joint_frames : ids;
+  const Ids& frames = ids.empty() ? path.initial().joint_frames : ids;
   parts.reserve(frames.size());
   for (int frame : frames) {
     const int count = model.frame_dofs[frame].count;
-    const bool original = frame < int(given.frame_dofs.size());
-    if (count == 0 || (ids.empty() && original && count != given.frame_dofs[frame].count)) {
+    const bool original = frame < int(initial_model.frame_dofs.size());
+    if (count == 0 || (ids.empty() && original && count != initial_model.frame_dofs[frame].count)) {
       throw ValueError(cat(objective.name(), ": the joint of frame '", model.frame_name[frame], "' ",
                            ids.empty() ? "was replaced by a mode switch" : "is not there, or not active", " in slice ",
                            slice));
@@ -45,8 +45,8 @@ Made jointsIn(const Objective& objective, const Path& path, const Ids& ids, int 
   return std::make_unique<JointState>(std::move(dofs));
 }
 
-/// The limits of the given configuration's joints whose dofs a slice owns, and of those that all share; joints that were
-/// added are limited by bounds.
+/// The limits of the initial configuration's joints whose dofs a slice owns, and of the shared ones. Bounds limit added
+/// joints.
 Made limitsIn(const Path& path, int slice) {
   const KinematicModel& model = path.state(slice).model();
   std::set<int> owned, dofs;
@@ -55,16 +55,16 @@ Made limitsIn(const Path& path, int slice) {
   };
   for (const KinematicModel::DofRange& range : path.layout().owned[std::size_t(slice + path.grid().order())])
     owned.insert(range.first);
-  for (std::size_t frame = 0; frame < path.given().tree->frames().size(); ++frame) {
+  for (std::size_t frame = 0; frame < path.initial().tree->frames().size(); ++frame) {
     const KinematicModel::DofRange& range = model.frame_dofs[frame];
     if (range.count > 0 && owned.contains(range.first)) insert(range);
   }
-  for (int frame : path.given().shared_joints) insert(model.frame_dofs[frame]);
+  for (int frame : path.initial().shared_joints) insert(model.frame_dofs[frame]);
   return std::make_unique<JointLimits>(Ids(dofs.begin(), dofs.end()), model);
 }
 
-/// The quaternions among the dofs of a slice, but for those of frames that were added after the objective: a stable
-/// frame's quaternion belongs to the slices before the start.
+/// The quaternions among the dofs of a slice, except those of frames added after the objective: the quaternion of a
+/// stable frame belongs to the slices before the start.
 Made normsIn(const Objective& objective, const Path& path, int slice) {
   const KinematicModel& model = path.state(slice).model();
   const auto isKnown = [&](const KinematicModel::DofRange& norm) {
@@ -79,22 +79,23 @@ Made normsIn(const Objective& objective, const Path& path, int slice) {
   return std::make_unique<QuaternionNorms>(std::move(norms));
 }
 
-/// Free flight where no force and no inertia is known.
+/// Free flight if there are neither forces nor an inertia.
 Made physicsOf(int frame, const Objective& objective, const Path& path, const std::vector<ContactForce>& forces) {
   const double gravity = objective.without_gravity ? 0. : -kGravity.z();
-  const auto& frames = path.given().tree->frames();
-  const bool is_given = frame < int(frames.size()) && frames[frame]->inertia;
-  if (forces.empty() && !is_given && !objective.damped) return std::make_unique<FreeFlight>(frame, gravity);
-  const Matrix3d inertia = is_given ? frames[frame]->inertia->matrix : Matrix3d(Matrix3d::Zero());
+  const auto& frames = path.initial().tree->frames();
+  const bool has_inertia = frame < int(frames.size()) && frames[frame]->inertia;
+  if (forces.empty() && !has_inertia && !objective.damped) return std::make_unique<FreeFlight>(frame, gravity);
+  const Matrix3d inertia = has_inertia ? frames[frame]->inertia->matrix : Matrix3d(Matrix3d::Zero());
   if (objective.damped) return std::make_unique<DampedMotion>(frame, gravity, inertia, forces);
   return std::make_unique<NewtonEuler>(frame, gravity, inertia, forces);
 }
 
-/// The sum of overlaps or those of all pairs, of a slice or on the way to it. Pairs count up to the margin.
+/// The sum of overlaps, or the overlaps of all pairs, in a slice or in the motion to it. Pairs closer than the margin
+/// count.
 Made collisionsIn(const Objective& objective, const Path& path, const Ids& ids, int slice) {
   const bool is_sum = objective.feature == FeatureSymbol::accumulatedCollisions;
-  const double far = farOf(objective);
-  if (objective.on_the_way) {
+  const double far = cutoffDistance(objective);
+  if (objective.between_slices) {
     const SampledCollisions::Form form = is_sum ? SampledCollisions::Form::sum : SampledCollisions::Form::stacked;
     const auto place = std::size_t(slice - objective.from);
     const bool has_samples = place < objective.samples.size();
@@ -107,8 +108,8 @@ Made collisionsIn(const Objective& objective, const Path& path, const Ids& ids, 
   return std::make_unique<PairCollisions>(ids, model, PairChoice::motion, far);
 }
 
-/// Joints and forces are those of the path, and of collisions only those count that joints part; other features are as
-/// anywhere.
+/// Joint and force features use those of the path, and collisions only count pairs that joints move relative to each
+/// other. Other features are independent of the path.
 Made featureIn(const Objective& objective, const Path& path, const std::vector<ContactForce>& forces, int slice) {
   const State& state = path.state(slice);
   Ids ids;

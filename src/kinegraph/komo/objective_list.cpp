@@ -16,14 +16,14 @@ void ObjectiveList::add(Objective objective, const Path& path, const std::vector
   objective.to = std::min(objective.to + delta_to, grid.slices() - 1);
   const bool empty = objective.from > objective.to;
   objective.order = residualIn(objective, path, forces, empty ? 0 : objective.from).order();
-  if (objective.order > grid.order() && !objective.on_the_way) {
+  if (objective.order > grid.order() && !objective.between_slices) {
     throw ValueError(cat(objective.name(), " of order ", objective.order, " needs a KOMO with kOrder ", objective.order,
                          " or more; this one has ", grid.order()));
   }
   if (empty) {
-    std::vector<std::string> words;
-    for (double time : objective.times) words.push_back(cat(time));
-    warn(cat("objective ", objective.name(), " with times [", join(words), "] selects no slice; the ", grid.slices(),
+    std::vector<std::string> numbers;
+    for (double time : objective.times) numbers.push_back(cat(time));
+    warn(cat("objective ", objective.name(), " with times [", join(numbers), "] selects no slice; the ", grid.slices(),
              grid.slices() == 1 ? " slice is" : " slices are", " at phase times ", grid.timeOf(0), " to ",
              grid.timeOf(grid.slices() - 1)));
   }

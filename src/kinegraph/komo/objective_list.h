@@ -8,15 +8,17 @@
 
 namespace kinegraph {
 
-/// The objectives of a motion problem in the order in which they were added, which is that of its residuals. Each has
-/// been tried on the path: its frames, sizes and order fit.
+/// The objectives of a trajectory optimization problem. Their order is that of the residuals. Each was validated
+/// against the path when it was added: its frames, sizes and order fit.
 class ObjectiveList {
  public:
   ObjectiveList() = default;
-  explicit ObjectiveList(std::vector<Objective> known) : list_(std::move(known)) {}  ///< as they were in another list
+  explicit ObjectiveList(std::vector<Objective> objectives)
+      : list_(std::move(objectives)) {}  ///< objectives of another, equal
+                                         ///< problem
 
-  /// Adds an objective in the slices that its times select, of which the first and last are moved by `delta_from` and
-  /// `delta_to`. Throws ValueError if it does not fit the path; leaves a warning if it selects no slice.
+  /// Adds an objective in the slices that its times select; `delta_from` and `delta_to` shift the first and last one.
+  /// Throws ValueError if it does not fit the path; adds a warning if it selects no slice.
   void add(Objective objective, const Path& path, const std::vector<ContactForce>& forces, int delta_from = 0,
            int delta_to = 0);
 
@@ -29,7 +31,7 @@ class ObjectiveList {
   auto end() const { return list_.end(); }
   const std::vector<Objective>& all() const { return list_; }
 
-  /// Things that have no effect, told once.
+  /// Records a warning about a call without effect.
   void warn(std::string warning) { warnings_.push_back(std::move(warning)); }
   std::vector<std::string> takeWarnings() { return std::exchange(warnings_, {}); }
 

@@ -7,30 +7,32 @@
 
 namespace kinegraph {
 
-/// Where a residual of a motion problem comes from.
-struct PathRow {
-  int objective;  ///< its place among the objectives of the Komo
+/// Origin of a residual component of a trajectory optimization problem.
+struct PathComponent {
+  int objective;  ///< index among the objectives of the Komo
   int slice;
-  int row;  ///< among those that the objective has in the slice
+  int row;  ///< index among the components of the objective in this slice
 };
 
-/// Of all residuals of a problem that was made from a Komo, or of its separate form. Empty for other problems.
-std::vector<PathRow> pathRows(const Nlp& nlp);
+/// Returns the origins of all residuals of a problem made from a Komo, or of its separate form. Empty for other
+/// problems.
+std::vector<PathComponent> pathComponents(const Nlp& nlp);
 
-/// An objective in a slice, as such a problem evaluates it.
+/// An objective in a slice, the unit in which such a problem is evaluated.
 struct PathTerm {
   int objective, slice;
   int first_row, rows;
-  bool is_linear;       ///< of joints only
-  bool comes_and_goes;  ///< rows may be left out of the Jacobian
+  bool is_linear;  ///< depends on joints only, linearly
+  bool is_sparse;  ///< zero rows are omitted from the Jacobian
 };
 std::vector<PathTerm> pathTerms(const Nlp& nlp);
 
-/// Evaluates some of these at the present path, among them all or none that come and go; other rows are left as they are.
+/// Evaluates some of these terms at the present path and leaves other rows unchanged. `terms` contains either all
+/// sparse terms or none.
 void evaluatePathTerms(Nlp& nlp, const std::vector<int>& terms, VectorXd& phi, Jacobian& J);
 
-/// Its objectives, as they were when it was made from a Komo; null for other problems. Of its separate form: as they
-/// are there.
+/// Returns the objectives of a problem made from a Komo, as they were then, or those of its separate form; null for
+/// other problems.
 const std::vector<Objective>* objectivesOf(const Nlp& nlp);
 
 }  // namespace kinegraph

@@ -10,7 +10,7 @@ namespace kinegraph {
 
 namespace {
 
-/// What each dof of a program is.
+/// Returns the unit of each dof of a model.
 std::vector<Measure> measuresOfDofs(const KinematicModel& model) {
   std::vector<Measure> measures(model.dofs, Measure::number);
   for (std::size_t l = 1; l < model.links.size(); ++l) {
@@ -18,7 +18,7 @@ std::vector<Measure> measuresOfDofs(const KinematicModel& model) {
     int dof = link.dof;
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
       const MotionStep& step = model.steps[s];
-      const Measure measure = step.slides() ? Measure::length : step.turns() ? Measure::angle : Measure::number;
+      const Measure measure = step.translates() ? Measure::length : step.rotates() ? Measure::angle : Measure::number;
       for (int i = 0; i < step.dofs(); ++i) measures[dof++] = measure;
     }
   }
@@ -33,7 +33,7 @@ std::string frameOfDof(const KinematicModel& model, int dof) {
   return {};
 }
 
-/// The unit that all rows of an objective about joints have; number if they differ.
+/// Returns the unit that all components of a joint objective have; number if they differ.
 Measure measureOfJoints(const Path& path, const Objective& objective, int slice) {
   const KinematicModel& model = path.state(slice).model();
   const std::vector<Measure> all = measuresOfDofs(model);
@@ -47,7 +47,7 @@ Measure measureOfJoints(const Path& path, const Objective& objective, int slice)
   return same ? used[0] : Measure::number;
 }
 
-/// What people are told of a unit. Velocities are lengths and angles per time.
+/// Returns the unit for reports. Velocities are lengths and angles per time.
 Measure measureOf(FeatureUnit unit) {
   switch (unit) {
     case FeatureUnit::meter:
@@ -63,7 +63,7 @@ Measure measureOf(FeatureUnit unit) {
     case FeatureUnit::cosine:
       return Measure::cosine;
     case FeatureUnit::none:
-    case FeatureUnit::joint:  // as the joint says: measureOfJoints
+    case FeatureUnit::joint:  // depends on the joint: measureOfJoints
     case FeatureUnit::newton:
     case FeatureUnit::newton_meter:
     case FeatureUnit::joule:
@@ -72,28 +72,28 @@ Measure measureOf(FeatureUnit unit) {
   return Measure::number;
 }
 
-/// How often a unit is per second.
+/// Returns the number of times that a unit is divided by seconds.
 int timeOrderOf(FeatureUnit unit) {
   return unit == FeatureUnit::meter_per_second || unit == FeatureUnit::radian_per_second;
 }
 
-/// Says what entry `entry` of an objective's feature is; one of a person's own is a number.
+/// Describes component `entry` of an objective's feature. Components of custom features are plain numbers.
 void describeEntry(RowDescription& out, const Path& path, const Objective& objective, int slice, int entry) {
   if (!objective.feature.symbol()) return;
   const FeatureInfo& info = featureInfo(*objective.feature.symbol());
   const FeatureUnit unit = info.unitOf(entry);
-  out.time_order = objective.on_the_way ? 0 : objective.order - info.order + timeOrderOf(unit);
+  out.time_order = objective.between_slices ? 0 : objective.order - info.order + timeOrderOf(unit);
   out.measure = unit == FeatureUnit::joint ? measureOfJoints(path, objective, slice) : measureOf(unit);
 }
 
 }  // namespace
 
 std::string objectiveName(const Objective& objective) {
-  const std::string name = objective.name() + (objective.on_the_way ? " between slices" : "");
+  const std::string name = objective.name() + (objective.between_slices ? " between slices" : "");
   return objective.frames.empty() ? name : cat(name, " of ", join(objective.frames, ", "));
 }
 
-RowDescription describePathRow(const Path& path, const PathProblem& problem, int row) {
+RowDescription describePathComponent(const Path& path, const PathProblem& problem, int row) {
   const PathProblem::Term& term = problem.termOf(row);
   const Objective& objective = problem.objectives()[term.objective];
   RowDescription out;
@@ -101,14 +101,14 @@ RowDescription describePathRow(const Path& path, const PathProblem& problem, int
   out.group = term.objective;
   out.frames = objective.frames;
   out.slice = term.slice;
-  out.time_order = objective.on_the_way ? 0 : objective.order;
+  out.time_order = objective.between_slices ? 0 : objective.order;
   const int r = row - term.first_row;
   const MatrixXd& scale = objective.scale;
-  const bool mixes_rows = scale.size() > 1 && (scale.cols() > 1 || scale.rows() != term.rows);
+  const bool mixes_components = scale.size() > 1 && (scale.cols() > 1 || scale.rows() != term.rows);
   if (scale.size() == 1) out.scale = scale(0, 0);
-  if (scale.size() > 1) out.scale = mixes_rows ? scale.row(r).norm() : scale(r, 0);
-  int raw = r;  // the entry of the feature
-  if (mixes_rows) scale.row(r).cwiseAbs().maxCoeff(&raw);
+  if (scale.size() > 1) out.scale = mixes_components ? scale.row(r).norm() : scale(r, 0);
+  int raw = r;  // the component of the feature
+  if (mixes_components) scale.row(r).cwiseAbs().maxCoeff(&raw);
   describeEntry(out, path, objective, term.slice, raw);
   if (out.measure == Measure::cosine && objective.target.size() > 0) out.target = objective.target[0];
   return out;
@@ -117,7 +117,7 @@ RowDescription describePathRow(const Path& path, const PathProblem& problem, int
 VariableDescription describePathVariable(const Path& path, int variable) {
   VariableDescription out;
   const PathLayout& layout = path.layout();
-  const KinematicModel* model = path.given().model.get();
+  const KinematicModel* model = path.initial().model.get();
   int dof = -1;
   if (layout.plain) {
     out.slice = variable / path.dofs();
@@ -138,11 +138,11 @@ VariableDescription describePathVariable(const Path& path, int variable) {
   return out;
 }
 
-std::vector<std::string> pathRowDetails(const Path& path, const PathProblem& problem, int row) {
+std::vector<std::string> pathComponentDetails(const Path& path, const PathProblem& problem, int row) {
   const PathProblem::Term& term = problem.termOf(row);
   const Objective& objective = problem.objectives()[term.objective];
   if (objective.feature != FeatureSymbol::accumulatedCollisions) return {};
-  if (objective.on_the_way) {
+  if (objective.between_slices) {
     std::vector<std::string> contacts;
     for (const PathContact& contact : contactsOf({motionInto(path, term.slice)}, objective.margin, 1e-5))
       contacts.push_back(contact.str());
@@ -153,7 +153,7 @@ std::vector<std::string> pathRowDetails(const Path& path, const PathProblem& pro
   std::stable_sort(near.begin(), near.end(), [](const auto& a, const auto& b) { return a.distance < b.distance; });
   std::vector<std::string> pairs;
   for (const Config::NearPair& pair : near) {
-    if (!config.model()->movesApart(pair.a, pair.b)) continue;  // no joint is asked to part them
+    if (!config.model()->movesApart(pair.a, pair.b)) continue;  // no joint could separate them
     const std::string a = config.getFrame(pair.a).getName(), b = config.getFrame(pair.b).getName();
     const auto named = [&](const std::string& name) {
       return std::find(objective.frames.begin(), objective.frames.end(), name) != objective.frames.end();

@@ -4,16 +4,16 @@
 
 namespace kinegraph {
 
-/// "positionDiff of l_gripper, target"
+/// Returns a name such as "positionDiff of l_gripper, target".
 std::string objectiveName(const Objective& objective);
 
-/// A residual of a motion problem in a person's terms. The group is the objective's index.
-RowDescription describePathRow(const Path& path, const PathProblem& problem, int row);
+/// Describes a residual of a trajectory optimization problem. The group is the index of the objective.
+RowDescription describePathComponent(const Path& path, const PathProblem& problem, int row);
 
-/// An entry of x: the joint's frame, its slice and unit.
+/// Describes an entry of x: the frame of its joint, its slice and unit.
 VariableDescription describePathVariable(const Path& path, int variable);
 
-/// The pairs of shapes that overlap, where the residual is about collisions, at the present path.
-std::vector<std::string> pathRowDetails(const Path& path, const PathProblem& problem, int row);
+/// Returns the overlapping pairs at the present path if the residual is about collisions.
+std::vector<std::string> pathComponentDetails(const Path& path, const PathProblem& problem, int row);
 
 }  // namespace kinegraph

@@ -14,7 +14,7 @@ namespace {
 
 std::shared_ptr<Komo> requireKomo(const Nlp& nlp) {
   std::shared_ptr<Komo> komo = komoOf(nlp);
-  if (!komo) throw ValueError("the problem is not a KOMO's: it has no objectives and no frames");
+  if (!komo) throw ValueError("the problem was not made from a KOMO, so it has no objectives and no frames");
   return komo;
 }
 
@@ -38,9 +38,9 @@ Residual residualOf(const Nlp& nlp, const Objective& objective) {
   return residualIn(objective, komo->path(), komo->contacts().forces(), objective.from);
 }
 
-std::vector<std::string> numbered(const std::string& what, int count) {
+std::vector<std::string> numbered(const std::string& name, int count) {
   std::vector<std::string> names;
-  for (int i = 0; i < count; ++i) names.push_back(count == 1 ? what : cat(what, ", row ", i));
+  for (int i = 0; i < count; ++i) names.push_back(count == 1 ? name : cat(name, ", row ", i));
   return names;
 }
 
@@ -56,7 +56,7 @@ class ObjectiveTarget final : public NlpParameter {
         scale_(residual.scale()) {}
 
   void differentiate(const Point& at, int number, VectorXd& phi, VectorXd&) override {
-    const std::vector<PathRow> rows = pathRows(at.nlp);
+    const std::vector<PathComponent> rows = pathComponents(at.nlp);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (rows[i].objective != objective_) continue;
       double scale = 1.;
@@ -74,8 +74,7 @@ class ObjectiveTarget final : public NlpParameter {
   static int count(const Objective& objective, const Residual& residual) {
     if (objective.feature == FeatureSymbol::accumulatedCollisions)
       throw ValueError(
-          "accumulatedCollisions is a sum of overlaps, which has no target that could be moved; pairCollisions has "
-          "one");
+          "accumulatedCollisions is a sum of overlaps and has no target to differentiate by; use pairCollisions");
     return objective.feature == FeatureSymbol::pairCollisions ? 1 : residual.feature().rows();
   }
 
@@ -93,7 +92,7 @@ class ObjectiveScale final : public NlpParameter {
         scale_(residual.scale().size() == 0 ? VectorXd(VectorXd::Ones(1)) : VectorXd(residual.scale().col(0))) {}
 
   void differentiate(const Point& at, int number, VectorXd& phi, VectorXd& gradient) override {
-    const std::vector<PathRow> rows = pathRows(at.nlp);
+    const std::vector<PathComponent> rows = pathComponents(at.nlp);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (rows[i].objective != objective_ || (size() > 1 && rows[i].row != number)) continue;
       phi[Eigen::Index(i)] += at.phi[Eigen::Index(i)] / scale_[number];
@@ -107,10 +106,10 @@ class ObjectiveScale final : public NlpParameter {
     const MatrixXd& scale = residual.scale();
     if (residual.mixesRows())
       throw ValueError(cat("the scale of ", objectiveName(objective),
-                           " is a matrix; expected a number, or one per row, to differentiate by"));
+                           " is a matrix; expected one number, or one per component, to differentiate by"));
     if ((scale.array() == 0.).any())
-      throw ValueError(
-          cat("the scale of ", objectiveName(objective), " has zeros: nothing is known of what they hide"));
+      throw ValueError(cat("the scale of ", objectiveName(objective),
+                           " has zeros; expected nonzero numbers, since zeros hide the derivatives of components"));
     return std::max(1, int(scale.size()));
   }
 
@@ -118,11 +117,11 @@ class ObjectiveScale final : public NlpParameter {
   VectorXd scale_;
 };
 
-/// A frame at rest on its parent, in all slices in which it is.
-class FramePlace final : public MovedParameter {
+/// The pose of a frame that is fixed to its parent, in all slices in which it is.
+class FramePoseParameter final : public MovedParameter {
  public:
-  FramePlace(const Nlp& nlp, const std::string& name, bool turns)
-      : MovedParameter(cat(turns ? "pose of " : "position of ", name), namesOf(name, turns)) {
+  FramePoseParameter(const Nlp& nlp, const std::string& name, bool with_rotation)
+      : MovedParameter(cat(with_rotation ? "pose of " : "position of ", name), namesOf(name, with_rotation)) {
     const Path& path = requireKomo(nlp)->path();
     frame_ = frameId(path.state(0).model(), name, "sensitivity");
     std::string joint_of;
@@ -130,57 +129,58 @@ class FramePlace final : public MovedParameter {
       const auto copy = std::make_shared<SceneTree>();
       copy->append(scene, {}, false);
       const FrameData& frame = *copy->frames()[std::size_t(frame_)];
-      rests_.push_back(!frame.moves());
+      is_fixed_.push_back(!frame.moves());
       poses_.push_back(frame.pose);
       scenes_.push_back(copy);
       if (frame.moves() && frame.parent) joint_of = frame.parent->name;
     };
-    if (path.modes().empty()) add(*path.given().tree);
+    if (path.modes().empty()) add(*path.initial().tree);
     for (const auto& mode : path.modes().list()) add(*mode->config.scene());
-    if (std::ranges::find(rests_, true) != rests_.end()) return;
-    throw ValueError(cat("frame '", name, "' is where its joint brings it; expected a frame that rests on its parent",
-                         joint_of.empty() ? "" : cat(", as '", joint_of, "' may")));
+    if (std::ranges::find(is_fixed_, true) != is_fixed_.end()) return;
+    throw ValueError(cat("frame '", name, "' is moved by its joint; expected a frame that is fixed to its parent",
+                         joint_of.empty() ? "" : cat(", such as '", joint_of, "'")));
   }
 
  private:
-  static std::vector<std::string> namesOf(const std::string& frame, bool turns) {
+  static std::vector<std::string> namesOf(const std::string& frame, bool with_rotation) {
     std::vector<std::string> names;
     for (const char* axis : {"x", "y", "z"}) names.push_back(cat("position of ", frame, ", ", axis));
     for (const char* axis : {"x", "y", "z"}) {
-      if (turns) names.push_back(cat("rotation of ", frame, " about ", axis));
+      if (with_rotation) names.push_back(cat("rotation of ", frame, " about ", axis));
     }
     return names;
   }
 
-  /// Terms that look at something else than joints, in trees that the frame is in. Those of an order look back.
+  /// Finds the terms that depend on more than joints, in trees that contain the frame. Terms of order k use k preceding
+  /// slices.
   bool findRows(Nlp& nlp, std::vector<int>& rows) override {
     const Path& path = requireKomo(nlp)->path();
     const std::vector<Objective>& objectives = *objectivesOf(nlp);
     const std::vector<PathTerm> terms = pathTerms(nlp);
     const int order = path.grid().order();
-    std::vector<char> is_looked_at(std::size_t(path.grid().slices() + order), false);
-    const bool any_comes_and_goes = std::ranges::any_of(terms, [&](const PathTerm& term) {
-      return term.comes_and_goes && maySee(objectives[std::size_t(term.objective)]);
+    std::vector<char> is_used(std::size_t(path.grid().slices() + order), false);
+    const bool any_is_sparse = std::ranges::any_of(terms, [&](const PathTerm& term) {
+      return term.is_sparse && mayDependOn(objectives[std::size_t(term.objective)]);
     });
     terms_.clear();
     rows.clear();
     for (std::size_t i = 0; i < terms.size(); ++i) {
       const PathTerm& term = terms[i];
       const Objective& objective = objectives[std::size_t(term.objective)];
-      if (term.is_linear || !(term.comes_and_goes ? any_comes_and_goes : maySee(objective))) continue;
+      if (term.is_linear || !(term.is_sparse ? any_is_sparse : mayDependOn(objective))) continue;
       terms_.push_back(int(i));
       for (int row = 0; row < term.rows; ++row) rows.push_back(term.first_row + row);
-      for (int t = term.slice - objective.order; t <= term.slice; ++t) is_looked_at[std::size_t(t + order)] = true;
+      for (int t = term.slice - objective.order; t <= term.slice; ++t) is_used[std::size_t(t + order)] = true;
     }
     slices_.clear();
     for (int t = -order; t < path.grid().slices(); ++t) {
-      if (is_looked_at[std::size_t(t + order)]) slices_.push_back(t);
+      if (is_used[std::size_t(t + order)]) slices_.push_back(t);
     }
     return true;
   }
 
-  /// What names frames, all of them in other trees, does not, nor do collisions of what has no shape.
-  bool maySee(const Objective& objective) const {
+  /// False for objectives whose frames are all in other trees, and for collisions if the frame has no shape.
+  bool mayDependOn(const Objective& objective) const {
     const auto symbol = objective.feature.symbol();
     if (symbol == FeatureSymbol::accumulatedCollisions || symbol == FeatureSymbol::pairCollisions) return hasShapes();
     if (scenes_.size() > 1 || objective.feature.maker() || objective.frames.empty()) return true;
@@ -196,7 +196,7 @@ class FramePlace final : public MovedParameter {
     });
   }
 
-  /// The frame, or one below it.
+  /// Returns true if the frame or one of its descendants has a shape.
   bool hasShapes() const {
     return std::ranges::any_of(scenes_, [&](const auto& scene) {
       const FrameData* own = scene->frames()[std::size_t(frame_)].get();
@@ -215,12 +215,12 @@ class FramePlace final : public MovedParameter {
 
   void move(Nlp& nlp, int number, double by) override {
     Path& path = requireKomo(nlp)->path();
-    if (given_.empty()) {
-      for (const int t : slices_) given_.push_back(path.state(t).sharedParameters());
+    if (original_.empty()) {
+      for (const int t : slices_) original_.push_back(path.state(t).sharedParameters());
     }
     if (by == 0.) {
-      for (std::size_t i = 0; i < slices_.size(); ++i) path.setParameters(slices_[i], given_[i]);
-      given_.clear();
+      for (std::size_t i = 0; i < slices_.size(); ++i) path.setParameters(slices_[i], original_[i]);
+      original_.clear();
       return;
     }
     std::vector<std::shared_ptr<const Parameters>> moved(scenes_.size());
@@ -228,13 +228,13 @@ class FramePlace final : public MovedParameter {
       const int t = slices_[i];
       const auto place = std::size_t(t + path.grid().order());
       const std::size_t mode = path.modes().empty() ? 0 : std::size_t(path.modes().ofSlices()[place]);
-      if (!rests_[mode]) continue;
-      if (!moved[mode]) moved[mode] = movedIn(mode, path.state(t).model(), *given_[i], number, by);
+      if (!is_fixed_[mode]) continue;
+      if (!moved[mode]) moved[mode] = movedIn(mode, path.state(t).model(), *original_[i], number, by);
       path.setParameters(t, moved[mode]);
     }
   }
 
-  std::shared_ptr<const Parameters> movedIn(std::size_t mode, const KinematicModel& model, const Parameters& given,
+  std::shared_ptr<const Parameters> movedIn(std::size_t mode, const KinematicModel& model, const Parameters& original,
                                             int number, double by) const {
     FrameData& frame = *scenes_[mode]->frames()[std::size_t(frame_)];
     frame.pose = poses_[mode];
@@ -243,18 +243,19 @@ class FramePlace final : public MovedParameter {
       frame.pose.p += by * axis;
     else
       frame.pose.q = Quaterniond(Eigen::AngleAxisd(by, axis)) * frame.pose.q;
-    const auto moved = std::make_shared<Parameters>(given);
+    const auto moved = std::make_shared<Parameters>(original);
     updateParameters(frame, model, *moved);
     return moved;
   }
 
   int frame_ = -1;
-  std::vector<std::shared_ptr<SceneTree>> scenes_;        ///< per mode, or the given one
-  std::vector<Pose> poses_;                               ///< of the frame in each
-  std::vector<bool> rests_;                               ///< does it, in each?
-  std::vector<int> terms_;                                ///< of the problem, that may see it
-  std::vector<int> slices_;                               ///< in which they look at the path
-  std::vector<std::shared_ptr<const Parameters>> given_;  ///< in each of these, while it is moved
+  std::vector<std::shared_ptr<SceneTree>> scenes_;           ///< per mode, or the initial one
+  std::vector<Pose> poses_;                                  ///< of the frame, per mode
+  std::vector<bool> is_fixed_;                               ///< per mode
+  std::vector<int> terms_;                                   ///< terms of the problem that may depend on the frame
+  std::vector<int> slices_;                                  ///< slices on which these terms depend
+  std::vector<std::shared_ptr<const Parameters>> original_;  ///< original parameters of these slices while the frame is
+                                                             ///< moved
 };
 
 /// The slices before the first.
@@ -262,14 +263,15 @@ class MotionStart final : public MovedParameter {
  public:
   explicit MotionStart(const Nlp& nlp) : MovedParameter("start", namesOf(*requireKomo(nlp))) {
     if (requireKomo(nlp)->order() == 0)
-      throw ValueError("a problem of order 0 has no slices before the first: its solution does not depend on a start");
+      throw ValueError(
+          "a problem of order 0 has no slices before the first, so its solution does not depend on a start");
   }
 
  private:
   static std::vector<std::string> namesOf(const Komo& komo) {
-    const KinematicModel& model = *komo.path().given().model;
+    const KinematicModel& model = *komo.path().initial().model;
     std::vector<std::string> names;
-    for (const int frame : komo.path().given().joint_frames) {
+    for (const int frame : komo.path().initial().joint_frames) {
       const int count = model.frame_dofs[std::size_t(frame)].count;
       for (int i = 0; i < count; ++i)
         names.push_back(cat("start of ", model.frame_name[std::size_t(frame)], count > 1 ? cat(", dof ", i) : ""));
@@ -280,18 +282,18 @@ class MotionStart final : public MovedParameter {
   void move(Nlp& nlp, int number, double by) override {
     Path& path = requireKomo(nlp)->path();
     const int order = path.grid().order();
-    if (given_.empty()) {
-      for (int t = -order; t < 0; ++t) given_.push_back(path.state(t).q());
+    if (original_.empty()) {
+      for (int t = -order; t < 0; ++t) original_.push_back(path.state(t).q());
     }
     for (int t = -order; t < 0; ++t) {
-      VectorXd q = given_[std::size_t(t + order)];
-      if (by != 0.) q[path.dofsOf(path.given().joint_frames, t)[std::size_t(number)]] += by;
+      VectorXd q = original_[std::size_t(t + order)];
+      if (by != 0.) q[path.dofsOf(path.initial().joint_frames, t)[std::size_t(number)]] += by;
       path.setSlice(t, q.data());
     }
-    if (by == 0.) given_.clear();
+    if (by == 0.) original_.clear();
   }
 
-  std::vector<VectorXd> given_;  ///< q of those slices, while it is moved
+  std::vector<VectorXd> original_;  ///< original q of these slices while the start is moved
 };
 
 }  // namespace
@@ -309,7 +311,7 @@ int objectiveNumber(const Nlp& nlp, const std::string& name) {
     number = int(i);
   }
   if (found.size() > 1)
-    throw NameError(cat("several objectives are named '", name, "': ", join(found), "; give the number of one"));
+    throw NameError(cat("several objectives are named '", name, "': ", join(found), "; expected the number of one"));
   if (number < 0)
     throw NameError(cat("there is no objective '", name, "'; the problem has ", join(known), similarHint(name, known)));
   return number;
@@ -326,11 +328,11 @@ std::shared_ptr<NlpParameter> objectiveScale(const Nlp& nlp, int number) {
 }
 
 std::shared_ptr<NlpParameter> framePosition(const Nlp& nlp, const std::string& frame) {
-  return std::make_shared<FramePlace>(nlp, frame, false);
+  return std::make_shared<FramePoseParameter>(nlp, frame, false);
 }
 
 std::shared_ptr<NlpParameter> framePose(const Nlp& nlp, const std::string& frame) {
-  return std::make_shared<FramePlace>(nlp, frame, true);
+  return std::make_shared<FramePoseParameter>(nlp, frame, true);
 }
 
 std::shared_ptr<NlpParameter> motionStart(const Nlp& nlp) { return std::make_shared<MotionStart>(nlp); }

@@ -18,7 +18,7 @@ bool areAllZeroRows(const char* eight) {
   return std::memcmp(eight, all, kEight) == 0;
 }
 
-/// May the feature depend on which dofs there are, and so on the slice?
+/// Returns true if the feature may depend on the dofs of the model, and so on the slice.
 bool dependsOnDofs(const FeatureSource& feature) {
   return !feature.symbol() || featureInfo(*feature.symbol()).dofs != FeatureDofs::of_frames;
 }
@@ -40,14 +40,14 @@ PathProblem::PathProblem(const Path& path, const Contacts& contacts, std::vector
   for (std::size_t o = 0; o < objectives_.size(); ++o) {
     const Objective& objective = objectives_[o];
     const bool varies = !layout.plain && dependsOnDofs(objective.feature);
-    std::map<const KinematicModel*, int> by_program;  // where nothing but the program matters
+    std::map<const KinematicModel*, int> by_model;  // shares residuals that depend on the model only
     for (int t = objective.from; t <= objective.to; ++t) {
-      const bool owns = objective.on_the_way || (varies && objective.feature == FeatureSymbol::jointLimits);
+      const bool owns = objective.between_slices || (varies && objective.feature == FeatureSymbol::jointLimits);
       const KinematicModel* key = varies ? &path.state(t).model() : nullptr;
-      auto place = by_program.find(key);
-      if (place == by_program.end() || owns) {
+      auto place = by_model.find(key);
+      if (place == by_model.end() || owns) {
         residuals_.push_back(residualIn(objective, path, contacts.forces(), t));
-        place = by_program.insert_or_assign(key, int(residuals_.size()) - 1).first;
+        place = by_model.insert_or_assign(key, int(residuals_.size()) - 1).first;
       }
       const int rows = residuals_[place->second].rows();
       terms_.push_back({int(o), t, place->second, int(types_.size()), rows, int(runs_.size()), 0, 0});
@@ -75,7 +75,7 @@ PathProblem::PathProblem(const Path& path, const Contacts& contacts, std::vector
   workspace_ = makeWorkspace();
 }
 
-/// Terms of one slice, of which the variables are the joints in their order.
+/// Finds the terms of a single slice whose variables are the joints in their order.
 void PathProblem::findCurvedRows(const Path& path) {
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const Term& term = terms_[i];
@@ -105,7 +105,7 @@ PathProblem::Workspace PathProblem::makeWorkspace() const {
           std::vector<const State*>(slices)};
 }
 
-/// Finds which columns of x the window of slices touches, and where each of its own columns goes among them.
+/// Finds the columns of x that the window of slices uses, and the position of each window column among them.
 void PathProblem::layOut(const Path& path, Term& term, std::vector<std::pair<int, int>>& segments) {
   const int order = objectives_[term.objective].order, n = widest_state_;
   const PathLayout& layout = path.layout();
@@ -124,7 +124,7 @@ void PathProblem::layOut(const Path& path, Term& term, std::vector<std::pair<int
     }
   }
   std::sort(places.begin(), places.end());
-  std::map<int, int> offset;  // column of x -> place in the row
+  std::map<int, int> offset;  // column of x -> position in the row
   for (const auto& [column, from] : places) {
     if (offset.contains(column)) continue;
     offset[column] = int(offset.size());
@@ -165,8 +165,8 @@ std::vector<char> PathProblem::linearRows() const {
   return linear;
 }
 
-/// First come zeros, for all rows that are zero; then linear rows; then others that are always stored; then, in
-/// evaluateSparse, those that come and go.
+/// The order of values: zeros shared by all zero rows, linear rows, other rows that are always stored, and finally
+/// sparse rows (evaluateSparse).
 Jacobian PathProblem::makeJacobian(const Path& path) const {
   std::size_t segments = 0, values = std::size_t(stored_);
   for (std::size_t i = 0; i < terms_.size(); ++i) {
@@ -184,7 +184,7 @@ Jacobian PathProblem::makeJacobian(const Path& path) const {
   Workspace workspace = makeWorkspace();
   VectorXd phi(rows());
   int copied = -1;
-  std::optional<Residual> residual;  // with a workspace of its own
+  std::optional<Residual> residual;  // a copy with its own workspace
   for (std::size_t i = 0; i < terms_.size(); ++i) {
     const Term& term = terms_[i];
     const bool is_stored = storesAllRows(term);
@@ -211,7 +211,7 @@ std::span<const State* const> PathProblem::statesOf(const Path& path, const Term
   return {workspace.window.data(), std::size_t(order) + 1};
 }
 
-/// `jacobian`, which may be null, is where the rows of this term are; it comes filled with zeros.
+/// `jacobian` may be null; otherwise it points to the rows of this term, filled with zeros.
 void PathProblem::evaluateTerm(const Path& path, std::size_t index, Residual& residual, Eigen::Ref<VectorXd> phi,
                                double* jacobian, Workspace& workspace) const {
   const Term& term = terms_[index];
@@ -219,7 +219,7 @@ void PathProblem::evaluateTerm(const Path& path, std::size_t index, Residual& re
   const int columns = int(states.size()) * widest_state_, width = width_[index];
   if (!jacobian) return residual.eval(states, path.grid().tau(), phi, nullptr);
   const Run& only = runs_[std::size_t(term.first_run)];
-  if (term.runs == 1 && only.width == columns && width == columns) {  // straight into the Jacobian
+  if (term.runs == 1 && only.width == columns && width == columns) {  // writes directly into the Jacobian
     JacobianRows block = Eigen::Map<RowMajor>(jacobian, term.rows, columns);
     return residual.eval(states, path.grid().tau(), phi, &block);
   }
@@ -234,7 +234,7 @@ void PathProblem::evaluateTerm(const Path& path, std::size_t index, Residual& re
   }
 }
 
-/// Appends the rows of this term that are not zero to the values.
+/// Appends the nonzero rows of this term to the values.
 void PathProblem::evaluateSparse(const Path& path, std::size_t index, VectorXd& phi, Jacobian& J) {
   const Term& term = terms_[index];
   const std::span<const State* const> states = statesOf(path, term, workspace_);
@@ -282,8 +282,8 @@ void PathProblem::evaluate(const Path& path, VectorXd& phi, Jacobian* J) {
 }
 
 void PathProblem::evaluateTerms(const Path& path, std::span<const int> terms, VectorXd& phi, Jacobian* J) {
-  const auto comes_and_goes = [&](int term) { return !storesAllRows(terms_[std::size_t(term)]); };
-  if (J && std::ranges::any_of(terms, comes_and_goes)) J->values.resize(std::size_t(stored_));
+  const auto is_sparse = [&](int term) { return !storesAllRows(terms_[std::size_t(term)]); };
+  if (J && std::ranges::any_of(terms, is_sparse)) J->values.resize(std::size_t(stored_));
   for (const int term : terms) evaluate(path, std::size_t(term), phi, J);
 }
 

@@ -8,8 +8,8 @@
 
 namespace kinegraph {
 
-/// Objectives on a path, laid out: which rows of phi each has in each slice, and where its Jacobian goes. Evaluates at
-/// the path as it is then; its structure must be the one that it has when this is made.
+/// The layout of objectives on a path: the rows of phi of each objective in each slice, and the place of its Jacobian.
+/// Evaluates the present path. The structure of the path must not change after construction.
 class PathProblem {
  public:
   /// An objective in a slice.
@@ -19,7 +19,7 @@ class PathProblem {
     int residual;
     int first_row, rows;
     int first_run, runs;
-    int first_value;  ///< of its rows in a Jacobian, where these are always stored
+    int first_value;  ///< of its rows in a Jacobian, if these are always stored
   };
 
   PathProblem(const Path& path, const Contacts& contacts, std::vector<Objective> objectives);
@@ -30,41 +30,42 @@ class PathProblem {
   int rows() const { return int(types_.size()); }
   const Term& termOf(int row) const;
 
-  bool isLinear() const;                 ///< are all rows of the Jacobian the same for all paths?
-  std::vector<char> linearRows() const;  ///< which are?
+  bool isLinear() const;                 ///< true if the Jacobian is the same for all paths
+  std::vector<char> linearRows() const;  ///< per row: true if its Jacobian is the same for all paths
 
   const std::vector<Nlp::CurvedRows>& curvedRows() const { return curved_rows_; }
 
-  /// Adds the second derivatives of the k-th of curvedRows at the present path to H; see Nlp::addCurvature.
+  /// Adds the second derivatives of the k-th entry of curvedRows at the present path to H; see Nlp::addCurvature.
   void addCurvature(const Path& path, int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H);
 
-  /// With the values of linear rows; the others are zero.
+  /// Creates a Jacobian with the values of linear rows; other rows are zero.
   Jacobian makeJacobian(const Path& path) const;
 
-  /// Leaves linear rows of `J` as they are.
+  /// Evaluates all terms; leaves linear rows of `J` unchanged.
   void evaluate(const Path& path, VectorXd& phi, Jacobian* J);
 
-  /// The same for some of the terms, among them all or none whose rows come and go; leaves the rows of others as they are.
+  /// Evaluates some of the terms and leaves the rows of others unchanged. `terms` contains either all sparse terms or
+  /// none.
   void evaluateTerms(const Path& path, std::span<const int> terms, VectorXd& phi, Jacobian* J);
 
-  /// Of an objective on the way to a slice: other instants, as many as before.
+  /// Replaces the samples of a term that is between slices by as many others.
   void setSamples(const Path& path, const Contacts& contacts, const Term& term, std::vector<CollisionSample> samples);
 
-  /// One of the terms, by its place, after evaluating others at the same path.
+  /// Evaluates one more term at the path at which the others were evaluated.
   void evaluateTerm(const Path& path, std::size_t index, VectorXd& phi, Jacobian& J) { evaluate(path, index, phi, &J); }
 
   bool isLinear(const Term& term) const { return residuals_[std::size_t(term.residual)].isLinear(); }
-  bool storesAllRows(const Term& term) const { return !residuals_[std::size_t(term.residual)].tellsZeroRows(); }
+  bool storesAllRows(const Term& term) const { return !residuals_[std::size_t(term.residual)].reportsZeroRows(); }
 
  private:
-  /// Consecutive columns of the window of slices, and where they go in the row.
+  /// Consecutive columns of the window of slices, and their destination in the row.
   struct Run {
     int from, to, width;
   };
-  /// What evaluating a residual needs beside it.
+  /// Memory for the evaluation of a residual.
   struct Workspace {
-    std::vector<double> jacobian;  ///< by columns of the window of slices
-    std::vector<double> zeros;     ///< the same, filled with zeros
+    std::vector<double> jacobian;  ///< over the columns of the window of slices
+    std::vector<double> zeros;     ///< the same size, always zero between evaluations
     std::vector<char> zero_row;
     std::vector<const State*> window;
   };
@@ -83,13 +84,13 @@ class PathProblem {
   std::vector<ObjectiveType> types_;
   std::vector<Run> runs_;
   std::vector<std::vector<std::pair<int, int>>> segments_;  ///< per term: columns and widths
-  std::vector<int> width_;                                  ///< per term: columns in all
+  std::vector<int> width_;                                  ///< per term: total number of columns
   std::vector<Nlp::CurvedRows> curved_rows_;
-  std::vector<int> curved_terms_;  ///< of each of them
+  std::vector<int> curved_terms_;  ///< the term of each of curved_rows_
   Workspace workspace_;
   int stored_ =
-      0;  ///< values of a Jacobian before those of rows that come and go: zeros, then rows that are always stored
-  int constant_ = 0;  ///< of these, before rows that are not linear
+      0;  ///< number of values of a Jacobian before those of sparse rows: zeros, then rows that are always stored
+  int constant_ = 0;  ///< the part of stored_ before nonlinear rows
   int widest_state_ = 0, dimension_ = 0;
 };
 

@@ -29,7 +29,7 @@ double sizeOf(ObjectiveType type, double phi) {
   }
 }
 
-/// What the recorded reports call a feature.
+/// Returns the name of a feature in reports of the reference.
 std::string className(const Objective& objective) {
   if (objective.damped) return "F_NewtonEuler_DampedVelocities";
   if (const auto symbol = objective.feature.symbol()) return featureInfo(*symbol).reported_as;
@@ -67,14 +67,14 @@ std::string objectiveTag(const Komo& komo, const Objective& objective) {
   const int own =
       objective.feature == FeatureSymbol::angularVel || objective.feature == FeatureSymbol::linangVel ? 1 : 0;
   const int order = own == 1 && objective.order == 1 ? 0 : objective.order;
-  if (objective.on_the_way) return tag + "/way";
+  if (objective.between_slices) return tag + "/between";
   if (order == 1) tag += "/vel";
   if (order == 2) tag += "/acc";
   if (order > 2) tag += cat("/", order);
   const bool joints = objective.feature == FeatureSymbol::qItself;
   std::size_t count = objective.frames.size();
   if (joints) {  // each joint counts with its parent
-    count = 2 * (objective.frames.empty() ? komo.path().given().joint_frames.size() : objective.frames.size());
+    count = 2 * (objective.frames.empty() ? komo.path().initial().joint_frames.size() : objective.frames.size());
   } else if (objective.frames.empty()) {
     count = komo.path().shownFrames().size();
   }

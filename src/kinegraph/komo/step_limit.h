@@ -8,8 +8,9 @@
 
 namespace kinegraph {
 
-/// No joint moves by more than `step` (rad, m) from one slice to the next, in the slices that `times` selects. Two
-/// inequalities per dof, in rad or m. Throws ValueError for a step that is not positive, and a Komo of order 0.
+/// Limits the motion of each joint between consecutive slices to `step` (rad, m), in the slices that `times` selects.
+/// Adds two inequalities per dof, in rad or m. Throws ValueError for a step that is not positive, and for a Komo of
+/// order 0.
 inline void addStepLimit(Komo& komo, double step, const std::vector<double>& times = {}) {
   if (!(step > 0.) || !std::isfinite(step))
     throw ValueError(cat("addStepLimit: step is ", step, "; expected a number > 0, rad or m"));

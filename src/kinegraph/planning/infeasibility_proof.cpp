@@ -33,7 +33,7 @@ double farthest(const Extent& box, int i, int j) {
 /// Where a step of a joint can bring what is in a box.
 void moveExtent(Extent& box, const LaneModel::Step& step, const MotionStep& kind, int dof,
                 const KinematicModel& model) {
-  if (kind.slides()) {
+  if (kind.translates()) {
     const double a = step.factor * model.lower[dof], b = step.factor * model.upper[dof];
     box.low[step.axis] += std::min(a, b);
     box.high[step.axis] += std::max(a, b);

@@ -33,7 +33,7 @@ Ranges rangesOf(const KinematicModel& model, const VectorXd& q) {
   for (const KinematicModel::Link& link : model.links) {
     int dof = link.dof;
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
-      turns[std::size_t(dof)] = model.steps[std::size_t(s)].turns();
+      turns[std::size_t(dof)] = model.steps[std::size_t(s)].rotates();
       dof += model.steps[std::size_t(s)].dofs();
     }
   }

@@ -113,7 +113,7 @@ class ModelMaker {
       if (step.moves()) {
         m = mj_.mjs_addJoint(body, nullptr);
         mj_.mjs_setName(m->element, cat("j", frame.id, "_", i).c_str());
-        m->type = step.slides() ? mjJNT_SLIDE : step.kind == MotionKind::quaternion ? mjJNT_BALL : mjJNT_HINGE;
+        m->type = step.translates() ? mjJNT_SLIDE : step.kind == MotionKind::quaternion ? mjJNT_BALL : mjJNT_HINGE;
         const Vector3d axis = step.kind == MotionKind::circle ? Vector3d(Vector3d::UnitZ())
                                                               : Vector3d(step.sign * step.direction(joint.axis));
         if (m->type != mjJNT_BALL) std::copy_n(axis.data(), 3, m->axis);

@@ -44,7 +44,7 @@ SolveManyResult solveFromMany(const std::shared_ptr<Komo>& komo, const std::vect
         one.setInitialization(starts[std::size_t(i)]);
         Rng unused(0);
         SolverResult result = one.solve(false, unused, hook);
-        result.problem = nullptr;  // the copy moves on
+        result.problem = nullptr;  // the next start reuses the copy
         return result;
       },
       watch);

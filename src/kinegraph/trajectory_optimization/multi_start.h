@@ -9,13 +9,14 @@
 
 namespace kinegraph {
 
-/// Starting points x for a motion problem: its present path, then random ones, as setRandomPath. The path stays.
-/// `cancellation`, where given, is called before each of them, and may throw.
+/// Returns starting points x for a trajectory optimization problem: its present path, then random ones as from
+/// setRandomPath. Restores the path. `cancellation` is polled before each sample, and may throw.
 std::vector<VectorXd> sampleStarts(Komo& komo, int count, std::uint64_t seed,
                                    const CancellationToken& cancellation = {});
 
-/// Solves a motion problem from several starting points x, one copy of it per thread. The Komo is left at the chosen
-/// solution. Throws ValueError without starts or for starts of a wrong length; `solver` are the options of all.
+/// Solves a trajectory optimization problem from several starting points x, with one copy of it per thread. Leaves the
+/// Komo at the best solution. `solver` are the options of all runs. Throws ValueError without starts, and for starts of
+/// a wrong length.
 SolveManyResult solveFromMany(const std::shared_ptr<Komo>& komo, const std::vector<VectorXd>& starts,
                               const SolverOptions& solver = {}, const SolveManyOptions& options = {},
                               const std::function<bool(int ended)>& watch = {});

@@ -11,7 +11,7 @@ namespace kinegraph {
 
 namespace {
 
-/// How many frames a symbol takes; most -1: any number.
+/// Number of frames that a symbol takes; most -1: any number.
 struct FrameCount {
   int least, most;
 };
@@ -53,7 +53,7 @@ void makeFree(Config& config, const std::string& name) {
   if (frame.data().parent == nullptr) {
     const auto& frames = config.scene()->frames();
     if (frames.front()->name == name)
-      throw ValueError(cat("makeFree: '", name, "' is the first frame of the scene; that one cannot be free"));
+      throw ValueError(cat("makeFree: '", name, "' is the first frame of the scene, which cannot be free"));
     edited.setParent(Frame(config.scene(), *frames.front()), true);
   }
   edited.setJoint(JointType::free);
@@ -64,11 +64,11 @@ void makeFree(Config& config, const std::string& name) {
 void Skeleton::addEntry(const std::vector<double>& times, SwitchMode symbol, const std::vector<std::string>& frames) {
   const std::string name = switchModeName(symbol);
   if (symbol == SwitchMode::identical || symbol == SwitchMode::pushAndPlace) {
-    throw ValueError(cat("Skeleton: ", name, " has no meaning; use poseEq, or push and stableOn"));
+    throw ValueError(cat("Skeleton: ", name, " is not supported; use poseEq, or push and stableOn"));
   }
   if (times.empty() || times.size() > 2) {
     throw ValueError(
-        cat("Skeleton: the times of ", name, " are [at] or [from, to], in phases; got ", times.size(), " numbers"));
+        cat("Skeleton: the times of ", name, " must be [at] or [from, to], in phases; got ", times.size(), " numbers"));
   }
   Entry entry{times.front(), times.back(), symbol, frames};
   if (!std::isfinite(entry.from) || !std::isfinite(entry.to) || entry.from < 0.) {
@@ -82,13 +82,15 @@ void Skeleton::addEntry(const std::vector<double>& times, SwitchMode symbol, con
   const int count = int(frames.size());
   if (count < least || (most >= 0 && count > most)) {
     const std::string more = most < 0 ? " or more" : most > least ? cat(" to ", most) : std::string();
-    throw ValueError(cat("Skeleton: ", name, " takes ", least, more, " frames, got ", count));
+    throw ValueError(cat("Skeleton: ", name, " takes ", least, more, " frames; got ", count));
   }
   entries_.push_back(std::move(entry));
 }
 
 void Skeleton::addExplicitCollisions(const std::vector<std::string>& pairs) {
-  if (pairs.size() % 2 != 0) throw ValueError(cat("addExplicitCollisions: frames come in pairs, got ", pairs.size()));
+  if (pairs.size() % 2 != 0)
+    throw ValueError(
+        cat("addExplicitCollisions: expected pairs of frames, an even number of names; got ", pairs.size()));
   explicit_pairs_.insert(explicit_pairs_.end(), pairs.begin(), pairs.end());
 }
 
@@ -153,14 +155,14 @@ Komo Skeleton::finalSlice(const Config& config, double length_scale, double homi
   return komo;
 }
 
-/// The entries as finalSlice sees them: attachments before the last phase's end begin at 1, all that holds at the end
-/// is at 2.
+/// Returns the entries for finalSlice: attachments before the end of the last phase begin near 1, constraints at the
+/// end are at 2.
 std::vector<Skeleton::Entry> Skeleton::lastEntries() const {
   const double last = maxPhase();
   std::vector<Entry> list;
   for (Entry entry : entries_) {
     if (isAttachment(entry.symbol)) {
-      entry.from = entry.from < last ? 1. + entry.from / (2. * last) : 2.;  // in the same order, all nearest to 1
+      entry.from = entry.from < last ? 1. + entry.from / (2. * last) : 2.;  // preserves the order
       entry.to = -1.;
     } else if (entry.from <= last && (entry.to < 0. || entry.to >= last) && entry.symbol != SwitchMode::bounce) {
       entry.from = entry.to = 2.;
@@ -188,7 +190,7 @@ void Skeleton::add(Komo& komo, const std::vector<Entry>& entries) const {
       if (objectOf(attachments[j]) == objectOf(entry)) next = attachments[j].from;
     }
     if (next >= 0. && komo.path().grid().sliceAt(next) == komo.path().grid().sliceAt(entry.from))
-      continue;  // replaced before it begins
+      continue;  // the next attachment replaces it in the same slice
     double to = entry.to;
     if (to <= entry.from || (next >= 0. && to > next)) to = next;
     komo.addModeSwitch({entry.from, to}, entry.symbol, entry.frames, earlier == 0);

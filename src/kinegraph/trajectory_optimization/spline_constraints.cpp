@@ -10,7 +10,7 @@ namespace {
 
 using MapEntry = Eigen::SparseMatrix<double, Eigen::RowMajor>::InnerIterator;
 
-/// Consecutive columns: first, width.
+/// Groups consecutive columns: first, width.
 std::vector<std::pair<int, int>> segmentsOf(std::vector<int> columns) {
   std::ranges::sort(columns);
   columns.erase(std::unique(columns.begin(), columns.end()), columns.end());
@@ -54,7 +54,7 @@ SplineConstraints::SplineConstraints(const Path& path, const SplineConstraints& 
 void SplineConstraints::layOut(const Path& path) {
   for (std::size_t o = 0; o < objectives_.size(); ++o) {
     Objective& objective = objectives_[o];
-    keepRoom(objective, is_separate_ ? kRoomOfMotion : 0);
+    reserveSamples(objective, is_separate_ ? kSpareSamplesPerMotion : 0);
     for (int slice = objective.from; slice <= objective.to; ++slice) {
       std::vector<CollisionSample> samples = objective.samples[std::size_t(slice - objective.from)];
       const int rows = is_separate_ ? int(samples.size()) : 1;
@@ -69,7 +69,7 @@ void SplineConstraints::layOut(const Path& path) {
 SplineConstraints::Motion SplineConstraints::motionInto(const Path& path, int slice) const {
   Motion motion;
   std::vector<int> columns;
-  const std::vector<int> all = path.dofsOf(path.given().joint_frames, slice - 1), same = sameDofs(path, slice);
+  const std::vector<int> all = path.dofsOf(path.initial().joint_frames, slice - 1), same = sameDofs(path, slice);
   for (const int j : layout_->splined) motion.splined.push_back(all[std::size_t(j)]);
   const auto entriesOf = [&](int of_slice, int dof) {
     std::vector<Entry> entries;
@@ -87,8 +87,8 @@ SplineConstraints::Motion SplineConstraints::motionInto(const Path& path, int sl
     if (other.same >= 0) other.after = entriesOf(slice, other.same);
     motion.others.push_back(std::move(other));
   }
-  for (const double share : {0., .25, .5, .75, 1.}) {  // no more than one knot is on the way
-    const VectorXd weights = layout_->weightsAt((slice + share) * tau_);
+  for (const double time : {0., .25, .5, .75, 1.}) {  // there is at most one knot inside of a motion
+    const VectorXd weights = layout_->weightsAt((slice + time) * tau_);
     for (Eigen::Index i = 1; i < weights.size(); ++i)
       for (Eigen::Index d = 0; d < layout_->columns.cols() && weights[i] != 0.; ++d)
         columns.push_back(layout_->columns(i - 1, d));
@@ -101,14 +101,14 @@ void SplineConstraints::setSamples(const Path& path, int number, std::vector<Col
   const Term& term = terms_[std::size_t(number)];
   Objective& objective = objectives_[std::size_t(term.objective)];
   objective.samples[std::size_t(term.slice - objective.from)] = samples;
-  Instants& of_term = samples_[std::size_t(number)];
+  SampleWeights& of_term = samples_[std::size_t(number)];
   of_term.pairs.reset();
   of_term.weights.assign(samples.size(), VectorXd());
   for (std::size_t i = 0; i < samples.size(); ++i)
-    if (!samples[i].isEmpty()) of_term.weights[i] = layout_->weightsAt((term.slice + samples[i].share) * tau_);
+    if (!samples[i].isEmpty()) of_term.weights[i] = layout_->weightsAt((term.slice + samples[i].time) * tau_);
   if (!std::ranges::all_of(samples, &CollisionSample::isEmpty))
     of_term.pairs = std::make_unique<SampledPairs>(
-        std::move(samples), is_separate_ ? farOf(objective) : objective.margin, path.state(term.slice - 1));
+        std::move(samples), is_separate_ ? cutoffDistance(objective) : objective.margin, path.state(term.slice - 1));
 }
 
 const SplineConstraints::Term& SplineConstraints::termOf(int row) const {
@@ -128,21 +128,21 @@ void SplineConstraints::addTo(Jacobian& J) const {
   }
 }
 
-void SplineConstraints::place(const Path& path, const Term& term, double share, const VectorXd& weights,
+void SplineConstraints::place(const Path& path, const Term& term, double time, const VectorXd& weights,
                               VectorXd& q) const {
   const VectorXd &from = path.state(term.slice - 1).q(), &to = path.state(term.slice).q();
   const Motion& motion = (*motions_)[std::size_t(term.slice)];
   for (const OtherDof& other : motion.others) {
     const double at_begin = from[other.dof];
-    q[other.dof] = other.same < 0 ? at_begin : (1. - share) * at_begin + share * to[other.same];
+    q[other.dof] = other.same < 0 ? at_begin : (1. - time) * at_begin + time * to[other.same];
   }
   for (std::size_t d = 0; d < motion.splined.size(); ++d)
     q[motion.splined[d]] = weights.dot(points_.col(Eigen::Index(d)));
 }
 
 /// Adds a gradient by q, times a factor, to the row by c.
-void SplineConstraints::spread(const Motion& motion, double share, const VectorXd& weights, double factor,
-                               const SampledPairs::Gradient& gradient) {
+void SplineConstraints::addGradient(const Motion& motion, double time, const VectorXd& weights, double factor,
+                                    const SampledPairs::Gradient& gradient) {
   for (std::size_t d = 0; d < motion.splined.size(); ++d) {
     const double value = factor * gradient(0, motion.splined[d]);
     if (value == 0.) continue;
@@ -153,12 +153,12 @@ void SplineConstraints::spread(const Motion& motion, double share, const VectorX
     const double value = factor * gradient(0, other.dof);
     if (value == 0.) continue;
     for (const Entry& entry : other.before)
-      row_[entry.column] += (other.same < 0 ? 1. : 1. - share) * value * entry.weight;
-    for (const Entry& entry : other.after) row_[entry.column] += share * value * entry.weight;
+      row_[entry.column] += (other.same < 0 ? 1. : 1. - time) * value * entry.weight;
+    for (const Entry& entry : other.after) row_[entry.column] += time * value * entry.weight;
   }
 }
 
-/// Takes the row by c.
+/// Moves the row by c into the Jacobian and clears it.
 void SplineConstraints::collect(const Motion& motion, int row, Jacobian& J) {
   const auto to = J.row_segments(row);
   for (std::size_t k = 0; k < motion.segments.size(); ++k) {
@@ -178,36 +178,35 @@ void SplineConstraints::evaluateTerm(int number, const Path& path, const VectorX
   const Term& term = terms_[std::size_t(number)];
   const Objective& objective = objectives_[std::size_t(term.objective)];
   const Motion& motion = (*motions_)[std::size_t(term.slice)];
-  Instants& samples = samples_[std::size_t(number)];
+  SampleWeights& samples = samples_[std::size_t(number)];
   const double scale = objective.scale(0, 0), aim = objective.margin + objective.slack;
   const int first = first_row + term.first_row;
-  phi.segment(first, term.rows).setConstant(is_separate_ ? scale * (aim - farOf(objective)) : 0.);
+  phi.segment(first, term.rows).setConstant(is_separate_ ? scale * (aim - cutoffDistance(objective)) : 0.);
   if (J) {
     for (int row = first; row < first + term.rows; ++row) {
       if (J->zero_row[std::size_t(row)]) continue;
-      collect(motion, row, *J);  // zeros
+      collect(motion, row, *J);  // clears it: row_ is zero
       J->zero_row[std::size_t(row)] = 1;
     }
   }
   if (!samples.pairs) return;
   points_ = layout_->pointsOf(c);
   const std::vector<CollisionSample>& all = objective.samples[std::size_t(term.slice - objective.from)];
-  const auto weightsOf = [&](double share) -> const VectorXd& {
-    const auto at =
-        std::ranges::find_if(all, [&](const CollisionSample& i) { return !i.isEmpty() && i.share == share; });
+  const auto weightsOf = [&](double time) -> const VectorXd& {
+    const auto at = std::ranges::find_if(all, [&](const CollisionSample& i) { return !i.isEmpty() && i.time == time; });
     return samples.weights[std::size_t(at - all.begin())];
   };
-  const auto place_at = [&](double share, VectorXd& q) { place(path, term, share, weightsOf(share), q); };
+  const auto place_at = [&](double time, VectorXd& q) { place(path, term, time, weightsOf(time), q); };
   bool any = false;
-  const auto see = [&](int i, double distance, const SampledPairs::Gradient& gradient) {
+  const auto report = [&](int i, double distance, const SampledPairs::Gradient& gradient) {
     const int row = is_separate_ ? first + i : first;
     phi[row] = is_separate_ ? scale * (aim - distance) : phi[row] + scale * (objective.margin - distance);
     if (!J) return;
-    spread(motion, all[std::size_t(i)].share, samples.weights[std::size_t(i)], -scale, gradient);
+    addGradient(motion, all[std::size_t(i)].time, samples.weights[std::size_t(i)], -scale, gradient);
     if (is_separate_) collect(motion, row, *J);
     any = true;
   };
-  samples.pairs->visit(path.state(term.slice - 1).sharedParameters(), J != nullptr, place_at, see);
+  samples.pairs->visit(path.state(term.slice - 1).sharedParameters(), J != nullptr, place_at, report);
   if (J && any && !is_separate_) collect(motion, first, *J);
 }
 

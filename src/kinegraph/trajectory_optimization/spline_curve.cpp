@@ -6,9 +6,10 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kSameTime = 1e-9;  // share of the way
+constexpr double kSameTime = 1e-9;  // fraction of a motion
 
-/// The control points of the k-th derivative of a spline, from those of the one before. Source: de Boor, ch. X.
+/// Returns the control points of the k-th derivative of a spline from those of the previous one. Source: de Boor, ch.
+/// X.
 MatrixXd derivedPoints(const BSpline& spline, const MatrixXd& points, int k) {
   const VectorXd& knots = spline.getKnots();
   const int degree = spline.degree();
@@ -29,11 +30,11 @@ SplineCurve::SplineCurve(const Path& path, std::shared_ptr<const SplineLayout> l
   for (int slice = 0; slice < path.grid().slices(); ++slice) {
     std::vector<double>& on = knots_on_.emplace_back(1, 0.);
     for (const double knot : knots_) {
-      const double share = knot / tau_ - slice;
-      if (share > kSameTime && share < 1. - kSameTime) on.push_back(share);
+      const double time = knot / tau_ - slice;
+      if (time > kSameTime && time < 1. - kSameTime) on.push_back(time);
     }
     on.push_back(1.);
-    const std::vector<int> all = path.dofsOf(path.given().joint_frames, slice - 1);
+    const std::vector<int> all = path.dofsOf(path.initial().joint_frames, slice - 1);
     std::vector<int>& dofs = dofs_.emplace_back();
     for (const int j : layout_->splined) dofs.push_back(all[std::size_t(j)]);
     const State &state = path.state(slice - 1), &before = path.state(std::max(slice - 2, -1));
@@ -48,7 +49,7 @@ void SplineCurve::moveTo(const Path& path, const VectorXd& c) {
   spline_ = layout_->splineOf(c);
   motions_.clear();
   for (int slice = 0; slice < path.grid().slices(); ++slice) motions_.push_back(kinegraph::motionInto(path, slice));
-  boundBends();
+  boundSecondDerivatives();
   const VectorXd reach = spline_.getCtrlPoints().cwiseAbs().colwise().maxCoeff();
   for (std::size_t slice = 0; slice < motions_.size();) {
     const std::size_t first = slice;
@@ -60,13 +61,14 @@ void SplineCurve::moveTo(const Path& path, const VectorXd& c) {
   }
 }
 
-void SplineCurve::boundBends() {
+void SplineCurve::boundSecondDerivatives() {
   const int degree = spline_.degree();
-  bends_.setZero(Eigen::Index(knots_.size()) - 1, spline_.dimension());
+  second_derivatives_.setZero(Eigen::Index(knots_.size()) - 1, spline_.dimension());
   if (degree < 2) return;
-  const MatrixXd bends = derivedPoints(spline_, derivedPoints(spline_, spline_.getCtrlPoints(), 1), 2).cwiseAbs();
-  for (Eigen::Index piece = 0; piece < bends_.rows(); ++piece)  // inner knots are single ones
-    bends_.row(piece) = bends.middleRows(piece, degree - 1).colwise().maxCoeff();
+  const MatrixXd second_derivatives =
+      derivedPoints(spline_, derivedPoints(spline_, spline_.getCtrlPoints(), 1), 2).cwiseAbs();
+  for (Eigen::Index piece = 0; piece < second_derivatives_.rows(); ++piece)  // inner knots are simple
+    second_derivatives_.row(piece) = second_derivatives.middleRows(piece, degree - 1).colwise().maxCoeff();
 }
 
 int SplineCurve::pieceAt(double time) const {
@@ -74,10 +76,10 @@ int SplineCurve::pieceAt(double time) const {
   return std::clamp(int(next - knots_.begin()) - 1, 0, int(knots_.size()) - 2);
 }
 
-VectorXd SplineCurve::at(int slice, double share) const {
+VectorXd SplineCurve::at(int slice, double time) const {
   const SliceMotion& motion = motionInto(slice);
-  VectorXd q = (1. - share) * motion.from + share * motion.to;
-  q(dofs_[std::size_t(slice)]) = spline_.eval((slice + share) * tau_);
+  VectorXd q = (1. - time) * motion.from + time * motion.to;
+  q(dofs_[std::size_t(slice)]) = spline_.eval((slice + time) * tau_);
   return q;
 }
 
@@ -93,12 +95,12 @@ SliceMotion SplineCurve::line(int slice, double begin, double end) const {
           end == 1. ? whole.to : at(slice, end)};
 }
 
-double SplineCurve::stray(const SliceMotion& line, double begin, double end) {
+double SplineCurve::deviation(const SliceMotion& line, double begin, double end) {
   const double width = (end - begin) * tau_;
   const int piece = pieceAt((line.slice + .5 * (begin + end)) * tau_);
-  VectorXd stray = VectorXd::Zero(line.from.size());
-  stray(dofs_[std::size_t(line.slice)]) = .125 * width * width * bends_.row(piece);
-  return bounds_[std::size_t(bound_of_[std::size_t(line.slice)])].of(line.from, line.to, stray);
+  VectorXd deviation = VectorXd::Zero(line.from.size());
+  deviation(dofs_[std::size_t(line.slice)]) = .125 * width * width * second_derivatives_.row(piece);
+  return bounds_[std::size_t(bound_of_[std::size_t(line.slice)])].of(line.from, line.to, deviation);
 }
 
 }  // namespace kinegraph

@@ -8,17 +8,17 @@ namespace kinegraph {
 
 namespace {
 
-/// The given configuration's dofs in x: slices x dofs.
+/// Returns the entries of x of the initial configuration's dofs: slices x dofs.
 Eigen::MatrixXi jointColumns(const Path& path) {
   Eigen::MatrixXi columns(path.grid().slices(), path.dofs());
   for (int slice = 0; slice < columns.rows(); ++slice) {
-    const std::vector<int> dofs = path.dofsOf(path.given().joint_frames, slice);
+    const std::vector<int> dofs = path.dofsOf(path.initial().joint_frames, slice);
     for (int j = 0; j < columns.cols(); ++j) columns(slice, j) = columnOf(path, slice, dofs[std::size_t(j)]);
   }
   return columns;
 }
 
-/// Has the dof a variable of its own in every slice?
+/// Returns true if each slice has its own variable for the dof.
 bool isOfEachSlice(const Eigen::MatrixXi& columns, int dof) {
   for (int slice = 0; slice < columns.rows(); ++slice)
     if (columns(slice, dof) < 0 || (slice > 0 && columns(slice, dof) == columns(slice - 1, dof))) return false;
@@ -33,19 +33,19 @@ BSpline knotsOf(const TimeGrid& grid, const SplineMotionOptions& options) {
   return knots;
 }
 
-/// An entry of c: a number of a control point, or a variable of x.
+/// An entry of c: a coordinate of a control point, or a variable of x.
 struct Variable {
   double slice;
-  int point, dof, column;  ///< of a control point: its number, the splined dof, and where its limits are
+  int point, dof, column;  ///< number of the control point, splined dof, entry of x with its limits
 };
 
-/// They follow one another in time, so that what depends on each other is near in c.
+/// Returns the variables in order of time, so that related ones are close in c.
 std::vector<Variable> variablesOf(const Path& path, const std::vector<int>& splined, const Eigen::MatrixXi& columns,
                                   int points) {
   const int slices = path.grid().slices();
-  std::vector<char> is_told(std::size_t(path.layout().dimension), 0);
+  std::vector<char> is_listed(std::size_t(path.layout().dimension), 0);
   for (const int j : splined)
-    for (int slice = 0; slice < slices; ++slice) is_told[std::size_t(columns(slice, j))] = 1;
+    for (int slice = 0; slice < slices; ++slice) is_listed[std::size_t(columns(slice, j))] = 1;
   std::vector<Variable> variables;
   for (int i = 0; i < points; ++i)
     for (std::size_t d = 0; d < splined.size(); ++d)
@@ -54,8 +54,8 @@ std::vector<Variable> variablesOf(const Path& path, const std::vector<int>& spli
     const int dofs = path.state(slice).dofs();
     for (int dof = 0; dof < dofs; ++dof) {
       const int column = columnOf(path, slice, dof);
-      if (column < 0 || is_told[std::size_t(column)]) continue;
-      is_told[std::size_t(column)] = 1;  // what slices share, once
+      if (column < 0 || is_listed[std::size_t(column)]) continue;
+      is_listed[std::size_t(column)] = 1;  // shared variables occur once
       variables.push_back({double(slice), -1, -1, column});
     }
   }
@@ -64,7 +64,7 @@ std::vector<Variable> variablesOf(const Path& path, const std::vector<int>& spli
 }
 
 VectorXd startOf(const Path& path, const std::vector<int>& splined) {
-  const std::vector<int> dofs = path.dofsOf(path.given().joint_frames, -1);
+  const std::vector<int> dofs = path.dofsOf(path.initial().joint_frames, -1);
   VectorXd start(Eigen::Index(splined.size()));
   for (std::size_t d = 0; d < splined.size(); ++d)
     start[Eigen::Index(d)] = path.state(-1).q()[dofs[std::size_t(splined[d])]];

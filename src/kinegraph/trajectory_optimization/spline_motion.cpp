@@ -11,7 +11,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kLeastShare = 1e-6;  // of the best told combination of control points, that the worst told one has
+constexpr double kSingularThreshold = 1e-6;  // smallest singular value that is accepted, relative to the largest
 
 }  // namespace
 
@@ -25,13 +25,16 @@ void SplineMotionOptions::validate(int slices) const {
 SplineMotion::SplineMotion(std::shared_ptr<Komo> komo, const SplineMotionOptions& options)
     : komo_(std::move(komo)), options_(options) {
   options_.validate(komo_->slices());
-  if (komo_->order() < 1) throw ValueError("SplineMotion: the KOMO has order 0, so that its motion has no beginning");
+  if (komo_->order() < 1)
+    throw ValueError(
+        "SplineMotion: the KOMO has order 0; expected 1 or more, since the spline starts in the slice before the "
+        "first");
   const MatrixXd B = splineBasis(komo_->path().grid(), options_);
   Eigen::ColPivHouseholderQR<MatrixXd> decomposition(B.rightCols(B.cols() - 1));
-  decomposition.setThreshold(kLeastShare);
+  decomposition.setThreshold(kSingularThreshold);
   if (decomposition.rank() < B.cols() - 1)
-    throw ValueError(cat("SplineMotion: ", komo_->slices(), " slices do not tell ", B.cols() - 1,
-                         " control points apart; take fewer, or more slices"));
+    throw ValueError(cat("SplineMotion: ", komo_->slices(), " slices do not determine ", B.cols() - 1,
+                         " control points; use fewer points or more slices"));
 }
 
 std::shared_ptr<Nlp> SplineMotion::nlp() const {
@@ -42,7 +45,7 @@ std::shared_ptr<Nlp> SplineMotion::nlp() const {
 BSpline SplineMotion::spline() const {
   const SplineLayout layout = layOutSpline(komo_->path(), options_);
   if (int(layout.splined.size()) != komo_->dofs())
-    throw Error("SplineMotion: some joints are no part of the spline, as all slices share them");
+    throw Error("SplineMotion: some joints are not part of the spline, because all slices share them");
   return layout.splineOf(layout.map->fit(komo_->path().variables()));
 }
 

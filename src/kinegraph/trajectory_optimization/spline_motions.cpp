@@ -7,12 +7,13 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kLeastStray = 2e-5;       // m: chords from which the spline strays less are not halved
-constexpr double kLeastPart = 1e-3;        // of the way: shorter ones neither, as where a quaternion is zero
-constexpr double kToldStray = 1e-4;        // m, of what is told of contacts
-constexpr double kApproachStray = 2e-3;    // m, of chords on which approaches are looked for
-constexpr double kMostApproachParts = 16;  // of a polynomial
-constexpr double kOverlap = .125;          // of such chords, so that they see what comes nearest where they meet
+constexpr double kSmallestDeviation = 2e-5;  // m: chords with a smaller deviation are not bisected
+constexpr double kShortestPart = 1e-3;  // fraction of a motion: shorter chords are not bisected, for example at a zero
+                                        // quaternion
+constexpr double kReportedDeviation = 1e-4;  // m, largest deviation for reported contacts
+constexpr double kApproachDeviation = 2e-3;  // m, for chords on which approaches are searched
+constexpr double kMaxApproachParts = 16;     // per polynomial
+constexpr double kOverlap = .125;            // of such chords, so that minima at their junctions are found
 
 double middleOf(double begin, double end) { return .5 * (begin + end); }
 
@@ -28,10 +29,10 @@ std::optional<MotionContact> SplineMotions::tooNear(int slice, double margin) {
 std::optional<MotionContact> SplineMotions::tooNear(int slice, Part part, double margin) {
   const auto [begin, end] = part;
   const SliceMotion line = curve_.line(slice, begin, end);
-  const double stray = curve_.stray(line, begin, end);
-  if (probe_.isFree(line, margin + stray)) return std::nullopt;
+  const double deviation = curve_.deviation(line, begin, end);
+  if (probe_.isFree(line, margin + deviation)) return std::nullopt;
   MotionContact hit = probe_.lastHit();
-  if (stray <= kLeastStray || end - begin <= kLeastPart || hit.distance + stray < margin) {
+  if (deviation <= kSmallestDeviation || end - begin <= kShortestPart || hit.distance + deviation < margin) {
     hit.time = begin + hit.time * (end - begin);
     return hit;
   }
@@ -40,7 +41,7 @@ std::optional<MotionContact> SplineMotions::tooNear(int slice, Part part, double
   return tooNear(slice, {middle, end}, margin);
 }
 
-std::vector<MotionContact> SplineMotions::approaches(int slice, double most) {
+std::vector<MotionContact> SplineMotions::approaches(int slice, double max_distance) {
   std::vector<MotionContact> all;
   const auto add = [&](MotionContact contact, double begin, double end, double same) {
     contact.time = begin + contact.time * (end - begin);
@@ -57,13 +58,13 @@ std::vector<MotionContact> SplineMotions::approaches(int slice, double most) {
   const std::vector<double>& knots = curve_.knotsOn(slice);
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
     const double width = knots[i + 1] - knots[i];
-    const double stray = curve_.stray(curve_.line(slice, knots[i], knots[i + 1]), knots[i], knots[i + 1]);
-    const int parts = int(std::clamp(std::ceil(std::sqrt(stray / kApproachStray)), 1., kMostApproachParts));
+    const double deviation = curve_.deviation(curve_.line(slice, knots[i], knots[i + 1]), knots[i], knots[i + 1]);
+    const int parts = int(std::clamp(std::ceil(std::sqrt(deviation / kApproachDeviation)), 1., kMaxApproachParts));
     const double part = width / parts, overlap = kOverlap * part;
     for (int k = 0; k < parts; ++k) {
       const double begin = std::max(knots[i] + k * part - overlap, 0.),
                    end = std::min(knots[i] + (k + 1) * part + overlap, 1.);
-      for (const MotionContact& contact : probe_.approaches(curve_.line(slice, begin, end), most))
+      for (const MotionContact& contact : probe_.approaches(curve_.line(slice, begin, end), max_distance))
         add(contact, begin, end, 2. * overlap);
     }
   }
@@ -81,13 +82,13 @@ void SplineMotions::addContacts(const SliceMotion& motion, Part part, double mar
                                 std::vector<PathContact>& contacts) {
   const auto [begin, end] = part;
   SliceMotion line = curve_.line(motion.slice, begin, end);
-  line.of_all = motion.of_all, line.pairs = motion.pairs;
-  const double stray = curve_.stray(line, begin, end);
-  const std::optional<MotionContact> contact = probe_.firstContact(line, margin + stray);
+  line.all_pairs = motion.all_pairs, line.pairs = motion.pairs;
+  const double deviation = curve_.deviation(line, begin, end);
+  const std::optional<MotionContact> contact = probe_.firstContact(line, margin + deviation);
   if (!contact) return;
-  if (stray <= kLeastStray || end - begin <= kLeastPart ||
-      (stray <= kToldStray && contact->distance + stray < margin)) {
-    std::ranges::copy(contactsOf({line}, margin + stray, kFreeTolerance), std::back_inserter(contacts));
+  if (deviation <= kSmallestDeviation || end - begin <= kShortestPart ||
+      (deviation <= kReportedDeviation && contact->distance + deviation < margin)) {
+    std::ranges::copy(contactsOf({line}, margin + deviation, kFreeTolerance), std::back_inserter(contacts));
     return;
   }
   const double middle = middleOf(begin, end);

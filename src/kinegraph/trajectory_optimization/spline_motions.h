@@ -6,20 +6,20 @@
 
 namespace kinegraph {
 
-/// q goes along a spline. What is proved is proved on chords, on which pairs have to be apart by so much more as the spline may
-/// stray from them; chords that are not are halved, until they hardly differ from it.
+/// Motion of q along a spline. Checks are made on chords with a margin that is larger by the deviation of the spline;
+/// chords that fail are bisected until the deviation is negligible.
 class SplineMotions final : public SliceMotions {
  public:
   SplineMotions(SplineCurve& curve, MotionProbe& probe) : curve_(curve), probe_(probe) {}
 
   SliceMotion motionInto(int slice) const override { return curve_.motionInto(slice); }
   std::optional<MotionContact> tooNear(int slice, double margin) override;
-  std::vector<MotionContact> approaches(int slice, double most) override;
-  double clearanceAtBegin(int slice, double most) override {
-    return probe_.clearance(curve_.motionInto(slice), 0., most);
+  std::vector<MotionContact> approaches(int slice, double max_distance) override;
+  double clearanceAtBegin(int slice, double max_distance) override {
+    return probe_.clearance(curve_.motionInto(slice), 0., max_distance);
   }
 
-  /// The pairs that count for a motion and come nearer than `margin` (m) on the spline: on each chord the first one.
+  /// Returns the constrained pairs that come closer than `margin` (m) on the spline: the first one of each chord.
   std::vector<PathContact> contacts(const SliceMotion& motion, double margin);
 
  private:

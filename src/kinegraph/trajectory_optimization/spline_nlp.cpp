@@ -15,9 +15,9 @@ namespace kinegraph {
 
 namespace {
 
-std::vector<Objective> objectivesOf(const Komo& komo, bool on_the_way) {
+std::vector<Objective> objectivesOf(const Komo& komo, bool between_slices) {
   std::vector<Objective> objectives = komo.objectives().all();
-  std::erase_if(objectives, [&](const Objective& objective) { return objective.on_the_way != on_the_way; });
+  std::erase_if(objectives, [&](const Objective& objective) { return objective.between_slices != between_slices; });
   return objectives;
 }
 
@@ -89,7 +89,7 @@ Separation SplineNlp::separation() {
   separation_ = slices_->separation();
   if (rows_.rows() == 0 && !separation_.problem) return separation_;
   auto slices = std::static_pointer_cast<MappedNlp>(separation_.problem);
-  if (!slices) {  // there are rows between slices only
+  if (!slices) {  // only rows between slices are separable
     slices = slices_;
     separation_.row_of.resize(std::size_t(rowsOfSlices()));
     std::iota(separation_.row_of.begin(), separation_.row_of.end(), 0);
@@ -122,7 +122,7 @@ void SplineNlp::moveTo(const VectorXd& c) {
   curve_.moveTo(komo_->path(), c);
 }
 
-/// Those at which the spline violates the objectives; returns by how much, m.
+/// Adds samples at which the spline violates the objectives; returns the largest violation, m.
 double SplineNlp::addSamplesTo(std::vector<Objective>& objectives) {
   SplineMotions spline(curve_, probe_);
   double lack = 0.;
@@ -152,7 +152,7 @@ Refinement SplineNlp::refine(const VectorXd& c, VectorXd& dual) {
   return refinementOf(lack);
 }
 
-/// Multipliers of rows of which there were fewer before.
+/// Transfers multipliers to terms with additional rows.
 VectorXd SplineNlp::carriedOver(const VectorXd& dual, const SplineConstraints& before,
                                 const SplineConstraints& now) const {
   const int first = rowsOfSlices();
@@ -169,11 +169,11 @@ Refinement SplineNlp::takeUp(const VectorXd& c, bool is_solution, VectorXd& phi,
   moveTo(c);
   SplineMotions spline(curve_, probe_);
   double lack = 0.;
-  looked_at_.resize(rows_.objectives().size());
+  checked_.resize(rows_.objectives().size());
   for (std::size_t o = 0; o < rows_.objectives().size(); ++o) {
     Objective objective = rows_.objectives()[o];
-    const FilledSamples filled = fillSamples(objective, spline, is_solution, looked_at_[o]);
-    lack = std::max(lack, filled.lack);
+    const FilledSamples filled = fillSamples(objective, spline, is_solution, checked_[o]);
+    lack = std::max(lack, filled.violation);
     for (int number = 0; number < int(rows_.terms().size()); ++number) {
       const SplineConstraints::Term& term = rows_.terms()[std::size_t(number)];
       const int motion = term.slice - objective.from;
@@ -193,10 +193,10 @@ Refinement SplineNlp::takeUp(const VectorXd& c, bool is_solution, VectorXd& phi,
 GuessKind SplineNlp::guessKind(const VectorXd& c) {
   moveTo(c);
   SplineMotions spline(curve_, probe_);
-  return wayOf(spline, 0, komo_->slices() - 1);
+  return guessKindOf(spline, 0, komo_->slices() - 1);
 }
 
-/// The spline that is nearest to a detour of the path, with the instants at which it comes near to something.
+/// Returns the spline nearest to an alternative path, with samples at its closest approaches.
 std::optional<VectorXd> SplineNlp::initialGuess(const VectorXd& c, int number) {
   std::vector<Objective> objectives = rows_.objectives();
   if (objectives.empty()) return std::nullopt;
@@ -209,7 +209,7 @@ std::optional<VectorXd> SplineNlp::initialGuess(const VectorXd& c, int number) {
   SplineMotions spline(curve_, probe_);
   for (Objective& objective : objectives) {
     objective.samples.clear();
-    addApproaches(objective, spline, kNearToDetour);
+    addApproaches(objective, spline, kAlternativePathReach);
   }
   addSamplesTo(objectives);
   replace(std::move(objectives));
@@ -226,7 +226,7 @@ std::string SplineNlp::rowName(int row) const {
              objectiveTypeName(objective.type), ")");
 }
 
-/// Objectives between slices are groups behind those of the slices.
+/// Objectives between slices form groups after those of the slices.
 RowDescription SplineNlp::describeRow(int row) const {
   const int own = row - rowsOfSlices();
   if (own < 0) return slices_->describeRow(row);

@@ -13,9 +13,9 @@
 
 namespace kinegraph {
 
-/// The problem of a SplineMotion: that of its Komo in the control points of the spline. What is to be free between slices
-/// (objectives that are `on_the_way`) is so on the spline, and verdicts are about the spline: rows for instants of it come
-/// behind those of the slices, and are taken up as those of a Komo are; see free_motion.h.
+/// The problem of a SplineMotion: that of its Komo in the control points of the spline. Objectives that are
+/// `between_slices` constrain the spline, and reports refer to it. The rows of its samples come after those of the
+/// slices, and are generated like those of a Komo; see continuous_collisions.h.
 class SplineNlp final : public Nlp, public InitialGuesses, public LazyConstraints {
  public:
   SplineNlp(std::shared_ptr<Komo> komo, std::shared_ptr<const SplineLayout> layout);
@@ -61,9 +61,9 @@ class SplineNlp final : public Nlp, public InitialGuesses, public LazyConstraint
   SplineConstraints rows_;
   SplineCurve curve_;
   MotionProbe probe_{kFreeTolerance};
-  std::vector<std::vector<CheckedMotion>> looked_at_;  ///< per objective, per motion
-  VectorXd free_at_;                                   ///< where a solver found nothing to take up
-  VectorXd phi_;                                       ///< of the slices
+  std::vector<std::vector<CheckedMotion>> checked_;  ///< per objective and motion
+  VectorXd free_at_;                                 ///< solution at which a solver found no further violations
+  VectorXd phi_;                                     ///< of the slices
   Separation separation_;
   bool separation_is_known_ = false;
 };

@@ -14,7 +14,7 @@ namespace {
 std::vector<std::string> unitsOf(const Joint& joint) {
   std::vector<std::string> units;
   for (const MotionStep& step : joint.steps) {
-    const char* unit = step.turns() ? "rad" : step.slides() ? "m" : "";
+    const char* unit = step.rotates() ? "rad" : step.translates() ? "m" : "";
     units.insert(units.end(), std::size_t(step.dofs()), unit);
   }
   return units;

@@ -31,7 +31,7 @@ Attachment freeJoint(bool stable) {
   Attachment attachment;
   attachment.type = JointType::trans3;
   attachment.stable = stable;
-  attachment.starts_here = true;
+  attachment.starts_at_object = true;
   return attachment;
 }
 
@@ -71,7 +71,7 @@ TEST(Path, SharedJointsAreInTheVariablesOnce) {
     for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = .1 * double(i);
     four.setVariables(x);
     EXPECT_EQ(four.variables(), x);
-    const int box = four.given().tree->get("box", "test").id;
+    const int box = four.initial().tree->get("box", "test").id;
     const MatrixXd place = [&] {
       MatrixXd rows(3, 3);
       for (int t = 1; t < 4; ++t) rows.row(t - 1) = four.state(t).q()(four.dofsOf({box}, t)).transpose();
@@ -88,7 +88,7 @@ TEST(Path, AChangeOfTheStructureKeepsWhatWasThere) {
   for (Eigen::Index i = 0; i < x.size(); ++i) x[i] = .1 * double(i);
   four.setVariables(x);
   const MatrixXd joints = four.joints();
-  const Vector3d before = four.state(2).position(four.given().tree->get("box", "test").id);
+  const Vector3d before = four.state(2).position(four.initial().tree->get("box", "test").id);
   const int revision = four.revision();
   four.beginModes();
   EXPECT_EQ(four.revision(), revision);

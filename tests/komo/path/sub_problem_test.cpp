@@ -29,7 +29,7 @@ TEST(SubProblem, IsAPhaseFromItsBeginningToItsEnd) {
   path.beginModes();
   Attachment grasp;
   grasp.type = JointType::trans3;
-  grasp.starts_here = true;
+  grasp.starts_at_object = true;
   path.attach(1, "arm", "box", grasp);
   path.setVariables(VectorXd::LinSpaced(path.layout().dimension, 1., double(path.layout().dimension)));
   const SubProblem sub = subProblem(path, 2);

@@ -144,7 +144,7 @@ ENTRIES = {**CONDITIONS, **ATTACHMENTS}
 def test_symbols_of_skeletons(symbol):
     S = ry.Skeleton()
     if symbol in ("identical", "pushAndPlace"):
-        with pytest.raises(ry.Error, match=f"{symbol} has no meaning; use"):
+        with pytest.raises(ry.Error, match=f"{symbol} is not supported; use"):
             S.addEntry([1.0], getattr(ry.SY, symbol), ["hand", "box"])
         return
     S.addEntry([1.0, 1.5], getattr(ry.SY, symbol), ENTRIES[symbol])
@@ -162,7 +162,7 @@ def test_conditions_are_not_mode_switches(symbol):
     komo = ry.KOMO(scene(), 2, 4, 2, False)
     with pytest.raises(
         ry.Error,
-        match=f"addModeSwitch: {symbol} does not attach an object; available are stable, .*a skeleton has them all",
+        match=f"addModeSwitch: {symbol} does not attach an object; expected one of stable, .*a skeleton accepts all modes",
     ):
         komo.addModeSwitch([1.0, -1.0], getattr(ry.SY, symbol), ["hand", "box"])
 
@@ -221,13 +221,13 @@ def height(frame):
     return frame.getPosition()[2]
 
 
-def test_own_features_pickle_where_python_can():
+def test_custom_features_pickle_if_python_can():
     komo = ry.KOMO(scene(), 1, 2, 1, False)
     komo.addObjective([1.0], height, ["hand"], ry.OT.eq, [1.0], [0.9])
     sameBits(komo)
     komo.addObjective([1.0], lambda frame: frame.getPosition()[0], ["hand"], ry.OT.eq)
     with pytest.raises(
-        (AttributeError, pickle.PicklingError), match="test_own_features_pickle_where_python_can.*lambda"
+        (AttributeError, pickle.PicklingError), match="test_custom_features_pickle_if_python_can.*lambda"
     ):
         pickle.dumps(komo)
 

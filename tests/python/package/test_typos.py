@@ -17,7 +17,7 @@ ERRORS = {
     "box(world): {shape: box, size: .1 .1 .1}": "size of a box has 3 numbers [x y z], not 1; several numbers stand in brackets: [1 2 3]",
     "box(world): {shape: box, size: [10cm 1 1]}": "'10cm' is not a number; numbers have no unit behind them: m, kg, s and rad are meant",
     "box(world): {shape: box, size: [1 1 1], color: red}": "color: expected numbers [r g b] in 0..1, got the text 'red'",
-    "arm(world): {joint: revolute}": "what others call revolute is hingeX, hingeY or hingeZ, or hinge with axis: [x y z]",
+    "arm(world): {joint: revolute}": "use hingeX, hingeY or hingeZ, or hinge with axis: [x y z] for revolute",
     "arm(world): {type: hingeX}": "'hingeX' is a joint type; write joint: hingeX",
     "arm(world): {pose: 0 0 1}": "expected a pose, got a single number; several numbers stand in brackets: [1 2 3]",
     'arm(world): {Q: "t(0 0 1) d(90 0 0)"}': "'d' takes 4 numbers (degrees x y z), not 3",

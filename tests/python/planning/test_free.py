@@ -79,7 +79,7 @@ def test_solveIkIsNotSolvedWhereOtherJointsHoldAPairTooNear():
     C.addFrame("other", "base", "pre: [.6 0 0], joint: transZ, q: .1, shape: sphere, size: [.2], contact: 1")
     result = ry.solveIk(C, {"hand": [-0.6, 0.0, 0.397]})
     assert not result.feasible and not C.isValid([result.q])[0]
-    assert "'other'" in result.message and "no joint that moves a target parts them" in result.message
+    assert "'other'" in result.message and "no joint that moves a target separates them" in result.message
 
 
 def test_limitsHaveATolerance(scene):

@@ -288,7 +288,7 @@ def test_mistakes_are_told():
     with pytest.raises(ry.ArgumentError, match="no answer"):
         ry.solveIk(C, {"l_gripper": [5, 5, 5]}, attempts=1).sensitivity()
     answer = ry.solveIk(C, {"l_gripper": [0.3, 0.3, 1.1]})
-    with pytest.raises(ry.NotFound, match="they are of l_gripper"):
+    with pytest.raises(ry.NotFound, match="the targets are of l_gripper"):
         answer.sensitivity("l_griper")
     with pytest.raises(ry.ArgumentError, match="3 numbers; the solution has 7"):
         answer.sensitivity("l_gripper").gradient([1, 2, 3])

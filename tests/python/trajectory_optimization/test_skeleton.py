@@ -308,7 +308,7 @@ def test_mistakes_are_explained():
         S.addEntry([1], ry.SY.touch, ["a"])
     with pytest.raises(ry.Error, match=r"times of touch"):
         S.addEntry([], ry.SY.touch, ["a", "b"])
-    with pytest.raises(ry.Error, match="pushAndPlace has no meaning"):
+    with pytest.raises(ry.Error, match="pushAndPlace is not supported"):
         S.addEntry([1], ry.SY.pushAndPlace, ["a", "b"])
     with pytest.raises(ry.Error, match="three by three"):
         S.add([[1], ry.SY.touch])

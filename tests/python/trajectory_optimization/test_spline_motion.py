@@ -53,7 +53,7 @@ def test_verdicts_are_about_the_spline(komo):
 def test_what_does_not_fit_is_said(komo):
     with pytest.raises(ry.ArgumentError, match="points is 25; expected 1 to 24"):
         ry.SplineMotion(komo, 25)
-    with pytest.raises(ry.ArgumentError, match="do not tell 26 control points apart"):
+    with pytest.raises(ry.ArgumentError, match="do not determine 26 control points"):
         ry.SplineMotion(komo, 24, 5, ends_at_rest=False)
     with pytest.raises(ry.ArgumentError, match="degree is 0"):
         ry.SplineMotion(komo, 5, 0)

@@ -12,22 +12,22 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kGrowths = 1500;                              // of trees
-constexpr std::array<double, 4> kRoom = {16., 8., 4., 2.};  // that they look for first, of what is to be kept
+constexpr int kGrowths = 1500;                              // samples of the trees
+constexpr std::array<double, 4> kRoom = {16., 8., 4., 2.};  // clearances to try first, relative to the required one
 constexpr int kGrowthsWithRoom = 200;
-constexpr int kDraws = 50, kMoves = 120;
-constexpr double kNarrowing = .98;  // of a move, from one to the next
-constexpr int kMostSamples = 32;    // of a path
-constexpr double kLongWay = .02;    // that makes a way worse, m per unit of d as long as the way
+constexpr int kArcs = 50, kMoves = 120;
+constexpr double kShrinking = .98;     // factor on the step size from one random move to the next
+constexpr int kMaxSamples = 32;        // per path
+constexpr double kLengthWeight = .02;  // m, weight of |d| relative to the length of the path
 constexpr std::array<double, 6> kKnots = {0., .1, .35, .65, .9, 1.};
 constexpr int kFree = int(kKnots.size()) - 2;
 
-/// The dofs of the given configuration that may be bent: no quaternions, and none that all slices share.
-std::vector<int> bendableDofs(const Path& path) {
-  const KinematicModel& model = *path.given().model;
+/// Returns the dofs of the initial configuration that may be varied: no quaternions, and none that all slices share.
+std::vector<int> variableDofs(const Path& path) {
+  const KinematicModel& model = *path.initial().model;
   std::vector<char> may(std::size_t(model.dofs), false);
-  for (const int frame : path.given().joint_frames) {
-    if (path.given().isShared(frame)) continue;
+  for (const int frame : path.initial().joint_frames) {
+    if (path.initial().isShared(frame)) continue;
     const auto [first, count] = model.frame_dofs[std::size_t(frame)];
     std::fill_n(may.begin() + first, count, true);
   }
@@ -38,40 +38,40 @@ std::vector<int> bendableDofs(const Path& path) {
   return dofs;
 }
 
-/// Ways that d makes of a path, given by a column per knot between the ends.
-class Ways {
+/// Deformations of a path by an offset d, given by one column per knot between the ends.
+class DeformedPaths {
  public:
-  Ways(Path& path, double apart, MotionProbe& probe)
-      : path_(path), apart_(apart), probe_(probe), dofs_(bendableDofs(path)), given_(path.joints()) {
-    const KinematicModel& model = *path.given().model;
-    VectorXd begin = given_.row(0).transpose();
-    if (firstMotion(path) == 0) begin = path.state(-1).q()(path.dofsOf(path.given().joint_frames, -1));
-    const VectorXd way = given_.row(given_.rows() - 1).transpose() - begin;
-    length_ = std::max(way(dofs_).norm(), .1);
+  DeformedPaths(Path& path, double apart, MotionProbe& probe)
+      : path_(path), apart_(apart), probe_(probe), dofs_(variableDofs(path)), initial_(path.joints()) {
+    const KinematicModel& model = *path.initial().model;
+    VectorXd begin = initial_.row(0).transpose();
+    if (firstMotion(path) == 0) begin = path.state(-1).q()(path.dofsOf(path.initial().joint_frames, -1));
+    const VectorXd offset = initial_.row(initial_.rows() - 1).transpose() - begin;
+    length_ = std::max(offset(dofs_).norm(), .1);
     lower_ = model.lower(dofs_), upper_ = model.upper(dofs_);
   }
 
   int dofs() const { return int(dofs_.size()); }
   double length() const { return length_; }
 
-  void bend(const MatrixXd& d) {
-    const int count = int(given_.rows()), before = firstMotion(path_) == 0 ? 1 : 0;
+  void deform(const MatrixXd& d) {
+    const int count = int(initial_.rows()), before = firstMotion(path_) == 0 ? 1 : 0;
     for (int slice = 0; slice + 1 < count; ++slice) {
       const double s = double(slice + before) / (count - 1 + before);
-      VectorXd q = given_.row(slice).transpose();
-      const VectorXd bent = q(dofs_) + at(s, d);
-      q(dofs_) = bent.cwiseMax(lower_).cwiseMin(upper_);
+      VectorXd q = initial_.row(slice).transpose();
+      const VectorXd deformed = q(dofs_) + at(s, d);
+      q(dofs_) = deformed.cwiseMax(lower_).cwiseMin(upper_);
       path_.setJoints(slice, q);
     }
-    path_.setVariables(path_.variables());  // dofs that slices share
+    path_.setVariables(path_.variables());  // copies shared dofs
   }
 
-  /// What the path lacks to be apart of everything, m, summed over samples; and a little for the length of d.
-  double lack(const MatrixXd& d) {
-    bend(d);
+  /// Returns the violation of the distance `apart` (m), summed over samples, plus a small cost for the length of d.
+  double violation(const MatrixXd& d) {
+    deform(d);
     const int first = firstMotion(path_), count = path_.grid().slices() - first;
-    const int stride = std::max(1, count / kMostSamples);
-    double sum = kLongWay * d.norm() / length_;
+    const int stride = std::max(1, count / kMaxSamples);
+    double sum = kLengthWeight * d.norm() / length_;
     for (int slice = first; slice < first + count; slice += stride)
       sum += apart_ - probe_.clearance(motionInto(path_, slice), .5, apart_);
     return sum;
@@ -94,31 +94,31 @@ class Ways {
   double apart_;
   MotionProbe& probe_;
   std::vector<int> dofs_;
-  MatrixXd given_;
+  MatrixXd initial_;
   VectorXd lower_, upper_;
   double length_ = 0.;
 };
 
-/// Do all slices have the given scene's joints, and the same constants?
+/// Returns true if all slices have the model of the initial configuration and the same parameters.
 bool showsOneScene(const Path& path) {
   for (int slice = firstMotion(path) - 1; slice < path.grid().slices(); ++slice) {
     const State& state = path.state(slice);
-    if (state.sharedModel() != path.given().model || state.sharedParameters() != path.state(0).sharedParameters())
+    if (state.sharedModel() != path.initial().model || state.sharedParameters() != path.state(0).sharedParameters())
       return false;
   }
   return true;
 }
 
-/// `count` configurations along a way, its corners and its end among them, so that motions have about the same length.
-/// None if it has too many corners.
-std::vector<VectorXd> spread(const std::vector<VectorXd>& way, int count) {
+/// Returns `count` configurations along a path, including its corners and its end, with motions of similar length.
+/// Empty if the path has too many corners.
+std::vector<VectorXd> subdivide(const std::vector<VectorXd>& way, int count) {
   const int pieces = int(way.size()) - 1;
   if (pieces > count) return {};
   std::vector<int> parts(std::size_t(pieces), 1);
   const auto lengthOf = [&](int i) {
     return (way[std::size_t(i) + 1] - way[std::size_t(i)]).norm() / parts[std::size_t(i)];
   };
-  for (int given = pieces; given < count; ++given) {
+  for (int total = pieces; total < count; ++total) {
     int longest = 0;
     for (int i = 1; i < pieces; ++i)
       if (lengthOf(i) > lengthOf(longest)) longest = i;
@@ -132,7 +132,7 @@ std::vector<VectorXd> spread(const std::vector<VectorXd>& way, int count) {
   return points;
 }
 
-/// Where configurations between two are drawn from.
+/// Returns the bounds between which configurations are sampled.
 TreeBounds roomAround(const KinematicModel& model, std::vector<int> dofs, const VectorXd& from, const VectorXd& to) {
   TreeBounds room{std::move(dofs), {}, {}};
   room.lower = model.lower(room.dofs), room.upper = model.upper(room.dofs);
@@ -146,17 +146,17 @@ TreeBounds roomAround(const KinematicModel& model, std::vector<int> dofs, const 
   return room;
 }
 
-/// The configurations of the slices from `begin` on until the end of a phase, on a way that trees find.
+/// Returns the configurations of the slices from `begin` to the end of a phase, on a path that trees find.
 std::vector<VectorXd> freeLeg(const Path& path, EdgeChecker& checker, double apart, int begin, int end, Rng& rng) {
   const VectorXd &from = path.state(begin - 1).q(), &to = path.state(end - 1).q();
   const double most = 20. * apart,
                kept = std::min(checker.clearance(from.data(), most), checker.clearance(to.data(), most));
   if (kept <= 0.) return {};
-  const TreeBounds room = roomAround(*path.given().model, bendableDofs(path), from, to);
+  const TreeBounds room = roomAround(*path.initial().model, variableDofs(path), from, to);
   const auto keeping = [&](double margin, int growths) {
     checker.setMargin(margin);
     const std::vector<VectorXd> way = treePath(checker, room, from, to, rng, growths);
-    return way.empty() ? way : spread(way, end - begin);
+    return way.empty() ? way : subdivide(way, end - begin);
   };
   for (const double more : kRoom) {
     if (more * apart > .9 * kept) continue;
@@ -166,7 +166,7 @@ std::vector<VectorXd> freeLeg(const Path& path, EdgeChecker& checker, double apa
   return keeping(kept > 1.01 * apart ? apart : .5 * kept, kGrowths);
 }
 
-/// The variables of a path that is free at all times; none where trees do not find one, or where nothing moves.
+/// Returns the variables of a continuously collision-free path; nothing if the trees find none, or if nothing moves.
 std::optional<VectorXd> freeAlternativePath(Path& path, double apart, MotionProbe& probe, int number) {
   if (!showsOneScene(path)) return std::nullopt;
   const int first = firstMotion(path), count = path.grid().slices(), of_phase = path.grid().slicesPerPhase();
@@ -182,10 +182,10 @@ std::optional<VectorXd> freeAlternativePath(Path& path, double apart, MotionProb
   }
   const VectorXd& start = path.state(first - 1).q();
   if (std::ranges::all_of(points, [&](const VectorXd& q) { return q == start; })) return std::nullopt;
-  const VectorXd given = path.variables();
+  const VectorXd original = path.variables();
   for (std::size_t i = 0; i < points.size(); ++i) path.setJoints(first + int(i), points[i]);
   const VectorXd found = path.variables();
-  path.setVariables(given);
+  path.setVariables(original);
   return found;
 }
 
@@ -193,44 +193,44 @@ std::optional<VectorXd> freeAlternativePath(Path& path, double apart, MotionProb
 
 std::optional<VectorXd> alternativePath(Path& path, double apart, MotionProbe& probe, int number) {
   if (path.grid().slices() < 3) return std::nullopt;
-  const VectorXd given = path.variables();
-  Ways ways(path, apart, probe);
-  if (ways.dofs() == 0) return std::nullopt;
+  const VectorXd original = path.variables();
+  DeformedPaths paths(path, apart, probe);
+  if (paths.dofs() == 0) return std::nullopt;
   if (const auto free = freeAlternativePath(path, apart, probe, number)) return free;
   Rng rng{std::uint64_t(number)};
-  const auto draw = [&](double size) {
-    VectorXd drawn(ways.dofs());
-    for (double& value : drawn) value = size * rng.normal();
-    return drawn;
+  const auto sample = [&](double size) {
+    VectorXd noise(paths.dofs());
+    for (double& value : noise) value = size * rng.normal();
+    return noise;
   };
-  const double unit = ways.length() / std::sqrt(double(ways.dofs()));
+  const double unit = paths.length() / std::sqrt(double(paths.dofs()));
   MatrixXd best;
   double least = std::numeric_limits<double>::infinity();
   const auto offer = [&](const MatrixXd& candidate) {
-    const double lack = ways.lack(candidate);
-    if (lack < least) least = lack, best = candidate;
+    const double violation = paths.violation(candidate);
+    if (violation < least) least = violation, best = candidate;
   };
-  for (int i = 0; i < kDraws; ++i) {  // bows, to one side or to both
-    const double size = unit * (.2 + .8 * (i + 1) / kDraws);
-    const VectorXd a = draw(size), b = draw(.5 * size);
-    MatrixXd drawn(ways.dofs(), kFree);
+  for (int i = 0; i < kArcs; ++i) {  // arcs, to one side or to both
+    const double size = unit * (.2 + .8 * (i + 1) / kArcs);
+    const VectorXd a = sample(size), b = sample(.5 * size);
+    MatrixXd arc(paths.dofs(), kFree);
     for (int k = 0; k < kFree; ++k) {
       const double angle = std::numbers::pi * kKnots[std::size_t(k) + 1];
-      drawn.col(k) = std::sin(angle) * a + std::sin(2. * angle) * b + draw(.1 * size);
+      arc.col(k) = std::sin(angle) * a + std::sin(2. * angle) * b + sample(.1 * size);
     }
-    offer(drawn);
+    offer(arc);
   }
   double size = .3 * unit;
-  for (int i = 0; i < kMoves; ++i, size *= kNarrowing) {  // of one posture, or of all
+  for (int i = 0; i < kMoves; ++i, size *= kShrinking) {  // of one configuration, or of all
     MatrixXd moved = best;
     const int one = int(rng.uniform(0., kFree + 1.));
     for (int k = 0; k < kFree; ++k)
-      if (one == k || one == kFree) moved.col(k) += draw(size);
+      if (one == k || one == kFree) moved.col(k) += sample(size);
     offer(moved);
   }
-  ways.bend(best);
+  paths.deform(best);
   const VectorXd found = path.variables();
-  path.setVariables(given);
+  path.setVariables(original);
   return found;
 }
 

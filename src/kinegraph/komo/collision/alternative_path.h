@@ -6,18 +6,19 @@
 
 namespace kinegraph {
 
-/// The variables of a path that begins and ends as this one and goes another way in between; the same for the same number.
-/// None where no joint can be moved so. Leaves the path as it was.
+/// Computes an initial guess in another homotopy class: the variables of a path with the same ends and a different
+/// route between them. Equal numbers give equal paths. Returns nothing if no joint can be varied. Restores the given
+/// path.
 ///
-/// Where all slices show one scene, two trees look for a way between the ends, and from phase end to phase end. What they
-/// find is free at all times, not just in slices: its corners are slices, and so all motions from slice to slice are pieces
-/// of what was checked. They keep `apart` (m), or half of what the ends keep if that is less; where there is room, up to 16 times as
-/// much.
+/// If all slices show one scene, two trees (RRT-Connect) search for a path between the ends, phase by phase. The result
+/// is continuously collision-free: its corners are slices, so all motions between slices are pieces of checked edges.
+/// The path keeps the distance `apart` (m), or half of the clearance of the ends if that is less, and up to 16 times as
+/// much if possible.
 ///
-/// Where there are modes, where an end is not free, and where trees find nothing, it is q(s) = q_0(s) + d(s), 0 <= s <= 1,
-/// with d linear between d(0) = 0, four postures near the ends and between them, and d(1) = 0. These are drawn at random and
-/// improved by random moves, so that sampled configurations lack as little as possible to be `apart` of everything; some
-/// obstacles may be left in the way.
+/// With modes, with an end in collision, or if the trees fail, the path is q(s) = q_0(s) + d(s), 0 <= s <= 1. The
+/// offset d is piecewise linear between d(0) = 0, four configurations, and d(1) = 0. These are sampled at random and
+/// improved by random moves that minimize how much sampled configurations violate the distance `apart`. Such a path may
+/// still collide.
 std::optional<VectorXd> alternativePath(Path& path, double apart, MotionProbe& probe, int number);
 
 }  // namespace kinegraph

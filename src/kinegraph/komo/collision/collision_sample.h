@@ -2,10 +2,10 @@
 
 namespace kinegraph {
 
-/// An instant of a motion between slices at which two shapes count; or room for one.
+/// A time of a motion between slices at which the distance of a pair is constrained; or an empty placeholder.
 struct CollisionSample {
-  double share = 0.;   ///< of the way, in [0, 1]
-  int a = -1, b = -1;  ///< frames; -1: there is none yet
+  double time = 0.;    ///< fraction of the motion, in [0, 1]
+  int a = -1, b = -1;  ///< ids of frames; -1 for an empty sample
 
   bool isEmpty() const { return a < 0; }
 };

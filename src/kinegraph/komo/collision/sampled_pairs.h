@@ -8,34 +8,34 @@
 
 namespace kinegraph {
 
-/// Pairs of shapes at instants of a motion, however q goes there: how near they are.
+/// Distances of pairs of shapes at times of a motion of any form.
 class SampledPairs {
  public:
   using Gradient = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;  ///< one row
 
-  /// Pairs count that are nearer than `most`, m. `scene` is any State of the motion.
-  SampledPairs(std::vector<CollisionSample> samples, double most, const State& scene);
+  /// Pairs closer than `max_distance` (m) count. `scene` is any State of the motion.
+  SampledPairs(std::vector<CollisionSample> samples, double max_distance, const State& scene);
 
   int size() const { return int(samples_.size()); }
   bool areAllEmpty() const { return in_order_.empty(); }
 
-  /// Calls `place(share, q)`, which writes the q of a share of the way, for each instant in time, and `see(i, distance,
-  /// gradient)` for each of those whose pair is near; the gradient is that of the distance by q, of no meaning where it was not
-  /// asked for.
-  template <class Place, class See>
+  /// Calls `place(time, q)`, which writes the q of a fraction of the motion, for each sample in order of time. Calls
+  /// `report(i, distance, gradient)` for each sample whose pair is near. The gradient is that of the distance by q, and
+  /// undefined unless requested.
+  template <class Place, class Report>
   void visit(const std::shared_ptr<const Parameters>& parameters, bool with_gradients, const Place& place,
-             const See& see) {
+             const Report& report) {
     const std::lock_guard lock(mutex_);
     if (state_.sharedParameters() != parameters) state_.replaceParameters(parameters);
     double placed = -1.;
     for (const int i : in_order_) {
       const CollisionSample& sample = samples_[std::size_t(i)];
-      if (sample.share != placed) {
-        place(placed = sample.share, q_);
+      if (sample.time != placed) {
+        place(placed = sample.time, q_);
         state_.setJoints(q_.data());
       }
       double distance;
-      if (isNear(sample, with_gradients, distance)) see(i, distance, gradient_);
+      if (isNear(sample, with_gradients, distance)) report(i, distance, gradient_);
     }
   }
 
@@ -43,8 +43,8 @@ class SampledPairs {
   bool isNear(const CollisionSample& sample, bool with_gradient, double& distance);
 
   std::vector<CollisionSample> samples_;
-  std::vector<int> in_order_;  ///< those that are not empty, by their shares
-  double most_;
+  std::vector<int> in_order_;  ///< numbers of the non-empty samples, sorted by time
+  double max_distance_;
   std::mutex mutex_;
   State state_;
   VectorXd q_;

@@ -4,11 +4,11 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kStill = .1;  // rad or m: starts are moved by a little noise
+constexpr double kStill = .1;  // rad or m: larger than the noise of initial points
 
 }  // namespace
 
-GuessKind wayOf(SliceMotions& motions, int from, int to) {
+GuessKind guessKindOf(SliceMotions& motions, int from, int to) {
   VectorXd begin;
   bool moves = false;
   for (int slice = from; slice <= to; ++slice) {

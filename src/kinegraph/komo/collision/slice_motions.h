@@ -8,29 +8,30 @@
 
 namespace kinegraph {
 
-/// How near pairs of shapes come on the motions from slice to slice, however q goes there. Times are shares of the way to a
-/// slice, in [0, 1].
+/// Distances of pairs of shapes along the motions between slices, for any interpolation of q. Times are fractions of
+/// the motion to a slice, in [0, 1].
 class SliceMotions {
  public:
   virtual ~SliceMotions() = default;
 
-  virtual SliceMotion motionInto(int slice) const = 0;  ///< with its ends; in between q may go another way
+  virtual SliceMotion motionInto(int slice) const = 0;  ///< its end points; q need not move linearly in between
 
-  /// A pair that comes nearer than `margin` (m), at any time. None only where it is proved that all pairs keep it.
+  /// Returns a pair that comes closer than `margin` (m) at any time. Returns nothing only if all pairs provably keep
+  /// the margin.
   virtual std::optional<MotionContact> tooNear(int slice, double margin) = 0;
 
-  /// Where pairs come nearer than `most` (m) on the way, and nearer than just before and just after: what is found, not a
-  /// proof.
-  virtual std::vector<MotionContact> approaches(int slice, double most) = 0;
+  /// Returns local minima of the distances of pairs along the motion that are below `max_distance` (m). The list may be
+  /// incomplete.
+  virtual std::vector<MotionContact> approaches(int slice, double max_distance) = 0;
 
-  /// The least distance of all pairs where the motion begins, at most `most`, m.
-  virtual double clearanceAtBegin(int slice, double most) = 0;
+  /// Returns the smallest distance of all pairs at the beginning of the motion, at most `max_distance`, m.
+  virtual double clearanceAtBegin(int slice, double max_distance) = 0;
 };
 
-/// Of the motions that lead to the slices [from, to].
-GuessKind wayOf(SliceMotions& motions, int from, int to);
+/// Classifies the motions to the slices [from, to].
+GuessKind guessKindOf(SliceMotions& motions, int from, int to);
 
-/// q goes straight from slice to slice of a path.
+/// Linear motion of q between the slices of a path.
 class LinearSliceMotions final : public SliceMotions {
  public:
   LinearSliceMotions(const Path& path, MotionProbe& probe) : path_(path), probe_(probe) {}
@@ -40,10 +41,12 @@ class LinearSliceMotions final : public SliceMotions {
     if (probe_.isFree(motionInto(slice), margin)) return std::nullopt;
     return probe_.lastHit();
   }
-  std::vector<MotionContact> approaches(int slice, double most) override {
-    return probe_.approaches(motionInto(slice), most);
+  std::vector<MotionContact> approaches(int slice, double max_distance) override {
+    return probe_.approaches(motionInto(slice), max_distance);
   }
-  double clearanceAtBegin(int slice, double most) override { return probe_.clearance(motionInto(slice), 0., most); }
+  double clearanceAtBegin(int slice, double max_distance) override {
+    return probe_.clearance(motionInto(slice), 0., max_distance);
+  }
 
  private:
   const Path& path_;

@@ -17,17 +17,17 @@ struct Interaction {
   Vector3d force;  ///< N, on the object, in the world
 };
 
-/// The contact forces of a motion problem, each with a point and dofs on its path, in the order in which they were
-/// added.
+/// The contact forces of a trajectory optimization problem in the order of addition, each with a point and dofs on its
+/// path.
 class Contacts {
  public:
   Contacts() = default;
-  explicit Contacts(std::vector<ContactForce> known) : forces_(std::move(known)) {}
+  explicit Contacts(std::vector<ContactForce> forces) : forces_(std::move(forces)) {}
 
   const std::vector<ContactForce>& forces() const { return forces_; }
   void add(const ContactForce& force) { forces_.push_back(force); }
 
-  /// Those that act in each slice of the path they are on, slice after slice.
+  /// Lists the forces that act in each slice of their path, slice by slice.
   std::vector<Interaction> interactions(const Path& path) const;
 
  private:

@@ -75,7 +75,7 @@ const ShapeKind& kindOf(const Frame& frame) { return shapeKind(frame.getShapeTyp
 
 bool isBox(const Frame& frame) { return kindOf(frame).body == Body::box; }
 
-/// What the range of free joints at a frame is measured by, m; 0 without a body.
+/// Returns the size that determines the range of free joints at a frame, m; 0 without a body.
 double reach(const Frame& frame) {
   const ShapeKind& kind = kindOf(frame);
   const std::vector<double> size = frame.getSize();
@@ -90,7 +90,8 @@ double height(const Frame& frame) { return shapeHeight(frame.getShapeType(), fra
 
 namespace {
 
-/// The pose of a joint on the face of `box` along an axis, for an object of that height; its z axis points outwards.
+/// Returns the pose of a joint on the face of `box` along an axis, for an object of this height. Its z axis points
+/// outwards.
 Pose faceBase(const std::vector<double>& box, int axis, double object_height) {
   Pose base;
   base.p[axis] = .5 * (box[axis] + object_height);
@@ -164,25 +165,25 @@ bool isAttachment(SwitchMode mode) {
 
 namespace {
 
-/// A joint that starts, and is at home, where the object is.
-Attachment fromHere(JointType type, bool stable) {
+/// Returns a joint whose initial value and home are at the object's pose.
+Attachment atObject(JointType type, bool stable) {
   Attachment a;
   a.type = type;
   a.stable = stable;
-  a.starts_here = true;
+  a.starts_at_object = true;
   a.zero_home = false;
   return a;
 }
 
-/// The same without turning the object.
-Attachment fromHereWithoutTurning(JointType type, const Frame& parent, const Frame& object) {
-  Attachment a = fromHere(type, false);
+/// Returns a joint at the object's pose that preserves its orientation.
+Attachment atObjectUnrotated(JointType type, const Frame& parent, const Frame& object) {
+  Attachment a = atObject(type, false);
   a.base = Pose();
   a.base->q = (parent.getPose().inverse() * object.getPose()).q;
   return a;
 }
 
-/// The sides of the box that a mode needs.
+/// Returns the sides of the box that a mode needs.
 std::vector<double> boxOf(const Frame& parent, SwitchMode mode, const Frame& object) {
   if (isBox(parent)) return parent.getSize();
   throw ValueError(cat("addModeSwitch: ", switchModeName(mode), " needs a box (ssBox) to place '", object.getName(),
@@ -190,27 +191,27 @@ std::vector<double> boxOf(const Frame& parent, SwitchMode mode, const Frame& obj
                        parent.getShapeType() == ShapeType::none ? "no shape" : "another shape"));
 }
 
-/// On the face of a box along an axis.
+/// Places an object on the face of a box along an axis.
 Attachment onFace(const std::vector<double>& box, int axis, const Frame& object) {
   Attachment a;
   a.type = JointType::transXYPhi;
-  a.starts_here = axis == 2;
+  a.starts_at_object = axis == 2;
   a.uniform = true;
   a.base = faceBase(box, axis, height(object));
   limitSliding(a, .5 * box[axis == 0 ? 2 : 0], .5 * box[axis == 1 ? 2 : 1]);
   return a;
 }
 
-/// Sliding on the top of a box.
+/// Lets an object slide on the top of a box.
 Attachment onTop(const std::vector<double>& box, const Frame& object) {
-  Attachment a = fromHere(JointType::transXYPhi, false);
+  Attachment a = atObject(JointType::transXYPhi, false);
   a.base = faceBase(box, 2, height(object));
   return a;
 }
 
-/// In the plane of the parent, at the height and with the orientation that the object has.
+/// Lets an object move in the plane of the parent, at its present height and orientation.
 Attachment inPlane(const Frame& parent, const Frame& object) {
-  Attachment a = fromHereWithoutTurning(JointType::transXY, parent, object);
+  Attachment a = atObjectUnrotated(JointType::transXY, parent, object);
   const Pose relative = parent.getPose().inverse() * object.getPose();
   const Vector3d along = relative.q.inverse() * relative.p;  // in the axes of the object
   a.base->p = relative.p - relative.q * Vector3d(along.cwiseProduct(Vector3d(1., 1., 0.)));
@@ -223,7 +224,7 @@ Attachment attachmentOf(SwitchMode mode, const Frame& parent, const Frame& objec
   using M = SwitchMode;
   switch (mode) {
     case M::stable: {
-      Attachment a = fromHere(JointType::free, true);
+      Attachment a = atObject(JointType::free, true);
       limitFreeJoint(a, parent, &object);
       return a;
     }
@@ -234,15 +235,15 @@ Attachment attachmentOf(SwitchMode mode, const Frame& parent, const Frame& objec
     case M::stableOnY:
       return onFace(boxOf(parent, mode, object), 1, object);
     case M::stableYPhi:
-      return fromHere(JointType::transY, true);
+      return atObject(JointType::transY, true);
     case M::stableZero:
       return {};
     case M::dynamic:
     case M::quasiStatic:
     case M::magic:
-      return fromHere(JointType::free, false);
+      return atObject(JointType::free, false);
     case M::dynamicTrans:
-      return fromHereWithoutTurning(JointType::trans3, parent, object);
+      return atObjectUnrotated(JointType::trans3, parent, object);
     case M::dynamicOn:
       return onTop(boxOf(parent, mode, object), object);
     case M::quasiStaticOn: {
@@ -256,9 +257,9 @@ Attachment attachmentOf(SwitchMode mode, const Frame& parent, const Frame& objec
     default:
       throw ValueError(cat(
           "addModeSwitch: ", switchModeName(mode),
-          " does not attach an object; available are stable, stableOn, "
+          " does not attach an object; expected one of stable, stableOn, "
           "stableOnX, stableOnY, stableYPhi, stableZero, dynamic, dynamicOn, dynamicTrans, quasiStatic, quasiStaticOn, "
-          "magic and magicTrans; a skeleton has them all"));
+          "magic, magicTrans; a skeleton accepts all modes"));
   }
 }
 
@@ -266,7 +267,7 @@ void addJoint(FrameData& frame, const Attachment& attachment, const Pose& relati
   Joint joint(attachment.type);
   frame.pose = Pose();
   if (joint.dofs() > 0) {
-    if (attachment.starts_here) joint.q = motionProject(joint.steps, joint.axis, joint.scale, relative);
+    if (attachment.starts_at_object) joint.q = motionProject(joint.steps, joint.axis, joint.scale, relative);
     if (!attachment.zero_home) joint.home = joint.q;
     joint.lower = attachment.lower;
     joint.upper = attachment.upper;
@@ -299,7 +300,7 @@ void Mode::attach(const std::string& parent, const std::string& object, const At
     chain.push_back(frame);
     if (frame == &root) break;
   }
-  std::vector<Pose> upwards;  // each frame of the chain, in the one before
+  std::vector<Pose> upwards;  // pose of each frame of the chain relative to the previous one
   for (std::size_t i = 0; i + 1 < chain.size(); ++i) upwards.push_back(chain[i]->relativePose().inverse());
   for (FrameData* frame : chain) {
     if (frame->parent) scene.unlink(*frame);

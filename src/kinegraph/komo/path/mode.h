@@ -9,7 +9,7 @@
 
 namespace kinegraph {
 
-/// How an object is held from a mode switch on. The numbers are those of the Python enum `ry.SY`.
+/// Kind of attachment or contact of an object after a mode switch. The numbers are those of the Python enum `ry.SY`.
 enum class SwitchMode : int {
   touch = 0,
   above = 1,
@@ -61,55 +61,55 @@ enum class SwitchMode : int {
 const std::vector<std::pair<std::string, SwitchMode>>& switchModeNames();
 std::string switchModeName(SwitchMode mode);
 
-/// A joint that a motion problem adds to the scene.
+/// A joint that a trajectory optimization problem adds to the scene.
 struct Attachment {
   JointType type = JointType::rigid;
-  bool stable = true;        ///< one set of dofs for all slices that have it; else one per slice
-  bool starts_here = false;  ///< starts at the pose that the object has; else at zero
-  bool zero_home = true;     ///< home is zero; else where the joint starts
-  bool uniform = false;      ///< sampled uniformly within its limits
-  VectorXd lower, upper;     ///< both empty: no limits
-  std::optional<Pose> base;  ///< of the joint in the parent frame
+  bool stable = true;             ///< one set of dofs for all slices that have it; otherwise one per slice
+  bool starts_at_object = false;  ///< starts at the pose of the object; otherwise at zero
+  bool zero_home = true;          ///< home is zero; otherwise the initial value
+  bool uniform = false;           ///< sampled uniformly within its limits
+  VectorXd lower, upper;          ///< both empty for no limits
+  std::optional<Pose> base;       ///< pose of the joint in the parent frame
 };
 
-/// Is it a mode in which an object hangs below another frame? Others are conditions and contacts.
+/// Returns true for modes that attach an object to another frame. The other modes are constraints and contacts.
 bool isAttachment(SwitchMode mode);
 
-/// Extent of a frame's shape along its own z axis, m; 0 without one.
+/// Returns the extent of a frame's shape along its own z axis, m; 0 without one.
 double height(const Frame& frame);
 
-/// The attachment of `object` to `parent` in a mode. Throws ValueError for modes that are not attachments and for
-/// parents without the box that the mode needs.
+/// Returns the attachment of `object` to `parent` in a mode. Throws ValueError for modes that are not attachments, and
+/// for parents without the box that the mode needs.
 Attachment attachmentOf(SwitchMode mode, const Frame& parent, const Frame& object);
 
-/// Limits of a free joint below `parent` for an object: the sizes of both bound its position. Empty if neither has a
-/// size.
+/// Limits the position of a free joint below `parent` by the sizes of parent and object. Sets no limits if neither has
+/// a size.
 void limitFreeJoint(Attachment& attachment, const Frame& parent, const Frame* object);
 
-/// Limits of a transXYPhi joint that slides on a face with these half extents.
+/// Limits a transXYPhi joint that slides on a face with these half extents.
 void limitSliding(Attachment& attachment, double half_x, double half_y);
 
-/// Limits of a joint of its type that a frame is given below `parent`: two turns of a hinge, the face of a box for
-/// joints that slide in the plane, the size of the parent for free ones. Empty where nothing suggests any.
+/// Limits a joint below `parent` by its type: two full rotations for a hinge, the face of a box for planar joints, the
+/// size of the parent for free ones. Other joints have no limits.
 void limitByType(Attachment& attachment, const Frame& parent);
 
-/// The structure of the scene in some slices of a motion: a scene, and which of its joints the motion problem has
-/// added. All modes of a problem have the same frames in the same order.
+/// The kinematic structure in some slices of a path: a scene, and its joints that the problem has added. All modes of a
+/// problem have the same frames in the same order.
 struct Mode {
   struct Added {
-    int id = 0;           ///< equal in all modes that have the same joint
+    int id = 0;           ///< equal in all modes that share the joint
     bool stable = false;  ///< its dofs are shared by the slices that have it
     std::string parent;
   };
   Config config;
   std::map<int, Added> added;  ///< by frame id
 
-  /// The frame that moves with `object` and is attached to the rest: the first one upwards that has a joint, or the
-  /// root. Where `parent` hangs below that one too, it is the object itself.
+  /// Returns the root of the rigid group of `object`: the first frame upwards that has a joint, or the root of the
+  /// tree. If `parent` is below that frame too, returns the object itself.
   const FrameData& movableRoot(const std::string& object, const std::string& parent) const;
 
-  /// Cuts the object's movable root off, makes the object its root, and attaches it below `parent`. `base_frame` is the
-  /// id of a frame to carry the attachment's base, if it has one.
+  /// Detaches the object's movable root, makes the object the root of this group, and attaches it to `parent`.
+  /// `base_frame` is the id of the frame for the attachment's base, if there is one.
   void attach(const std::string& parent, const std::string& object, const Attachment& attachment, int base_frame,
               int id);
 };

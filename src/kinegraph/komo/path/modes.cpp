@@ -21,8 +21,8 @@ Modes Modes::clone() const {
   return copy;
 }
 
-void Modes::begin(const SceneTree& given) {
-  if (empty()) list_.push_back(std::make_shared<Mode>(Mode{Config(given), {}}));
+void Modes::begin(const SceneTree& initial) {
+  if (empty()) list_.push_back(std::make_shared<Mode>(Mode{Config(initial), {}}));
 }
 
 int Modes::addFrame(const std::string& name) {
@@ -32,7 +32,7 @@ int Modes::addFrame(const std::string& name) {
 }
 
 void Modes::replace(std::size_t first, std::size_t last, const std::function<void(Mode&)>& edit) {
-  std::map<int, int> changed;  // old mode -> the mode that takes its place
+  std::map<int, int> changed;  // old mode -> its replacement
   for (std::size_t slice = first; slice < last; ++slice) {
     int& mode_of_slice = of_slice_[slice];
     const auto [place, is_new] = changed.try_emplace(mode_of_slice, int(list_.size()));

@@ -14,7 +14,7 @@ constexpr std::size_t kUsualDofs = 256;
 }  // namespace
 
 void Path::setScene(const Config& config) {
-  given_ = InitialConfiguration(config);
+  initial_ = InitialConfiguration(config);
   shown_frames_.clear();
   for (const auto& frame : config.scene()->frames()) shown_frames_.push_back(frame->id);
   build();
@@ -26,12 +26,12 @@ void Path::setGrid(const TimeGrid& time_grid) {
 }
 
 void Path::build() {
-  if (given_.empty() || grid_.empty()) return;
+  if (initial_.empty() || grid_.empty()) return;
   const std::size_t count = std::size_t(grid_.slices() + grid_.order());
   states_.clear();
   states_.reserve(count);
-  State first(given_.model, given_.parameters);
-  first.setJoints(given_.q.data());
+  State first(initial_.model, initial_.parameters);
+  first.setJoints(initial_.q.data());
   for (std::size_t i = 1; i < count; ++i) states_.push_back(first);
   states_.push_back(std::move(first));
   modes_ = Modes(count);
@@ -77,10 +77,10 @@ VectorXd Path::variables() const {
 
 void Path::setVariables(const VectorXd& x) {
   if (layout_.plain) {
-    for (int t = 0; t < grid_.slices(); ++t) setSlice(t, x.data() + t * given_.model->dofs);
+    for (int t = 0; t < grid_.slices(); ++t) setSlice(t, x.data() + t * initial_.model->dofs);
     return;
   }
-  double usual[kUsualDofs];  // solvers call this in their loop, where no memory is requested
+  double usual[kUsualDofs];  // solvers call this in their loop, so it must not allocate
   std::vector<double> many;
   for (std::size_t i = 0; i < states_.size(); ++i) {
     const std::vector<int>& column = layout_.column[i];
@@ -109,23 +109,23 @@ std::vector<int> Path::dofsOf(const std::vector<int>& frames, int slice) const {
 }
 
 MatrixXd Path::joints(const std::vector<int>& frames) const {
-  MatrixXd rows;
+  MatrixXd joints;
   if (layout_.plain && frames.empty()) {
-    rows.resize(grid_.slices(), state(0).dofs());
-    for (int t = 0; t < grid_.slices(); ++t) rows.row(t) = state(t).q();
-    return rows;
+    joints.resize(grid_.slices(), state(0).dofs());
+    for (int t = 0; t < grid_.slices(); ++t) joints.row(t) = state(t).q();
+    return joints;
   }
   for (int t = 0; t < grid_.slices(); ++t) {
-    const std::vector<int> dofs = dofsOf(frames.empty() ? given_.joint_frames : frames, t);
-    if (t == 0) rows.resize(grid_.slices(), Eigen::Index(dofs.size()));
-    for (std::size_t i = 0; i < dofs.size(); ++i) rows(t, Eigen::Index(i)) = state(t).q()[dofs[i]];
+    const std::vector<int> dofs = dofsOf(frames.empty() ? initial_.joint_frames : frames, t);
+    if (t == 0) joints.resize(grid_.slices(), Eigen::Index(dofs.size()));
+    for (std::size_t i = 0; i < dofs.size(); ++i) joints(t, Eigen::Index(i)) = state(t).q()[dofs[i]];
   }
-  return rows;
+  return joints;
 }
 
 void Path::setJoints(int slice, const VectorXd& q) {
   VectorXd all = state(slice).q();
-  const std::vector<int> dofs = dofsOf(given_.joint_frames, slice);
+  const std::vector<int> dofs = dofsOf(initial_.joint_frames, slice);
   for (std::size_t i = 0; i < dofs.size(); ++i) all[dofs[i]] = q[Eigen::Index(i)];
   setSlice(slice, all.data());
 }
@@ -143,14 +143,13 @@ MatrixXd Path::framePoses(int slice) const {
 
 Config Path::configuration(int slice) const {
   requireSlice(slice);
-  Config config = modes_.empty() ? Config(*given_.tree) : mode(slice).config;
+  Config config = modes_.empty() ? Config(*initial_.tree) : mode(slice).config;
   config.setJointState(state(slice).q());
-  given_.restoreAttributes(config);
+  initial_.restoreAttributes(config);
   return config;
 }
 
-/// Makes the states of all slices anew. Joints that were there before keep their dofs; new ones are where their mode
-/// has them.
+/// Rebuilds the states of all slices. Existing joints keep their dofs; new ones get the values of their mode.
 void Path::rebuildStates() {
   const int newest = modes_.nextJoint() - 1;
   std::vector<State> old = std::move(states_);
@@ -165,8 +164,9 @@ void Path::rebuildStates() {
       const auto [first, count] = now.frame_dofs[frame];
       const auto [first_before, count_before] = before.frame_dofs[frame];
       const auto added = mode.added.find(int(frame));
-      const bool kept = count > 0 && count == count_before && (added == mode.added.end() || added->second.id != newest);
-      if (kept) q.segment(first, count) = old[i].q().segment(first_before, count);
+      const bool keeps_dofs =
+          count > 0 && count == count_before && (added == mode.added.end() || added->second.id != newest);
+      if (keeps_dofs) q.segment(first, count) = old[i].q().segment(first_before, count);
     }
     state.setJoints(q.data());
     states_.push_back(std::move(state));
@@ -232,36 +232,37 @@ void Path::addFrame(const std::string& name, const std::string& parent, JointTyp
 
 void Path::updateRootObjects(const Config& config) {
   const auto model = config.model();
-  if (model != given_.model && (model->frame_name != given_.model->frame_name || model->dofs != given_.model->dofs)) {
+  if (model != initial_.model &&
+      (model->frame_name != initial_.model->frame_name || model->dofs != initial_.model->dofs)) {
     throw ValueError(
         "KOMO: updateRootObjects needs the configuration that the KOMO was made from, with the same frames, joints and "
         "shapes");
   }
-  if (model == given_.model && modes_.empty()) {
-    given_.tree.reset();  // so that its memory can be used again
-    given_.tree = config.scene()->snapshot();
-    given_.parameters = config.parameters();
+  if (model == initial_.model && modes_.empty()) {
+    initial_.tree.reset();  // frees its memory for the new snapshot
+    initial_.tree = config.scene()->snapshot();
+    initial_.parameters = config.parameters();
   } else {
-    given_.transferPoses(config);
+    initial_.transferPoses(config);
     for (const auto& mode : modes_.list()) transferPoses(*mode->config.scene(), config);
   }
   for (std::size_t i = 0; i < states_.size(); ++i)
-    states_[i].setParameters(modes_.empty() ? given_.parameters : modes_.at(i).config.parameters());
-  if (const VectorXd q = config.getJointState(); q != given_.q) moveStart(q);
+    states_[i].setParameters(modes_.empty() ? initial_.parameters : modes_.at(i).config.parameters());
+  if (const VectorXd q = config.getJointState(); q != initial_.q) moveStart(q);
 }
 
-/// The slices before the first begin at q, with those of their joints that the given configuration has.
+/// Sets the slices before the first to q, for joints that they share with the initial configuration.
 void Path::moveStart(const VectorXd& q) {
-  given_.q = q;
-  const KinematicModel& given = *given_.model;
+  initial_.q = q;
+  const KinematicModel& initial = *initial_.model;
   for (int slice = -grid_.order(); slice < 0; ++slice) {
     VectorXd all = state(slice).q();
-    for (int frame : given_.joint_frames) {
-      const auto [first_given, count_given] = given.frame_dofs[std::size_t(frame)];
+    for (int frame : initial_.joint_frames) {
+      const auto [first_initial, count_initial] = initial.frame_dofs[std::size_t(frame)];
       const auto [first, count] = state(slice).model().frame_dofs[std::size_t(frame)];
       const bool is_constant =
           layout_.plain || layout_.column[std::size_t(slice + grid_.order())][std::size_t(first)] < 0;
-      if (count == count_given && is_constant) all.segment(first, count) = q.segment(first_given, count);
+      if (count == count_initial && is_constant) all.segment(first, count) = q.segment(first_initial, count);
     }
     setSlice(slice, all.data());
   }

@@ -7,13 +7,13 @@
 
 namespace kinegraph {
 
-/// The dofs of the joints of given frames: y = q_i (rad, m). Unlike JointState it finds them by frame in each
-/// configuration, because in different modes the same joint may have another place in q.
+/// Dofs of the joints of certain frames: y = q_i (rad, m). Unlike JointState it finds them by frame in each
+/// configuration, because the index of a joint in q may differ between modes.
 class JointsOfFrames final : public Feature {
  public:
   struct Part {
     int frame;
-    int first;  ///< among the dofs of its joint
+    int first;  ///< index among the dofs of its joint
     int count;
   };
   explicit JointsOfFrames(std::vector<Part> parts);

@@ -7,25 +7,28 @@
 
 namespace kinegraph {
 
-// Where a solver starts: calls that fill a path with values. All throw ValueError for numbers that do not fit it.
+// Initial values of a path for a solver. All functions throw ValueError for numbers that do not fit the path.
 
-void startAtPath(Path& path, const MatrixXd& rows);   ///< T x n
-void startAtConstant(Path& path, const VectorXd& q);  ///< n numbers, or T*n for a path
-void startAsGiven(Path& path);                        ///< all slices as the given configuration
-void startAtRandom(Path& path, Rng& rng);             ///< as Config::setRandom, slice after slice
+void initializePath(Path& path, const MatrixXd& configurations);  ///< T x n
+void initializeConstant(Path& path, const VectorXd& q);           ///< n numbers, or T*n for a path
+void initializeFromStart(Path& path);                             ///< the initial configuration in all slices
+void initializeRandom(Path& path, Rng& rng);                      ///< samples as Config::setRandom does, slice by slice
 
-/// How waypoints are joined.
+/// Interpolation of waypoints.
 struct WaypointOptions {
   int per_phase = 1;
-  bool interpolate = false;  ///< between them: a cosine blend; else the one before
-  double towards_home = 0.;  ///< 0..1: the blend is moved towards home in the middle
+  bool interpolate = false;  ///< cosine blend between waypoints; otherwise piecewise constant
+  double towards_home = 0.;  ///< 0..1: pulls the middle of the blend towards home
 };
 
-/// Puts waypoint i into the slice at phase time (i+1) / per_phase: the given configuration's dofs, or all that the
-/// slice owns. Returns the slices.
-std::vector<int> startAtWaypoints(Path& path, const std::vector<VectorXd>& waypoints, const WaypointOptions& options);
+/// Writes waypoint i into the slice at phase time (i+1) / per_phase: either the initial configuration's dofs, or all
+/// dofs that the slice owns. Returns the slices.
+std::vector<int> initializeWaypoints(Path& path, const std::vector<VectorXd>& waypoints,
+                                     const WaypointOptions& options);
 
-/// Writes `rows` into the slices of a phase, for the joints of these frames. `resample`: whatever their number.
-void startPhaseAt(Path& path, int phase, const std::vector<int>& frames, const MatrixXd& rows, bool resample);
+/// Writes configurations into the slices of a phase, for the joints of these frames. `resample` accepts any number of
+/// configurations.
+void initializePhase(Path& path, int phase, const std::vector<int>& frames, const MatrixXd& configurations,
+                     bool resample);
 
 }  // namespace kinegraph

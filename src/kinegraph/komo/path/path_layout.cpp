@@ -11,7 +11,7 @@ struct DofSet {
   KinematicModel::DofRange dofs;
 };
 
-/// The dofs of a program, joint by joint in the order of q.
+/// Returns the dofs of a model, joint by joint in the order of q.
 std::vector<DofSet> dofSets(const KinematicModel& model) {
   std::map<int, DofSet> by_first;  // mimicking joints repeat the dofs of another
   for (int frame = 0; frame < int(model.frame_dofs.size()); ++frame) {
@@ -42,7 +42,7 @@ PathLayout makeLayout(const std::vector<State>& states, int prefix, const std::s
   layout.column.resize(states.size());
   layout.owned.resize(states.size());
   std::vector<double> lower, upper;
-  std::map<int, int> shared;  // joint -> its first column; original stable joints are -1 - frame
+  std::map<int, int> shared;  // joint -> its first column; the key of original stable joints is -1 - frame
   std::map<const KinematicModel*, std::vector<DofSet>> sets;
   for (std::size_t i = 0; i < states.size(); ++i) {
     const KinematicModel& model = states[i].model();

@@ -12,10 +12,10 @@ namespace kinegraph {
 
 namespace {
 
-/// The distance of a pair along a motion.
-class SampledPairCollision {
+/// Distance of a pair along a motion.
+class PairDistance {
  public:
-  SampledPairCollision(const SliceMotion& motion, int a, int b)
+  PairDistance(const SliceMotion& motion, int a, int b)
       : motion_(motion), pair_(*motion.model, {{a, b}}), placed_(pair_), state_(motion.model, motion.parameters) {}
 
   double at(double s) {
@@ -25,7 +25,7 @@ class SampledPairCollision {
     return placed_.proximity(0).distance;
   }
 
-  /// No point of one body moves faster than that relative to the other one, m per unit of s.
+  /// Bound on the relative speed of points of the two bodies, m per unit of s.
   double speed() const {
     MotionBounds bounds(state_);
     bounds.setMotion(motion_.from.data(), motion_.to.data());
@@ -49,13 +49,14 @@ class SampledPairCollision {
   VectorXd q_;
 };
 
-/// Where the pair is nearest from `start` on: the best of some samples, and by golden section around it.
-std::pair<double, double> nearest(SampledPairCollision& pair, double start) {
+/// Returns the time after `start` at which the pair is closest: the best of several samples, refined by golden section
+/// search.
+std::pair<double, double> nearest(PairDistance& pair, double start) {
   constexpr int kSamples = 64, kSections = 25;
   constexpr double kGolden = .6180339887498949;
   const double step = (1. - start) / kSamples;
   double best = start, least = pair.at(start);
-  const auto see = [&](double s) {
+  const auto measure = [&](double s) {
     const double distance = pair.at(s);
     if (distance < least) {
       least = distance;
@@ -63,30 +64,30 @@ std::pair<double, double> nearest(SampledPairCollision& pair, double start) {
     }
     return distance;
   };
-  for (int i = 1; i <= kSamples; ++i) see(i == kSamples ? 1. : start + i * step);
+  for (int i = 1; i <= kSamples; ++i) measure(i == kSamples ? 1. : start + i * step);
   double low = std::max(best - step, start), high = std::min(best + step, 1.);
   double left = high - kGolden * (high - low), right = low + kGolden * (high - low);
-  double of_left = see(left), of_right = see(right);
+  double of_left = measure(left), of_right = measure(right);
   for (int i = 0; i < kSections; ++i) {
     if (of_left < of_right) {
       high = std::exchange(right, left);
       of_right = of_left;
-      of_left = see(left = high - kGolden * (high - low));
+      of_left = measure(left = high - kGolden * (high - low));
     } else {
       low = std::exchange(left, right);
       of_left = of_right;
-      of_right = see(right = low + kGolden * (high - low));
+      of_right = measure(right = low + kGolden * (high - low));
     }
   }
   return {best, least};
 }
 
-/// Where a pair comes nearer than the margin first. It cannot do so sooner than its speed allows; what is less deep than
-/// the tolerance may be missed.
+/// Finds the first time at which a pair is closer than the margin, by conservative advancement with the speed bound.
+/// Contacts less deep than the tolerance may be missed.
 std::optional<MotionContact> firstContactOf(const SliceMotion& motion, std::pair<int, int> frames, double margin,
                                             double tolerance) {
   const auto [a, b] = frames;
-  SampledPairCollision pair(motion, a, b);
+  PairDistance pair(motion, a, b);
   const double speed = pair.speed();
   for (double s = 0.; s <= 1.;) {
     const double distance = pair.at(s);
@@ -99,7 +100,7 @@ std::optional<MotionContact> firstContactOf(const SliceMotion& motion, std::pair
 }
 
 PathContact describe(const SliceMotion& motion, const MotionContact& contact) {
-  SampledPairCollision pair(motion, contact.a, contact.b);
+  PairDistance pair(motion, contact.a, contact.b);
   const auto [deepest, distance] = nearest(pair, contact.time);
   const auto timeOf = [&](double s) { return motion.begin + s * (motion.end - motion.begin); };
   const std::vector<std::string>& names = motion.model->frame_name;
@@ -167,7 +168,7 @@ EdgeChecker& MotionProbe::checkerOf(const SliceMotion& motion) {
 }
 
 std::optional<MotionContact> MotionProbe::firstContact(const SliceMotion& motion, double margin) {
-  std::optional<MotionContact> first = motion.of_all ? firstOfAll(motion, margin) : std::nullopt;
+  std::optional<MotionContact> first = motion.all_pairs ? firstOfAllPairs(motion, margin) : std::nullopt;
   for (const auto& pair : motion.pairs) {
     const std::optional<MotionContact> contact = firstContactOf(motion, pair, margin, tolerance_);
     if (contact && (!first || contact->time < first->time)) first = contact;
@@ -175,7 +176,7 @@ std::optional<MotionContact> MotionProbe::firstContact(const SliceMotion& motion
   return first;
 }
 
-std::optional<MotionContact> MotionProbe::firstOfAll(const SliceMotion& motion, double margin) {
+std::optional<MotionContact> MotionProbe::firstOfAllPairs(const SliceMotion& motion, double margin) {
   EdgeChecker& checker = checkerOf(motion);
   checker.setMargin(margin);
   const double *from = motion.from.data(), *to = motion.to.data();
@@ -192,15 +193,15 @@ bool MotionProbe::isFree(const SliceMotion& motion, double margin) {
   return checker.isFree(motion.from.data(), motion.to.data());
 }
 
-const std::vector<MotionContact>& MotionProbe::approaches(const SliceMotion& motion, double most) {
+const std::vector<MotionContact>& MotionProbe::approaches(const SliceMotion& motion, double max_distance) {
   EdgeChecker& checker = checkerOf(motion);
   checker.forget();
-  return checker.approaches(motion.from.data(), motion.to.data(), most);
+  return checker.approaches(motion.from.data(), motion.to.data(), max_distance);
 }
 
-double MotionProbe::clearance(const SliceMotion& motion, double share, double most) {
-  const VectorXd q = (1. - share) * motion.from + share * motion.to;
-  return checkerOf(motion).clearance(q.data(), most);
+double MotionProbe::clearance(const SliceMotion& motion, double time, double max_distance) {
+  const VectorXd q = (1. - time) * motion.from + time * motion.to;
+  return checkerOf(motion).clearance(q.data(), max_distance);
 }
 
 std::string PathContact::str() const {

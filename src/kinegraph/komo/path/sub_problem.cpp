@@ -8,7 +8,7 @@ namespace kinegraph {
 SubProblem subProblem(const Path& path, int phase) {
   const TimeGrid& grid = path.grid();
   if (grid.slicesPerPhase() != 1)
-    throw ValueError(cat("getSubProblem is for one slice per phase; this KOMO has ", grid.slicesPerPhase()));
+    throw ValueError(cat("getSubProblem needs one slice per phase; this KOMO has ", grid.slicesPerPhase()));
   if (phase < 0 || phase >= grid.slices() || phase - 1 < -grid.order()) {
     throw ValueError(
         cat("getSubProblem: phase ", phase, " is not in ", grid.order() > 0 ? 0 : 1, " .. ", grid.slices() - 1));
@@ -21,9 +21,9 @@ SubProblem subProblem(const Path& path, int phase) {
       if (FrameData& data = *scene.frames()[frame]; data.moves()) data.joint->active = false;
     }
   }
-  std::vector<int> frames;  // whose joints are those of the result
-  for (int frame : path.given().joint_frames) {
-    if (path.given().isShared(frame)) {
+  std::vector<int> frames;  // frames whose joints make up the result
+  for (int frame : path.initial().joint_frames) {
+    if (path.initial().isShared(frame)) {
       scene.frames()[frame]->joint->active = false;
     } else {
       frames.push_back(frame);

@@ -4,13 +4,13 @@
 
 namespace kinegraph {
 
-/// One phase of a path with one slice per phase, to be planned in detail.
+/// One phase of a path with one slice per phase, as input for a motion planner.
 struct SubProblem {
-  Config config;  ///< as it is at the beginning of the phase, only the given configuration's joints active
+  Config config;  ///< scene at the beginning of the phase; only joints of the initial configuration are active
   VectorXd start, end;
 };
 
-/// Throws ValueError for paths with more slices per phase, and for phases that are not there.
+/// Throws ValueError for paths with more slices per phase, and for phases that do not exist.
 SubProblem subProblem(const Path& path, int phase);
 
 }  // namespace kinegraph

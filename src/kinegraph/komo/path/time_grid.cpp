@@ -10,7 +10,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kMostSlices = 10'000'000;  // several GB of states
+constexpr int kMaxSlices = 10'000'000;  // several GB of states
 
 }  // namespace
 
@@ -23,9 +23,9 @@ TimeGrid::TimeGrid(double phases, int slices_per_phase, double duration_per_phas
     throw ValueError(cat("KOMO: kOrder is ", order, "; expected 0 (poses) to 2 (accelerations), at most 10"));
   if (!(duration_per_phase > 0.))
     throw ValueError(cat("KOMO: durationPerPhase is ", duration_per_phase, " s; expected a positive number"));
-  if (!(phases * slices_per_phase <= kMostSlices))
-    throw ValueError(cat("KOMO: ", phases, " phases of ", slices_per_phase, " slices are more than ", kMostSlices,
-                         " slices; phases and slicesPerPhase are numbers, and not seconds or steps of a controller"));
+  if (!(phases * slices_per_phase <= kMaxSlices))
+    throw ValueError(cat("KOMO: ", phases, " phases of ", slices_per_phase, " slices are more than ", kMaxSlices,
+                         " slices; phases and slicesPerPhase are counts, not seconds or steps of a controller"));
   phases_ = phases;
   slices_ = int(std::ceil(phases * slices_per_phase - 1e-9));
   slices_per_phase_ = slices_per_phase;

@@ -19,7 +19,7 @@ std::vector<char> wholeTurns(const KinematicModel& model) {
     int dof = link.dof;
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
       const MotionStep& step = model.steps[std::size_t(s)];
-      const bool whole = step.turns() && link.scale == std::round(link.scale);
+      const bool whole = step.rotates() && link.scale == std::round(link.scale);
       for (int i = 0; i < step.dofs(); ++i, ++dof) turns[std::size_t(dof)] &= whole;
     }
   }

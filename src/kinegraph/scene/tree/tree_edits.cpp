@@ -11,7 +11,7 @@ namespace {
 
 /// Is the inverse of every motion of this joint the motion of the negative dofs?
 bool inverseIsNegative(const Joint& joint) {
-  const auto slides = [](const MotionStep& step) { return step.slides(); };
+  const auto slides = [](const MotionStep& step) { return step.translates(); };
   return joint.dofs() <= 1 || std::all_of(joint.steps.begin(), joint.steps.end(), slides);
 }
 

@@ -22,7 +22,7 @@ int main() try {
   Config C;
   C.addFile(modelPath("scenarios/pandaSingle.g"));
   C.addFrame("post", "table").setShape(ST::marker, {.1}).setRelativePosition({.2, .35, .4});
-  const FeatureSource from_axis = ownFeature("fromAxis", fromAxis), on_height = ownFeature("onHeight", onHeight);
+  const FeatureSource from_axis = customFeature("fromAxis", fromAxis), on_height = customFeature("onHeight", onHeight);
 
   const auto [y, J] = C.eval(from_axis, {"l_gripper", "post"});
   std::cout << "distance squared and its gradient: " << y << ", " << J << "\n";
