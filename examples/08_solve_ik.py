@@ -1,7 +1,7 @@
 """Part 8: inverse kinematics in one call.
 
-`solveIk` makes the problem, tries many starting points, keeps limits and avoids collisions. Where there is no answer, it
-says why.
+`solveIk` makes the problem, tries many starting points, respects limits and avoids collisions. If there is no solution,
+it explains why.
 """
 
 import time
@@ -17,13 +17,13 @@ C.addFile(ry.raiPath("scenarios/pandasTable.g"))
 ball = C.addFrame("ball").setShape(ry.ST.sphere, [0.05]).setColor([1, 0.5, 0]).setPosition([-0.1, 0.2, 1.0])
 C.view(True, "two arms, a table and a ball")
 
-# A frame to a frame's position, from above: z points out of the back of the hand. C moves only because of apply=True.
+# A frame to a frame's position, from above: z points out of the back of the hand. apply=True moves C.
 result = ry.solveIk(C, {"l_gripper": {"position": "ball", "z": [0, 0, 1]}}, apply=True)
 print(result)
 assert result.feasible and C.getFrame("l_palm").getPosition()[2] > ball.getPosition()[2]
 C.view(True, "the left gripper is at the ball")
 
-# Both arms at once, at least 2 cm from everything, and of 50 answers the one nearest to the present posture.
+# Both arms at once, at least 2 cm from everything, and the nearest of 50 answers to the present configuration.
 left, right = C.getFrame("l_gripper").getPosition(), C.getFrame("r_gripper").getPosition()
 up = np.array([0, 0, 0.1])
 targets = {"l_gripper": left + up, "r_gripper": right + up}

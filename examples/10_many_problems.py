@@ -1,4 +1,4 @@
-"""Part 10: one problem from many starts, several problems at once, and samples of what is possible.
+"""Part 10: one problem from many starts, several problems at once, and samples of the feasible set.
 
 A motion problem may have many solutions, or be a choice between several problems: which hand takes the ball? All of them are
 solved in parallel, with the same answers at any number of threads.
@@ -34,14 +34,14 @@ print("taken by", hands[answers.chosen])
 assert answers.feasible
 problems[answers.chosen].view(True, "the motion of the hand that is chosen")
 
-# One problem from the present path and from random ones: the best of what they lead to.
+# One problem from the present path and from random ones: the best result.
 komo = problems[answers.chosen]
 result = komo.solveFromMany(6, threads=2, seed=1)
 print(result)
 print("costs:", np.array([ret.sos for ret in result.results]))
 assert result.feasible and result.best.sos <= answers.best.sos + 1e-6
 
-# Postures that hold the gripper at the ball, drawn by chance: what the arm could do.
+# Random configurations with the gripper at the ball.
 hold = ry.KOMO(C, 1, 1, 0, False)
 hold.addObjective([], ry.FS.jointLimits, [], ry.OT.ineq)
 hold.addObjective([], ry.FS.positionDiff, [hands[answers.chosen], "ball"], ry.OT.eq, [1e0])

@@ -4,7 +4,7 @@
 //
 //     minimize  |y_target - y - J dq|^2 + w |dq|^2,   is   dq = (J^T J + w I)^-1 J^T (y_target - y).
 //
-// The damping w keeps the inverse finite where J loses rank, as it does for a stretched arm.
+// The damping w keeps the inverse finite if J loses rank, as for a stretched arm.
 #include <kinegraph/kinegraph.h>
 
 #include <Eigen/LU>
@@ -12,7 +12,7 @@
 
 using namespace kinegraph;
 
-/// Moves K; returns how far off the end effector is in the end, m.
+/// Moves K and returns the final error of the end effector, m.
 double newton(Config& K, const Vector3d& y_target, int steps = 10) {
   const Matrix3d W = 1e-4 * Matrix3d::Identity();
   std::cout << "\ntarget " << y_target.transpose() << "\n";
@@ -40,7 +40,7 @@ int main() try {
   // .5 m to the side and .2 m up: the arm bends and reaches it.
   const double reached = newton(K, {0, .5, .2});
 
-  // .7 m to the side: the arm is only .68 m long, so the best it can do is to point there and stay .02 m short.
+  // .7 m to the side: the arm is only .68 m long, so the nearest it comes is .02 m.
   const double beyond = newton(K, {0, .7, 0});
   return reached < 1e-5 && beyond > .0199 && beyond < .05 ? 0 : 1;
 } catch (const Error& error) {

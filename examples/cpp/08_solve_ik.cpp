@@ -1,7 +1,7 @@
 // Part 8: inverse kinematics in one call.
 //
-// `solveIk` makes the problem, tries many starting points, keeps limits and avoids collisions. Where there is no answer,
-// it says why.
+// `solveIk` makes the problem, tries many starting points, respects limits and avoids collisions. If there is no
+// solution, it explains why.
 #include <kinegraph/kinegraph.h>
 
 #include <algorithm>
@@ -23,7 +23,7 @@ int main() try {
   C.view(true, "the left gripper is at the ball");
   const bool at_ball = result.feasible() && C.eval(FS::positionDiff, {"l_gripper", "ball"}).y.norm() < 1e-5;
 
-  // Both arms at once, at least 2 cm from everything, and of 50 answers the one nearest to the present posture.
+  // Both arms at once, at least 2 cm from everything, and the nearest of 50 answers to the present configuration.
   const Vector3d left = C.getFrame("l_gripper").getPosition(), right = C.getFrame("r_gripper").getPosition();
   const Vector3d up(0, 0, .1);
   const std::vector<IkTarget> both = {IkTarget::toPosition("l_gripper", left + up),

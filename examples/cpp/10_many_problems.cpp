@@ -1,4 +1,4 @@
-// Part 10: one problem from many starts, several problems at once, and samples of what is possible.
+// Part 10: one problem from many starts, several problems at once, and samples of the feasible set.
 //
 // A motion problem may have many solutions, or be a choice between several problems: which hand takes the ball? All of
 // them are solved in parallel, with the same answers at any number of threads.
@@ -37,12 +37,12 @@ int main() try {
   std::cout << "taken by " << hand << "\n";
   komo.view(true, "the motion of the hand that is chosen");
 
-  // One problem from the present path and from random ones: the best of what they lead to.
+  // One problem from the present path and from random ones: the best result.
   const SolveManyResult all = komo.solveFromMany(6, {.threads = 2}, 1);
   std::cout << all.best().str() << "\ncosts:";
   for (const SolverResult& result : all.results) std::cout << " " << result.sos;
 
-  // Postures that hold the gripper at the ball, drawn by chance: what the arm could do.
+  // Random configurations with the gripper at the ball.
   Komo hold(C, 1, 1, 0);
   hold.addObjective({}, FS::jointLimits, {}, OT::ineq);
   hold.addObjective({}, FS::positionDiff, {hand, "ball"}, OT::eq, 1.);

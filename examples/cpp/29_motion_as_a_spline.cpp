@@ -24,7 +24,7 @@ int main() try {
   std::cout << result.x.size() << " variables for " << komo->getPath().size() << " numbers\n";
   if (!result.feasible) return 1;
 
-  // Limits of the joints hold at all times, as they do at the control points.
+  // Joint limits hold along the spline, because they hold at the control points.
   const BSpline spline = motion.spline();
   const MatrixXd limits = C.getJointLimits();
   for (int i = 0; i <= 2000; ++i) {

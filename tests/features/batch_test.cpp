@@ -13,7 +13,7 @@ using namespace kinegraph;
 
 namespace {
 
-/// An arm of three joints between two blocks.
+/// An arm with three joints between two blocks.
 Config arm() {
   Config config;
   config.addText(R"g(
@@ -102,7 +102,7 @@ TEST(Batch, GivesTheSameNumbersOnAnyNumberOfThreads) {
   for (int threads : {2, 3, 8}) EXPECT_TRUE(evaluateAll(config, Q, threads) == one) << threads;
 }
 
-TEST(Batch, CheckersThatAreKeptAreOfTheSceneThatIsAsked) {
+TEST(Batch, ReusedCheckersBelongToThePresentScene) {
   Config config = arm();
   const RowMatrix Q = randomJoints(200, 3);
   EdgeCheckers kept;

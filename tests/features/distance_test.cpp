@@ -154,7 +154,7 @@ TEST(AccumulatedCollisions, OfManyBodiesAreThoseOfTheConfigWithTheirJacobian) {
     const Differences numeric = differences(sum, q, 1e-6);
     config.setJointState(q);
     const MatrixXd J = eval(config, FeatureSymbol::accumulatedCollisions, {}).J;
-    int same = 0;  // pairs that begin to touch and kinks of single pairs show in single columns
+    int same = 0;  // pairs at the onset of contact and non-smooth points of single pairs affect single columns
     for (int i = 0; i < J.cols(); ++i) same += std::abs(J(0, i) - numeric.D(0, i)) < 1e-5;
     EXPECT_GE(same, J.cols() - 3);
   }

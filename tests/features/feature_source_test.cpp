@@ -10,7 +10,7 @@ using namespace kinegraph;
 
 namespace {
 
-/// Height of a frame: a feature of one's own.
+/// Height of a frame, as a custom feature.
 class Height final : public Feature {
  public:
   explicit Height(int frame) : frame_(frame) {}

@@ -1,4 +1,4 @@
-// Apart from the tests: where the compiler sees into both, it warns that memory from `new` is freed by `free`.
+// Separate from the tests: if the compiler sees both, it warns that `free` releases memory from `new`.
 #include "tests/features/heap.h"
 
 #include <cstdlib>

@@ -4,7 +4,7 @@
 
 namespace kinegraph {
 
-/// How often this test program has asked for memory so far; its operator new counts.
+/// Number of memory allocations of this test program so far, counted by its operator new.
 extern std::atomic<long> heap_requests;
 
 }  // namespace kinegraph

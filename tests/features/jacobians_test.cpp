@@ -14,7 +14,7 @@ namespace {
 constexpr double kTolerance = 1e-6;  ///< of a Jacobian, relative
 constexpr double kTau = .3;          ///< s
 constexpr int kSamples = 4;          ///< random joint vectors per feature, frames and order
-constexpr double kLeastUsed = .9;    ///< part of the samples of a symbol that must be differentiable
+constexpr double kLeastUsed = .9;    ///< fraction of the samples of a symbol that must be differentiable
 
 /// Two chains whose joints are given, with a shape at the end of each, and a third body on the first chain. All of them
 /// are turned against each other, so that no faces are parallel, and near enough to touch for some q.
@@ -67,7 +67,7 @@ Config makeScene(const Scene& joints) {
   return config;
 }
 
-/// The frames that a symbol is tried on: every choice that fits the number it takes.
+/// The frames that a symbol is tested with: every choice of the number it takes.
 std::vector<std::vector<int>> frameChoices(const FeatureInfo& info, const Config& config) {
   const auto id = [&](const char* name) { return config.getFrame(name).id(); };
   const std::vector<std::vector<int>> all = {{},
@@ -92,7 +92,7 @@ VectorXd randomJoints(const Config& config, Rng& rng) {
 
 struct Count {
   int tried = 0, used = 0;
-  double largest = 0.;  ///< entry of all Jacobians
+  double largest = 0.;  ///< largest entry of all Jacobians
 };
 
 /// The residual of consecutive configurations as a function of all their joint vectors.
@@ -129,7 +129,7 @@ void checkSamples(Residual& residual, const Config& config, Rng& rng, const std:
   }
 }
 
-/// For the names of tests.
+/// For test names.
 struct Symbol {
   FeatureInfo info;
   friend void PrintTo(const Symbol& symbol, std::ostream* out) { *out << symbol.info.name; }
@@ -140,8 +140,7 @@ std::vector<Symbol> availableFeatures() {
   for (const FeatureInfo& info : featureRegistry()) {
     const bool needs_forces =
         info.symbol == FeatureSymbol::totalForce || info.symbol == FeatureSymbol::contactConstraints;
-    if (info.available() && !needs_forces)
-      list.push_back({info});  // those are constant without them; tests/komo has some
+    if (info.available() && !needs_forces) list.push_back({info});  // constant without them; tests/komo has some
   }
   return list;
 }
@@ -219,7 +218,7 @@ TEST_P(EveryFeature, TellsTheSecondDerivativesThatItsJacobianHas) {
     const Config config = makeScene(joints);
     const int n = config.getJointDimension();
     std::vector<std::vector<int>> choices = frameChoices(info, config);
-    for (const char* moving : {"finger", "block"}) {  // some tell them only as seen from what does not move
+    for (const char* moving : {"finger", "block"}) {  // some have them only relative to fixed frames
       if (info.max_frames == 2) choices.push_back({config.getFrame(moving).id(), config.getFrame("base").id()});
     }
     for (const std::vector<int>& frames : choices) {

@@ -10,7 +10,7 @@ using namespace kinegraph;
 
 namespace {
 
-/// All types of joints in one tree, quarter turns and other constant ones, a joint that follows another one.
+/// All types of joints in one tree, quarter rotations and other constant ones, and a mimicking joint.
 Config everyJoint() {
   Config config;
   config.addText(R"g(
@@ -95,18 +95,18 @@ std::vector<std::vector<std::string>> frameChoices(const FeatureInfo& info) {
 
 TEST(Lanes, AllFeaturesGiveWhatOneConfigurationAloneGivesAtEveryWidth) {
   const Config config = everyJoint();
-  const RowMatrix Q = randomJoints(config, 13);  // no multiple of a width
+  const RowMatrix Q = randomJoints(config, 13);  // not a multiple of a width
   int in_lanes = 0, checked = 0;
   Rng rng(3);
   for (const FeatureInfo& info : featureRegistry()) {
     if (!info.available() || info.symbol == FeatureSymbol::totalForce)
-      continue;  // its frames need a mass: it has no rows in lanes
+      continue;  // its frames need a mass, and it has no rows in lanes
     for (const std::vector<std::string>& frames : frameChoices(info)) {
-      for (int form = 0; form < 4; ++form) {  // as it is; with a number, one per row, and a matrix as scale
+      for (int form = 0; form < 4; ++form) {  // without scale; a number, one per row, and a matrix
         std::unique_ptr<Residual> residual;
         try {
           residual = std::make_unique<Residual>(makeResidual(config.state(), info.symbol, frames));
-        } catch (const ValueError&) {  // frames that lack what it needs
+        } catch (const ValueError&) {  // frames that the feature rejects
           continue;
         }
         if (residual->order() > 0) continue;
@@ -176,7 +176,7 @@ TEST(Lanes, PosesAndGeometricJacobiansAreThoseOfTheState) {
   }
 }
 
-TEST(Lanes, AnglesOfManyTurnsAreRight) {
+TEST(Lanes, LargeAnglesAreRight) {
   Config config;
   config.addText("base: {}\nlink(base): { joint: hingeZ }\ntip(link): { Q: [1 0 0] }\n");
   RowMatrix Q(9, 1);
@@ -198,7 +198,7 @@ TEST(Lanes, QuaternionsHaveTheSignOfOneConfigurationAlone) {
   const Residual residual = makeResidual(config.state(), FeatureSymbol::quaternion, {"box"});
   const Values alone = oneByOne(config, residual, Q);
   for (int k = 0; k < 4; ++k)
-    EXPECT_LT(alone.y.col(k).minCoeff(), -.4);  // all four ways to read a rotation matrix are met
+    EXPECT_LT(alone.y.col(k).minCoeff(), -.4);  // covers all four branches of the conversion from rotation matrices
   for (int width : laneWidths()) EXPECT_LT(difference(inLanes(config, residual, Q, width).y, alone.y), 1e-12) << width;
 }
 

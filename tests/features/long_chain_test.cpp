@@ -12,7 +12,7 @@ namespace {
 constexpr int kJoints = 1000;
 constexpr double kLink = .01;  ///< m
 
-/// Hinges about z in a row, each 1 cm along the x axis of the one before.
+/// Hinges about z in series, each 1 cm along the x axis of the previous one.
 Config chain() {
   std::string text = "link0: {}\n";
   for (int i = 1; i <= kJoints; ++i) {
@@ -28,7 +28,7 @@ Config chain() {
 TEST(LongChain, OfAThousandJointsRollsUpToAPolygon) {
   Config config = chain();
   ASSERT_EQ(config.getJointDimension(), kJoints);
-  const double angle = 4. * std::acos(0.) / kJoints;  // a full turn
+  const double angle = 4. * std::acos(0.) / kJoints;  // a full rotation
   config.setJointState(VectorXd::Constant(kJoints, angle));
   const Evaluation tip = eval(config, FeatureSymbol::position, {"tip"});
   Vector3d expected(kLink, 0., 0.);

@@ -24,7 +24,7 @@ TEST(Registry, HasEveryNumberOfThePythonEnumAndNamesOnlyOnce) {
   for (int number = 0; number <= 55; ++number) EXPECT_EQ(numbers.count(number), number == 32 ? 0u : 1u) << number;
 }
 
-/// Frames that the worked scene has for every feature.
+/// The frames of the worked scene for each feature.
 std::vector<int> someFrames(const FeatureInfo& info, const Config& config) {
   std::vector<int> ids;
   for (const char* name : {"box", "ball", "wall"}) ids.push_back(config.getFrame(name).id());
@@ -51,7 +51,7 @@ TEST(Registry, SaysHowManyFramesAndRowsThereAreAndOfWhichOrderTheyAre) {
     const auto feature = makeFeature(info.symbol, someFrames(info, config), *config.model());
     EXPECT_EQ(feature->order(), info.order) << info.name;
     const std::string rows = info.rows;
-    if (rows.find(' ') != std::string::npos) continue;  // they depend on the scene
+    if (rows.find(' ') != std::string::npos) continue;  // depends on the scene
     EXPECT_EQ(feature->rows(), std::stoi(rows)) << info.name;
     ++fixed;
   }
@@ -68,7 +68,7 @@ TEST(Registry, EachRowHasAUnit) {
   EXPECT_EQ(featureInfo(FeatureSymbol::scalarProductZY).unitOf(0), FeatureUnit::cosine);
 }
 
-/// KINEGRAPH_UPDATE_DOCS=1 writes the table anew.
+/// KINEGRAPH_UPDATE_DOCS=1 rewrites the table.
 TEST(Registry, TheTableInTheDocumentsIsThatOfTheRegistry) {
   const std::string path = std::string(KINEGRAPH_SOURCE_DIR) + "/docs/features.md";
   std::stringstream text;

@@ -49,7 +49,7 @@ TEST(ResidualCache, FollowsTheStructureOfTheScene) {
   Config config = workedScene();
   ResidualCache cache;
   const VectorXd before = cached(cache, config, FeatureSymbol::position, {"B"});
-  config.delFrame("A");  // ids move up
+  config.delFrame("A");  // shifts ids
   EXPECT_EQ(cached(cache, config, FeatureSymbol::position, {"B"}), before);
   config.delFrame("B");
   expectError<FrameNotFound>([&] { cached(cache, config, FeatureSymbol::position, {"B"}); }, {"position", "'B'"});

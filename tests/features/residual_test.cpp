@@ -17,7 +17,7 @@ VectorXd scaled(const Config& config, FeatureSymbol symbol, const std::vector<st
   return eval(config, symbol, frames, scale, target).y;
 }
 
-/// A frame that turns by raw quaternions, of any length and sign.
+/// A frame rotated by raw quaternions of any length and sign.
 Config ball() {
   Config config;
   config.addText("base: {}  ball(base): { joint: quatBall }  slide(base): { joint: transX }");

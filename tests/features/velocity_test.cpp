@@ -29,13 +29,13 @@ VectorXd turned(double angle) { return numbers({angle, 0, 0, 0}); }
 
 }  // namespace
 
-TEST(AngularVelocity, OfATurnIsTwiceTheSineOfHalfItsAngle) {
+TEST(AngularVelocity, IsTwiceTheSineOfHalfTheRotationAngle) {
   const Config config = wheel();
   EXPECT_TRUE(near(over(config, "angularVel", {"rim"}, {turned(0), turned(.5)}, 1.), numbers({0, 0, .4948079}), 1e-7));
   EXPECT_TRUE(near(over(config, "angularVel", {"rim"}, {turned(.5), turned(0)}, .1), numbers({0, 0, -4.948079}), 1e-6));
 }
 
-TEST(AngularVelocity, TakesTheShorterWayRound) {
+TEST(AngularVelocity, TakesTheShorterArc) {
   const Config config = wheel();
   const double shorter = -2. * std::sin(.5 * (2. * M_PI - 6.));
   EXPECT_TRUE(near(over(config, "angularVel", {"rim"}, {turned(-3), turned(3)}, 1.), numbers({0, 0, shorter}), 1e-12));

@@ -5,7 +5,7 @@
 
 namespace kinegraph {
 
-/// Five shapes at rest whose feature values can be worked out on paper.
+/// Five fixed shapes whose feature values can be computed on paper.
 inline Config workedScene() {
   Config config;
   config.addText(R"g(
@@ -22,7 +22,7 @@ inline VectorXd numbers(std::initializer_list<double> values) {
   return Eigen::Map<const VectorXd>(values.begin(), Eigen::Index(values.size()));
 }
 
-/// Value of a feature, by its name.
+/// Value of a feature, by name.
 inline VectorXd value(const Config& config, const char* feature, const std::vector<std::string>& frames,
                       const VectorXd& target = {}) {
   return eval(config, featureSymbolFromName(feature), frames, {}, target).y;

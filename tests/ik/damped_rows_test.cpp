@@ -10,7 +10,7 @@
 namespace kinegraph::lanes {
 namespace {
 
-/// Two problems of one size with limits, some of which hold, and longest steps.
+/// Two problems of one size, with limits, some of them active, and longest steps.
 struct Problems {
   int rows, variables;
   std::vector<double> J[2], e[2], x[2];
@@ -35,7 +35,7 @@ Problems draw(Rng& rng, int rows, int variables) {
   return p;
 }
 
-/// Where the steps lead; `lanes` says which problem is in which lane.
+/// Returns the ends of the steps; `lanes` assigns problems to lanes.
 std::vector<Pack<2>> nextInLanes(const Problems& p, const int (&lanes)[2], double damping) {
   const auto pack = [&](const std::vector<double>(&numbers)[2]) {
     std::vector<Pack<2>> packs;

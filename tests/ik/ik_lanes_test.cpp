@@ -9,7 +9,7 @@
 namespace kinegraph {
 namespace {
 
-/// All kinds of joints that lanes can do, two branches, a joint that follows another one.
+/// All kinds of joints that lanes support, two branches, and a mimicking joint.
 Config treeOfJoints() {
   Config config;
   config.addText(
@@ -37,7 +37,7 @@ std::vector<IkTarget> targetsOf(const Config& config) {
           IkTarget::toPosition("right", {1., .2, .3}), IkTarget::toDirection("right", Vector3d::UnitX(), {0., 1., 1.})};
 }
 
-/// What a kernel makes of random joints: one vector of everything per lane.
+/// Output of a kernel at random joints: one vector of each kind per lane.
 struct LaneRun {
   VectorXd x, next, error, jacobian;
   double square, distance, angle;
@@ -107,7 +107,7 @@ TEST(IkLanes, RowsAndJacobianAreThoseOfTheState) {
     EXPECT_LT((run.error.segment(6, 3) - (targets[1].pose.p - X_right.p)).norm(), 1e-12);
     const Eigen::AngleAxisd turn(Matrix3d(targets[0].pose.q.toRotationMatrix() * X_left.R.transpose()));
     EXPECT_LT((run.error.segment(3, 3) - turn.angle() * turn.axis()).norm(),
-              1e-6);  // its angle is good to 2e-8, times pi near half turns
+              1e-6);  // its angle is accurate to 2e-8, times pi near half rotations
     const Vector3d wanted = targets[2].direction.normalized(), is = X_right.R.col(0);
     EXPECT_NEAR(run.error.tail(2).norm(), std::acos(is.dot(wanted)), 1e-6);
     EXPECT_NEAR(run.angle, std::max(turn.angle(), std::acos(is.dot(wanted))), 1e-6);
@@ -131,7 +131,7 @@ TEST(IkLanes, AllInstructionSetsGiveTheSameBits) {
   }
 }
 
-TEST(IkLanes, HalfTurnsAreTakenAboutTheRightAxis) {
+TEST(IkLanes, HalfRotationsAreAboutTheRightAxis) {
   Config config;
   config.addText("world {}\nx (world) { joint: hingeX }\ny (x) { joint: hingeY }\nz (y) { joint: hingeZ }\n");
   config.setJointState(Vector3d(.3, .2, .1));

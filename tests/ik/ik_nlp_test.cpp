@@ -26,7 +26,7 @@ Config twoArmsAndCup() {
   return scene;
 }
 
-/// That hold in a posture nearby.
+/// Targets that hold in a configuration nearby.
 std::vector<std::vector<IkTarget>> kinds() {
   Config scene = twoArmsAndCup();
   scene.setJointState(VectorXd(scene.getJointState() + .1 * VectorXd::Ones(6)));

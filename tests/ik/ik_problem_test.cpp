@@ -9,7 +9,7 @@
 namespace kinegraph {
 namespace {
 
-/// Two arms on a turning base, a finger that follows another one, a ball joint, and a body that nothing moves.
+/// Two arms on a rotating base, a mimicking finger, a ball joint, and a fixed body.
 Config arms() {
   Config config;
   config.addText(R"(
@@ -48,7 +48,7 @@ TEST(IkProblem, ItsVariablesAreTheDofsThatMoveATarget) {
       }
       const bool of_ball = config.getFrame("ball").getJointState().size() == 4 && dof >= 2 && dof < 6;
       if (moves || (of_ball && std::string(frames[0]) == "hand"))
-        moving.push_back(dof);  // w alone changes only the norm
+        moving.push_back(dof);  // w alone only changes the norm
     }
     EXPECT_EQ(problem.dofs, moving) << frames[0];
     for (int v = 0; v < problem.variables(); ++v) EXPECT_EQ(problem.variable[problem.dofs[v]], v);
@@ -97,7 +97,7 @@ TEST(IkProblem, StartingPointsAreWithinLimitsOfNormOneAndTheFirstIsThePresentOne
 }
 
 TEST(IkProblem, AnswersAreWantedWhereTheWeightsSay) {
-  Config config = arms();  // its q is home
+  Config config = arms();  // q is home
   VectorXd q = config.getJointState();
   q[0] = 1.;
   config.setJointState(q);

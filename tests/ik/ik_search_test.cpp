@@ -24,7 +24,7 @@ post: { X: [.6 0 .2], shape: cylinder, size: [1 .05], contact: 1 }
   return config;
 }
 
-/// Where frames are at random joints, so that every target can be reached.
+/// Poses of frames at random joints, so that every target is reachable.
 std::vector<std::vector<IkTarget>> reachable(Config config, int count) {
   Rng rng(3);
   const auto model = config.model();
@@ -46,7 +46,7 @@ std::shared_ptr<const IkProblem> problemOf(const Config& config, const std::vect
   return std::make_shared<const IkProblem>(config, targets, options);
 }
 
-TEST(IkSearch, WhatAResultTellsIsWhatTheSceneSaysAtItsJoints) {
+TEST(IkSearch, ResultsReportTheErrorsOfTheSceneAtTheirJoints) {
   Config config = arm();
   const auto problems = reachable(config, 40);
   IkSearch search(problemOf(config, problems[0]));
@@ -80,7 +80,7 @@ TEST(IkSearch, AnAnswerDoesNotDependOnWhatWasSearchedBefore) {
   }
 }
 
-TEST(IkSearch, ApproachesThatOthersMadeAreJudgedAsItsOwn) {
+TEST(IkSearch, ExternalApproachesAreAssessedLikeItsOwn) {
   const Config config = arm();
   const auto problems = reachable(config, 12);
   const auto problem = problemOf(config, problems[0]);

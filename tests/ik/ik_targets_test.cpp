@@ -126,7 +126,7 @@ TEST(IkTarget, AnyFeatureHasItsTargetToItsTolerance) {
   EXPECT_LE(result.feature_error, 1e-3);
 }
 
-TEST(IkTarget, ABoundOfAFeatureIsKeptAndDoesNotPullWhereItHolds) {
+TEST(IkTarget, ABoundOfAFeatureIsSatisfiedAndInactiveIfItHolds) {
   const Config config = twoPandas();
   IkFeature apart{FeatureSymbol::distance, {"l_palm", "r_palm"}, 1e-6};
   apart.at_most = true;
@@ -163,7 +163,7 @@ TEST(IkTarget, APoseThatIsTakenFromAFrameThatMovesIsAnErrorThatSaysWhatToDo) {
                          IkTarget::toPosition("r_gripper", {0., .3, 1.1})});
       },
       {"where frame 'r_palm' is"});
-  // The other arm stays, as nothing asks it to move: there its hand is a place like others.
+  // The other arm keeps its joints, because no target moves it: its hand is a fixed pose.
   EXPECT_TRUE(solveIk(config, {IkTarget::toPosition("l_gripper", config.getFrame("r_gripper"))}, {.collisions = false})
                   .feasible());
 }

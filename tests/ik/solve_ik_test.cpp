@@ -17,7 +17,7 @@ Config panda() {
   return config;
 }
 
-/// Two links of 1 m that turn about z, the shoulder at the origin.
+/// Two links of 1 m that rotate about z, with the shoulder at the origin.
 Config planarArm(const std::string& limits = {}) {
   Config config;
   config.addText("world {}\nshoulder (world) { joint: hingeZ " + limits +
@@ -43,7 +43,7 @@ std::vector<std::vector<IkTarget>> reachablePoses(Config config, const std::stri
   return problems;
 }
 
-/// The distance and the angle by which `q` misses the pose of a target.
+/// Distance and angle between `q` and the pose of a target.
 std::pair<double, double> missOf(Config& config, const VectorXd& q, const IkTarget& target) {
   config.setJointState(q);
   const Pose X = config.getFrame(target.frame).getPose();
@@ -83,7 +83,7 @@ TEST(SolveIk, PosesFromRandomJointsOfThePandaAreReachedToTheTolerance) {
   EXPECT_GE(solved, 999);
 }
 
-TEST(SolveIk, AnswersToPosesWithACollisionFreePostureAreFreeOfCollisions) {
+TEST(SolveIk, AnswersToPosesWithACollisionFreeConfigurationAreCollisionFree) {
   Config config = panda();
   IkOptions options;
   options.margin = .005;
@@ -133,7 +133,7 @@ TEST(SolveIk, ALimitThatBindsIsNamed) {
   EXPECT_EQ(result.message.find("joint 'elbow'"), std::string::npos) << result.message;
 }
 
-TEST(SolveIk, APairThatIsInTheWayIsNamed) {
+TEST(SolveIk, ACollidingPairIsNamed) {
   Config config = planarArm();
   config.addFrame("ball", "tip", "shape: sphere, size: [.1], contact: 1");
   config.addFrame("wall", "", "pose: [1 1 0], shape: sphere, size: [.2], contact: 1");
@@ -172,7 +172,7 @@ TEST(SolveIk, TheBestAnswerIsNotFartherFromTheStartThanTheFirst) {
   }
 }
 
-TEST(SolveIk, TheNearestPostureIsStationaryInTheFreedomThatIsLeft) {
+TEST(SolveIk, TheNearestConfigurationIsStationaryInTheRemainingFreedom) {
   Config config = panda();
   IkOptions options = withoutCollisions();
   options.best = true;
@@ -186,7 +186,8 @@ TEST(SolveIk, TheNearestPostureIsStationaryInTheFreedomThatIsLeft) {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J = MatrixXd::Zero(3, 7);
   config.state().addPointJacobian(config.getFrame("l_gripper").id(), target.pose.p, 1., J);
   const VectorXd d = result.q - start;
-  const VectorXd along = d - J.transpose() * (J * J.transpose()).inverse() * (J * d);  // free of what moves the gripper
+  const VectorXd along = d - J.transpose() * (J * J.transpose()).inverse() * (J * d);  // motion that leaves the gripper
+                                                                                       // in place
   EXPECT_LT(along.norm(), 1e-3 * d.norm());
 }
 
@@ -296,7 +297,8 @@ TEST(SolveIk, MistakesAreNamed) {
 
 TEST(SolveIk, AWatchEndsTheSearchAndMayThrow) {
   const Config config = panda();
-  std::vector<std::vector<IkTarget>> problems(5000, {IkTarget::toPosition("l_gripper", {5., 0., 0.})});  // for seconds
+  // takes seconds
+  std::vector<std::vector<IkTarget>> problems(5000, {IkTarget::toPosition("l_gripper", {5., 0., 0.})});
   for (const int threads : {1, 2}) {
     int calls = 0;
     const std::vector<IkResult> results = solveIkBatch(config, problems, {}, threads, [&](int) { return ++calls > 0; });

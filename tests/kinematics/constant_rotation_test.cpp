@@ -8,7 +8,7 @@
 namespace kinegraph {
 namespace {
 
-/// The products of quarter turns about x and z, each up to three times: every one of the 24, some more than once.
+/// All products of quarter rotations about x and z, each up to three times: all 24, some repeatedly.
 std::vector<Matrix3d> quarterTurns() {
   std::vector<Matrix3d> turns;
   for (int x = 0; x < 4; ++x) {
@@ -23,7 +23,7 @@ std::vector<Matrix3d> quarterTurns() {
   return turns;
 }
 
-TEST(ConstantRotation, ColumnsAndSignsOfQuarterTurnsMultiplyAsTheMatrixDoes) {
+TEST(ConstantRotation, ColumnsAndSignsOfQuarterRotationsMultiplyAsTheMatrixDoes) {
   Rng rng(1);
   for (const Matrix3d& R : quarterTurns()) {
     const ConstantRotation turn = classifyRotation(R.data());
@@ -33,7 +33,7 @@ TEST(ConstantRotation, ColumnsAndSignsOfQuarterTurnsMultiplyAsTheMatrixDoes) {
   }
 }
 
-TEST(ConstantRotation, RoundingIsForgivenAndAnythingMoreIsAGeneralTurn) {
+TEST(ConstantRotation, RoundingIsIgnoredAndLargerDeviationsAreGeneralRotations) {
   for (Matrix3d R : quarterTurns()) {
     const ConstantRotation::Kind kind = classifyRotation(R.data()).kind;
     const Matrix3d rounded = R + Matrix3d::Constant(3e-16);

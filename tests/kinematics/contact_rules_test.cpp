@@ -7,7 +7,7 @@
 namespace kinegraph {
 namespace {
 
-/// A chain of parts with a joint each, and a body on each.
+/// A chain of parts with a joint and a body each.
 ContactRules chain(int parts, int flag) {
   ContactRules rules;
   for (int i = 0; i < parts; ++i) {
@@ -52,7 +52,7 @@ TEST(ContactRules, WhoIsAskedFirstDoesNotMatter) {
 TEST(ContactRules, AnExclusionHoldsForAllThatItsFrameOwns) {
   ContactRules rules = chain(4, 1);
   for (ContactRules::Body& body : rules.bodies) body.owner = body.part;
-  rules.excluded = {{0, 3}};  // owners, not the bodies' own frames
+  rules.excluded = {{0, 3}};  // owners instead of the bodies' own frames
   EXPECT_FALSE(rules.allow(0, 3));
   EXPECT_TRUE(rules.allow(0, 2));
   EXPECT_TRUE(rules.allow(1, 3));

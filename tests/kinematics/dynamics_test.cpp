@@ -16,7 +16,7 @@ Config sceneOf(const std::string& text) {
   return config;
 }
 
-/// All kinds of joints in one tree, with bodies off their joints.
+/// All kinds of joints in one tree, with bodies away from their joints.
 Config tree() {
   return sceneOf(R"g(
     base: { X: "t(.1 .2 .3) d(40 1 2 3)" }

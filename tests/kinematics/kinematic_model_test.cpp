@@ -10,7 +10,7 @@ using namespace kinegraph;
 
 namespace {
 
-/// An arm on a base that is turned so, with joints that sit on quarter turns and on others, and branches.
+/// An arm on a rotated base, with joints at quarter and other rotations, and branches.
 Config arm(const std::string& base) {
   Config config;
   config.addText(cat("world: {}\nbase(world): { Q: \"", base, R"g(" }
@@ -35,7 +35,7 @@ VectorXd someJoints(const Config& config, Rng& rng) {
 
 }  // namespace
 
-TEST(PlaceJoint, ALinkHasTheAxesOfItsParentWhereItsJointSitsOnQuarterTurns) {
+TEST(PlaceJoint, ALinkHasTheAxesOfItsParentIfItsJointHasAQuarterRotation) {
   Config config = arm("d(90 0 0 1)");
   config.setJointState(VectorXd::Zero(config.getJointDimension()).eval());
   const State& state = config.state();
@@ -64,7 +64,7 @@ TEST(PlaceJoint, FramesAreWhereTheMotionsOfTheJointsAboveTakeThem) {
   }
 }
 
-TEST(PlaceJoint, ABaseThatIsTurnedGivesTheSameAsOneThatWasLoadedSo) {
+TEST(PlaceJoint, ARotatedBaseEqualsOneThatWasLoadedWithTheRotation) {
   Rng rng(4);
   Config edited = arm("t(1 2 3)");
   for (const char* base :

@@ -7,7 +7,7 @@
 namespace kinegraph {
 namespace {
 
-/// Two arms of a turn and a slide each.
+/// Two arms with a rotation and a translation each.
 Config twoArms() {
   Config config;
   config.addText(R"g(

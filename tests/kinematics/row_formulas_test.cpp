@@ -19,7 +19,7 @@ using Vec = Vec3<double>;
 
 Vec vec(const Vector3d& a) { return {a[0], a[1], a[2]}; }
 
-/// A rotation with angular velocity w about a point, in the world.
+/// Rotation with angular velocity w about a point, in the world.
 struct Turn {
   Vec angular, point;
   Vec velocityAt(const Vec& at) const { return cross(angular, at - point); }
@@ -47,7 +47,7 @@ Moving drawMotion(Rng& rng, bool of_b) {
   return {{drawFrame(rng), drawFrame(rng)}, vector(), vector(), of_b};
 }
 
-/// The rates of a formula are the derivatives of its values, whichever frame moves.
+/// Rates of a formula are the derivatives of its values, for motions of either frame.
 template <class Make>
 void checkRates(const Make& make, bool has_b) {
   using Formula = decltype(make(Frames{}));

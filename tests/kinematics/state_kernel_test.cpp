@@ -9,7 +9,7 @@ using namespace kinegraph;
 
 namespace {
 
-/// Joints of all kinds, side by side and one after the other, on bases that are turned in all ways.
+/// Joints of all kinds, in parallel and in series, on bases with all kinds of rotations.
 Config joints() {
   Config config;
   config.addText(R"g(
@@ -55,7 +55,7 @@ TEST(StateKernel, AllGiveTheSameBitsAndThoseOfTheState) {
   Rng rng(2);
   for (int i = 0; i < 50; ++i) {
     VectorXd q = state.model().home;
-    for (double& x : q) x += (i % 10 == 9 ? 1e6 : 1.) * rng.normal();  // angles of many turns, too
+    for (double& x : q) x += (i % 10 == 9 ? 1e6 : 1.) * rng.normal();  // large angles, too
     state.setJoints(q.data());
     const Numbers base = computed(lanes::updateStateBase, state, q), chosen = computed(stateKernel(), state, q);
     EXPECT_EQ(base.poses, chosen.poses) << i;

@@ -74,7 +74,7 @@ TEST(State, JacobiansEqualCentralDifferencesForEveryJointType) {
       state.addPointJacobian(frame, state.pose(frame) * point, 1., J.topRows(3));
       state.addAngularJacobian(frame, 1., J.bottomRows(3));
       Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> at_once(
-          7, n + 1);  // with numbers around it that stay
+          7, n + 1);  // surrounded by numbers that must not change
       at_once.setConstant(7.);
       state.jacobian(frame, state.pose(frame) * point, at_once.topLeftCorner(6, n));
       EXPECT_EQ(at_once.topLeftCorner(6, n), J) << "frame " << frame;

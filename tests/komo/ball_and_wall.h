@@ -7,7 +7,7 @@
 
 namespace kinegraph {
 
-/// A ball that moves, and a wall that does not; both with the attributes that are given, in the words of .g files.
+/// A moving ball and a fixed wall, both with additional attributes in the syntax of .g files.
 inline Config ballAndWall(const std::string& ball, const std::string& wall) {
   Config scene;
   scene.addText(cat("base: {} ball (base): { shape: sphere, contact: 1, ", ball,

@@ -12,7 +12,7 @@ namespace {
 using F = FeatureSymbol;
 using T = ObjectiveType;
 
-/// A ball that jumps over a wall from slice 1 to 2 and over a post from 2 to 3.
+/// A ball that jumps over a wall from slice 1 to 2, and over a post from 2 to 3.
 Komo jumpingBall() {
   Config scene;
   scene.addText(R"g(
@@ -35,7 +35,7 @@ std::string validityOf(const Komo& komo) {
 
 }  // namespace
 
-TEST(ForbiddenMotions, NamedFramesCountAndOthersDoNot) {
+TEST(CollisionReport, NamedFramesCountAndOthersDoNot) {
   Komo komo = jumpingBall();
   komo.addObjective({}, F::accumulatedCollisions, {"post"}, T::eq, 10.);
   EXPECT_TRUE(constrainsAnyMotion(komo.path(), komo.objectives().all()));
@@ -50,7 +50,7 @@ TEST(ForbiddenMotions, NamedFramesCountAndOthersDoNot) {
   EXPECT_EQ(validityOf(before), "") << "it jumps over the post later";
 }
 
-TEST(ForbiddenMotions, BothTimesMustForbidIt) {
+TEST(CollisionReport, BothTimesMustForbidIt) {
   Komo komo = jumpingBall();
   komo.addObjective({0., .5}, F::accumulatedCollisions, {"wall"}, T::eq, 10.);
   EXPECT_EQ(validityOf(komo), "") << "it is forbidden until slice 1, and the jump leads to slice 2";
@@ -60,7 +60,7 @@ TEST(ForbiddenMotions, BothTimesMustForbidIt) {
   EXPECT_EQ(contact.find("post"), std::string::npos);
 }
 
-TEST(ForbiddenMotions, DistancesThatAreKeptCountForShapesThatNeverCollide) {
+TEST(CollisionReport, ConstrainedDistancesCountForShapesThatNeverCollide) {
   Komo komo = jumpingBall();
   MatrixXd path(4, 1);
   path << 0., .3, .31, .32;
@@ -75,7 +75,7 @@ TEST(ForbiddenMotions, DistancesThatAreKeptCountForShapesThatNeverCollide) {
   EXPECT_FALSE(constrainsAnyMotion(touching.path(), touching.objectives().all())) << "it is to touch";
 }
 
-TEST(ForbiddenMotions, ResultsTellIt) {
+TEST(CollisionReport, ResultsTellIt) {
   Config scene;
   scene.addText(R"g(
     base: {}

@@ -7,7 +7,7 @@ using namespace kinegraph;
 
 namespace {
 
-/// A box of 2 kg that a finger touches.
+/// A box of 2 kg in contact with a finger.
 Config boxAndFinger() {
   Config config;
   config.addText(R"(
@@ -79,12 +79,12 @@ TEST(ContactForces, WithoutAForceABodyFallsAndWithItsWeightItRests) {
   };
   EXPECT_LT(residual(0, 1).norm(), 1e-6);
   EXPECT_LT(residual(1, 2).norm(), 1e-6);
-  EXPECT_NEAR(residual(2, 0)[2], 9.81, 1e-9);  // the slice before it has no contact
+  EXPECT_NEAR(residual(2, 0)[2], 9.81, 1e-9);  // the previous slice has no contact
 }
 
 namespace {
 
-/// A body without symmetry, in a Komo that asks for physics.
+/// An asymmetric body in a Komo with physics.
 std::shared_ptr<Komo> tumbling() {
   Config config;
   config.addText("world: {}\n body (world): { joint: free }");
@@ -100,10 +100,10 @@ TEST(Physics, ABodyThatTumblesFreelyFollowsEulersEquations) {
   const auto komo = tumbling();
   const Vector3d inertia(.1, .2, .4);
   const double tau = 1e-3;
-  Vector3d w(1., 2., 3.);  // in the body
+  Vector3d w(1., 2., 3.);  // in body coordinates
   Quaterniond turn(.8, .2, -.4, .4);
   turn.normalize();
-  constexpr int kSteps = 100;  // small ones, per slice
+  constexpr int kSteps = 100;  // per slice
   for (int t = 0; t < 3; ++t) {
     VectorXd q = VectorXd::Zero(7);
     q.tail(4) = Eigen::Vector4d(turn.w(), turn.x(), turn.y(), turn.z());

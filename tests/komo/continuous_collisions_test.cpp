@@ -16,12 +16,12 @@ namespace kinegraph {
 
 namespace {
 
-/// A ball in the plane, and a wall of 3 cm that it can go around.
+/// A ball in the plane, and a wall of 3 cm that it can avoid.
 Config ballAndWall() {
   return kinegraph::ballAndWall("joint: transXY, size: [.04]", "Q: [.5 -.2 0], size: [.03 .6 1.]");
 }
 
-/// From (0, 0) to (1, 0), started on a way around the upper end of the wall, which is at y = .1.
+/// From (0, 0) to (1, 0), initialized with a path around the upper end of the wall at y = .1.
 Komo aroundWall(int slices) {
   Komo komo(ballAndWall(), 1, slices, 2);
   komo.addControlObjective({}, 2, 1.);
@@ -35,7 +35,7 @@ Komo aroundWall(int slices) {
   return komo;
 }
 
-/// The instants of a motion, in the order in which they were added.
+/// Times of the samples of a motion, in order of addition.
 VectorXd sharesOf(const Objective& objective, std::size_t motion) {
   const std::vector<CollisionSample>& samples = objective.samples[motion];
   VectorXd shares(Eigen::Index(samples.size()));
@@ -43,7 +43,7 @@ VectorXd sharesOf(const Objective& objective, std::size_t motion) {
   return shares;
 }
 
-/// The least distance on the whole motion, by coal, at steps of `step` of the dof that moves most.
+/// Smallest distance on the whole motion, by coal, at steps of `step` of the dof that moves most.
 double coalDistanceAlong(const Komo& komo, double step) {
   double least = 1.;
   for (const SliceMotion& motion : motionsOf(komo.path())) {
@@ -60,7 +60,7 @@ double coalDistanceAlong(const Komo& komo, double step) {
 
 }  // namespace
 
-TEST(FreeMotion, KeepsTheMarginWherePathsOfFreeSlicesCutCorners) {
+TEST(ContinuousCollisions, KeepsTheMarginWherePathsOfFreeSlicesCutCorners) {
   for (const int slices : {6, 10, 16}) {
     Komo in_slices = aroundWall(slices), always = aroundWall(slices);
     in_slices.addObjective({}, FeatureSymbol::accumulatedCollisions, {}, ObjectiveType::eq, 10.);
@@ -76,7 +76,7 @@ TEST(FreeMotion, KeepsTheMarginWherePathsOfFreeSlicesCutCorners) {
   }
 }
 
-TEST(FreeMotion, AddsInstantsWhereTheMotionIsTooNear) {
+TEST(ContinuousCollisions, AddsSamplesAtViolationsOfTheMargin) {
   Komo komo(ballAndWall(), 1, 4, 0);
   komo.addFreeMotion({}, .01);
   MatrixXd path(4, 2);
@@ -105,7 +105,7 @@ TEST(FreeMotion, AddsInstantsWhereTheMotionIsTooNear) {
   EXPECT_GT(measurePath(komo).per_slice(3, 1), 10. * .05) << "reports see it";
 }
 
-TEST(FreeMotion, HasTheJacobianOfDifferencesInBothForms) {
+TEST(ContinuousCollisions, HasTheJacobianOfDifferencesInBothForms) {
   Config scene;
   scene.addText(R"g(
     base: {}
@@ -137,11 +137,11 @@ TEST(FreeMotion, HasTheJacobianOfDifferencesInBothForms) {
   nlp->evaluate(x, sums, nullptr);
   separation.problem->evaluate(x, terms, nullptr);
   EXPECT_GT(sums.maxCoeff(), .1);
-  for (double& term : terms) term -= 10. * 1e-3;  // what a solver aims at beyond the margin
+  for (double& term : terms) term -= 10. * 1e-3;  // additional distance that a solver aims for
   EXPECT_TRUE(near(separation.joined(terms, sums.size()), sums, 1e-9));
 }
 
-TEST(FreeMotion, HoldsJointsThatEndWithASwitchWhereTheyAre) {
+TEST(ContinuousCollisions, HoldsJointsThatEndWithASwitchWhereTheyAre) {
   Config scene;
   scene.addText(R"g(
     base: {}
@@ -164,13 +164,13 @@ TEST(FreeMotion, HoldsJointsThatEndWithASwitchWhereTheyAre) {
   const auto nlp = makeNlp(komo);
   VectorXd dual;
   ASSERT_EQ(nlp->refine(x, dual), Refinement::much) << "the box is carried through the wall";
-  // where it is deepest, the shortest way out leads to both sides
+  // at the deepest point the shortest separations lead to both sides
   const VectorXd beside = x + VectorXd::LinSpaced(x.size(), -3e-3, 3e-3);
   EXPECT_LT(checkJacobian(*nlp, beside).error, 1e-5);
   EXPECT_LT(checkJacobian(*nlp->separation().problem, beside).error, 1e-5);
 }
 
-TEST(FreeMotion, CostsNoEvaluationWhereTheMotionIsFree) {
+TEST(ContinuousCollisions, CostsNoEvaluationWhereTheMotionIsFree) {
   Komo in_slices(ballAndWall(), 1, 10, 2), always(ballAndWall(), 1, 10, 2);
   for (Komo* komo : {&in_slices, &always}) {
     komo->addControlObjective({}, 2, 1.);
@@ -184,7 +184,7 @@ TEST(FreeMotion, CostsNoEvaluationWhereTheMotionIsFree) {
   EXPECT_EQ(one.x, other.x);
 }
 
-TEST(FreeMotion, IsNotCalledFeasibleWhereTheStartCollides) {
+TEST(ContinuousCollisions, IsNotCalledFeasibleWhereTheStartCollides) {
   Config scene = ballAndWall();
   scene.setJointState(Eigen::Vector2d(.47, 0.));
   Komo komo(scene, 1, 4, 1);
@@ -196,7 +196,7 @@ TEST(FreeMotion, IsNotCalledFeasibleWhereTheStartCollides) {
   EXPECT_GT(measurePath(komo).totals.ineq, .1);
 }
 
-TEST(FreeMotion, LeavesAStartThatIsNearerThanTheMargin) {
+TEST(ContinuousCollisions, LeavesAStartThatIsNearerThanTheMargin) {
   Config scene = ballAndWall();
   scene.setJointState(Eigen::Vector2d(.442, 0.));  // 3 mm off the wall
   Komo komo(scene, 1, 8, 1);
@@ -207,7 +207,7 @@ TEST(FreeMotion, LeavesAStartThatIsNearerThanTheMargin) {
   EXPECT_EQ(result.free(), true);
 }
 
-TEST(FreeMotion, RefusesWhatMakesNoSense) {
+TEST(ContinuousCollisions, RefusesWhatMakesNoSense) {
   Komo komo(ballAndWall(), 1, 4, 1);
   expectError<ValueError>([&] { komo.addFreeMotion({}, -1.); }, {"addFreeMotion: margin is -1; expected 0 or more"});
   expectError<ValueError>([&] { komo.addFreeMotion({}, .1, 0.); }, {"addFreeMotion: scale is 0"});
@@ -220,7 +220,7 @@ TEST(FreeMotion, RefusesWhatMakesNoSense) {
   EXPECT_EQ(komo.objectives().size(), 0u);
 }
 
-TEST(FreeMotion, HasAMarginInSlicesToo) {
+TEST(ContinuousCollisions, HasAMarginInSlicesToo) {
   Komo komo(ballAndWall(), 1, 1, 0);
   MatrixXd q(1, 2);
   q << .43, 0.;  // 15 mm off

@@ -8,7 +8,7 @@ using namespace kinegraph;
 
 namespace {
 
-/// An arm of three hinges that shall reach around a ball.
+/// An arm of three hinges that reaches around a ball.
 Config armAndBall() {
   Config config;
   config.addText(R"g(
@@ -25,7 +25,7 @@ Config armAndBall() {
   return config;
 }
 
-/// How often memory is asked for between two evaluations, the first three left out.
+/// Number of allocations between two evaluations, after the first three.
 std::vector<long> requestsOf(const std::shared_ptr<Komo>& komo) {
   const auto nlp = makeNlp(komo);
   std::vector<long> requests;

@@ -63,12 +63,12 @@ TEST(KomoNlp, HasTheJacobianOfDifferencesWithLinearRowsAsTheyWereMade) {
   Rng rng(5);
   for (int trial = 0; trial < 5; ++trial) {
     VectorXd x(nlp->dimension());
-    for (double& value : x) value = rng.uniform(.6, 1.5);  // clear of the wall
+    for (double& value : x) value = rng.uniform(.6, 1.5);  // away from the wall
     EXPECT_LT(checkJacobian(*nlp, x).error, 1e-6);
   }
 }
 
-TEST(KomoNlp, TellsTheSecondDerivativesOfRowsOfOneSlice) {
+TEST(KomoNlp, HasSecondDerivativesOfRowsOfOneSlice) {
   Config scene;
   scene.addText(R"g(
     base: {}
@@ -109,7 +109,7 @@ TEST(KomoNlp, TellsTheSecondDerivativesOfRowsOfOneSlice) {
   }
 }
 
-TEST(KomoNlp, TellsWhichRowsAreZeroAndLeavesNothingOfEarlierPointsInThem) {
+TEST(KomoNlp, MarksZeroRowsAndLeavesNothingOfEarlierPointsInThem) {
   const auto komo = slidingBalls();
   const Separation separation = makeNlp(komo)->separation();
   ASSERT_TRUE(separation.problem);

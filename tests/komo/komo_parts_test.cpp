@@ -6,7 +6,7 @@
 namespace kinegraph {
 namespace {
 
-/// An arm that takes a box: two modes, a shared dof per grasp, and a path.
+/// An arm that grasps a box: two modes, a shared dof per grasp, and a path.
 std::shared_ptr<Komo> graspPath() {
   Config config;
   config.addText(

@@ -53,7 +53,7 @@ TEST(Komo, TheTutorialsInverseKinematicsReachesEveryTarget) {
   RecordProperty("evaluations", evals);
 }
 
-TEST(Komo, AKeptPathBeginsWhereTheConfigurationIsNow) {
+TEST(Komo, AStoredPathBeginsAtThePresentConfiguration) {
   const VectorXd elsewhere = (VectorXd(7) << .2, -.4, .1, -1.8, .1, 1.9, -.3).finished();
   const auto reach = [](const Config& config) {
     auto komo = std::make_shared<Komo>(config, 1., 8, 2);

@@ -32,7 +32,7 @@ Config armAndBox() {
   return config;
 }
 
-/// The largest relative difference of the Jacobian from central differences at three random points.
+/// Largest relative difference between the Jacobian and central differences at three random points.
 double jacobianError(Nlp& nlp, const Komo& komo, std::string& where) {
   Rng rng(7);
   double worst = 0.;
@@ -134,7 +134,7 @@ TEST(ModeSwitches, AHandleTakesItsObjectAlong) {
             1e-12);
 }
 
-TEST(ModeSwitches, JointFeaturesMeanTheGivenJointsWhateverWasSwitchedBefore) {
+TEST(ModeSwitches, JointFeaturesUseTheInitialJointsAfterModeSwitches) {
   auto komo = std::make_shared<Komo>(armAndBox(), 2., 1, 1);
   komo->addModeSwitch({1., -1.}, SwitchMode::stable, {"grip", "box"});
   komo->addObjective({}, FeatureSymbol::qItself, {}, ObjectiveType::sos, {}, VectorXd::Zero(2));
@@ -279,7 +279,7 @@ TEST(ModeSwitches, TheCostPerEvaluationGrowsLinearlyWithTheSlicesThatShareAGrasp
     return double(std::clock() - start) / CLOCKS_PER_SEC / result.evals;
   };
   const double few = secondsPerEvaluation(100), many = secondsPerEvaluation(800);
-  EXPECT_LT(many, 24. * few) << "8 times the slices";  // 8 if linear; 64 and more with a factor that fills in
+  EXPECT_LT(many, 24. * few) << "8 times the slices";  // 8 if linear; 64 and more with fill-in
 }
 
 TEST(ModeSwitches, WhatIsAdvisedWithoutVelocitiesWorks) {

@@ -35,7 +35,7 @@ TEST(ObjectiveList, KnowsTheSlicesAndTheOrderOfEach) {
   EXPECT_EQ(std::pair(list[1].from, list[1].to), std::pair(0, 9));
   EXPECT_EQ(std::pair(list[2].from, list[2].to), std::pair(6, 8));
   EXPECT_EQ(list[0].order, 0);
-  EXPECT_EQ(list[1].order, 1);  // a velocity by itself
+  EXPECT_EQ(list[1].order, 1);  // its own order is 1
   EXPECT_EQ(list[1].name(), "angularVel");
   EXPECT_TRUE(list.takeWarnings().empty());
 }

@@ -37,7 +37,7 @@ VectorXd valueIn(const Objective& objective, const Path& path, int slice) {
 
 }  // namespace
 
-TEST(Objective, JointFeaturesAreOfTheGivenJointsInAllModes) {
+TEST(Objective, JointFeaturesUseTheInitialJointsInAllModes) {
   Path path = twoSlices();
   const Objective joints{.feature = FeatureSymbol::qItself, .type = ObjectiveType::sos};
   const Objective limits{.feature = FeatureSymbol::jointLimits, .type = ObjectiveType::ineq};
@@ -50,7 +50,7 @@ TEST(Objective, JointFeaturesAreOfTheGivenJointsInAllModes) {
   path.attach(1, "arm", "box", free);
   EXPECT_EQ(path.state(1).dofs(), 5);
   EXPECT_EQ(valueIn(joints, path, 1), q);
-  EXPECT_EQ(valueIn(limits, path, 1), plain);  // bounds limit joints that were added
+  EXPECT_EQ(valueIn(limits, path, 1), plain);  // bounds limit added joints
   EXPECT_EQ(plain.size(), within.size());
   EXPECT_NEAR(plain.sum(), within.sum(), 1e-12);
 }
@@ -69,5 +69,5 @@ TEST(Objective, AJointThatASwitchReplacedIsNamed) {
 TEST(Objective, ForcesCountWhereTheyAre) {
   Path path = twoSlices();
   const Objective balance{.feature = FeatureSymbol::totalForce, .frames = {"box"}, .type = ObjectiveType::eq};
-  EXPECT_NEAR(valueIn(balance, path, 1)[2], 2. * 9.81, 1e-12);  // nothing carries it
+  EXPECT_NEAR(valueIn(balance, path, 1)[2], 2. * 9.81, 1e-12);  // no contact force
 }

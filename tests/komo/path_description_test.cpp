@@ -20,7 +20,7 @@ Komo bodies() {
   return Komo(config, 4., 1, 2);
 }
 
-/// What the rows of an objective in the last slice are.
+/// Measures of the components of an objective in the last slice.
 std::vector<RowDescription> rowsOf(Komo komo, FeatureSymbol feature, const std::vector<std::string>& frames,
                                    const Scale& scale = {}, int order = -1) {
   komo.addObjective({4.}, feature, frames, ObjectiveType::eq, scale, {}, order);

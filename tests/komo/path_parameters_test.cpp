@@ -53,7 +53,7 @@ std::pair<VectorXd, VectorXd> at(Nlp& nlp, const VectorXd& x, const VectorXd& we
   return {phi, gradient};
 }
 
-/// Against problems that are made anew, with one of the numbers moved.
+/// Compares with problems that are rebuilt with one of the numbers changed.
 void expectDerivativesOf(NlpParameter& parameter, Nlp& nlp,
                          const std::function<std::shared_ptr<Nlp>(int number, double by)>& makeAnew) {
   const VectorXd x = someX(nlp.dimension());

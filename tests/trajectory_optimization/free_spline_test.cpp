@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMargin = 3e-3;  // m
 
-/// A planar arm of three joints among balls and boxes that are drawn at random; it stands and goes where it is free.
+/// A planar arm of three joints among random balls and boxes; its start and goal are collision-free.
 struct Problem {
   Config scene;
   VectorXd start, goal;
@@ -65,7 +65,7 @@ std::shared_ptr<Komo> problemOf(const Problem& problem, int slices, bool at_all_
   return komo;
 }
 
-/// The least distance on a spline that all joints are on, by coal, at many times.
+/// Smallest distance along a spline of all joints, by coal, at many times.
 double coalDistanceAlong(const BSpline& spline, State state, int count) {
   double least = 1.;
   const MatrixXd q = spline.eval(VectorXd::LinSpaced(count, 0., spline.end()));
@@ -104,7 +104,7 @@ TEST(FreeSpline, WhatIsCalledFeasibleKeepsTheMarginAtAllTimesOnRandomProblems) {
   EXPECT_LT(free_in_slices_only, feasible);
 }
 
-TEST(FreeSpline, LinesThroughObstaclesAreLeftForWaysAroundThem) {
+TEST(FreeSpline, LinesThroughObstaclesAreReplacedByPathsAroundThem) {
   Rng rng(33);
   int evals = 0, blocked = 0;
   constexpr int kProblems = 20;
@@ -137,7 +137,7 @@ TEST(FreeSpline, ALimitOfRoundsEndsAProblemOfSlicesAtOnce) {
   EXPECT_LE(result.evals, 6);
 }
 
-TEST(FreeSpline, StartsThatHardlyMoveAreNoWays) {
+TEST(FreeSpline, StartsThatHardlyMoveAreNoPaths) {
   Config scene;
   scene.addText(R"(
 base: {}
@@ -181,7 +181,7 @@ TEST(FreeSpline, VerdictsAgreeWithSamplesOfRandomSplines) {
   EXPECT_LT(free, 35);
 }
 
-TEST(FreeSpline, BodiesThatFlyTurnByQuaternionsAndAreJudgedAsSamplesSay) {
+TEST(FreeSpline, FlyingBodiesRotateByQuaternionsAndAreReportedAsSamplesSay) {
   Config scene;
   scene.addText(R"(
 base: {}

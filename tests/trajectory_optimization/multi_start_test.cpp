@@ -9,7 +9,7 @@
 namespace kinegraph {
 namespace {
 
-/// Two links of 1 m reach (1, 1): elbow at +pi/2 or -pi/2. The cost prefers -pi/2, and the start is near +pi/2.
+/// Two links of 1 m reach (1, 1) with the elbow at +pi/2 or -pi/2. The cost prefers -pi/2, and the start is near +pi/2.
 std::shared_ptr<Komo> twoAnswers() {
   Config config;
   config.addText(
@@ -90,7 +90,7 @@ TEST(SolveFromMany, WithoutAnAnswerTheOneThatViolatesLeastIsChosen) {
   for (const SolverResult& result : many.results) EXPECT_GE(result.violation, many.best().violation);
 }
 
-TEST(SolveFromMany, DrawnStartsBeginWithThePresentPathWhichStays) {
+TEST(SolveFromMany, SampledStartsBeginWithThePresentPathWhichStays) {
   const auto komo = twoAnswers();
   const VectorXd before = komo->path().variables();
   const std::vector<VectorXd> starts = sampleStarts(*komo, 3, 7);

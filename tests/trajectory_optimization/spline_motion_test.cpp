@@ -11,7 +11,7 @@
 namespace kinegraph {
 namespace {
 
-/// A planar arm of three joints, and a ball in its way.
+/// A planar arm of three joints, and a ball as obstacle.
 Config arm() {
   Config C;
   C.addText(planarArm() + R"(target: { X: [.3 .9 0] }
@@ -54,7 +54,7 @@ TEST(SplineMotion, JacobianEqualsCentralDifferences) {
   }
 }
 
-TEST(SplineMotion, SlicesLieOnItsSplineWhichBeginsAtRestInTheGivenConfiguration) {
+TEST(SplineMotion, SlicesLieOnItsSplineWhichStartsAtRestInTheInitialConfiguration) {
   Config C = arm();
   C.setJointState((VectorXd(3) << -.4, .3, .2).finished());
   for (const int degree : {2, 3, 5}) {
@@ -82,9 +82,9 @@ TEST(SplineMotion, WithAsManyPointsAsSlicesItIsAsGoodAsAFreePathAndWithFewNearly
   const SplineMotion few(reach(C, 20), {.points = 5, .degree = 3, .ends_at_rest = false});
   const SolverResult smooth = solved(few.nlp());
   ASSERT_TRUE(best.feasible && same.feasible && smooth.feasible);
-  EXPECT_NEAR(costOf(same), costOf(best), 1e-3 * costOf(best));  // lines from slice to slice
+  EXPECT_NEAR(costOf(same), costOf(best), 1e-3 * costOf(best));  // linear motion between slices
   EXPECT_GT(costOf(smooth), (1. - 1e-3) * costOf(best));
-  EXPECT_LT(costOf(smooth), 1.5 * costOf(best));  // five points for what twenty slices do
+  EXPECT_LT(costOf(smooth), 1.5 * costOf(best));  // five points instead of twenty slices
 }
 
 TEST(SplineMotion, KeepsLimitsBetweenSlicesAsItsControlPointsDo) {

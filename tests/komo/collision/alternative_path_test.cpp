@@ -9,7 +9,7 @@ namespace kinegraph {
 
 namespace {
 
-/// A ball in the plane, which goes straight through the middle of a wall, high and wide.
+/// A ball in the plane that moves straight through a wide and high wall.
 Komo throughWall(int slices) {
   Config scene;
   scene.addText(R"g(
@@ -28,7 +28,7 @@ Komo throughWall(int slices) {
 
 }  // namespace
 
-TEST(Detour, EndsWhereThePathEndsAndGoesAroundWhatIsInTheWay) {
+TEST(AlternativePath, EndsWhereThePathEndsAndAvoidsObstacles) {
   Komo komo = throughWall(16);
   const MatrixXd given = komo.path().joints();
   MotionProbe probe(1e-5);
@@ -45,7 +45,7 @@ TEST(Detour, EndsWhereThePathEndsAndGoesAroundWhatIsInTheWay) {
   }
 }
 
-TEST(Detour, KeepsWhereThePathIsAtTheEndsOfPhases) {
+TEST(AlternativePath, KeepsTheConfigurationsAtTheEndsOfPhases) {
   for (const int order : {0, 2}) {
     Config scene;
     scene.addText(R"g(
@@ -56,7 +56,7 @@ TEST(Detour, KeepsWhereThePathIsAtTheEndsOfPhases) {
     )g");
     Komo komo(scene, 3, 8, order);
     MatrixXd path(24, 2);
-    for (int t = 0; t < 24; ++t) {  // through the wall, to the other side of the bar, where it stays
+    for (int t = 0; t < 24; ++t) {  // through the wall, to the other side of the bar
       path(t, 0) = std::min(1., (t + 1) / 8.);
       path(t, 1) = std::clamp((t - 7) / 8., 0., 1.) * .6;
     }
@@ -74,7 +74,7 @@ TEST(Detour, KeepsWhereThePathIsAtTheEndsOfPhases) {
   }
 }
 
-TEST(Detour, KeepsHalfOfWhatAnEndKeeps) {
+TEST(AlternativePath, KeepsHalfOfTheClearanceOfAnEnd) {
   Komo komo = throughWall(16);
   MatrixXd path = komo.path().joints();
   path.col(0) *= .565;  // the ball's end is 1 cm behind the wall
@@ -88,7 +88,7 @@ TEST(Detour, KeepsHalfOfWhatAnEndKeeps) {
   }
 }
 
-TEST(Detour, LacksLessThanThePathWhereAnEndIsBlocked) {
+TEST(AlternativePath, ViolatesTheMarginLessThanThePathIfAnEndIsBlocked) {
   Komo komo = throughWall(16);
   MatrixXd path = komo.path().joints();
   path.col(0) *= .5;  // into the wall
@@ -104,7 +104,7 @@ TEST(Detour, LacksLessThanThePathWhereAnEndIsBlocked) {
   }
 }
 
-TEST(Detour, IsTakenWhereTheStraightWayIsBlocked) {
+TEST(AlternativePath, IsUsedIfTheStraightPathIsBlocked) {
   Komo komo = throughWall(16);
   komo.addFreeMotion({}, .005);
   const SolverResult result = komo.solve();
@@ -113,7 +113,7 @@ TEST(Detour, IsTakenWhereTheStraightWayIsBlocked) {
   EXPECT_TRUE(komo.isFree(.005));
 }
 
-TEST(Detour, IsNoneWhereNothingCanBeBent) {
+TEST(AlternativePath, DoesNotExistIfNothingCanBeVaried) {
   Config scene;
   scene.addText("base: {}\n ball (base): { joint: quatBall, shape: sphere, size: [.04], contact: 1 }");
   Komo komo(scene, 1, 8, 1);
@@ -123,8 +123,8 @@ TEST(Detour, IsNoneWhereNothingCanBeBent) {
   EXPECT_FALSE(alternativePath(brief.path(), .01, probe, 1));
 }
 
-TEST(Detour, AllRefinementsTogetherKeepTheBudget) {
-  Config scene;  // the goal is behind a wall that nothing leads around
+TEST(AlternativePath, AllRefinementsTogetherKeepTheBudget) {
+  Config scene;  // the goal is enclosed by a wall
   scene.addText(R"g(
     base: {}
     ball (base): { joint: transX, shape: sphere, size: [.04], contact: 1 }

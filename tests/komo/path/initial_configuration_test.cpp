@@ -27,14 +27,14 @@ TEST(InitialConfiguration, KnowsTheJointsThatMakeUpQ) {
   const Config config = arm();
   const InitialConfiguration given(config);
   const int base = config.getFrame("base").id(), elbow = config.getFrame("elbow").id();
-  EXPECT_EQ(given.joint_frames, (std::vector<int>{base, elbow}));  // the twin follows, the door does not move
+  EXPECT_EQ(given.joint_frames, (std::vector<int>{base, elbow}));  // the twin mimics, the door is inactive
   EXPECT_EQ(given.q, config.getJointState());
   EXPECT_TRUE(given.isShared(base));
   EXPECT_FALSE(given.isShared(elbow));
   EXPECT_TRUE(InitialConfiguration().empty());
 }
 
-TEST(InitialConfiguration, StaysAsItWasGiven) {
+TEST(InitialConfiguration, IgnoresLaterEdits) {
   Config config = arm();
   const InitialConfiguration given(config);
   const VectorXd before = config.getJointState();

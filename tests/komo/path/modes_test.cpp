@@ -35,7 +35,7 @@ TEST(Modes, AnEditChangesTheSlicesThatItIsForAndNoOthers) {
   EXPECT_EQ(modes.ofSlices(), (std::vector<int>{0, 0, 0, 1, 1}));
   int edits = 0;
   modes.replace(2, 4, [&](Mode& mode) { mode.config.getFrame("box").setPosition({0., 1. + edits++, 0.}); });
-  EXPECT_EQ(edits, 2);  // one copy of each mode that the slices had
+  EXPECT_EQ(edits, 2);  // one copy per mode of the slices
   EXPECT_EQ(modes.ofSlices(), (std::vector<int>{0, 0, 2, 3, 1}));
   const auto x = [&](std::size_t slice) { return Vector3d(modes.at(slice).config.getFrame("box").getPose().p); };
   EXPECT_EQ(x(1), Vector3d(1., 0., 0.));

@@ -19,7 +19,7 @@ VectorXd pair(double a, double b) { return Eigen::Vector2d(a, b); }
 
 }  // namespace
 
-TEST(PathStarts, WaypointsAreHeldOrBlended) {
+TEST(PathInitialization, WaypointsAreHeldOrBlended) {
   Komo komo(slider(), 2., 5, 1);
   EXPECT_EQ(komo.setWaypoints({pair(1., 0.), pair(-1., 0.)}), (std::vector<int>{4, 9}));
   const std::vector<double> held = {0, 0, 0, 0, 1, 1, 1, 1, 1, -1};
@@ -30,7 +30,7 @@ TEST(PathStarts, WaypointsAreHeldOrBlended) {
   for (int t = 0; t < 10; ++t) EXPECT_NEAR(blended.getPath()(t, 0), recorded[t], 1e-3) << t;
 }
 
-TEST(PathStarts, EndlessRotationsTakeTheShortWay) {
+TEST(PathInitialization, EndlessRotationsTakeTheShortWay) {
   Komo komo(slider(), 2., 4, 1);
   komo.setWaypoints({pair(0., 3.), pair(0., -3.)}, {.interpolate = true});
   const MatrixXd path = komo.getPath();
@@ -38,7 +38,7 @@ TEST(PathStarts, EndlessRotationsTakeTheShortWay) {
   EXPECT_NEAR(std::remainder(path(7, 1) + 3., 2. * M_PI), 0., 1e-12);
 }
 
-TEST(PathStarts, WaypointsOfAProblemWithTheSameSwitchesFit) {
+TEST(PathInitialization, WaypointsOfAProblemWithTheSameSwitchesFit) {
   Config config = slider();
   config.addFrame("box").setShape(ShapeType::ssBox, {.1, .1, .1, .01});
   Komo coarse(config, 2., 1, 1), fine(config, 2., 8, 2);
@@ -55,7 +55,7 @@ TEST(PathStarts, WaypointsOfAProblemWithTheSameSwitchesFit) {
   }
 }
 
-TEST(PathStarts, RandomPathsStayWithinLimitsAndRepeatWithTheSeed) {
+TEST(PathInitialization, RandomPathsStayWithinLimitsAndRepeatWithTheSeed) {
   Komo komo(slider(), 1., 30, 1);
   Rng first(3), second(3);
   komo.setRandomPath(first);
@@ -68,7 +68,7 @@ TEST(PathStarts, RandomPathsStayWithinLimitsAndRepeatWithTheSeed) {
   EXPECT_EQ(komo.getPath(), path);
 }
 
-TEST(PathStarts, APhaseTakesAPathOfAnyLengthIfResampled) {
+TEST(PathInitialization, APhaseTakesAPathOfAnyLengthIfResampled) {
   Komo komo(slider(), 2., 5, 1);
   MatrixXd path(3, 2);
   path << 0, 0, 1, 2, 2, 4;
@@ -79,7 +79,7 @@ TEST(PathStarts, APhaseTakesAPathOfAnyLengthIfResampled) {
   EXPECT_THROW(komo.setPhasePath(2, {}, path, true), ValueError);
 }
 
-TEST(PathStarts, MistakesAreExplained) {
+TEST(PathInitialization, MistakesAreExplained) {
   Komo komo(slider(), 2., 5, 1);
   EXPECT_THROW(komo.setWaypoints({VectorXd::Zero(3)}), ValueError);
   EXPECT_THROW(komo.setWaypoints({pair(0, 0), pair(0, 0), pair(0, 0)}), ValueError);

@@ -11,7 +11,7 @@ namespace kinegraph {
 
 namespace {
 
-/// A ball that slides along x, and a wall of 3 cm in its way.
+/// A ball that slides along x towards a wall of 3 cm.
 Config slidingBallAndWall() {
   return kinegraph::ballAndWall("joint: transX, size: [.1]", "Q: [.6 0 0], size: [.03 1 1]");
 }
@@ -22,7 +22,7 @@ MatrixXd column(std::initializer_list<double> numbers) {
   return rows;
 }
 
-/// A gripper that takes a box at time 1 and lays it down at time 2; a wall is where only the box would meet it.
+/// A gripper that grasps a box at time 1 and places it at time 2; only the box would hit the wall.
 Komo carriedBox() {
   Config scene;
   scene.addText(R"g(
@@ -37,7 +37,7 @@ Komo carriedBox() {
   return komo;
 }
 
-/// Where the gripper is in the twelve slices; the box hangs .2 m below it, and lies where it was laid down.
+/// Position of the gripper in the twelve slices; the box is .2 m below it, and stays where it was placed.
 void move(Komo& komo, const std::vector<double>& positions) {
   const int gripper = komo.configuration(0).getFrame("gripper").id(), box = komo.configuration(0).getFrame("box").id();
   for (int slice = 0; slice < 12; ++slice) {

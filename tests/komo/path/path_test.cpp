@@ -56,7 +56,7 @@ TEST(Path, ItsVariablesAreTheSlicesOneAfterTheOther) {
   three.setVariables(x);
   EXPECT_EQ(three.variables(), x);
   EXPECT_EQ(three.joints(), (MatrixXd(3, 2) << 1., 2., 3., 4., 5., 6.).finished());
-  EXPECT_EQ(three.state(-1).q(), Eigen::Vector2d(.1, .2));  // before the start it is as given
+  EXPECT_EQ(three.state(-1).q(), Eigen::Vector2d(.1, .2));  // initial configuration before the start
   EXPECT_EQ(three.configuration(1).getJointState(), Eigen::Vector2d(3., 4.));
   expectError<ValueError>([&] { three.configuration(3); }, {"slice 3", "-2 .. 2"});
 }
@@ -108,7 +108,7 @@ TEST(Path, OnlyFramesThatPeopleAddAreShown) {
   EXPECT_EQ(two.framePoses(0).rows(), 4);
   const Pose elbow = two.configuration(0).getFrame("elbow").getPose();
   two.addFrame("grasp", "box", JointType::free, true, elbow);
-  EXPECT_EQ(two.framePoses(0).rows(), 6);  // the frame, and where it is relative to
+  EXPECT_EQ(two.framePoses(0).rows(), 6);  // the frame and its origin
   EXPECT_EQ(two.configuration(0).getFrame("grasp").getPose().p, elbow.p);
 }
 

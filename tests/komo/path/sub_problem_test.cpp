@@ -36,7 +36,7 @@ TEST(SubProblem, IsAPhaseFromItsBeginningToItsEnd) {
   EXPECT_EQ(sub.start, path.joints().row(1).transpose());
   EXPECT_EQ(sub.end, path.joints().row(2).transpose());
   EXPECT_EQ(sub.config.getFrame("box").getParent()->getName(), "arm");
-  EXPECT_EQ(sub.config.getJointState(), sub.start);  // the grasp does not move
+  EXPECT_EQ(sub.config.getJointState(), sub.start);  // the grasp is inactive
 }
 
 TEST(SubProblem, NeedsOneSlicePerPhaseAndAPhaseThatIsThere) {

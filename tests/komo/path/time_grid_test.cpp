@@ -15,7 +15,7 @@ TEST(TimeGrid, HasASliceForEachPartOfAPhaseThatIsBegun) {
   EXPECT_EQ(TimeGrid(2., 10, 1., 0).slices(), 20);
   EXPECT_EQ(TimeGrid(2.5, 4, 1., 2).slices(), 10);
   EXPECT_EQ(TimeGrid(1.01, 4, 1., 2).slices(), 5);
-  EXPECT_EQ(TimeGrid(.1 * 3., 10, 1., 0).slices(), 3);  // 3.0000000000000004 is not a fourth one
+  EXPECT_EQ(TimeGrid(.1 * 3., 10, 1., 0).slices(), 3);  // 3.0000000000000004 is not rounded up
   EXPECT_TRUE(TimeGrid().empty());
 }
 

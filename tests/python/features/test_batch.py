@@ -118,7 +118,7 @@ def test_anyNumberOfThreadsGivesTheSameNumbers(panda, threads):
 
 
 def reaches(panda, margin=0.0):
-    """Motions between free postures, with three posts in the way: some of them free, some not."""
+    """Motions between collision-free configurations among three posts; some of them collide."""
     for i, place in enumerate([[0.4, 0.2, 0.4], [-0.4, 0.3, 0.5], [0.0, 0.5, 0.6]]):
         panda.addFrame(f"post{i}", "table").setShape(ry.ST.capsule, [0.6, 0.05]).setContact(1).setRelativePosition(
             place
@@ -256,7 +256,7 @@ def test_controlCStopsABatch(panda, threads):
     sample = np.zeros((20000, 7))
     start = time.perf_counter()
     panda.getDistances(sample, threads=threads)
-    whole = 20 * (time.perf_counter() - start)  # what the batch below takes
+    whole = 20 * (time.perf_counter() - start)  # the duration of the batch below
     with pytest.raises(KeyboardInterrupt), interrupt_after(0.1 * whole) as interrupt:
         panda.getDistances(np.zeros((400000, 7)), threads=threads)
     assert time.perf_counter() - interrupt.time < 0.5 * whole

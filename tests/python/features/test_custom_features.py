@@ -106,7 +106,9 @@ def solveReach(C, feature, times=(1, 1, 0)):
         komo.addControlObjective([], times[2], 1.0)
     komo.addObjective([1.0], feature, ["l_gripper", "target"], ry.OT.eq, [1e1])
     solver = ry.NLP_Solver(komo.nlp(), verbose=0)
-    solver.setOptions(verbose=0, stopTolerance=1e-7)  # built-in features have second derivatives, and other steps
+    solver.setOptions(
+        verbose=0, stopTolerance=1e-7
+    )  # built-in features have second derivatives, which change the steps
     return komo, solver.solve()
 
 
@@ -184,7 +186,7 @@ def test_whatIsNeitherSymbolNorFunctionIsRefused(panda):
 
 
 class Interrupting:
-    """The height of a frame; Ctrl-C comes in the call with this number."""
+    """Height of a frame; Ctrl-C arrives in the call with this number."""
 
     __name__ = "interrupting"
 
@@ -239,7 +241,7 @@ def test_ctrl_c_before_there_is_a_path_or_outside_of_a_solve_is_an_interrupt(pan
 
 @pytest.mark.usefixtures("first_ctrl_c")
 def test_ctrl_c_in_a_feature_within_a_problem_within_a_solve(panda):
-    """Features that the function of a problem evaluates are part of that function."""
+    """Ctrl-C in a feature that the function of a problem evaluates ends that function."""
     height = Interrupting(10**9)
 
     def function(q):

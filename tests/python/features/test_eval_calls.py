@@ -1,5 +1,5 @@
-"""What eval returns belongs to who asked, and the same call again gives the same answer, although it converts nothing and
-takes arrays that were let go of."""
+"""Results of eval belong to the caller. A repeated call gives the same result, although it skips conversions and reuses
+released arrays."""
 
 import copy
 import weakref
@@ -26,14 +26,14 @@ def arm():
 
 
 def anew(q, *arguments):
-    """The answer of a configuration that was asked nothing before."""
+    """The result of a fresh configuration."""
     C = ry.Config()
     C.addText(ARM)
     C.setJointState(q)
     return C.eval(*arguments)
 
 
-def test_results_that_are_kept_stay_as_they_were(arm):
+def test_stored_results_do_not_change(arm):
     angles = np.linspace(-1, 1, 7)
     kept = []
     for q in angles:

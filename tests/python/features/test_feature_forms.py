@@ -1,4 +1,4 @@
-"""How features are asked for: the calling forms of old and new scripts, scale and target, orders, and mistakes."""
+"""Arguments of features: the calling forms of old and new scripts, scale and target, orders, and errors."""
 
 import numpy as np
 import pytest

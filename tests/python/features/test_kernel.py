@@ -1,4 +1,4 @@
-"""Viewers in the kernel of a notebook: what cells show, and that the kernel's interrupt ends whatever waits."""
+"""Viewers in the kernel of a notebook: the output of cells, and interrupts of waiting calls."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ PATIENCE = 120  # s
 
 @dataclass
 class Cell:
-    """What came of it."""
+    """The result of a cell."""
 
     html: list[str] = field(default_factory=list)
     values: list[str] = field(default_factory=list)

@@ -261,7 +261,7 @@ def test_nothing_is_lost_but_what_kills_also_where_answers_die_with_their_worker
     assert {i for i, result in enumerate(found) if isinstance(result, ItemFailure)} == deadly
 
 
-def test_mistakes_are_told(tmp_path: Path) -> None:
+def test_mistakes_are_reported(tmp_path: Path) -> None:
     with pytest.raises(ry.ArgumentError, match="engine is 'thread'; expected 'threads', 'processes', 'ray'"):
         ry.map(square, [1], engine="thread")
     with pytest.raises(ry.ArgumentError, match="function is 3"):

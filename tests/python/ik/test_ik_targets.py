@@ -1,4 +1,4 @@
-"""Targets of inverse kinematics that are no places in the world: relative ones, gazes, the center of mass, features."""
+"""Relative targets, gazes, the center of mass and features as targets of inverse kinematics."""
 
 import pickle
 
@@ -92,7 +92,7 @@ def test_any_feature_has_its_target_to_its_tolerance(pandas):
     assert again.feature_error == result.feature_error and again.evals == result.evals
 
 
-def test_a_bound_is_kept_and_what_breaks_it_is_told(pandas):
+def test_a_bound_is_satisfied_and_violations_are_reported(pandas):
     apart = (ry.FS.distance, "l_palm", pandas.getFrame("r_palm"))
     result = ry.solveIk(pandas, {**MEET, apart: {"atMost": -0.25}}, apply=True)
     assert result, result.message

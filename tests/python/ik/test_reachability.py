@@ -1,4 +1,4 @@
-"""Where robots reach, against what is known on paper."""
+"""Reachability, compared with results on paper."""
 
 from pathlib import Path
 
@@ -60,7 +60,7 @@ def test_the_command_writes_cells_and_a_picture(tmp_path: Path, capsys: pytest.C
     assert (tmp_path / "cells.png").stat().st_size > 1000
 
 
-def test_mistakes_are_told(arm: ry.Config, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+def test_mistakes_are_reported(arm: ry.Config, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(ry.ArgumentError, match="spacing is 0"):
         ry.reachability(arm, spacing=0)
     with pytest.raises(ry.ArgumentError, match="no joint moves frame 'base'"):

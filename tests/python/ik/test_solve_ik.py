@@ -28,7 +28,7 @@ def randomJoints(C, count: int, seed: int) -> np.ndarray:
 
 
 def posesOf(C, frame: str, Q) -> np.ndarray:
-    """World poses of a frame for rows of joint states; the scene stays as it is."""
+    """World poses of a frame for rows of joint states; the scene does not change."""
     before = C.getJointState()
     poses = []
     for q in Q:
@@ -64,7 +64,7 @@ def test_answers_do_not_collide(panda):
         assert panda.coll_totalViolation() == 0.0
 
 
-def test_the_margin_is_kept(panda):
+def test_the_margin_is_satisfied(panda):
     result = ry.solveIk(panda, {"l_gripper": REACHABLE}, margin=0.03)
     assert result.feasible
     panda.setJointState(result.q)
@@ -82,7 +82,7 @@ def test_the_configuration_stays_unless_it_is_asked_to_move(panda):
     assert (panda.getJointState() == result.q).all()
 
 
-def test_targets_can_be_given_in_many_ways(panda):
+def test_targets_have_many_forms(panda):
     panda.addFrame("target").setPosition([0.3, 0.3, 1.1]).setQuaternion([0.0, 1.0, 0.0, 0.0])
     pose = np.array([0.3, 0.3, 1.1, 0.0, 1.0, 0.0, 0.0])
     matrix = np.diag([1.0, -1.0, -1.0, 1.0])
@@ -161,7 +161,7 @@ def test_rows_of_several_targets_go_together_and_single_ones_serve_all():
         np.testing.assert_allclose(C.getFrame("r_gripper").getPosition(), right, atol=1.001e-6)
 
 
-def test_best_is_the_nearest_to_the_present_posture(panda):
+def test_best_is_the_nearest_to_the_present_configuration(panda):
     first = ry.solveIk(panda, {"l_gripper": {"position": REACHABLE, "z": DOWN}})
     best = ry.solveIk(panda, {"l_gripper": {"position": REACHABLE, "z": DOWN}}, best=True, attempts=30)
     start = panda.getJointState()
@@ -256,7 +256,7 @@ def test_other_threads_run_meanwhile(panda):
 
     other = threading.Thread(target=count)
     other.start()
-    for attempts in [200, 2_000, 20_000, 200_000]:  # as long as it takes on a machine that is busy
+    for attempts in [200, 2_000, 20_000, 200_000]:  # generous, for busy machines
         before = ticks
         ry.solveIk(panda, {"l_gripper": np.tile([5.0, 0.0, 0.0], (20, 1))}, attempts=attempts)
         during = ticks - before

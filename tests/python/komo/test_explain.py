@@ -1,4 +1,4 @@
-"""What a problem without a solution says about itself."""
+"""Explanations of problems without a solution."""
 
 import numpy as np
 import pytest
@@ -57,7 +57,7 @@ def test_the_same_amount_is_said_whatever_the_scale(panda):
     np.testing.assert_allclose(amounts, amounts[0], rtol=1e-3)
 
 
-def test_a_joint_limit_that_is_in_the_way_is_named_in_radians(panda):
+def test_an_active_joint_limit_is_named_in_radians(panda):
     q, joint = panda.getJointState(), panda.getJointNames()[3]
     q[3] = 0.5  # its upper limit is -0.07
     komo = ik(panda, (ry.FS.jointState, [], ry.OT.eq, [1.0], q))
@@ -93,7 +93,7 @@ def test_shapes_that_overlap_are_named_in_millimeters(panda):
 
 
 def test_an_orientation_is_missed_by_an_angle(panda):
-    # the same axis of the hand is to point up, and along the world's x
+    # one axis of the hand cannot point up and along the world's x
     komo = ik(
         panda,
         (ry.FS.vectorZ, ["l_gripper"], ry.OT.eq, [1.0], [0.0, 0.0, 1.0]),
@@ -107,7 +107,7 @@ def test_an_orientation_is_missed_by_an_angle(panda):
         assert conflict["by_radians"] == pytest.approx(np.pi / 2, abs=0.05)
 
 
-def test_slices_of_a_path_are_told(panda):
+def test_slices_of_a_path_are_reported(panda):
     komo = ry.KOMO(panda, 1, 8, 2, False)
     komo.addControlObjective([], 2, 1e-1)
     q = panda.getJointState()
@@ -120,7 +120,7 @@ def test_slices_of_a_path_are_told(panda):
     assert "in 3 slices, 3 to 5" in ret.explain()
 
 
-def test_a_path_that_is_not_solved_yet_is_told_from_a_contradiction(panda):
+def test_a_path_that_is_not_solved_yet_differs_from_a_contradiction(panda):
     panda.addFrame("target").setPosition([0.3, 0.3, 1.2])
     komo = ik(panda, (ry.FS.positionDiff, ["l_gripper", "target"], ry.OT.eq, [10.0]))
     assert "solve (again)" in komo.explain()

@@ -1,4 +1,4 @@
-"""Motions that are free of collisions at all times: what is told of them."""
+"""Continuously collision-free motions and their reports."""
 
 import importlib.util
 import itertools
@@ -66,7 +66,7 @@ def test_the_verdict_goes_along_with_a_pickle() -> None:
     assert pickle.loads(pickle.dumps(across(slices=1)[1])).free is None
 
 
-def test_scripts_for_robotic_are_told_the_same() -> None:
+def test_scripts_for_robotic_get_the_same_reports() -> None:
     import robotic
 
     komo, _ = across()
@@ -106,7 +106,7 @@ def benchmark() -> ModuleType:
 
 @pytest.mark.filterwarnings("ignore:.*overlap and no joint moves them apart")
 def test_what_is_called_free_among_thin_walls_is_free() -> None:
-    """A few of the problems of benchmarks/free_between_slices.py, from the straight line through the obstacles."""
+    """Some problems of benchmarks/free_between_slices.py, started with a line through the obstacles."""
     problems = benchmark()
     rng = np.random.default_rng(5)
     free = {False: 0, True: 0}
@@ -126,7 +126,7 @@ def test_what_is_called_free_among_thin_walls_is_free() -> None:
 
 @pytest.mark.filterwarnings("ignore:.*overlap.* and no joint moves them apart")
 def test_a_spline_that_is_called_free_is_free() -> None:
-    """With few slices, so that the spline leaves the lines between them by much."""
+    """Few slices, so that the spline is far from the lines between them."""
     problems = benchmark()
     rng = np.random.default_rng(31)
     feasible = 0

@@ -1,4 +1,4 @@
-"""Motion problems: recorded numbers, mode switches, solutions that are checked without the problem that produced them."""
+"""Motion problems: recorded numbers, mode switches, and independent checks of solutions."""
 
 import numpy as np
 import pytest
@@ -99,7 +99,7 @@ def test_problems_with_mode_switches_have_the_recorded_variables_residuals_and_j
     np.testing.assert_allclose(nlp.getBounds(), expected["bounds"], atol=2e-5)
     phi, J = nlp.evaluate(expected["x"])
     phi_expected = np.array(expected["phi"])
-    # the sign of a quaternion, and so of the change of one, carries no meaning
+    # the sign of a quaternion, and of its change, is arbitrary
     sign = np.where((abs(phi - phi_expected) > 1e-6) & (abs(phi + phi_expected) < 1e-6), -1.0, 1.0)
     np.testing.assert_allclose(phi, sign * phi_expected, atol=2e-5)
     shape = (len(phi), nlp.getDimension())
@@ -220,7 +220,7 @@ def check_pick_and_place(C, komo, grasp, place, tolerance=1e-3):
         assert np.all(q >= lower - tolerance) and np.all(q <= upper + tolerance)
         check.setJointState(q)
         np.testing.assert_allclose(check.getFrame("l_gripper").getPosition(), poses[t, gripper, :3], atol=1e-9)
-        if t < place:  # where it is held, the box is at one place in the hand
+        if t < place:  # while it is held, the box does not move in the hand
             expected = start if t < grasp else None
             if expected is not None:
                 np.testing.assert_allclose(poses[t, box], expected, atol=tolerance)
@@ -402,7 +402,7 @@ def test_configuration_and_timing_come_in_either_order(panda):
         assert komo.getT() == 8 and komo.getPathTau()[0] == 1.25
 
 
-def test_the_configuration_as_given_is_what_counts(panda):
+def test_the_initial_configuration_counts(panda):
     komo = ry.KOMO(panda, 1, 2, 1, False)
     panda.getFrame("table").setPosition([5.0, 0.0, 0.0])
     panda.setJointState(panda.getJointState() + 0.5)

@@ -34,7 +34,7 @@ def test_residuals_and_jacobians_are_those_recorded(name):
     _, komo = problems.PROBLEMS[RECORDED[name]](ry)
     phi, entries = komo.nlp().evaluate(expected["x"])
     wanted = np.array(expected["phi"])
-    same = np.where(abs(phi + wanted) < abs(phi - wanted), -1.0, 1.0)  # the sign of a quaternion carries no meaning
+    same = np.where(abs(phi + wanted) < abs(phi - wanted), -1.0, 1.0)  # the sign of a quaternion is arbitrary
     same[: len(phi) if name != "ik_pose" else -4] = 1.0
     np.testing.assert_allclose(phi, same * wanted, atol=2e-5)
     direction = np.cos(np.arange(len(expected["x"])) + 1.0)
@@ -44,7 +44,7 @@ def test_residuals_and_jacobians_are_those_recorded(name):
 
 
 def saysOneThing(ret):
-    """What feasible, status and explain() say of a result agree."""
+    """Checks that feasible, status and explain() agree."""
     assert not (ret.feasible and ret.status.name == "infeasible"), ret
     assert not (not ret.feasible and ret.status.name == "converged"), ret
     assert ret.feasible == (ret.violation <= 1e-3)
@@ -73,7 +73,7 @@ def test_they_agree_on_the_named_problems(name):
         saysOneThing(solver.setInitialization(nlp.getInitializationSample()).solve())
 
 
-def test_a_solver_that_goes_on_tells_the_evaluations_of_this_solve_and_of_all():
+def test_a_solver_that_continues_reports_the_evaluations_of_this_solve_and_of_all():
     _, komo = problems.PROBLEMS["path obstacle"](ry)
     solver = ry.NLP_Solver(komo.nlp(), verbose=0).setOptions(stopEvals=3)
     assert solver.solve().message == "limit of 3 evaluations"
@@ -111,8 +111,8 @@ def test_a_box_too_large_for_the_hand_is_reported_with_the_pair_and_how_much_is_
 
 
 def test_pick_and_place_moves_with_its_goal_as_differences_say():
-    """Mode switches, quaternions and collisions: the derivative by where the box is put. Rows of constraints depend on each
-    other at the solution, which is known to less than rounding: 1.2e-5 are reached."""
+    """Mode switches, quaternions and collisions: the derivative by the goal of the box. Constraint rows are linearly
+    dependent at the solution, so it is less accurate than rounding: 1.2e-5 are reached."""
     C, komo = problems.PROBLEMS["pick waypoints 4cm"](ry)
     goal, step = C.getFrame("goal").getPosition(), 1e-5
 
@@ -128,7 +128,7 @@ def test_pick_and_place_moves_with_its_goal_as_differences_say():
     assert at.isRegular, at.message
     for k, axis in enumerate(np.eye(3)):
         found = []
-        for h in (step, 2 * step):  # which rid each other of their third order
+        for h in (step, 2 * step):  # whose third-order errors cancel
             ends = [solutionAt(sign * h * axis, at.x).x for sign in (1, -1)]
             found.append((ends[0] - ends[1]) / (2 * h))
         expected = (4 * found[0] - found[1]) / 3

@@ -86,7 +86,7 @@ def test_the_command_prints_and_writes(tmp_path: Path, capsys):
     assert "never" in printed and "SelfCollisionMatrix" in printed and "<disable_collisions" in out.read_text()
 
 
-def test_mistakes_are_told(arm):
+def test_mistakes_are_reported(arm):
     with pytest.raises(ry.FrameNotFound, match="similar names"):
         arm.selfCollisionMatrix(root="panda_bas")
     with pytest.raises(ry.ArgumentError, match="samples is 0"):

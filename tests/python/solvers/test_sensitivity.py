@@ -264,7 +264,7 @@ def test_what_has_no_effect_is_named():
         at[2]
 
 
-def test_mistakes_are_told():
+def test_mistakes_are_reported():
     C = panda()
     komo = reach(C)
     result = ry.NLP_Solver(komo.nlp()).solve(verbose=0)

@@ -239,7 +239,7 @@ def test_waypoints_of_a_pull_slide_an_object_over_the_table() -> None:
     np.testing.assert_allclose(there.getRotationMatrix()[:, 2], [0, 0, 1], atol=1e-2)
 
 
-def test_mistakes_are_told() -> None:
+def test_mistakes_are_reported() -> None:
     C, m = scene(), ry.KOMO_ManipulationHelper()
     with pytest.raises(ry.Error, match="grasp_box: there is no problem yet; call one of the setups"):
         m.grasp_box(1.0, GRIPPER, "obj", PALM)

@@ -1,4 +1,4 @@
-"""Skeletons: what shall hold when, as motion problems that solve."""
+"""Skeletons: schedules of modes and constraints, solved as motion problems."""
 
 import pickle
 
@@ -21,7 +21,7 @@ def table_scene():
 
 
 def turning_scene():
-    """The same with a gripper that turns as well."""
+    """The same with a gripper that also rotates."""
     C = table_scene()
     C.getFrame("g").setJoint(ry.JT.free)
     C.addFrame("r_palm", "g").setRelativePosition([0, 0, 0.15]).setShape(ry.ST.sphere, [0.03])
@@ -71,7 +71,7 @@ def test_pick_and_place_as_waypoints_path_and_final_slice():
 
 
 def test_an_object_does_not_jump_where_another_mode_takes_over():
-    """Also where the first one is said to hold to the end."""
+    """Also if the first one extends to the end."""
     S = skeleton(
         [1, -1], ry.SY.stable, ["g", "b"], [1], ry.SY.touch, ["g", "b"], [2, -1], ry.SY.stableOn, ["table", "b"]
     )
@@ -81,7 +81,7 @@ def test_an_object_does_not_jump_where_another_mode_takes_over():
     names = komo.getConfig().getFrameNames()
     path = komo.getPathFrames()
     relative = path[:, names.index("b"), :3] - path[:, names.index("g"), :3]
-    assert np.allclose(relative[7:16], relative[7], atol=1e-3)  # held from 1 to 2, and put down from there
+    assert np.allclose(relative[7:16], relative[7], atol=1e-3)  # held from 1 to 2, then placed
     assert np.allclose(path[16:, names.index("b")], path[16, names.index("b")], atol=1e-9)
 
 
