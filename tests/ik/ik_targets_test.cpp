@@ -156,13 +156,13 @@ TEST(IkTarget, APoseThatIsTakenFromAFrameThatMovesIsAnErrorThatSaysWhatToDo) {
   Config config = twoPandas();
   config.setJointState(solveIk(config, {IkTarget::toPosition("r_gripper", {.1, .2, 1.1})}).q);
   expectError<ValueError>([&] { solveIk(config, {IkTarget::toPose("l_gripper", config.getFrame("l_palm"))}); },
-                          {"where frame 'l_palm' is", "moves with joint 'l_panda_joint7'", "relativeTo 'l_palm'"});
+                          {"is the pose of frame 'l_palm'", "moves with joint 'l_panda_joint7'", "relativeTo 'l_palm'"});
   expectError<ValueError>(
       [&] {
         solveIk(config, {IkTarget::toPosition("l_gripper", config.getFrame("r_palm")),
                          IkTarget::toPosition("r_gripper", {0., .3, 1.1})});
       },
-      {"where frame 'r_palm' is"});
+      {"is the pose of frame 'r_palm'"});
   // The other arm keeps its joints, because no target moves it: its hand is a fixed pose.
   EXPECT_TRUE(solveIk(config, {IkTarget::toPosition("l_gripper", config.getFrame("r_gripper"))}, {.collisions = false})
                   .feasible());

@@ -287,7 +287,7 @@ TEST(SolveIk, MistakesAreNamed) {
       [&] {
         solveIkBatch(config, {position("l_gripper"), position("l_palm")});
       },
-      {"problem 1", "other frames"});
+      {"problem 1", "must have the frames and kinds"});
   expectError<ValueError>([&] { solveIkBatch(config, {position("l_gripper")}, {}, 0); }, {"threads is 0"});
   IkOptions options;
   options.position_tolerance = 0.;

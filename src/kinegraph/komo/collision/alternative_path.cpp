@@ -111,12 +111,12 @@ bool showsOneScene(const Path& path) {
 
 /// Returns `count` configurations along a path, including its corners and its end, with motions of similar length.
 /// Empty if the path has too many corners.
-std::vector<VectorXd> subdivide(const std::vector<VectorXd>& way, int count) {
-  const int pieces = int(way.size()) - 1;
+std::vector<VectorXd> subdivide(const std::vector<VectorXd>& corners, int count) {
+  const int pieces = int(corners.size()) - 1;
   if (pieces > count) return {};
   std::vector<int> parts(std::size_t(pieces), 1);
   const auto lengthOf = [&](int i) {
-    return (way[std::size_t(i) + 1] - way[std::size_t(i)]).norm() / parts[std::size_t(i)];
+    return (corners[std::size_t(i) + 1] - corners[std::size_t(i)]).norm() / parts[std::size_t(i)];
   };
   for (int total = pieces; total < count; ++total) {
     int longest = 0;
@@ -125,9 +125,9 @@ std::vector<VectorXd> subdivide(const std::vector<VectorXd>& way, int count) {
     ++parts[std::size_t(longest)];
   }
   std::vector<VectorXd> points;
-  for (std::size_t i = 0; i + 1 < way.size(); ++i) {
-    for (int k = 1; k < parts[i]; ++k) points.push_back(way[i] + double(k) / parts[i] * (way[i + 1] - way[i]));
-    points.push_back(way[i + 1]);
+  for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+    for (int k = 1; k < parts[i]; ++k) points.push_back(corners[i] + double(k) / parts[i] * (corners[i + 1] - corners[i]));
+    points.push_back(corners[i + 1]);
   }
   return points;
 }
