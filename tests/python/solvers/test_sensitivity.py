@@ -272,7 +272,7 @@ def test_mistakes_are_reported():
         result.sensitivity("positionDif of l_gripper, goal")
     with pytest.raises(ry.NotFound, match="no 'size'.*position or pose"):
         result.sensitivity(("box", "size"))
-    with pytest.raises(ry.ArgumentError, match="is where its joint brings it"):
+    with pytest.raises(ry.ArgumentError, match="is moved by its joint"):
         result.sensitivity("l_panda_joint4")
     with pytest.raises(ry.ArgumentError, match="no objective 9; the problem has"):
         result.sensitivity(9)
