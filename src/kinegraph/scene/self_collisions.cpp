@@ -19,9 +19,9 @@ namespace {
 
 using Reason = SelfCollisionPair::Reason;
 
-constexpr int kPart = 64;  // postures that a thread draws at a time, from a seed of their own
+constexpr int kPart = 64;  // configurations that a thread samples at a time, from their own seed
 
-/// How postures are drawn: per dof an interval, and whether a limit is missing that an interval cannot stand for.
+/// Sampling interval of each dof. `unbounded` marks dofs without limits that no interval can represent.
 struct Ranges {
   VectorXd lower, upper;
   std::vector<char> unbounded;
@@ -39,13 +39,12 @@ Ranges rangesOf(const KinematicModel& model, const VectorXd& q) {
   }
   for (int dof = 0; dof < model.dofs; ++dof) {
     if (std::isfinite(ranges.lower[dof]) && std::isfinite(ranges.upper[dof])) continue;
-    const double reach = turns[std::size_t(dof)] ? std::numbers::pi : 1.;  // rad, or m around where it is
+    const double reach = turns[std::size_t(dof)] ? std::numbers::pi : 1.;  // rad, or m around the current value
     if (!std::isfinite(ranges.lower[dof])) ranges.lower[dof] = std::min(q[dof], ranges.upper[dof]) - reach;
     if (!std::isfinite(ranges.upper[dof])) ranges.upper[dof] = std::max(q[dof], ranges.lower[dof]) + reach;
     ranges.unbounded[std::size_t(dof)] = !turns[std::size_t(dof)];
   }
-  for (const KinematicModel::DofRange& norm :
-       model.unit_norms) {  // a direction that is drawn evenly has no limits to miss
+  for (const KinematicModel::DofRange& norm : model.unit_norms) {  // a uniformly sampled direction needs no limits
     for (int dof = norm.first; dof < norm.first + norm.count; ++dof) ranges.unbounded[std::size_t(dof)] = 0;
   }
   return ranges;
@@ -64,7 +63,7 @@ bool hangsOn(const FrameData* frame, const FrameData& root) {
   return frame == &root;
 }
 
-/// The pairs of frames that carry shapes, and the pairs of shapes of each.
+/// Pairs of frames that carry shapes, and the pairs of shapes of each.
 class PairsOfFrames {
  public:
   PairsOfFrames(const Config& config, const std::string& root) {
@@ -88,7 +87,7 @@ class PairsOfFrames {
   }
 
   std::vector<std::pair<int, int>> frames, shapes;
-  std::vector<int> group;  ///< per pair of shapes: the place of its frames
+  std::vector<int> group;  ///< per pair of shapes: index of its pair of frames
 };
 
 bool adjacent(const KinematicModel& model, int a, int b) {
@@ -96,7 +95,7 @@ bool adjacent(const KinematicModel& model, int a, int b) {
   return model.links[std::size_t(link_a)].parent == link_b || model.links[std::size_t(link_b)].parent == link_a;
 }
 
-/// Per pair of frames: the postures in which it collides.
+/// Counts, per pair of frames, the sampled configurations in collision.
 std::vector<int> countCollisions(const Config& config, const PairsOfFrames& pairs, const Ranges& ranges,
                                  const SelfCollisionOptions& options) {
   const auto model = config.model();
@@ -142,7 +141,7 @@ void SelfCollisionOptions::validate() const {
   };
   require(samples >= 1, "samples", samples, "at least 1");
   require(std::isfinite(margin), "margin", margin, "a length in m");
-  require(always > 0. && always <= 1., "always", always, "a share in (0, 1]");
+  require(always > 0. && always <= 1., "always", always, "a fraction in (0, 1]");
   require(threads >= 1, "threads", threads, "at least 1");
 }
 
@@ -162,7 +161,7 @@ const char* selfCollisionReasonName(Reason reason) {
 
 std::string SelfCollisionMatrix::str() const {
   const auto count = [&](Reason reason) { return std::ranges::count(pairs, reason, &SelfCollisionPair::reason); };
-  return cat(pairs.size(), " pairs of frames in ", samples, " postures: ", count(Reason::adjacent), " adjacent, ",
+  return cat(pairs.size(), " pairs of frames in ", samples, " configurations: ", count(Reason::adjacent), " adjacent, ",
              count(Reason::always), " always in collision, ", count(Reason::never), " never, ",
              count(Reason::sometimes), " sometimes");
 }
@@ -174,7 +173,7 @@ SelfCollisionMatrix selfCollisionMatrix(const Config& config, const SelfCollisio
   if (pairs.frames.empty()) {
     throw ValueError(
         cat("selfCollisionMatrix: ", options.root.empty() ? "the scene" : cat("frame '", options.root, "'"),
-            " has no two shapes that may collide and that joints move apart; give the shapes `contact`"));
+            " has no collidable pair of shapes that joints move apart; give the shapes `contact`"));
   }
   const Ranges ranges = rangesOf(*model, config.getJointState());
   const std::vector<int> counts = countCollisions(config, pairs, ranges, options);
@@ -204,7 +203,7 @@ void ignoreSelfCollisions(Config& config, const SelfCollisionMatrix& matrix) {
   bool any = false;
   for (const SelfCollisionPair& pair : matrix.pairs) {
     if (std::size_t(pair.b) >= scene.frames().size())
-      throw ValueError(cat("ignoreSelfCollisions: the matrix is of another scene: there is no frame ", pair.b));
+      throw ValueError(cat("ignoreSelfCollisions: the matrix belongs to another scene: no frame ", pair.b));
     if (pair.matters()) continue;
     scene.frames()[std::size_t(pair.a)]->no_contact.push_back(scene.frames()[std::size_t(pair.b)].get());
     any = true;

@@ -16,7 +16,7 @@ namespace kinegraph {
 namespace {
 
 // clang-format off
-/// Attributes that mean something here or elsewhere in the library; a near miss of one of them is worth a warning.
+/// Attributes used by any part of the library; a near miss of one of them causes a warning.
 constexpr std::string_view kKnownAttributes[] = {
     "X", "Q", "pose", "rel", "joint", "q", "limits", "ctrl_limits", "ctrl_H", "joint_scale", "axis", "mimic", "pre",
     "post", "A", "B", "from", "to", "origin", "BinvA", "joint_active", "joint_stable", "sampleUniform", "sampleSdv",
@@ -30,7 +30,7 @@ constexpr std::string_view kKnownAttributes[] = {
 };
 // clang-format on
 
-/// What other formats and languages say.
+/// Attribute names of other formats, with the name used here.
 constexpr std::pair<std::string_view, std::string_view> kWordsOfOthers[] = {
     {"pos", "pose"},        {"position", "pose"}, {"xyz", "pose"},  {"rpy", "pose"},       {"quat", "pose"},
     {"quaternion", "pose"}, {"rgba", "color"},    {"rgb", "color"}, {"geometry", "shape"}, {"filename", "mesh"}};
@@ -81,7 +81,7 @@ std::optional<std::vector<double>> AttributeReader::numbers(const Node& node) {
   return std::nullopt;
 }
 
-/// `size: 1 2 3` is the number 1 with a flag behind it.
+/// `size: 1 2 3` parses as the number 1 followed by flags.
 std::string AttributeReader::severalHint(const Node& node) {
   return node.value.as<double>() ? "; several numbers stand in brackets: [1 2 3]" : "";
 }
@@ -97,7 +97,7 @@ std::optional<Vector3d> AttributeReader::vector3(const Node& node) {
 std::optional<std::string> AttributeReader::text(const Node& node) {
   if (const std::string* word = node.value.as<std::string>()) return *word;
   if (const NameTuple* tuple = node.value.as<NameTuple>(); tuple && tuple->names.size() == 1) return tuple->names[0];
-  error(node, cat("expected a word, got ", describe(node.value)));
+  error(node, cat("expected a name, got ", describe(node.value)));
   return std::nullopt;
 }
 

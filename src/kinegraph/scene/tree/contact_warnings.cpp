@@ -28,7 +28,7 @@ Proximity proximityOf(const State& state, int a, int b) {
                    state.pose(b));
 }
 
-/// Is the frame's shape drawn around one that collides and belongs to the same frame?
+/// Returns whether the shape surrounds a colliding shape of the same frame.
 bool isLookOfAnother(const FrameData& frame, const State& state) {
   const auto ownerOf = [](const FrameData& f) { return f.parent && !f.joint ? f.parent->id : f.id; };
   const auto& frames = frame.tree->frames();
@@ -66,7 +66,7 @@ std::vector<int> passedThrough(const SceneTree& scene, const State& state) {
   return frames;
 }
 
-/// The first few, and how many more.
+/// Lists the first few names and the number of the others.
 std::string listed(std::vector<std::string> names) {
   const std::size_t count = names.size();
   names.resize(std::min(count, kNamed));
@@ -87,14 +87,14 @@ std::vector<std::string> describe(const ContactWarnings& notes, const SceneTree&
   if (!names.empty()) {
     sentences.push_back(
         cat(listed(names), names.size() == 1 ? " overlap" : " overlap (pairs of frames)",
-            " and no joint moves them apart: that says nothing about q, and is not counted as a collision"));
+            " at a constant relative pose; such pairs do not depend on q and are not counted as collisions"));
   }
   names.clear();
   for (const int frame : notes.passed_through) names.push_back(nameOf(frame));
   if (!names.empty()) {
     sentences.push_back(cat(listed(names), names.size() == 1 ? " is" : " are",
-                            " near what moves and collides with nothing, because `contact` is 0; setContact(1) makes an"
-                            " obstacle of a frame, and `simulate` in its attributes says that this is meant"));
+                            " near moving links but cannot collide because `contact` is 0; setContact(1) makes an"
+                            " obstacle of a frame, and the attribute `simulate` silences this warning"));
   }
   return sentences;
 }

@@ -52,7 +52,7 @@ void SceneDiagnostics::throwErrors() const {
   for (const Diagnostic& d : found_) {
     if (d.severity != Diagnostic::Severity::error) continue;
     message += first ? cat("\n", ParseError(d.where, withExcerpt(d)).what())
-                     : withExcerpt(d);  // the exception puts its place before it
+                     : withExcerpt(d);  // the exception adds the position
     if (!first) first = &d;
   }
   if (errors_ > kMaxErrors) message += cat("\n... and ", errors_ - kMaxErrors, " more errors");

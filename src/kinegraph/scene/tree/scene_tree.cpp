@@ -12,9 +12,9 @@ namespace kinegraph {
 
 namespace {
 
-constexpr auto kAdopted = std::numeric_limits<std::uint64_t>::max();  // revision of a program that an equal scene had
+constexpr auto kAdopted = std::numeric_limits<std::uint64_t>::max();  // revision of a model adopted from an equal scene
 
-/// Are the dofs of its joint entries of q?
+/// Returns whether the dofs of the frame's joint are entries of q.
 bool isDofFrame(const FrameData& frame) { return frame.moves() && frame.joint->active && !frame.joint->mimic; }
 
 }  // namespace
@@ -168,14 +168,14 @@ FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix, 
   }
   structureChanged();
   if (first == 0 && prefix.empty() && other.model_ && other.compiled_revision_ == other.structure_revision_) {
-    model_ = other.model_;  // an equal scene
+    model_ = other.model_;  // the scenes are equal
     compiled_revision_ = kAdopted;
     model();
   }
   return frames_[first].get();
 }
 
-/// Takes over what edits change that keep the structure: joints, and the rest where it may have changed.
+/// Updates a snapshot after edits that keep the structure: joint states, and everything else that may have changed.
 void SceneTree::bringUpToDate(Snapshot& snapshot) const {
   const std::vector<std::shared_ptr<FrameData>>& copies = snapshot.scene->frames_;
   const bool just_dofs = !snapshot.is_stale && compiled_revision_ == structure_revision_;
@@ -248,8 +248,7 @@ const std::shared_ptr<const Parameters>& SceneTree::parameters() {
   return parameters_;
 }
 
-/// Takes the parameters from before the last ones if nobody holds them any more, and lets them follow all that was
-/// moved since; else a copy.
+/// Reuses the previous parameters if no one else holds them, and updates all frames moved since; copies otherwise.
 void SceneTree::moveInParameters() {
   std::shared_ptr<Parameters> next = std::move(parameters_before_);
   if (next && next.use_count() == 1) {
@@ -315,7 +314,7 @@ VectorXd SceneTree::jointState() {
     gatherJointState(q.data());
     return q;
   }
-  // Between edits of the structure a look at all frames takes a small part of what compiling them would.
+  // Between edits of the structure, reading all frames costs a small part of compiling them.
   std::vector<double> values;
   for (const auto& frame : frames_) {
     if (isDofFrame(*frame)) values.insert(values.end(), frame->joint->q.begin(), frame->joint->q.end());
