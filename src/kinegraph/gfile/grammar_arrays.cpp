@@ -6,7 +6,7 @@
 
 namespace kinegraph {
 
-/// What has been read of an array: its elements as numbers, as words, and as they are.
+/// The elements read from an array: as numbers, as strings, and as values.
 struct Grammar::ArrayParts {
   NumberArray numbers;
   StringArray words;
@@ -33,7 +33,7 @@ Value Grammar::parseArray() {
   const std::size_t opened_at = at_++;
   ArrayParts parts;
   skipInArray();
-  if (peek() == '<') parseAngle();  // a type and dimensions, as exporters write: the numbers speak for themselves
+  if (peek() == '<') parseAngle();  // a type and dimensions, as exporters write; redundant
   for (;;) {
     skipInArray();
     if (atEnd()) fail(opened_at, "this '[' is never closed");
@@ -49,7 +49,7 @@ Value Grammar::parseArray() {
       if (!parts.numbers.numbers.empty() && !parts.nested) fail(start, cat("'", *word, "' in an array of numbers"));
       parts.words.push_back(*word);
     } else if (const double* number = element.as<double>()) {
-      if (!parts.words.empty() && !parts.nested) fail(start, "a number in an array of words");
+      if (!parts.words.empty() && !parts.nested) fail(start, "a number in an array of strings");
       parts.numbers.numbers.push_back(*number);
     } else {
       parts.nested = true;
@@ -93,7 +93,7 @@ Value Grammar::parseElement(ArrayParts& parts) {
       element.data = word;
     }
   } else {
-    fail(start, cat("'", c, "' in an array; expected numbers or words up to ']'"));
+    fail(start, cat("'", c, "' in an array; expected numbers or strings up to ']'"));
   }
   return element;
 }

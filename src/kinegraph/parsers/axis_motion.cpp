@@ -8,7 +8,7 @@ namespace kinegraph {
 
 namespace {
 
-/// 0 x, 1 y, 2 z with the sign, if `axis` is exactly one of the coordinate axes.
+/// Index (0 x, 1 y, 2 z) and sign, if `axis` is exactly a coordinate axis.
 std::optional<std::pair<int, double>> coordinateAxis(const Vector3d& axis) {
   for (int i = 0; i < 3; ++i) {
     if (std::abs(axis[i]) == 1.) return std::pair(i, axis[i]);

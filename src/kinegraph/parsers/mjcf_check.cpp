@@ -46,7 +46,7 @@ void checkMjcfSections(const MjcfDocument& document, Findings& findings) {
   }
   Words list;
   for (const auto& [name, count] : ignored) list.push_back(cat(name, " (", count, ")"));
-  if (!list.empty()) findings.warn(first, cat("not read: ", join(list)));
+  if (!list.empty()) findings.warn(first, cat("ignored elements: ", join(list)));
 }
 
 void checkMjcfBody(const XmlElement& body, Findings& findings) {
@@ -57,9 +57,9 @@ void checkMjcfBody(const XmlElement& body, Findings& findings) {
   checkChildren(body, known, findings);
   for (const XmlElement& child : body.children) {
     if (contains(left_out, child.name))
-      findings.warn(child.where, cat("<", child.name, "> is not carried out; what it stands for is left out"));
+      findings.warn(child.where, cat("<", child.name, "> is not supported and is ignored"));
     if (body.name == "worldbody" && (child.name == "joint" || child.name == "freejoint" || child.name == "inertial"))
-      findings.error(child.where, cat("<", child.name, "> belongs into a <body>; the world does not move"));
+      findings.error(child.where, cat("<", child.name, "> must be inside a <body>; the world does not move"));
   }
 }
 

@@ -13,7 +13,7 @@ std::string typeOf(const MjcfElement& joint, MjcfValues& values) {
   return values.word(joint, "type", {"hinge", "slide", "ball", "free"}, "hinge");
 }
 
-/// Replaces sources that follow others by those; of joints that follow each other in a circle, one is let go.
+/// Replaces a source that itself follows a joint by that joint's source. Breaks cycles by removing one coupling.
 void resolveChains(std::map<std::string, MjcfCoupling>& couplings, Findings& findings) {
   for (auto entry = couplings.begin(); entry != couplings.end();) {
     auto& [name, coupling] = *entry;
@@ -31,7 +31,7 @@ void resolveChains(std::map<std::string, MjcfCoupling>& couplings, Findings& fin
       continue;
     }
     findings.warn(coupling.where,
-                  cat("joint '", name, "' follows itself by way of others; it is read as one that moves by itself"));
+                  cat("joint '", name, "' follows itself through other joints; it is read as an independent joint"));
     entry = couplings.erase(entry);
   }
 }
@@ -72,7 +72,7 @@ std::map<std::string, MjcfCoupling> mjcfCouplings(const MjcfDocument& document,
     const std::vector<double> given = values.upTo(element, "polycoef", 5);
     std::copy(given.begin(), given.end(), c.begin());
     const auto moves_by_itself = [&](const std::string& why) {
-      findings.warn(xml->where, cat("<equality>: ", why, "; joint '", name, "' is read as one that moves by itself"));
+      findings.warn(xml->where, cat("<equality>: ", why, "; joint '", name, "' is read as an independent joint"));
     };
     const auto has_one_dof = [&](const MjcfElement& joint) {
       const std::string type = typeOf(joint, values);

@@ -9,7 +9,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kTiny = 1e-10;  // shorter directions are none
+constexpr double kTiny = 1e-10;  // shorter directions count as zero
 
 struct Rotation {
   const char* name;
@@ -122,7 +122,7 @@ Pose MjcfValues::pose(const MjcfElement& element) {
     const XmlAttribute* own = element.own(kind.name);
     if (own && given) {
       findings_.error(own->where, cat(element.describe(), ": '", kind.name, "' and '", given->name,
-                                      "' both give the rotation; one of them is enough"));
+                                      "' both give the rotation; expected one of them"));
     }
     if (own) given = own;
   }
@@ -138,7 +138,8 @@ std::optional<std::pair<Pose, double>> MjcfValues::line(const MjcfElement& eleme
   if (v.empty()) return std::nullopt;
   const Vector3d from(v[0], v[1], v[2]), to(v[3], v[4], v[5]);
   if (!((from - to).norm() > kTiny)) {
-    findings_.error(element.attribute("fromto")->where, cat(element.describe(), ": its two ends are the same point"));
+    findings_.error(element.attribute("fromto")->where,
+                    cat(element.describe(), ": both ends of 'fromto' are the same point"));
     return std::nullopt;
   }
   return std::pair(Pose(.5 * (from + to), turnZTo(from - to)), (from - to).norm());

@@ -10,9 +10,9 @@ namespace {
 
 struct Search {
   Simplex simplex;
-  Vector3d v;  ///< the point of the difference that is nearest to the origin
+  Vector3d v;  ///< the point of the difference nearest to the origin
   bool overlap = false;
-  SupportCorners corners;  ///< found last: the next ones are near them
+  SupportCorners corners;  ///< found last; warm start of the next search
 };
 
 MinkowskiPoint supportNear(const CorePair& pair, const Vector3d& m, SupportCorners& corners) {
@@ -21,7 +21,7 @@ MinkowskiPoint supportNear(const CorePair& pair, const Vector3d& m, SupportCorne
   return {p, q, pair.difference(p, q)};
 }
 
-/// Goes on until the distance is known to `relative` of its square, or does not improve.
+/// Iterates until the squared distance has the relative accuracy `relative`, or does not improve.
 void descend(const CorePair& pair, double relative, Search& search) {
   const double scale = pair.scale(), touching = 1e-8 * scale;
   for (int iteration = 0; iteration < 200; ++iteration) {

@@ -13,7 +13,7 @@ namespace {
 
 using Core = CollisionBody::Core;
 
-/// A point of the core and the field there.
+/// A point of the core, and the field's value and gradient there.
 struct Sample {
   Vector3d point, gradient;  ///< in the frame of the core
   double value;
@@ -27,7 +27,7 @@ class LeastOnCore {
   Sample find() const {
     Sample best = at(core_.boundCenter());
     if (size_ == 0.) return best;
-    // The extreme points of the core in 26 directions, and those half-way to them.
+    // The extreme points of the core in 26 directions, and the midpoints toward them.
     constexpr int kStarts = 4;
     std::array<Sample, kStarts> starts;
     starts.fill(at(nearestInCore(core_, core_.boundCenter())));
@@ -60,7 +60,7 @@ class LeastOnCore {
     return sample;
   }
 
-  /// Steps against the gradient that end in the core, longer after success and shorter after failure.
+  /// Projected gradient descent within the core; the step grows after success and shrinks after failure.
   Sample downhill(Sample sample) const {
     double step = .25 * size_;
     for (int iteration = 0; iteration < 120 && step > 1e-11 * size_; ++iteration) {

@@ -10,11 +10,10 @@ namespace kinegraph {
 
 namespace {
 
-/// Weights of four neighbors, of which the cell is between the middle ones, for the value at t in [0, 1] and for its
-/// slope.
+/// Weights of four neighbors for the value and the slope at t in [0, 1]; the cell lies between the middle two.
 struct Weights {
   double value[4], slope[4];
-  int first;  ///< index of the first neighbor that has a weight; past the ends of the grid values go on straight
+  int first;  ///< index of the first weighted neighbor; values are extrapolated linearly beyond the grid
 
   Weights(double at, int count) {
     const int cell = std::clamp(int(at), 0, count - 2);

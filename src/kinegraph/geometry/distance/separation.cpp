@@ -10,9 +10,9 @@ namespace kinegraph {
 namespace {
 
 constexpr int kMostSteps = 40;
-constexpr double kRounding = 1e-13;  // of a square
+constexpr double kRounding = 1e-13;  // relative to a square
 
-/// The farthest corner of a hull, from one that may be near it.
+/// The farthest corner of a hull, found by climbing from a nearby corner.
 Vector3d climb(const Hull& hull, const Vector3d& direction, std::uint32_t& corner) {
   double height = direction.dot(hull.points[corner]);
   for (bool climbing = true; climbing;) {

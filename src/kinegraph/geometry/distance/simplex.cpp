@@ -4,7 +4,7 @@ namespace kinegraph {
 
 namespace {
 
-/// A mixture of at most four points.
+/// A convex combination of at most four points.
 struct Mixture {
   std::array<double, 4> weights{};
   Vector3d point;
@@ -16,7 +16,7 @@ Mixture nearestOf(const Vector3d& a, int i) {
   return mixture;
 }
 
-/// Of the line from point i to point j at t in (0, 1).
+/// The combination on the line from point i to point j at t in (0, 1).
 Mixture onEdge(const Vector3d& a, const Vector3d& b, int i, int j, double t) {
   Mixture mixture{{}, a + t * (b - a)};
   mixture.weights[std::size_t(i)] = 1. - t;
@@ -36,7 +36,7 @@ Mixture nearestOf(const Vector3d& a, const Vector3d& b, const Vector3d& c, int i
   const Vector3d ab = b - a, ac = c - a, n = ab.cross(ac);
   const double area = n.squaredNorm(), longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
   if (area > 1e-26 * longest * longest) {
-    // The parts of the area on the three sides of the origin's foot.
+    // Areas opposite to the three corners, seen from the origin's projection.
     const double u = n.dot(b.cross(c)), v = n.dot(c.cross(a)), w = n.dot(a.cross(b));
     if (u > 0. && v > 0. && w > 0.) {
       const double sum = u + v + w;
@@ -54,7 +54,7 @@ Mixture nearestOf(const Vector3d& a, const Vector3d& b, const Vector3d& c, int i
   return best;
 }
 
-/// Of four points; `inside` if they enclose the origin.
+/// The nearest combination of four points; sets `inside` if they enclose the origin.
 Mixture nearestOfFour(const std::array<MinkowskiPoint, 4>& points, bool& inside) {
   static constexpr int kFaces[4][4] = {{0, 1, 2, 3}, {0, 1, 3, 2}, {0, 2, 3, 1}, {1, 2, 3, 0}};
   const auto w = [&](int i) -> const Vector3d& { return points[std::size_t(i)].w; };

@@ -16,15 +16,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kAlways = 1e5;  // what may be promised anyway: it costs nothing
+constexpr double kAlways = 1e5;  // always accepted: cheap to allocate
 
-/// The text between `at` and the next of `ends`, behind blanks and quotes.
+/// The text between `at` and the next of `ends`, without leading blanks and quotes.
 std::string_view valueBehind(std::string_view text, std::size_t at, std::string_view ends) {
   at = std::min(text.find_first_not_of(" \t\r\n:=\"'", at), text.size());
   return text.substr(at, std::min(text.find_first_of(ends, at), text.size()) - at);
 }
 
-/// Calls visit(value) for what stands behind every `key`.
+/// Calls visit(value) for the value after every `key`.
 template <class Visit>
 void forValues(std::string_view text, std::string_view key, std::string_view ends, const Visit& visit) {
   for (std::size_t at = text.find(key); at != std::string_view::npos; at = text.find(key, at + key.size())) {
@@ -34,7 +34,7 @@ void forValues(std::string_view text, std::string_view key, std::string_view end
 
 double numberOf(std::string_view text) { return std::strtod(std::string(text.substr(0, 40)).c_str(), nullptr); }
 
-/// The counts of all elements that the header of a PLY file lists.
+/// Sums the element counts in the header of a PLY file.
 double promisesOfPly(std::string_view text) {
   double promised = 0.;
   const std::string_view header = text.substr(0, std::min(text.find("end_header"), text.size()));
@@ -66,7 +66,7 @@ void checkMeshPromises(const std::string& path) {
     });
   }
   if (promised <= kAlways + held) return;
-  throw FileError(cat("mesh file '", path, "' promises ", exact(promised), " elements, more than its ", exact(held),
+  throw FileError(cat("mesh file '", path, "' announces ", exact(promised), " elements, more than its ", exact(held),
                       " bytes can hold"));
 }
 

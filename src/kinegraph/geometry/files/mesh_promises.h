@@ -4,8 +4,11 @@
 
 namespace kinegraph {
 
-/// Headers of mesh files say how much follows, and readers believe them. Throws FileError for a file (ply, dae, gltf,
-/// glb) that promises more vertices, faces or numbers than its bytes, and those of the files that it names, can hold.
+/// Checks the element counts in the headers of mesh files, because readers allocate memory for them. Throws FileError
+/// for
+/// a file (ply, dae, gltf, glb) that announces more vertices, faces or numbers than its bytes, and the bytes of the
+/// files
+/// it refers to, can hold.
 void checkMeshPromises(const std::string& path);
 
 }  // namespace kinegraph

@@ -58,7 +58,7 @@ Mesh rectangle(const Geometry& g) {
   return mesh;
 }
 
-// The counts that files of 2018 to 2023 have: [0 0 length radius] for what is round.
+// Sizes in files of 2018 to 2023: [0 0 length radius] for round shapes.
 
 void modernizeRound(Sizes& s) {
   if (s.size() == 4) s.erase(s.begin(), s.begin() + 2);
@@ -80,7 +80,7 @@ void modernizeMarker(Sizes& s) {
 }
 
 std::string demandRadius(const char* name, double radius) {
-  if (radius < 1e-10) throw ValueError(cat("radius of a ", name, " is ", radius, "; it must be positive"));
+  if (radius < 1e-10) throw ValueError(cat("radius of a ", name, " is ", radius, "; expected a positive number"));
   return "";
 }
 

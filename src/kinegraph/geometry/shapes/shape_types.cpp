@@ -11,7 +11,7 @@ namespace kinegraph {
 
 namespace {
 
-/// What other formats call shapes.
+/// Shape names of other formats, with the name used here.
 constexpr std::pair<std::string_view, std::string_view> kWordsOfOthers[] = {
     {"cube", "box"},
     {"cuboid", "box"},
@@ -46,8 +46,9 @@ ShapeType shapeTypeFromName(std::string_view name) {
   }
   const auto meant = std::find_if(std::begin(kWordsOfOthers), std::end(kWordsOfOthers),
                                   [&](const auto& entry) { return entry.first == word; });
-  const std::string hint = meant != std::end(kWordsOfOthers) ? cat("; what others call ", word, " is ", meant->second)
-                                                             : similarHint(word, words);
+  const std::string hint = meant != std::end(kWordsOfOthers)
+                               ? cat("; the shape ", word, " of other formats is ", meant->second)
+                               : similarHint(word, words);
   throw ValueError(cat("unknown shape type '", name, "'; expected one of ", join(words), hint));
 }
 
@@ -63,7 +64,7 @@ std::vector<double> checkedSize(ShapeType type, std::vector<double> size, std::s
   }
   for (double x : size) {
     if (!std::isfinite(x) || x < 0.) {
-      throw ValueError(cat("size of a ", kind.name, " has the entry ", x, "; lengths are finite and not negative"));
+      throw ValueError(cat("size of a ", kind.name, " has the entry ", x, "; expected finite lengths >= 0"));
     }
   }
   const std::string repaired = kind.repair ? kind.repair(size) : "";
