@@ -30,7 +30,7 @@ struct ToPython {
     return list;
   }
   nb::object operator()(const AngleText& t) const {
-    const std::string quoted = cat("<", t.text, ">");  // as addDict reads it
+    const std::string quoted = cat("<", t.text, ">");  // in the form that addDict reads
     return nb::str(quoted.c_str(), quoted.size());
   }
   nb::object operator()(const NameTuple& t) const {
@@ -91,7 +91,7 @@ Value toValue(nb::handle value, const std::string& name) {
                                     : values.push_back(toValue(item, name));
     }
     if (!words.empty() && !values.empty())
-      throw ValueError(cat("attribute '", name, "': a list holds words only, or none"));
+      throw ValueError(cat("attribute '", name, "': expected a list of only strings, or without strings"));
     if (values.empty()) {
       out.data = std::move(words);
     } else {

@@ -8,8 +8,7 @@
 namespace kinegraph {
 
 /// Merges the surfaces of all shapes with triangles into one mesh in world coordinates (m). Each vertex has a color:
-/// the
-/// mesh's own, else the frame's, else gray.
+/// the mesh's own, else the frame's, else gray.
 Mesh worldMesh(const Config& config);
 
 /// Writes a mesh as a binary PLY file with vertex colors. Throws FileError.
@@ -20,14 +19,12 @@ void writePly(const Mesh& mesh, const std::string& path);
 void saveWorldMesh(const Config& config, const std::string& path);
 
 /// Writes every mesh of a scene once, in its frame's coordinates, as `<prefix><frame>.ply`, or as
-/// `<prefix>mesh_<number>.ply` with `enumerate`. Shapes that share a mesh share the file. Creates folders. Returns
-/// the
+/// `<prefix>mesh_<number>.ply` with `enumerate`. Shapes that share a mesh share the file. Creates folders. Returns the
 /// paths.
 std::vector<std::string> saveMeshes(const Config& config, const std::string& prefix, bool enumerate = false);
 
 /// Writes the convex hull of every mesh, shrunk by `shrink` (m) if that is positive, as `<prefix><frame>.stl`. Skips
-/// flat
-/// meshes. Creates folders. Returns the paths.
+/// flat meshes. Creates folders. Returns the paths.
 std::vector<std::string> saveConvexStls(const Config& config, const std::string& prefix, double shrink = -1.);
 
 /// The tree of frames with poses, surfaces and colors as a COLLADA 1.4.1 text. Units m, z up.

@@ -9,8 +9,7 @@
 namespace kinegraph {
 
 /// Recursive-descent parser of the .g language and block-style YAML. Braces and indentation may be mixed: a `key:` at
-/// the
-/// end of its line opens a block if the next line is indented deeper than the key.
+/// the end of its line opens a block if the next line is indented deeper than the key.
 class Grammar : private Scanner {
  public:
   Grammar(std::string_view text, const std::string& file);

@@ -31,8 +31,7 @@ struct ParseResult {
 ParseResult parseAll(std::string_view text, const std::string& file);
 
 /// Parses a text. Throws ParseError with all errors, each with its line and a caret. Appends warnings with their
-/// positions
-/// to `warnings`, if given.
+/// positions to `warnings`, if given.
 Graph parse(std::string_view text, const std::string& file, std::vector<std::string>* warnings = nullptr);
 
 /// The line of `text` at `where`, and a caret below the column:

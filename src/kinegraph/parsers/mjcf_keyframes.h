@@ -15,8 +15,7 @@ struct MjcfJointPlace {
 };
 
 /// Stores the keyframes of a file as named joint states (attribute `joint_states`) of the frames in `graph`. `joints`
-/// are
-/// all joints in the order of qpos. Keyframes without a name or without qpos are skipped.
+/// are all joints in the order of qpos. Keyframes without a name or without qpos are skipped.
 void addKeyframes(const MjcfDocument& document, const std::vector<MjcfJointPlace>& joints, Graph& graph,
                   Findings& findings);
 

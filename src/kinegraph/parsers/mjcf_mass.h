@@ -15,8 +15,7 @@ struct SolidMass {
 };
 
 /// Volume and inertia of a scene shape (box, sphere, capsule, cylinder, or an ellipsoid written as ssBoxElip) with
-/// these
-/// sizes; nullopt for other shapes.
+/// these sizes; nullopt for other shapes.
 std::optional<SolidMass> solidMass(const std::string& shape, const std::vector<double>& size);
 
 }  // namespace kinegraph

@@ -248,8 +248,7 @@ class MjcfReader {
     addBodies(body, place);
   }
 
-  /// Adds the frames of a joint below `parent` at `pose`, and updates both for the next element. A last joint without
-  /// a
+  /// Adds the frames of a joint below `parent` at `pose`, and updates both for the next element. A last joint without a
   /// name may be the frame `body` itself: `own` then gets its attributes. Returns whether the joint moves.
   bool addJoint(const BodyJoint& joint, const Place& outer, const std::string& body, bool alone, std::string& parent,
                 Pose& pose, std::optional<FrameAttributes>& own) {

@@ -7,8 +7,7 @@
 
 namespace kinegraph {
 
-/// Reads an MJCF text (MuJoCo's XML) as the frames of a scene, parents first. q is MuJoCo's qpos, in the same order
-/// and
+/// Reads an MJCF text (MuJoCo's XML) as the frames of a scene, parents first. q is MuJoCo's qpos, in the same order and
 /// units, without the coordinates of joints that follow another:
 ///
 ///     worldbody            a frame `world`
@@ -27,13 +26,10 @@ namespace kinegraph {
 ///     equality/joint       `mimic`, if the polynomial is linear; a constant makes the joint a fixed one
 ///     contact/exclude      `contact_exclude` of the first body
 ///
-/// A geom of a body without <inertial> has a mass: its own, or computed from its density, except for meshes.
-/// A duplicate name gets its element kind appended: <joint>_joint, <site>_site, ... Default classes, <include>,
-/// <frame>
-/// and the options of <compiler> are applied. Actuators, sensors, tendons and the like are ignored with one warning;
-/// a
-/// mesh with a missing file is skipped with one warning each. If the diagnostics contain an error, there are no
-/// frames.
+/// A geom of a body without <inertial> has a mass: its own, or computed from its density, except for meshes. A
+/// duplicate name gets its element kind appended: <joint>_joint, <site>_site, ... Default classes, <include>, <frame>
+/// and the options of <compiler> are applied. Actuators, sensors, tendons and the like are ignored with one warning; a
+/// mesh with a missing file is skipped with one warning each. If the diagnostics contain an error, there are no frames.
 ParseResult readMjcf(std::string_view text, const std::string& file, const std::string& folder);
 
 }  // namespace kinegraph

@@ -231,8 +231,7 @@ std::vector<double> MjcfShapes::color(const MjcfElement& element) {
   return rgba;
 }
 
-/// Adds the picture of a geom. The repetition applies if the geom has no texture coordinates of its own: to planes
-/// and
+/// Adds the picture of a geom. The repetition applies if the geom has no texture coordinates of its own: to planes and
 /// boxes.
 void MjcfShapes::addTexture(const MjcfElement& element, Placed& placed) {
   const XmlAttribute* reference = element.attribute("material");

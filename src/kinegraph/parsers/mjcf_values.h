@@ -11,8 +11,7 @@
 namespace kinegraph {
 
 /// Reads the attributes of MJCF elements as numbers, keywords and poses. Invalid values are reported and replaced by
-/// the
-/// default.
+/// the default.
 class MjcfValues {
  public:
   MjcfValues(const MjcfSettings& settings, Findings& findings) : settings_(settings), findings_(findings) {}

@@ -9,10 +9,8 @@
 namespace kinegraph {
 
 /// A scene file format other than `.g`. It is read as if it were a `.g` file with the same frames, so Include, Prefix
-/// and
-/// Edit work with it, and errors are reported at their positions in the file. Readers depend on texts and values
-/// only,
-/// not on scenes: they lie below the scene, which selects them by file name.
+/// and Edit work with it, and errors are reported at their positions in the file. Readers depend on texts and values
+/// only, not on scenes: they lie below the scene, which selects them by file name.
 struct SceneFormat {
   const char* extension;  ///< with the dot, lower case: ".urdf"
 

@@ -48,8 +48,7 @@ RobotSemantics readSemantics(std::string_view text, const std::string& file, std
 /// Returns whether the name is that of an SRDF file.
 bool isSemanticsFile(const std::string& file);
 
-/// The SRDF file of a URDF file: same name, in the same folder, or in a folder srdf beside that folder. "" if there
-/// is
+/// The SRDF file of a URDF file: same name, in the same folder, or in a folder srdf beside that folder. "" if there is
 /// none.
 std::string semanticsBeside(const std::string& file);
 

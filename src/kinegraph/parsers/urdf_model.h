@@ -72,8 +72,7 @@ struct UrdfModel {
 };
 
 /// Parses a URDF text as far as possible and appends errors and warnings to `found`. Does not check that links and
-/// joints
-/// form a tree.
+/// joints form a tree.
 UrdfModel parseUrdf(std::string_view text, const std::string& file, std::vector<Diagnostic>& found);
 
 /// Returns whether the list contains an error.

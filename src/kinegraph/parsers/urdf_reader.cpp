@@ -145,8 +145,7 @@ class UrdfReader {
   }
 
   /// Makes every mimic refer to the joint that owns the dof. An unknown source removes the mimic, and a fixed source
-  /// fixes
-  /// the joint: such files exist and remain usable without the mimic.
+  /// fixes the joint: such files exist and remain usable without the mimic.
   void resolveMimics() {
     std::vector<std::string> names;
     for (const UrdfJoint& joint : model_.joints) names.push_back(joint.name);

@@ -20,8 +20,7 @@ namespace kinegraph {
 /// transZ with a joint_scale of 1 or -1; planar becomes transXYPhi, and floating free. A fixed joint becomes a frame
 /// without a joint, which merges the connected links. For a prismatic or planar joint along any other axis the joint
 /// frame is rotated to make its x (z) axis that axis, and the child link is rotated back. Effort and velocity limits
-/// are
-/// stored as `ctrl_limits: [velocity effort -1]`. A mesh with a missing file is skipped with a warning.
+/// are stored as `ctrl_limits: [velocity effort -1]`. A mesh with a missing file is skipped with a warning.
 ///
 /// If the diagnostics contain an error (unknown links, several roots, loops, errors of parseUrdf), there are no
 /// frames.

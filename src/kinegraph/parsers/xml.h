@@ -14,8 +14,7 @@ struct XmlAttribute {
   SourcePosition where;  ///< of the name
 };
 
-/// An element of an XML text with its source positions. Text between elements, comments and processing instructions
-/// are
+/// An element of an XML text with its source positions. Text between elements, comments and processing instructions are
 /// skipped.
 struct XmlElement {
   std::string name;

@@ -75,8 +75,7 @@ std::optional<Frame> Config::addText(std::string_view text, const std::string& n
 
 namespace {
 
-/// A script or a notebook cell that runs again may add a frame twice. A request that differs from the existing frame
-/// is
+/// A script or a notebook cell that runs again may add a frame twice. A request that differs from the existing frame is
 /// an error.
 void checkSameRequest(const FrameData& existing, const FrameData* parent, const std::string& attributes) {
   const FrameData* above = existing.parent;

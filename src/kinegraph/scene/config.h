@@ -33,19 +33,17 @@ class Config {
 
   /// Adds the frames of a scene file and returns the first of them, if any. The extension selects the format: .urdf,
   /// .xml (MJCF), .srdf, otherwise the .g language. `prefix` is put before the names. An .srdf file adds collision
-  /// pairs,
-  /// groups and states to frames that already exist; one beside a .urdf file is read with it. On an error (FileError,
-  /// ParseError) the configuration is unchanged. `takeWarnings` returns the warnings.
+  /// pairs, groups and states to frames that already exist; one beside a .urdf file is read with it. On an error
+  /// (FileError, ParseError) the configuration is unchanged. `takeWarnings` returns the warnings.
   std::optional<Frame> addFile(const std::string& path, const std::string& prefix = {});
 
   /// Adds the frames of scene text. `name` stands for the file in messages; included files are relative to `folder`.
   std::optional<Frame> addText(std::string_view text, const std::string& name = "text", const std::string& folder = {});
 
   /// Appends a frame at its parent's pose, or at the world's origin without a parent. `attributes` is text as inside
-  /// the
-  /// braces of a `.g` file. If the name already exists, returns that frame unchanged and adds a warning. Throws
-  /// ValueError
-  /// if that frame was made with another parent or other attributes, and FrameNotFound for an unknown parent.
+  /// the braces of a `.g` file. If the name already exists, returns that frame unchanged and adds a warning. Throws
+  /// ValueError if that frame was made with another parent or other attributes, and FrameNotFound for an unknown
+  /// parent.
   Frame addFrame(const std::string& name, const std::string& parent = {}, const std::string& attributes = {});
   Frame addFrame(const std::string& name, const Frame& parent, const std::string& attributes = {});
 
@@ -83,8 +81,7 @@ class Config {
   VectorXd getJointState() const { return scene_->jointState(); }
   VectorXd getJointState(const std::vector<std::string>& names) const;
 
-  /// Sets q, or the dofs of the named frames in that order, active or not. Throws ValueError for a wrong length and
-  /// for
+  /// Sets q, or the dofs of the named frames in that order, active or not. Throws ValueError for a wrong length and for
   /// non-finite numbers.
   void setJointState(const VectorXd& q);
   void setJointState(const VectorXd& q, const std::vector<std::string>& names);
@@ -96,9 +93,8 @@ class Config {
   /// Names of the stored joint states (attribute `joint_states`, SRDF), of one group if given.
   std::vector<std::string> getStateNames(const std::string& group = {}) const;
 
-  /// Returns the current q with the values of a stored state; joints not named by the state keep their values.
-  /// Without a
-  /// group, merges the states of that name of all groups. Throws NameError for an unknown state or group.
+  /// Returns the current q with the values of a stored state; joints not named by the state keep their values. Without
+  /// a group, merges the states of that name of all groups. Throws NameError for an unknown state or group.
   VectorXd getNamedState(const std::string& name, const std::string& group = {}) const;
 
   /// Groups of joints (attribute `joint_groups`, SRDF): the name of each and the names of its joint frames.
@@ -138,34 +134,28 @@ class Config {
   };
 
   /// Pairs of frames that may collide. Both have a shape and a nonzero contact flag and belong to different links. A
-  /// negative flag -k excludes contacts with the links above within k joints. `contact_exclude` excludes the frames
-  /// it
+  /// negative flag -k excludes contacts with the links above within k joints. `contact_exclude` excludes the frames it
   /// names; for both rules, a shape that is fixed to its parent counts as the parent's shape.
   std::vector<std::pair<int, int>> getCollidablePairs() const { return scene_->model()->collidable(); }
 
-  /// All collidable pairs with a distance of at most `margin` (m), ordered by id. Includes pairs at a constant
-  /// relative
+  /// All collidable pairs with a distance of at most `margin` (m), ordered by id. Includes pairs at a constant relative
   /// pose.
   std::vector<NearPair> getCollisions(double margin = 0.) const;
 
   /// Sum of the penetration depths of all pairs, or the largest one, in m.
   double getTotalPenetration(bool largest_only = false) const;
 
-  /// Returns the first obstruction of the straight motion between two joint vectors: a pair closer than `margin` (m)
-  /// at
+  /// Returns the first obstruction of the straight motion between two joint vectors: a pair closer than `margin` (m) at
   /// any time (continuously, not only at samples), or a joint beyond its limits by more than 1e-5 rad or m. Returns
   /// nullopt for a collision-free motion. Pairs at a constant relative pose are ignored because they do not depend on
-  /// q.
-  /// Pairs within margin + tolerance may count as too close. Throws ValueError for joint vectors of a wrong length
-  /// and
-  /// for a tolerance <= 0.
+  /// q. Pairs within margin + tolerance may count as too close. Throws ValueError for joint vectors of a wrong length
+  /// and for a tolerance <= 0.
   std::optional<MotionContact> checkMotion(const VectorXd& from, const VectorXd& to, double margin = 0.,
                                            double tolerance = 1e-5) const;
 
   // Members that higher layers define; kinegraph/kinegraph.h includes all of them.
 
-  /// Value y (d,) of a feature of these frames at the current q, and its Jacobian J (d x n). Throws FrameNotFound,
-  /// and
+  /// Value y (d,) of a feature of these frames at the current q, and its Jacobian J (d x n). Throws FrameNotFound, and
   /// ValueError for a wrong number of frames and for features of several configurations.
   Evaluation eval(const FeatureSource& feature, const std::vector<std::string>& frames = {}) const;
 

@@ -9,11 +9,9 @@
 
 namespace kinegraph {
 
-/// A handle on one frame of a Config. Copies refer to the same frame. The handle keeps the scene alive; after its
-/// frame
-/// is deleted, every call throws FrameDeleted. Setters return the frame for chaining. Poses are (x y z qw qx qy qz)
-/// in m;
-/// setters normalize quaternions.
+/// A handle on one frame of a Config. Copies refer to the same frame. The handle keeps the scene alive; after its frame
+/// is deleted, every call throws FrameDeleted. Setters return the frame for chaining. Poses are (x y z qw qx qy qz) in
+/// m; setters normalize quaternions.
 class Frame {
  public:
   Frame(std::shared_ptr<SceneTree> scene, FrameData& data);
@@ -48,8 +46,7 @@ class Frame {
   Frame& setRelativeQuaternion(const Quaterniond& rotation);
 
   /// Attaches this frame below `parent`. Keeps the relative pose, so the frame moves in the world; `keep_world_pose`
-  /// keeps
-  /// the world pose instead. Throws ValueError for a loop or a frame of another Config.
+  /// keeps the world pose instead. Throws ValueError for a loop or a frame of another Config.
   Frame& setParent(const Frame& parent, bool keep_world_pose = false);
 
   /// Cuts the frame from its parent, keeps its world pose and removes its joint. Throws ValueError for a root.
@@ -66,9 +63,8 @@ class Frame {
   ShapeType getShapeType() const;                     ///< ShapeType::none without a shape
   std::vector<double> getSize() const;                ///< empty without a shape
 
-  /// Gives the frame a joint to its parent. `limits` are all lower, then all upper bounds, or empty. Keeps the pose
-  /// as far
-  /// as the joint can reach it. JointType::none removes the joint. Throws ValueError for a root.
+  /// Gives the frame a joint to its parent. `limits` are all lower, then all upper bounds, or empty. Keeps the pose as
+  /// far as the joint can reach it. JointType::none removes the joint. Throws ValueError for a root.
   Frame& setJoint(JointType type, const std::vector<double>& limits = {}, const std::vector<double>& axis = {},
                   double scale = 1., std::optional<Frame> mimic = std::nullopt, const std::string& code = {});
   JointType getJointType() const;  ///< JointType::none without a joint

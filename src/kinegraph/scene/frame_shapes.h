@@ -11,8 +11,7 @@ namespace kinegraph {
 /// Colors of points, rgba in 0..255: one per point, one for all, or none.
 using PointColors = std::vector<std::array<std::uint8_t, 4>>;
 
-/// Shows line segments between consecutive pairs of points (m), or with `connected` one line through all points.
-/// Throws
+/// Shows line segments between consecutive pairs of points (m), or with `connected` one line through all points. Throws
 /// ValueError for an odd number of points, fewer than two, or a mismatched number of colors.
 void setLines(Frame& frame, const std::vector<Vector3d>& points, const PointColors& colors = {},
               bool connected = false);
@@ -28,18 +27,15 @@ void setTexture(Frame& frame, const std::string& path, const std::vector<double>
 /// Sets the shape to a box of that size (m) that holds a grid of numbers.
 void setTensor(Frame& frame, Grid grid, const Vector3d& size);
 
-/// Sets the shape to the solid of non-positive grid values, in a box of that size (m). Positive values are the
-/// distance
+/// Sets the shape to the solid of non-positive grid values, in a box of that size (m). Positive values are the distance
 /// to the solid (m). Throws ValueError for an invalid grid or size.
 void setSdf(Frame& frame, Grid grid, const Vector3d& size);
 
 /// Sets the shape to the zero level set of a grid in a box of that size (m); normals point to larger values. The grid
-/// is
-/// blurred `blur` times first and, for `resample` > 0, resampled to cells of about that size (m).
+/// is blurred `blur` times first and, for `resample` > 0, resampled to cells of about that size (m).
 void setImplicitSurface(Frame& frame, const Grid& grid, const Vector3d& size, int blur = 0, double resample = -1.);
 
-/// Splits a mesh into its convex parts, each with its own vertices and triangles: the parts listed in the mesh, or
-/// else
+/// Splits a mesh into its convex parts, each with its own vertices and triangles: the parts listed in the mesh, or else
 /// the connected components of its triangles. Empty parts have no vertices.
 std::vector<Mesh> convexParts(const Mesh& mesh);
 
@@ -54,12 +50,10 @@ std::vector<Frame> splitIntoConvexParts(Frame& frame);
 void makeMeshesConvex(SceneTree& scene, double radius);
 
 /// Returns the vertices of a hull with faces shrunk by `distance` (m). Each vertex moves against the mean of the
-/// adjacent
-/// face normals, by at most half its distance to the middle of the hull.
+/// adjacent face normals, by at most half its distance to the middle of the hull.
 std::vector<Vector3d> drawnIn(const Mesh& hull, double distance);
 
-/// Adds a frame with the content of an HDF5 object file: its inertia (inertia/mass, com, tensor), and children
-/// `_mesh`,
+/// Adds a frame with the content of an HDF5 object file: its inertia (inertia/mass, com, tensor), and children `_mesh`,
 /// `_pts` and `_decomp` for the groups mesh, points and decomp. The convex parts below `_decomp` collide. Throws
 /// FileError; the configuration is then unchanged.
 Frame addH5Object(Config& config, const std::string& name, const std::string& path);

@@ -4,11 +4,9 @@
 
 namespace kinegraph {
 
-/// Velocity limit of each dof of q (rad/s or m/s of q): the first number of `ctrl_limits` (velocity, effort, ...;
-/// from
+/// Velocity limit of each dof of q (rad/s or m/s of q): the first number of `ctrl_limits` (velocity, effort, ...; from
 /// URDF <limit velocity effort/>) of its joint and of the joints mimicking it. Infinite if not given, for a number <=
-/// 0,
-/// and for the dofs of quaternions and circles, which are not angles.
+/// 0, and for the dofs of quaternions and circles, which are not angles.
 VectorXd getVelocityLimits(const Config& config);
 
 /// Force or torque limit of each dof of q, N or Nm: the second number of `ctrl_limits` of its joint. Infinite if not

@@ -46,14 +46,11 @@ struct SelfCollisionMatrix {
 
 /// Classifies the pairs of a robot by sampling random configurations, as the setup assistant of MoveIt does, to find
 /// pairs that need no collision checks. All shapes carried by one frame are taken together. A pair that collides with
-/// probability p is missed with probability (1 - p)^samples: 37 % for p = 1e-4 and 10000 samples. Results are
-/// bit-equal
-/// for any number of threads. Throws FrameNotFound for `root`, and ValueError for invalid options or if no pair
-/// exists.
+/// probability p is missed with probability (1 - p)^samples: 37 % for p = 1e-4 and 10000 samples. Results are bit-equal
+/// for any number of threads. Throws FrameNotFound for `root`, and ValueError for invalid options or if no pair exists.
 SelfCollisionMatrix selfCollisionMatrix(const Config& config, const SelfCollisionOptions& options = {});
 
-/// Excludes all pairs from collision except those of class `sometimes`, as `contact_exclude` of a scene file does.
-/// The
+/// Excludes all pairs from collision except those of class `sometimes`, as `contact_exclude` of a scene file does. The
 /// matrix must belong to this scene.
 void ignoreSelfCollisions(Config& config, const SelfCollisionMatrix& matrix);
 

@@ -29,8 +29,7 @@ struct BoxPair {
 };
 
 /// Returns whether an edge of one box is nearly, but not exactly, parallel to a face of the other: axes across edges
-/// are
-/// then ill-conditioned.
+/// are then ill-conditioned.
 bool nearlyParallel(const BoxPair& pair) {
   return (pair.R.array().abs() > kExact && pair.R.array().abs() <= kParallel).any();
 }
@@ -138,8 +137,7 @@ struct ClippedFace {
   }
 };
 
-/// The middle of the part of `feature` above the face of another box; nullopt if no part is. `feature` belongs to a
-/// box
+/// The middle of the part of `feature` above the face of another box; nullopt if no part is. `feature` belongs to a box
 /// with half sides `half` at R, p; the other box has half sides `face`, and its face lies across axis `normal_axis`.
 std::optional<Vector3d> aboveFace(const Feature& feature, const Vector3d& half, const Matrix3d& R, const Vector3d& p,
                                   const Vector3d& face, int normal_axis) {

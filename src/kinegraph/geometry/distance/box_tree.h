@@ -24,8 +24,7 @@ struct WorldBox {
   WorldBox grown(double by) const { return {low.array() - by, high.array() + by}; }
 };
 
-/// A binary tree of bounding boxes: finds the boxes that overlap a given one in a time that grows with the logarithm
-/// of
+/// A binary tree of bounding boxes: finds the boxes that overlap a given one in a time that grows with the logarithm of
 /// their number.
 class BoxTree {
  public:

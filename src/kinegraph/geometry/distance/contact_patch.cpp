@@ -61,8 +61,7 @@ void addBoxCorners(const Vector3d& half, const Vector3d& offset, const Vector3d&
 }
 
 /// The farthest feature of a core along the unit vector d, in its own frame: the corners of a face, the ends of an
-/// edge,
-/// or a point.
+/// edge, or a point.
 Patch farthestPatch(const CollisionBody& body, const Vector3d& d) {
   Patch patch;
   const double across = std::hypot(d.x(), d.y()), z = std::copysign(body.halfLength(), d.z());

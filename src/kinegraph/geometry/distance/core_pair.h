@@ -49,8 +49,7 @@ struct Simplex {
   void add(const MinkowskiPoint& point) { points[std::size_t(size++)] = point; }
 
   /// Computes the weights, drops points of zero weight, and returns the convex combination. `inside` reports whether
-  /// the
-  /// origin lies within four points; all four are then kept. Source: Ericson, Real-Time Collision Detection, 5.1.5
+  /// the origin lies within four points; all four are then kept. Source: Ericson, Real-Time Collision Detection, 5.1.5
   /// and 5.1.6.
   Vector3d reduce(bool& inside);
 
@@ -69,24 +68,20 @@ struct Deepest {
 };
 
 /// Newton's method on h from a nearly optimal direction m; exact to rounding if it converges. Flat edges and faces,
-/// found
-/// from the points, fix the direction partly or completely; on curved sides the curvature of h is known in closed
-/// form.
-/// Returns whether h decreased; otherwise `deepest` is unchanged. The points are never changed.
+/// found from the points, fix the direction partly or completely; on curved sides the curvature of h is known in closed
+/// form. Returns whether h decreased; otherwise `deepest` is unchanged. The points are never changed.
 bool refine(const CorePair& pair, Deepest& deepest);
 
 inline constexpr int kMaxMinkowskiPoints = 256;
 
 /// Replaces the points of `deepest` by a convex combination of the farthest candidates along its direction m.
-/// Candidates
-/// are points met during the search; those of curved sides are moved to the normal m. Returns the distance (m) of the
-/// combination from the line along m through the origin; 0 if the points are witnesses of the distance.
+/// Candidates are points met during the search; those of curved sides are moved to the normal m. Returns the distance
+/// (m) of the combination from the line along m through the origin; 0 if the points are witnesses of the distance.
 double settle(const CorePair& pair, std::span<const MinkowskiPoint> candidates, Deepest& deepest);
 
 /// The shortest push that separates overlapping cores: the least h(m) over all m, starting from GJK's final points.
 /// Expands a polytope within A - B. For curved sides, pushes with lengths within 1e-5 of the size are equivalent, and
-/// any
-/// of them may be returned. Source: van den Bergen, Collision Detection in Interactive 3D Environments, 4.3.8.
+/// any of them may be returned. Source: van den Bergen, Collision Detection in Interactive 3D Environments, 4.3.8.
 Deepest shortestPush(const CorePair& pair, const Simplex& start);
 
 }  // namespace kinegraph

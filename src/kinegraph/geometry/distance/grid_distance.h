@@ -6,12 +6,9 @@
 namespace kinegraph {
 
 /// Distance of a convex core a from a grid b: the least value of the grid's field (see GridField) on the core. Exact
-/// for
-/// points. For other cores it is the least value found by descent from a few dozen points, so a field minimum
-/// narrower
-/// than their spacing may be missed. The point on b is the zero of the field if it were a distance. The distance
-/// changes
-/// by `rate`, the length of the field's gradient, per meter along the normal.
+/// for points. For other cores it is the least value found by descent from a few dozen points, so a field minimum
+/// narrower than their spacing may be missed. The point on b is the zero of the field if it were a distance. The
+/// distance changes by `rate`, the length of the field's gradient, per meter along the normal.
 NearestPoints convexToGrid(const CollisionBody& core, const RigidTransform& X_WA, const CollisionBody& grid,
                            const RigidTransform& X_WB);
 

@@ -8,13 +8,10 @@ namespace kinegraph {
 
 class CollisionBody;
 
-/// The numbers of a grid as a function of space: interpolated by smooth cubics (Catmull & Rom) along each axis.
-/// Beyond
+/// The numbers of a grid as a function of space: interpolated by smooth cubics (Catmull & Rom) along each axis. Beyond
 /// the grid's box, at a distance r from its nearest point c, the field is sqrt(value(c)^2 + r^2), or value(c) + r if
-/// that
-/// value is negative. If the values are distances, the former does not exceed the distance. Continuous everywhere;
-/// its
-/// gradient is continuous within the box. Local coordinates, m.
+/// that value is negative. If the values are distances, the former does not exceed the distance. Continuous everywhere;
+/// its gradient is continuous within the box. Local coordinates, m.
 struct GridField {
   GridField(std::shared_ptr<const Grid> grid, const Vector3d& size);
   ~GridField();

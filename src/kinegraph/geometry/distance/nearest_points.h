@@ -5,10 +5,8 @@
 namespace kinegraph {
 
 /// Nearest points of two convex cores, in world coordinates: point_a - point_b = distance * normal, with the unit
-/// normal
-/// from b to a. For overlapping cores, -distance is the length of the shortest separating push. If a line or a face
-/// is
-/// equally near (parallel to within kParallel), the points are in its middle.
+/// normal from b to a. For overlapping cores, -distance is the length of the shortest separating push. If a line or a
+/// face is equally near (parallel to within kParallel), the points are in its middle.
 struct NearestPoints {
   double distance = 0.;
   Vector3d normal = Vector3d::UnitZ();
@@ -19,8 +17,7 @@ struct NearestPoints {
 };
 
 /// Sine of the angle below which directions count as parallel when a point is chosen among equally near ones. It
-/// exceeds
-/// the steps of finite differences, so they see no jump; distances and normals stay exact.
+/// exceeds the steps of finite differences, so they see no jump; distances and normals stay exact.
 inline constexpr double kParallel = 2e-6;
 
 }  // namespace kinegraph

@@ -8,10 +8,8 @@ namespace kinegraph {
 /// rate * normal . (velocity of point_a - velocity of point_b).
 ///
 /// For overlapping convex bodies, -distance is the length of the shortest separating push. The distance of a compound
-/// is
-/// the least over its parts; for grids see `convexToGrid`. The distance of two grids is the least distance of a
-/// surface
-/// point of one from the other.
+/// is the least over its parts; for grids see `convexToGrid`. The distance of two grids is the least distance of a
+/// surface point of one from the other.
 struct Proximity {
   double distance = 0.;                 ///< between the surfaces, m; negative: penetration depth
   Vector3d normal = Vector3d::UnitZ();  ///< unit, from b to a
@@ -29,8 +27,7 @@ Proximity proximity(const CollisionBody& a, const RigidTransform& X_WA, const Co
 double squaredPointToCore(const CollisionBody& body, const RigidTransform& X_WB, const Vector3d& point);
 
 /// Returns whether a point (world) may be within `distance` of a body; false is certain. `distance` plus the body's
-/// radius
-/// must not be negative.
+/// radius must not be negative.
 inline bool mayBeWithin(const CollisionBody& body, const RigidTransform& X_WB, const Vector3d& point, double distance) {
   const double reach = body.radius() + distance;
   return squaredPointToCore(body, X_WB, point) <= reach * reach;

@@ -14,12 +14,10 @@ struct H5Dataset {
   std::uint64_t rows() const { return dims.empty() ? 1 : dims[0]; }
 };
 
-/// Reads datasets of HDF5 files in the default format of h5py and the C library: superblock version 0 or 1, groups
-/// with
+/// Reads datasets of HDF5 files in the default format of h5py and the C library: superblock version 0 or 1, groups with
 /// symbol tables, uncompressed contiguous or compact integers and floats. Checks every address against the length of
-/// the
-/// file. Throws FileError for other formats, and names the unsupported feature.
-/// Source: HDF5 File Format Specification, version 3.0, sections II.A, III.A to III.D, IV.A.
+/// the file. Throws FileError for other formats, and names the unsupported feature. Source: HDF5 File Format
+/// Specification, version 3.0, sections II.A, III.A to III.D, IV.A.
 class H5File {
  public:
   explicit H5File(std::string path);

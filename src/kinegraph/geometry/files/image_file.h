@@ -24,8 +24,7 @@ std::string mediaType(const Image& image);
 /// Reads a file without decoding it. Throws FileError if it is missing, or is neither PNG nor JPEG.
 std::shared_ptr<const Image> readImageFile(const std::string& path);
 
-/// Decodes a picture; transparency is dropped. Throws FileError for damaged data, and for headers with more pixels
-/// than
+/// Decodes a picture; transparency is dropped. Throws FileError for damaged data, and for headers with more pixels than
 /// the data can hold.
 Pixels decodeImage(const Image& image);
 

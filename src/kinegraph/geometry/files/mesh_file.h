@@ -7,16 +7,12 @@
 namespace kinegraph {
 
 /// Reads a mesh file (stl, obj, ply, dae, glb and other formats of assimp) as one mesh, with node transforms applied
-/// and a
-/// color per vertex from vertex colors or materials. Ignores the up axis of a Collada file. Reads the group "mesh" of
-/// an
-/// HDF5 file (h5), and MuJoCo's format from a .msh file. Throws FileError for files that are missing, unreadable,
-/// without
-/// vertices or with non-finite coordinates.
+/// and a color per vertex from vertex colors or materials. Ignores the up axis of a Collada file. Reads the group
+/// "mesh" of an HDF5 file (h5), and MuJoCo's format from a .msh file. Throws FileError for files that are missing,
+/// unreadable, without vertices or with non-finite coordinates.
 Mesh readMeshFile(const std::string& path);
 
-/// Reads a group of an HDF5 file: `vertices` (n x 3), and optionally `faces` (m x 3), `colors` (n x 3 or n x 4,
-/// 0..255)
+/// Reads a group of an HDF5 file: `vertices` (n x 3), and optionally `faces` (m x 3), `colors` (n x 3 or n x 4, 0..255)
 /// and `parts` (first vertices of its convex parts). Throws FileError.
 Mesh readH5Mesh(const std::string& path, const std::string& group);
 

@@ -31,8 +31,7 @@ class MeshTextures {
   std::map<unsigned, std::shared_ptr<const Image>> images_;  ///< by material
 };
 
-/// Sets texture coordinates of the vertices from `first_vertex` on and, with an image, the image of the triangles
-/// from
+/// Sets texture coordinates of the vertices from `first_vertex` on and, with an image, the image of the triangles from
 /// `first_triangle` on. Non-finite coordinates become 0.
 void addTexture(Mesh& mesh, std::size_t first_vertex, const std::vector<std::array<float, 2>>& coordinates,
                 std::size_t first_triangle, std::shared_ptr<const Image> image);

@@ -4,11 +4,10 @@
 
 namespace kinegraph {
 
-/// Extracts the zero level set of a grid as triangles with normals to larger values; the grid fills a box of that
-/// size
+/// Extracts the zero level set of a grid as triangles with normals to larger values; the grid fills a box of that size
 /// (m) centered at the origin. Every vertex lies on an edge between two grid points, at the zero of the linear
-/// interpolation. The surface is closed unless it leaves the box. Throws ValueError for an invalid grid.
-/// Source: Doi & Koide, An efficient method of triangulating equi-valued surfaces by using tetrahedral cells, 1991.
+/// interpolation. The surface is closed unless it leaves the box. Throws ValueError for an invalid grid. Source: Doi &
+/// Koide, An efficient method of triangulating equi-valued surfaces by using tetrahedral cells, 1991.
 Mesh isosurface(const Grid& grid, const Vector3d& size);
 
 /// Replaces each value by the mean of its 3 x 3 x 3 neighborhood, `times` times.

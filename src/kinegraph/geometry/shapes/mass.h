@@ -15,8 +15,7 @@ struct ShellMass {
 ShellMass boxShell(double a, double b, double c);
 ShellMass sphereShell(double radius);
 
-/// Mass properties of a shape's surface: exact for box and sphere, else of its triangles. Throws ValueError for
-/// shapes
+/// Mass properties of a shape's surface: exact for box and sphere, else of its triangles. Throws ValueError for shapes
 /// without a surface.
 ShellMass shellMass(const Geometry& geometry);
 

@@ -13,8 +13,7 @@ namespace kinegraph {
 /// Collision geometry of a shape: a core swept by a ball. The axis of a core, if any, is z. Lengths in m.
 struct ShapeCore {
   /// The last five use the vertices of the shape's mesh (their hull; the hulls of its convex parts; each vertex; a
-  /// segment
-  /// per pair of vertices) or its grid.
+  /// segment per pair of vertices) or its grid.
   enum class Form { point, segment, box, cylinder, box_ellipsoid, hull, hulls_of_parts, points, segments, grid };
   Form form = Form::point;
   double radius = 0.;                      ///< of the ball
@@ -31,8 +30,7 @@ struct ShapeKind {
   enum class Data { none, mesh, core_points, grid };
 
   /// Simplified body, sharp or rounded, for facts, grasps and placements; its first sizes are x y z of a box, the
-  /// radius
-  /// of a ball, length and radius of the other two.
+  /// radius of a ball, length and radius of the other two.
   enum class Body { other, box, ball, capsule, cylinder };
 
   ShapeType type = ShapeType::none;

@@ -32,10 +32,8 @@ struct SceneCheck {
 };
 SceneCheck checkSceneFile(const std::string& path);
 
-/// Interprets attributes (pose, joint, shape, mass ...) of one existing frame, as for Config::addFrame. File names
-/// are
-/// relative to `folder`. May add a frame "<name>_origin" or "|<name>" (pre, post). After a ParseError the frame
-/// itself
+/// Interprets attributes (pose, joint, shape, mass ...) of one existing frame, as for Config::addFrame. File names are
+/// relative to `folder`. May add a frame "<name>_origin" or "|<name>" (pre, post). After a ParseError the frame itself
 /// must be discarded; nothing else has changed.
 void readAttributes(std::string_view text, const std::string& folder, FrameData& frame,
                     std::vector<std::string>& warnings);

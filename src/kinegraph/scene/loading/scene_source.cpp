@@ -276,8 +276,7 @@ class SourceReader {
     deleted_.insert(name);
   }
 
-  /// Returns the frames of the innermost file that contains the name, searching from the current file outwards
-  /// through
+  /// Returns the frames of the innermost file that contains the name, searching from the current file outwards through
   /// the including files.
   std::vector<SourceFrame>& scopeOf(const std::string& name) {
     for (auto scope = scopes_.rbegin(); scope != scopes_.rend(); ++scope) {

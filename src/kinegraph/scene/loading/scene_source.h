@@ -17,8 +17,7 @@ struct SourceFrame {
 };
 
 /// The frames of a scene file and its includes, in order, after the special keys (Include, Prefix, Edit, Delete, ...)
-/// have
-/// been applied.
+/// have been applied.
 struct SceneSource {
   std::vector<SourceFrame> frames;
   std::vector<Node> joint_states;  ///< `q: [...]`

@@ -10,14 +10,12 @@ namespace kinegraph {
 
 /// Unexpected collision settings of a scene at its current q.
 struct ContactWarnings {
-  /// Pairs of frames that may collide and overlap by more than 1 mm at a constant relative pose. They are ignored
-  /// when a
-  /// configuration is checked for collisions.
+  /// Pairs of frames that may collide and overlap by more than 1 mm at a constant relative pose. They are ignored when
+  /// a configuration is checked for collisions.
   std::vector<std::pair<int, int>> resting;
 
   /// Static frames whose shape has neither `contact` nor `simulate`, within 5 cm of a moving shape that collides: the
-  /// robot
-  /// passes through them. Excludes transparent shapes and shapes drawn around a colliding one.
+  /// robot passes through them. Excludes transparent shapes and shapes drawn around a colliding one.
   std::vector<int> passed_through;
 };
 

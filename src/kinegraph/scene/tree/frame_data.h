@@ -19,9 +19,8 @@ namespace kinegraph {
 class SceneTree;
 struct FrameData;
 
-/// A joint: lets a frame move relative to its parent. Its dofs `q` determine the frame's relative pose completely;
-/// only a
-/// rigid joint, without dofs, stores a pose.
+/// A joint: lets a frame move relative to its parent. Its dofs `q` determine the frame's relative pose completely; only
+/// a rigid joint, without dofs, stores a pose.
 struct Joint {
   JointType type = JointType::rigid;
   std::string code;                   ///< of JointType::generic

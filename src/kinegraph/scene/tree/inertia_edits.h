@@ -13,10 +13,8 @@ void gatherInertia(FrameData& frame);
 
 /// Moves the frame to its center of mass and rotates it to the principal axes of its inertia, which makes the matrix
 /// diagonal. All frames below keep their world poses. Returns the new frame in the old one. A mesh, point cloud or
-/// convex
-/// hull of the frame keeps its world pose if `transform_mesh`. Throws ValueError for a frame without inertia, with
-/// dofs,
-/// or with a shape that cannot stay in place (a marker may move).
+/// convex hull of the frame keeps its world pose if `transform_mesh`. Throws ValueError for a frame without inertia,
+/// with dofs, or with a shape that cannot stay in place (a marker may move).
 Pose moveToPrincipalAxes(SceneTree& scene, FrameData& frame, bool transform_mesh);
 
 struct InertiaOptions {
@@ -25,8 +23,7 @@ struct InertiaOptions {
 };
 
 /// Gathers the inertia of every link in the frame of its joint, or in the root for links without a joint. With
-/// `principal_axes`, a link frame that cannot move because of its shape or dofs gets a child `<name>_inertia` with
-/// the
+/// `principal_axes`, a link frame that cannot move because of its shape or dofs gets a child `<name>_inertia` with the
 /// inertia instead.
 void processInertias(SceneTree& scene, const InertiaOptions& options = {});
 

@@ -9,8 +9,7 @@
 namespace kinegraph {
 
 /// The first and the last frame of each name, for fast look-up in scenes of thousands of frames. `ready` reports
-/// whether
-/// the index is complete; small scenes are searched without it.
+/// whether the index is complete; small scenes are searched without it.
 class NameIndex {
  public:
   bool ready() const { return ready_; }

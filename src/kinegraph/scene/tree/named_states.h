@@ -18,8 +18,7 @@ namespace kinegraph {
 /// Names of all states, or of those of a group, in order of first appearance.
 std::vector<std::string> stateNames(const SceneTree& scene, const std::string& group = {});
 
-/// Returns the current q with the values of a state; joints not named by the state keep theirs. Without a group,
-/// merges
+/// Returns the current q with the values of a state; joints not named by the state keep theirs. Without a group, merges
 /// the states of that name of all groups. Throws NameError for an unknown name, and ValueError for values that do not
 /// fit or contradict.
 VectorXd namedState(SceneTree& scene, const std::string& name, const std::string& group = {});

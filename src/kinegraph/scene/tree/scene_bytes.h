@@ -9,9 +9,8 @@
 namespace kinegraph {
 
 /// Serializes a scene to bytes: frames in order, joints with q, shapes with their meshes (shared ones once), inertias
-/// and
-/// attributes, all numbers bit-exact. Writes the meshes themselves, not their file names. Intended for processes that
-/// run the same version; save long-lived scenes as `.g`.
+/// and attributes, all numbers bit-exact. Writes the meshes themselves, not their file names. Intended for processes
+/// that run the same version; save long-lived scenes as `.g`.
 std::string sceneToBytes(const SceneTree& scene);
 
 /// Restores a scene written by sceneToBytes. Throws ValueError for other bytes or those of another version.

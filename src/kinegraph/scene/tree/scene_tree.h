@@ -56,13 +56,11 @@ class SceneTree {
   /// Cuts `frame` from its parent; its `pose` is unchanged.
   void unlink(FrameData& frame);
 
-  /// Appends deep copies of all frames of `other`, names prefixed. Returns the first, or null if there is none. The
-  /// raw
+  /// Appends deep copies of all frames of `other`, names prefixed. Returns the first, or null if there is none. The raw
   /// attributes dominate the cost and can be left out.
   FrameData* append(const SceneTree& other, const std::string& prefix, bool with_attributes = true);
 
-  /// Returns a copy without attributes that later edits do not affect. While the structure is unchanged, copies
-  /// without
+  /// Returns a copy without attributes that later edits do not affect. While the structure is unchanged, copies without
   /// owners are reused and only values are copied.
   std::shared_ptr<const SceneTree> snapshot();
 

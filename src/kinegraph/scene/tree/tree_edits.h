@@ -4,8 +4,7 @@
 
 namespace kinegraph {
 
-/// Makes a frame the root of its tree by reversing the path above it; all frames keep their world poses. The joints
-/// on
+/// Makes a frame the root of its tree by reversing the path above it; all frames keep their world poses. The joints on
 /// the path are inverted and move to the frame below them, so a hinge at q becomes -q and its limits swap and change
 /// sign. With `until_part_break` the path ends at the first rigid or free joint, which is cut. Throws ValueError for
 /// joints on the path without an inverse joint type; the scene is then unchanged.
@@ -15,15 +14,12 @@ void makeRoot(SceneTree& scene, FrameData& frame, bool until_part_break = false)
 void selectJointsBySubtree(SceneTree& scene, const FrameData& root);
 
 /// Index in q of the first dof of a frame's joint, or of its source if it mimics. For an inactive joint, the index
-/// among
-/// the dofs of all inactive joints in frame order. Throws ValueError without a joint.
+/// among the dofs of all inactive joints in frame order. Throws ValueError without a joint.
 int dofIndex(SceneTree& scene, const FrameData& frame);
 
-/// Makes the current q the zero of all joints: their motion moves into the frame above; limits and homes shift.
-/// Throws
+/// Makes the current q the zero of all joints: their motion moves into the frame above; limits and homes shift. Throws
 /// ValueError, without changes, if a joint has several dofs, or if the frame above is a root, has a shape, an inertia
-/// or
-/// a joint, or has other joints below it.
+/// or a joint, or has other joints below it.
 void recalibrateJointsToZero(SceneTree& scene);
 
 struct Simplification {

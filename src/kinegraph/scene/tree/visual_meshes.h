@@ -13,8 +13,7 @@ namespace kinegraph {
 class VisualMeshes {
  public:
   /// The mesh shown in place of `shape`, in the frame's coordinates; null if the shape's own geometry is shown or the
-  /// file
-  /// cannot be read.
+  /// file cannot be read.
   std::shared_ptr<const Geometry> of(const Shape& shape);
 
  private:
