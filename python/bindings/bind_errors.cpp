@@ -30,7 +30,7 @@ void raiseParseError(const ParseError& error) {
 }
 
 void raiseOfMemory() {
-  PyErr_SetString(PyExc_MemoryError, "there is not enough memory for this; is one of the numbers too large?");
+  PyErr_SetString(PyExc_MemoryError, "not enough memory for this call; is one of the arguments too large?");
 }
 
 void translate(const std::exception_ptr& pointer, void*) {
