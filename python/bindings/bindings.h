@@ -30,8 +30,8 @@ struct PyConfig : Config {
   mutable std::shared_ptr<PairDistances> pairs = {};
   mutable EdgeCheckers checkers = {};
   VectorXd joints = {};
-  mutable std::uint64_t noted = 0;              ///< structure revision of the last contact warnings
-  mutable std::vector<std::string> notes = {};  ///< the contact warnings given so far
+  mutable std::uint64_t warned_revision = 0;             ///< structure revision of the last contact warnings
+  mutable std::vector<std::string> given_warnings = {};  ///< the contact warnings given so far
 };
 
 /// Warns of `contactWarnings`, each once per scene.

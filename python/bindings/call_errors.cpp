@@ -13,10 +13,10 @@ namespace nb = nanobind;
 namespace {
 
 /// Nanobind has a few call entries shared by all functions, by the number and kind of their arguments.
-constexpr std::size_t kMostEntries = 8;
+constexpr std::size_t kMaxEntries = 8;
 
 vectorcallfunc& entry(std::size_t number) {
-  static std::array<vectorcallfunc, kMostEntries> entries{};
+  static std::array<vectorcallfunc, kMaxEntries> entries{};
   return entries[number];
 }
 
@@ -56,16 +56,16 @@ PyObject* call(PyObject* function, PyObject* const* arguments, std::size_t flags
 }
 
 template <std::size_t... numbers>
-constexpr std::array<vectorcallfunc, kMostEntries> calls(std::index_sequence<numbers...>) {
+constexpr std::array<vectorcallfunc, kMaxEntries> calls(std::index_sequence<numbers...>) {
   return {call<numbers>...};
 }
 
 /// CPython finds the call entry of an object at an offset given by its type (PEP 590).
 void explainFunction(nb::handle function) {
-  static constexpr std::array<vectorcallfunc, kMostEntries> explained = calls(std::make_index_sequence<kMostEntries>());
+  static constexpr std::array<vectorcallfunc, kMaxEntries> explained = calls(std::make_index_sequence<kMaxEntries>());
   const Py_ssize_t offset = Py_TYPE(function.ptr())->tp_vectorcall_offset;
   auto& slot = *reinterpret_cast<vectorcallfunc*>(reinterpret_cast<char*>(function.ptr()) + offset);
-  for (std::size_t i = 0; i < kMostEntries; ++i) {
+  for (std::size_t i = 0; i < kMaxEntries; ++i) {
     if (slot == explained[i]) return;  // the same function under another name
     if (entry(i) && entry(i) != slot) continue;
     entry(i) = slot;

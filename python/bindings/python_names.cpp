@@ -45,7 +45,7 @@ std::string_view lookUp(std::span<const Names> names, std::string_view word) {
   return found == names.end() ? word : found->second;
 }
 
-std::string_view wordInPython(char before, std::string_view word, char after) {
+std::string_view nameInPython(char before, std::string_view word, char after) {
   if (before == '=' && word == "true") return "True";
   if (before == '=' && word == "false") return "False";
   return lookUp(after == '=' ? std::span<const Names>(kArguments) : kNames, word);
@@ -82,7 +82,7 @@ std::string inPython(std::string_view whole, std::span<const std::string> users)
       std::size_t end = i;
       while (end < message.size() && isWord(message[end])) ++end;
       const std::string_view word = message.substr(i, end - i);
-      out += quoted ? word : wordInPython(before, word, end < message.size() ? message[end] : ' ');
+      out += quoted ? word : nameInPython(before, word, end < message.size() ? message[end] : ' ');
       i = end;
     } else {
       out += message[i++];

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
     from . import DataGen, algo, calib, manipulation, nlp, render
     from .manipulation import KOMO_ManipulationHelper, LGP_Tool, ManipulationModelling
-    from .words import arg
+    from .keywords import arg
 
 from .not_yet import (
     KOMO_Objective,
@@ -62,12 +62,12 @@ __all__ = [
 
 
 # Modules loaded at the first use of one of their names, as in kinegraph.
-_LATER = {
+_LAZY = {
     "kinegraph.compatibility.lgp": ("default_Logic2KOMO_Translator", "default_TAMP_Provider"),
     "robotic.manipulation": ("KOMO_ManipulationHelper", "LGP_Tool", "ManipulationModelling"),
-    "robotic.words": ("arg",),
+    "robotic.keywords": ("arg",),
 }
-_MODULE_OF = {name: module for module, names in _LATER.items() for name in names}
+_MODULE_OF = {name: module for module, names in _LAZY.items() for name in names}
 _SUBMODULES = ("DataGen", "algo", "calib", "manipulation", "nlp", "render", "test")
 
 if not TYPE_CHECKING:  # otherwise type checkers accept any name

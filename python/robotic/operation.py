@@ -11,8 +11,8 @@ from numpy.typing import ArrayLike
 
 import kinegraph
 
-_TRIES = 12  # messages about velocity and acceleration give the factor; those about effort do not
-_LONGER = 1.3
+_ATTEMPTS = 12  # messages about velocity and acceleration give the factor; those about effort do not
+_FACTOR = 1.3
 
 
 class BotOp(kinegraph.BotOp):
@@ -31,16 +31,16 @@ class BotOp(kinegraph.BotOp):
         Raises:
             ArgumentError: The motion violates a limit; in simulation only if no slower motion satisfies it.
         """
-        slower, said = 1.0, ""
-        for tried in range(_TRIES):
+        slower, text = 1.0, ""
+        for attempt in range(_ATTEMPTS):
             try:
                 super().move(path, np.multiply(times, slower), overwrite, overwriteCtrlTime)
                 break
             except kinegraph.ArgumentError as error:
-                least = re.search(r"take (?:at least ([\d.e+]+) times as long|longer)", str(error))
-                if not (self._simulated and least) or tried == _TRIES - 1:
+                match = re.search(r"take (?:at least ([\d.e+]+) times as long|longer)", str(error))
+                if not (self._simulated and match) or attempt == _ATTEMPTS - 1:
                     raise
-                slower *= 1.001 * float(least[1]) if least[1] else _LONGER
-                said = said or str(error)
-        if said:
-            warnings.warn(f"{said}; it takes {slower:.3g} times as long", kinegraph.KinegraphWarning, stacklevel=2)
+                slower *= 1.001 * float(match[1]) if match[1] else _FACTOR
+                text = text or str(error)
+        if text:
+            warnings.warn(f"{text}; it takes {slower:.3g} times as long", kinegraph.KinegraphWarning, stacklevel=2)

@@ -7,7 +7,7 @@ from typing import Any
 import kinegraph
 
 BOUND = 0.1
-EARLIER_OPTIONS = {"maxLambda": "lambdaMax", "maxStep": "stepMax"}
+FORMER_OPTIONS = {"maxLambda": "lambdaMax", "maxStep": "stepMax"}
 
 
 class SolverReturn(kinegraph.SolverReturn):
@@ -31,12 +31,12 @@ class SolverReturn(kinegraph.SolverReturn):
     @property
     def message(self) -> str:
         """Why the solver stopped, in one line, and the violations if some constraints do not hold."""
-        said = super().message
+        text = super().message
         if super().feasible or not self.done:
-            return said
+            return text
         verdict = "feasible" if self.feasible else "not feasible"
         return (
-            f"{said}; {verdict} by the rule of robotic (eq and ineq below {BOUND}): "
+            f"{text}; {verdict} by the rule of robotic (eq and ineq below {BOUND}): "
             f"eq {self.eq:.3g}, ineq {self.ineq:.3g}; the worst constraint is violated by {self.violation:.3g}"
         )
 
@@ -45,8 +45,8 @@ class SolverReturn(kinegraph.SolverReturn):
         return {**super().dict(), "evals": self.evals, "feasible": self.feasible}
 
     def __str__(self) -> str:
-        said = super().__str__().replace(f"evals: {super().evals}", f"evals: {self.evals}", 1)
-        return said.replace(f"feasible: {int(super().feasible)}", f"feasible: {int(self.feasible)}", 1)
+        text = super().__str__().replace(f"evals: {super().evals}", f"evals: {self.evals}", 1)
+        return text.replace(f"feasible: {int(super().feasible)}", f"feasible: {int(self.feasible)}", 1)
 
     def __repr__(self) -> str:
         return f"<SolverReturn {self.status.name}: {self}>"
@@ -74,5 +74,5 @@ class NLP_Solver(kinegraph.NLP_Solver):
         Raises:
             ArgumentError: An option does not exist, or its value is out of range.
         """
-        super().setOptions(**{EARLIER_OPTIONS.get(name, name): value for name, value in options.items()})
+        super().setOptions(**{FORMER_OPTIONS.get(name, name): value for name, value in options.items()})
         return self

@@ -58,7 +58,7 @@ TEST(SelfCollisions, EveryPairHasItsReason) {
   EXPECT_EQ(pairs.count({"base", "wall"}), 0u) << "no part of the robot";
 }
 
-TEST(SelfCollisions, PairsThatAlwaysOrNeverCollideAreTold) {
+TEST(SelfCollisions, PairsThatAlwaysOrNeverCollideAreClassified) {
   Config config;
   config.addText(
       "base { }\n"

@@ -49,12 +49,12 @@ std::optional<Contact> checkMotion(const PyConfig& config, const Numbers& start,
   warnOfContacts(config);
   const std::optional<MotionContact> contact = config.checkMotion(start.values, end.values, margin, tolerance);
   if (!contact) return std::nullopt;
-  Contact told{contact->time,
-               contact->distance,
-               {config.getFrame(contact->a).getName(), config.getFrame(contact->b).getName()},
-               std::nullopt};
-  if (contact->dof >= 0) told.limit = config.getJointNames()[std::size_t(contact->dof)];
-  return told;
+  Contact named{contact->time,
+                contact->distance,
+                {config.getFrame(contact->a).getName(), config.getFrame(contact->b).getName()},
+                std::nullopt};
+  if (contact->dof >= 0) named.limit = config.getJointNames()[std::size_t(contact->dof)];
+  return named;
 }
 
 /// A SelfCollisionMatrix with frame names.

@@ -127,7 +127,7 @@ std::vector<std::string> saveConvexStls(const Config& config, const std::string&
   return forEachMesh(config, prefix, false, ".stl", [&](const Mesh& mesh, const std::string& path) {
     if (mesh.vertices.size() < 4 || !spanVolume(mesh.vertices)) return false;
     Mesh hull = convexHull(mesh.vertices);
-    if (shrink > 0.) hull = convexHull(drawnIn(hull, shrink));
+    if (shrink > 0.) hull = convexHull(shrunkHull(hull, shrink));
     writeStl(hull, path);
     return true;
   });

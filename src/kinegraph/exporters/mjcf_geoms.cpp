@@ -28,9 +28,9 @@ bool readableByMujoco(const std::string& path) {
 }  // namespace
 
 std::string mjcfNumbers(const std::vector<double>& numbers) {
-  std::vector<std::string> words;
-  for (const double x : numbers) words.push_back(exact(x));
-  return join(words, " ");
+  std::vector<std::string> texts;
+  for (const double x : numbers) texts.push_back(exact(x));
+  return join(texts, " ");
 }
 
 std::string mjcfVector(const Vector3d& v) { return mjcfNumbers({v[0], v[1], v[2]}); }

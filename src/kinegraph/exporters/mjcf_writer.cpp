@@ -29,7 +29,7 @@ bool isCamera(const FrameData& frame) { return frame.shape && frame.shape->geome
 /// Returns whether q moves the frame. Inactive joints and their mimics are fixed.
 bool movedByQ(const FrameData& frame) { return frame.moves() && dofSource(frame).joint->active; }
 
-bool turnsFreely(const Joint& joint) {
+bool rotatesFreely(const Joint& joint) {
   const auto is_quaternion = [](const MotionStep& step) { return step.kind == MotionStep::Kind::quaternion; };
   return std::any_of(joint.steps.begin(), joint.steps.end(), is_quaternion);
 }
@@ -123,13 +123,13 @@ class MjcfWriter {
   }
 
   /// Returns whether the frame only carries its child, so its joint moves to the child's body.
-  bool dissolves(const FrameData& frame) const {
+  bool mergesIntoChild(const FrameData& frame) const {
     if (frame.children.size() != 1 || hasShape(frame) || isCamera(frame) || frame.inertia || referred_.contains(&frame))
       return false;
     const FrameData& child = *frame.children[0];
     if (!movedByQ(frame)) return movedByQ(child) && !frame.moves() && frame.name == child.name + "_origin";
-    if (!movedByQ(child) && dissolves(child)) return !turnsFreely(*frame.joint);  // an origin
-    return !movedByQ(child) && (!turnsFreely(*frame.joint) || child.relativePose().q.vec().isZero(0.));
+    if (!movedByQ(child) && mergesIntoChild(child)) return !rotatesFreely(*frame.joint);  // an origin
+    return !movedByQ(child) && (!rotatesFreely(*frame.joint) || child.relativePose().q.vec().isZero(0.));
   }
 
   void addBody(const FrameData& top, int parent, bool parent_moves, int depth) {
@@ -143,7 +143,7 @@ class MjcfWriter {
         warnFixed(*frame);
         pose = pose * frame->relativePose();
       }
-      if (!dissolves(*frame)) break;
+      if (!mergesIntoChild(*frame)) break;
     }
     const std::string name = unused("body", frame->name);
     std::string joints;

@@ -87,11 +87,11 @@ std::string groups(const Config& config, const UrdfNames& names) {
 std::string valueText(const Value& value) {
   if (const double* number = value.as<double>()) return exact(*number);
   const NumberArray* array = value.as<NumberArray>();
-  std::vector<std::string> words;
-  for (const double number : array ? array->numbers : std::vector<double>()) words.push_back(exact(number));
-  if (words.size() == 7)
-    std::rotate(words.begin() + 3, words.begin() + 4, words.end());  // a free joint: x y z qx qy qz qw
-  return join(words, " ");
+  std::vector<std::string> texts;
+  for (const double number : array ? array->numbers : std::vector<double>()) texts.push_back(exact(number));
+  if (texts.size() == 7)
+    std::rotate(texts.begin() + 3, texts.begin() + 4, texts.end());  // a free joint: x y z qx qy qz qw
+  return join(texts, " ");
 }
 
 std::string states(const Config& config, const UrdfNames& names) {
@@ -140,9 +140,9 @@ std::string srdfText(const Config& config, const std::string& robot_name, const 
              : cat("<?xml version=\"1.0\"?>\n<robot name=\"", xmlEscaped(robot_name), "\">\n", text, "</robot>\n");
 }
 
-std::string joinFirst(const std::vector<std::string>& words, std::size_t count) {
-  if (words.size() <= count) return join(words);
-  return cat(join({words.begin(), words.begin() + long(count)}), " and ", words.size() - count, " more");
+std::string joinFirst(const std::vector<std::string>& items, std::size_t count) {
+  if (items.size() <= count) return join(items);
+  return cat(join({items.begin(), items.begin() + long(count)}), " and ", items.size() - count, " more");
 }
 
 }  // namespace kinegraph

@@ -20,6 +20,6 @@ std::string srdfText(const Config& config, const std::string& robot_name, const 
                      std::vector<std::string>* warnings);
 
 /// Joins the first items of a list, and adds the number of the others.
-std::string joinFirst(const std::vector<std::string>& words, std::size_t count = 8);
+std::string joinFirst(const std::vector<std::string>& items, std::size_t count = 8);
 
 }  // namespace kinegraph

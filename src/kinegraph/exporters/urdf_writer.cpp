@@ -19,9 +19,9 @@ namespace kinegraph {
 namespace {
 
 std::string numbers(std::initializer_list<double> values) {
-  std::vector<std::string> words;
-  for (const double x : values) words.push_back(exact(x));
-  return join(words, " ");
+  std::vector<std::string> texts;
+  for (const double x : values) texts.push_back(exact(x));
+  return join(texts, " ");
 }
 
 std::string numbers(const Vector3d& v) { return numbers({v[0], v[1], v[2]}); }
@@ -98,7 +98,7 @@ class UrdfWriter {
       text_ += cat("  <link name=\"", xmlEscaped(world), "\"/>\n");
       for (const FrameData* root : roots) addFixed(*root, world, root->pose);
     }
-    warnOfLosses();
+    reportLosses();
     return cat("<?xml version=\"1.0\"?>\n<robot name=\"", xmlEscaped(options_.robot_name), "\">\n", text_,
                "</robot>\n");
   }
@@ -111,12 +111,12 @@ class UrdfWriter {
     if (warnings_) warnings_->push_back(message);
   }
 
-  void warnOfLosses() {
-    const auto tell = [&](const std::vector<std::string>& frames, const char* what) {
+  void reportLosses() {
+    const auto report = [&](const std::vector<std::string>& frames, const char* what) {
       if (!frames.empty()) warn(cat(what, ": ", joinFirst(frames)));
     };
-    tell(rounded_, "URDF has no rounded boxes and cylinders; frames without their rounding");
-    tell(moved_, "URDF has no joint state and readers start at q = 0; joints at other values");
+    report(rounded_, "URDF has no rounded boxes and cylinders; frames without their rounding");
+    report(moved_, "URDF has no joint state and readers start at q = 0; joints at other values");
   }
 
   static std::string unused(std::set<std::string>& taken, std::string name) {
@@ -136,13 +136,13 @@ class UrdfWriter {
   /// Adds the link of a frame with its shapes, and everything below it.
   void addFrames(const FrameData& frame, const std::string& link) {
     std::string inside;
-    noteContact(frame, link);
+    addContact(frame, link);
     if (frame.inertia) inside += inertial(*frame.inertia);
     if (isVisible(frame)) inside += shape(frame, Pose());
     for (const FrameData* child : frame.children) {
       if (!isShapeOfLink(*child)) continue;
       inside += shape(*child, child->pose);
-      noteContact(*child, link);
+      addContact(*child, link);
     }
     text_ += inside.empty() ? cat("  <link name=\"", xmlEscaped(link), "\"/>\n")
                             : cat("  <link name=\"", xmlEscaped(link), "\">\n", inside, "  </link>\n");
@@ -151,7 +151,7 @@ class UrdfWriter {
     }
   }
 
-  void noteContact(const FrameData& frame, const std::string& link) {
+  void addContact(const FrameData& frame, const std::string& link) {
     if (isVisible(frame) && frame.shape->contact != 0) names_.link_of_shape[frame.id] = link;
   }
 

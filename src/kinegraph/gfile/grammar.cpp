@@ -76,11 +76,11 @@ void Grammar::report(Diagnostic::Severity severity, std::size_t at, std::string 
   errors_ += severity == Diagnostic::Severity::error;
 }
 
-bool Grammar::hopeless() const { return errors_ >= kMaxErrors; }
+bool Grammar::tooManyErrors() const { return errors_ >= kMaxErrors; }
 
 /// Continues after the line of an error, or after the braces that it opens, unless they are never closed.
 void Grammar::recover(std::size_t from) {
-  at_ = hopeless() ? text_.size() : std::max(at_, from);
+  at_ = tooManyErrors() ? text_.size() : std::max(at_, from);
   const std::size_t line_end = std::min(text_.find('\n', at_), text_.size());
   int open = 0;
   std::size_t at = at_;
@@ -97,7 +97,7 @@ void Grammar::parseEntries(Graph& graph, std::size_t opened_at) {
   for (;;) {
     skipSeparators();
     if (atEnd()) {
-      if (opened_at != kNoBrace && !hopeless()) {
+      if (opened_at != kNoBrace && !tooManyErrors()) {
         report(Diagnostic::Severity::warning, opened_at, "this '{' is never closed; the end of the file closes it");
       }
       return;

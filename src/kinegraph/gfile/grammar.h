@@ -30,7 +30,7 @@ class Grammar : private Scanner {
   };
 
   void report(Diagnostic::Severity severity, std::size_t at, std::string message);
-  bool hopeless() const;  ///< too many errors to continue
+  bool tooManyErrors() const;  ///< too many errors to continue
   void recover(std::size_t from);
 
   // grammar.cpp

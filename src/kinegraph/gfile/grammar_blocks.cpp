@@ -55,7 +55,7 @@ Value Grammar::parseSequence(std::size_t indent) {
   Value value;
   value.where = position(at_);
   NumberArray numbers;
-  StringArray words;
+  StringArray strings;
   ValueList list;
   for (;;) {
     skipSeparators();
@@ -65,7 +65,7 @@ Value Grammar::parseSequence(std::size_t indent) {
     skipBlanks();
     Value item = parseScalar();
     if (const double* number = item.as<double>()) numbers.numbers.push_back(*number);
-    if (const std::string* word = item.as<std::string>()) words.push_back(*word);
+    if (const std::string* word = item.as<std::string>()) strings.push_back(*word);
     list.push_back(std::move(item));
     skipBlanks();
     if (!atEnd() && !isOneOf(peek(), "\n,#"))
@@ -73,8 +73,8 @@ Value Grammar::parseSequence(std::size_t indent) {
   }
   if (numbers.numbers.size() == list.size()) {
     value.data = std::move(numbers);
-  } else if (words.size() == list.size()) {
-    value.data = std::move(words);
+  } else if (strings.size() == list.size()) {
+    value.data = std::move(strings);
   } else {
     value.data = std::move(list);
   }

@@ -18,13 +18,13 @@ std::optional<std::pair<int, double>> coordinateAxis(const Vector3d& axis) {
 
 }  // namespace
 
-AxisMotion turningAbout(const Vector3d& axis) {
+AxisMotion rotationAbout(const Vector3d& axis) {
   static const char* const hinges[] = {"hingeX", "hingeY", "hingeZ"};
   const auto coordinate = coordinateAxis(axis);
   return {coordinate && coordinate->second > 0. ? hinges[coordinate->first] : "hinge"};
 }
 
-AxisMotion slidingAlong(const Vector3d& axis) {
+AxisMotion translationAlong(const Vector3d& axis) {
   static const char* const slides[] = {"transX", "transY", "transZ"};
   if (const auto coordinate = coordinateAxis(axis)) return {slides[coordinate->first], coordinate->second};
   return {"transX", 1., Quaterniond::FromTwoVectors(Vector3d::UnitX(), axis)};

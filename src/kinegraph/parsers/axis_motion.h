@@ -6,15 +6,16 @@ namespace kinegraph {
 
 /// The motion of a joint about or along an axis, as a joint type of a scene.
 struct AxisMotion {
-  const char* type;                            ///< joint type
-  double scale = 1.;                           ///< 1 or -1
-  Quaterniond turn = Quaterniond::Identity();  ///< of the joint frame: aligns its coordinate axis with the joint axis
+  const char* type;   ///< joint type
+  double scale = 1.;  ///< 1 or -1
+  Quaterniond rotation =
+      Quaterniond::Identity();  ///< of the joint frame: aligns its coordinate axis with the joint axis
 };
 
 /// Returns hingeX, hingeY, hingeZ, or hinge for any other axis. `axis` has unit length.
-AxisMotion turningAbout(const Vector3d& axis);
+AxisMotion rotationAbout(const Vector3d& axis);
 
 /// Returns transX, transY, transZ with a sign; for other axes transX in a rotated frame.
-AxisMotion slidingAlong(const Vector3d& axis);
+AxisMotion translationAlong(const Vector3d& axis);
 
 }  // namespace kinegraph

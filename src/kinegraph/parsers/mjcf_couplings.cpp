@@ -10,7 +10,7 @@ namespace {
 
 std::string typeOf(const MjcfElement& joint, MjcfValues& values) {
   if (joint.xml().name == "freejoint") return "free";
-  return values.word(joint, "type", {"hinge", "slide", "ball", "free"}, "hinge");
+  return values.keyword(joint, "type", {"hinge", "slide", "ball", "free"}, "hinge");
 }
 
 /// Replaces a source that itself follows a joint by that joint's source. Breaks cycles by removing one coupling.
@@ -52,7 +52,7 @@ std::map<std::string, MjcfCoupling> mjcfCouplings(const MjcfDocument& document,
   std::map<std::string, MjcfCoupling> couplings;
   for (const XmlElement* xml : document.inSections("equality", "joint")) {
     const MjcfElement element(*xml, {});
-    if (values.word(element, "active", {"true", "false"}, "true") == "false") continue;
+    if (values.keyword(element, "active", {"true", "false"}, "true") == "false") continue;
     const auto find = [&](const char* role) -> const MjcfElement* {
       const XmlAttribute* name = xml->attribute(role);
       if (!name) return nullptr;
@@ -71,7 +71,7 @@ std::map<std::string, MjcfCoupling> mjcfCouplings(const MjcfDocument& document,
     std::vector<double> c = {0., 1., 0., 0., 0.};
     const std::vector<double> given = values.upTo(element, "polycoef", 5);
     std::copy(given.begin(), given.end(), c.begin());
-    const auto moves_by_itself = [&](const std::string& why) {
+    const auto readIndependently = [&](const std::string& why) {
       findings.warn(xml->where, cat("<equality>: ", why, "; joint '", name, "' is read as an independent joint"));
     };
     const auto has_one_dof = [&](const MjcfElement& joint) {
@@ -79,11 +79,11 @@ std::map<std::string, MjcfCoupling> mjcfCouplings(const MjcfDocument& document,
       return type == "hinge" || type == "slide";
     };
     if (second && (c[2] != 0. || c[3] != 0. || c[4] != 0.)) {
-      moves_by_itself("the polynomial is not linear");
+      readIndependently("the polynomial is not linear");
     } else if (!has_one_dof(*first) || (second && !has_one_dof(*second))) {
-      moves_by_itself("only hinge and slide joints can follow each other");
+      readIndependently("only hinge and slide joints can follow each other");
     } else if (couplings.contains(name)) {
-      moves_by_itself(cat("joint '", name, "' follows another joint already"));
+      readIndependently(cat("joint '", name, "' follows another joint already"));
     } else if (!second || c[1] == 0.) {
       couplings[name] = {"", mjcfReference(*first, values) + c[0], 0., xml->where};
     } else {

@@ -32,7 +32,7 @@ struct Place {
   bool on_world = true;        ///< fixed to the world
   bool hangs_on_world = true;  ///< fixed to the world, or connected to it by one joint
   int contact = 1;             ///< flag of its geoms
-  bool weigh = false;          ///< its geoms have masses
+  bool with_mass = false;      ///< its geoms have masses
 };
 
 class MjcfReader {
@@ -190,7 +190,7 @@ class MjcfReader {
       const bool is_geom = child.name == "geom", is_site = child.name == "site";
       if (!is_geom && !is_site && child.name != "camera") continue;
       const MjcfElement described = element(child, place.childclass);
-      MjcfShapes::Placed placed = is_geom   ? shapes_.geom(described, place.contact, place.weigh)
+      MjcfShapes::Placed placed = is_geom   ? shapes_.geom(described, place.contact, place.with_mass)
                                   : is_site ? shapes_.site(described)
                                             : shapes_.camera(described);
       placed.attributes.addPose(place.pose * placed.pose);
@@ -239,7 +239,7 @@ class MjcfReader {
     if (!own_joint) attributes.addPose(pose);
     const XmlElement* inertial = body.child("inertial");
     const MjcfSettings& settings = document_.settings();
-    place.weigh = settings.masses_only_of_geoms || (settings.masses_of_geoms && !inertial);
+    place.with_mass = settings.masses_only_of_geoms || (settings.masses_of_geoms && !inertial);
     if (inertial && !settings.masses_only_of_geoms) addInertial(*inertial, attributes);
     if (const auto others = excluded_.find(name); others != excluded_.end())
       attributes.add("contact_exclude", StringArray(others->second));
@@ -255,7 +255,7 @@ class MjcfReader {
     const MjcfElement& element = joint.element;
     const std::string type = element.xml().name == "freejoint"
                                  ? "free"
-                                 : values_.word(element, "type", {"hinge", "slide", "ball", "free"}, "hinge");
+                                 : values_.keyword(element, "type", {"hinge", "slide", "ball", "free"}, "hinge");
     FrameAttributes attributes(element.where());
     const std::string& name = frame_of_.at(&element.xml());
     joints_.push_back({name, type == "free" ? 7 : type == "ball" ? 4 : 1});
@@ -310,7 +310,7 @@ class MjcfReader {
     axis.normalize();
     const bool slides = type == "slide";
     const Pose anchor = slides ? Pose() : given_anchor;
-    const AxisMotion motion = slides ? slidingAlong(axis) : turningAbout(axis);
+    const AxisMotion motion = slides ? translationAlong(axis) : rotationAbout(axis);
     const double reference = mjcfReference(element, values_);
     const auto coupling = couplings_.find(element.name());
     const bool coupled = !element.name().empty() && coupling != couplings_.end();
@@ -324,7 +324,7 @@ class MjcfReader {
       place(Pose(), anchor.inverse());
       return false;
     }
-    const Pose turn(Vector3d::Zero(), motion.turn);
+    const Pose rotation(Vector3d::Zero(), motion.rotation);
     attributes.add("joint", std::string(motion.type));
     if (std::string_view(motion.type) == "hinge") attributes.addNumbers("axis", {axis.begin(), axis.end()});
     double scale = motion.scale;
@@ -336,19 +336,19 @@ class MjcfReader {
     if (scale != 1.) attributes.add("joint_scale", scale);
     addLimits(element, slides, attributes);
     if (!coupled && reference != 0.) attributes.addNumbers("q", {reference});
-    place(before * turn, turn.inverse() * anchor.inverse());
+    place(before * rotation, rotation.inverse() * anchor.inverse());
     return true;
   }
 
   /// 1, or -1 for a slide against a coordinate axis.
   double scaleOf(const MjcfElement& joint) {
     const Vector3d axis = values_.vector(joint, "axis", Vector3d::UnitZ());
-    const bool slides = values_.word(joint, "type", {"hinge", "slide", "ball", "free"}, "hinge") == "slide";
-    return slides && axis.norm() > 0. ? slidingAlong(axis.normalized()).scale : 1.;
+    const bool slides = values_.keyword(joint, "type", {"hinge", "slide", "ball", "free"}, "hinge") == "slide";
+    return slides && axis.norm() > 0. ? translationAlong(axis.normalized()).scale : 1.;
   }
 
   void addLimits(const MjcfElement& element, bool slides, FrameAttributes& attributes) {
-    const std::string limited = values_.word(element, "limited", {"auto", "true", "false"}, "auto");
+    const std::string limited = values_.keyword(element, "limited", {"auto", "true", "false"}, "auto");
     const std::vector<double> range = values_.numbers(element, "range", 2);
     const bool by_range = document_.settings().limited_by_range && !range.empty();
     if (limited == "false" || (limited == "auto" && !by_range) || range.empty()) return;

@@ -45,11 +45,11 @@ MjcfShapes::MjcfShapes(const MjcfDocument& document, MjcfValues& values, const s
     materials_.emplace(document_.element(*xml).name(), document_.element(*xml));
 }
 
-MjcfShapes::Placed MjcfShapes::geom(const MjcfElement& element, int contact, bool weigh) {
+MjcfShapes::Placed MjcfShapes::geom(const MjcfElement& element, int contact, bool with_mass) {
   static const std::vector<std::string> types = {"plane",    "hfield", "sphere", "capsule", "ellipsoid",
                                                  "cylinder", "box",    "mesh",   "sdf"};
   Placed placed{values_.pose(element), FrameAttributes(element.where())};
-  const std::string type = values_.word(element, "type", types, "sphere");
+  const std::string type = values_.keyword(element, "type", types, "sphere");
   const auto line = element.attribute("fromto") ? values_.line(element) : std::nullopt;
   if (line) placed.pose = line->first;
   if (type == "hfield") {
@@ -61,7 +61,7 @@ MjcfShapes::Placed MjcfShapes::geom(const MjcfElement& element, int contact, boo
   }
   if (!placed.attributes.find("shape") && !placed.attributes.find("mesh")) return placed;
   addLooks(element, contact, placed);
-  if (weigh && type != "plane") addMass(element, placed);
+  if (with_mass && type != "plane") addMass(element, placed);
   return placed;
 }
 
@@ -116,11 +116,11 @@ void MjcfShapes::addMesh(const MjcfElement& element, Placed& placed) {
   const XmlAttribute* file = mesh.own("file");
   const Vector3d scale = values_.vector(mesh, "scale", Vector3d::Ones());
   const Vector3d moved = values_.vector(mesh, "refpos", Vector3d::Zero());
-  const std::vector<double> turned = values_.numbers(mesh, "refquat", 4);
+  const std::vector<double> rotated = values_.numbers(mesh, "refquat", 4);
   Quaterniond back = Quaterniond::Identity();
-  if (!turned.empty()) back = Quaterniond(turned[0], turned[1], turned[2], turned[3]).normalized().conjugate();
+  if (!rotated.empty()) back = Quaterniond(rotated[0], rotated[1], rotated[2], rotated[3]).normalized().conjugate();
   if (!back.coeffs().allFinite()) back = Quaterniond::Identity();
-  if (!turned.empty() && scale != Vector3d::Constant(scale[0]))
+  if (!rotated.empty() && scale != Vector3d::Constant(scale[0]))
     findings_.warn(mesh.where(), cat(mesh.describe(), ": 'refquat' together with an uneven 'scale' is read wrongly"));
   placed.pose = placed.pose * Pose(back * Vector3d(-scale.cwiseProduct(moved)), back);
   if (!file) return addInlineMesh(mesh, scale, placed);
@@ -284,7 +284,7 @@ MjcfShapes::Placed MjcfShapes::camera(const MjcfElement& element) {
     placed.attributes.add("height", pixels[1]);
   }
   const std::string mode =
-      values_.word(element, "mode", {"fixed", "track", "trackcom", "targetbody", "targetbodycom"}, "fixed");
+      values_.keyword(element, "mode", {"fixed", "track", "trackcom", "targetbody", "targetbodycom"}, "fixed");
   if (mode != "fixed")
     findings_.warn(element.where(),
                    cat(element.describe(), ": a camera of mode '", mode, "' is read as a fixed camera"));

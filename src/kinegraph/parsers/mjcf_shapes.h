@@ -21,8 +21,8 @@ class MjcfShapes {
     FrameAttributes attributes;
   };
 
-  /// `contact` is the flag of colliding geoms; `weigh` gives the geom a mass.
-  Placed geom(const MjcfElement& element, int contact, bool weigh);
+  /// `contact` is the flag of colliding geoms; `with_mass` gives the geom a mass.
+  Placed geom(const MjcfElement& element, int contact, bool with_mass);
   Placed site(const MjcfElement& element);
   Placed camera(const MjcfElement& element);
 

@@ -26,9 +26,9 @@ class MjcfValues {
   /// rest.
   std::vector<double> upTo(const MjcfElement& element, const char* name, std::size_t most);
 
-  /// Returns one of `words`; `fallback` if the attribute is missing.
-  std::string word(const MjcfElement& element, const char* name, const std::vector<std::string>& words,
-                   const std::string& fallback);
+  /// Returns one of `keywords`; `fallback` if the attribute is missing.
+  std::string keyword(const MjcfElement& element, const char* name, const std::vector<std::string>& keywords,
+                      const std::string& fallback);
 
   double radians(double angle) const;
 
@@ -49,6 +49,6 @@ class MjcfValues {
 };
 
 /// The shortest rotation of the z axis to the direction of `v`.
-Quaterniond turnZTo(const Vector3d& v);
+Quaterniond rotationOfZTo(const Vector3d& v);
 
 }  // namespace kinegraph

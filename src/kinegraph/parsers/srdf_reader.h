@@ -39,7 +39,7 @@ struct RobotSemantics {
   std::vector<std::string> outside;  ///< joints between the robot and its world, without a frame
   std::vector<std::string> robot;    ///< frames of the robot's file, if the file was found beside it
   std::string file, prefix;          ///< put before the names of frames
-  bool asked_for = true;             ///< false: found beside the robot's file, and unknown names cause no warnings
+  bool requested = true;             ///< false: found beside the robot's file, and unknown names cause no warnings
 };
 
 /// Parses an SRDF text. Appends errors and warnings to `found`; after an error the result is empty.

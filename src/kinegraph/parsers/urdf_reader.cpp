@@ -20,9 +20,9 @@ AxisMotion motionOf(const UrdfJoint& joint) {
       return {"none"};
     case UrdfJointType::revolute:
     case UrdfJointType::continuous:
-      return turningAbout(joint.axis);
+      return rotationAbout(joint.axis);
     case UrdfJointType::prismatic:
-      return slidingAlong(joint.axis);
+      return translationAlong(joint.axis);
     case UrdfJointType::planar:
       return {"transXYPhi", 1., Quaterniond::FromTwoVectors(Vector3d::UnitZ(), joint.axis)};
     case UrdfJointType::floating:
@@ -192,9 +192,9 @@ class UrdfReader {
     graph_.nodes.push_back(attributes.takeFrame(name, parent, where));
   }
 
-  void addLink(const UrdfLink& link, const std::string& parent, const Quaterniond& turn) {
+  void addLink(const UrdfLink& link, const std::string& parent, const Quaterniond& rotation) {
     FrameAttributes attributes(link.inertial ? link.inertial->where : link.where);
-    attributes.addPose({Vector3d::Zero(), turn});
+    attributes.addPose({Vector3d::Zero(), rotation});
     if (link.inertial && link.inertial->mass > 0.) {
       const Matrix3d& m = link.inertial->matrix;
       attributes.add("mass", link.inertial->mass);
@@ -249,7 +249,7 @@ class UrdfReader {
     const AxisMotion motion = motionOf(joint);
     Pose origin = joint.origin;
     if (joint.mimic) origin = origin * poseAt(joint, joint.mimic->offset);
-    origin = origin * Pose(Vector3d::Zero(), motion.turn);
+    origin = origin * Pose(Vector3d::Zero(), motion.rotation);
     FrameAttributes attributes(joint.limit_where);
     std::string parent = joint.parent;
     if (joint.type == UrdfJointType::fixed) {
@@ -273,7 +273,7 @@ class UrdfReader {
       if (joint.mimic) attributes.add("mimic", frame_of_joint_.at(findJoint(joint.mimic->joint)));
     }
     addFrame(name, parent, joint.where, std::move(attributes));
-    addLink(*links_.at(joint.child), name, motion.turn.conjugate());
+    addLink(*links_.at(joint.child), name, motion.rotation.conjugate());
   }
 
   UrdfModel model_;

@@ -42,8 +42,7 @@ std::string duplicatesWarning(SceneTree& scene, const SceneTree& added, const st
   if (twice.empty()) return "";
   const std::size_t count = twice.size();
   twice.resize(std::min<std::size_t>(count, 3));
-  return cat(file, ": ", count, " frames have names that the scene already contains (", join(twice),
-             count > 3 ? ", ..." : "",
+  return cat(file, ": duplicate frame names: ", count, " (", join(twice), count > 3 ? ", ..." : "",
              "); a look-up by name finds the first frame; pass a prefix to keep the names distinct");
 }
 
@@ -404,21 +403,20 @@ std::optional<MotionContact> Config::checkMotion(const VectorXd& from, const Vec
 }
 
 std::string Config::report() const {
-  constexpr std::size_t kMostNamed = 40;
+  constexpr std::size_t kMaxNamed = 40;
   int shapes = 0;
   for (const auto& frame : scene_->frames()) shapes += frame->shape != nullptr;
   const KinematicModel& model = *scene_->model();
   std::vector<std::string> colliding;
   for (const ContactRules::Body& body : model.contacts.bodies) {
-    if (colliding.size() == kMostNamed) break;
+    if (colliding.size() == kMaxNamed) break;
     colliding.push_back(model.frame_name[std::size_t(body.frame)]);
   }
   const std::size_t count = model.contacts.bodies.size();
   std::string text = cat("Configuration: q.N=", getJointDimension(), " #frames=", getFrameDimension(),
                          " #joints=", getJoints().size(), " #shapes=", shapes, " #pairs=", getCollidablePairs().size());
   if (count > 0)
-    text +=
-        cat("\ncollide: ", join(colliding, " "), count > kMostNamed ? cat(" and ", count - kMostNamed, " more") : "");
+    text += cat("\ncollide: ", join(colliding, " "), count > kMaxNamed ? cat(" and ", count - kMaxNamed, " more") : "");
   for (const std::string& note : contactWarnings()) text += cat("\nnote: ", note);
   return text;
 }

@@ -226,7 +226,7 @@ Frame& Frame::setJoint(JointType type, const std::vector<double>& limits, const 
     }
     joint.lower = Eigen::Map<const VectorXd>(limits.data(), dofs);
     joint.upper = Eigen::Map<const VectorXd>(limits.data() + dofs, dofs);
-    if (const std::string why = limitsMistake(limits); !why.empty())
+    if (const std::string why = limitsError(limits); !why.empty())
       throw ValueError(cat("frame '", frame.name, "': ", why));
   }
   if (!axis.empty()) {

@@ -193,7 +193,7 @@ std::vector<Frame> splitIntoConvexParts(Frame& frame) {
   return children;
 }
 
-std::vector<Vector3d> drawnIn(const Mesh& hull, double distance) {
+std::vector<Vector3d> shrunkHull(const Mesh& hull, double distance) {
   const std::size_t n = hull.vertices.size();
   std::vector<std::vector<Vector3d>> normals(n);
   Vector3d middle = Vector3d::Zero();
@@ -232,7 +232,7 @@ void makeMeshesConvex(SceneTree& scene, double radius) {
     geometry.type = ShapeType::ssCvx;
     geometry.size = {radius};
     Mesh core;
-    core.vertices = drawnIn(convexHull(mesh.vertices), radius);
+    core.vertices = shrunkHull(convexHull(mesh.vertices), radius);
     geometry.mesh = std::make_shared<Mesh>(std::move(core));
     frame->shape->geometry = std::make_shared<Geometry>(std::move(geometry));
     scene.looksChanged(*frame->shape);

@@ -51,7 +51,7 @@ void makeMeshesConvex(SceneTree& scene, double radius);
 
 /// Returns the vertices of a hull with faces shrunk by `distance` (m). Each vertex moves against the mean of the
 /// adjacent face normals, by at most half its distance to the middle of the hull.
-std::vector<Vector3d> drawnIn(const Mesh& hull, double distance);
+std::vector<Vector3d> shrunkHull(const Mesh& hull, double distance);
 
 /// Adds a frame with the content of an HDF5 object file: its inertia (inertia/mass, com, tensor), and children `_mesh`,
 /// `_pts` and `_decomp` for the groups mesh, points and decomp. The convex parts below `_decomp` collide. Throws

@@ -19,7 +19,7 @@ namespace {
 
 using Reason = SelfCollisionPair::Reason;
 
-constexpr int kPart = 64;  // configurations that a thread samples at a time, from their own seed
+constexpr int kBatch = 64;  // configurations that a thread samples at a time, from their own seed
 
 /// Sampling interval of each dof. `unbounded` marks dofs without limits that no interval can represent.
 struct Ranges {
@@ -50,7 +50,7 @@ Ranges rangesOf(const KinematicModel& model, const VectorXd& q) {
   return ranges;
 }
 
-void draw(Rng& rng, const KinematicModel& model, const Ranges& ranges, VectorXd& q) {
+void sampleConfiguration(Rng& rng, const KinematicModel& model, const Ranges& ranges, VectorXd& q) {
   for (int dof = 0; dof < model.dofs; ++dof) q[dof] = rng.uniform(ranges.lower[dof], ranges.upper[dof]);
   for (const KinematicModel::DofRange& norm : model.unit_norms) {
     for (int dof = norm.first; dof < norm.first + norm.count; ++dof) q[dof] = rng.normal();
@@ -64,9 +64,9 @@ bool hangsOn(const FrameData* frame, const FrameData& root) {
 }
 
 /// Pairs of frames that carry shapes, and the pairs of shapes of each.
-class PairsOfFrames {
+class FramePairs {
  public:
-  PairsOfFrames(const Config& config, const std::string& root) {
+  FramePairs(const Config& config, const std::string& root) {
     const KinematicModel& model = *config.model();
     const FrameData* first = root.empty() ? nullptr : config.scene()->frames()[config.getFrame(root).id()].get();
     std::map<int, int> owner_of;
@@ -96,7 +96,7 @@ bool adjacent(const KinematicModel& model, int a, int b) {
 }
 
 /// Counts, per pair of frames, the sampled configurations in collision.
-std::vector<int> countCollisions(const Config& config, const PairsOfFrames& pairs, const Ranges& ranges,
+std::vector<int> countCollisions(const Config& config, const FramePairs& pairs, const Ranges& ranges,
                                  const SelfCollisionOptions& options) {
   const auto model = config.model();
   const BodyPairs bodies(*model, pairs.shapes);
@@ -107,7 +107,7 @@ std::vector<int> countCollisions(const Config& config, const PairsOfFrames& pair
     std::vector<int> counts, last;
   };
   std::vector<std::optional<Worker>> workers(std::size_t(options.threads));
-  parallelFor(options.samples, kPart, options.threads, [&](int number, int from, int to) {
+  parallelFor(options.samples, kBatch, options.threads, [&](int number, int from, int to) {
     std::optional<Worker>& worker = workers[std::size_t(number)];
     if (!worker) {
       worker.emplace(Worker{State(model, config.parameters()), PlacedBodies(bodies), VectorXd(model->dofs),
@@ -115,7 +115,7 @@ std::vector<int> countCollisions(const Config& config, const PairsOfFrames& pair
     }
     Rng rng(options.seed + std::uint64_t(from) * 0x9E3779B97F4A7C15u);
     for (int sample = from; sample < to; ++sample) {
-      draw(rng, *model, ranges, worker->q);
+      sampleConfiguration(rng, *model, ranges, worker->q);
       worker->state.setJoints(worker->q.data());
       worker->placed.place(worker->state);
       worker->placed.forMaybeNear(options.margin, [&](int pair) {
@@ -169,7 +169,7 @@ std::string SelfCollisionMatrix::str() const {
 SelfCollisionMatrix selfCollisionMatrix(const Config& config, const SelfCollisionOptions& options) {
   options.validate();
   const auto model = config.model();
-  const PairsOfFrames pairs(config, options.root);
+  const FramePairs pairs(config, options.root);
   if (pairs.frames.empty()) {
     throw ValueError(
         cat("selfCollisionMatrix: ", options.root.empty() ? "the scene" : cat("frame '", options.root, "'"),

@@ -108,7 +108,7 @@ def test_a_missing_mesh_is_a_warning_that_says_where_it_was_looked_for(tmp_path:
         '<robot><link name="a"><visual><geometry><mesh filename="package://p/a.stl"/></geometry></visual></link></robot>'
     )
     with pytest.warns(
-        ry.KinegraphWarning, match="r.urdf:1:41: .*'package://p/a.stl' is not there.*KINEGRAPH_PACKAGE_PATH"
+        ry.KinegraphWarning, match="r.urdf:1:41: .*'package://p/a.stl' does not exist.*KINEGRAPH_PACKAGE_PATH"
     ):
         config = load(file)
     assert config.getFrameNames() == ["a", "a_0"]

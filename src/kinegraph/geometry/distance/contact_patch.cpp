@@ -22,9 +22,9 @@ struct Points {
   const Point& operator[](int i) const { return items[std::size_t(i)]; }
 };
 
-constexpr int kMost = 64;  ///< corners of a patch
-using Patch = Points<Vector3d, kMost>;
-using Polygon = Points<Eigen::Vector2d, 2 * kMost>;
+constexpr int kMaxCorners = 64;  ///< corners of a patch
+using Patch = Points<Vector3d, kMaxCorners>;
+using Polygon = Points<Eigen::Vector2d, 2 * kMaxCorners>;
 
 /// Adds the corners of a hull at the same height along d as the farthest one.
 void addCorners(const Hull& hull, const Vector3d& d, Patch& patch) {
@@ -37,12 +37,13 @@ void addCorners(const Hull& hull, const Vector3d& d, Patch& patch) {
     }
     return;
   }
-  std::array<int, kMost> found{best};  // the corners of a face are neighbors
+  std::array<int, kMaxCorners> found{best};  // the corners of a face are neighbors
   int count = 1;
   for (int i = 0; i < count; ++i) {
     const std::size_t corner = std::size_t(found[std::size_t(i)]);
     patch.add(hull.points[corner]);
-    for (std::uint32_t k = hull.first_neighbor[corner]; k < hull.first_neighbor[corner + 1] && count < kMost; ++k) {
+    for (std::uint32_t k = hull.first_neighbor[corner]; k < hull.first_neighbor[corner + 1] && count < kMaxCorners;
+         ++k) {
       const int next = int(hull.neighbors[k]);
       if (!isTop(hull.points[std::size_t(next)]) ||
           std::find(found.begin(), found.begin() + count, next) != found.begin() + count)

@@ -64,7 +64,7 @@ NearestPoints convexToConvex(const CollisionBody& a, const RigidTransform& X_WA,
       const Vector3d m = -search.v.normalized();
       deepest = {m, m.dot(supportNear(pair, m, search.corners).w), search.simplex};
       const bool refined = refine(pair, deepest);
-      const double off = settle(pair, {search.simplex.points.data(), std::size_t(search.simplex.size)}, deepest);
+      const double off = findWitnesses(pair, {search.simplex.points.data(), std::size_t(search.simplex.size)}, deepest);
       return refined && off <= 1e-9 * pair.scale();
     };
     if (!found() && curved) {
@@ -77,7 +77,7 @@ NearestPoints convexToConvex(const CollisionBody& a, const RigidTransform& X_WA,
   near.distance = -deepest.height;
   near.normal = X_WA.R * -deepest.m;
   const std::optional<Vector3d> middle = middleOfContact(pair, deepest.m);
-  near.point_a = X_WA * (middle ? *middle : deepest.points.mixed(&MinkowskiPoint::a));
+  near.point_a = X_WA * (middle ? *middle : deepest.points.combined(&MinkowskiPoint::a));
   near.point_b = near.point_a - near.distance * near.normal;
   return near;
 }

@@ -32,10 +32,10 @@ struct CorePair {
   }
 
   /// Returns whether one of the cores has a curved side.
-  bool curved() const { return bends(a) || bends(b); }
+  bool curved() const { return isCurved(a) || isCurved(b); }
 
  private:
-  static bool bends(const CollisionBody& body) {
+  static bool isCurved(const CollisionBody& body) {
     return body.core() == CollisionBody::Core::cylinder || body.core() == CollisionBody::Core::box_ellipsoid;
   }
 };
@@ -53,7 +53,7 @@ struct Simplex {
   /// and 5.1.6.
   Vector3d reduce(bool& inside);
 
-  Vector3d mixed(Vector3d MinkowskiPoint::*part) const {
+  Vector3d combined(Vector3d MinkowskiPoint::*part) const {
     Vector3d sum = Vector3d::Zero();
     for (int i = 0; i < size; ++i) sum += weights[std::size_t(i)] * (points[std::size_t(i)].*part);
     return sum;
@@ -77,7 +77,7 @@ inline constexpr int kMaxMinkowskiPoints = 256;
 /// Replaces the points of `deepest` by a convex combination of the farthest candidates along its direction m.
 /// Candidates are points met during the search; those of curved sides are moved to the normal m. Returns the distance
 /// (m) of the combination from the line along m through the origin; 0 if the points are witnesses of the distance.
-double settle(const CorePair& pair, std::span<const MinkowskiPoint> candidates, Deepest& deepest);
+double findWitnesses(const CorePair& pair, std::span<const MinkowskiPoint> candidates, Deepest& deepest);
 
 /// The shortest push that separates overlapping cores: the least h(m) over all m, starting from GJK's final points.
 /// Expands a polytope within A - B. For curved sides, pushes with lengths within 1e-5 of the size are equivalent, and

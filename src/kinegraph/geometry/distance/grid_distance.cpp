@@ -19,9 +19,9 @@ struct Sample {
   double value;
 };
 
-class LeastOnCore {
+class MinimumOnCore {
  public:
-  LeastOnCore(const CollisionBody& core, const RigidTransform& X_GridCore, const GridField& field)
+  MinimumOnCore(const CollisionBody& core, const RigidTransform& X_GridCore, const GridField& field)
       : core_(core), X_(X_GridCore), field_(field), size_(core.boundHalf().norm()) {}
 
   Sample find() const {
@@ -107,7 +107,7 @@ Vector3d nearestInCore(const CollisionBody& body, const Vector3d& point) {
 
 NearestPoints convexToGrid(const CollisionBody& core, const RigidTransform& X_WA, const CollisionBody& grid,
                            const RigidTransform& X_WB) {
-  const Sample least = LeastOnCore(core, X_WB.inverse() * X_WA, grid.grid()).find();
+  const Sample least = MinimumOnCore(core, X_WB.inverse() * X_WA, grid.grid()).find();
   NearestPoints near;
   near.distance = least.value;
   near.point_a = X_WA * least.point;

@@ -44,7 +44,7 @@ struct Weights {
 };
 
 /// The least value on the sides of the box.
-double leastOutside(const Grid& grid) {
+double minimumOnSides(const Grid& grid) {
   double least = 0.;
   const auto [x, y, z] = grid.cells;
   for (int i = 0; i < x; ++i) {
@@ -64,7 +64,7 @@ GridField::GridField(std::shared_ptr<const Grid> given, const Vector3d& size)
     : grid(std::move(given)), half(.5 * size) {
   checkGrid(*grid);
   for (int axis = 0; axis < 3; ++axis) step[axis] = std::max(size[axis], 1e-9) / (grid->cells[axis] - 1);
-  overhang = -leastOutside(*grid);
+  overhang = -minimumOnSides(*grid);
   Mesh mesh = isosurface(*grid, size);
   mesh.triangles.clear();
   if (mesh.vertices.empty()) {

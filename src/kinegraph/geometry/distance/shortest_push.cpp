@@ -36,7 +36,7 @@ class Polytope {
       if (!expand(face, point)) break;
     }
     if (!curved) refine(pair_, best_);
-    settle(pair_, {vertices_.data(), std::size_t(count_)}, best_);
+    findWitnesses(pair_, {vertices_.data(), std::size_t(count_)}, best_);
     return best_;
   }
 

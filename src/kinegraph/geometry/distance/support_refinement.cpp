@@ -107,7 +107,7 @@ Vector3d moved(const CollisionBody& body, const Vector3d& point, const Vector3d&
 
 }  // namespace
 
-double settle(const CorePair& pair, std::span<const MinkowskiPoint> candidates, Deepest& deepest) {
+double findWitnesses(const CorePair& pair, std::span<const MinkowskiPoint> candidates, Deepest& deepest) {
   const Vector3d &m = deepest.m, d_b = -(pair.X_AB.R.transpose() * m);
   const double scale = pair.scale();
   std::array<MinkowskiPoint, kMaxMinkowskiPoints> flat;  // projected along m

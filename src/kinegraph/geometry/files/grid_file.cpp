@@ -112,9 +112,9 @@ class TableReader {
 };
 
 std::string listed(const std::vector<double>& numbers) {
-  std::vector<std::string> words;
-  for (const double number : numbers) words.push_back(cat(number));
-  return join(words, " ");
+  std::vector<std::string> texts;
+  for (const double number : numbers) texts.push_back(cat(number));
+  return join(texts, " ");
 }
 
 std::map<std::string, Table> readH5Tables(const std::string& path) {

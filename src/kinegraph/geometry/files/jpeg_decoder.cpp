@@ -13,8 +13,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kMostPixelsPerByte = 1024.;
-constexpr int kMostScans = 100;
+constexpr double kMaxPixelsPerByte = 1024.;
+constexpr int kMaxScans = 100;
 
 struct Component {
   int id = 0, across = 1, down = 1, quantization = 0;  // `across` and `down`: blocks of it in a unit
@@ -51,7 +51,7 @@ class JpegDecoder {
       else if (marker >= 0xc3 && marker <= 0xcf && marker != 0xc8 && marker != 0xcc)
         throw FileError("it is of a rare kind (lossless or arithmetic)");
       if (marker != 0xda) continue;
-      if (++scans > kMostScans) throw FileError(cat("it has more than ", kMostScans, " scans"));
+      if (++scans > kMaxScans) throw FileError(cat("it has more than ", kMaxScans, " scans"));
       readScan(data, at);
     }
     if (components_.empty()) throw FileError("it has no header");
@@ -110,7 +110,7 @@ class JpegDecoder {
       throw FileError(cat("it has ", width_, " x ", height_, " pixels of ", count, " colors with ", byte(data, 0),
                           " bits; expected 1 or 3 of 8 bits"));
     }
-    if (double(width_) * height_ > 1e5 + kMostPixelsPerByte * double(bytes_.size())) {
+    if (double(width_) * height_ > 1e5 + kMaxPixelsPerByte * double(bytes_.size())) {
       throw FileError(cat("its header announces ", width_, " x ", height_, " pixels, more than its bytes can hold"));
     }
     std::vector<Component> components(static_cast<std::size_t>(count));

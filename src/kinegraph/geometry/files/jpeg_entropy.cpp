@@ -6,7 +6,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kMostMissing = 16;  // bytes read as zeros beyond the end of a scan
+constexpr int kMaxMissing = 16;  // bytes read as zeros beyond the end of a scan
 
 std::int16_t shifted(int amplitude, int bits) { return std::int16_t(amplitude * (1 << bits)); }
 
@@ -46,7 +46,7 @@ std::uint32_t JpegEntropyReader::look16() {
     const bool is_marker = next == 0xff && (at_ + 1 >= bytes_.size() || bytes_[at_ + 1] != 0);
     if (at_ >= bytes_.size() || is_marker) {
       next = 0;
-      if (++missing_ > kMostMissing) throw FileError("its data end too early");
+      if (++missing_ > kMaxMissing) throw FileError("its data end too early");
     } else {
       at_ += next == 0xff ? 2 : 1;
     }

@@ -8,7 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/assimp.h"
 #include "kinegraph/geometry/files/h5_file.h"
-#include "kinegraph/geometry/files/mesh_promises.h"
+#include "kinegraph/geometry/files/mesh_header.h"
 #include "kinegraph/geometry/files/mesh_textures.h"
 
 namespace kinegraph {
@@ -117,7 +117,7 @@ Mesh readMeshFile(const std::string& path) {
   if (!std::filesystem::is_regular_file(path)) throw FileError(cat("mesh file '", path, "' does not exist"));
   if (path.ends_with(".h5")) return readH5Mesh(path, "mesh");
   if (path.ends_with(".msh")) return readMshMesh(path);
-  checkMeshPromises(path);
+  checkMeshHeader(path);
   const AssimpScene scene = readAssimpScene(path);
   Mesh mesh;
   MeshTextures textures(*scene, path);

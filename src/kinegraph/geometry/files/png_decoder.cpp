@@ -12,7 +12,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr std::uint32_t kMostPixelsAcross = 1u << 15;
+constexpr std::uint32_t kMaxPixelsAcross = 1u << 15;
 constexpr double kBestPacking = 1032.;  // maximum expansion factor of deflate
 
 std::uint32_t bigEndian(std::string_view bytes, std::size_t at) {
@@ -39,9 +39,8 @@ Header readHeader(std::string_view data) {
   header.depth = data[8];
   header.color = data[9];
   header.interlaced = data[12] != 0;
-  if (header.width == 0 || header.height == 0 || header.width > kMostPixelsAcross ||
-      header.height > kMostPixelsAcross) {
-    throw FileError(cat("it has ", header.width, " x ", header.height, " pixels; expected 1 to ", kMostPixelsAcross,
+  if (header.width == 0 || header.height == 0 || header.width > kMaxPixelsAcross || header.height > kMaxPixelsAcross) {
+    throw FileError(cat("it has ", header.width, " x ", header.height, " pixels; expected 1 to ", kMaxPixelsAcross,
                         " across and down"));
   }
   const bool small = header.depth == 1 || header.depth == 2 || header.depth == 4;

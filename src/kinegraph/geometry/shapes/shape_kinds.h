@@ -41,7 +41,7 @@ struct ShapeKind {
   Body body = Body::other;
   bool is_symbol = false;    ///< marks a place only: never collides, no file format writes it
   bool has_inertia = false;  ///< its surface can carry a mass
-  bool is_turned = false;    ///< round about z: pictures wrap around the axis
+  bool is_round = false;     ///< round about z: pictures wrap around the axis
   bool is_drawn_by_page =
       false;  ///< the page builds it from type and sizes (viewer/src/primitives.ts); others are sent as triangles
 

@@ -67,7 +67,7 @@ Mesh texturedSurface(const Geometry& geometry, std::shared_ptr<const Image> imag
   if (surface.texcoords.size() == surface.vertices.size()) {
     mesh = surface;
   } else {  // separate corners for each triangle
-    const bool turned = shapeKind(geometry.type).is_turned;
+    const bool round = shapeKind(geometry.type).is_round;
     Vector3d low = surface.vertices[0], high = low;
     for (const Vector3d& p : surface.vertices) {
       low = low.cwiseMin(p);
@@ -79,7 +79,7 @@ Mesh texturedSurface(const Geometry& geometry, std::shared_ptr<const Image> imag
                                surface.vertices[triangle[2]]};
       const auto first = std::uint32_t(mesh.vertices.size());
       mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
-      const auto places = turned ? around(corners, low.z(), high.z()) : seenAlongAxis(corners, low, size);
+      const auto places = round ? around(corners, low.z(), high.z()) : seenAlongAxis(corners, low, size);
       mesh.texcoords.insert(mesh.texcoords.end(), places.begin(), places.end());
       mesh.triangles.push_back({first, first + 1, first + 2});
     }

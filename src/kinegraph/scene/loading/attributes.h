@@ -43,8 +43,8 @@ class AttributeReader {
   double numberOr(const char* key, double otherwise);
   std::optional<std::vector<double>> numbers(const Node& node);
   std::optional<Vector3d> vector3(const Node& node);
-  static std::string severalHint(const Node& node);
-  static std::string givenPath(const Node& node);
+  static std::string bracketHint(const Node& node);
+  static std::string pathText(const Node& node);
   std::string path(const Node& node);  ///< absolute; throws FileError for a package that is not installed
   void applyPose(FrameData& frame);
   void readLimits(Joint& joint);

@@ -69,7 +69,7 @@ void AttributeReader::readLimits(Joint& joint) {
   }
   joint.lower = Eigen::Map<const VectorXd>(v->data(), Eigen::Index(dofs));
   joint.upper = Eigen::Map<const VectorXd>(v->data() + dofs, Eigen::Index(dofs));
-  if (const std::string why = limitsMistake({v->data(), 2 * dofs}); !why.empty()) error(*limits, why);
+  if (const std::string why = limitsError({v->data(), 2 * dofs}); !why.empty()) error(*limits, why);
 }
 
 void AttributeReader::readDofs(Joint& joint) {

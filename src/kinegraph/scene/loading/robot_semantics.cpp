@@ -36,7 +36,7 @@ class Applier {
 
   void apply() {
     if (!knowsAny()) {
-      if (!semantics_.asked_for) return;
+      if (!semantics_.requested) return;
       return diagnostics_.error(
           {semantics_.file, 1, 1},
           "none of the links and joints in this file is a frame of the scene; add the robot first");
@@ -94,7 +94,7 @@ class Applier {
   }
 
   void warnMissing(const char* kind, const std::string& name, const SourcePosition& where) {
-    if (!semantics_.asked_for || !missing_.insert(name).second) return;
+    if (!semantics_.requested || !missing_.insert(name).second) return;
     const std::string hint = missing_.size() <= 20 ? similarHint(semantics_.prefix + name, scene_.names()) : "";
     diagnostics_.warning(where, cat("the scene has no ", kind, " '", semantics_.prefix, name, "'", hint));
   }
@@ -234,7 +234,7 @@ class Applier {
     for (; frame && frame != base; frame = frame->parent) addMoving(frame, joints);
     if (frame) return;
     joints.resize(before);
-    if (!semantics_.asked_for) return;
+    if (!semantics_.requested) return;
     diagnostics_.warning(chain.where, cat("the chain from '", chain.name, "' to '", chain.tip, "' does not exist: '",
                                           chain.name, "' is not above '", chain.tip, "'"));
   }
@@ -251,7 +251,7 @@ class Applier {
     NumberArray q{value.values, 1};
     const int dofs = frame->joint->dofs();
     if (int(q.numbers.size()) != dofs) {
-      if (!semantics_.asked_for) return;
+      if (!semantics_.requested) return;
       return diagnostics_.warning(value.where, cat("state '", state.name, "': joint '", value.joint, "' has ", dofs,
                                                    dofs == 1 ? " dof, not " : " dofs, not ", q.numbers.size()));
     }

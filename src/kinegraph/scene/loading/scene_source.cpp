@@ -152,7 +152,7 @@ class SourceReader {
     const bool failed = std::any_of(found.begin(), found.end(),
                                     [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error; });
     if (!failed) {
-      read.asked_for = false;
+      read.requested = false;
       for (const SourceFrame& frame : robot) read.robot.push_back(frame.node.key);
       semantics.push_back(std::move(read));
     }

@@ -202,7 +202,7 @@ bool AttributeReader::readSize(Geometry& geometry) {
            try {
              geometry.size = checkedSize(geometry.type, *given, &enlarged);
            } catch (const ValueError& e) {
-             throw ValueError(cat(e.what(), size ? severalHint(*size) : ""));
+             throw ValueError(cat(e.what(), size ? bracketHint(*size) : ""));
            }
            if (!enlarged.empty()) warning(blamed, enlarged);
          });
@@ -259,7 +259,7 @@ void AttributeReader::applyShape(FrameData& frame) {
     frame.shape->contact = int(flag);
   }
   if (const Node* mesh = find({"visual_mesh"})) {  // may be missing: the shape itself is shown instead
-    guarded(*mesh, [&] { frame.shape->visual_mesh = resolvePath(givenPath(*mesh), folder_); });
+    guarded(*mesh, [&] { frame.shape->visual_mesh = resolvePath(pathText(*mesh), folder_); });
   }
   if (const auto pose = readPose({"visual_pose"})) frame.shape->visual_pose = *pose;
   applyTexture(*frame.shape);
@@ -292,7 +292,7 @@ void AttributeReader::applyTexture(Shape& shape) {
     shape.texture = readImageFile(path(*node));
   } catch (const Error& e) {
     const bool missing = std::string(e.what()).ends_with("does not exist");
-    warning(*node, cat("texture: ", e.what(), missing ? similarFilesHint(resolvePath(givenPath(*node), folder_)) : ""));
+    warning(*node, cat("texture: ", e.what(), missing ? similarFilesHint(resolvePath(pathText(*node), folder_)) : ""));
   }
 }
 

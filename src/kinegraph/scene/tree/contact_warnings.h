@@ -22,6 +22,6 @@ struct ContactWarnings {
 ContactWarnings contactWarnings(SceneTree& scene);
 
 /// Describes the warnings: one sentence per nonempty list.
-std::vector<std::string> describe(const ContactWarnings& notes, const SceneTree& scene);
+std::vector<std::string> describe(const ContactWarnings& warnings, const SceneTree& scene);
 
 }  // namespace kinegraph

@@ -8,7 +8,7 @@ namespace kinegraph {
 
 void SceneDiagnostics::add(Diagnostic diagnostic) {
   if (diagnostic.severity == Diagnostic::Severity::error && ++errors_ > kMaxErrors) return;
-  if (diagnostic.severity == Diagnostic::Severity::warning && found_.size() >= kMaxKept) return;
+  if (diagnostic.severity == Diagnostic::Severity::warning && found_.size() >= kMaxStored) return;
   const auto same = [&](const Diagnostic& other) {
     return other.severity == diagnostic.severity && other.message == diagnostic.message &&
            other.where.str() == diagnostic.where.str();

@@ -34,7 +34,7 @@ class SceneDiagnostics {
 
  private:
   static constexpr int kMaxErrors = 50;
-  static constexpr std::size_t kMaxKept = 1000;  ///< errors and warnings
+  static constexpr std::size_t kMaxStored = 1000;  ///< errors and warnings
 
   std::string withExcerpt(const Diagnostic& diagnostic) const;
 

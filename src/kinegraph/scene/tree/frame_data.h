@@ -56,12 +56,13 @@ struct Shape {
   std::shared_ptr<const CollisionBody> body() const;
 
  private:
-  struct Made {
+  struct BodyCache {
     std::mutex mutex;
     std::shared_ptr<const CollisionBody> body;
     std::shared_ptr<const Geometry> of;
   };
-  mutable std::shared_ptr<Made> made_ = std::make_shared<Made>();  ///< shared with copies of the same geometry
+  mutable std::shared_ptr<BodyCache> body_cache_ =
+      std::make_shared<BodyCache>();  ///< shared with copies of the same geometry
 };
 
 struct Inertia {

@@ -7,7 +7,7 @@
 
 namespace kinegraph {
 
-std::string limitsMistake(std::span<const double> limits) {
+std::string limitsError(std::span<const double> limits) {
   if (std::any_of(limits.begin(), limits.end(), [](double limit) { return std::isnan(limit); }))
     return "a limit is nan; write -inf or inf for a missing limit";
   const std::size_t dofs = limits.size() / 2;

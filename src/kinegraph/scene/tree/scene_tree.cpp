@@ -176,7 +176,7 @@ FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix, 
 }
 
 /// Updates a snapshot after edits that keep the structure: joint states, and everything else that may have changed.
-void SceneTree::bringUpToDate(Snapshot& snapshot) const {
+void SceneTree::updateSnapshot(Snapshot& snapshot) const {
   const std::vector<std::shared_ptr<FrameData>>& copies = snapshot.scene->frames_;
   const bool just_dofs = !snapshot.is_stale && compiled_revision_ == structure_revision_;
   if (just_dofs) {
@@ -203,7 +203,7 @@ std::shared_ptr<const SceneTree> SceneTree::snapshot() {
   snapshot_revision_ = structure_revision_;
   for (Snapshot& kept : snapshots_) {
     if (kept.scene.use_count() > 1) continue;
-    bringUpToDate(kept);
+    updateSnapshot(kept);
     return kept.scene;
   }
   const auto copy = std::make_shared<SceneTree>();
@@ -222,7 +222,7 @@ const std::shared_ptr<const KinematicModel>& SceneTree::model() {
       if (isDofFrame(*frame)) dof_frames_.push_back(frame.get());
     }
     parameters_.reset();
-    parameters_before_.reset();
+    previous_parameters_.reset();
     state_.reset();
     near_pairs_.reset();
     q_.resize(model_->dofs);
@@ -236,9 +236,9 @@ const std::shared_ptr<const Parameters>& SceneTree::parameters() {
   if (poses_stale_ || !moved_.empty()) {
     if (poses_stale_) {
       parameters_ = collectParameters(*this, *model_);
-      parameters_before_.reset();
+      previous_parameters_.reset();
     } else {
-      moveInParameters();
+      updateMovedParameters();
     }
     moved_.clear();
     motion_checker_.reset();
@@ -249,17 +249,17 @@ const std::shared_ptr<const Parameters>& SceneTree::parameters() {
 }
 
 /// Reuses the previous parameters if no one else holds them, and updates all frames moved since; copies otherwise.
-void SceneTree::moveInParameters() {
-  std::shared_ptr<Parameters> next = std::move(parameters_before_);
+void SceneTree::updateMovedParameters() {
+  std::shared_ptr<Parameters> next = std::move(previous_parameters_);
   if (next && next.use_count() == 1) {
     std::atomic_thread_fence(std::memory_order_acquire);
-    for (const FrameData* frame : moved_before_) updateParameters(*frame, *model_, *next);
+    for (const FrameData* frame : previous_moved_) updateParameters(*frame, *model_, *next);
   } else {
     next = std::make_shared<Parameters>(*parameters_);
   }
   for (const FrameData* frame : moved_) updateParameters(*frame, *model_, *next);
-  parameters_before_ = std::const_pointer_cast<Parameters>(std::exchange(parameters_, std::move(next)));
-  moved_before_.swap(moved_);
+  previous_parameters_ = std::const_pointer_cast<Parameters>(std::exchange(parameters_, std::move(next)));
+  previous_moved_.swap(moved_);
 }
 
 const State& SceneTree::state() {
@@ -294,12 +294,12 @@ MotionChecker& SceneTree::motionChecker() {
 
 Pose SceneTree::worldPose(const FrameData& frame) {
   const bool is_compiled = compiled_revision_ == structure_revision_;
-  const bool pays = is_compiled ? asked_since_edit_ : steps_to_parents_ > kCompileSteps * frames_.size();
+  const bool pays = is_compiled ? queried_since_edit_ : steps_to_parents_ > kCompileSteps * frames_.size();
   return pays ? Pose(state().pose(frame.id)) : poseAlongParents(frame);
 }
 
 Pose SceneTree::poseAlongParents(const FrameData& frame) {
-  asked_since_edit_ = true;
+  queried_since_edit_ = true;
   for (const FrameData* above = &frame; above; above = above->parent) ++steps_to_parents_;
   return frame.worldPose();
 }

@@ -66,20 +66,20 @@ class SceneTree {
 
   void structureChanged() {
     ++structure_revision_;
-    asked_since_edit_ = false;
+    queried_since_edit_ = false;
   }
   void posesChanged() {
     for (Snapshot& snapshot : snapshots_) snapshot.is_stale = true;
     poses_stale_ = true;
-    asked_since_edit_ = false;
+    queried_since_edit_ = false;
   }
   /// Reports a change of one frame's constant pose.
   void poseChanged(const FrameData& frame) {
-    asked_since_edit_ = false;
+    queried_since_edit_ = false;
     for (Snapshot& snapshot : snapshots_) snapshot.noteMoved(frame.id);
     if (poses_stale_ || (!moved_.empty() && moved_.back() == &frame)) return;
     moved_.push_back(&frame);
-    poses_stale_ = moved_.size() > kMostMoved;
+    poses_stale_ = moved_.size() > kMaxMoved;
   }
   void jointsChanged() { q_stale_ = true; }
   void looksChanged(Shape& shape) {
@@ -112,7 +112,7 @@ class SceneTree {
   std::shared_ptr<ConfigViewer> viewer;  ///< the viewer of this scene, shared by all handles; null until first shown
 
  private:
-  static constexpr std::size_t kMostMoved = 8;  ///< with more moved frames, all poses are collected again
+  static constexpr std::size_t kMaxMoved = 8;  ///< with more moved frames, all poses are collected again
 
   /// A copy of the scene, and the edits it lacks.
   struct Snapshot {
@@ -123,7 +123,7 @@ class SceneTree {
     void noteMoved(int id) {
       if (is_stale || (!moved.empty() && moved.back() == id)) return;
       moved.push_back(id);
-      is_stale = moved.size() > kMostMoved;
+      is_stale = moved.size() > kMaxMoved;
     }
   };
 
@@ -133,21 +133,21 @@ class SceneTree {
 
   const SceneTree& indexNames();
   Pose poseAlongParents(const FrameData& frame);
-  void moveInParameters();
-  void bringUpToDate(Snapshot& snapshot) const;
+  void updateMovedParameters();
+  void updateSnapshot(Snapshot& snapshot) const;
   void gatherJointState(double* q) const;
 
   std::vector<std::shared_ptr<FrameData>> frames_;
   NameIndex names_;
   std::size_t steps_to_parents_ = 0;  ///< steps since the structure was compiled
   std::uint64_t structure_revision_ = 1, compiled_revision_ = 0, looks_revision_ = 0;
-  bool poses_stale_ = true, q_stale_ = true, bodies_stale_ = true, asked_since_edit_ = false;
+  bool poses_stale_ = true, q_stale_ = true, bodies_stale_ = true, queried_since_edit_ = false;
   std::vector<const FrameData*> moved_;  ///< frames moved since the parameters were collected
   std::vector<FrameData*> dof_frames_;   ///< frames whose joints make up q, in its order
   std::shared_ptr<const KinematicModel> model_;
   std::shared_ptr<const Parameters> parameters_;
-  std::shared_ptr<Parameters> parameters_before_;  ///< the previous parameters
-  std::vector<const FrameData*> moved_before_;     ///< frames moved between the previous and the current parameters
+  std::shared_ptr<Parameters> previous_parameters_;  ///< the previous parameters
+  std::vector<const FrameData*> previous_moved_;     ///< frames moved between the previous and the current parameters
   std::unique_ptr<State> state_;
   VectorXd q_;  ///< the q last passed to `state_`
   std::unique_ptr<NearPairs> near_pairs_;

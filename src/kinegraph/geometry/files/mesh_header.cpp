@@ -1,4 +1,4 @@
-#include "kinegraph/geometry/files/mesh_promises.h"
+#include "kinegraph/geometry/files/mesh_header.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -35,7 +35,7 @@ void forValues(std::string_view text, std::string_view key, std::string_view end
 double numberOf(std::string_view text) { return std::strtod(std::string(text.substr(0, 40)).c_str(), nullptr); }
 
 /// Sums the element counts in the header of a PLY file.
-double promisesOfPly(std::string_view text) {
+double elementsInPlyHeader(std::string_view text) {
   double promised = 0.;
   const std::string_view header = text.substr(0, std::min(text.find("end_header"), text.size()));
   forValues(header, "\nelement ", "\r\n",
@@ -45,7 +45,7 @@ double promisesOfPly(std::string_view text) {
 
 }  // namespace
 
-void checkMeshPromises(const std::string& path) {
+void checkMeshHeader(const std::string& path) {
   const std::string extension = lowerExtension(path);
   const bool ply = extension == ".ply", dae = extension == ".dae", gltf = extension == ".gltf" || extension == ".glb";
   if (!ply && !dae && !gltf) return;
@@ -55,7 +55,7 @@ void checkMeshPromises(const std::string& path) {
   const std::string text = bytes.str();
   double promised = 0., held = double(text.size());
   const auto add = [&](std::string_view count) { promised += std::max(numberOf(count), 0.); };
-  if (ply) promised = promisesOfPly(text);
+  if (ply) promised = elementsInPlyHeader(text);
   if (dae) forValues(text, " count=", "\"'", add);
   if (gltf) {
     forValues(text, "\"count\"", ",}", add);
