@@ -108,7 +108,7 @@ TEST(SelfCollisions, WhatCannotBeAskedIsAnError) {
   expectError<ValueError>([&] { selfCollisionMatrix(config, {.always = 2.}); }, {"always is 2"});
   expectError<FrameNotFound>([&] { selfCollisionMatrix(config, {.root = "bse"}); }, {"similar names: base"});
   expectError<ValueError>([&] { selfCollisionMatrix(config, {.root = "wall"}); },
-                          {"frame 'wall' has no two shapes", "`contact`"});
+                          {"frame 'wall' has no collidable pair of shapes", "`contact`"});
 }
 
 }  // namespace

@@ -91,5 +91,5 @@ def test_invalid_arguments_are_errors(arm):
         arm.selfCollisionMatrix(root="panda_bas")
     with pytest.raises(ry.ArgumentError, match="samples is 0"):
         arm.selfCollisionMatrix(samples=0)
-    with pytest.raises(ry.ArgumentError, match="has no two shapes"):
+    with pytest.raises(ry.ArgumentError, match="has no collidable pair of shapes"):
         ry.Config().selfCollisionMatrix()

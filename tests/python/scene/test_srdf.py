@@ -130,7 +130,7 @@ def test_a_file_of_the_same_name_is_read_with_the_robot(folder: Path) -> None:
         C.addFile(folder / "robot" / "arm.urdf", "l_")
         assert C.getStateNames() == ["home", "ready", "away"] and C.getJointGroups()["arm"] == ["l_j1", "l_j2"]
         place.write_text("<robot>\n<group/></robot>")
-        with pytest.warns(ry.KinegraphWarning, match="arm.srdf:2:1: the file beside the robot's is not used: .*'name'"):
+        with pytest.warns(ry.KinegraphWarning, match="arm.srdf:2:1: the SRDF file beside the robot's file is ignored: .*'name'"):
             ry.Config().addFile(folder / "robot" / "arm.urdf")
         place.unlink()
 
@@ -169,7 +169,7 @@ MISTAKES = {
     "<robot><group_state nme='a'/></robot>": "1:8: <group_state> has no attribute 'name'; similar names: nme",
     "<robot><group_state name='s'><joint name='j1' value='0 x'/></group_state></robot>": "1:47: state 's', joint 'j1': value=\"0 x\" is not a number",
     "<robot><disable_collisions link1='l0'/></robot>": "no attribute 'link2'",
-    "<robot><disable_collisions link1='x' link2='y'/></robot>": "none of the links and joints .* add the robot before",
+    "<robot><disable_collisions link1='x' link2='y'/></robot>": "none of the links and joints .* add the robot first",
     "<robot><xacro:include/></robot>": "expand the file first",
     "<robot><group>": "bad.srdf:1:",
 }

@@ -173,7 +173,7 @@ def test_a_model_keeps_its_dofs_and_pairs_as_urdf(name: str, dofs: int, tmp_path
         warnings.simplefilter("always")
         C.writeURDF(tmp_path / "robot.urdf")
     if "panda" in name:
-        assert any("panda_finger_joint1' is no part of q" in str(warning.message) for warning in said)
+        assert any("panda_finger_joint1' is not in q" in str(warning.message) for warning in said)
     back.addFile(tmp_path / "robot.urdf")
     assert back.getJointDimension() == dofs == C.getJointDimension()
     joints = {joint.split(":")[0] for joint in C.getJointNames()}
