@@ -58,7 +58,7 @@ class Frame {
   Frame& setMesh(Mesh mesh);              ///< triangles, or points if the mesh has no triangles
   Frame& setConvexCore(std::vector<Vector3d> points,
                        double radius);                ///< ssCvx: convex hull of the points swept by a ball
-  Frame& setColor(const std::vector<double>& color);  ///< 1 gray, 2 gray alpha, 3 rgb, 4 rgba, in 0..1
+  Frame& setColor(const std::vector<double>& color);  ///< in 0..1: 1 gray; 2 gray, alpha; 3 rgb; 4 rgba
   Frame& setContact(int contact);                     ///< see Config::getCollidablePairs
   ShapeType getShapeType() const;                     ///< ShapeType::none without a shape
   std::vector<double> getSize() const;                ///< empty without a shape

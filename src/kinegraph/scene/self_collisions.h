@@ -9,10 +9,10 @@
 namespace kinegraph {
 
 struct SelfCollisionOptions {
-  int samples = 10000;     ///< number of configurations sampled within the limits
+  int samples = 10000;     ///< configurations sampled within the limits
   std::uint64_t seed = 0;  ///< seed of the samples
   double margin = 0.;      ///< shapes closer than this count as colliding, m
-  double always = .95;     ///< fraction of samples from which a pair counts as always colliding
+  double always = .95;     ///< in (0, 1]: fraction of samples from which a pair counts as always colliding
   std::string root;        ///< first frame of the robot, checked with its subtree; "": all moving links
   int threads = 1;
 
@@ -25,11 +25,11 @@ struct SelfCollisionPair {
     adjacent,   ///< one joint connects their links
     always,     ///< they collide in nearly all samples: the model overlaps by design
     never,      ///< they collide in no sample
-    sometimes,  ///< all others, and pairs with an unlimited sliding joint between them
+    sometimes,  ///< all others; also pairs with an unlimited sliding joint between them
   };
   int a, b;  ///< ids, a < b
   Reason reason;
-  int collisions;  ///< number of samples in collision
+  int collisions;  ///< samples in collision; 0 to `samples`
 
   bool matters() const { return reason == Reason::sometimes; }
 };

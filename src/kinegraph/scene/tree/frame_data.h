@@ -30,9 +30,9 @@ struct Joint {
   VectorXd home;                      ///< initial dofs; mean of random sampling
   VectorXd lower, upper;              ///< limits in units of q; both empty: unlimited
   double control_weight = 1.;         ///< `ctrl_H`
-  bool active = true;                 ///< part of the configuration's q
+  bool active = true;                 ///< whether its dofs are in q
   bool stable = false;                ///< constant over the slices of a path
-  FrameData* mimic = nullptr;         ///< the joint whose dofs this one repeats
+  FrameData* mimic = nullptr;         ///< the joint whose dofs this one repeats; may be null
   double sample_uniform = 0.;         ///< probability of uniform sampling within the limits
   double sample_deviation = .01;      ///< standard deviation of Gaussian sampling
   std::vector<MotionStep> steps;      ///< motionSteps(type, code)

@@ -18,8 +18,8 @@ void gatherInertia(FrameData& frame);
 Pose moveToPrincipalAxes(SceneTree& scene, FrameData& frame, bool transform_mesh);
 
 struct InertiaOptions {
-  bool recompute = true;        ///< first give every opaque shape the mass of its surface, and transparent ones none
-  bool principal_axes = false;  ///< finally move the link frames to the principal axes
+  bool recompute = true;        ///< first, give every opaque shape the mass of its surface, and transparent ones none
+  bool principal_axes = false;  ///< finally, move the link frames to the principal axes
 };
 
 /// Gathers the inertia of every link in the frame of its joint, or in the root for links without a joint. With
