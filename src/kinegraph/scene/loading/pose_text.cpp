@@ -92,7 +92,7 @@ Pose parsePose(std::string_view text, const SourcePosition& where) {
       while (at < text.size() &&
              (text[at] == ']' || text[at] == '>' || std::isspace(static_cast<unsigned char>(text[at]))))
         ++at;
-      if (at < text.size()) fail(where, text, cat("'", text.substr(at), "' behind the numbers"));
+      if (at < text.size()) fail(where, text, cat("unexpected '", text.substr(at), "' after the numbers"));
       try {
         return X * Pose::fromNumbers(Eigen::Map<const VectorXd>(numbers.data(), Eigen::Index(numbers.size())));
       } catch (const ValueError& error) {
@@ -107,7 +107,7 @@ Pose parsePose(std::string_view text, const SourcePosition& where) {
     }
     ++at;
     const std::vector<double> numbers = readNumbers(text, at, where);
-    if (at >= text.size() || text[at] != ')') fail(where, text, cat("the '(' behind '", c, "' is never closed by ')'"));
+    if (at >= text.size() || text[at] != ')') fail(where, text, cat("the '(' after '", c, "' is never closed by ')'"));
     ++at;
     try {
       X = X * motion(c, numbers, text, where);
