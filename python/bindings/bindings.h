@@ -79,10 +79,12 @@ Frame toFrame(const Config& config, nb::handle name_or_id, const char* who = "ge
 /// For long calls without the GIL: acquires it, and throws KeyboardInterrupt after Ctrl-C.
 void checkInterrupt();
 
-/// Calls checkInterrupt() at most every 20 ms; returns whether it did.
+/// A CancellationToken that calls checkInterrupt() at most every 20 ms. It never cancels; it throws.
 class CheckInterrupts {
  public:
-  bool operator()();
+  /// Calls checkInterrupt() if the last call was at least 20 ms ago. Returns whether it did.
+  bool checkIfDue();
+  void operator()() { checkIfDue(); }
 
  private:
   std::chrono::steady_clock::time_point checked_ = std::chrono::steady_clock::now();
