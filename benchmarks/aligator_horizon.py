@@ -19,9 +19,9 @@ import time
 from pathlib import Path
 
 import numpy as np
-from control import SLICES, TAU, VELOCITY, eight, panda
 
 import kinegraph as ry
+from control import SLICES, TAU, VELOCITY, eight, panda
 
 STEPS, OF_TARGET = 400, 100.0
 
