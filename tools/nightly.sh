@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Runs everything that is checked and measured before a release, one stage after the other: all tests, Clang, the
 # sanitizers, the fuzzers, clang-tidy, all benchmarks. A stage that fails does not stop the others. Logs go to
-# build/nightly, and tools/collect_results.py writes docs/results/VERSION.md from them.
+# build/nightly (or build/nightly_quick), and tools/collect_results.py writes docs/results/VERSION.md from them.
 #
 #   nightly.sh                  all stages (hours)
 #   nightly.sh --quick          a small sample of each (for a try of this script)
@@ -21,6 +21,7 @@ while [ $# -gt 0 ]; do
 done
 export KINEGRAPH_HEADLESS=1
 out=$PWD/build/nightly
+[ "$quick" = 0 ] || out=${out}_quick
 mkdir -p "$out"
 failed=0
 
