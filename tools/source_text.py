@@ -1,6 +1,7 @@
 """Reads the prose of a source tree: comments, docstrings, documentation strings and Markdown pages."""
 
 import ast
+import inspect
 import io
 import re
 import subprocess
@@ -74,8 +75,8 @@ def plain_text(path: Path) -> str:
         for line, passage in passages(path):
             goes_on = line == last + 1 and lines[line - 1].lstrip().startswith(passage[:2])  # no code before it
             stripped = re.sub(r'^R"\w*\(|\)\w*"$|^/\*+|\*/$', "", passage)
-            stripped = re.sub(r"^\s*(///?<?|\*|#) ?", "", stripped, flags=re.MULTILINE)
+            stripped = re.sub(r"^\s*(///?<?|\*|#) ?", "", inspect.cleandoc(stripped), flags=re.MULTILINE)
             parts.append(("\n" if goes_on else "\n\n") + stripped)  # consecutive comments are one paragraph
             last = line + passage.count("\n")
-        text = "".join(parts)
+        text = re.sub(r"(?<=\n\n)( {4}[^\n]*\n?)+", "", "".join(parts))  # indented blocks: code, formulas, tables
     return re.sub(r"`+[^`\n]*`+", "X", text)
