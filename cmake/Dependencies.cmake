@@ -1,6 +1,6 @@
-# Finds third-party libraries, which come as wheels (the list is in pyproject.toml). `pip install` provides them on the path
-# of the building Python. A plain CMake build uses those of the given Python if it has them. Otherwise it installs them
-# into a virtual environment below the build folder.
+# Finds third-party libraries, which come as wheels (the list is in pyproject.toml). `pip install` provides them on the
+# path of the building Python. A plain CMake build uses those of the given Python if it has them. Otherwise it installs
+# them into a virtual environment below the build folder.
 
 function(kinegraph_find_prefix result python)
   execute_process(
@@ -54,8 +54,8 @@ set_target_properties(mujoco::mujoco PROPERTIES IMPORTED_LOCATION "${library}"
 get_filename_component(KINEGRAPH_MUJOCO_LIBRARY "${library}" NAME)
 set(KINEGRAPH_LIBRARY_FOLDERS "${KINEGRAPH_PREFIX}/lib" "${KINEGRAPH_PREFIX}/lib64" "${KINEGRAPH_MUJOCO}")
 
-# Installs the shared libraries of KINEGRAPH_PREFIX and MuJoCo that `target` needs into `folder`: the linked ones, and the
-# loaded ones, which need no others (assimp needs zlib, which is linked).
+# Installs the shared libraries of KINEGRAPH_PREFIX and MuJoCo that `target` needs into `folder`: the linked ones, and
+# the loaded ones, which need no others (assimp needs zlib, which is linked).
 function(kinegraph_install_libraries target folder component)
   install(CODE "set(prefix [[${KINEGRAPH_PREFIX}]])\nset(mujoco [[${KINEGRAPH_MUJOCO}]])\nset(binary [[$<TARGET_FILE:${target}>]])\nset(folder [[${folder}]])\nset(loaded [[${KINEGRAPH_PREFIX}/lib/${KINEGRAPH_ASSIMP_LIBRARY}]] [[${KINEGRAPH_MUJOCO}/${KINEGRAPH_MUJOCO_LIBRARY}]])" COMPONENT ${component})
   install(CODE [[

@@ -1,6 +1,6 @@
 # Installs the public headers (run by `cmake --install`) with a guard. The library and its programs must align Eigen's
-# matrices equally; otherwise one frees memory that the other allocated differently. Needs `python`,
-# `repository`, `folder` (of the headers, below the prefix), `work` and `preprocess` (a compiler command with its flags).
+# matrices equally; otherwise one frees memory that the other allocated differently. Needs `python`, `repository`,
+# `folder` (of the headers, below the prefix), `work` and `preprocess` (a compiler command with its flags).
 execute_process(COMMAND "${python}" "${repository}/tools/public_headers.py" "${repository}/src"
                 OUTPUT_VARIABLE public OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 string(REPLACE "\n" ";" public "${public}")

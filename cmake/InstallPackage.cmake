@@ -1,5 +1,5 @@
-# Installs the C++ package below a prefix, with the files for find_package(kinegraph). It contains no absolute path and can
-# be moved.
+# Installs the C++ package below a prefix, with the files for find_package(kinegraph). It contains no absolute path and
+# can be moved.
 #
 #   include/kinegraph        the public headers, see InstallHeaders.cmake
 #   include/kinegraph/eigen3 Eigen, for projects without their own

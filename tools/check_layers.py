@@ -6,8 +6,8 @@
                                    that is declared in a room but defined above it is an upward dependency, too
     check_layers.py --write-docs   writes the table in docs/architecture.md
 
-A room that grows too large is divided into rooms of its own, such as geometry/distance. An entry `geometry` allows all of
-its rooms.
+A room that grows too large is divided into rooms of its own, such as geometry/distance. An entry `geometry` allows all
+of its rooms.
 """
 
 import json

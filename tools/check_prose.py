@@ -5,10 +5,16 @@
     python tools/check_prose.py PATH ...        checks these files and folders, as one text each
     python tools/check_prose.py --worst 30 ...  also lists the 30 sentences with most clause words
 
-Counted are comments, docstrings, documentation strings and Markdown; code, tables and headings are not. A text passes with
-at most 0.6 clause words (what, where, so that ...) in 100 words, 1.2 % of sentences with an odd opening (What, Where,
-That ...), no sentence of more than 35 words, and no private term. Texts below 400 words are counted together.
-CONTRIBUTING.md has the words of the project; rewrite a sentence rather than work around the count.
+The text of a file consists of its comments, docstrings, documentation strings or Markdown, without code, tables,
+headings and indented blocks. A text passes if it meets four conditions:
+
+- at most 0.6 clause words (`what`, `where`, `so that` ...) in 100 words,
+- at most 1.2 % of sentences with an odd opening (`What`, `Where`, `That` ...),
+- no sentence of more than 35 words,
+- no private term.
+
+Texts below 400 words are counted together. CONTRIBUTING.md has the words of the project. Rewrite a sentence rather than
+work around the count.
 """
 
 import argparse

@@ -4,8 +4,8 @@
     python tools/exported_symbols.py SOURCE NM OUTPUT OBJECT...
 
 SOURCE is the folder src, NM the program that lists the symbols of the OBJECTs, OUTPUT the version script. A symbol is
-exported if a public header names its class or function of namespace kinegraph. Inline functions are not exported, because
-users compile their own copies.
+exported if a public header names its class or function of namespace kinegraph. Inline functions are not exported,
+because users compile their own copies.
 """
 
 import re

@@ -67,7 +67,6 @@ def plain_text(path: Path) -> str:
     if path.suffix == ".md":
         text = re.sub(r"^```.*?^```", "", path.read_text(encoding="utf-8"), flags=re.DOTALL | re.MULTILINE)
         text = re.sub(r"^(\||#| {4,}(?![-*\d])).*$", "", text, flags=re.MULTILINE)
-        text = re.sub(r"^\s*([-*]|\d+\.)\s+", "\n\n", text, flags=re.MULTILINE)
         text = re.sub(r"!?\[([^\]]*)\]\([^)]*\)", r"\1", text)
     else:
         lines = path.read_text(encoding="utf-8", errors="replace").split("\n")
@@ -79,4 +78,5 @@ def plain_text(path: Path) -> str:
             parts.append(("\n" if goes_on else "\n\n") + stripped)  # consecutive comments are one paragraph
             last = line + passage.count("\n")
         text = re.sub(r"(?<=\n\n)( {4}[^\n]*\n?)+", "", "".join(parts))  # indented blocks: code, formulas, tables
+    text = re.sub(r"^\s*([-*]|\d+\.)\s+", "\n\n", text, flags=re.MULTILINE)  # items of a list are sentences
     return re.sub(r"`+[^`\n]*`+", "X", text)

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Runs all tests from a fresh clone: layers, message types, C++ (ctest), TypeScript, Python and the browser (pytest). The
-# Python tests run in an environment with the wheel, numpy, the test runners and JAX, and nothing else.
+# Runs all tests from a fresh clone: layers, message types, C++ (ctest), TypeScript, Python and the browser (pytest).
+# The Python tests run in an environment with the wheel, numpy, the test runners and JAX, and nothing else.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export KINEGRAPH_HEADLESS=1 CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"
