@@ -32,8 +32,6 @@ def long_lines(path: Path) -> list[tuple[int, int]]:
     lines = path.read_text(encoding="utf-8", errors="replace").split("\n")
     found = {}
     for start, passage in passages(path):
-        if passage.startswith('R"') and "bindings" not in path.parts:  # a program or a file inside of a test
-            continue
         for number in range(start, start + passage.count("\n") + 1):
             line = lines[number - 1]
             if len(line) > LIMIT and not is_exempt(path, line) and not is_code(line, passage):

@@ -44,7 +44,6 @@ TERMS = {  # private term -> the word of the field
     r"crews?": "per-thread contexts",
     r"time laws?": "time parameterization",
     r"(looks?|looked) at (a |the )?postures?": "checks a configuration",
-    r"moving scenes?": "dynamic obstacles",
     r"turning forces": "gyroscopic forces",
     r"free at all times": "continuously collision-free",
     r"the front door|front room": "api",

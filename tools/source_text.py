@@ -31,9 +31,10 @@ def tracked_files(root: Path = ROOT) -> list[Path]:
     return [root / n for n in sorted(names) if n.endswith(SUFFIXES) and not n.startswith(EXCLUDED)]
 
 
-def _cpp(text: str) -> Iterator[Passage]:
+def _cpp(text: str, with_raw_strings: bool) -> Iterator[Passage]:
     for match in _CPP.finditer(text):
-        if match["line"] is not None or match["block"] is not None or match["raw"] is not None:
+        is_comment = match["line"] is not None or match["block"] is not None
+        if is_comment or (with_raw_strings and match["raw"] is not None):
             yield text.count("\n", 0, match.start()) + 1, match[0]
 
 
@@ -53,13 +54,14 @@ def _python(text: str) -> Iterator[Passage]:
 
 
 def passages(path: Path) -> list[Passage]:
-    """Returns the comments, docstrings and raw strings of a source file, or all of a Markdown page, by line."""
+    """Returns the comments and docstrings of a source file, or all of a Markdown page, by line. The docstrings of the
+    bindings are raw strings; elsewhere raw strings are programs and files."""
     text = path.read_text(encoding="utf-8", errors="replace")
     if path.suffix == ".md":
         return [(1, text)]
     if path.suffix == ".py":
         return sorted(_python(text))
-    return list(_cpp(text))
+    return list(_cpp(text, with_raw_strings="bindings" in path.parts))
 
 
 def plain_text(path: Path) -> str:
