@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Checks the layers of src/kinegraph: every room includes, and links to, only the rooms that BELOW allows it.
 
-    check_layers.py                reads the includes of all sources, and the table in docs/architecture.md
+    check_layers.py                reads the includes of all sources, the members that a room defines for a class of
+                                   another one, and the table in docs/architecture.md
     check_layers.py BUILD          also reads the undefined symbols of the objects in a build folder, because a function
                                    that is declared in a room but defined above it is an upward dependency, too
     check_layers.py --write-docs   writes the table in docs/architecture.md
@@ -78,6 +79,29 @@ BELOW: dict[str, list[str]] = {
     "viewer": [*_SCENE, "exporters", "viewer/messages"],
     "api": EVERYTHING,
     ".": EVERYTHING,
+}
+# Members that a class declares in its room and that another room defines, because they need rooms above the class:
+# (room of the class, room of the definition) -> members. No other member may be defined outside of its room.
+DOORS: dict[tuple[str, str], set[str]] = {
+    ("komo", "api"): {
+        "Komo::nlp",
+        "Komo::solve",
+        "Komo::solveFromMany",
+        "Komo::view",
+        "Komo::viewPlay",
+        "Komo::viewer",
+    },
+    ("planning", "api"): {"MotionPlan::view", "PathFinder::view"},
+    ("robot", "api"): {
+        *{"BotOp::BotOp", "BotOp::cameras", "BotOp::getCameraFxycxy", "BotOp::getImageAndDepth"},
+        *{"BotOp::getImageDepthPcl"},
+    },
+    ("scene", "api"): {"Config::eval", "Config::view", "Config::viewPath", "Config::viewer", "Config::watchFile"},
+    ("simulation", "api"): {"Recording::saveHtml", "Simulation::run", "Simulation::view"},
+    ("task_planning/lgp", "api"): {"LgpTool::view_close", "LgpTool::view_solved"},
+    ("task_planning/search", "api"): {
+        *{"TaskPlan::execute", "TaskPlan::failedConfiguration", "TaskPlan::frames", "TaskPlan::play", "TaskPlan::view"},
+    },
 }
 GROUPS = {
     "core": _CORE,
@@ -160,6 +184,29 @@ def include_problems() -> list[str]:
                 place = file.relative_to(SOURCE.parent.parent)
                 problems.append(f"{place}:{number}: {room} must not include {match[1]}")
     return list(dict.fromkeys(problems))
+
+
+def door_problems() -> list[str]:
+    """Returns the members that are defined outside of their class's room and missing from DOORS, and the reverse."""
+    rooms = defaultdict(set)
+    for header in SOURCE.rglob("*.h"):
+        for name in re.findall(r"^(?:class|struct) (\w+)[^;]*?\{", header.read_text(), re.MULTILINE):
+            rooms[name].add(header.parent.relative_to(SOURCE).as_posix())
+    found: dict[tuple[str, str], set[str]] = defaultdict(set)
+    for file in SOURCE.rglob("*.cpp"):
+        room, text = file.parent.relative_to(SOURCE).as_posix(), file.read_text()
+        local = set(re.findall(r"^\s*(?:class|struct) (\w+)", text, re.MULTILINE))
+        for name, member in re.findall(r"^(?!using|return|\s)[^\n;=]*?\b(\w+)::(~?\w+)\(", text, re.MULTILINE):
+            if name in rooms and name not in local and room not in rooms[name]:
+                found[min(rooms[name]), room].add(f"{name}::{member}")
+    problems = []
+    for (home, room), members in sorted(found.items()):
+        for member in sorted(members - DOORS.get((home, room), set())):
+            problems.append(f"{room} defines {member} of {home}; define it there, or add it to DOORS")
+    for (home, room), members in DOORS.items():
+        for member in sorted(members - found.get((home, room), set())):
+            problems.append(f"tools/check_layers.py: {room} does not define {member} of {home}; remove it from DOORS")
+    return problems
 
 
 def room_list(rooms: list[str]) -> str:
@@ -249,8 +296,9 @@ def symbol_problems(build: Path) -> tuple[list[str], int]:
 
 def main() -> int:
     arguments = sys.argv[1:]
-    problems = include_problems() + docs_problems(write="--write-docs" in arguments)
-    done = f"layers: {len(BELOW)} rooms, all includes point down"
+    problems = include_problems() + door_problems() + docs_problems(write="--write-docs" in arguments)
+    doors = sum(map(len, DOORS.values()))
+    done = f"layers: {len(BELOW)} rooms, all includes point down, {doors} members defined above their class"
     for build in (a for a in arguments if not a.startswith("--")):
         more, count = symbol_problems(Path(build).resolve())
         problems += more
