@@ -30,7 +30,7 @@ Komo jumpingBall() {
 }
 
 std::string validityOf(const Komo& komo) {
-  return judge(constrainedMotions(komo.path(), komo.objectives().all()), {}).message;
+  return reportCollisions(constrainedMotions(komo.path(), komo.objectives().all()), {}).message;
 }
 
 }  // namespace
