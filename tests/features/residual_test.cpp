@@ -112,5 +112,5 @@ TEST(Residual, ScalesAndTargetsOfAWrongSizeSayWhatWasExpected) {
 TEST(Residual, AnOrderBelowTheFeaturesOwnIsAnError) {
   const Config config = ball();
   expectError<ValueError>([&] { makeResidual(config.state(), FeatureSymbol::linangVel, {"ball"}, {}, {}, 0); },
-                          {"linangVel", "at least 1", "not 0"});
+                          {"linangVel", "at least 1", "got 0"});
 }

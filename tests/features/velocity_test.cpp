@@ -70,7 +70,7 @@ TEST(Velocity, OnASingleConfigurationIsAnErrorThatSaysHowManyItTakes) {
   for (const char* feature : {"angularVel", "linangVel"}) {
     expectError<ValueError>([&] { value(config, feature, {"rim"}); }, {feature, "2 consecutive configurations"});
     expectError<ValueError>([&] { eval(config, featureSymbolFromName(feature), {"rim"}, {}, {}, 0); },
-                            {feature, "not 0"});
+                            {feature, "got 0"});
   }
   expectError<ValueError>([&] { eval(config, FeatureSymbol::position, {"rim"}, {}, {}, 2); },
                           {"position", "3 consecutive"});
