@@ -119,7 +119,8 @@ def test_rows_of_relative_targets_and_features_are_a_batch(pandas):
 @pytest.mark.parametrize("value", ["l_palm", {"pose": "l_palm"}, {"position": "l_palm"}, {"x": "l_palm"}])
 def test_a_target_that_moves_with_the_robot_is_an_error_and_its_advice_helps(pandas, value):
     with pytest.raises(
-        ry.ArgumentError, match="is the pose of frame 'l_palm', which moves with joint 'l_panda_joint7'.*relativeTo 'l_palm'"
+        ry.ArgumentError,
+        match="is the pose of frame 'l_palm', which moves with joint 'l_panda_joint7'.*relativeTo 'l_palm'",
     ):
         ry.solveIk(pandas, {"l_gripper": value, "r_gripper": [0.1, 0.2, 1.1]})
     numbers = pandas.getFrame("l_palm").getPose()
