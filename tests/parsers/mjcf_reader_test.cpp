@@ -290,7 +290,7 @@ TEST_F(MjcfReader, MistakesSayWhereTheyAreAndWhatIsNear) {
   const auto expect = [&](const std::string& inside, std::initializer_list<const char*> parts) {
     expectError<ParseError>([&] { load(inside); }, parts);
   };
-  expect("<worldbody><body name='a'/><body name='a'/></worldbody>", {"m.xml:2:34", "there is a body 'a' already"});
+  expect("<worldbody><body name='a'/><body name='a'/></worldbody>", {"m.xml:2:34", "the body 'a' is already defined at"});
   expect("<worldbody><body><joint type='hing'/></body></worldbody>", {"m.xml:2:25", "similar names: hinge"});
   expect("<worldbody><body><jiont/></body></worldbody>", {"m.xml:2:18: unknown element <jiont>", "joint"});
   expect("<worldbdy/>", {"m.xml:2:1", "worldbody"});
