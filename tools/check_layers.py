@@ -22,7 +22,7 @@ _CORE = ["common", "math"]
 _MODEL = [*_CORE, "geometry", "kinematics", "collision"]
 _SCENE = [*_MODEL, "gfile", "parsers", "scene"]
 _PROBLEMS = [*_SCENE, "features", "nlp", "komo", "solvers"]
-_PLANNING = [*_PROBLEMS, "ik", "trajectories"]
+_PLANNING = [*_PROBLEMS, "ik", "trajectories", "rrt"]
 
 EVERYTHING = [*_PLANNING, "control", "exporters", "trajectory_optimization", "planning", "logic", "task_planning"]
 EVERYTHING += ["rendering", "simulation", "robot", "viewer", "api"]
@@ -43,6 +43,7 @@ BELOW: dict[str, list[str]] = {
     "solvers": [*_CORE, "nlp", "solvers/interface", "solvers/problems", "solvers/algebra", "solvers/methods"],
     "solvers/sampling": [*_CORE, "nlp", "solvers"],
     "solvers/sensitivity": [*_CORE, "nlp", "solvers"],
+    "rrt": _CORE,
     "kinematics": [*_CORE, "geometry"],
     "collision": [*_CORE, "geometry", "kinematics"],
     "parsers": [*_CORE, "gfile", "geometry"],
@@ -54,12 +55,12 @@ BELOW: dict[str, list[str]] = {
     "features": _SCENE,
     "ik": [*_SCENE, "features", "nlp"],
     "komo/path": [*_SCENE, "features", "nlp"],
-    "komo/collision": [*_SCENE, "features", "nlp", "komo/path"],
+    "komo/collision": [*_SCENE, "features", "nlp", "rrt", "komo/path"],
     "komo": [*_SCENE, "features", "nlp", "komo/path", "komo/collision"],
     "control": _PROBLEMS,
     "trajectory_optimization": [*_PROBLEMS, "trajectories"],
-    "planning/steering": [*_SCENE, "features", "nlp"],
-    "planning/search": [*_SCENE, "features", "nlp", "planning/steering"],
+    "planning/steering": [*_SCENE, "features", "nlp", "rrt"],
+    "planning/search": [*_SCENE, "features", "nlp", "rrt", "planning/steering"],
     "planning/smoothing": [*_PLANNING, "planning/steering", "planning/search"],
     "planning/dynamic_obstacles": [*_PLANNING, "planning/steering", "planning/search"],
     "planning": [

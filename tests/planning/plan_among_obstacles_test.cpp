@@ -61,9 +61,9 @@ TEST(PlanAmongObstacles, LimitsOfTheJerkHoldWhileItWaits) {
   const MotionPlan plan = planMotion(C, kAcross, options);
   ASSERT_TRUE(plan.feasible()) << plan.message;
   EXPECT_GE(leastOfTime(C, plan, cart, kFine), .01 - 1e-9);
-  MotionState before = plan.at(0.);
+  MotionState before = plan.eval(0.);
   for (double t = 1e-3; t <= plan.duration(); t += 1e-3) {
-    const MotionState now = plan.at(t);
+    const MotionState now = plan.eval(t);
     ASSERT_LE((now.acceleration - before.acceleration).cwiseAbs().maxCoeff(), 20. * 1e-3 * (1. + 1e-6) + 1e-9) << t;
     before = now;
   }
@@ -86,7 +86,7 @@ TEST(PlanAmongObstacles, WhatStaysAtTheGoalIsNamed) {
   const MotionPlan plan = planMotion(discAndBox(), kAcross, among(cart));
   EXPECT_EQ(plan.status, PlanStatus::no_timing_found);
   EXPECT_NE(plan.message.find("at the goal, 'body' meets 'box', which stays there"), std::string::npos) << plan.message;
-  EXPECT_THROW(plan.at(0.), ValueError);
+  EXPECT_THROW(plan.eval(0.), ValueError);
 }
 
 TEST(PlanAmongObstacles, WhatComesToTheGoalLaterIsNamed) {

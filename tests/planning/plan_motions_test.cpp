@@ -8,7 +8,7 @@
 namespace kinegraph {
 namespace {
 
-/// Two walls with gaps at different places: the first way that is found is seldom the shortest kind of way.
+/// Two walls with gaps at different places: the first way that is found is seldom the shortest kind of found.
 Config twoWalls() {
   Config C = disc(.05);
   int count = 0;

@@ -94,7 +94,7 @@ void setScene(PyMotionPlan& plan) {
   if (!plan.options.obstacle_trajectories.empty()) {
     plan.dynamic_scene =
         std::make_shared<const DynamicScene>(*plan.config, plan.options.obstacle_trajectories, "MotionPlan");
-    still = plan.dynamic_scene->standing();
+    still = plan.dynamic_scene->staticScene();
   }
   plan.scene = std::make_shared<const State>(still.state());
   plan.space = std::make_shared<const JointSpace>(*still.model());

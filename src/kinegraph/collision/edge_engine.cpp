@@ -224,8 +224,8 @@ void EdgeEngine::placePiece(double from, double to) {
   samples_.place(kLanes);
   const double width = (to - from) / (kLanes - 1);
   for (int g = 0; g < bodies_.moving; ++g) {
-    const MotionBounds::Rates& rates = group_rates_[std::size_t(g)];
-    samples_.setStray(g, std::min(.125 * rates.bend * width * width, .5 * rates.speed * width));
+    const DisplacementBound::Rates& rates = group_rates_[std::size_t(g)];
+    samples_.setStray(g, std::min(.125 * rates.curvature * width * width, .5 * rates.speed * width));
   }
 }
 
@@ -233,7 +233,7 @@ void EdgeEngine::placePiece(double from, double to) {
 int EdgeEngine::setMotion(const double* from, const double* to) {
   from_ = Eigen::Map<const VectorXd>(from, from_.size());
   to_ = Eigen::Map<const VectorXd>(to, to_.size());
-  bounds_.setMotion(from, to);
+  bounds_.setEdge(from, to);
   double speed = 0.;
   for (int g = 0; g < bodies_.moving; ++g) {
     const LinkBodies::Group& group = bodies_.groups[std::size_t(g)];
@@ -244,17 +244,17 @@ int EdgeEngine::setMotion(const double* from, const double* to) {
 }
 
 /// Of the points of both bodies relative to each other.
-MotionBounds::Rates EdgeEngine::ratesOf(const Candidate& candidate) {
+DisplacementBound::Rates EdgeEngine::ratesOf(const Candidate& candidate) {
   const auto [a, b] = std::pair(candidate.pair.a, candidate.pair.b);
   if (candidate.pair.ancestor == 0) {
-    const MotionBounds::Rates &of_a = ratesInWorld(a), &of_b = ratesInWorld(b);
-    return {of_a.speed + of_b.speed, of_a.bend + of_b.bend, of_a.reach + of_b.reach};
+    const DisplacementBound::Rates &of_a = ratesInWorld(a), &of_b = ratesInWorld(b);
+    return {of_a.speed + of_b.speed, of_a.curvature + of_b.curvature, of_a.reach + of_b.reach};
   }
-  return bounds_.relative(bodies_.link(a), bodies_.bodies[std::size_t(a)].reach, bodies_.link(b),
-                          bodies_.bodies[std::size_t(b)].reach);
+  return bounds_.relativeRates(bodies_.link(a), bodies_.bodies[std::size_t(a)].reach, bodies_.link(b),
+                               bodies_.bodies[std::size_t(b)].reach);
 }
 
-const MotionBounds::Rates& EdgeEngine::ratesInWorld(int body) {
+const DisplacementBound::Rates& EdgeEngine::ratesInWorld(int body) {
   BodyRates& known = body_rates_[std::size_t(body)];
   if (known.stamp != stamp_)
     known = {stamp_, bounds_.ratesOf(bodies_.link(body), bodies_.bodies[std::size_t(body)].reach)};
@@ -308,8 +308,8 @@ bool EdgeEngine::pieceKeeps(double margin) {
 
 /// Does a pair keep the margin between all samples?
 bool EdgeEngine::pairKeeps(const Candidate& candidate, double margin, double width) {
-  const MotionBounds::Rates rates = ratesOf(candidate);
-  const double bow = .125 * rates.bend * width * width;
+  const DisplacementBound::Rates rates = ratesOf(candidate);
+  const double bow = .125 * rates.curvature * width * width;
   const auto farBetween = [&](int i) {
     return candidate.bounds[i] + candidate.bounds[i + 1] - rates.speed * width >= 2. * margin;
   };
@@ -334,9 +334,9 @@ bool EdgeEngine::pairKeeps(const Candidate& candidate, double margin, double wid
   return true;
 }
 
-bool EdgeEngine::keeps(const Candidate& candidate, Normal& normal, const MotionBounds::Rates& rates, double margin,
+bool EdgeEngine::keeps(const Candidate& candidate, Normal& normal, const DisplacementBound::Rates& rates, double margin,
                        const Moment& a, const Moment& b, int depth) {
-  const double width = b.time - a.time, bow = .125 * rates.bend * width * width;
+  const double width = b.time - a.time, bow = .125 * rates.curvature * width * width;
   const auto apart = [&] {
     return gap(candidate, normal, a) >= margin + bow && gap(candidate, normal, b) >= margin + bow;
   };
@@ -370,7 +370,7 @@ double EdgeEngine::clearance(const double* from, const double* to, double most) 
     findCandidates(least);
     for (const Candidate& candidate : candidates_) {
       Normal& normal = normalOf(candidate);
-      const MotionBounds::Rates rates = ratesOf(candidate);
+      const DisplacementBound::Rates rates = ratesOf(candidate);
       const double width = piece_times_[1] - piece_times_[0];
       for (int i = 0; i + 1 < kLanes; ++i) {
         if (.5 * (candidate.bounds[i] + candidate.bounds[i + 1] - rates.speed * width) < least - tolerance_)
@@ -382,9 +382,9 @@ double EdgeEngine::clearance(const double* from, const double* to, double most) 
 }
 
 /// Brings `least` down to the least distance of a pair between two times, to the tolerance.
-void EdgeEngine::lower(const Candidate& candidate, Normal& normal, const MotionBounds::Rates& rates, const Moment& a,
-                       const Moment& b, int depth, double& least) {
-  const double width = b.time - a.time, bow = .125 * rates.bend * width * width;
+void EdgeEngine::lower(const Candidate& candidate, Normal& normal, const DisplacementBound::Rates& rates,
+                       const Moment& a, const Moment& b, int depth, double& least) {
+  const double width = b.time - a.time, bow = .125 * rates.curvature * width * width;
   double sum = 0., along = -std::numeric_limits<double>::infinity();
   for (const Moment* end : {&a, &b}) {
     const double distance = measure(candidate, normal, *end);

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "kinegraph/collision/motion_bounds.h"
+#include "kinegraph/collision/displacement_bound.h"
 #include "kinegraph/collision/motion_check.h"
 #include "kinegraph/collision/placed_samples.h"
 #include "kinegraph/geometry/distance/separation.h"
@@ -85,8 +85,8 @@ class EdgeEngine {
     last_hit_.reset();
   }
   int setMotion(const double* from, const double* to);
-  MotionBounds::Rates ratesOf(const Candidate& candidate);
-  const MotionBounds::Rates& ratesInWorld(int body);
+  DisplacementBound::Rates ratesOf(const Candidate& candidate);
+  const DisplacementBound::Rates& ratesInWorld(int body);
   template <class Hit>
   void forHits(const double* const* Q, int count, double margin, bool all, const Hit& hit);
   const Candidate* findCandidates(double margin, double most = kFar, double near = -kFar);
@@ -116,21 +116,21 @@ class EdgeEngine {
   bool samplesKeep(double margin);
   bool pieceKeeps(double margin);
   bool pairKeeps(const Candidate& candidate, double margin, double width);
-  bool keeps(const Candidate& candidate, Normal& normal, const MotionBounds::Rates& rates, double margin,
+  bool keeps(const Candidate& candidate, Normal& normal, const DisplacementBound::Rates& rates, double margin,
              const Moment& a, const Moment& b, int depth);
   double distanceBelow(double most, const Candidate& candidate, Normal& normal, const Moment& at);
   void addApproaches(const Candidate& candidate, double most, std::vector<MotionContact>& found);
-  void lower(const Candidate& candidate, Normal& normal, const MotionBounds::Rates& rates, const Moment& a,
+  void lower(const Candidate& candidate, Normal& normal, const DisplacementBound::Rates& rates, const Moment& a,
              const Moment& b, int depth, double& least);
 
   State scene_;
   LinkBodies bodies_;
   PlacedSamples samples_;
-  MotionBounds bounds_;
-  std::vector<MotionBounds::Rates> group_rates_;  ///< of the centers of groups that move, of this motion
+  DisplacementBound bounds_;
+  std::vector<DisplacementBound::Rates> group_rates_;  ///< of the centers of groups that move, of this motion
   struct BodyRates {
     int stamp = 0;  ///< of the question
-    MotionBounds::Rates rates;
+    DisplacementBound::Rates rates;
   };
   std::vector<BodyRates> body_rates_;  ///< in the world, of those that were asked for
   double tolerance_;

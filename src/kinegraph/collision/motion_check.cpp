@@ -52,26 +52,21 @@ void MotionChecker::setMotion(const double* from, const double* to) {
   const KinematicModel& model = state_.model();
   from_ = Eigen::Map<const VectorXd>(from, model.dofs);
   change_ = Eigen::Map<const VectorXd>(to, model.dofs) - from_;
-  bounds_.setMotion(from, to);
-}
-
-/// How far a body reaches from the origin of its link.
-double MotionChecker::reachOf(int frame, const CollisionBody& body) const {
-  return (state_.parameters().frame_offset[std::size_t(frame)] * body.boundCenter()).norm() + body.boundRadius();
+  bounds_.setEdge(from, to);
 }
 
 double MotionChecker::relativeSpeed(int pair) const {
   const auto [a, b] = pairs_->pairs[std::size_t(pair)];
   const int frame_a = pairs_->frames[std::size_t(a)], frame_b = pairs_->frames[std::size_t(b)];
   return bounds_
-      .relative(state_.link(frame_a), reachOf(frame_a, *pairs_->bodies[std::size_t(a)]), state_.link(frame_b),
-                reachOf(frame_b, *pairs_->bodies[std::size_t(b)]))
+      .relativeRates(state_.link(frame_a), bodyReach(state_, frame_a, *pairs_->bodies[std::size_t(a)]),
+                     state_.link(frame_b), bodyReach(state_, frame_b, *pairs_->bodies[std::size_t(b)]))
       .speed;
 }
 
-/// A bound of how far any point of a frame's body is moved.
-double MotionChecker::travelOf(int frame) const {
-  const double reach = reachOf(frame, *state_.model().body[std::size_t(frame)]);
+/// Bounds the displacement of the points of a frame's body over the edge.
+double MotionChecker::displacementOf(int frame) const {
+  const double reach = bodyReach(state_, frame, *state_.model().body[std::size_t(frame)]);
   return bounds_.ratesOf(state_.link(frame), reach).speed;
 }
 
@@ -83,7 +78,7 @@ WorldBox MotionChecker::sweptBox(const ContactRules::Body& body) const {
   const RigidTransform X = state_.pose(body.frame);
   const Vector3d center = X * shape.boundCenter(), half = (X.R.cwiseAbs() * shape.boundHalf()).array() + shape.radius();
   constexpr double kAnywhere = 1e9;  // m
-  return WorldBox{center - half, center + half}.grown(std::min(travelOf(body.frame), kAnywhere));
+  return WorldBox{center - half, center + half}.grown(std::min(displacementOf(body.frame), kAnywhere));
 }
 
 /// The pairs on different links that may come within `margin` of each other, in the order of frames.
@@ -150,7 +145,7 @@ std::optional<MotionContact> MotionChecker::firstInPieces(const double* from, co
   setMotion(from, to);
   double farthest = 0.;
   for (const int i : moving_) {
-    farthest = std::max(farthest, travelOf(state_.model().contacts.bodies[std::size_t(i)].frame));
+    farthest = std::max(farthest, displacementOf(state_.model().contacts.bodies[std::size_t(i)].frame));
   }
   const int pieces = int(std::clamp(std::ceil(farthest / kPiece), 1., kMostPieces));
   const VectorXd start = from_, change = change_;

@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "kinegraph/collision/motion_bounds.h"
+#include "kinegraph/collision/displacement_bound.h"
 #include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/geometry/distance/box_tree.h"
 
@@ -25,8 +25,9 @@ struct MotionContact {
 /// between them of |dq_j| r_j, with r_j a bound of its distance from the axis (1 for a translation). So a pair whose
 /// distance is d need not be looked at again before s + (d - margin) / speed. Of all pairs, the one that is due next is
 /// looked at. Where bodies are many, only pairs are looked at whose boxes, with room for all that the motion may move
-/// them, meet. Whether there is any contact is found in another way before (EdgeEngine), which takes less. Source: Mirtich, Impulse-based dynamic simulation of rigid body systems, 1996, ch. 2; Schwarzer, Saha,
-/// Latombe, Adaptive dynamic collision checking for single and multiple articulated robots, 2005.
+/// them, meet. Whether there is any contact is found in another way before (EdgeEngine), which takes less. Source:
+/// Mirtich, Impulse-based dynamic simulation of rigid body systems, 1996, ch. 2; Schwarzer, Saha, Latombe, Adaptive
+/// dynamic collision checking for single and multiple articulated robots, 2005.
 class MotionChecker {
  public:
   /// For the pairs of a scene that count (Program::movingPairs). `scene` is any State of it.
@@ -53,8 +54,7 @@ class MotionChecker {
 
   void setMotion(const double* from, const double* to);
   void moveTo(double time);
-  double reachOf(int frame, const CollisionBody& body) const;
-  double travelOf(int frame) const;
+  double displacementOf(int frame) const;
   double relativeSpeed(int pair) const;
   WorldBox sweptBox(const ContactRules::Body& body) const;
   void findPairs(double margin);
@@ -72,7 +72,7 @@ class MotionChecker {
   std::optional<BodyPairs> pairs_;  ///< where bodies are many, those of the present motion that it can bring together
   std::optional<PlacedBodies> bodies_;
   bool many_;  ///< bodies: then `pairs_` are chosen for each motion
-  MotionBounds bounds_;
+  DisplacementBound bounds_;
   std::vector<int> fixed_, moving_;  ///< where bodies are many: their places in the Program's contacts
   BoxTree fixed_boxes_;
   VectorXd from_, change_, q_, until_;

@@ -87,7 +87,7 @@ def test_an_end_in_collision_is_said_and_no_path_is_claimed(ends: tuple[list[flo
 
 def test_an_end_beyond_limits_is_said() -> None:
     ret = ry.RRT_PathFinder().setProblem(barAroundBar()).setStartGoal([-5.0, 0.0, 0.0], GOAL).solve(0)
-    assert not ret.feasible and "the start is out of limits: base:0 is at -5, 3.5 beyond" in ret.message
+    assert not ret.feasible and "the start is outside the limits: base:0 is at -5, 3.5 beyond" in ret.message
 
 
 def test_only_the_pairs_that_are_named_collide() -> None:
@@ -108,7 +108,7 @@ def test_a_path_that_is_not_there_is_told_with_what_is_in_the_way() -> None:
     C.getFrame("stick").setShape(ry.ST.box, [0.05, 4.0, 0.1])
     ret = finder(C).setOptions(maxIters=100).solve(0)
     assert not ret.feasible and ret.x.size == 0 and ret.status.name == "limit"
-    assert "most motions ended at 'stick' (100 %, by 'bar')" in ret.message
+    assert "most edges collided with 'stick' (100 %, by 'bar')" in ret.message
 
 
 def test_a_joint_without_limits_is_named() -> None:

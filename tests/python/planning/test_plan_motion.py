@@ -152,7 +152,7 @@ def test_a_motion_is_planned_anew_without_a_jump_of_its_acceleration() -> None:
         assert bend.feasible, bend.message
         for before, after in zip(plan.at(at), bend.at(0.0), strict=True):
             assert after == pytest.approx(before, abs=1e-6)
-    with pytest.raises(ry.ArgumentError, match="start_acceleration is for motions with limits of the jerk"):
+    with pytest.raises(ry.ArgumentError, match="start_acceleration needs jerk limits"):
         ry.planMotion(C, [1.0, 1.0, 1.57], start_velocity=[0.1, 0, 0], start_acceleration=[1.0, 0, 0])
 
 
@@ -202,7 +202,7 @@ box(cart): {shape: box, size: [0.2, 0.2, 0.2], Q: [0, 0, 0.0998], contact: 1}
     ("goal", "status", "words"),
     [
         ([0.0, 1.0, 1.57], "invalid_goal", "the goal collides: 'left' and 'body' overlap by"),
-        ([5.0, 1.0, 1.57], "invalid_goal", "the goal is out of limits: base:0 is at 5, 3 beyond"),
+        ([5.0, 1.0, 1.57], "invalid_goal", "the goal is outside the limits: base:0 is at 5, 3 beyond"),
         ({"body": [9.0, 0.0, 0.0]}, "goal_unreachable", "the goal is out of reach: .*body"),
     ],
 )
@@ -222,7 +222,7 @@ def test_a_start_that_collides_is_told() -> None:
 def test_where_no_way_is_found_the_message_says_what_is_in_the_way() -> None:
     plan = ry.planMotion(room(0.31), GOAL, max_evaluations=3000)
     assert plan.status in (ry.PlanStatus.no_path_found, ry.PlanStatus.infeasible)
-    assert "most motions ended at 'left'" in plan.message or "most motions ended at 'right'" in plan.message
+    assert "most edges collided with 'left'" in plan.message or "most motions ended at 'right'" in plan.message
     assert len(plan.trees) == 2 and plan.trees[0][0].shape[1] == 3
 
 
@@ -274,7 +274,7 @@ def test_shortcut_and_smooth_are_free_and_say_where_a_path_is_not() -> None:
     turns = [np.diff(path, axis=0) / np.linalg.norm(np.diff(path, axis=0), axis=1)[:, None] for path in (short, round_)]
     sharpest = [min((a * b).sum() for a, b in itertools.pairwise(turn)) for turn in turns]
     assert sharpest[1] > sharpest[0] and leastDistance(C, round_) >= 0
-    with pytest.raises(ry.ArgumentError, match="not free between rows 0 and 1: '(left|right)' and 'body'"):
+    with pytest.raises(ry.ArgumentError, match="in collision between rows 0 and 1: '(left|right)' and 'body'"):
         ry.shortcut(C, [START, GOAL])
 
 
