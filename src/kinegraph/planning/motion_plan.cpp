@@ -34,7 +34,7 @@ std::string planStatusName(PlanStatus status) {
 MotionState MotionPlan::at(double t) const {
   if (!feasible()) throw ValueError(cat("MotionPlan.at: there is no motion; ", message));
   if (!options.timing) throw ValueError("MotionPlan.at: the path has no times; it was planned without timing");
-  return timed.at(t);
+  return timed.eval(t);
 }
 
 std::vector<VectorXd> MotionPlan::obstaclesAt(double t) const {
