@@ -34,7 +34,7 @@ std::string planStatusName(PlanStatus status) {
 void MotionPlan::evalTo(double t, double* q, double* velocity, double* acceleration) const {
   if (!feasible()) throw ValueError(cat("MotionPlan.eval: there is no motion; ", message));
   if (!options.timing) throw ValueError("MotionPlan.eval: the path has no times; it was planned with timing=False");
-  timed_path.at(t, q, velocity, acceleration);
+  timed_path.evalTo(t, q, velocity, acceleration);
 }
 
 std::vector<VectorXd> MotionPlan::obstaclesAt(double t) const {

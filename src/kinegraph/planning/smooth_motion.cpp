@@ -21,7 +21,7 @@ constexpr double kRounding = 1e-9;     // by which a joint may exceed its limits
 MatrixXd solvedPath(const Config& config, const TimedPath& motion, double margin, int slices,
                     const CancellationToken& cancellation) {
   Config scene(config);
-  const VectorXd start = motion.at(0.).q, goal = motion.at(motion.duration()).q;
+  const VectorXd start = motion.eval(0.).q, goal = motion.eval(motion.duration()).q;
   scene.setJointState(start);
   const auto komo = std::make_shared<Komo>();
   komo->setConfig(scene);
@@ -31,7 +31,7 @@ MatrixXd solvedPath(const Config& config, const TimedPath& motion, double margin
   komo->addObjective({1.}, FeatureSymbol::jointState, {}, ObjectiveType::eq, Scale(10.), goal);
   komo->addObjective({1.}, FeatureSymbol::jointState, {}, ObjectiveType::eq, Scale(1.), {}, 1);
   MatrixXd path(slices + 1, start.size());
-  for (int i = 0; i <= slices; ++i) path.row(i) = motion.at(motion.duration() * i / slices).q.transpose();
+  for (int i = 0; i <= slices; ++i) path.row(i) = motion.eval(motion.duration() * i / slices).q.transpose();
   komo->setPath(path.bottomRows(slices));
   NlpSolver solver(makeNlp(komo), 0);
   solver.options.verbose = 0;
