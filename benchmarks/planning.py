@@ -1,17 +1,17 @@
-"""How planMotion does on MotionBenchMaker, beside VAMP and OMPL.
+"""Measures planMotion on MotionBenchMaker, and compares it with VAMP and OMPL.
 
     python benchmarks/planning.py [--robot panda] [--indices 1 2 3] [--seeds 0] [--restarts 4] [--shapes meshes]
-    python benchmarks/planning.py --all --seeds 0 1 2 3 4  # all of it
-    python benchmarks/planning.py --all --beside vamp=PYTHON mplib=PYTHON  # and others, in a Python that has them
+    python benchmarks/planning.py --all --seeds 0 1 2 3 4  # all problems
+    python benchmarks/planning.py --all --beside vamp=PYTHON mplib=PYTHON  # other planners, in a Python that has them
 
-Says, for each kind of scene and for all: how many problems are solved, how many within a second of processor time, how many answers are truly
-free (an independent look at the path and at postures every 5 ms of the timed motion, see `leastDistance`), median and 95th percentile
-of the time of each stage, ms (`first` is the call up to the first path; stages are wall time, `all` is processor time of the call but for
-the timing of the motion), the path's length as a multiple of the straight line's, the motion's duration, s, and the path's least clearance,
-mm. Of each problem, times are the least of the rounds.
+Prints for each kind of scene and for all scenes: the number of problems that are solved, within a second of processor time, and with truly free
+results (an independent check of the path and of the motion every 5 ms, see `leastDistance`); the median and 95th percentile of the time
+of each stage, ms; the path's length relative to the straight line; the motion's duration, s; and the path's least clearance, mm. `first`
+is the call up to the first path. Stages are wall times; `all` is processor time of the call without the timing of the motion. The times
+of each problem are the least of the rounds.
 
-Others get the same problems (see planning_peers.py), and their answers are looked at in the same way: with the meshes of the robot,
-and with the shapes that they plan with.
+Other planners get the same problems (planning_peers.py). Their results are checked with the meshes of the robot and with their own
+shapes.
 """
 
 import argparse
@@ -28,17 +28,17 @@ import numpy as np
 
 import kinegraph as ry
 
-STAGES = ["ends", "search", "shorten", "tighten", "verify", "time"]
-REACH = 1.5  # m/rad: of these robots, no joint moves a point faster
-STEP = 1e-3  # rad or m: between postures that are looked at, at least
+STAGES = ["endpoints", "search", "shortcut", "rope_shortcut", "verify", "timing"]
+REACH = 1.5  # m/rad: bound of the speed of a point by one joint of these robots
+STEP = 1e-3  # rad or m: smallest step between configurations
 
 
-class Look:
-    """At paths of one scene, by a call that knows nothing of motions: distances of all pairs at postures.
+class PathCheck:
+    """Checks paths of one scene independently of edge checks: by the distances of all pairs at configurations.
 
-    Between two postures no pair comes nearer than half of what it has at both, less what the joints may move it. Where that is not
-    enough a posture between them is looked at, until they are a milliradian apart. Pairs whose distance never changes are of parts
-    that no joint moves apart, and do not count.
+    Between two configurations, the distance of a pair is at least half of the sum of both distances, less the displacement by the
+    joints. If this is not positive, the step is halved, down to a milliradian. Pairs that no joint moves apart have a constant
+    distance and do not count.
     """
 
     def __init__(self, C):
@@ -51,7 +51,7 @@ class Look:
         return self.C.getDistances(Q)[:, self.moves].min(axis=1)
 
     def leastDistance(self, path):
-        """Of all postures of the path that were looked at, m; ends soon where it is negative."""
+        """The least distance of all checked configurations of the path, m; returns early if it is negative."""
         a, b = path[:-1], path[1:]
         least = self.distances(path)
         of_a, of_b, least = least[:-1], least[1:], least.min()
@@ -73,13 +73,13 @@ class Look:
 
 
 def timed(C, problem, options):
-    """A plan, and what it took, ms."""
+    """A plan and the times of its stages, ms."""
     wall, processor = time.perf_counter(), time.process_time()
     plan = ry.planMotion(C, problem.goal, problem.start, **options)
     wall, processor = time.perf_counter() - wall, time.process_time() - processor
     times = {stage["name"]: 1e3 * stage["seconds"] for stage in plan.stages}
-    later = sum(times.get(stage, 0.0) for stage in [*STAGES[2:], "bend"])
-    own = {"first": 1e3 * wall - later, "call": 1e3 * processor, "all": 1e3 * processor - times.get("time", 0.0)}
+    later = sum(times.get(stage, 0.0) for stage in [*STAGES[2:], "smoothing"])
+    own = {"first": 1e3 * wall - later, "call": 1e3 * processor, "all": 1e3 * processor - times.get("timing", 0.0)}
     return plan, times | own
 
 
@@ -96,9 +96,9 @@ def ours(problem, options, rounds=1):
     }
     row |= {key: min(times[key] for _, times in runs) for key in runs[0][1]}
     if plan.feasible:
-        look = Look(C)
-        motion = np.array([plan.at(t)[0] for t in np.arange(0, plan.duration, 5e-3)])
-        row["free"] = look.isFree(plan.path) and look.isFree(motion)
+        check = PathCheck(C)
+        motion = np.array([plan.eval(t)[0] for t in np.arange(0, plan.duration, 5e-3)])
+        row["free"] = check.isFree(plan.path) and check.isFree(motion)
         row["ratio"] = plan.length / np.linalg.norm(problem.goal - problem.start)
         row["duration"] = plan.duration
         row["clearance"] = 1e3 * plan.clearance()
@@ -114,22 +114,22 @@ def length(path):
 
 
 def others(name, python, robots, problems):
-    """Rows of another planner, which runs in a Python of its own."""
+    """The results of another planner, which runs in its own Python."""
     pose = lambda frame: frame.getPose().tolist()  # noqa: E731
-    questions = []
+    queries = []
     for problem in problems:
         frames = [f for f in problem.config().getFrames() if f.name.startswith("obstacle ")]
         obstacles = [[str(f.getShapeType()).split(".")[-1], f.getSize().tolist(), pose(f)] for f in frames]
         ends = {"start": problem.start.tolist(), "goal": problem.goal.tolist()}
-        questions.append({"scene": problem.scene, "obstacles": obstacles} | ends)
+        queries.append({"scene": problem.scene, "obstacles": obstacles} | ends)
     robot = {
         "name": problems[0].robot.name,
         "folder": str(problems[0].robot.folder),
         "joints": problems[0].robot.joints,
     }
     with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "questions.json"
-        file.write_text(json.dumps({"robot": robot, "problems": questions}))
+        file = Path(folder) / "queries.json"
+        file.write_text(json.dumps({"robot": robot, "problems": queries}))
         model = Path(__file__).with_name("planning_peers.py")
         subprocess.run([python, model, name, file], check=True)
         rows = json.loads(file.with_suffix(".answers").read_text())
@@ -139,11 +139,11 @@ def others(name, python, robots, problems):
             continue
         path = np.array(row["path"])
         path[0], path[-1] = problem.start, problem.goal  # single precision
-        looks = {shapes: Look(problem.config(robot)).leastDistance(path) for shapes, robot in robots.items()}
+        distances = {shapes: PathCheck(problem.config(robot)).leastDistance(path) for shapes, robot in robots.items()}
         row |= {
-            "free": looks["meshes"] >= -1e-9,
-            "own": looks[row["shapes"]] >= -1e-9,
-            "depth": -1e3 * min(looks[row["shapes"]], 0),
+            "free": distances["meshes"] >= -1e-9,
+            "own": distances[row["shapes"]] >= -1e-9,
+            "depth": -1e3 * min(distances[row["shapes"]], 0),
             "ratio": length(path) / np.linalg.norm(problem.goal - problem.start),
         }
     return rows
@@ -170,7 +170,7 @@ def table(title, rows):
         if not done:
             continue
         words = [f"{scene:17} {len(done):4}/{len(of):<4} free {100 * np.mean([row['free'] for row in done]):5.1f} %"]
-        for key in ["first", *STAGES, "bend", "own clock", "all"]:
+        for key in ["first", *STAGES, "smoothing", "own clock", "all"]:
             values = [row[key] for row in done if key in row]
             if values:
                 words.append(f"{key} {np.median(values):.3g}/{np.percentile(values, 95):.3g}")
@@ -197,7 +197,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=1)
     parser.add_argument("--margin", type=float, default=0.0)
     parser.add_argument("--optimize", default="length")
-    parser.add_argument("--slices", type=int, default=0, help="of KOMO as a further stage, with --optimize time")
+    parser.add_argument("--slices", type=int, default=0, help="slices of the KOMO smoothing stage, with --optimize time")
     parser.add_argument("--beside", nargs="+", default=[], metavar="NAME=PYTHON")
     arguments = parser.parse_args()
     warnings.filterwarnings("ignore", ".*no joint moves them apart")  # tables touch their legs

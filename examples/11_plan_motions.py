@@ -46,7 +46,7 @@ plan = ry.planMotion(C, {"l_gripper": {"position": [0.3, 0.4, 1.1], "z": up}}, c
 print(plan)
 assert plan.feasible
 for t in np.linspace(0, plan.duration, 50):
-    C.setJointState(plan.at(t)[0])
+    C.setJointState(plan.eval(t)[0])
     assert np.allclose(C.eval(ry.FS.vectorZ, ["l_gripper"])[0], up, atol=2e-3)
 show(C, plan, "with a glass", [1.2, 1.3, 1.6], [0.1, 0.2, 1.15])
 

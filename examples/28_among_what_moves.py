@@ -25,7 +25,7 @@ assert plan.feasible
 
 # Both together, every 10 ms; nothing touches.
 for t in np.arange(0, plan.duration + 1, 0.01):
-    C.setJointState(plan.at(t)[0])
+    C.setJointState(plan.eval(t)[0])
     C.getFrame("cart").setPose(plan.obstaclesAt(t)["cart"])
     assert not [pair for pair in C.getCollisions(0.009) if "load" in pair[:2]]
     C.view(False, f"among what moves, {t:.2f} s")
@@ -45,7 +45,7 @@ plan = ry.planMotion(C, goal, start, velocity=0.6, acceleration=1.5)
 
 def sampled(motion: ry.MotionPlan) -> tuple[np.ndarray, np.ndarray]:
     at = np.linspace(0, motion.duration, 100)[1:]
-    return np.array([motion.at(t)[0] for t in at]), at
+    return np.array([motion.eval(t)[0] for t in at]), at
 
 
 bot.move(*sampled(plan))

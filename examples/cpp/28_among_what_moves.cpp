@@ -10,7 +10,7 @@ namespace {
 /// Is nothing nearer than 9 mm to the load, every 10 ms of a motion?
 bool keepsClear(Config& C, const MotionPlan& plan) {
   for (double t = 0.; t <= plan.duration() + 1.; t += .01) {
-    C.setJointState(plan.at(t).q);
+    C.setJointState(plan.eval(t).q);
     C.getFrame("cart").setPose(Pose::fromNumbers(plan.obstaclesAt(t).front()));
     const int load = C.getFrame("load").id();
     for (const Config::NearPair& pair : C.getCollisions(.009))
@@ -61,7 +61,7 @@ int main() try {
   elsewhere[0] -= .3, elsewhere[1] += .3;
   const MotionPlan bend = plan.replan(C, now, MotionGoal(elsewhere));
   std::cout << "another goal after " << now << " s: " << bend.str() << "\n";
-  if (!bend.feasible() || (bend.at(0.).velocity - plan.at(now).velocity).norm() > 1e-9) return 1;
+  if (!bend.feasible() || (bend.eval(0.).velocity - plan.eval(now).velocity).norm() > 1e-9) return 1;
 
   // The first way that is found is seldom the shortest kind of way.
   MotionPlans better = planMotions(twoWalls(), VectorXd{{1.5, .9}},

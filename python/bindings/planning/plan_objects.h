@@ -5,21 +5,24 @@
 
 namespace kinegraph::python {
 
-/// A plan, and the scene that it was made in, as it was then.
+/// A plan with a copy of its scene at the time of the call.
 struct PyMotionPlan : MotionPlan {
   std::shared_ptr<const Config> config;
 };
 
-/// The plans, and their scene.
+/// The sequence of plans with a copy of its scene.
 struct PyMotionPlans {
   std::shared_ptr<const Config> config;
   MotionPlans plans;
 };
 
-/// Options of planMotion by name.
+/// The options of planMotion by name.
 const OptionClass<PlanOptions>& planOptionClass();
 
-/// copy.copy and pickle.
+/// Reads a MotionConstraint or a list of them.
+std::vector<MotionConstraint> planConstraintsOf(nb::handle value);
+
+/// Binds copying and pickling.
 void bindPlanCopies(nb::class_<MotionConstraint>& constraint, nb::class_<PyMotionPlan>& plan);
 
 }  // namespace kinegraph::python

@@ -55,7 +55,7 @@ class DisplacementBound {
   double offset(int link) const { return offset_[std::size_t(link)]; }
 
  private:
-  /// Of a step of a joint.
+  /// Bounds of one step of a joint.
   struct StepBound {
     double rotation = 0.;         ///< rad per unit of s
     double rotation_change = 0.;  ///< of that rate, rad per unit of s squared

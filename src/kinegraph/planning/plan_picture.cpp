@@ -99,7 +99,7 @@ Config MotionPlan::picture(const Config& config, const std::vector<std::string>&
 
 Config Roadmap::picture(const Config& config, const std::vector<std::string>& frames) const {
   Drawing drawing(config, *space_, frames, "Roadmap.picture");
-  for (const auto& [a, b] : motionEnds()) drawing.addEdge(nodes_[std::size_t(a)], nodes_[std::size_t(b)]);
+  for (const auto& [a, b] : edgeEnds()) drawing.addEdge(nodes_[std::size_t(a)], nodes_[std::size_t(b)]);
   drawing.addLines("roadmap", kBlue);
   return std::move(drawing.picture());
 }

@@ -64,8 +64,8 @@ int Roadmap::addNode(const VectorXd& q) {
   edges_of_.emplace_back();
   for (std::size_t i = 0; i < count; ++i) {
     const int other = near[i].second;
-    edges_of_[std::size_t(node)].push_back(motions());
-    edges_of_[std::size_t(other)].push_back(motions());
+    edges_of_[std::size_t(node)].push_back(edges());
+    edges_of_[std::size_t(other)].push_back(edges());
     edges_.push_back({other, node, near[i].first, Known::nothing});
   }
   return node;
@@ -177,10 +177,9 @@ RoadmapPath Roadmap::findPath(const VectorXd& start, const VectorXd& goal, const
     points.front() = start;
     answer.path = space_->unroll(shortcutPath(*steering_, std::move(points), {.cancellation = cancellation}));
   } else {
-    answer.message =
-        cat("no path in a roadmap of ", size(), " configurations and ", motions(), " edges; grow adds more");
+    answer.message = cat("no path in a roadmap of ", size(), " configurations and ", edges(), " edges; grow adds more");
   }
-  answer.checked = steering_->evaluations() - before;
+  answer.evaluations = steering_->evaluations() - before;
   return answer;
 }
 
@@ -201,7 +200,7 @@ MatrixXd Roadmap::configurations() const {
   return rows;
 }
 
-std::vector<std::pair<int, int>> Roadmap::motionEnds() const {
+std::vector<std::pair<int, int>> Roadmap::edgeEnds() const {
   std::vector<std::pair<int, int>> ends;
   for (const Edge& edge : edges_)
     if (edge.known != Known::is_blocked) ends.emplace_back(edge.a, edge.b);

@@ -15,9 +15,9 @@ namespace kinegraph {
 
 /// The answer of Roadmap::findPath.
 struct RoadmapPath {
-  MatrixXd path;        ///< (K, n), continuously collision-free; no rows if there is none
-  std::string message;  ///< "" if there is a path, else why not
-  long checked = 0;     ///< evaluations of Steering; 0 if the results of all edges were known
+  MatrixXd path;         ///< (K, n), continuously collision-free; no rows if there is none
+  std::string message;   ///< "" if there is a path, else why not
+  long evaluations = 0;  ///< evaluations of Steering; 0 if the results of all edges were known
 
   bool feasible() const { return path.rows() > 0; }
 };
@@ -63,9 +63,9 @@ class Roadmap {
   Config picture(const Config& config, const std::vector<std::string>& frames = {}) const;
 
   int size() const { return int(nodes_.size()); }
-  int motions() const { return int(edges_.size()); }
-  MatrixXd configurations() const;                      ///< (N, n)
-  std::vector<std::pair<int, int>> motionEnds() const;  ///< indices of configurations
+  int edges() const { return int(edges_.size()); }
+  MatrixXd configurations() const;                    ///< (N, n)
+  std::vector<std::pair<int, int>> edgeEnds() const;  ///< indices of configurations
   double margin() const { return margin_; }
 
  private:

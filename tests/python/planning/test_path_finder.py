@@ -133,7 +133,7 @@ def test_what_makes_no_sense_is_an_error() -> None:
         ry.RRT_PathFinder().setOptions(stepsize=0)
     with pytest.raises(ry.ArgumentError, match="similar names: stepsize"):
         ry.RRT_PathFinder().setOptions(stepsiz=0.1)
-    with pytest.raises(ry.ArgumentError, match="call solve before"):
+    with pytest.raises(ry.ArgumentError, match="call solve first"):
         finder(C).get_resampledPath(5)
     with pytest.raises(ry.ArgumentError, match="only q0"):
         ry.RRT_PathFinder().setProblem(C, START)

@@ -10,9 +10,10 @@ namespace kinegraph {
 
 /// The joint vectors of a scene as a metric space with samples and straight edges.
 ///
-/// A dof has a range (its limits), is *endless* (an angle without limits, modulo a rotation), belongs to a quaternion
-/// or circle (both signs are one rotation), or is *fixed* (it moves nothing, or its limits are one number). Distances
-/// are Euclidean in q, in rad and m; the four numbers of a quaternion count as the angle between rotations, nearly.
+/// A dof is of one of four kinds. It has a range (its limits), or is *endless*: an angle without limits, modulo a
+/// rotation. It may belong to a quaternion or circle, whose signs are one rotation, or be *fixed*: it moves nothing, or
+/// its limits are one number. Distances are Euclidean in q, in rad and m; the four numbers of a quaternion count as the
+/// angle between rotations, nearly.
 class JointSpace {
  public:
   explicit JointSpace(const KinematicModel& model);
