@@ -76,11 +76,7 @@ PathResult solve(PyPathFinder& finder, int verbose) {
   const std::uint64_t seed = defaults().seed;
   {
     const nb::gil_scoped_release unlock;
-    CheckInterrupts check;
-    static_cast<SolverResult&>(result) = finder.solve(seed, [&] {
-      check();
-      return false;
-    });
+    static_cast<SolverResult&>(result) = finder.solve(seed, CheckInterrupts());
     result.rows = finder.path().rows();
   }
   verbose = std::max(verbose, finder.options().verbose);

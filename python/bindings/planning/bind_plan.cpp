@@ -45,22 +45,13 @@ MotionGoal goalOf(const PyConfig& config, nb::handle goal) {
                        "state, or MotionConstraints"));
 }
 
-/// Ctrl-C raises KeyboardInterrupt out of the call.
-CancellationToken interruptible(CheckInterrupts& check) {
-  return [&check] {
-    check();
-    return false;
-  };
-}
-
 PyMotionPlan plan(const PyConfig& config, nb::handle goal, const std::optional<Numbers>& start, nb::kwargs arguments) {
   const PlanOptions options = planOptionsFrom(arguments, PlanCall::plan);
   const MotionGoal to = goalOf(config, goal);
   const std::optional<VectorXd> from = start ? std::optional(start->values) : std::nullopt;
   const auto scene = std::make_shared<const Config>(config);  // as it is now
   const nb::gil_scoped_release unlock;
-  CheckInterrupts check;
-  return {planMotion(*scene, to, options, from, interruptible(check)), scene};
+  return {planMotion(*scene, to, options, from, CheckInterrupts()), scene};
 }
 
 PyMotionPlan replan(const PyMotionPlan& running, const PyConfig& config, double at, nb::handle goal,
@@ -69,8 +60,7 @@ PyMotionPlan replan(const PyMotionPlan& running, const PyConfig& config, double 
   const std::optional<MotionGoal> to = goal.is_none() ? std::nullopt : std::optional(goalOf(config, goal));
   const auto scene = std::make_shared<const Config>(config);
   const nb::gil_scoped_release unlock;
-  CheckInterrupts check;
-  return {running.replan(*scene, at, to, options, interruptible(check)), scene};
+  return {running.replan(*scene, at, to, options, CheckInterrupts()), scene};
 }
 
 std::unique_ptr<PyMotionPlans> plans(const PyConfig& config, nb::handle goal, const std::optional<Numbers>& start,
@@ -85,8 +75,7 @@ PyMotionPlan nextMotionPlan(PyMotionPlans& plans) {
   std::optional<MotionPlan> plan;
   {
     const nb::gil_scoped_release unlock;
-    CheckInterrupts check;
-    plan = plans.plans.next(interruptible(check));
+    plan = plans.plans.next(CheckInterrupts());
   }
   if (!plan) throw nb::stop_iteration();
   return {std::move(*plan), plans.config};
@@ -170,8 +159,7 @@ Array refined(MatrixXd (*refine)(const Config&, const MatrixXd&, const RefineOpt
   MatrixXd result;
   {
     const nb::gil_scoped_release unlock;
-    CheckInterrupts check;
-    result = refine(config, rows, {margin, blend, seed, interruptible(check)});
+    result = refine(config, rows, {margin, blend, seed, CheckInterrupts()});
   }
   return toNumpy(result);
 }

@@ -32,11 +32,7 @@ struct PyRoadmap : Roadmap {
 template <class Work>
 auto watched(const Work& work) {
   const nb::gil_scoped_release unlock;
-  CheckInterrupts check;
-  return work([&] {
-    check();
-    return false;
-  });
+  return work(CheckInterrupts());
 }
 
 RoadmapPath findPath(PyRoadmap& map, const Numbers& start, const Numbers& goal) {
