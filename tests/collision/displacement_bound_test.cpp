@@ -21,7 +21,7 @@ VectorXd drawn(Rng& rng, Eigen::Index size, double scale) {
   return values;
 }
 
-/// A crane with hinges and slides whose axes point anywhere, and a long hook.
+/// A crane with revolute and prismatic joints about arbitrary axes, and a long hook.
 Config crane() {
   Config C;
   C.addText(R"(
@@ -36,7 +36,7 @@ hook(wrist): {shape: capsule, size: [0.4, 0.03], Q: [0.2, 0, -0.1], contact: 1}
   return C;
 }
 
-/// How fast the joints move points of the hook that are as far from its middle as its bound is large, in sum.
+/// The summed speeds by the joints of points at the bounding radius of the hook.
 double speedOf(const State& state, int hook, const VectorXd& change) {
   const auto& body = state.model().body[std::size_t(hook)];
   const Vector3d center = state.pose(hook) * body->boundCenter();
@@ -137,8 +137,8 @@ TEST(DisplacementBound, BoundsHowFarPointsMoveAtAllConfigurationsNearby) {
       beyond_five_percent += speed > 1.05 * here;
     }
   }
-  EXPECT_GT(highest, .85);            // it is not far off
-  EXPECT_GT(beyond_five_percent, 0);  // what stands at one posture alone, and a little more, is no bound
+  EXPECT_GT(highest, .85);            // the bound is tight
+  EXPECT_GT(beyond_five_percent, 0);  // the value at one configuration plus 5 % is no bound
 }
 
 TEST(DisplacementBound, IsExactWhereOneJointMovesABall) {

@@ -55,7 +55,7 @@ TEST(PlanAmongObstacles, LimitsOfTheJerkHoldWhileItWaits) {
   const std::vector<ObstacleTrajectory> cart = {moves("cart", {{0., poseAt(0., -1.)}, {8., poseAt(0., 1.)}})};
   PlanOptions options = among(cart);
   options.jerk = VectorXd::Constant(1, 20.);
-  Config C = room(3.);  // a wall so wide that there is no way around the cart
+  Config C = room(3.);  // the wall is so wide that no path leads around the cart
   C.addText("cart: {}\nbox(cart): {shape: ssBox, size: [0.4, 2.0, 0.2, 0.01], contact: 1}");
   C.setJointState(VectorXd{{-1., 0.}});
   const MotionPlan plan = planMotion(C, kAcross, options);
@@ -90,7 +90,7 @@ TEST(PlanAmongObstacles, WhatStaysAtTheGoalIsNamed) {
 }
 
 TEST(PlanAmongObstacles, WhatComesToTheGoalLaterIsNamed) {
-  // The robot is about to arrive, and cannot get away from what comes soon after that, and passes by.
+  // The robot is about to arrive, and cannot avoid an obstacle that passes by soon after that.
   for (int k = 0; k < 12; ++k) {
     PlanOptions options = among({moves("cart", {{.1, poseAt(1., -1.9)}, {.7 + .01 * k, poseAt(1., 1.9)}})});
     options.start_velocity = VectorXd{{.6, 0.}};

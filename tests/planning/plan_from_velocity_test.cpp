@@ -14,7 +14,7 @@ PlanOptions brisk() {
   return options;
 }
 
-/// The disc before a door, on its way through it.
+/// The disc before a door, moving towards it.
 struct Running {
   Config C = room(.8);
   MotionPlan plan;
@@ -137,7 +137,7 @@ TEST(PlanFromVelocity, LimitsOfTheJerkHoldFromTheFirstMomentOn) {
   }
 }
 
-/// The disc as before, and limits of its jerk.
+/// The same disc with jerk limits.
 struct RunningGently {
   Config C = room(.8);
   MotionPlan plan;
@@ -149,7 +149,7 @@ struct RunningGently {
   }
 };
 
-/// Looks at what limits of the jerk say, from `time` of the motion before on.
+/// Checks the jerk limits of a motion that replaces another one from `time` on.
 void expectGentle(const MotionPlan& before, double time, const MotionPlan& after) {
   const MotionState left = before.at(time);
   EXPECT_LE((after.at(0.).acceleration - left.acceleration).norm(), 1e-6);
@@ -242,7 +242,7 @@ TEST(PlanFromVelocity, AStartAccelerationThatMakesNoSenseIsRefused) {
   PlanOptions options = brisk();
   options.start_velocity = VectorXd{{.5, 0.}};
   options.start_acceleration = VectorXd{{1., 0.}};
-  EXPECT_THROW(planMotion(C, VectorXd{{-1., -1.}}, options), ValueError);  // no limits of the jerk
+  EXPECT_THROW(planMotion(C, VectorXd{{-1., -1.}}, options), ValueError);  // no jerk limits
   options.jerk = VectorXd::Constant(1, 30.);
   options.start_acceleration = VectorXd{{4.5, 0.}};
   const MotionPlan plan = planMotion(C, VectorXd{{-1., -1.}}, options, VectorXd{{-1.5, 1.2}});

@@ -179,7 +179,7 @@ nb::class_<MotionConstraint> bindConstraint(nb::module_& m) {
       });
 }
 
-nb::class_<PyMotionPlan> bindMotionPlan(nb::module_& m) {
+MotionPlanClass bindMotionPlan(nb::module_& m) {
   nb::enum_<PlanStatus> status(m, "PlanStatus", "The outcome of planMotion.");
   for (int i = 0; i <= int(PlanStatus::cancelled); ++i) {
     static std::vector<std::string> names(std::size_t(PlanStatus::cancelled) + 1);
@@ -189,7 +189,7 @@ nb::class_<PyMotionPlan> bindMotionPlan(nb::module_& m) {
   static const std::string replan_signature =
       cat("def replan(self, config: Config, at: float, goal: typing.Any = None, *, ", planArguments(PlanCall::replan),
           ") -> MotionPlan");
-  return nb::class_<PyMotionPlan, Trajectory>(m, "MotionPlan", docs::plan::type)
+  return MotionPlanClass(m, "MotionPlan", docs::plan::type)
       .def_prop_ro("feasible", &MotionPlan::feasible, "True if there is a motion; it is continuously collision-free.")
       .def_ro("status", &MotionPlan::status, "The outcome, a PlanStatus.")
       .def_prop_ro(
@@ -250,7 +250,7 @@ std::vector<MotionConstraint> planConstraintsOf(nb::handle value) {
 
 void bindPlan(nb::module_& m) {
   nb::class_<MotionConstraint> constraint = bindConstraint(m);
-  nb::class_<PyMotionPlan> motion_plan = bindMotionPlan(m);
+  MotionPlanClass motion_plan = bindMotionPlan(m);
   bindPlanCopies(constraint, motion_plan);
   const std::string head = "(config: Config, goal: typing.Any, start: numpy.typing.ArrayLike | None = None, *, ";
   static const std::string plan_signature =

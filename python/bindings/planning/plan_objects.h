@@ -7,8 +7,14 @@ namespace kinegraph::python {
 
 /// A plan with a copy of its scene at the time of the call.
 struct PyMotionPlan : MotionPlan {
+  PyMotionPlan() = default;
+  PyMotionPlan(MotionPlan plan, std::shared_ptr<const Config> config)
+      : MotionPlan(std::move(plan)), config(std::move(config)) {}
+
   std::shared_ptr<const Config> config;
 };
+
+using MotionPlanClass = nb::class_<PyMotionPlan, Trajectory>;
 
 /// The sequence of plans with a copy of its scene.
 struct PyMotionPlans {
@@ -23,6 +29,6 @@ const OptionClass<PlanOptions>& planOptionClass();
 std::vector<MotionConstraint> planConstraintsOf(nb::handle value);
 
 /// Binds copying and pickling.
-void bindPlanCopies(nb::class_<MotionConstraint>& constraint, nb::class_<PyMotionPlan>& plan);
+void bindPlanCopies(nb::class_<MotionConstraint>& constraint, MotionPlanClass& plan);
 
 }  // namespace kinegraph::python

@@ -129,7 +129,7 @@ PyMotionPlan planFrom(const nb::tuple& t) {
 
 }  // namespace
 
-void bindPlanCopies(nb::class_<MotionConstraint>& constraint, nb::class_<PyMotionPlan>& plan) {
+void bindPlanCopies(nb::class_<MotionConstraint>& constraint, MotionPlanClass& plan) {
   constraint.def("__getstate__", constraintState).def("__setstate__", setConstraintState, "state"_a);
   plan.def("__getstate__", planState)
       .def(

@@ -327,7 +327,7 @@ double Planner::verifiedMargin() const {
   double least = plan_.margin;
   for (const Clearance::Tight& tight : constraints_.clearance.tight) least = std::min(least, tight.margin);
   for (const SearchEndpoint* endpoint : {&start_, &goals_[std::size_t(best_.found.goal)]})
-    if (endpoint->leaves) least = std::min(least, endpoint->deepest);
+    if (endpoint->retreats) least = std::min(least, endpoint->deepest);
   return least;
 }
 

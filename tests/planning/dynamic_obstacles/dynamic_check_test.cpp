@@ -36,7 +36,7 @@ TEST(DynamicScene, WhatMakesNoSenseIsRefused) {
   EXPECT_THROW(made(moves("nothing", {{0., poseAt(0., 0.)}})), FrameNotFound);
 }
 
-/// Motions around corners and obstacles that turn, as random numbers say.
+/// Random motions around corners, and rotating obstacles.
 TEST(DynamicCheck, WhatItCallsFreeIsFreeAndWhatItMeetsIsNear) {
   const Config C = discAndBox();
   int free = 0, met = 0;

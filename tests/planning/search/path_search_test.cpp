@@ -32,7 +32,7 @@ TEST(SearchPath, ThinWallsAreNotJumpedOver) {
 
 TEST(SearchPath, AnswersAreTheSameBitsForAnyNumberOfThreads) {
   for (std::uint64_t seed = 0; seed < 3; ++seed) {
-    Asked asked{room(.42)};  // narrow: several attempts
+    Asked asked{room(.42)};  // narrow: several searches
     PathQuery request = asked.request(1, seed);
     const PathSearchResult one = searchPath(request);
     request.threads = 4;

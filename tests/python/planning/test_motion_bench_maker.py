@@ -1,4 +1,4 @@
-"""planMotion on a sample of MotionBenchMaker, whose files come from a package: skipped where that cannot be fetched."""
+"""planMotion on a sample of MotionBenchMaker; skipped if the package with its files cannot be fetched."""
 
 from __future__ import annotations
 

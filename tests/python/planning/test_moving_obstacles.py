@@ -1,4 +1,4 @@
-"""planMotion among obstacles that move, from a running motion, and better with effort."""
+"""planMotion among dynamic obstacles, MotionPlan.replan, and planMotions."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def poseAt(times: np.ndarray, poses: np.ndarray, t: float) -> np.ndarray:
 
 
 def leastOfTime(C: ry.Config, plan: ry.MotionPlan, tracks: dict, step: float = 2e-3, after: float = 1.0) -> float:
-    """The least distance of parts that q moves and anything else, by looks at every `step` s."""
+    """The least distance of links that q moves to any other body, every `step` s."""
     scene = ry.Config()
     scene.addConfigurationCopy(C)
     least = 1.0

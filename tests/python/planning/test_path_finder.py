@@ -1,4 +1,4 @@
-"""RRT_PathFinder: paths between two postures, as older scripts ask for them."""
+"""RRT_PathFinder: the path finder of the reference package."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def barAroundBar() -> ry.Config:
 
 
 def denselyFree(C: ry.Config, path: np.ndarray, margin: float) -> bool:
-    """Looks at postures every milliradian, by a call that knows nothing of paths."""
+    """Checks configurations every milliradian, independently of edge checks."""
     for a, b in itertools.pairwise(path):
         count = max(2, int(np.linalg.norm(b - a) / 1e-3))
         if not C.isValid(a + np.linspace(0, 1, count)[:, None] * (b - a), margin=margin).all():

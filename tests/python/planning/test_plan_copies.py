@@ -1,4 +1,4 @@
-"""Plans and roadmaps go from process to process: what comes out of copy and pickle is the same, and goes on the same."""
+"""Copied and pickled plans and roadmaps equal the originals and behave the same."""
 
 from __future__ import annotations
 

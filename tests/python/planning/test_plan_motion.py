@@ -1,4 +1,4 @@
-"""planMotion: from A to B, free at all times, and when it is where."""
+"""planMotion: collision-free, time-parameterized motions to a goal."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def room(door: float = 0.5) -> ry.Config:
 
 
 def leastDistance(C: ry.Config, Q: np.ndarray, step: float = 2e-3) -> float:
-    """Of all pairs that move, at postures every `step`, by a call that knows nothing of motions."""
+    """The least distance of all moving pairs at configurations every `step`, independently of edge checks."""
     rows = [
         a + np.linspace(0, 1, max(2, int(np.linalg.norm(b - a) / step)))[:, None] * (b - a)
         for a, b in itertools.pairwise(Q)
