@@ -197,7 +197,9 @@ def main():
     parser.add_argument("--rounds", type=int, default=1)
     parser.add_argument("--margin", type=float, default=0.0)
     parser.add_argument("--optimize", default="length")
-    parser.add_argument("--slices", type=int, default=0, help="slices of the KOMO smoothing stage, with --optimize time")
+    parser.add_argument(
+        "--slices", type=int, default=0, help="slices of the KOMO smoothing stage, with --optimize time"
+    )
     parser.add_argument("--beside", nargs="+", default=[], metavar="NAME=PYTHON")
     arguments = parser.parse_args()
     warnings.filterwarnings("ignore", ".*no joint moves them apart")  # tables touch their legs

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import itertools
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import kinegraph as ry
+from kinegraph import call_errors
+
+STUB = Path(ry.__file__).parent / "_core.pyi"
 
 DOOR = """
 world: {{}}
@@ -51,9 +55,53 @@ def test_a_box_on_wheels_goes_through_a_door() -> None:
     assert np.allclose(plan.path[0], START) and np.allclose(plan.path[-1], GOAL)
     assert leastDistance(C, plan.path) >= 0
     assert np.allclose(C.getJointState(), START)
-    assert [stage["name"] for stage in plan.stages] == ["endpoints", "search", "shortcut", "rope_shortcut", "verify", "timing"]
+    assert [stage["name"] for stage in plan.stages] == [
+        "endpoints",
+        "search",
+        "shortcut",
+        "rope_shortcut",
+        "verify",
+        "timing",
+    ]
     assert plan.length == pytest.approx(np.linalg.norm(np.diff(plan.path, axis=0), axis=1).sum())
     assert "trees of" in plan.explain() and plan.clearance() >= 0
+
+
+def parametersOf(call: object) -> list:
+    signature, _, defaults = call.__nb_signature__[0]
+    return [each for each in call_errors.parameters(signature, defaults or ()) if each.keyword_only]
+
+
+def test_every_option_is_a_keyword_with_its_default() -> None:
+    options = {each.name: each for each in parametersOf(ry.planMotion)}
+    assert {"margin", "optimize", "velocity", "constraints", "obstacle_trajectories", "seed"} <= set(options)
+    assert options["margin"].type == "float" and options["margin"].default == "0.0"
+    defaults = {name: eval(each.default, {"inf": np.inf}) for name, each in options.items()}
+    plan, same = ry.planMotion(room(), GOAL), ry.planMotion(room(), GOAL, **defaults)
+    assert np.array_equal(plan.path, same.path) and plan.duration == same.duration
+    assert [each.default for each in parametersOf(ry.MotionPlan.replan)] == ["None"] * (len(options) - 2)
+    assert not {"start_velocity", "obstacle_trajectories"} & {each.name for each in parametersOf(ry.planMotions)}
+    unchanged = plan.replan(room(), 0.0, **dict.fromkeys(each.name for each in parametersOf(ry.MotionPlan.replan)))
+    assert np.array_equal(unchanged.path[-1], plan.path[-1])
+
+
+@pytest.mark.skipif(not STUB.exists(), reason="the stub is generated when the wheel is built")
+def test_editors_see_the_options_in_the_stub() -> None:
+    stub = STUB.read_text()
+    for call in ("planMotion", "planMotions", "replan"):
+        signature = stub[stub.index(f"def {call}(") :].split("\n", 1)[0]
+        assert "*, margin: float" in signature and "**" not in signature
+
+
+def test_a_plan_is_a_trajectory() -> None:
+    plan = ry.planMotion(room(), GOAL)
+    assert isinstance(plan, ry.Trajectory)
+    times = np.linspace(0, plan.duration, 5)
+    for many, each in zip(plan.eval(times), zip(*map(plan.eval, times), strict=True), strict=True):
+        assert np.array_equal(many, each)
+    sampled, q, v, a = plan.sample(100.0)
+    assert sampled[0] == 0 and sampled[-1] == plan.duration and q.shape == v.shape == a.shape == (len(sampled), 3)
+    assert sum(search["samples"] for search in plan.searches) > 0
 
 
 def test_what_moves_in_time_is_free_and_keeps_the_limits() -> None:
@@ -192,8 +240,13 @@ box(cart): {shape: box, size: [0.2, 0.2, 0.2], Q: [0, 0, 0.0998], contact: 1}
 """)
     plan = ry.planMotion(C, [0.5, 0.5, 0.0], [-0.5, 0.5, 0.0])  # both 0.2 mm inside of the table
     assert plan.feasible, plan.message
-    assert "the start is in contact: 'table' and 'box' overlap by 200 um; the motion begins with a retreat" in plan.warnings
-    assert "the goal is in contact: 'table' and 'box' overlap by 200 um; the motion ends with a contact" in plan.warnings
+    assert (
+        "the start is in contact: 'table' and 'box' overlap by 200 um; the motion begins with a retreat"
+        in plan.warnings
+    )
+    assert (
+        "the goal is in contact: 'table' and 'box' overlap by 200 um; the motion ends with a contact" in plan.warnings
+    )
     assert leastDistance(C, plan.path) >= -0.0002 - 1e-6
     assert leastDistance(C, plan.path[1:-1]) >= 0
 
