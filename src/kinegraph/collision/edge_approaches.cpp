@@ -19,7 +19,7 @@ void EdgeEngine::findApproaches(const double* from, const double* to, double mos
 /// The distance if it is below `most`, else kFar.
 double EdgeEngine::distanceBelow(double most, const Candidate& candidate, Normal& normal, const Moment& at) {
   if (candidate.pair.convex && normal.stamp == stamp_ && gap(candidate, normal, at) >= most) return kFar;
-  if (judge(candidate, normal, at, most) == Verdict::apart) return kFar;
+  if (separate(candidate, normal, at, most) == Verdict::apart) return kFar;
   const double distance = measure(candidate, normal, at);
   return distance < most ? distance : kFar;
 }
