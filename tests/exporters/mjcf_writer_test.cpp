@@ -157,14 +157,14 @@ TEST_F(WriteMjcf, AJointThatIsNoPartOfQIsFixedWhereItIsAndSaidSo) {
   ASSERT_EQ(warnings_.size(), 2u);
   std::sort(warnings_.begin(), warnings_.end());
   EXPECT_NE(warnings_[0].find("joint 'f' is no part of q"), std::string::npos);
-  EXPECT_NE(warnings_[1].find("joint 'g' is fixed, as 'f' is"), std::string::npos);
+  EXPECT_NE(warnings_[1].find("joint 'g' is fixed because the joint 'f' it mimics is fixed"), std::string::npos);
 }
 
-TEST_F(WriteMjcf, PairsThatMujocoCannotTestOrTellApartAreNamed) {
+TEST_F(WriteMjcf, PairsThatMujocoCannotTestOrDistinguishAreListed) {
   save(
       scene("world: {} base (world): { joint: rigid, shape: sphere, size: [.1], contact: 1 } j (base): { joint: "
             "hingeX, shape: sphere, size: "
             "[.1], contact: 1 } k (j): { joint: hingeX, shape: sphere, size: [.1], contact: 1 }"));
   ASSERT_EQ(warnings_.size(), 1u);
-  EXPECT_NE(warnings_[0].find("these pairs are lost: j - k"), std::string::npos) << warnings_[0];
+  EXPECT_NE(warnings_[0].find("lost pairs: j - k"), std::string::npos) << warnings_[0];
 }

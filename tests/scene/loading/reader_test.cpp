@@ -229,7 +229,7 @@ TEST(Reader, MoreMistakesAreExplained) {
   expectMessage("a: { mesh_rope: [1 0 0 1e9], shape: lines }", "n from 1 to 10000");
 }
 
-TEST(Reader, OdditiesAreWarnedOf) {
+TEST(Reader, SuspiciousEntriesCauseWarnings) {
   const auto expectWarning = [](const char* text, const char* part) {
     const auto warnings = warningsOf(text);
     ASSERT_EQ(warnings.size(), 1u) << text;
@@ -241,8 +241,8 @@ TEST(Reader, OdditiesAreWarnedOf) {
   expectWarning("a: { contact: 1 }", "'contact' has no effect without a shape");
   expectWarning("a: {} a: {}", "there is a frame named 'a' already");
   expectWarning("edit a: {}", "did you mean 'Edit'?");
-  expectWarning("Edit tabel: {} table: {}", "there is no frame 'tabel'; similar names: table");
-  expectWarning("Delete: a", "there is no frame 'a' up to here");
+  expectWarning("Edit tabel: {} table: {}", "no frame 'tabel'; similar names: table");
+  expectWarning("Delete: a", "no frame 'a' before this line");
   expectWarning("Quit", "no effect");
   expectWarning("a: {} b(a): { joint: hingeX, to: [1 0 0] }", "write 'post'");
   expectWarning("a: {} b(a): { joint: hingeX, Q: [1 0 0] }", "a constant offset belongs in 'pre'");
@@ -318,7 +318,7 @@ TEST(Reader, IncludesThatFormALoopOrAreTooDeepAreErrors) {
   EXPECT_THROW(Config().addFile(loop + ".missing"), FileError);
 }
 
-TEST(Reader, SmallFilesCannotIncludeTheirWayToHugeScenes) {
+TEST(Reader, IncludesOfSmallFilesCannotMakeHugeScenes) {
   const TemporaryFolder folder;
   std::string ten;
   for (int level = 0; level < 6; ++level) {
@@ -344,7 +344,7 @@ TEST(Reader, LoadingTheSameNamesTwiceIsWarnedOf) {
   config.addFile(path);
   const auto warnings = config.takeWarnings();
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("2 of its frames have names that exist already (a, b)"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("duplicate frame names: 2 (a, b)"), std::string::npos) << warnings[0];
 }
 
 TEST(Reader, CheckReportsErrorsAndWarningsInOrder) {
