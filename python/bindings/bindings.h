@@ -55,6 +55,7 @@ void bindSolvers(nb::module_& m);
 void bindKomo(nb::module_& m);
 void bindSkeleton(nb::module_& m);
 void bindIk(nb::module_& m);
+void bindTrajectory(nb::module_& m);
 void bindRetime(nb::module_& m);
 void bindPathFinder(nb::module_& m);
 void bindPlan(nb::module_& m);

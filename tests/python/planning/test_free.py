@@ -1,4 +1,4 @@
-"""Which pairs count where it is asked whether a q or a motion is free: one rule for all who ask."""
+"""All collision checks of configurations and motions count the same pairs."""
 
 import numpy as np
 import pytest
@@ -59,7 +59,7 @@ def test_aKomoAsksJointsOnlyForWhatTheyCanDo(scene):
 
 
 def test_theFeatureMeasuresTheSceneAsItIs(scene):
-    """Scripts place objects that have no joint, and ask how much they overlap."""
+    """Scripts place objects without a joint, and query their penetration."""
     depth = scene.eval(ry.FS.accumulatedCollisions)[0][0]
     assert depth == pytest.approx(scene.coll_totalViolation(), abs=1e-12) and depth > 0.003
     scene.getFrame("floor").setPosition([0, 0, -0.5])

@@ -1,4 +1,4 @@
-"""planMotion on a sample of MotionBenchMaker, whose files come from a package: skipped where that cannot be fetched."""
+"""planMotion on a sample of MotionBenchMaker; skipped if the package with its files cannot be fetched."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ sys.path.append(str(Path(__file__).parents[3] / "benchmarks"))
 pytest.importorskip("yaml")
 
 import motion_bench_maker
+
 import planning
 
 
