@@ -46,9 +46,9 @@ for i in range(140):
     mpc.setPoses("ball", ball_at(t + ahead))
     mpc.step(S.get_q(), S.get_qDot())
     if i == 110:
-        S.perturb("l_gripper", [0, 60, 0])  # a push of 60 N for 0.1 s
+        S.applyForce("l_gripper", [0, 60, 0])  # a push of 60 N for 0.1 s
     if i == 112:
-        S.clearPerturbations()
+        S.clearForces()
     for s in np.arange(0.01, TAU + 1e-6, 0.01):
         S.step(np.concatenate(mpc.at(s)), 0.01, ry.ControlMode.positionVelocity)
         M.setJointState(S.get_q())

@@ -32,8 +32,8 @@ int main() try {
     for (int t = 0; t < slices; ++t) ahead.row(t) = targetAt((i + t + 1) * tau).transpose();
     mpc.setPoses("target", ahead);
     mpc.step(S.get_q(), S.get_qDot());
-    if (i == 60) S.perturb("l_gripper", {0., 60., 0.});
-    if (i == 62) S.clearPerturbations();
+    if (i == 60) S.applyForce("l_gripper", {0., 60., 0.});
+    if (i == 62) S.clearForces();
     for (int k = 1; k <= 5; ++k) {
       const MotionPoint point = mpc.at(.01 * k);
       reference << point.q, point.velocity;

@@ -185,9 +185,9 @@ def test_a_number_beyond_a_limit_is_told_and_the_limit_taken(arm: kg.Config, bro
     browser.evaluate("""((x) => { x.value = 77; x.dispatchEvent(new Event("change")); })(
       document.querySelector("[aria-label='hinge, value']"))""")
     browser.wait_for(f"Math.abs(kinegraph.joints()[0] - {limit}) < 1e-9")
-    note = browser.evaluate("document.querySelector('.joint .note').textContent")
-    assert note.startswith("77 is beyond the limit")
-    assert browser.is_visible(".joint .note")
+    warning = browser.evaluate("document.querySelector('.joint .warning').textContent")
+    assert warning.startswith("77 is beyond the limit")
+    assert browser.is_visible(".joint .warning")
 
 
 def test_two_clicks_measure_the_distance(arm: kg.Config, browser: Browser) -> None:

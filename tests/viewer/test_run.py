@@ -115,7 +115,7 @@ print('highest', recording.freePos[:, 0, 2].max())
     )
     browser.open_page(program.url())  # which never rests
     browser.wait_for(f"kinegraph.run() && {TIME} > 0.1")
-    browser.click_button("pull")
+    browser.click_button("perturb")
     x, y = browser.pixel([0, 0.15, 0.65])
     browser.mouse("mouseMoved", x, y)
     browser.mouse("mousePressed", x, y, button="left")

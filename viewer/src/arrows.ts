@@ -11,10 +11,10 @@ const LONGEST = 0.11; // that an arrow shall be long, in distances of the camera
 const SHORTEST = 0.1; // that the longest shall be long, in parts of that
 const UP = new THREE.Vector3(0, 1, 0);
 
-/** An arrow: where it begins, which way, how long it and its head are, and how thick it is as a part of the usual. */
+/** An arrow: where it begins, which direction, how long it and its head are, and how thick it is as a part of the usual. */
 interface Arrow {
   from: THREE.Vector3;
-  way: THREE.Vector3; // unit
+  direction: THREE.Vector3; // unit
   length: number; // m
   head: number; // m
   part: number;
@@ -40,19 +40,19 @@ class Arrows {
 
   show(arrows: readonly Arrow[]): void {
     this.reserve(arrows.length);
-    const turn = new THREE.Quaternion(),
+    const rotation = new THREE.Quaternion(),
       matrix = new THREE.Matrix4(),
       size = new THREE.Vector3();
     const { rim } = this;
-    arrows.forEach(({ from, way, length, head, part, pixel }, i) => {
-      turn.setFromUnitVectors(UP, way);
+    arrows.forEach(({ from, direction, length, head, part, pixel }, i) => {
+      rotation.setFromUnitVectors(UP, direction);
       const width = (SHAFT * part + 2 * rim) * pixel;
-      this.shafts.setMatrixAt(i, matrix.compose(from, turn, size.set(width, length - head, width)));
-      const base = from.clone().addScaledVector(way, length - head - rim * pixel);
+      this.shafts.setMatrixAt(i, matrix.compose(from, rotation, size.set(width, length - head, width)));
+      const base = from.clone().addScaledVector(direction, length - head - rim * pixel);
       const across = (HEAD * part + 3.5 * rim) * pixel;
-      this.heads.setMatrixAt(i, matrix.compose(base, turn, size.set(across, head + 4 * rim * pixel, across)));
+      this.heads.setMatrixAt(i, matrix.compose(base, rotation, size.set(across, head + 4 * rim * pixel, across)));
       const dot = (DOT + 2 * rim) * pixel;
-      this.dots.setMatrixAt(i, matrix.compose(from, turn, size.set(dot, dot, dot)));
+      this.dots.setMatrixAt(i, matrix.compose(from, rotation, size.set(dot, dot, dot)));
     });
     for (const mesh of this.all) {
       mesh.count = arrows.length;
@@ -136,7 +136,7 @@ export class ForceArrows {
       const pixel = this.stage.resolution / this.stage.pixelsPerMeter(from);
       const length = Math.max(this.metersPerNewton * force.length(), 1e-9),
         head = Math.min(HEAD_LENGTH * pixel, 0.6 * length);
-      return { from, way: force.normalize(), length, head, part: head / (HEAD_LENGTH * pixel), pixel };
+      return { from, direction: force.normalize(), length, head, part: head / (HEAD_LENGTH * pixel), pixel };
     });
     for (const layer of this.layers) layer.show(arrows);
   }

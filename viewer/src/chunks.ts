@@ -12,7 +12,7 @@ export function replaceIn(chunk: keyof typeof ShaderChunk, part: string | RegExp
 
 /** Shadows have soft edges by looking at five places in a disk that is turned differently for each pixel. They are the same
  * places as ever, but only one of them where the disk has no radius: without a graphics card that is much quicker. */
-export function lookOnceForHardShadows(): void {
+export function checkHardShadowsOnce(): void {
   const places = Array.from({ length: SAMPLES }, (_, i) => {
     const radius = Math.sqrt((i + 0.5) / SAMPLES);
     return `vec2(${[Math.cos(i * GOLDEN_ANGLE), Math.sin(i * GOLDEN_ANGLE)].map((x) => (radius * x).toFixed(9)).join(", ")})`;

@@ -46,12 +46,12 @@ async function unpack(base64: string, bytes: number, stride: number): Promise<Ar
   const stream = new Blob([bytesOf(base64)]).stream().pipeThrough(new DecompressionStream("deflate"));
   const planes = new Uint8Array(await new Response(stream).arrayBuffer()); // all lowest bytes, then the second ones, ...
   const count = planes.length / 4;
-  const words = new Int32Array(count);
+  const values = new Int32Array(count);
   for (let i = 0; i < count; ++i) {
     const code = planes[i]! | (planes[count + i]! << 8) | (planes[2 * count + i]! << 16) | (planes[3 * count + i]! << 24);
-    words[i] = ((code >>> 1) ^ -(code & 1)) + (i < stride ? 0 : words[i - stride]!);
+    values[i] = ((code >>> 1) ^ -(code & 1)) + (i < stride ? 0 : values[i - stride]!);
   }
-  return words.buffer.slice(0, bytes);
+  return values.buffer.slice(0, bytes);
 }
 
 /** Messages that are part of the page itself: it then needs no program. */

@@ -53,7 +53,7 @@ export function creased(geometry: THREE.BufferGeometry): THREE.BufferGeometry {
   const normals = faceNormals(points, corners);
   const { starts, faces } = facesAt(corners, welded.length);
   const outPoints: number[] = [], outNormals: number[] = [], outColors: number[] = [], outPlaces: number[] = [], outIndices: number[] = [];
-  const made: { normal: THREE.Vector3; look: string; vertex: number }[][] = Array.from({ length: welded.length }, () => []);
+  const made: { normal: THREE.Vector3; attributes: string; vertex: number }[][] = Array.from({ length: welded.length }, () => []);
   const [own, other, sum] = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
   for (let i = 0; i < corners.length; ++i) {
     const point = corners[i]!, face = i - (i % 3), source = indices[i]!;
@@ -66,10 +66,10 @@ export function creased(geometry: THREE.BufferGeometry): THREE.BufferGeometry {
     }
     sum.lengthSq() > 0 ? sum.normalize() : sum.copy(own);
     const color = colors ? `${colors[3 * source]},${colors[3 * source + 1]},${colors[3 * source + 2]}` : "";
-    const look = places ? `${color},${places[2 * source]},${places[2 * source + 1]}` : color;
-    let entry = made[point]!.find((known) => known.look === look && known.normal.dot(sum) > 0.9999);
+    const attributes = places ? `${color},${places[2 * source]},${places[2 * source + 1]}` : color;
+    let entry = made[point]!.find((known) => known.attributes === attributes && known.normal.dot(sum) > 0.9999);
     if (!entry) {
-      entry = { normal: sum.clone(), look, vertex: outPoints.length / 3 };
+      entry = { normal: sum.clone(), attributes, vertex: outPoints.length / 3 };
       made[point]!.push(entry);
       outPoints.push(points[3 * point]!, points[3 * point + 1]!, points[3 * point + 2]!);
       outNormals.push(sum.x, sum.y, sum.z);

@@ -15,7 +15,7 @@ export const OPTIONS = {
   wireframe: { label: "triangles only", letter: "W", initially: false },
   xray: { label: "see through everything", letter: "X", initially: false },
   near: { label: "distances below 5 cm, contacts", letter: "D", initially: false },
-  notes: { label: "obstacles that are ignored", letter: "I", initially: true },
+  warnings: { label: "obstacles that are ignored", letter: "I", initially: true },
 } as const;
 
 export type Option = keyof typeof OPTIONS;

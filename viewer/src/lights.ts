@@ -26,7 +26,7 @@ export class Lights {
     shadow.bias = -0.0002;
     this.group.add(this.sky, this.flat, this.sun, this.sun.target, this.others);
     this.setCoarse(false);
-    this.setLook([], false, true);
+    this.setAppearance([], false, true);
   }
 
   /** `coarse`: shadows have fewer pixels and hard edges. True if they are to be drawn anew. */
@@ -42,7 +42,7 @@ export class Lights {
   }
 
   /** `places` of lights, three numbers each; none: the usual ones. `flat`: colors as they are, without light. */
-  setLook(places: readonly number[], flat: boolean, shadows: boolean): void {
+  setAppearance(places: readonly number[], flat: boolean, shadows: boolean): void {
     const given = Array.from({ length: Math.floor(places.length / 3) }, (_, i) =>
       new THREE.Vector3(...places.slice(3 * i)).sub(CENTER),
     );

@@ -13,14 +13,14 @@ import { Memory } from "./memory";
 import {
   BinaryKind,
   keyCommand,
-  type LookMessage,
+  type AppearanceMessage,
   type MotionMessage,
   type ServerMessage,
   viewpointCommand,
 } from "./messages";
 import { Motion } from "./motion";
 import { NearLines } from "./near";
-import { Notes } from "./notes";
+import { Warnings } from "./warnings";
 import { Panel } from "./panel";
 import { Quads } from "./quads";
 import { Quality } from "./quality";
@@ -51,13 +51,13 @@ const memory = new Memory(stage, display);
 const near = new NearLines(stage, send);
 const quads = new Quads();
 const input = new InputEvents(stage, send);
-const notes = new Notes(stage, shown.frames, recorded ? null : send, () => {
-  panel.showNotes(notes.all, notes.ignored);
+const warnings = new Warnings(stage, shown.frames, recorded ? null : send, () => {
+  panel.showWarnings(warnings.all, warnings.ignored);
   selection.refresh();
 });
 const panel = new Panel(display, shown.frames, switched, (id) => selection.select(id));
 stage.onDraw(() => shown.prepare((at) => stage.pixelsPerMeter(at), stage.hurries));
-const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id), (id) => notes.about(id));
+const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id), (id) => warnings.about(id));
 const timeline = new Timeline(stage, shown, joints, moved);
 const run = new Run(stage, shown.frames, recorded ? null : send);
 const exports = new Exports(stage, timeline, shown.frames, recorded !== null);
@@ -84,7 +84,7 @@ function switched(): void {
 function redisplay(): void {
   display.apply(shown.frames);
   near.show(display.on.has("near"));
-  notes.show(display.on.has("notes"));
+  warnings.show(display.on.has("warnings"));
   stage.redraw();
 }
 
@@ -99,13 +99,13 @@ function show(id: string, text: string): void {
   find(id).hidden = text === "";
 }
 
-function setLook(look: LookMessage): void {
-  display.visualsOnly = look.visualsOnly !== 0;
-  document.body.classList.toggle("no-text", look.visualsOnly !== 0 || look.text === 0);
-  stage.setLook(look);
-  display.wireframe = look.wireframe !== 0;
-  digits = look.digits !== 0;
-  input.setWanted(look.events, look.cursor !== 0);
+function setAppearance(appearance: AppearanceMessage): void {
+  display.visualsOnly = appearance.visualsOnly !== 0;
+  document.body.classList.toggle("no-text", appearance.visualsOnly !== 0 || appearance.text === 0);
+  stage.setAppearance(appearance);
+  display.wireframe = appearance.wireframe !== 0;
+  digits = appearance.digits !== 0;
+  input.setRequested(appearance.events, appearance.cursor !== 0);
   redisplay();
 }
 
@@ -122,8 +122,8 @@ function receive(message: ServerMessage): void {
     case "joints":
       joints.setJoints(message.structure, message.joints);
       near.setStructure(message.structure);
-      run.pulling.structure = message.structure;
-      notes.setStructure(message.structure);
+      run.perturbation.structure = message.structure;
+      warnings.setStructure(message.structure);
       break;
     case "text":
       document.title = message.title;
@@ -137,11 +137,11 @@ function receive(message: ServerMessage): void {
     case "near":
       near.read(message);
       break;
-    case "notes":
-      notes.read(message.notes);
+    case "warnings":
+      warnings.read(message.warnings);
       break;
-    case "look":
-      setLook(message);
+    case "appearance":
+      setAppearance(message);
       break;
     case "motion":
       announced = message.slices > 0 ? message : null;
@@ -173,7 +173,7 @@ function receiveBinary(data: ArrayBuffer): void {
     exports.refresh();
   } else if (shown.readBinary(data)) {
     if (kind === BinaryKind.poses) ++poses;
-    notes.stir();
+    warnings.stir();
     if (unplaced && kind === BinaryKind.poses) {
       unplaced = false;
       stage.fitScene();
@@ -212,7 +212,7 @@ stage.onClick((event) => {
   else selection.close();
 });
 
-const TURNS: Record<string, [number, number, number]> = {
+const ROTATIONS: Record<string, [number, number, number]> = {
   ArrowLeft: [-0.1, 0, 1],
   ArrowRight: [0.1, 0, 1],
   ArrowUp: [0, 0.1, 1],
@@ -225,7 +225,7 @@ const TURNS: Record<string, [number, number, number]> = {
 function takeAlt(code: string): boolean {
   const digit = /^Digit([1-4])$/.exec(code);
   if (digit) lookFrom(Object.keys(PRESETS)[Number(digit[1]) - 1]!);
-  else if (TURNS[code]) stage.viewpoint.turn(...TURNS[code]);
+  else if (ROTATIONS[code]) stage.viewpoint.turn(...ROTATIONS[code]);
   else if (code === "KeyP") exports.savePicture();
   else if (code === "KeyR") measure.toggle();
   else if (code === "KeyK") timeline.current ? timeline.toggle() : run.toggle();
@@ -292,7 +292,7 @@ Object.assign(window, {
     viewpoint: () => stage.viewpoint.describe(),
     nearLines: () => near.count,
     violatedPairs: () => timeline.pairCount,
-    notes: () => ({ marks: notes.markCount, texts: notes.all.map(({ text }) => text) }),
+    warnings: () => ({ marks: warnings.markCount, texts: warnings.all.map(({ text }) => text) }),
     quads: () => quads.count,
     meshes: () => shown.meshCount,
     geometries: () => stage.renderer.info.memory.geometries,

@@ -8,7 +8,7 @@ interface Remembered {
   on: Option[];
 }
 
-const MOST = 40; // scenes
+const MAX_SCENES = 40; // scenes
 
 /** Keeps camera and switches of each scene in the browser, for the next time that it is shown. */
 export class Memory {
@@ -54,7 +54,7 @@ export class Memory {
       on: [...this.display.on],
     };
     const keys = Object.keys(storage).filter((key) => key.startsWith("kinegraph "));
-    if (keys.length >= MOST && !keys.includes(this.key)) storage.removeItem(keys[0]!);
+    if (keys.length >= MAX_SCENES && !keys.includes(this.key)) storage.removeItem(keys[0]!);
     storage.setItem(this.key, JSON.stringify(now));
   }
 

@@ -22,16 +22,16 @@ export class NearLines {
     return this.pairs.count.all;
   }
 
-  /** Call with every structure of the scene: it is asked for anew. */
+  /** Call with every structure of the scene: it is requested for anew. */
   setStructure(structure: number): void {
     this.structure = structure;
-    this.ask();
+    this.request();
   }
 
   show(on: boolean): void {
     if (this.on === on) return;
     this.on = on;
-    this.ask();
+    this.request();
     this.apply(true);
   }
 
@@ -46,7 +46,7 @@ export class NearLines {
     this.stage.redraw();
   }
 
-  private ask(): void {
+  private request(): void {
     if (this.on) this.send(nearCommand(this.structure, MARGIN));
   }
 }

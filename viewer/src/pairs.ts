@@ -95,9 +95,9 @@ export class PairLines {
 
   private line(i: number, color: THREE.Color): THREE.Mesh {
     const line = new THREE.Mesh(this.rod, this.materials.get(color));
-    const way = new THREE.Vector3().fromArray(this.shown.points, 6 * i + 3).sub(line.position.fromArray(this.shown.points, 6 * i));
-    line.scale.y = Math.max(way.length(), 1e-9);
-    line.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), way.normalize());
+    const direction = new THREE.Vector3().fromArray(this.shown.points, 6 * i + 3).sub(line.position.fromArray(this.shown.points, 6 * i));
+    line.scale.y = Math.max(direction.length(), 1e-9);
+    line.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), direction.normalize());
     line.renderOrder = 1;
     return line;
   }

@@ -1,11 +1,11 @@
 import { type Display, OPTIONS, type Option, optionNames } from "./display";
 import { find, make } from "./element";
-import type { NoteMessage } from "./messages";
+import type { WarningMessage } from "./messages";
 import type { Shown } from "./shown";
 import { SceneTree } from "./tree";
 
 const TABS = { frames: "T", joints: "J", view: "O" } as const;
-const NAMED = 12; // frames of a note that have a button
+const NAMED = 12; // frames of a warning that have a button
 type Tab = keyof typeof TABS;
 const tabNames = Object.keys(TABS) as Tab[];
 
@@ -45,21 +45,21 @@ export class Panel {
     for (const [option, box] of this.boxes) box.checked = this.display.on.has(option);
   }
 
-  /** What the program notes about the scene; `ignored` are frames that are marked. */
-  showNotes(notes: readonly NoteMessage[], ignored: ReadonlySet<number>): void {
+  /** What the program warnings about the scene; `ignored` are frames that are marked. */
+  showWarnings(warnings: readonly WarningMessage[], ignored: ReadonlySet<number>): void {
     this.tree.mark(ignored);
-    document.body.classList.toggle("has-notes", ignored.size > 0);
-    const root = find("notes");
-    root.hidden = notes.length === 0;
-    root.replaceChildren(...notes.map((note) => this.makeNote(note)));
+    document.body.classList.toggle("has-warnings", ignored.size > 0);
+    const root = find("warnings");
+    root.hidden = warnings.length === 0;
+    root.replaceChildren(...warnings.map((warning) => this.makeWarning(warning)));
   }
 
-  private makeNote({ text, frames }: NoteMessage): HTMLElement {
+  private makeWarning({ text, frames }: WarningMessage): HTMLElement {
     const names = [...new Set(frames)].slice(0, NAMED).flatMap((id) => {
       const name = this.frames.get(id)?.message.name;
       return name === undefined ? [] : [make("button", { textContent: name, onclick: () => this.selectFrame(id) })];
     });
-    return make("div", {}, make("p", { className: "note", textContent: text }), make("div", { className: "buttons" }, ...names));
+    return make("div", {}, make("p", { className: "warning", textContent: text }), make("div", { className: "buttons" }, ...names));
   }
 
   select(id: number | null): void {

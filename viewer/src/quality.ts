@@ -1,7 +1,7 @@
 const SLOW = 25,
   FAST = 15; // ms from one picture to the next, while things move
 const STILL = 150,
-  MOST_PATIENT = 1500; // ms without a change before a picture in full resolution: at least, at most
+  MAX_WAIT = 1500; // ms without a change before a picture in full resolution: at least, at most
 const QUIET = 2; // animation frames without a change before it: behind one that was slow, changes may wait
 const COUNTED = 3; // animation frames after it that wait for it: who draws lags behind
 const LARGEST = 2; // pixels drawn per pixel of the page, across and down
@@ -95,7 +95,7 @@ export class Quality {
   /** A picture in full resolution sizes the canvas anew, twice, and takes long where processors draw. It does no harm unless a
    * change has to wait for it: then changes keep coming, and there is none before they have paused for longer. */
   private disturb(time: number): void {
-    this.patience = Math.min(Math.max(2 * this.patience, time - this.full), MOST_PATIENT);
+    this.patience = Math.min(Math.max(2 * this.patience, time - this.full), MAX_WAIT);
     this.counted = COUNTED;
   }
 

@@ -39,7 +39,7 @@ export class Selection {
     private readonly joints: JointPanel,
     private readonly send: ((command: Uint8Array<ArrayBuffer>) => void) | null,
     private readonly onSelect: (id: number | null) => void,
-    private readonly noteOf: (id: number) => string,
+    private readonly warningOf: (id: number) => string,
   ) {
     this.controls = new TransformControls(stage.camera, stage.canvas);
     this.controls.size = 0.8;
@@ -162,7 +162,7 @@ export class Selection {
       button.ariaPressed = String(this.handles === mode);
       return button;
     };
-    const note = this.noteOf(shown.message.id);
+    const warning = this.warningOf(shown.message.id);
     const copy = make("button", { textContent: "copy as .g", onclick: () => this.copy(copy) });
     this.card.replaceChildren(
       make(
@@ -179,7 +179,7 @@ export class Selection {
           : row("in", make("button", { className: "link", textContent: above, onclick: () => this.select(parent) }))),
         ...row("world", make("code", { id: "pose-world" })),
         ...(above === undefined ? [] : row("in parent", make("code", { id: "pose-parent" }))),
-        ...(note === "" ? [] : row("note", make("span", { className: "note", textContent: note }))),
+        ...(warning === "" ? [] : row("warning", make("span", { className: "warning", textContent: warning }))),
         ...(details === ""
           ? []
           : row(

@@ -1,12 +1,12 @@
 import * as THREE from "three";
-import { replaceIn, lookOnceForHardShadows } from "./chunks";
+import { replaceIn, checkHardShadowsOnce } from "./chunks";
 import { isSeen } from "./display";
 import { Floor } from "./floor";
 import { Labels } from "./labels";
 import { Lights } from "./lights";
-import type { CameraMessage, LookMessage } from "./messages";
+import type { CameraMessage, AppearanceMessage } from "./messages";
 import { drawsInSoftware, Quality } from "./quality";
-import { FreeTurning } from "./turning";
+import { FreeRotation } from "./rotation";
 import { type Camera, Viewpoint } from "./viewpoint";
 
 /** A point on a shape. */
@@ -66,7 +66,7 @@ export class Stage {
   private readonly ticks: ((seconds: number) => void)[] = [];
   private readonly moves: (() => void)[] = [];
   private readonly preparations: (() => void)[] = [];
-  private readonly squareWatchers: ((square: number) => void)[] = [];
+  private readonly squareListeners: ((square: number) => void)[] = [];
   private readonly timer = new THREE.Timer();
   private readonly quality: Quality;
   private dirty = true; // the next picture differs from the last
@@ -84,7 +84,7 @@ export class Stage {
     this.renderer.shadowMap.autoUpdate = false;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.renderer.toneMapping = bentAtWhite();
-    lookOnceForHardShadows();
+    checkHardShadowsOnce();
     this.labels = new Labels(canvas);
     this.viewpoint = new Viewpoint(
       canvas,
@@ -94,7 +94,7 @@ export class Stage {
         this.moves.forEach((move) => move());
       },
     );
-    new FreeTurning(canvas, this.viewpoint);
+    new FreeRotation(canvas, this.viewpoint);
     this.scene.add(this.lights.group);
     this.scene.add(this.frames, this.floor.group);
     this.viewpoint.set(FIRST_VIEW);
@@ -195,12 +195,12 @@ export class Stage {
     if (square === this.square) return;
     this.square = square;
     this.floor.setSquare(square);
-    for (const tell of this.squareWatchers) tell(square);
+    for (const listener of this.squareListeners) listener(square);
   }
 
   /** Called when the floor has other squares; their size in m. */
-  onSquare(tell: (square: number) => void): void {
-    this.squareWatchers.push(tell);
+  onSquare(listener: (square: number) => void): void {
+    this.squareListeners.push(listener);
   }
 
   home(): void {
@@ -263,13 +263,13 @@ export class Stage {
   }
 
   /** Colors are rgb in 0..1; [] is the page's own, and a floor of any other length than 3 is none. */
-  setLook(look: LookMessage): void {
-    const { background, floor } = look;
+  setAppearance(appearance: AppearanceMessage): void {
+    const { background, floor } = appearance;
     this.ground = background.length === 3 ? colorOf(background) : null;
     this.floor.setColor(floor.length === 3 ? colorOf(floor) : null);
     this.floor.group.visible = floor.length === 0 || floor.length === 3;
-    this.lights.setLook(look.lights, look.flat !== 0, look.shadows !== 0);
-    this.renderer.toneMapping = look.flat !== 0 ? THREE.NoToneMapping : THREE.CustomToneMapping;
+    this.lights.setAppearance(appearance.lights, appearance.flat !== 0, appearance.shadows !== 0);
+    this.renderer.toneMapping = appearance.flat !== 0 ? THREE.NoToneMapping : THREE.CustomToneMapping;
     this.paper();
   }
 

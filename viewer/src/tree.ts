@@ -50,14 +50,14 @@ export class SceneTree {
       const parent = this.frames.has(message.parent) ? message.parent : -1;
       children.set(parent, [...(children.get(parent) ?? []), id]);
     }
-    const wanted = this.search.value.trim().toLowerCase();
-    const found = wanted === "" ? null : this.matches(wanted);
+    const query = this.search.value.trim().toLowerCase();
+    const found = query === "" ? null : this.matches(query);
     const branch = (parent: number): HTMLElement[] =>
       (children.get(parent) ?? [])
         .filter((id) => !found || found.has(id))
         .map((id) => this.item(id, branch(id), found !== null));
     this.element.replaceChildren(...branch(-1));
-    if (this.element.childElementCount === 0) this.element.textContent = wanted ? "no such frame" : "no frames";
+    if (this.element.childElementCount === 0) this.element.textContent = query ? "no such frame" : "no frames";
     this.select(this.selected);
   }
 

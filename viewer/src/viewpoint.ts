@@ -31,7 +31,7 @@ export class Viewpoint {
   private reach = 0; // m
   private first: CameraMessage | null = null;
   private given = { near: 0, far: 0 }; // by the program, m; 0: not
-  private readonly watchers: ((camera: Camera) => void)[] = [];
+  private readonly listeners: ((camera: Camera) => void)[] = [];
 
   /** `changed`: the picture is another one. `moved`: a person has moved the camera. */
   constructor(
@@ -60,8 +60,8 @@ export class Viewpoint {
   }
 
   /** Called with every camera that takes another one's place. */
-  onCamera(watcher: (camera: Camera) => void): void {
-    this.watchers.push(watcher);
+  onCamera(listener: (camera: Camera) => void): void {
+    this.listeners.push(listener);
   }
 
   /** As the program says; `home` comes back to it. */
@@ -85,7 +85,7 @@ export class Viewpoint {
   }
 
   /** Turns about the target by a rotation in the camera's own axes, whatever is up then. */
-  turnFreely(rotation: THREE.Quaternion): void {
+  rotateFreely(rotation: THREE.Quaternion): void {
     const { position, quaternion } = this.camera;
     const distance = position.distanceTo(this.target),
       turned = quaternion.clone().multiply(rotation);
@@ -104,7 +104,7 @@ export class Viewpoint {
   }
 
   /** Tells that a person has moved the camera. */
-  tell(): void {
+  notify(): void {
     this.moved();
   }
 
@@ -112,8 +112,8 @@ export class Viewpoint {
   private rollTo(rotation: THREE.Quaternion): void {
     this.roll = 0;
     this.controls.update();
-    const turn = this.camera.quaternion.clone().invert().multiply(rotation);
-    this.roll = 2 * Math.atan2(turn.z, turn.w);
+    const relative = this.camera.quaternion.clone().invert().multiply(rotation);
+    this.roll = 2 * Math.atan2(relative.z, relative.w);
     this.controls.update();
   }
 
@@ -239,6 +239,6 @@ export class Viewpoint {
   private use(camera: Camera): void {
     if (this.camera === camera) return;
     this.controls.object = camera;
-    for (const watcher of this.watchers) watcher(camera);
+    for (const listener of this.listeners) listener(camera);
   }
 }

@@ -43,14 +43,14 @@ void makeSimulation(PySimulation* self, nb::object config, SimulationEngine engi
   Simulation made(nb::cast<PyConfig&>(config), engine, chosen);
   new (self) PySimulation{std::move(config), std::move(made)};
   warn(*self);
-  showAsTold(*self, verbose);
+  applyVerbosity(*self, verbose);
 }
 
 constexpr double kLong = .1;  ///< s of simulated time: from here on Ctrl-C is looked for
 
 void stepSimulation(PySimulation& s, const Numbers& u, double tau, ControlMode mode) {
-  const std::shared_ptr<SimulationWatcher> watcher = s.simulation.watcher();
-  while (watcher && !watcher->mayStep(s.simulation)) watcher->rest();
+  const std::shared_ptr<SimulationObserver> observer = s.simulation.observer();
+  while (observer && !observer->mayStep(s.simulation)) observer->rest();
   s.simulation.update();
   warn(s);
   {
@@ -61,14 +61,14 @@ void stepSimulation(PySimulation& s, const Numbers& u, double tau, ControlMode m
     s.simulation.advance(u.values, tau, mode, cancellation);
   }
   s.simulation.publish();
-  if (watcher) watcher->hasStepped(s.simulation);
+  if (observer) observer->afterStep(s.simulation);
 }
 
 void multiStep(PySimulation& s, double tau_step, double tau_sim) {
   s.simulation.update();
   CheckInterrupts check;
   const auto go = [&] { s.simulation.multi_step(tau_step, tau_sim, [&] { check(); }); };
-  if (s.simulation.watcher()) return go();
+  if (s.simulation.observer()) return go();
   const nb::gil_scoped_release unlock;
   go();
 }
@@ -116,12 +116,12 @@ Vector3d vector3(const Numbers& given, const char* what) {
 }
 
 nb::object getPerturbation(const PySimulation& s) {
-  const std::optional<Perturbation> pull = s.simulation.getPerturbation();
-  if (!pull) return nb::none();
+  const std::optional<Perturbation> perturbation = s.simulation.getPerturbation();
+  if (!perturbation) return nb::none();
   nb::dict found;
-  found["position"] = toNumpy(VectorXd(pull->position));
-  found["target"] = toNumpy(VectorXd(pull->target));
-  found["force"] = toNumpy(VectorXd(pull->force));
+  found["position"] = toNumpy(VectorXd(perturbation->position));
+  found["target"] = toNumpy(VectorXd(perturbation->target));
+  found["force"] = toNumpy(VectorXd(perturbation->force));
   return found;
 }
 
@@ -196,28 +196,28 @@ void bindMeasuring(nb::class_<PySimulation>& simulation) {
           },
           "frame"_a, docs::simulation::getAcceleration)
       .def(
-          "perturb",
+          "applyForce",
           [](S& s, const FrameArgument& frame, const Numbers& force, const Numbers& torque, const Numbers& point) {
             std::optional<Vector3d> at;
-            if (point.values.size() > 0) at = vector3(point, "Simulation.perturb: point");
-            s.simulation.perturb(
-                name(s, frame), vector3(force, "Simulation.perturb: force"),
-                torque.values.size() ? vector3(torque, "Simulation.perturb: torque") : Vector3d::Zero(), at);
+            if (point.values.size() > 0) at = vector3(point, "Simulation.applyForce: point");
+            s.simulation.applyForce(
+                name(s, frame), vector3(force, "Simulation.applyForce: force"),
+                torque.values.size() ? vector3(torque, "Simulation.applyForce: torque") : Vector3d::Zero(), at);
           },
-          "frame"_a, "force"_a, "torque"_a = nb::list(), "point"_a = nb::list(), docs::simulation::perturb)
+          "frame"_a, "force"_a, "torque"_a = nb::list(), "point"_a = nb::list(), docs::simulation::applyForce)
       .def(
-          "pull",
+          "perturb",
           [](S& s, const FrameArgument& frame, const Numbers& point, const Numbers& target) {
-            s.simulation.pull(name(s, frame), vector3(point, "Simulation.pull: point"),
-                              vector3(target, "Simulation.pull: target"));
+            s.simulation.perturb(name(s, frame), vector3(point, "Simulation.perturb: point"),
+                                 vector3(target, "Simulation.perturb: target"));
           },
-          "frame"_a, "point"_a, "target"_a, docs::simulation::pull)
+          "frame"_a, "point"_a, "target"_a, docs::simulation::perturb)
       .def(
           "endPerturbation", [](S& s) { s.simulation.endPerturbation(); }, docs::simulation::endPerturbation)
       .def("getPerturbation", getPerturbation, nb::sig("def getPerturbation(self) -> dict | None"),
            docs::simulation::getPerturbation)
       .def(
-          "clearPerturbations", [](S& s) { s.simulation.clearPerturbations(); }, docs::simulation::clearPerturbations);
+          "clearForces", [](S& s) { s.simulation.clearForces(); }, docs::simulation::clearForces);
 }
 
 void bindGrippers(nb::class_<PySimulation>& simulation) {
@@ -387,7 +387,8 @@ void bindSimulation(nb::module_& m) {
       .def("pushConfigToSim", pushConfig, "frameVelocities"_a = nb::list(), "jointVelocities"_a = nb::list(),
            docs::simulation::pushConfigToSim)
       .def(
-          "setVerbose", [](S& s, int verbose) { showAsTold(s, verbose); }, "verbose"_a, docs::simulation::setVerbose)
+          "setVerbose", [](S& s, int verbose) { applyVerbosity(s, verbose); }, "verbose"_a,
+          docs::simulation::setVerbose)
       .def("__repr__", [](const S& s) {
         return cat("<Simulation at ", s.simulation.get_t(), " s: ", s.simulation.config().getFrameDimension(),
                    " frames, of which ", s.simulation.getFreeFrames().size(), " are free>");

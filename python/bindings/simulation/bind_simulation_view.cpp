@@ -51,8 +51,8 @@ int viewSimulation(PySimulation& s, bool pause, const std::optional<std::string>
 }
 
 int run(PySimulation& s, const std::optional<double>& seconds, double tau, double speed) {
-  const auto watcher = std::dynamic_pointer_cast<SimulationView>(s.simulation.watcher());
-  const bool can_end = watcher && viewerOf(s)->isOpen() && viewerOf(s)->waits();
+  const auto observer = std::dynamic_pointer_cast<SimulationView>(s.simulation.observer());
+  const bool can_end = observer && viewerOf(s)->isOpen() && viewerOf(s)->waits();
   if (!seconds && !can_end)
     throw ValueError(
         "Simulation.run: nobody can end it by a key: say for how many seconds, or show it by view() before");
@@ -63,12 +63,12 @@ int run(PySimulation& s, const std::optional<double>& seconds, double tau, doubl
 
 }  // namespace
 
-void showAsTold(PySimulation& s, const std::optional<int>& verbose) {
+void applyVerbosity(PySimulation& s, const std::optional<int>& verbose) {
   const std::shared_ptr<PyViewer>& viewer = configOf(s).viewer;
   if (verbose ? *verbose >= 2 : viewer && viewer->isOpen()) {
     viewSimulation(s, false, std::nullopt);
   } else {
-    s.simulation.setWatcher(nullptr);
+    s.simulation.setObserver(nullptr);
   }
 }
 
@@ -77,7 +77,7 @@ void bindSimulationView(nb::class_<PySimulation>& simulation) {
       .def(
           "view_close",
           [](PySimulation& s) {
-            s.simulation.setWatcher(nullptr);
+            s.simulation.setObserver(nullptr);
             if (configOf(s).viewer) configOf(s).viewer->endPage();
           },
           docs::simulation::view_close)

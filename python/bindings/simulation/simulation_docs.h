@@ -138,7 +138,8 @@ Raises:
     ArgumentError: It has no steps.
     FileError: The file cannot be written.)";
 
-inline constexpr char pull[] = R"(Pulls a point to a place, as a hand would: by a damped spring, until endPerturbation.
+inline constexpr char perturb[] =
+    R"(Pulls a point to a place, as a hand would: by a damped spring, until endPerturbation.
 
 The force is m (w^2 (target - p) - 2 w dp/dt): p is the point, m the mass of the frame's link with all that hangs on its joints,
 w = 10 rad/s. One point at a time.
@@ -299,8 +300,8 @@ Raises:
     FrameNotFound: There is no such frame.
     ArgumentError: It has no sensor.)";
 
-inline constexpr char perturb[] =
-    R"(Lets a force and a torque act on the link of a frame until clearPerturbations; several add up.
+inline constexpr char applyForce[] =
+    R"(Lets a force and a torque act on the link of a frame until clearForces; several add up.
 
 Args:
     frame: The frame.
@@ -311,7 +312,7 @@ Raises:
     FrameNotFound: There is no such frame.
     ArgumentError: The frame cannot move, or numbers make no sense.)";
 
-inline constexpr char clearPerturbations[] = R"(Ends all of perturb.)";
+inline constexpr char clearForces[] = R"(Ends all of perturb.)";
 
 inline constexpr char addSensor[] = R"(Adds a camera and selects it.
 

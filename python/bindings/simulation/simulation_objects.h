@@ -19,7 +19,7 @@ void bindSimulationView(nb::class_<PySimulation>& simulation);
 void bindSimulationBatch(nb::module_& m);
 
 /// Shows it live as `verbose` says: 2 or more: yes, and a page opens; less: no; None: if the page of its Config is open.
-void showAsTold(PySimulation& s, const std::optional<int>& verbose);
+void applyVerbosity(PySimulation& s, const std::optional<int>& verbose);
 
 /// Options as a user gives them: SimulationOptions, a dict of fields, or None.
 SimulationOptions optionsFrom(nb::handle given);

@@ -19,19 +19,20 @@ namespace {
 CameraImage picture(PyViewer& viewer, const std::string& text) {
   if (!viewer.scene) throw ValueError("this viewer shows nothing yet; call view() first");
   const Camera camera = cameraNow(viewer);
-  const Look look = lookOfParameters();
-  RendererOptions options{.supersampling = 2, .slices = 48, .shadows = look.shadows, .floor = look.has_floor};
-  if (look.background) options.background = *look.background;
-  if (look.floor) options.floor_color = *look.floor;
-  options.lights = look.lights;
-  options.flat_colors = look.flat_colors;
-  options.wireframe = look.wireframe;
+  const Appearance appearance = appearanceFromParameters();
+  RendererOptions options{
+      .supersampling = 2, .slices = 48, .shadows = appearance.shadows, .floor = appearance.has_floor};
+  if (appearance.background) options.background = *appearance.background;
+  if (appearance.floor) options.floor_color = *appearance.floor;
+  options.lights = appearance.lights;
+  options.flat_colors = appearance.flat_colors;
+  options.wireframe = appearance.wireframe;
   if (!viewer.renderer || !(options == viewer.renderer_options)) viewer.renderer.emplace(options);
   viewer.renderer_options = options;
   const nb::gil_scoped_release unlock;
   CameraImage image = viewer.renderer->render(*viewer.scene, camera, viewer.visuals_only);
   for (const auto& [id, quad] : viewer.quads) drawQuad(image.rgb, image.width, quad);
-  if (look.text && !viewer.visuals_only && !text.empty()) {
+  if (appearance.text && !viewer.visuals_only && !text.empty()) {
     constexpr int kAround = 48;  // pixels, of width and height, that the text may not have
     const int width = std::max(image.width - kAround, 1), height = std::max(image.height - kAround, 1);
     drawLetters(image.rgb, image.width, viewer.renderer->write(text, width, height));
@@ -56,7 +57,7 @@ void focus(PyViewer& viewer, const Numbers& at, double height) {
   viewer.aim(page);
 }
 
-/// Pages look from there as well.
+/// Pages appearance from there as well.
 void placeCamera(PyViewer& viewer, const Camera& camera) {
   viewer.camera.place(camera);
   viewer.camera_is_set = true;

@@ -29,7 +29,7 @@ bool startCamera(PyViewer& viewer) {
   return true;
 }
 
-/// Tells pages where to look from, if that has changed.
+/// Tells pages where to appearance from, if that has changed.
 void aimPage(PyViewer& viewer, bool is_new) {
   const bool started = startCamera(viewer);
   const Camera camera = cameraNow(viewer);
@@ -62,23 +62,23 @@ void PyViewer::endPage() {
   quads.clear();
 }
 
-Look lookOfParameters() {
-  Look look;
+Appearance appearanceFromParameters() {
+  Appearance appearance;
   const std::vector<double> background = numbers("Render/backgroundColor"), floor = numbers("Render/floorColor");
   const std::vector<double> lights = numbers("Render/lights");
-  if (background.size() == 3) look.background = Vector3d(background.data());
-  if (floor.size() == 3) look.floor = Vector3d(floor.data());
-  look.has_floor = floor.empty() || floor.size() == 3;
-  look.shadows = flag("Render/renderShadow", true);
-  look.text = flag("Render/renderText", true);
-  look.flat_colors = flag("Render/flatColors", false);
-  look.wireframe = flag("Render/renderPolygonLines", false);
+  if (background.size() == 3) appearance.background = Vector3d(background.data());
+  if (floor.size() == 3) appearance.floor = Vector3d(floor.data());
+  appearance.has_floor = floor.empty() || floor.size() == 3;
+  appearance.shadows = flag("Render/renderShadow", true);
+  appearance.text = flag("Render/renderText", true);
+  appearance.flat_colors = flag("Render/flatColors", false);
+  appearance.wireframe = flag("Render/renderPolygonLines", false);
   if (lights.size() % 3 != 0) {
     throw ValueError(
         cat("parameter Render/lights has ", lights.size(), " numbers; expected 3 for each light: where it is, m"));
   }
-  for (std::size_t i = 0; i < lights.size(); i += 3) look.lights.emplace_back(&lights[i]);
-  return look;
+  for (std::size_t i = 0; i < lights.size(); i += 3) appearance.lights.emplace_back(&lights[i]);
+  return appearance;
 }
 
 PageCamera pageCameraOf(const Camera& camera) {
@@ -114,10 +114,10 @@ Camera cameraNow(PyViewer& viewer) {
 bool openPage(PyViewer& viewer) {
   if (flag("disableGui", false)) return false;
   viewer.setWaits(!flag("noInteractivity", false));
-  Look look = lookOfParameters();
-  look.visuals_only = viewer.visuals_only;
+  Appearance appearance = appearanceFromParameters();
+  appearance.visuals_only = viewer.visuals_only;
   const bool is_new = !viewer.isOpen();
-  viewer.server().setLook(look);
+  viewer.server().setAppearance(appearance);
   if (viewer.scene) aimPage(viewer, is_new);
   if (is_new) {
     for (const auto& [id, quad] : viewer.quads) viewer.server().setQuad(quad);
@@ -127,7 +127,7 @@ bool openPage(PyViewer& viewer) {
 }
 
 bool show(PyViewer& viewer, const std::optional<std::string>& message, bool offscreen) {
-  if (message) viewer.noteMessage(*message);
+  if (message) viewer.storeMessage(*message);
   return !offscreen && openPage(viewer);
 }
 

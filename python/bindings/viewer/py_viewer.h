@@ -78,7 +78,7 @@ Camera cameraNow(PyViewer& viewer);
 PageCamera pageCameraOf(const Camera& camera);
 
 /// How parameters `Render/...` say that pages and pictures look.
-Look lookOfParameters();
+Appearance appearanceFromParameters();
 
 /// True if people can stop the waiting: never, but Ctrl-C throws.
 bool interrupted();

@@ -134,7 +134,7 @@ def test_python_is_told_its_own_names() -> None:
         ry.KOMO_ManipulationHelper().grasp_box(1.0, "a", "base", "base", "x")
     with pytest.raises(ry.FileError, match=r"^SimulationRecording\.load: 'nowhere' cannot be read"):
         ry.SimulationRecording.load("nowhere")
-    with pytest.raises(ry.ArgumentError, match="^the viewer's host is 'nowhere'; expected an IP address"):
+    with pytest.raises(ry.ArgumentError, match="^viewer: host is 'nowhere'; expected an IP address"):
         C.viewer().serveAt("nowhere")
 
 

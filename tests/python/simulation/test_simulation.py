@@ -260,12 +260,12 @@ def test_a_force_sensor_weighs_the_hand_and_an_accelerometer_knows_down():
 def test_a_push_is_felt_by_the_joints():
     C = panda()
     S = ry.Simulation(C)
-    S.perturb("l_gripper", [0, 0, -10.0])
+    S.applyForce("l_gripper", [0, 0, -10.0])
     for _ in range(20):
         S.step()
     J = C.eval(ry.FS.position, ["l_gripper"])[1]
     assert np.allclose(S.getExternalTorques(), J.T @ [0, 0, -10.0], atol=1e-2)
-    S.clearPerturbations()
+    S.clearForces()
     S.step()
     assert np.abs(S.getExternalTorques()).max() < 1e-6
 
@@ -297,9 +297,9 @@ def test_a_recording_is_repeated_bit_for_bit(tmp_path):
     S.setSplineRef(C.getJointState() + 0.1, [0.2])
     S.closeGripper("l_gripper", 0.01, 0.2, 5.0)
     S.multi_step(0.1)
-    S.perturb("box", [1, 0, 0])
+    S.applyForce("box", [1, 0, 0])
     S.step(S.get_q(), 0.02, ry.ControlMode.position)
-    S.clearPerturbations()
+    S.clearForces()
     S.pushConfigToSim()
     S.step()
     recording = S.stopRecording()
@@ -458,7 +458,7 @@ def test_a_point_is_pulled_by_a_spring_that_is_part_of_the_state():
     C.addFrame("wall").setShape(ry.ST.box, [0.1, 0.1, 0.1]).setPosition([1, 0, 1])
     S = ry.Simulation(C)
     assert S.getPerturbation() is None
-    S.pull("ball", [0, 0, 0], [0.3, 0, 1.2])
+    S.perturb("ball", [0, 0, 0], [0.3, 0, 1.2])
     for _ in range(50):
         S.step()
     state = S.getState()
@@ -478,7 +478,7 @@ def test_a_point_is_pulled_by_a_spring_that_is_part_of_the_state():
     assert S.getPerturbation() is None
     assert S.get_frameVelocities()[0, 0, 2] == pytest.approx(-0.981, abs=1e-3)  # it falls
     with pytest.raises(ry.ArgumentError, match="'wall' is fixed to the world"):
-        S.pull("wall", [0, 0, 0], [0, 0, 0])
+        S.perturb("wall", [0, 0, 0], [0, 0, 0])
 
 
 def test_a_recording_is_shown_with_its_fingers_and_saved_as_a_page(tmp_path):

@@ -31,10 +31,10 @@ TEST(RunRequests, EachStepIsTakenOnceAndPauses) {
 TEST(RunRequests, APullLastsUntilItIsLetGo) {
   RunRequests requests;
   EXPECT_TRUE(requests.apply(PerturbCommand{7, 3, {.1, .2, .3}, {1., 2., 3.}}));
-  ASSERT_TRUE(requests.take().pull);
-  EXPECT_EQ(*requests.take().pull, (RunRequests::Pull{7, 3, {.1, .2, .3}, {1., 2., 3.}}));
+  ASSERT_TRUE(requests.take().perturbation);
+  EXPECT_EQ(*requests.take().perturbation, (RunRequests::Perturbation{7, 3, {.1, .2, .3}, {1., 2., 3.}}));
   EXPECT_TRUE(requests.apply(PerturbCommand{7, -1, {}, {}}));
-  EXPECT_FALSE(requests.take().pull);
+  EXPECT_FALSE(requests.take().perturbation);
 }
 
 TEST(RunRequests, WhatMeansNothingChangesNothing) {
@@ -44,5 +44,5 @@ TEST(RunRequests, WhatMeansNothingChangesNothing) {
   EXPECT_FALSE(requests.apply(PerturbCommand{1, 1, {0., 0.}, {0., 0., 0.}}));
   EXPECT_FALSE(requests.apply(PerturbCommand{1, 1, {0., 0., 0.}, {0., 1e9, 0.}}));
   const RunRequests now = requests.take();
-  EXPECT_FALSE(now.paused || now.reset || now.steps > 0 || now.pull);
+  EXPECT_FALSE(now.paused || now.reset || now.steps > 0 || now.perturbation);
 }

@@ -11,7 +11,7 @@ import kinegraph as kg
 
 from .browser import Browser
 
-MARKS = "kinegraph.notes().marks"
+MARKS = "kinegraph.warnings().marks"
 
 
 @pytest.fixture
@@ -24,7 +24,7 @@ def panda(config: kg.Config) -> kg.Config:
 
 
 def ignored(config: kg.Config) -> list[str]:
-    return [note for note in config.contactWarnings() if "'a box'" in note]
+    return [warning for warning in config.contactWarnings() if "'a box'" in warning]
 
 
 def test_an_obstacle_that_is_ignored_is_marked_and_the_page_says_why(panda: kg.Config, browser: Browser) -> None:
@@ -32,15 +32,15 @@ def test_an_obstacle_that_is_ignored_is_marked_and_the_page_says_why(panda: kg.C
     panda.viewer().setCamera([1.3, 1.5, 1.5], [0, 0, 0.95])
     browser.open(panda.viewer().url)
     browser.wait_for(f"{MARKS} === 1")
-    (note,) = ignored(panda)
+    (warning,) = ignored(panda)
     browser.press_alt("T")
-    assert note in browser.evaluate("document.querySelector('#notes').innerText")
+    assert warning in browser.evaluate("document.querySelector('#warnings').innerText")
     assert (
         browser.evaluate("[...document.querySelectorAll('#tree .ignored')].map((x) => x.textContent).join()") == "a box"
     )
-    browser.evaluate("[...document.querySelectorAll('#notes button')].find((x) => x.textContent === 'a box').click()")
+    browser.evaluate("[...document.querySelectorAll('#warnings button')].find((x) => x.textContent === 'a box').click()")
     browser.wait_for("kinegraph.selected() === 'a box'")
-    assert note in browser.evaluate("document.querySelector('#card').innerText")
+    assert warning in browser.evaluate("document.querySelector('#card').innerText")
     browser.press("Escape")
     browser.press("Escape")
     marked = browser.picture().astype(int)
@@ -60,7 +60,7 @@ def test_the_mark_goes_when_the_obstacle_counts_or_is_away(panda: kg.Config, bro
     browser.wait_for(f"{MARKS} === 1")
     panda.getFrame("a box").setContact(1)
     panda.view()
-    browser.wait_for(f"{MARKS} === 0 && kinegraph.notes().texts.every((text) => !text.includes('a box'))")
+    browser.wait_for(f"{MARKS} === 0 && kinegraph.warnings().texts.every((text) => !text.includes('a box'))")
     panda.getFrame("a box").setContact(0)
     panda.view()
     browser.wait_for(f"{MARKS} === 1")
