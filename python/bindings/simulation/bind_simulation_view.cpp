@@ -16,7 +16,7 @@ namespace kinegraph::python {
 
 namespace {
 
-/// Does not hold the interpreter up while it waits.
+/// Releases the interpreter lock while it waits.
 struct PySimulationView final : SimulationView {
   using SimulationView::SimulationView;
   void rest() override {
@@ -35,7 +35,7 @@ const std::shared_ptr<PyViewer>& viewerOf(PySimulation& s) {
   return config.viewer;
 }
 
-/// The view of the page that C has, begun if need be; null where pages are not wanted.
+/// Returns the view on the page of C, created if necessary; null if pages are disabled.
 std::shared_ptr<SimulationView> liveView(PySimulation& s) {
   const std::shared_ptr<PyViewer>& viewer = viewerOf(s);
   if (!openPage(*viewer)) return nullptr;
@@ -55,7 +55,8 @@ int run(PySimulation& s, const std::optional<double>& seconds, double tau, doubl
   const bool can_end = observer && viewerOf(s)->isOpen() && viewerOf(s)->waits();
   if (!seconds && !can_end)
     throw ValueError(
-        "Simulation.run: nobody can end it by a key: say for how many seconds, or show it by view() before");
+        "Simulation.run: seconds is None, but no page is open on which a key could end the run; "
+        "pass seconds, or call view() first");
   const nb::gil_scoped_release unlock;
   CheckInterrupts check;
   return s.simulation.run(seconds.value_or(std::numeric_limits<double>::infinity()), tau, speed, [&] { check(); });

@@ -11,7 +11,7 @@ namespace {
 
 bool flag(const char* name, bool otherwise) {
   const nb::object value = parameter(name, nb::object(nb::bool_(otherwise)), "");
-  if (!PyLong_Check(value.ptr())) {  // True and False are numbers as well
+  if (!PyLong_Check(value.ptr())) {  // True and False are numbers, too
     throw ValueError(
         cat("parameter ", name, " is ", nb::cast<std::string>(nb::repr(value)), "; expected True or False"));
   }
@@ -20,7 +20,7 @@ bool flag(const char* name, bool otherwise) {
 
 std::vector<double> numbers(const char* name) { return parameter(name, std::vector<double>(), "a list of numbers"); }
 
-/// The camera is first where a frame `camera_init` says, if there is one. True if it has just been put there.
+/// Sets the initial camera to a frame `camera_init`, if there is one. Returns whether it has just been set.
 bool startCamera(PyViewer& viewer) {
   FrameData* init = viewer.scene && !viewer.camera_is_set ? viewer.scene->find("camera_init") : nullptr;
   if (!init) return false;
@@ -29,7 +29,7 @@ bool startCamera(PyViewer& viewer) {
   return true;
 }
 
-/// Tells pages where to appearance from, if that has changed.
+/// Sets the camera of the pages, if it has changed.
 void aimPage(PyViewer& viewer, bool is_new) {
   const bool started = startCamera(viewer);
   const Camera camera = cameraNow(viewer);
@@ -75,7 +75,7 @@ Appearance appearanceFromParameters() {
   appearance.wireframe = flag("Render/renderPolygonLines", false);
   if (lights.size() % 3 != 0) {
     throw ValueError(
-        cat("parameter Render/lights has ", lights.size(), " numbers; expected 3 for each light: where it is, m"));
+        cat("parameter Render/lights has ", lights.size(), " numbers; expected the 3 coordinates (m) of each light"));
   }
   for (std::size_t i = 0; i < lights.size(); i += 3) appearance.lights.emplace_back(&lights[i]);
   return appearance;
