@@ -5,11 +5,11 @@ import type { Stage } from "./stage";
 const Kind = { keyDown: 1, keyUp: 2, clickDown: 3, clickUp: 4, scroll: 5, modifier: 6 } as const;
 const MODIFIERS = ["Shift", "Control", "Alt"];
 
-/** Tells the program kind people do with mouse and keys, if it wants to know. */
+/** Sends mouse and key events to the program, if it requested them. */
 export class InputEvents {
-  private requested = 0; // 1: events; 2: and nothing else happens
+  private requested = 0; // 1: events; 2: and no other effect on the page
   private cursorRequested = false;
-  private pointer: PointerEvent | null = null; // has moved since the last picture
+  private pointer: PointerEvent | null = null; // the last event that moved the pointer since the last picture
 
   constructor(
     private readonly stage: Stage,
@@ -31,7 +31,7 @@ export class InputEvents {
     stage.onTick(() => this.follow());
   }
 
-  /** True if mouse and keys are for the program alone. */
+  /** True if mouse and keys are reserved for the program. */
   get blocks(): boolean {
     return this.requested === 2;
   }

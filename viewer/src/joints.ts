@@ -1,15 +1,15 @@
 import { find, make } from "./element";
 import { type JointMessage, randomJointsCommand, resetJointsCommand, setJointCommand } from "./messages";
 
-const HALF_TURN = Math.PI; // rad: of dofs without limits, to each side
-const REACH = 1; // m, or of dofs without unit
+const HALF_TURN = Math.PI; // rad: range to each side of dofs without limits
+const REACH = 1; // m, also for dofs without unit
 
 interface Row {
   slider: HTMLInputElement;
   number: HTMLInputElement;
 }
 
-/** The dofs with a slider and a number each. What people do here goes to the server, which tells all browsers. */
+/** The dofs, each with a slider and a number. Changes go to the server, which updates all browsers. */
 export class JointPanel {
   private structure = 0;
   private joints: JointMessage[] = [];
@@ -48,7 +48,7 @@ export class JointPanel {
     this.showState(this.q);
   }
 
-  /** Shows joint values: those of the program, or of a moment of a motion. */
+  /** Shows joint values of the program, or of one time of a motion. */
   showState(q: ArrayLike<number>): void {
     this.rows.forEach(({ slider, number }, i) => {
       const value = q[i] ?? 0;
@@ -113,7 +113,7 @@ export class JointPanel {
     return { slider, number };
   }
 
-  /** At most one command per dof and picture. */
+  /** Sends at most one command per dof and picture. */
   private request(index: number, value: number): void {
     if (this.waiting.size === 0) requestAnimationFrame(() => this.flush());
     this.waiting.set(index, value);

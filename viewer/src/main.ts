@@ -61,10 +61,10 @@ const selection = new Selection(stage, shown.frames, joints, recorded ? null : s
 const timeline = new Timeline(stage, shown, joints, moved);
 const run = new Run(stage, shown.frames, recorded ? null : send);
 const exports = new Exports(stage, timeline, shown.frames, recorded !== null);
-let unplaced = false; // frames have come whose poses are still to come
-let digits = false; // some switch what is drawn
-let poses = 0; // messages with these that have come
-let announced: MotionMessage | null = null; // its slices are still to come
+let unplaced = false; // the poses of new frames have not arrived yet
+let digits = false; // digit keys toggle parts of the picture
+let poses = 0; // number of received messages with poses
+let announced: MotionMessage | null = null; // its slices have not arrived yet
 stage.onSquare((square) => (find("scale").textContent = `grid: ${lengthText(square)}, ${lengthText(square / 5)}`));
 find("presets").append(
   ...Object.keys(PRESETS).map((name) => make("button", { textContent: name, onclick: () => lookFrom(name) })),
@@ -75,7 +75,7 @@ function lookFrom(preset: string): void {
   stage.lookAlong(new THREE.Vector3(...PRESETS[preset]!));
 }
 
-/** People have switched something. */
+/** Call when a user toggled an option. */
 function switched(): void {
   memory.save();
   redisplay();
@@ -88,7 +88,7 @@ function redisplay(): void {
   stage.redraw();
 }
 
-/** Frames have moved. */
+/** Call when frames have moved. */
 function moved(): void {
   selection.follow();
   stage.redraw();
@@ -157,7 +157,7 @@ function receive(message: ServerMessage): void {
       selection.select(message.frame, "translate");
       break;
     default:
-      message satisfies never; // every kind of message has its case
+      message satisfies never; // all kinds of messages are handled
   }
   stage.redraw();
 }
@@ -221,7 +221,7 @@ const ROTATIONS: Record<string, [number, number, number]> = {
   PageDown: [0, 0, 1 / 1.15],
 };
 
-/** What Alt and a key do. */
+/** Handles Alt and a key. */
 function takeAlt(code: string): boolean {
   const digit = /^Digit([1-4])$/.exec(code);
   if (digit) lookFrom(Object.keys(PRESETS)[Number(digit[1]) - 1]!);
@@ -237,7 +237,7 @@ function takeAlt(code: string): boolean {
 
 const DIGITS: Record<string, Option> = { 1: "solid", 2: "markers", 3: "axes", 4: "near", 7: "names" };
 
-/** Closes what is open, the topmost first. */
+/** Closes the topmost open part. */
 function closeTopmost(): boolean {
   if (help.isOpen) help.toggle();
   else if (measure.on) measure.toggle();
@@ -254,7 +254,7 @@ const OWN_KEYS: Record<string, RegExp> = {
   checkbox: /^ $/,
 };
 
-/** Keys that a control takes itself are not for the program: all that people type into a text, some of the others'. */
+/** Returns whether a control handles the key itself: all keys in a text field, some in other controls. */
 function isTyping({ target, key }: KeyboardEvent): boolean {
   const control = target instanceof HTMLElement ? target.closest("input, select, summary, button") : null;
   if (control instanceof HTMLInputElement) return TEXT.test(control.type) || (OWN_KEYS[control.type]?.test(key) ?? true);
@@ -267,7 +267,7 @@ addEventListener("keydown", (event) => {
   if (input.blocks) return;
   if (event.altKey && takeAlt(event.code)) return event.preventDefault();
   if (event.key === "Escape" && closeTopmost()) return;
-  if (event.key === "Tab") return; // moves on between the controls
+  if (event.key === "Tab") return; // moves between the controls
   if (isTyping(event)) return;
   if (event.key === "?") return help.toggle();
   if (event.key === "Home") return stage.home();
@@ -283,7 +283,7 @@ stage.canvas.addEventListener("pointerdown", leaveControls);
 for (const button of document.querySelectorAll("body > button"))
   button.addEventListener("click", () => (button as HTMLElement).blur());
 
-/** For tests: what is on the page. */
+/** The page's content, for tests. */
 Object.assign(window, {
   kinegraph: {
     frames: () => shown.frames.size,

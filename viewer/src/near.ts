@@ -4,7 +4,7 @@ import type { Stage } from "./stage";
 
 export const MARGIN = 0.05; // m
 
-/** Lines between shapes that are near each other, with the distance, as people ask for them. */
+/** Lines between near shapes, with the distance, on request of users. */
 export class NearLines {
   private on = false;
   private structure = 0;
@@ -22,7 +22,7 @@ export class NearLines {
     return this.pairs.count.all;
   }
 
-  /** Call with every structure of the scene: it is requested for anew. */
+  /** Call with every structure of the scene; the lines are requested again. */
   setStructure(structure: number): void {
     this.structure = structure;
     this.request();
@@ -35,7 +35,7 @@ export class NearLines {
     this.apply(true);
   }
 
-  /** `live`: false while a motion is shown, which the lines say nothing of. */
+  /** `live`: false while a motion is shown, because the lines do not apply to it. */
   apply(live: boolean): void {
     this.pairs.visible = this.on && live;
     this.stage.redraw();

@@ -5,11 +5,11 @@ import type { Shown } from "./shown";
 import { SceneTree } from "./tree";
 
 const TABS = { frames: "T", joints: "J", view: "O" } as const;
-const NAMED = 12; // frames of a warning that have a button
+const NAMED = 12; // largest number of buttons for the frames of a warning
 type Tab = keyof typeof TABS;
 const tabNames = Object.keys(TABS) as Tab[];
 
-/** The panel at the side: frames, joints, and how the scene is shown. */
+/** The side panel: frames, joints, and view options. */
 export class Panel {
   private readonly root = find("panel");
   private readonly button = find("panel-button");
@@ -35,17 +35,17 @@ export class Panel {
     return !this.root.hidden;
   }
 
-  /** Call when frames have come, gone or changed. */
+  /** Call when frames have been added, removed or changed. */
   refresh(): void {
     if (this.isOpen && this.tab === "frames") this.tree.show(this.frames);
   }
 
-  /** Call when options have changed elsewhere. */
+  /** Call when options have been changed elsewhere. */
   refreshOptions(): void {
     for (const [option, box] of this.boxes) box.checked = this.display.on.has(option);
   }
 
-  /** What the program warnings about the scene; `ignored` are frames that are marked. */
+  /** Shows the warnings about the scene; `ignored` are the marked frames. */
   showWarnings(warnings: readonly WarningMessage[], ignored: ReadonlySet<number>): void {
     this.tree.mark(ignored);
     document.body.classList.toggle("has-warnings", ignored.size > 0);
@@ -66,7 +66,7 @@ export class Panel {
     this.tree.select(id);
   }
 
-  /** True if the key, pressed with Alt, was for the panel. */
+  /** Handles a key pressed with Alt; returns whether it was for the panel. */
   takeKey(code: string): boolean {
     const letter = code.replace("Key", "");
     const option = optionNames.find((name) => OPTIONS[name].letter === letter);

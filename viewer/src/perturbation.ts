@@ -7,10 +7,11 @@ import type { Stage } from "./stage";
 
 const WIDTH = 4; // pixels
 
-/** Draws bodies of a simulation to the pointer: the point that was taken follows in the plane that faces the camera. */
+/** Perturbs bodies of a simulation by dragging: a spring moves the clicked point to the pointer, in the plane that
+ * faces the camera. */
 export class PerturbationTool {
   on = false;
-  structure = 0; // of the scene
+  structure = 0; // number of the scene
   private grip: { id: number; point: THREE.Vector3; plane: THREE.Plane } | null = null;
   private readonly line = new THREE.Mesh(
     new THREE.CylinderGeometry(0.5, 0.5, 1, 8).translate(0, 0.5, 0),
@@ -38,7 +39,7 @@ export class PerturbationTool {
       canvas.addEventListener(kind, (event) => this.letGo(event), { capture: true });
   }
 
-  /** What the program says of the spring: from, to, and its force (N); or nothing. */
+  /** Shows the program's spring: from, to, and its force (N); or nothing. */
   show(spring: readonly number[]): void {
     const shown = spring.length === 7;
     this.line.visible = this.force.visible = shown;

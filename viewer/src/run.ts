@@ -8,7 +8,7 @@ import type { Stage } from "./stage";
 
 const Action = { pause: 1, goOn: 2, step: 3, reset: 4 } as const;
 
-/** A simulation that runs in the program: its time, contacts and forces, and buttons to steer it. */
+/** A simulation in the program: its time, contacts and forces, and buttons to control it. */
 export class Run {
   readonly arrows: ForceArrows;
   readonly perturbation: PerturbationTool;
@@ -18,7 +18,7 @@ export class Run {
   private readonly playButton = make("button", { className: "play", onclick: () => this.toggle() });
   private readonly perturbButton = make("button", {
     textContent: "perturb",
-    title: "drag a body, and a spring pulls it to the pointer",
+    title: "drag a body: a spring moves it to the pointer",
     ariaPressed: "false",
     onclick: () => this.setPerturbing(!this.perturbation.on),
   });
@@ -26,9 +26,9 @@ export class Run {
   private readonly time = make("output", { className: "run-time" });
   private readonly factor = make("output", { className: "run-factor", title: "simulated seconds per second" });
   private readonly scale = make("output", { className: "run-scale" });
-  private readonly steering: HTMLElement[]; // what only a simulation has that people can steer
+  private readonly steering: HTMLElement[]; // shown only for simulations that users can control
 
-  /** `send` is null on a saved page: then nothing can be steered. */
+  /** `send` is null on a saved page, which has no controls. */
   constructor(
     private readonly stage: Stage,
     frames: ReadonlyMap<number, Shown>,
@@ -41,8 +41,8 @@ export class Run {
     const request = (action: number) => (): void => send?.(runCommand(action));
     const buttons = [
       this.playButton,
-      make("button", { textContent: "step", title: "one step of the program's", onclick: request(Action.step) }),
-      make("button", { textContent: "reset", title: "to where it was when it was first shown", onclick: request(Action.reset) }),
+      make("button", { textContent: "step", title: "one step of the simulation", onclick: request(Action.step) }),
+      make("button", { textContent: "reset", title: "to the state in which it was first shown", onclick: request(Action.reset) }),
       this.perturbButton,
     ];
     this.steering = [...(send ? buttons : []), this.time, this.factor];
@@ -70,7 +70,7 @@ export class Run {
     this.draw();
   }
 
-  /** While a motion is shown, what runs is not. */
+  /** Hides the simulation while a motion is shown. */
   setMotion(shown: boolean): void {
     this.motionIsShown = shown;
     this.draw();

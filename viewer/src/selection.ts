@@ -22,7 +22,7 @@ interface Placement {
 
 const wxyz = (q: THREE.Quaternion): number[] => (q.w < 0 ? [-q.w, -q.x, -q.y, -q.z] : [q.w, q.x, q.y, q.z]);
 
-/** The frame that was clicked: its card, a tint, and handles to move it. */
+/** The selected frame: its card, a tint, and handles to move it. */
 export class Selection {
   private id: number | null = null;
   private handles: Handles = null;
@@ -74,7 +74,7 @@ export class Selection {
     this.select(null);
   }
 
-  /** Call when frames have changed; those that move only need `follow`. */
+  /** Call when frames have changed; after mere motion, `follow` is enough. */
   refresh(): void {
     if (this.id !== null && !this.frames.has(this.id)) this.id = null;
     if (this.id === null) this.handles = null;
@@ -103,7 +103,7 @@ export class Selection {
     this.showPoses();
   }
 
-  /** The frame as an entry of a `.g` file, where it is now. */
+  /** Returns the frame as an entry of a `.g` file, with its present pose. */
   asText(): string {
     const shown = this.shown();
     if (!shown) return "";
@@ -133,7 +133,7 @@ export class Selection {
     };
   }
 
-  /** Tints the shape (what has handles keeps its color), and draws the axes of the frame over everything. */
+  /** Tints the shape (a shape with handles keeps its color), and draws the frame's axes over everything. */
   private highlight(): void {
     for (const material of this.tinted) material.emissive.setHex(0);
     this.tinted = [];
@@ -230,7 +230,7 @@ export class Selection {
     setTimeout(() => (button.textContent = "copy as .g"), 1500);
   }
 
-  /** At most one command per picture. */
+  /** Sends at most one command per picture. */
   private sendMove(): void {
     if (!this.moved || this.id === null || !this.send) return;
     this.moved = false;

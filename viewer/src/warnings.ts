@@ -6,9 +6,9 @@ import { warningsCommand, type WarningMessage } from "./messages";
 import type { Shown } from "./shown";
 import type { Stage } from "./stage";
 
-const CALM = 1000; // ms without news, after which the program is asked
+const CALM = 1000; // ms without a change, after which the warnings are requested
 const COLOR = 0xf08c00;
-const MAX_MARKS = 30; // frames that are marked
+const MAX_MARKS = 30; // largest number of marked frames
 
 interface Mark {
   id: number;
@@ -16,8 +16,7 @@ interface Mark {
   label: CSS2DObject;
 }
 
-/** What the program warnings about the scene, asked for when nothing moves any more: obstacles that are ignored have a dashed box
- * around them. */
+/** Warnings about the scene, requested when nothing moves any more. Ignored obstacles are marked by dashed boxes. */
 export class Warnings {
   private warnings: readonly WarningMessage[] = [];
   private structure = 0;
@@ -26,7 +25,7 @@ export class Warnings {
   private marks: Mark[] = [];
   private readonly group = new THREE.Group();
 
-  /** `send` is null on a saved page, which has the warnings already. `changed` is called when there are others. */
+  /** `send` is null on a saved page, which contains the warnings. `changed` is called with new ones. */
   constructor(
     private readonly stage: Stage,
     private readonly frames: ReadonlyMap<number, Shown>,
@@ -45,12 +44,12 @@ export class Warnings {
     return this.marks.filter(({ outline }) => outline.visible).length;
   }
 
-  /** Obstacles that are ignored. */
+  /** Frames of ignored obstacles. */
   get ignored(): ReadonlySet<number> {
     return new Set(this.warnings.flatMap((warning) => (warning.ignored !== 0 ? warning.frames : [])));
   }
 
-  /** What there is to say about a frame that is ignored. */
+  /** Returns the warning about an ignored frame, or "". */
   about(id: number): string {
     return this.warnings.find((warning) => warning.ignored !== 0 && warning.frames.includes(id))?.text ?? "";
   }
@@ -60,7 +59,7 @@ export class Warnings {
     this.stir();
   }
 
-  /** Call whenever something has changed. */
+  /** Call after every change. */
   stir(): void {
     clearTimeout(this.timer);
     if (this.send) this.timer = setTimeout(() => this.send!(warningsCommand(this.structure)), CALM);
@@ -77,7 +76,7 @@ export class Warnings {
     this.refresh();
   }
 
-  /** Call when frames have other shapes. */
+  /** Call when shapes have changed. */
   refresh(): void {
     for (const { outline } of this.marks) {
       outline.geometry.dispose();
@@ -107,7 +106,8 @@ export class Warnings {
     return [{ id, outline, label: label("not an obstacle", 0.5, "name ignored") }];
   }
 
-  /** Marks are where the frames are, and seen where these are. */
+  /** Moves the marks to their frames, and hides them with these. */
+
   private follow(): void {
     for (const { id, outline, label } of this.marks) {
       const shown = this.frames.get(id);
