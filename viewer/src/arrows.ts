@@ -87,7 +87,8 @@ class Arrows {
 
 /**
  * Forces as arrows that start at their points of action, marked by dots. All arrows share one scale, which follows the
- * largest force and the camera's distance. Their thickness on the page is constant, and they have a white rim. /
+ * largest force and the camera's distance. Their thickness on the page is constant, and they have a white rim.
+ */
 export class ForceArrows {
   readonly group = new THREE.Group();
   private readonly layers = [new Arrows(0xffffff, RIM, 2), new Arrows(COLOR, 0, 3)];

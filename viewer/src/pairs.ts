@@ -28,7 +28,8 @@ function ringPicture(): THREE.Texture {
 /**
  * Pairs of shapes, each as a line between their surfaces with the distance. Lines are yellow if the shapes are apart.
  * They are red if the shapes overlap, from the deepest point of one to the surface of the other, with a ring that marks
- * even short lines. /
+ * even short lines.
+ */
 export class PairLines {
   readonly group = new THREE.Group();
   private readonly lines = new THREE.Group(); // one rod per line

@@ -33,7 +33,8 @@ const SMALLEST = 1e-6; // smallest error on the logarithmic scale; smaller ones 
 
 /**
  * Curves between the lowest and the highest of all values, with the present time of the motion. `logarithmic` spaces
- * powers of ten evenly. /
+ * powers of ten evenly.
+ */
 export function drawCurves(
   canvas: HTMLCanvasElement,
   curves: readonly Curve[],

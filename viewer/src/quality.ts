@@ -18,7 +18,8 @@ export function drawsInSoftware(): boolean {
 
 /**
  * Chooses the resolution: coarser while the scene moves on a slow machine, and full when it stands still. Without a
- * graphics card, pictures of a scene at rest are drawn with more pixels than the page has, to smooth edges. /
+ * graphics card, pictures of a scene at rest are drawn with more pixels than the page has, to smooth edges.
+ */
 export class Quality {
   private readonly finest: number;
   private moving: number;
