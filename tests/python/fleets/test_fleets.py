@@ -152,11 +152,11 @@ def test_an_item_that_kills_workers_is_given_up_and_nothing_else_is_lost() -> No
         return x
 
     with pytest.warns(
-        ry.KinegraphWarning, match="2 failed; the first: item 0: 3 workers died of it: killed by SIGKILL"
+        ry.KinegraphWarning, match="2 failed; the first: item 0: 3 workers died while computing it: killed by SIGKILL"
     ):
         results = ry.map(deadly, range(2000), engine="processes", workers=2)
     assert [x for x in results if x is not None] == [x for x in range(2000) if x not in (0, 333)]
-    assert "workers died of it" in results.failures[333].message
+    assert "workers died while computing it" in results.failures[333].message
 
 
 def test_workers_that_are_killed_lose_nothing() -> None:

@@ -12,6 +12,7 @@ sys.path.append(str(Path(__file__).parents[3] / "benchmarks"))
 pytest.importorskip("yaml")
 
 import motion_bench_maker
+
 import planning
 
 
