@@ -1,7 +1,7 @@
-"""Part 27: motions among obstacles that move, from a running motion, and better ones with effort.
+"""Part 27: motions among dynamic obstacles, replanning of a running motion, and better motions with more evaluations.
 
-`moving` says where obstacles are when; the motion keeps clear of them at all times. `replan` goes on from a running motion without a
-stop. `planMotions` gives better motions while one waits.
+The motion avoids obstacles with known trajectories, continuously in time. `replan` continues a running motion without a
+stop. `planMotions` yields better and better motions.
 """
 
 import numpy as np
@@ -16,7 +16,7 @@ q = C.getJointState()
 turn = np.array([0.6, 0, 0, 0, 0, 0, 0])
 start, goal = q - turn, q + turn
 
-# A load is carried past, in front of the arm, and then away: where it is when.
+# A load is carried past the arm and then away: its poses and times.
 times = np.array([0.0, 2.0, 4.0])
 poses = np.array([[-0.6, 0.35, 1.1, 1, 0, 0, 0], [0.6, 0.35, 1.1, 1, 0, 0, 0], [0.6, 1.5, 1.1, 0.7, 0, 0, 0.7]])
 plan = ry.planMotion(C, goal, start, margin=0.01, obstacle_trajectories={"cart": (times, poses)})
@@ -30,14 +30,14 @@ for t in np.arange(0, plan.duration + 1, 0.01):
     assert not [pair for pair in C.getCollisions(0.009) if "load" in pair[:2]]
     C.view(False, f"among what moves, {t:.2f} s")
 
-# A load that stays where the arm is to go.
+# A load stops at the arm's goal.
 C.setJointState(goal)
 hand = C.getFrame("l_gripper").getPosition()
 C.setJointState(start)
 stays = np.array([[0, 2, 1, 1, 0, 0, 0], [*hand, 1, 0, 0, 0]])
 print(ry.planMotion(C, goal, start, obstacle_trajectories={"cart": ([0.0, 1.0], stays)}).message)
 
-# On its way the robot is sent elsewhere: it goes on with its velocity, and bends.
+# The robot gets another goal during its motion: it keeps its velocity, and changes direction.
 C.getFrame("cart").setPosition([0, 2, 1])
 bot = ry.BotOp(C, False)
 plan = ry.planMotion(C, goal, start, velocity=0.6, acceleration=1.5)
@@ -62,7 +62,7 @@ while bot.get_t() < now + 0.3:
 bot.wait(C, forKeyPressed=False, forTimeToEnd=True)
 print(f"another goal after {now:.1f} s, never slower than {slowest:.2f} rad/s until {now + 0.3:.1f} s")
 
-# A disc on its way through two walls with gaps: the first way that is found is seldom the shortest kind of way.
+# A disc passes two walls with gaps: the first path found is seldom of the shortest homotopy class.
 C = ry.Config()
 C.addFrame("floor")
 C.addFrame("disc", "floor").setJoint(ry.JT.transXY, [-2.0, -2.0, 2.0, 2.0])
