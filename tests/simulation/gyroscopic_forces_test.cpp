@@ -110,7 +110,7 @@ TEST(GyroscopicForces, AFlyingBaseWithAWheelStaysInBounds) {
   }
 }
 
-TEST(GyroscopicForces, WhatTurnsTooFastIsNamedOnce) {
+TEST(GyroscopicForces, ABodyThatRotatesTooFastIsNamedOnce) {
   Tumbling body({0., 0., 0.}, 400.);
   body.simulation.step({}, .1);
   const std::vector<std::string> warnings = body.simulation.takeWarnings();

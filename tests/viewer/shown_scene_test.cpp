@@ -42,7 +42,7 @@ T valueAt(const Outgoing& message, std::size_t at) {
   return value;
 }
 
-/// What the messages contain, in their order: "text", "camera", "scene", "mesh 3", "poses 2".
+/// Summarizes the messages in order: "text", "camera", "scene", "mesh 3", "poses 2".
 std::vector<std::string> kinds(const std::vector<Outgoing>& messages) {
   std::vector<std::string> out;
   for (const Outgoing& message : messages) {
@@ -251,7 +251,7 @@ TEST(ShownScene, ARunIsSentWithEachStepAndItsEndOnce) {
   EXPECT_FALSE(scene.endRun());
 }
 
-TEST(ShownScene, NotesAreSentWhenTheyChangeAndGoWithTheFramesThatTheyAreAbout) {
+TEST(ShownScene, WarningsAreSentWhenTheyChangeAndGoWithTheirFrames) {
   ShownScene scene;
   scene.update(std::vector{item("world"), item("box")});
   scene.setJoints(1, {}, VectorXd());

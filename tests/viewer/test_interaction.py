@@ -1,4 +1,4 @@
-"""What people change in the browser: joints by sliders, frames by handles, and what they ask about frames."""
+"""Edits in the browser: joints by sliders, frames by handles, and the cards of frames."""
 
 from __future__ import annotations
 
@@ -178,7 +178,7 @@ def test_a_button_measures_as_well_and_shows_that_it_is_pressed(arm: kg.Config, 
     assert len({released, hovered, pressed}) == 3
 
 
-def test_a_number_beyond_a_limit_is_told_and_the_limit_taken(arm: kg.Config, browser: Browser) -> None:
+def test_a_number_beyond_a_limit_is_reported_and_clamped(arm: kg.Config, browser: Browser) -> None:
     open_page(arm, browser)
     browser.press_alt("J")
     limit = arm.getJointLimits()[1, 0]

@@ -1,4 +1,4 @@
-"""The page shows where shapes touch that must not, and which obstacles are ignored."""
+"""The page shows forbidden contacts and ignored obstacles."""
 
 from __future__ import annotations
 
@@ -38,7 +38,9 @@ def test_an_obstacle_that_is_ignored_is_marked_and_the_page_says_why(panda: kg.C
     assert (
         browser.evaluate("[...document.querySelectorAll('#tree .ignored')].map((x) => x.textContent).join()") == "a box"
     )
-    browser.evaluate("[...document.querySelectorAll('#warnings button')].find((x) => x.textContent === 'a box').click()")
+    browser.evaluate(
+        "[...document.querySelectorAll('#warnings button')].find((x) => x.textContent === 'a box').click()"
+    )
     browser.wait_for("kinegraph.selected() === 'a box'")
     assert warning in browser.evaluate("document.querySelector('#card').innerText")
     browser.press("Escape")
@@ -94,7 +96,7 @@ def test_a_saved_page_has_the_marks(panda: kg.Config, browser: Browser, tmp_path
 
 
 def reaching(config: kg.Config, feature: kg.FS, kind: kg.OT) -> kg.KOMO:
-    """A Panda that is to put its gripper where the table is, and is not allowed to."""
+    """A Panda whose gripper has a target inside the table."""
     config.addFile(kg.raiPath("scenarios/pandaSingle.g"))
     komo = kg.KOMO(config, 1, 2, 1, True)
     komo.addControlObjective([], 1, 1e-1)

@@ -1,4 +1,4 @@
-"""Every example runs, and says that it found what it was looking for."""
+"""Every example runs, and prints the expected results."""
 
 import os
 import re
@@ -11,7 +11,7 @@ import pytest
 
 EXAMPLES = sorted((Path(__file__).parent.parent.parent.parent / "examples").glob("*.py"))
 
-# What each of them prints.
+# Expected output.
 FOUND = {
     "01_frames": [r"door opened by 1 rad", r"joints: \['hinge'\]"],
     "02_box": [r"made in Python: .*'size': \[0.5, 0.5, 0.5, 0.05\]", r"from box.g: .*'size': \[0.5, 0.5, 0.5, 0.05\]"],

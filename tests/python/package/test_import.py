@@ -1,4 +1,4 @@
-"""What an import loads, and what is loaded when it is first used."""
+"""Modules loaded by the import, and modules loaded on first use."""
 
 import ast
 import subprocess
@@ -26,7 +26,7 @@ def test_an_import_loads_no_room_that_is_not_used(package: str) -> None:
 
 
 @pytest.mark.parametrize("package", [kinegraph, robotic])
-def test_all_names_are_there_and_told_by_dir(package: object) -> None:
+def test_all_names_exist_and_are_listed_by_dir(package: object) -> None:
     for name in package.__all__:
         assert getattr(package, name) is getattr(package, name), name
     assert set(package.__all__) <= set(dir(package))

@@ -1,4 +1,4 @@
-"""Messages of the core speak the language of who called: C++ names in C++, Python names here."""
+"""Messages of the core use the language of the caller: C++ names in C++, Python names here."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ def test_every_call_that_a_message_names_is_one_in_python_too() -> None:
     assert unknown == set()
 
 
-def test_all_that_a_result_says_is_told_in_python() -> None:
+def test_results_speak_python() -> None:
     bound = "".join(file.read_text() for file in BINDINGS.rglob("*.cpp"))
     assert re.findall(r'def_r[ow]\(\s*"(?:message|text)"', bound) == []  # as it is in C++
     for body in re.findall(r'def_prop_ro\(\s*"message",(.*?)"', bound, re.DOTALL):
@@ -120,7 +120,7 @@ def unconstrained(method: ry.OptMethod) -> ry.NLP_Solver:
     return ry.NLP_Solver(komo.nlp(), verbose=0).setOptions(method=method)
 
 
-def test_python_is_told_its_own_names() -> None:
+def test_messages_use_python_names() -> None:
     with pytest.raises(ry.Error, match=r"^OptMethod\.newton takes no constraints"):
         unconstrained(ry.OptMethod.newton).solve()
     with pytest.raises(ry.Error, match="^NLP_Solver: there is no problem to solve"):

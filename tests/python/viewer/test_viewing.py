@@ -1,4 +1,4 @@
-"""view() and watchFile() without a browser: they never wait where nobody can answer, and Ctrl-C ends them where they do."""
+"""view() and watchFile() without a browser: they do not wait without a user, and Ctrl-C ends them otherwise."""
 
 import os
 import signal

@@ -6,7 +6,7 @@
 
 using namespace kinegraph;
 
-TEST(RunRequests, PauseLastsAndResetIsAskedForOnce) {
+TEST(RunRequests, PauseLastsAndResetIsReturnedOnce) {
   RunRequests requests;
   EXPECT_TRUE(requests.apply(RunCommand{1}));
   EXPECT_TRUE(requests.apply(RunCommand{4}));
@@ -28,7 +28,7 @@ TEST(RunRequests, EachStepIsTakenOnceAndPauses) {
   EXPECT_TRUE(rest.paused);
 }
 
-TEST(RunRequests, APullLastsUntilItIsLetGo) {
+TEST(RunRequests, APerturbationLastsUntilItEnds) {
   RunRequests requests;
   EXPECT_TRUE(requests.apply(PerturbCommand{7, 3, {.1, .2, .3}, {1., 2., 3.}}));
   ASSERT_TRUE(requests.take().perturbation);
@@ -37,7 +37,7 @@ TEST(RunRequests, APullLastsUntilItIsLetGo) {
   EXPECT_FALSE(requests.take().perturbation);
 }
 
-TEST(RunRequests, WhatMeansNothingChangesNothing) {
+TEST(RunRequests, InvalidCommandsChangeNothing) {
   RunRequests requests;
   EXPECT_FALSE(requests.apply(RunCommand{0}));
   EXPECT_FALSE(requests.apply(RunCommand{5}));

@@ -30,7 +30,7 @@ const SceneWarning* ignored(const std::vector<SceneWarning>& warnings) {
 
 }  // namespace
 
-TEST(SceneNotes, SayWhichFramesTheyAreAboutInTheWordsOfTheReport) {
+TEST(SceneWarnings, NameTheirFramesInTheWordsOfTheReport) {
   Config config = arm("");
   config.setJointState(VectorXd::Constant(1, 3.));  // at the box
   const std::vector<SceneWarning> warnings = sceneWarnings(config);
@@ -44,7 +44,7 @@ TEST(SceneNotes, SayWhichFramesTheyAreAboutInTheWordsOfTheReport) {
   EXPECT_FALSE(ignored(sceneWarnings(arm("contact: 1"))));
 }
 
-TEST(SceneNotes, AreOfTheSceneAsABrowserHasChangedIt) {
+TEST(SceneWarnings, AreOfTheEditedScene) {
   const Config config = arm("");
   SceneEdits edits;
   EXPECT_TRUE(edits.warnings().empty());
