@@ -27,7 +27,7 @@ ConstraintSource torqueRows(const Config& config, const PathCurve& curve) {
   const std::vector<int> dofs = actuatedDofs(efforts);
   if (dofs.empty())
     throw ValueError(
-        "retime: torque=True needs effort limits, but no joint of the scene has one (the second number of "
+        "retime: torque needs effort limits, but no joint of the scene has one (the second number of "
         "ctrl_limits)");
   ConstraintSource rows;
   rows.unit = " N m";
