@@ -87,10 +87,10 @@ struct WarningsCommand {
   int structure = 0;
 };
 
-/// What a browser asks for.
+/// A command of a browser.
 using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand, ViewpointCommand, RunCommand, PerturbCommand, WarningsCommand>;
 
-/// Reads a binary message from a browser; nothing if it is not exactly one command.
+/// Reads a binary message from a browser; returns nothing unless it is exactly one command.
 inline std::optional<Command> readCommand(std::string_view data) {
   CommandReader reader(data);
   int kind;

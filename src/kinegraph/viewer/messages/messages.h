@@ -137,7 +137,7 @@ struct RunMessage {
   std::vector<double> perturbation;
 };
 
-/// Messages as the client reads them.
+/// Encodes messages for the client.
 std::string jsonText(const SceneMessage& message);
 std::string jsonText(const JointsMessage& message);
 std::string jsonText(const TextMessage& message);
