@@ -66,7 +66,8 @@ class ResultFolder:
         for key, value in run.items():
             if before.get(key) != value:
                 raise ArgumentError(
-                    f"the folder '{self.folder}' has results of another run: {key} {before.get(key)!r}, not {value!r}; "
+                    f"the folder '{self.folder}' has results of another run: "
+                    f"{key} was {before.get(key)!r} and is {value!r}; "
                     "use another folder, or remove this one"
                 )
 

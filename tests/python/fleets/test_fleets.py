@@ -109,7 +109,7 @@ def test_functions_and_methods_in_cpp_can_be_sent(arm: ry.Config, engine: str) -
 
 @pytest.mark.parametrize("engine", ENGINES)
 def test_an_item_that_raises_is_reported_and_the_others_continue(engine: str) -> None:
-    with pytest.warns(ry.KinegraphWarning, match="1 failed; the first: item 7: ZeroDivisionError"):
+    with pytest.warns(ry.KinegraphWarning, match="1 failed, first item 7: ZeroDivisionError"):
         results = ry.map(lambda x: 1 / (x - 7), range(20), engine=engine)
     assert results[7] is None and results[8] == 1.0 and results.complete
     assert "lambda" in results.failures[7].traceback
@@ -152,7 +152,7 @@ def test_an_item_that_kills_workers_is_given_up_and_nothing_else_is_lost() -> No
         return x
 
     with pytest.warns(
-        ry.KinegraphWarning, match="2 failed; the first: item 0: 3 workers died while computing it: killed by SIGKILL"
+        ry.KinegraphWarning, match="2 failed, first item 0: 3 workers died while computing it: killed by SIGKILL"
     ):
         results = ry.map(deadly, range(2000), engine="processes", workers=2)
     assert [x for x in results if x is not None] == [x for x in range(2000) if x not in (0, 333)]

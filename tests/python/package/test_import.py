@@ -21,7 +21,7 @@ def loaded(code: str) -> set[str]:
 @pytest.mark.parametrize("package", ["kinegraph", "robotic"])
 def test_an_import_loads_no_room_that_is_not_used(package: str) -> None:
     modules = loaded(f"import {package}")
-    assert not {f"kinegraph.{module}" for module in kinegraph._LATER} & modules
+    assert not {f"kinegraph.{module}" for module in kinegraph._LAZY} & modules
     assert "kinegraph.tasks" in loaded(f"import {package}; {package}.planTask")
 
 
@@ -45,7 +45,7 @@ def test_what_type_checkers_see_is_what_is_loaded_later() -> None:
         if isinstance(statement, ast.ImportFrom) and statement.module
         for alias in statement.names
     }
-    assert seen == {(module, name) for module, names in kinegraph._LATER.items() for name in names}
+    assert seen == {(module, name) for module, names in kinegraph._LAZY.items() for name in names}
 
 
 def test_a_function_is_not_hidden_by_a_module_of_its_name() -> None:
