@@ -161,7 +161,7 @@ def test_wrongReturnsAreErrorsThatNameTheFunction(panda, function, words):
 
 def test_anotherNumberOfRowsThanBeforeIsAnError(panda):
     sizes = iter([2, 3, 3])
-    with pytest.raises(ry.ArgumentError, match="3 values; expected 2"):
+    with pytest.raises(ry.ArgumentError, match="3 numbers; the first time 2"):
         panda.eval(lambda f: np.zeros(next(sizes)), ["l_gripper"])
 
 

@@ -526,7 +526,7 @@ def test_a_run_takes_as_many_steps_as_its_time_has_and_needs_an_end():
     other.setSplineRef(other.get_q() + 0.2, [0.5])
     other.multi_step(0.5)
     assert np.array_equal(S.get_q(), other.get_q()) and S.get_t() == pytest.approx(0.5)
-    with pytest.raises(ry.ArgumentError, match="say for how many seconds"):
+    with pytest.raises(ry.ArgumentError, match="seconds is None"):
         S.run()
     with pytest.raises(ry.ArgumentError, match="tau"):
         S.run(1.0, tau=0)

@@ -264,5 +264,5 @@ def test_an_arm_that_is_too_heavy_is_named():
     assert "-3 to 3 N m are allowed" in timed.message
     C = ry.Config()
     C.addText("base: {}\narm (base): { joint: hingeX }")
-    with pytest.raises(ry.ArgumentError, match="no joint of the scene has an effort limit"):
+    with pytest.raises(ry.ArgumentError, match="no joint of the scene has one"):
         ry.retime(C, [[0], [1]], acceleration=1, torque=True)
