@@ -1,6 +1,6 @@
 """Part 6: inverse kinematics as an optimization. Which joint angles bring the gripper to the target?
 
-Of all that do, we want those near the present posture and near the home posture:
+Of all solutions, we want those near the present configuration and near home:
 
     minimize  |.1 (q - q0)|^2 + |.1 (q - q_home)|^2   subject to   10 (gripper - target) = 0
 """
@@ -46,7 +46,7 @@ print(f"after:  {gap(C):.4f} mm, q = {q.round(3)}\n")
 assert result.feasible and gap(C) < 0.1
 C.view(True, "the gripper is at the target")
 
-# The target strolls; each answer starts from the one before.
+# The target moves randomly; each solution starts from the previous one.
 rng = np.random.default_rng(0)
 position = center.copy()
 for _ in range(20):

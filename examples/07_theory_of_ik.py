@@ -1,10 +1,10 @@
 """Part 7: inverse kinematics from scratch, ten damped Newton steps.
 
-Near q, the position of the end effector is y + J dq. The step that brings it to the target while staying short,
+Near q, the position of the end effector is y + J dq. A short step that brings it to the target,
 
     minimize  |y_target - y - J dq|^2 + w |dq|^2,   is   dq = (J^T J + w I)^-1 J^T (y_target - y).
 
-The damping w keeps the inverse finite where J loses rank, as it does for a stretched arm.
+The damping w keeps the inverse finite if J loses rank, as for a stretched arm.
 """
 
 from pathlib import Path
@@ -41,6 +41,6 @@ K.setJointState([0.3, 0.4, 0.0])
 newton(K.getJointState(), np.array([0.0, 0.5, 0.2]))
 assert np.allclose(position.eval(K)[0], [0, 0.5, 0.2], atol=1e-3)
 
-# .7 m to the side: the arm is only .68 m long, so the best it can do is to point there and stay .02 m short.
+# .7 m to the side: the arm is only .68 m long, so it points there and stays .02 m short.
 K.setJointState([0.3, 0.4, 0.0])
 newton(K.getJointState(), np.array([0.0, 0.7, 0.0]))

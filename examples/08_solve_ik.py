@@ -1,7 +1,7 @@
 """Part 8: inverse kinematics in one call.
 
-`solveIk` makes the problem, tries many starting points, keeps limits and avoids collisions. Where there is no answer, it
-says why.
+`solveIk` builds the problem, tries many starting points, respects limits and avoids collisions. Without a solution, it
+explains the reason.
 """
 
 import time
@@ -17,13 +17,13 @@ C.addFile(ry.raiPath("scenarios/pandasTable.g"))
 ball = C.addFrame("ball").setShape(ry.ST.sphere, [0.05]).setColor([1, 0.5, 0]).setPosition([-0.1, 0.2, 1.0])
 C.view(True, "two arms, a table and a ball")
 
-# A frame to a frame's position, from above: z points out of the back of the hand. C moves only because of apply=True.
+# Moves a frame to a position, from above: z points out of the back of the hand. C moves only because of apply=True.
 result = ry.solveIk(C, {"l_gripper": {"position": "ball", "z": [0, 0, 1]}}, apply=True)
 print(result)
 assert result.feasible and C.getFrame("l_palm").getPosition()[2] > ball.getPosition()[2]
 C.view(True, "the left gripper is at the ball")
 
-# Both arms at once, at least 2 cm from everything, and of 50 answers the one nearest to the present posture.
+# Both arms at once, at least 2 cm from everything; of 50 solutions the one nearest to the present configuration.
 left, right = C.getFrame("l_gripper").getPosition(), C.getFrame("r_gripper").getPosition()
 up = np.array([0, 0, 0.1])
 targets = {"l_gripper": left + up, "r_gripper": right + up}
@@ -33,16 +33,16 @@ assert result.feasible
 print("moved by", np.linalg.norm(C.getFrame("r_gripper").getPosition() - right).round(3), "m")
 C.view(True, "both went up by 10 cm")
 
-# Out of reach: an outcome, with the reason.
+# A target out of reach is an outcome with a reason.
 result = ry.solveIk(C, {"l_gripper": [1.5, 0.4, 1.0]})
 print(result.feasible, result.status)
 assert result.status == ry.IkStatus.goal_unreachable
 print(result.message)
 
-# A thousand targets at once; threads share them, and the answers do not depend on how many there are.
+# A thousand targets at once; threads share them, and the solutions do not depend on the number of threads.
 points = left + 0.3 * np.random.default_rng(0).standard_normal((1000, 3))
 start = time.perf_counter()
 results = ry.solveIk(C, {"l_gripper": points}, attempts=10, threads=2)
-assert isinstance(results, ry.IkResults)  # as the targets are rows
+assert isinstance(results, ry.IkResults)  # because the targets are rows
 print(f"{results.feasible.sum()} of {len(results)} reached without collision, {time.perf_counter() - start:.2f} s")
 print("answers:", results.q.shape, "attempts, at most:", results.attempts.max())

@@ -1,6 +1,6 @@
-"""Part 9: features of your own. A Python function of frames is a feature like any other.
+"""Part 9: custom features. A Python function of frames is a feature like any other.
 
-It gets a view of each frame at the configuration in question and returns a value, or a value and its Jacobian. Without the
+It receives a view of each frame at one configuration and returns a value, or a value and its Jacobian. Without the
 Jacobian, central differences replace it.
 """
 

@@ -1,6 +1,6 @@
 """Part 11: collision-free motions to a goal.
 
-`planMotion` searches, shortens, verifies and times a motion. Where there is none, it says why.
+`planMotion` searches, shortens, verifies and times a motion. Without one, it explains the reason.
 
     python 11_plan_motions.py [FOLDER]     saves a picture of each search and its path in the folder
 """
@@ -24,7 +24,7 @@ def show(C: ry.Config, plan: ry.MotionPlan, what: str, camera: list[float], at: 
         picture.viewer().savePng(str(Path(sys.argv[1]) / f"{what.replace(' ', '_')}.png"))
 
 
-# Among obstacles: around a column, 1 cm from everything, to a place for the gripper.
+# Among obstacles: around a column, 1 cm from everything, to a target of the gripper.
 C = ry.Config()
 C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
 column = C.addFrame("column", "table").setShape(ry.ST.ssBox, [0.1, 0.1, 0.8, 0.02])

@@ -1,4 +1,4 @@
-"""A gripper follows a target in steps of 5 ms, within limits of velocity and acceleration, and stays out of the table."""
+"""A gripper follows a target in steps of 5 ms, within limits of velocity and acceleration, and avoids the table."""
 
 import numpy as np
 

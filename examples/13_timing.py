@@ -2,7 +2,7 @@
 
     python examples/13_timing.py [PICTURE.svg]
 
-With a file's name it draws how much of its limits each joint uses, against time.
+With a file name, it plots the share of its limits that each joint uses over time.
 """
 
 import sys
@@ -17,7 +17,7 @@ COLORS = ["#1f77b4", "#ff7f0e", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e3
 
 
 def panda_path() -> np.ndarray:
-    """From one posture of a Panda to another, around something."""
+    """Returns a path between two configurations of a Panda, around an obstacle."""
     C = ry.Config()
     C.addFile(ry.raiPath("panda/panda.g"))
     start = np.array(C.getJointState())[:7]
@@ -32,7 +32,7 @@ def curve(x: np.ndarray, y: np.ndarray, left: float, top: float, width: float, h
 
 
 def draw(motion: ry.TimedPath, file: str) -> None:
-    """Shares of the limits of velocity and acceleration, a curve per joint; the limits are the lines above and below."""
+    """Plots the shares of the velocity and acceleration limits, one curve per joint, between lines at the limits."""
     t = np.linspace(0, motion.duration, 600)
     _, velocity, acceleration = motion.eval(t)
     width, height, margin = 720, 160, 40

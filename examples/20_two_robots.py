@@ -1,7 +1,7 @@
 """Part 20: two robots at a table, moved by one BotOp.
 
-Each arm grasps a block and lifts it, both at once. The world is simulated: the blocks are held by force. All that the robots were
-told is in a log, which gives the same motion again, to the bit. `python 20_two_robots.py lifted.png` saves a picture.
+Both arms grasp and lift a block at the same time. The world is simulated: forces hold the blocks. A log of all commands
+repeats the motion, to the bit. `python 20_two_robots.py lifted.png` saves a picture.
 """
 
 import sys
@@ -23,7 +23,7 @@ def scene() -> ry.Config:
 
 
 def hands_at(C: ry.Config, height: float) -> np.ndarray:
-    """Joint values of both arms with the hands around their blocks, or above them."""
+    """Returns joint values of both arms with the hands around their blocks, or above them."""
     targets = {}
     for side in "lr":
         block = C.getFrame(f"{side}_block").getPosition()

@@ -1,4 +1,4 @@
-"""Plans that get faster while one waits; and what was tried, where there is none."""
+"""Plans that improve with more evaluations; and an explanation if there is none."""
 
 import kinegraph as ry
 
@@ -23,4 +23,4 @@ for k, (dx, dy) in enumerate(((-0.1, 0), (0.1, 0), (0, -0.1), (0, 0.1))):
 caged = ry.planTask(C, "(on tray cup)")
 print(caged.why())
 print(caged.searchTree())
-caged.view(C, False)  # in the browser: a red ghost of the arm where it comes nearest
+caged.view(C, False)  # shows a red copy of the arm at the nearest approach

@@ -1,7 +1,7 @@
 """Part 27: motions among dynamic obstacles, replanning of a running motion, and improving motions.
 
-`moving` says where obstacles are when; the motion keeps clear of them at all times. `replan` goes on from a running motion without a
-stop. `planMotions` gives better motions while one waits.
+The motion avoids obstacles with known trajectories, continuously in time. `replan` continues a running motion without a
+stop. `planMotions` yields better and better motions.
 """
 
 import numpy as np

@@ -1,6 +1,6 @@
 // Part 6: inverse kinematics as an optimization. Which joint angles bring the gripper to the target?
 //
-// Of all that do, we want those near the present posture and near the home posture:
+// Of all solutions, we want those near the present configuration and near home:
 //
 //     minimize  |.1 (q - q0)|^2 + |.1 (q - q_home)|^2   subject to   10 (gripper - target) = 0
 #include <kinegraph/kinegraph.h>
@@ -38,7 +38,7 @@ int main() try {
   std::cout << "after:  " << gap(C) << " mm, q = " << q.transpose() << "\n\n";
   C.view(true, "the gripper is at the target");
 
-  // The target strolls; each answer starts from the one before.
+  // The target moves randomly; each solution starts from the previous one.
   Rng rng(0);
   bool reached = gap(C) < .1;
   Vector3d position = center;

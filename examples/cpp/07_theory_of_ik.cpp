@@ -1,10 +1,10 @@
 // Part 7: inverse kinematics from scratch, ten damped Newton steps.
 //
-// Near q, the position of the end effector is y + J dq. The step that brings it to the target while staying short,
+// Near q, the position of the end effector is y + J dq. A short step that brings it to the target,
 //
 //     minimize  |y_target - y - J dq|^2 + w |dq|^2,   is   dq = (J^T J + w I)^-1 J^T (y_target - y).
 //
-// The damping w keeps the inverse finite where J loses rank, as it does for a stretched arm.
+// The damping w keeps the inverse finite if J loses rank, as for a stretched arm.
 #include <kinegraph/kinegraph.h>
 
 #include <Eigen/LU>
@@ -12,7 +12,7 @@
 
 using namespace kinegraph;
 
-/// Moves K; returns how far off the end effector is in the end, m.
+/// Moves K; returns the final distance of the end effector from the target, m.
 double newton(Config& K, const Vector3d& y_target, int steps = 10) {
   const Matrix3d W = 1e-4 * Matrix3d::Identity();
   std::cout << "\ntarget " << y_target.transpose() << "\n";
@@ -40,7 +40,7 @@ int main() try {
   // .5 m to the side and .2 m up: the arm bends and reaches it.
   const double reached = newton(K, {0, .5, .2});
 
-  // .7 m to the side: the arm is only .68 m long, so the best it can do is to point there and stay .02 m short.
+  // .7 m to the side: the arm is only .68 m long, so it points there and stays .02 m short.
   const double beyond = newton(K, {0, .7, 0});
   return reached < 1e-5 && beyond > .0199 && beyond < .05 ? 0 : 1;
 } catch (const Error& error) {

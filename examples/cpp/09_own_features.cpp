@@ -1,6 +1,6 @@
-// Part 9: features of your own. A function of frames is a feature like any other.
+// Part 9: custom features. A function of frames is a feature like any other.
 //
-// It gets a view of each frame at the configuration in question and returns a value, or a value and its Jacobian.
+// It receives a view of each frame at one configuration and returns a value, or a value and its Jacobian.
 // Without the Jacobian, central differences replace it.
 #include <kinegraph/kinegraph.h>
 

@@ -24,7 +24,7 @@ Config room(double width) {
 }  // namespace
 
 int main() try {
-  // Around a column, 1 cm from everything, to a place for the gripper.
+  // Around a column, 1 cm from everything, to a target of the gripper.
   Config C;
   C.addFile(modelPath("scenarios/pandaSingle.g"));
   Frame column = C.addFrame("column", "table");
@@ -43,7 +43,7 @@ int main() try {
   std::cout << reach.str() << "\n";
   if (!reach.feasible()) return 1;
 
-  // Through a door, and not through one that is too narrow.
+  // Through a door, and an impossible motion through a narrower one.
   for (const double width : {.5, .25}) {
     const MotionPlan plan = planMotion(room(width), VectorXd{{1., 1., 1.57}}, {.evaluations = 20000});
     std::cout << plan.str() << "\n";

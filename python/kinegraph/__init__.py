@@ -142,7 +142,7 @@ from .errors import (
 from .model_paths import raiPath, setRaiPath
 from .seeds import rnd_seed, rnd_seed_random
 
-# What is loaded when it is first used: with it the import takes three times as long.
+# Loaded on first use: at once, the import would take three times as long.
 if _TYPE_CHECKING:
     from . import test as test
     from .aruco import getArucoImage
@@ -168,7 +168,7 @@ if _TYPE_CHECKING:
     from .task_plan import TaskPlan
     from .tasks import planTask, planTasks
 
-_LATER = {  # module: names
+_LAZY = {  # module: names
     "aruco": ("getArucoImage",),
     "compatibility.skeleton_problems": (
         "ArgWord",
@@ -191,11 +191,11 @@ _LATER = {  # module: names
     "task_plan": ("TaskPlan",),
     "tasks": ("planTask", "planTasks"),
 }
-_MODULE_OF = {name: module for module, names in _LATER.items() for name in names}
+_MODULE_OF = {name: module for module, names in _LAZY.items() for name in names}
 
 
 def __getattr__(name: str) -> _Any:
-    if name in _LATER or name == "test":
+    if name in _LAZY or name == "test":
         return _import_module(".test", __name__)
     if name not in _MODULE_OF:
         raise AttributeError(f"module '{__name__}' has no attribute '{name}'", name=name, obj=_sys.modules[__name__])
@@ -211,12 +211,12 @@ _model_paths.announce()
 
 
 def version() -> str:
-    """The version of this package."""
+    """Returns the version of this package."""
     return str(__version__)
 
 
 def compiled() -> str:
-    """One line about the build."""
+    """Returns one line about the build."""
     return f"kinegraph {__version__}"
 
 
@@ -224,10 +224,10 @@ teach(FS, JT, OT, ST, SY, ControlMode, SimulationEngine)
 teach(OptMethod, earlier=_OPT_METHODS)
 _addEarlierMethods()
 _addAbsentNames()
-NLP_SolverID = OptMethod  # as scripts of earlier years call it
-PathFinder = RRT_PathFinder  # as older scripts call it
+NLP_SolverID = OptMethod  # name in scripts of earlier years
+PathFinder = RRT_PathFinder  # name in older scripts
 
-# Written out, so that type checkers know what is exported.
+# Written out, so that type checkers know the exported names.
 __all__ = [
     "FS",
     "JT",

@@ -26,7 +26,7 @@ Config arm() {
 
 const std::vector<std::string> kEnd = {"end"};
 
-TEST(CustomFeature, ValueAndJacobianAreWhatTheFunctionReturns) {
+TEST(CustomFeature, ValueAndJacobianComeFromTheFunction) {
   const Config config = arm();
   const FeatureSource mine = ownFeature(
       "mine", [](Frames f) { return FeatureValue(VectorXd(f[0].getPosition()), f[0].getPositionJacobian()); });
@@ -67,7 +67,7 @@ TEST(CustomFeature, WithoutFramesAllDofsAreDifferentiated) {
   EXPECT_EQ(calls, 1 + 1 + 2 * config.getJointDimension());
 }
 
-TEST(CustomFeature, ResultsOfAnotherSizeAreToldWithTheName) {
+TEST(CustomFeature, ResultsOfAnotherSizeAreReportedWithTheName) {
   const Config config = arm();
   const FeatureSource wide = ownFeature("wide", [](Frames) { return FeatureValue(1., MatrixXd::Zero(2, 2)); });
   expectError<ValueError>([&] { eval(config, wide, kEnd); }, {"feature wide", "2 x 2", "expected 1 x 3"});

@@ -12,7 +12,7 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The feature that a function of frames computes.
+/// A feature that a function of frames computes.
 class CustomFeature final : public Feature {
  public:
   CustomFeature(std::string name, FeatureFunction function, std::vector<int> frames, const State& scene)
@@ -45,7 +45,7 @@ class CustomFeature final : public Feature {
   FeatureValue call(const State& state) const {
     FeatureValue value = function_(views(state));
     if (value.y.size() != rows_) {
-      throw ValueError(cat("feature ", name_, " returned ", value.y.size(), " numbers; the first time ", rows_));
+      throw ValueError(cat("feature ", name_, " returned ", value.y.size(), " values; expected ", rows_));
     }
     if (value.J.size() > 0 && (value.J.rows() != rows_ || value.J.cols() != state.dofs())) {
       throw ValueError(cat("feature ", name_, " returned a Jacobian of ", value.J.rows(), " x ", value.J.cols(),
@@ -54,7 +54,7 @@ class CustomFeature final : public Feature {
     return value;
   }
 
-  /// Central differences over the dofs that move the frames; over all of them without frames.
+  /// Adds central differences over the dofs that move the frames; over all dofs without frames.
   void addDifferences(const State& state, JacobianRows& J) const {
     State moved = state;
     VectorXd q = state.q();

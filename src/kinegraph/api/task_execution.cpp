@@ -159,8 +159,8 @@ class Run {
     bot_.sync(seen_, kComesToRest);
   }
 
-  /// After a failure: opens hands that have lost what they held, and goes out of what is in the way, along the motion by
-  /// which the robot came.
+  /// After a failure: opens hands that have lost what they held, and goes out of what is in the way, along the motion
+  /// by which the robot came.
   void back(std::size_t i) {
     const std::map<std::string, std::string> held = held_, handles = handles_;
     for (const auto& [obj, hand] : held) {

@@ -17,10 +17,10 @@ struct TaskExecution {
   std::string str() const;
 };
 
-/// Moves a robot along a plan, action by action: grippers take and release, and after each motion it is looked at whether
-/// what is held is in the hand, and whether all else is where the plan has it. The world of `bot` is the scene of the plan;
-/// what is moved needs a mass there. `seen` is a copy of that world (BotOp::getWorld), in which it goes on. Throws
-/// ValueError where there is no motion or the robot cannot begin it, RobotFault if it was stopped.
+/// Moves a robot along a plan, action by action: grippers take and release, and after each motion it is looked at
+/// whether what is held is in the hand, and whether all else is where the plan has it. The world of `bot` is the scene
+/// of the plan; what is moved needs a mass there. `seen` is a copy of that world (BotOp::getWorld), in which it goes
+/// on. Throws ValueError where there is no motion or the robot cannot begin it, RobotFault if it was stopped.
 TaskExecution execute(const TaskPlan& plan, BotOp& bot, Config& seen);
 
 }  // namespace kinegraph

@@ -16,7 +16,7 @@ namespace {
 
 bool isOverSsh() { return std::getenv("SSH_CONNECTION") != nullptr; }
 
-/// Says where the page is.
+/// Prints the address of the page.
 void announce(const ViewerServer& server) {
   const std::string url = server.url();
   constexpr std::string_view kLocal = "http://localhost:";
@@ -80,13 +80,13 @@ void ConfigViewer::setMessage(const std::string& text) {
   server().setMessage(text);
 }
 
-void ConfigViewer::noteMessage(const std::string& text) {
+void ConfigViewer::storeMessage(const std::string& text) {
   remember(text);
   if (isOpen()) server_->setMessage(text);
 }
 
 std::string ConfigViewer::recording() {
-  server().setNotes(edits_->notes());
+  server().setWarnings(edits_->warnings());
   return server().recording();
 }
 
@@ -118,7 +118,7 @@ int ConfigViewer::view(Config& config, bool pause, const std::optional<std::stri
 }
 
 int ConfigViewer::wait(bool pause, const std::optional<std::string>& message, const Stop& stop) {
-  if (pause) return ask(message, stop);
+  if (pause) return promptKey(message, stop);
   if (message) setMessage(*message);
   return server().takeKey();
 }
@@ -136,10 +136,10 @@ int ConfigViewer::showMotion(const Config& config, const ShownMotion& motion, bo
         Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(motion.seconds));
     key = waitKey(message.value_or(""), [&] { return Clock::now() >= end || stop(); });
   }
-  return pause && key == 0 ? ask(message, stop) : key;
+  return pause && key == 0 ? promptKey(message, stop) : key;
 }
 
-int ConfigViewer::ask(const std::optional<std::string>& message, const Stop& stop) {
+int ConfigViewer::promptKey(const std::optional<std::string>& message, const Stop& stop) {
   std::string text = message.value_or("");
   if (!text.ends_with("]")) text += text.empty() ? "[press key to continue]" : "\n[press key to continue]";
   int key = server().takeKey();
@@ -150,7 +150,7 @@ int ConfigViewer::ask(const std::optional<std::string>& message, const Stop& sto
 }
 
 int ConfigViewer::waitKey(const std::string& prompt, const Stop& stop) {
-  constexpr auto kPatience = std::chrono::seconds(5);  // a page that is loaded again is back sooner
+  constexpr auto kPatience = std::chrono::seconds(5);  // a reloaded page is back sooner
   const bool patient = isPatient();
   if (isatty(STDIN_FILENO)) {
     std::printf("%s (in the browser, or Enter here)\n", prompt.c_str());

@@ -1,4 +1,5 @@
-"""The pages of docs/ and README are true: their code runs and finds what they say, and their tables name what there is."""
+"""The pages of docs/ and README are correct: their code runs with the documented results, and their tables name
+existing things."""
 
 import os
 import re
@@ -14,7 +15,7 @@ import kinegraph as ry
 DOCS = Path(__file__).parent.parent.parent.parent / "docs"
 PAGES = [DOCS.parent / "README.md", *sorted(page for page in DOCS.glob("*.md") if "```python" in page.read_text())]
 
-# What the code of each page prints.
+# Output of the code of each page.
 FOUND = {
     "README": [
         r"feasible: 1",

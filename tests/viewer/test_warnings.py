@@ -1,4 +1,4 @@
-"""The page shows where shapes touch that must not, and which obstacles are ignored."""
+"""The page shows forbidden contacts and ignored obstacles."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import kinegraph as kg
 
 from .browser import Browser
 
-MARKS = "kinegraph.notes().marks"
+MARKS = "kinegraph.warnings().marks"
 
 
 @pytest.fixture
@@ -24,7 +24,7 @@ def panda(config: kg.Config) -> kg.Config:
 
 
 def ignored(config: kg.Config) -> list[str]:
-    return [note for note in config.contactWarnings() if "'a box'" in note]
+    return [warning for warning in config.contactWarnings() if "'a box'" in warning]
 
 
 def test_an_obstacle_that_is_ignored_is_marked_and_the_page_says_why(panda: kg.Config, browser: Browser) -> None:
@@ -32,15 +32,17 @@ def test_an_obstacle_that_is_ignored_is_marked_and_the_page_says_why(panda: kg.C
     panda.viewer().setCamera([1.3, 1.5, 1.5], [0, 0, 0.95])
     browser.open(panda.viewer().url)
     browser.wait_for(f"{MARKS} === 1")
-    (note,) = ignored(panda)
+    (warning,) = ignored(panda)
     browser.press_alt("T")
-    assert note in browser.evaluate("document.querySelector('#notes').innerText")
+    assert warning in browser.evaluate("document.querySelector('#warnings').innerText")
     assert (
         browser.evaluate("[...document.querySelectorAll('#tree .ignored')].map((x) => x.textContent).join()") == "a box"
     )
-    browser.evaluate("[...document.querySelectorAll('#notes button')].find((x) => x.textContent === 'a box').click()")
+    browser.evaluate(
+        "[...document.querySelectorAll('#warnings button')].find((x) => x.textContent === 'a box').click()"
+    )
     browser.wait_for("kinegraph.selected() === 'a box'")
-    assert note in browser.evaluate("document.querySelector('#card').innerText")
+    assert warning in browser.evaluate("document.querySelector('#card').innerText")
     browser.press("Escape")
     browser.press("Escape")
     marked = browser.picture().astype(int)
@@ -60,7 +62,7 @@ def test_the_mark_goes_when_the_obstacle_counts_or_is_away(panda: kg.Config, bro
     browser.wait_for(f"{MARKS} === 1")
     panda.getFrame("a box").setContact(1)
     panda.view()
-    browser.wait_for(f"{MARKS} === 0 && kinegraph.notes().texts.every((text) => !text.includes('a box'))")
+    browser.wait_for(f"{MARKS} === 0 && kinegraph.warnings().texts.every((text) => !text.includes('a box'))")
     panda.getFrame("a box").setContact(0)
     panda.view()
     browser.wait_for(f"{MARKS} === 1")
@@ -94,7 +96,7 @@ def test_a_saved_page_has_the_marks(panda: kg.Config, browser: Browser, tmp_path
 
 
 def reaching(config: kg.Config, feature: kg.FS, kind: kg.OT) -> kg.KOMO:
-    """A Panda that is to put its gripper where the table is, and is not allowed to."""
+    """A Panda whose gripper has a target inside the table."""
     config.addFile(kg.raiPath("scenarios/pandaSingle.g"))
     komo = kg.KOMO(config, 1, 2, 1, True)
     komo.addControlObjective([], 1, 1e-1)

@@ -1,15 +1,15 @@
 import * as THREE from "three";
 import type { Viewpoint } from "./viewpoint";
 
-const SPEED = 3; // rad per half of the shorter side of the canvas
+const SPEED = 3; // rad per half of the canvas's shorter side
 const DOLLY = 1.1; // focal length and distance, per notch of the wheel
 
-/** With Ctrl, dragging turns the scene freely, also upside down, and about the line of sight outside the circle that just
- * fits; the wheel changes how wide the view is while things at the target keep their size. */
-export class FreeTurning {
-  private last: THREE.Vector2 | null = null; // of the pointer, from the middle, in halves of the shorter side
+/** With Ctrl, dragging rotates the scene freely, also upside down; outside the largest circle on the canvas it rotates
+ * about the line of sight. The wheel changes the angle of view while objects at the target keep their size. */
+export class FreeRotation {
+  private last: THREE.Vector2 | null = null; // of the pointer from the center, in halves of the shorter side
   private rolls = false;
-  private holdsControl = false; // pinching sends wheel events that only look as if
+  private holdsControl = false; // distinguishes Ctrl from pinching, which sends the same wheel events
 
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -26,7 +26,7 @@ export class FreeTurning {
     });
     for (const kind of ["pointerup", "pointercancel"] as const)
       canvas.addEventListener(kind, () => {
-        if (this.last && controls.enabled) viewpoint.tell();
+        if (this.last && controls.enabled) viewpoint.notify();
         this.last = null;
       });
     canvas.addEventListener("wheel", (event) => this.dolly(event), { capture: true, passive: false });
@@ -51,12 +51,12 @@ export class FreeTurning {
   private drag(event: PointerEvent): void {
     const now = this.place(event),
       moved = now.clone().sub(this.last!);
-    const turn = new THREE.Quaternion();
-    if (this.rolls) turn.setFromAxisAngle(new THREE.Vector3(0, 0, 1), this.last!.angleTo(now) * Math.sign(this.last!.cross(now)));
+    const rotation = new THREE.Quaternion();
+    if (this.rolls) rotation.setFromAxisAngle(new THREE.Vector3(0, 0, 1), this.last!.angleTo(now) * Math.sign(this.last!.cross(now)));
     else if (moved.length() > 0)
-      turn.setFromAxisAngle(new THREE.Vector3(-moved.y, -moved.x, 0).normalize(), SPEED * moved.length());
+      rotation.setFromAxisAngle(new THREE.Vector3(-moved.y, -moved.x, 0).normalize(), SPEED * moved.length());
     this.last = now;
-    this.viewpoint.turnFreely(turn);
+    this.viewpoint.rotateFreely(rotation);
   }
 
   private dolly(event: WheelEvent): void {

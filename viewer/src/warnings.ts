@@ -2,13 +2,13 @@ import * as THREE from "three";
 import type { CSS2DObject } from "three/addons/renderers/CSS2DRenderer.js";
 import { isSeen } from "./display";
 import { label } from "./labels";
-import { notesCommand, type NoteMessage } from "./messages";
+import { warningsCommand, type WarningMessage } from "./messages";
 import type { Shown } from "./shown";
 import type { Stage } from "./stage";
 
-const CALM = 1000; // ms without news, after which the program is asked
+const CALM = 1000; // ms without a change, after which the warnings are requested
 const COLOR = 0xf08c00;
-const MOST = 30; // frames that are marked
+const MAX_MARKS = 30; // largest number of marked frames
 
 interface Mark {
   id: number;
@@ -16,17 +16,16 @@ interface Mark {
   label: CSS2DObject;
 }
 
-/** What the program notes about the scene, asked for when nothing moves any more: obstacles that are ignored have a dashed box
- * around them. */
-export class Notes {
-  private notes: readonly NoteMessage[] = [];
+/** Warnings about the scene, requested when nothing moves any more. Ignored obstacles are marked by dashed boxes. */
+export class Warnings {
+  private warnings: readonly WarningMessage[] = [];
   private structure = 0;
   private on = true;
   private timer = 0;
   private marks: Mark[] = [];
   private readonly group = new THREE.Group();
 
-  /** `send` is null on a saved page, which has the notes already. `changed` is called when there are others. */
+  /** `send` is null on a saved page, which contains the warnings. `changed` is called with new ones. */
   constructor(
     private readonly stage: Stage,
     private readonly frames: ReadonlyMap<number, Shown>,
@@ -37,22 +36,22 @@ export class Notes {
     stage.onDraw(() => this.follow());
   }
 
-  get all(): readonly NoteMessage[] {
-    return this.notes;
+  get all(): readonly WarningMessage[] {
+    return this.warnings;
   }
 
   get markCount(): number {
     return this.marks.filter(({ outline }) => outline.visible).length;
   }
 
-  /** Obstacles that are ignored. */
+  /** Frames of ignored obstacles. */
   get ignored(): ReadonlySet<number> {
-    return new Set(this.notes.flatMap((note) => (note.ignored !== 0 ? note.frames : [])));
+    return new Set(this.warnings.flatMap((warning) => (warning.ignored !== 0 ? warning.frames : [])));
   }
 
-  /** What there is to say about a frame that is ignored. */
+  /** Returns the warning about an ignored frame, or "". */
   about(id: number): string {
-    return this.notes.find((note) => note.ignored !== 0 && note.frames.includes(id))?.text ?? "";
+    return this.warnings.find((warning) => warning.ignored !== 0 && warning.frames.includes(id))?.text ?? "";
   }
 
   setStructure(structure: number): void {
@@ -60,14 +59,14 @@ export class Notes {
     this.stir();
   }
 
-  /** Call whenever something has changed. */
+  /** Call after every change. */
   stir(): void {
     clearTimeout(this.timer);
-    if (this.send) this.timer = setTimeout(() => this.send!(notesCommand(this.structure)), CALM);
+    if (this.send) this.timer = setTimeout(() => this.send!(warningsCommand(this.structure)), CALM);
   }
 
-  read(notes: readonly NoteMessage[]): void {
-    this.notes = notes;
+  read(warnings: readonly WarningMessage[]): void {
+    this.warnings = warnings;
     this.refresh();
     this.changed();
   }
@@ -77,14 +76,14 @@ export class Notes {
     this.refresh();
   }
 
-  /** Call when frames have other shapes. */
+  /** Call when shapes have changed. */
   refresh(): void {
     for (const { outline } of this.marks) {
       outline.geometry.dispose();
       (outline.material as THREE.Material).dispose();
     }
     this.group.clear();
-    this.marks = this.on ? [...this.ignored].slice(0, MOST).flatMap((id) => this.mark(id)) : [];
+    this.marks = this.on ? [...this.ignored].slice(0, MAX_MARKS).flatMap((id) => this.mark(id)) : [];
     for (const mark of this.marks) this.group.add(mark.outline, mark.label);
     this.stage.redraw();
   }
@@ -107,7 +106,8 @@ export class Notes {
     return [{ id, outline, label: label("not an obstacle", 0.5, "name ignored") }];
   }
 
-  /** Marks are where the frames are, and seen where these are. */
+  /** Moves the marks to their frames, and hides them with these. */
+
   private follow(): void {
     for (const { id, outline, label } of this.marks) {
       const shown = this.frames.get(id);
