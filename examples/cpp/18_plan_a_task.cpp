@@ -19,7 +19,7 @@ int main() try {
   std::cout << plan.str() << "\n";
   if (!plan.feasible()) return 1;
   Config end = plan.scenes.back();  // with what is held at last attached
-  end.setJointState(plan.at(plan.duration()));
+  end.setJointState(plan.eval(plan.duration()).q);
   end.view(true, "the cup is on the tray");
   const std::vector<std::string> wrong = checkTaskPlan(C, plan);
 

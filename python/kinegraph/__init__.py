@@ -49,6 +49,7 @@ from ._core import (
     KinematicDriver,
     LGP_TAMP_Abstraction,
     LGP_Tool,
+    LgpStatus,
     LogicProblem,
     LoopMode,
     MotionConstraint,
@@ -89,8 +90,12 @@ from ._core import (
     SplineMotion,
     StepObservation,
     TargetFile,
+    TaskBranch,
     TaskExecution,
+    TaskPlan,
+    TaskPlans,
     TaskRule,
+    TaskStatus,
     TaskWaypoints,
     TimedPath,
     checkFile,
@@ -99,11 +104,13 @@ from ._core import (
     defaultDomain,
     depthImage2PointCloud,
     doorStates,
-    servo,
     planMotion,
     planMotions,
+    planTask,
+    planTasks,
     retime,
     sceneFacts,
+    servo,
     shortcut,
     smooth,
     solveAll,
@@ -162,8 +169,6 @@ if _TYPE_CHECKING:
     from .problems import get_NLP_Problem_names, make_NLP_Problem
     from .quaternion import Quaternion
     from .reachable import reachability
-    from .task_plan import TaskPlan
-    from .tasks import planTask, planTasks
 
 _LATER = {  # module: names
     "aruco": ("getArucoImage",),
@@ -185,8 +190,6 @@ _LATER = {  # module: names
     "problems": ("get_NLP_Problem_names", "make_NLP_Problem"),
     "quaternion": ("Quaternion",),
     "reachable": ("reachability",),
-    "task_plan": ("TaskPlan",),
-    "tasks": ("planTask", "planTasks"),
 }
 _MODULE_OF = {name: module for module, names in _LATER.items() for name in names}
 
@@ -268,6 +271,7 @@ __all__ = [
     "KinematicDriver",
     "LGP_TAMP_Abstraction",
     "LGP_Tool",
+    "LgpStatus",
     "LogicProblem",
     "LoopMode",
     "ManipulationModelling",
@@ -319,9 +323,12 @@ __all__ = [
     "SplineMotion",
     "StepObservation",
     "TargetFile",
+    "TaskBranch",
     "TaskExecution",
     "TaskPlan",
+    "TaskPlans",
     "TaskRule",
+    "TaskStatus",
     "TaskWaypoints",
     "TimedPath",
     "_left",
@@ -336,7 +343,6 @@ __all__ = [
     "default_LGP_TAMP_Abstraction",
     "depthImage2PointCloud",
     "doorStates",
-    "servo",
     "getArucoImage",
     "get_NLP_Problem_names",
     "get_params",
@@ -360,6 +366,7 @@ __all__ = [
     "rnd_seed_random",
     "saveFilm",
     "sceneFacts",
+    "servo",
     "setRaiPath",
     "set_params",
     "shortcut",

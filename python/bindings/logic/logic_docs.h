@@ -86,7 +86,7 @@ inline constexpr char search[] = R"(Searches the plans of a problem, the shortes
 
 Args:
     problem: The problem.
-    maxExpansions: Effort: how many states are expanded in all, at most.
+    max_expansions: Maximum number of states that are expanded.
 Raises:
     ParseError: A word of the goal is nowhere else, or a predicate has different numbers of arguments.
     ArgumentError: There are too many actions.)";
@@ -95,7 +95,7 @@ inline constexpr char next[] = R"(The next plan.
 
 Returns:
     A list of actions, each a list of words: its name and the values of its variables. None where there is no further
-    one (status 'exhausted': this is proved), or where effort ended (status 'limit').
+    one (Status.exhausted: this is proved), or if the search reached its limit (Status.limit).
 Raises:
     KeyboardInterrupt: Ctrl-C was pressed.)";
 

@@ -243,7 +243,7 @@ void makeTool(PyLgpTool* self, const PyConfig& C, std::shared_ptr<Abstraction> t
   LgpOptions options;
   options.threads = threads;
   options.cancellation = asksForInterrupts();
-  options.tells = [](const std::string& line) {
+  options.print = [](const std::string& line) {
     const nb::gil_scoped_acquire lock;
     nb::print(inPython(line).c_str());
   };
@@ -285,10 +285,10 @@ void bindToolResults(nb::class_<PyLgpTool>& tool) {
       .def_prop_ro(
           "tamp", [](const PyLgpTool& lgp) { return lgp.tamp; }, "The abstraction.")
       .def_prop_ro(
-          "status", [](const PyLgpTool& lgp) { return lgp.status; },
-          "How the last solve ended: 'not started', 'solved', 'proved impossible' or 'not found'.")
+          "status", [](const PyLgpTool& lgp) { return lgp.status; }, "How the last solve ended, an LgpStatus.")
       .def_prop_ro(
-          "message", [](const PyLgpTool& lgp) { return inPython(lgp.message); }, "Why there is no plan.")
+          "message", [](const PyLgpTool& lgp) { return inPython(lgp.message); },
+          "\"\" if solved; else the reason for which there is no plan.")
       .def_prop_ro("solves", &LgpTool::solves, "How many waypoint problems were solved so far; each start counts.")
       .def_prop_ro("evaluations", &LgpTool::evaluations, "How many evaluations that took.")
       .def_prop_ro(
@@ -308,6 +308,12 @@ void bindToolResults(nb::class_<PyLgpTool>& tool) {
 }
 
 void bindTool(nb::module_& m) {
+  nb::enum_<LgpStatus> status(m, "LgpStatus", "How LGP_Tool.solve ended.");
+  for (int i = 0; i <= int(LgpStatus::no_plan_found); ++i) {
+    static std::vector<std::string> names(std::size_t(LgpStatus::no_plan_found) + 1);
+    names[std::size_t(i)] = lgpStatusName(LgpStatus(i));
+    status.value(names[std::size_t(i)].c_str(), LgpStatus(i));
+  }
   nb::class_<PyLgpTool> tool(m, "LGP_Tool", nb::dynamic_attr(), docs::lgp::tool);
   tool.def("__init__", makeTool, "C"_a, "tamp"_a, "translator"_a = nb::none(), nb::kw_only(), "threads"_a = 1,
            "results"_a = nb::none(),

@@ -163,7 +163,7 @@ Args:
     verbose: 1: a line per plan that was tried; 0: nothing.
     maxSolves: Effort: waypoint problems that are solved, at most.
 Returns:
-    True if there is one; else `status` is 'proved impossible' (the logic has no plan at all) or 'not found', and
+    True if there is one; else `status` is LgpStatus.infeasible (the logic has no plan at all) or no_plan_found, and
     `message` says why plans failed.)";
 
 inline constexpr char getSolvedPlan[] = R"(The plan that was found last.
