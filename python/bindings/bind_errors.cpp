@@ -90,7 +90,7 @@ void checkInterrupt() {
   if (PyErr_CheckSignals() != 0) throw nb::python_error();
 }
 
-bool CheckInterrupts::operator()() {
+bool CheckInterrupts::checkIfDue() {
   const auto now = std::chrono::steady_clock::now();
   if (now - checked_ < std::chrono::milliseconds(20)) return false;
   checked_ = now;

@@ -79,10 +79,12 @@ Frame toFrame(const Config& config, nb::handle name_or_id, const char* who = "ge
 /// For long calls that run without the interpreter lock: takes it, and throws KeyboardInterrupt if Ctrl-C was pressed.
 void checkInterrupt();
 
-/// The same, but only every 20 ms: then true.
+/// The same as a CancellationToken that checks at most every 20 ms. It never cancels; it throws.
 class CheckInterrupts {
  public:
-  bool operator()();
+  /// Checks if the last check is 20 ms ago or more. Returns whether it did.
+  bool checkIfDue();
+  void operator()() { checkIfDue(); }
 
  private:
   std::chrono::steady_clock::time_point checked_ = std::chrono::steady_clock::now();
