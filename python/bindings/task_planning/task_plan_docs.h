@@ -6,9 +6,9 @@ namespace kinegraph::python::docs::task_plan {
 inline constexpr char type[] =
     R"(The result of planTask: actions with their timed motion, or the causes for which there is none.
 
-As a trajectory, the plan is piecewise linear in time between the rows of `path`. Its velocity is constant between two rows
-and 0 before the start and after the end; its acceleration is 0. Grippers take no time. Plans can be copied and pickled: a
-copy can be played, checked and repaired.)";
+As a trajectory, the plan is piecewise linear in time between the rows of `path`. Its velocity is constant between two
+rows and 0 before the start and after the end; its acceleration is 0. Grippers take no time. Plans can be copied and
+pickled: a copy can be played, checked and repaired.)";
 
 inline constexpr char make[] =
     R"(Makes a plan from a motion of your own, for checkTaskPlan. Plans of planTask have scenes and a goal, too.
@@ -41,8 +41,8 @@ Raises:
     ArgumentError: There is no motion, or rate is not positive.)";
 
 inline constexpr char view[] =
-    R"(Shows the plan in the viewer of a scene: its motion. Without a motion, it shows the search tree and, in red, the waypoint
-that failed in the longest branch.
+    R"(Shows the plan in the viewer of a scene: its motion. Without a motion, it shows the search tree and, in red, the
+waypoint that failed in the longest branch.
 
 Args:
     C: The scene of the call to planTask; it is restored afterwards.
@@ -83,8 +83,8 @@ Raises:
     ArgumentError: No branch failed at a waypoint.)";
 
 inline constexpr char execute[] =
-    R"(Executes the plan on a robot, action by action. Grippers close and open. Before and after each motion it compares the
-world with the plan: held objects have to be in the hand, and all others where the plan has them.
+    R"(Executes the plan on a robot, action by action. Grippers close and open. Before and after each motion it compares
+the world with the plan: held objects have to be in the hand, and all others where the plan has them.
 
 Args:
     bot: A BotOp whose world is the scene of the plan. Objects that actions move need a mass there.
@@ -98,8 +98,8 @@ inline constexpr char repair[] =
     R"(Plans the remaining actions to the same goal, with the same options, after an execution stopped.
 
 Args:
-    C: The current scene, as of TaskExecution.C. Held objects are attached to the hand, and objects that stand on something
-        to that.
+    C: The current scene, as of TaskExecution.C. Held objects are attached to the hand, and objects that stand on
+        something to that.
 Returns:
     A TaskPlan; not finding one is a status.
 Raises:

@@ -23,20 +23,21 @@ namespace kinegraph::python::docs::tasks {
   "    ArgumentError: An action has no TaskRule, or an argument is invalid."
 
 inline constexpr char planTask[] =
-    R"(Plans actions and their motion so that a goal holds. A search in logic proposes sequences of actions. Cheap proofs of
-reach, size and room, then waypoints with grasps and placements, then motions test whether bodies can carry them out. Each
-failure becomes a constraint of the logic. A solved plan has passed checkTaskPlan.
+    R"(Plans actions and their motion so that a goal holds. A search in logic proposes sequences of actions. Cheap
+proofs of reach, size and room, then waypoints with grasps and placements, then motions test whether bodies can carry
+them out. Each failure becomes a constraint of the logic. A solved plan has passed checkTaskPlan.
 
-Without a domain, the actions are those of defaultDomain. Grippers, objects and places are the frames that the scene labels
-(`logical: { is_gripper }`). A scene without labels has as grippers the frames whose names end with "gripper", as objects the
-frames with a rigid joint and a shape, and as places level boxes that do not move.
+Without a domain, the actions are those of defaultDomain. Grippers, objects and places are the frames that the scene
+labels (`logical: { is_gripper }`). A scene without labels has as grippers the frames whose names end with "gripper", as
+objects the frames with a rigid joint and a shape, and as places level boxes that do not move.
 
 )" KINEGRAPH_TASK_ARGUMENTS R"(Returns:
     A TaskPlan; not finding one is a status.
 )" KINEGRAPH_TASK_RAISES;
 
 inline constexpr char planTasks[] =
-    R"doc(Plans ever faster: the first plan is that of planTask, and each further plan takes less time than the one before. Further
+    R"doc(Plans ever faster: the first plan is that of planTask, and each further plan takes less time than the one
+    before. Further
 plans come from other waypoints of the same actions, and from other actions.
 
     for plan in ry.planTasks(C, "(on tray cup)", max_evaluations=20000):
@@ -47,16 +48,16 @@ plans come from other waypoints of the same actions, and from other actions.
 )" KINEGRAPH_TASK_RAISES;
 
 inline constexpr char checkTaskPlan[] =
-    R"(Checks a plan by playing it in a copy of the scene. The check knows the scene, the actions and the motion, and nothing of
-the search. Objects move only by being taken along.
+    R"(Checks a plan by playing it in a copy of the scene. The check knows the scene, the actions and the motion, and
+nothing of the search. Objects move only by being taken along.
 
-In logic, the goal has to hold after the last action. The motion must not jump, is at rest where an action begins and ends,
-and keeps its limits of velocity and acceleration. Joints stay within their limits, and shapes overlap by at most 1 mm, also
-between samples (`Config.checkMotion`). A hand touches the object that it takes, to 1 mm. An object that is put down stands
-level to half a degree, at the height of its place to 1 mm, with its center 5 mm inside the edges, and with its center of mass
-above the area shared with the place. Objects that stand on a carried object tilt by less than 5 degrees and are accelerated
-by at most 2 m/s^2. Pushed objects move straight and level, away from the pusher. Doors move only while a hand holds their
-handle. At rest, nothing overlaps.
+In logic, the goal has to hold after the last action. The motion must not jump, is at rest where an action begins and
+ends, and keeps its limits of velocity and acceleration. Joints stay within their limits, and shapes overlap by at most
+1 mm, also between samples (`Config.checkMotion`). A hand touches the object that it takes, to 1 mm. An object that is
+put down stands level to half a degree, at the height of its place to 1 mm, with its center 5 mm inside the edges, and
+with its center of mass above the area shared with the place. Objects that stand on a carried object tilt by less than 5
+degrees and are accelerated by at most 2 m/s^2. Pushed objects move straight and level, away from the pusher. Doors move
+only while a hand holds their handle. At rest, nothing overlaps.
 
 Args:
     C: The scene at the start; it is not changed.
@@ -71,12 +72,12 @@ Raises:
 inline constexpr char defaultDomain[] =
     R"(Returns the domain of planTask if none is passed. Its actions are:
 
-pick (Obj From Hand) for objects with nothing on them, lift (Obj From Hand) for objects labeled is_carrier, with everything
-that stands on them, place (Obj Hand To), handover (Obj Hand To), lay (Obj Hand To Face) if the goal names the face that
-points up, pose (Obj Hand Goal) for frames labeled is_pose, push_start (Obj From Hand) and push_end (Obj Hand To) for objects
-labeled is_pushable, hook_start (Obj From Hook Tool Hand) and hook_end (Obj Hook To Tool Hand) with a tool that has a part
-labeled is_hook, and hold, open and close (Door Handle Hand) for frames labeled is_door or is_drawer that have a part labeled
-is_handle.
+pick (Obj From Hand) for objects with nothing on them, lift (Obj From Hand) for objects labeled is_carrier, with
+everything that stands on them, place (Obj Hand To), handover (Obj Hand To), lay (Obj Hand To Face) if the goal names
+the face that points up, pose (Obj Hand Goal) for frames labeled is_pose, push_start (Obj From Hand) and push_end (Obj
+Hand To) for objects labeled is_pushable, hook_start (Obj From Hook Tool Hand) and hook_end (Obj Hook To Tool Hand) with
+a tool that has a part labeled is_hook, and hold, open and close (Door Handle Hand) for frames labeled is_door or
+is_drawer that have a part labeled is_handle.
 
 Returns:
     A domain, to which actions can be added.)";
@@ -84,8 +85,8 @@ Returns:
 inline constexpr char makeRule[] = R"(Makes a rule.
 
 Args:
-    add: Adds the constraints of an action to its waypoint problem. Called with the problem w (TaskWaypoints), the time in
-        phases, the action's words and a variant. It uses w.komo.addObjective, w.m (a KOMO_ManipulationHelper),
+    add: Adds the constraints of an action to its waypoint problem. Called with the problem w (TaskWaypoints), the time
+        in phases, the action's words and a variant. It uses w.komo.addObjective, w.m (a KOMO_ManipulationHelper),
         w.attach(time, hand, obj) and w.put(time, obj, place).
     variants: Returns the names of the variants, the best first. Called with the scene and the action's words.
 Raises:

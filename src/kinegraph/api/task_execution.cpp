@@ -40,7 +40,8 @@ bool isClear(Config& C, const VectorXd& q) {
   return C.getCollisions(-kOverlap).empty();
 }
 
-/// Returns the place that an object stands on: the nearest of those that it touches and whose center is lower; "" if none.
+/// Returns the place that an object stands on: the nearest of those that it touches and whose center is lower; "" if
+/// none.
 std::string placeBelow(const Config& C, const std::string& obj, const Words& places) {
   const double height = C.getFrame(obj).getPosition().z();
   double nearest = std::numeric_limits<double>::infinity();
@@ -160,7 +161,8 @@ class Run {
     bot_.sync(seen_, kComesToRest);
   }
 
-  /// After a failure: opens hands that have lost their objects, and reverses the motion until the robot is collision-free.
+  /// After a failure: opens hands that have lost their objects, and reverses the motion until the robot is
+  /// collision-free.
   void backOut(std::size_t i) {
     const std::map<std::string, std::string> held = held_, handles = handles_;
     for (const auto& [obj, hand] : held) {

@@ -17,10 +17,11 @@ struct TaskExecution {
   std::string str() const;
 };
 
-/// Executes a plan on a robot, action by action. Grippers close and open. Before and after each motion, the world is compared
-/// with the plan: held objects have to be in the hand, all others at their places. The world of `bot` is the scene of the
-/// plan; objects that actions move need a mass there. `seen` is a copy of that world (BotOp::getWorld), and is kept up to
-/// date. Throws ValueError if there is no motion or the robot cannot begin it, RobotFault if the robot was stopped.
+/// Executes a plan on a robot, action by action. Grippers close and open. Before and after each motion, the world is
+/// compared with the plan: held objects have to be in the hand, all others at their places. The world of `bot` is the
+/// scene of the plan; objects that actions move need a mass there. `seen` is a copy of that world (BotOp::getWorld),
+/// and is kept up to date. Throws ValueError if there is no motion or the robot cannot begin it, RobotFault if the
+/// robot was stopped.
 TaskExecution execute(const TaskPlan& plan, BotOp& bot, Config& seen);
 
 }  // namespace kinegraph

@@ -17,8 +17,8 @@ std::vector<std::vector<std::string>> actionWords(const GroundProblem& ground, c
 /// Returns indices of facts for PlanSearch::forbid. Throws ValueError for a fact that never changes, or can never hold.
 std::vector<int> changingFacts(const GroundProblem& ground, const std::vector<Literal>& facts);
 
-/// Returns the literals that hold at the start and after each action. Throws ValueError for an action whose precondition
-/// does not hold.
+/// Returns the literals that hold at the start and after each action. Throws ValueError for an action whose
+/// precondition does not hold.
 std::vector<std::vector<Literal>> statesAlong(const GroundProblem& ground, const std::vector<int>& actions);
 
 }  // namespace kinegraph

@@ -9,8 +9,8 @@
 
 namespace kinegraph {
 
-/// A predicate with arguments, `(on table cup)`, or its negation, `(on table cup)!`. Arguments are constants or variables of
-/// the rule.
+/// A predicate with arguments, `(on table cup)`, or its negation, `(on table cup)!`. Arguments are constants or
+/// variables of the rule.
 struct Literal {
   std::string predicate;
   std::vector<std::string> arguments = {};

@@ -18,9 +18,9 @@ namespace kinegraph {
 ///     Rule chain { A, B, { (on A B) (moves A) } { (moves B) } }
 ///
 /// Commas and line breaks are spaces; `pre:` and `eff:` may precede the blocks. ANY matches any constant. FOL_World and
-/// REWARD are read and ignored. Throws ParseError with file:line:column, the expectation and similar names: for undeclared
-/// words, for variables that no positive literal of the precondition binds, and for values, probabilities and `aggregate`,
-/// which are not supported.
+/// REWARD are read and ignored. Throws ParseError with file:line:column, the expectation and similar names: for
+/// undeclared words, for variables that no positive literal of the precondition binds, and for values, probabilities
+/// and `aggregate`, which are not supported.
 LogicDomain readFol(std::string_view text, const std::string& file = {});
 
 /// Reads a domain from a file; also throws FileError.
@@ -29,8 +29,8 @@ LogicDomain readFolFile(const std::string& path);
 /// Reads a list of literals, as a goal: `(on tray cup) (busy left)!`
 std::vector<Literal> readLiterals(std::string_view text, const std::string& file = {});
 
-/// Adds an action, with its precondition and effects as lists of literals. Unknown words become symbols. Throws ParseError as
-/// readFol does.
+/// Adds an action, with its precondition and effects as lists of literals. Unknown words become symbols. Throws
+/// ParseError as readFol does.
 ///
 ///     addAction(domain, "show", {"Obj", "Hand"}, "(is_gripper Hand) (on Hand Obj)", "(shown Obj)");
 void addAction(LogicDomain& domain, const std::string& name, const std::vector<std::string>& variables,

@@ -58,13 +58,13 @@ struct GroundProblem {
   std::vector<Literal> literals(const FactSet& state) const;
 };
 
-/// Grounds a problem: finds the facts that are reachable without deletes, and all rules that can fire then. Throws ParseError
-/// with the position for predicates with inconsistent numbers of arguments and for unknown words in the goal. Throws
-/// ValueError for more than `most` ground rules, or if the combinations for one rule would take minutes.
+/// Grounds a problem: finds the facts that are reachable without deletes, and all rules that can fire then. Throws
+/// ParseError with the position for predicates with inconsistent numbers of arguments and for unknown words in the
+/// goal. Throws ValueError for more than `most` ground rules, or if the combinations for one rule would take minutes.
 GroundProblem ground(LogicProblem problem, std::size_t most = 2000000);
 
-/// Returns likely mistakes in a problem, a sentence with its position each: predicates in preconditions that nothing can make
-/// true, and rules that can never fire.
+/// Returns likely mistakes in a problem, a sentence with its position each: predicates in preconditions that nothing
+/// can make true, and rules that can never fire.
 std::vector<std::string> diagnostics(const GroundProblem& ground);
 
 }  // namespace kinegraph

@@ -7,9 +7,9 @@
 
 namespace kinegraph {
 
-/// A lower bound on the number of actions to the goal, from landmarks: sets of actions such that each plan contains one of
-/// them. Deletes count only for negated preconditions. Source: Helmert, Domshlak, Landmarks, critical paths and abstractions:
-/// what's the difference anyway?, ICAPS 2009.
+/// A lower bound on the number of actions to the goal, from landmarks: sets of actions such that each plan contains one
+/// of them. Deletes count only for negated preconditions. Source: Helmert, Domshlak, Landmarks, critical paths and
+/// abstractions: what's the difference anyway?, ICAPS 2009.
 class LandmarkCut {
  public:
   static constexpr int kNever = std::numeric_limits<int>::max() / 4;  ///< no plan leads to the goal

@@ -7,9 +7,9 @@
 
 namespace kinegraph {
 
-/// Reads a domain in PDDL: STRIPS with types, constants, negative preconditions and equality. A type is a unary predicate.
-/// Throws ParseError with file:line:column, the expectation and similar names: for unknown predicates and types, variables
-/// that are no parameters, wrong numbers of arguments, and other parts of the language.
+/// Reads a domain in PDDL: STRIPS with types, constants, negative preconditions and equality. A type is a unary
+/// predicate. Throws ParseError with file:line:column, the expectation and similar names: for unknown predicates and
+/// types, variables that are no parameters, wrong numbers of arguments, and other parts of the language.
 LogicDomain readPddlDomain(std::string_view text, const std::string& file = {});
 
 /// Reads a problem of a domain. Throws ParseError, also for unknown objects and for the problem of another domain.

@@ -12,8 +12,8 @@
 
 namespace kinegraph {
 
-/// Enumerates the plans of a problem, the shortest first: all sequences of actions that end in the first state with the goal
-/// and visit no state twice. The order depends only on the problem and on the forbidden actions.
+/// Enumerates the plans of a problem, the shortest first: all sequences of actions that end in the first state with the
+/// goal and visit no state twice. The order depends only on the problem and on the forbidden actions.
 ///
 /// Distances to the goal are exact, by A* with a closed list and landmarks. Bounds of other states are reused (Koenig,
 /// Likhachev, Adaptive A*, 2005). The enumeration has no dead ends.

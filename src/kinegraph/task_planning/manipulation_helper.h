@@ -26,8 +26,9 @@ struct ManipulationDefaults {
 ///     m.place_box(2., "box", "table", "l_palm", "z");
 ///     if (m.solve().feasible) std::cout << m.path;
 ///
-/// Times are in phases. All calls except setups throw Error before a setup, and FrameNotFound or ValueError for unsuitable
-/// frames. A grasp at `time` has aligned axes from .2 phases before it on, and a palm without collision from .3 on.
+/// Times are in phases. All calls except setups throw Error before a setup, and FrameNotFound or ValueError for
+/// unsuitable frames. A grasp at `time` has aligned axes from .2 phases before it on, and a palm without collision from
+/// .3 on.
 class ManipulationHelper {
  public:
   explicit ManipulationHelper(std::string text = {}) : info(std::move(text)) {}
@@ -70,8 +71,8 @@ class ManipulationHelper {
   void add_stable_frame(JointType jointType, const std::string& parent, const std::string& name,
                         const std::string& initFrame = {});
 
-  /// Adds a frame on top of `parent` for an upright `obj`. It slides and rotates within the edges of the parent; all slices
-  /// share it.
+  /// Adds a frame on top of `parent` for an upright `obj`. It slides and rotates within the edges of the parent; all
+  /// slices share it.
   void add_place_frame(const std::string& parent, const std::string& obj, const std::string& name);
 
   /// Attaches the object to `parent` from `time` on.
@@ -79,12 +80,13 @@ class ManipulationHelper {
 
   // --- grasps and placements ---------------------------------------------------------------------------------------
 
-  /// Grasps the object from above. `grasp_direction` is one of xz yz xy zy yx zx: the axes of the object along which the
-  /// fingers close and the hand approaches.
+  /// Grasps the object from above. `grasp_direction` is one of xz yz xy zy yx zx: the axes of the object along which
+  /// the fingers close and the hand approaches.
   void grasp_top_box(double time, const std::string& gripper, const std::string& obj,
                      const std::string& grasp_direction = "xz");
 
-  /// Closes the fingers along the axis `grasp_direction` (x y z) of a box, with the gripper `margin` m inside its sides.
+  /// Closes the fingers along the axis `grasp_direction` (x y z) of a box, with the gripper `margin` m inside its
+  /// sides.
   void grasp_box(double time, const std::string& gripper, const std::string& obj, const std::string& palm,
                  const std::string& grasp_direction = "x", double margin = .02);
 
@@ -92,15 +94,15 @@ class ManipulationHelper {
   void grasp_cylinder(double time, const std::string& gripper, const std::string& obj, const std::string& palm,
                       double margin = .02);
 
-  /// Places a box on the table with its axis `place_direction` (x y z xNeg yNeg zNeg) up and its center `margin` m inside the
-  /// edges. The palm may be empty; else it does not collide.
+  /// Places a box on the table with its axis `place_direction` (x y z xNeg yNeg zNeg) up and its center `margin` m
+  /// inside the edges. The palm may be empty; else it does not collide.
   void place_box(double time, const std::string& obj, const std::string& table, const std::string& palm,
                  const std::string& place_direction = "z", double margin = .02);
 
   // --- pushes ------------------------------------------------------------------------------------------------------
 
-  /// Pushes the object over the table along a line from times[0] to times[1]. `helper` is the name of the frame on the object
-  /// whose y axis is the line; `scale` weighs the contact constraints.
+  /// Pushes the object over the table along a line from times[0] to times[1]. `helper` is the name of the frame on the
+  /// object whose y axis is the line; `scale` weighs the contact constraints.
   void straight_push(const std::vector<double>& times, const std::string& obj, const std::string& gripper,
                      const std::string& table, double scale = 1e1, std::string helper = {});
 
@@ -137,8 +139,8 @@ class ManipulationHelper {
   /// Solves from the current path. With `verbose` 1 or more, prints the result in a line.
   const SolverResult& solve(int verbose = 1);
 
-  /// Returns the motion problem of one phase (0: the first) of a solved sequence, between its waypoints, with the attachments
-  /// of that phase.
+  /// Returns the motion problem of one phase (0: the first) of a solved sequence, between its waypoints, with the
+  /// attachments of that phase.
   ManipulationHelper sub_motion(int phase, bool fixEnd = true, double homing_scale = 1e-2,
                                 double acceleration_scale = 1e-1,
                                 const ManipulationDefaults& with = {true, true, false}) const;

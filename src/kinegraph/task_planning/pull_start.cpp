@@ -197,7 +197,8 @@ Pose PullStart::barBehind(const TaskAction& begin, const Pose& obj, const Vector
   return {at, Quaterniond(R)};
 }
 
-/// Poses of a picked object in the hand: fingers along the axis of the variant, from above, at several places along a bar.
+/// Poses of a picked object in the hand: fingers along the axis of the variant, from above, at several places along a
+/// bar.
 std::vector<Pose> PullStart::gripsOf(std::size_t pick) const {
   const std::size_t axis = std::string_view("xyz").find(variants_[pick]);
   const Frame obj = C_.getFrame(actions_[pick][1]);

@@ -14,16 +14,16 @@ namespace kinegraph {
 /// Whether a sequence pulls an object with a bar.
 bool pullsWithBar(const Config& C, const std::vector<TaskAction>& actions);
 
-/// Returns the default displacement of a pull on the current place of an object, m: .2 m towards the hand, along the side of
-/// a box that the variant names (x, y), else straight. `end`: hook_end (obj hook to tool hand).
+/// Returns the default displacement of a pull on the current place of an object, m: .2 m towards the hand, along the
+/// side of a box that the variant names (x, y), else straight. `end`: hook_end (obj hook to tool hand).
 Vector3d usualPull(const Config& C, const TaskAction& end, const std::string& variant);
 
-/// Builds the initial guess of a sequence with a pull, action by action, so that grasps, placements and joints fit each other.
-/// Hands come from above, at several inclinations.
+/// Builds the initial guess of a sequence with a pull, action by action, so that grasps, placements and joints fit each
+/// other. Hands come from above, at several inclinations.
 class PullStart {
  public:
-  /// `slot` returns the index of the dofs of an added frame in x, -1 for unknown names. `rng` samples the order of grips and
-  /// the length of pulls.
+  /// `slot` returns the index of the dofs of an added frame in x, -1 for unknown names. `rng` samples the order of
+  /// grips and the length of pulls.
   PullStart(const Config& C, const std::vector<TaskAction>& actions, const std::vector<std::string>& variants,
             std::function<int(const std::string&)> slot, Rng* rng);
 

@@ -12,8 +12,8 @@ namespace kinegraph {
 /// - a frame with `logical: { is_gripper, ... }`: a fact per label, `(is_gripper hand)`;
 /// - another frame with a joint of type rigid and a shape: `(is_object cup)`, and is_box, is_sphere, is_capsule or
 ///   is_cylinder by its shape;
-/// - among these frames: `(on table cup)` if the first frame with a joint, from cup upwards, is a child of the table, and
-///   `(partOf cup handle)` for a frame that hangs below another of them without a joint.
+/// - among these frames: `(on table cup)` if the first frame with a joint, from cup upwards, is a child of the table,
+/// and   `(partOf cup handle)` for a frame that hangs below another of them without a joint.
 std::vector<Literal> sceneFacts(const Config& C);
 
 }  // namespace kinegraph

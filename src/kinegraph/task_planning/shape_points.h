@@ -16,8 +16,8 @@ Eigen::AlignedBox3d boxAround(const Frame& frame);
 /// Returns the sides of a place along x and y, m: its first two sizes. Throws ValueError for shapes with fewer sizes.
 Eigen::Vector2d placeSides(const Frame& place);
 
-/// Returns the diagonal of the first `count` sizes of a shape, m. Half of it is the distance of a corner of a box from its
-/// center.
+/// Returns the diagonal of the first `count` sizes of a shape, m. Half of it is the distance of a corner of a box from
+/// its center.
 double diagonalOf(const Frame& frame, std::size_t count);
 
 }  // namespace kinegraph

@@ -41,8 +41,10 @@ const std::vector<std::string>& otherFaces();
 /// - lay (obj hand to face) if the goal names the face that points up;
 /// - pose (obj hand goal) for frames labeled is_pose;
 /// - push_start (obj from hand) and push_end (obj hand to) for objects labeled is_pushable;
-/// - hook_start (obj from hook tool hand) and hook_end (obj hook to tool hand), with a tool that has a part labeled is_hook;
-/// - hold, open and close (door handle hand) for frames labeled is_door or is_drawer that have a part labeled is_handle.
+/// - hook_start (obj from hook tool hand) and hook_end (obj hook to tool hand), with a tool that has a part labeled
+/// is_hook;
+/// - hold, open and close (door handle hand) for frames labeled is_door or is_drawer that have a part labeled
+/// is_handle.
 LogicDomain defaultDomain();
 
 /// Returns the initial facts: sceneFacts and, if these name no gripper, object or place, guesses from shapes and names.

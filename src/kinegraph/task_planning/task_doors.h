@@ -22,8 +22,8 @@ struct TaskDoor {
   std::string stateAt(double q) const;
 };
 
-/// Shares of a door's range: it is open from kOpened on, and closed up to kClosed. An action leaves an opened door between
-/// kOpenLeast and kOpenMost, and a closed one at kClose.
+/// Shares of a door's range: it is open from kOpened on, and closed up to kClosed. An action leaves an opened door
+/// between kOpenLeast and kOpenMost, and a closed one at kClose.
 inline constexpr double kOpened = .8, kClosed = .05, kOpenLeast = .85, kOpenMost = .98, kClose = .005;
 
 /// Returns the doors of a scene with active joints.
@@ -35,8 +35,8 @@ bool isHold(const TaskAction& action);
 /// A door is moved by the hand that holds its handle: open, close (door handle hand).
 bool isGuided(const TaskAction& action);
 
-/// The rotation that a handle allows the hand: about a contact point or the center of a ball; about the axis of a cylinder
-/// or capsule; none.
+/// The rotation that a handle allows the hand: about a contact point or the center of a ball; about the axis of a
+/// cylinder or capsule; none.
 enum class Grip { point, axis, rigid };
 Grip gripOf(const Config& C, const std::string& hand, const std::string& handle);
 

@@ -111,8 +111,8 @@ void touch(TaskWaypoints& w, double time, const TaskAction& action, const std::s
   w.attach(time, action[3], action[1], true, action[0] == "hook_start" ? kHookGap : 0.);
 }
 
-/// A bar presses with an upright face, so low that the pulled object does not tip. The tool lies flat, a little above the
-/// ground.
+/// A bar presses with an upright face, so low that the pulled object does not tip. The tool lies flat, a little above
+/// the ground.
 void layFlat(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
   const Frame obj = w.C.getFrame(action[1]), place = w.C.getFrame(action[2]), bar = w.C.getFrame(action[3]),
               tool = w.C.getFrame(action[4]);
@@ -130,8 +130,8 @@ void layFlat(TaskWaypoints& w, double time, const TaskAction& action, const std:
     w.komo().addObjective({time}, F::distance, {part.getName(), action[2]}, O::ineq, 1e1, -kAbove);
 }
 
-/// The bar of a hook lies along a side of a box, across the axis of the variant, so that the box does not rotate during the
-/// pull.
+/// The bar of a hook lies along a side of a box, across the axis of the variant, so that the box does not rotate during
+/// the pull.
 void hookOn(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
   touch(w, time, action, variant);
   const int bar = longAxis(w.C.getFrame(action[3]));

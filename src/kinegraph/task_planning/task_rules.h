@@ -32,25 +32,25 @@ struct TaskRule {
 /// Rules by the names of the actions.
 using TaskRules = std::map<std::string, TaskRule>;
 
-/// Returns the rules of the actions of defaultDomain. `upright`: `place` puts objects down upright, and leaves other faces to
-/// `lay`, for goals that name a face.
+/// Returns the rules of the actions of defaultDomain. `upright`: `place` puts objects down upright, and leaves other
+/// faces to `lay`, for goals that name a face.
 TaskRules defaultTaskRules(bool upright = false);
 
 /// Returns the palm, the frame between the fingers of a hand and its arm that held objects must not enter; "" for hands
 /// without one.
 std::string palmOf(const Config& C, const std::string& hand);
 
-/// Returns the opening of the fingers of a hand, m; none for a hand without fingers. The attribute `opening` of its frame
-/// overrides the default.
+/// Returns the opening of the fingers of a hand, m; none for a hand without fingers. The attribute `opening` of its
+/// frame overrides the default.
 std::optional<double> opening(const Config& C, const std::string& hand);
 
-/// Returns the grasps of an object by a hand. Boxes and meshes have the axes x, y, z along which the fingers can close, the
-/// narrow ones first; cylinders and capsules `around`, balls `center`, and hands without fingers `touch`. None if the
-/// object is too wide. Throws ValueError for objects without a shape.
+/// Returns the grasps of an object by a hand. Boxes and meshes have the axes x, y, z along which the fingers can close,
+/// the narrow ones first; cylinders and capsules `around`, balls `center`, and hands without fingers `touch`. None if
+/// the object is too wide. Throws ValueError for objects without a shape.
 std::vector<std::string> graspVariants(const Config& C, const std::string& obj, const std::string& hand);
 
-/// Returns at most `most` combinations of the variants of a sequence of actions, the best first. Throws NameError for an
-/// action without a rule.
+/// Returns at most `most` combinations of the variants of a sequence of actions, the best first. Throws NameError for
+/// an action without a rule.
 std::vector<std::vector<std::string>> allVariants(const Config& C, const std::vector<TaskAction>& actions,
                                                   const TaskRules& rules, std::size_t most);
 

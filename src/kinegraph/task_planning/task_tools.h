@@ -8,15 +8,15 @@
 
 namespace kinegraph {
 
-/// Returns the center of mass of a body with everything fixed to it, in frame coordinates, m. If no part has a mass, masses
-/// are proportional to surfaces, as in a simulation.
+/// Returns the center of mass of a body with everything fixed to it, in frame coordinates, m. If no part has a mass,
+/// masses are proportional to surfaces, as in a simulation.
 Vector3d centerOfBody(const Frame& body);
 
 /// Whether a center of mass coincides with the origin of the frame, to 1 mm.
 bool isCentered(const Vector3d& center);
 
-/// Whether an object that touches a place rests there: its center of mass is above the area that both share, to 1 mm, in the
-/// current scene. The place is a level box.
+/// Whether an object that touches a place rests there: its center of mass is above the area that both share, to 1 mm,
+/// in the current scene. The place is a level box.
 bool isSupported(const Frame& obj, const Frame& place);
 
 /// Returns the pairs of frames, one of a held object and one of the robot, that overlap by more than `depth` (m). Such
@@ -32,13 +32,13 @@ void includePairs(Config& C, const FramePairs& pairs);
 /// Returns the frames with a shape of a body: its own, and those fixed to it.
 std::vector<Frame> shapesOf(const Frame& body);
 
-/// Returns the axis of a bar (0 to 2) that points up if its tool lies flat: the one across the bar along which the tool is
-/// thinner.
+/// Returns the axis of a bar (0 to 2) that points up if its tool lies flat: the one across the bar along which the tool
+/// is thinner.
 int flatAxis(const Frame& bar, const Frame& tool);
 
-/// Returns the height above the ground up to which a slow pull does not tip an object: depth / (2 friction), m. `depth` is
-/// that of its base along the pull. The friction is the mean of those of the object and the place, as in a simulation.
-/// Infinite without friction.
+/// Returns the height above the ground up to which a slow pull does not tip an object: depth / (2 friction), m. `depth`
+/// is that of its base along the pull. The friction is the mean of those of the object and the place, as in a
+/// simulation. Infinite without friction.
 double tippingHeight(const Frame& obj, const Frame& place, double depth);
 
 }  // namespace kinegraph

@@ -32,8 +32,8 @@ constexpr char kRoom[] = "room on ", kWeight[] = "weight of ";
 
 std::string roundText(double time) { return std::to_string(long(std::nearbyint(time))); }
 
-/// Adds auxiliary frames to a scene: a large frame on each place for `lay`, because a free frame below it gets wide limits;
-/// and a frame at the center of mass of each placed object that is not at its origin.
+/// Adds auxiliary frames to a scene: a large frame on each place for `lay`, because a free frame below it gets wide
+/// limits; and a frame at the center of mass of each placed object that is not at its origin.
 Config prepared(const Config& C, const std::vector<TaskAction>& actions, const std::vector<std::string>& variants) {
   if (variants.size() != actions.size())
     throw ValueError(

@@ -11,9 +11,9 @@
 
 namespace kinegraph {
 
-/// The waypoint problem of a sequence of actions in one variant each: a Komo with a slice per action, and grasps and placements
-/// shared by all slices. Rules add the constraints of their actions through `komo()`, `m`, and the calls below. Times are in
-/// phases; action i, counted from 0, ends at i + 1. Calls throw FrameNotFound for unknown frames.
+/// The waypoint problem of a sequence of actions in one variant each: a Komo with a slice per action, and grasps and
+/// placements shared by all slices. Rules add the constraints of their actions through `komo()`, `m`, and the calls
+/// below. Times are in phases; action i, counted from 0, ends at i + 1. Calls throw FrameNotFound for unknown frames.
 class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
  public:
   /// Makes the problem without the constraints of the actions. `helper`: null for a ManipulationHelper.
@@ -30,8 +30,8 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
 
   Komo& komo() { return *m->komo; }
 
-  /// Lets a hand hold an object from a time on, in a pose that the solver finds. `touching`: the surfaces are `gap` m apart,
-  /// as of a stick that takes an object along.
+  /// Lets a hand hold an object from a time on, in a pose that the solver finds. `touching`: the surfaces are `gap` m
+  /// apart, as of a stick that takes an object along.
   void attach(double time, const std::string& hand, const std::string& obj, bool touching = false, double gap = 0.);
 
   /// Lets an object stand upright on a place from a time on.
@@ -40,15 +40,16 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
   /// Lets a box lie on a place from a time on, with a face up: x y z xNeg yNeg zNeg. Throws ValueError for other faces.
   void lay(double time, const std::string& obj, const std::string& to, const std::string& face);
 
-  /// Pushes an object straight to a place between `start`, the first contact, and `end`, from behind and without rotation.
+  /// Pushes an object straight to a place between `start`, the first contact, and `end`, from behind and without
+  /// rotation.
   void push(double start, double end, const std::string& pusher, const std::string& obj, const std::string& to);
 
-  /// Opens or closes a door or drawer by a hand that has held its handle since the action before. Throws ValueError if the
-  /// frame is no door.
+  /// Opens or closes a door or drawer by a hand that has held its handle since the action before. Throws ValueError if
+  /// the frame is no door.
   void guide(double time, const std::string& door, const std::string& handle, const std::string& hand, bool opens);
 
-  /// Returns an initial guess of the variables, with hands close to the objects that they handle. `rng` samples placements
-  /// and, with `grasps`, grasps; without `rng`, placements are central.
+  /// Returns an initial guess of the variables, with hands close to the objects that they handle. `rng` samples
+  /// placements and, with `grasps`, grasps; without `rng`, placements are central.
   VectorXd start(Rng* rng, bool grasps = true) const;
 
  private:

@@ -20,13 +20,14 @@ namespace kinegraph {
 ///     terminal: "(on tray cup) (on table jug)"
 ///     coll: [cup jug]          # pairs of frames that do not overlap, also in waypoints
 ///
-/// The actions are pick_touch, pick_box, handover, place_straightOn, place_box, poseEq, gripper_push and end_push. Older files
-/// call the first pick and the fourth place. Other actions need a subclass. In Python it is default_LGP_TAMP_Abstraction.
+/// The actions are pick_touch, pick_box, handover, place_straightOn, place_box, poseEq, gripper_push and end_push.
+/// Older files call the first pick and the fourth place. Other actions need a subclass. In Python it is
+/// default_LGP_TAMP_Abstraction.
 class DefaultLgpAbstraction : public LgpAbstraction {
  public:
-  /// Reads the files and the facts of the scene. `cancellation` is queried during the search in logic, and may throw. Throws
-  /// FileError; ParseError with the position for invalid files, unknown words of the goal, and goals that no action reaches;
-  /// FrameNotFound for a pair.
+  /// Reads the files and the facts of the scene. `cancellation` is queried during the search in logic, and may throw.
+  /// Throws FileError; ParseError with the position for invalid files, unknown words of the goal, and goals that no
+  /// action reaches; FrameNotFound for a pair.
   DefaultLgpAbstraction(const Config& C, const std::string& lgp_file, CancellationToken cancellation = {});
 
   const LogicDomain& domain() const { return search_->problem().problem.domain; }

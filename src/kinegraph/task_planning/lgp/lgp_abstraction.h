@@ -10,8 +10,8 @@
 
 namespace kinegraph {
 
-/// The domain of an LgpTool: plans in logic, and the constraints of their actions. In Python it is LGP_TAMP_Abstraction.
-/// Subclass it, or DefaultLgpAbstraction, for your own actions:
+/// The domain of an LgpTool: plans in logic, and the constraints of their actions. In Python it is
+/// LGP_TAMP_Abstraction. Subclass it, or DefaultLgpAbstraction, for your own actions:
 ///
 ///     class Visits : public DefaultLgpAbstraction {
 ///       using DefaultLgpAbstraction::DefaultLgpAbstraction;
@@ -51,8 +51,8 @@ class LgpAbstraction {
   /// constraints of the actions.
   virtual std::shared_ptr<Komo> setup_motion(const Config& C, int K);
 
-  /// Adds the constraints of an action to a waypoint problem. `time` is the end of the action in phases, `prev_action` the
-  /// action before it, empty if there is none. Throws ValueError for an unknown action.
+  /// Adds the constraints of an action to a waypoint problem. `time` is the end of the action in phases, `prev_action`
+  /// the action before it, empty if there is none. Throws ValueError for an unknown action.
   virtual void add_action_constraints(const std::shared_ptr<Komo>& komo, double time, const TaskAction& prev_action,
                                       const TaskAction& action);
 
@@ -60,8 +60,8 @@ class LgpAbstraction {
   virtual void add_action_constraints_motion(const std::shared_ptr<Komo>& komo, double time,
                                              const TaskAction& prev_action, const TaskAction& action);
 
-  /// Adds the constraints of all actions of a plan to a motion or waypoint problem, then those of the explicit pairs. Throws
-  /// ValueError for an unknown action and for an odd number of names.
+  /// Adds the constraints of all actions of a plan to a motion or waypoint problem, then those of the explicit pairs.
+  /// Throws ValueError for an unknown action and for an odd number of names.
   virtual void add_all(const std::shared_ptr<Komo>& komo, const std::vector<TaskAction>& plan, bool motion);
 
   /// Returns a helper that makes problems.

@@ -149,8 +149,8 @@ std::shared_ptr<Komo> LgpTool::get_fullMotionProblem(bool initWithWaypoints) con
   return problem;
 }
 
-/// Waypoints may overlap, except for named pairs. Then the motion starts at waypoints of the same plan that do not overlap,
-/// and a coarse tolerance suffices, because the guess is close.
+/// Waypoints may overlap, except for named pairs. Then the motion starts at waypoints of the same plan that do not
+/// overlap, and a coarse tolerance suffices, because the guess is close.
 LgpSolve LgpTool::solveFromFreeWaypoints(const std::shared_ptr<Komo>& problem) {
   const Plan& plan = getSolvedPlan();
   const std::shared_ptr<Komo> waypoints = tamp->setup_sequence(C, int(plan.size()));

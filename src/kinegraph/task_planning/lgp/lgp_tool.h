@@ -19,9 +19,10 @@ enum class LgpStatus {
 /// The enumerator's spelling: "no_plan_found".
 std::string lgpStatusName(LgpStatus status);
 
-/// Finds plans that bodies can carry out: each plan of the abstraction becomes a waypoint problem. No further plan begins like
-/// one that failed from all initial guesses. If there is no further plan, the failed ones are tried from other guesses, in
-/// three rounds. The budget counts solves. In Python it is LGP_Tool; calls are spelled as in the reference.
+/// Finds plans that bodies can carry out: each plan of the abstraction becomes a waypoint problem. No further plan
+/// begins like one that failed from all initial guesses. If there is no further plan, the failed ones are tried from
+/// other guesses, in three rounds. The budget counts solves. In Python it is LGP_Tool; calls are spelled as in the
+/// reference.
 ///
 ///     LgpTool lgp(C, std::make_shared<DefaultLgpAbstraction>(C, "problem.lgp"));
 ///     if (lgp.solve()) lgp.solveFullMotion();
@@ -31,8 +32,8 @@ class LgpTool {
  public:
   using Plan = std::vector<TaskAction>;
 
-  /// Makes a tool that shares the scene, later changes included. Throws ValueError for less than one thread and for invalid
-  /// options.
+  /// Makes a tool that shares the scene, later changes included. Throws ValueError for less than one thread and for
+  /// invalid options.
   LgpTool(const Config& C, std::shared_ptr<LgpAbstraction> tamp, LgpOptions options = {});
   LgpTool(const LgpTool&) = delete;
   LgpTool& operator=(const LgpTool&) = delete;
@@ -56,9 +57,9 @@ class LgpTool {
   const Plan& getSolvedPlan() const;                   ///< the last plan
   const std::shared_ptr<Komo>& getSolvedKOMO() const;  ///< its waypoint problem, at the solution: a slice per action
 
-  /// Returns the motion problem of one action (0: the first) between its waypoints, with the attachments of that time: 30
-  /// slices, initialized by interpolation. `fixEnd`: the motion ends exactly at the waypoint. Throws ValueError for other
-  /// indices.
+  /// Returns the motion problem of one action (0: the first) between its waypoints, with the attachments of that time:
+  /// 30 slices, initialized by interpolation. `fixEnd`: the motion ends exactly at the waypoint. Throws ValueError for
+  /// other indices.
   std::shared_ptr<Komo> get_piecewiseMotionProblem(int phase, bool fixEnd = true) const;
 
   /// Returns the motion problem of all actions, 30 slices each, initialized with the waypoints or with the scene.
@@ -68,7 +69,8 @@ class LgpTool {
   std::vector<SolverResult> solvePiecewiseMotions(int verbose = 1);
   std::vector<MatrixXd> paths;  ///< 30 x n each, rad or m
 
-  /// Solves the motion of all actions, from the waypoints, then from perturbed ones, and stores it in `motion` and `path`.
+  /// Solves the motion of all actions, from the waypoints, then from perturbed ones, and stores it in `motion` and
+  /// `path`.
   SolverResult solveFullMotion(int verbose = 1);
   std::shared_ptr<Komo> motion;
   MatrixXd path;  ///< T x n, rad or m

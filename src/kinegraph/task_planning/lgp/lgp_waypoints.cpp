@@ -52,8 +52,8 @@ bool LgpWaypoints::solve(const Plan& plan, int round) {
   return solved.is_solved;
 }
 
-/// The first guess is the current path. The others sample the dofs shared by all slices, grasps and placements; in further
-/// rounds also joints.
+/// The first guess is the current path. The others sample the dofs shared by all slices, grasps and placements; in
+/// further rounds also joints.
 std::vector<VectorXd> LgpWaypoints::starts(const std::shared_ptr<Komo>& problem, int round) {
   const auto nlp = makeNlp(problem);
   const Path& path = problem->path();

@@ -23,7 +23,8 @@ class LgpWaypoints {
   /// Returns the length of the shortest infeasible prefix; none if the plan is feasible.
   std::optional<std::size_t> failing(const Plan& plan);
 
-  /// Solves a failed plan from other guesses, which differ in each round from 1 on. Returns whether there are waypoints.
+  /// Solves a failed plan from other guesses, which differ in each round from 1 on. Returns whether there are
+  /// waypoints.
   bool tryAgain(const Plan& plan, int round) { return solve(plan, round); }
 
   /// Returns the initial guesses of a problem, which differ for each problem and round.

@@ -27,7 +27,8 @@ constexpr double kShare = 1e-6;  ///< relative tolerance of limits, for rounding
 
 double cosineOf(double degrees) { return std::cos(degrees * std::numbers::pi / 180.); }
 
-/// Returns the violation of velocity and acceleration limits of a motion from rest to rest, or "". Chords of the motion are
+/// Returns the violation of velocity and acceleration limits of a motion from rest to rest, or "". Chords of the motion
+/// are
 /// checked: a motion within the limits has chords within them.
 std::string timingViolation(const MatrixXd& path, const VectorXd& times, const VectorXd& q, const MatrixXd& limits) {
   if ((path.row(0).transpose() - q).cwiseAbs().maxCoeff() > kJump) return "the motion jumps at its beginning";
@@ -199,7 +200,8 @@ class PlanPlayer {
     return "";
   }
 
-  /// Objects that stand on a held object, or in a moving drawer, must not tilt or accelerate much. Each waypoint is checked.
+  /// Objects that stand on a held object, or in a moving drawer, must not tilt or accelerate much. Each waypoint is
+  /// checked.
   std::string carryingViolation(const TaskAction& action, const MatrixXd& path, const VectorXd& times) {
     static const double kUpright = cosineOf(5.);
     const Lines objects = wordsOf(plan_.start, "is_object");

@@ -54,7 +54,8 @@ void ConflictLearner::learnMotionFailure(const Actions& actions, const TaskFailu
 }
 
 /// Finds the first action that fails. Then it tests the action with only those before it that matter, without other
-/// objects, then also without single objects in its way: the smaller the failing problem, the more general the conflict.
+/// objects, then also without single objects in its way: the smaller the failing problem, the more general the
+/// conflict.
 void ConflictLearner::learnWaypointFailure(const Actions& actions) {
   const auto first = [&](std::size_t count) {
     return Actions(actions.begin(), actions.begin() + std::ptrdiff_t(count));

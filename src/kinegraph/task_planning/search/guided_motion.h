@@ -13,8 +13,8 @@ inline constexpr double kSlip = 5e-4;
 /// Returns the constraints of a motion that holds a handle as in the current scene, scaled so that 1e-3 is .1 mm.
 std::vector<MotionConstraint> gripConstraints(const Config& C, const std::string& hand, const std::string& handle);
 
-/// Projects the straight line from q0 to q1 onto constraints. Returns configurations at which they hold to .1 mm, .02 rad or m
-/// or less apart; empty if the projection fails or jumps.
+/// Projects the straight line from q0 to q1 onto constraints. Returns configurations at which they hold to .1 mm, .02
+/// rad or m or less apart; empty if the projection fails or jumps.
 MatrixXd guidedConfigurations(const Config& C, const VectorXd& q0, const VectorXd& q1,
                               const std::vector<MotionConstraint>& constraints);
 

@@ -22,8 +22,8 @@ void hang(Config& scene, const std::string& obj, const std::string& parent);
 /// The cosine of half a degree, the tolerance of level axes.
 double levelCosine();
 
-/// Returns the first violation along the piecewise linear path (T, n): a joint limit, or a pair that overlaps by more than
-/// 1 mm, checked continuously; "" if there is none. The scene's q does not matter.
+/// Returns the first violation along the piecewise linear path (T, n): a joint limit, or a pair that overlaps by more
+/// than 1 mm, checked continuously; "" if there is none. The scene's q does not matter.
 std::string firstContact(const Config& scene, const MatrixXd& path);
 bool isFree(const Config& scene, const MatrixXd& path);
 

@@ -29,9 +29,9 @@ struct TaskOptions {
   std::function<std::shared_ptr<ManipulationHelper>()> helper = {};  ///< makes helpers; none: ManipulationHelper
 };
 
-/// Plans actions and their motion so that a goal holds. A search in logic proposes sequences of actions. Cheap proofs of
-/// reach, size and room, then waypoints with grasps and placements, then motions test whether bodies can carry them out.
-/// Each failure becomes a constraint of the logic. A solved plan has passed checkTaskPlan.
+/// Plans actions and their motion so that a goal holds. A search in logic proposes sequences of actions. Cheap proofs
+/// of reach, size and room, then waypoints with grasps and placements, then motions test whether bodies can carry them
+/// out. Each failure becomes a constraint of the logic. A solved plan has passed checkTaskPlan.
 ///
 ///     TaskPlan plan = planTask(C, "(on tray cup) (on tray jug)");
 ///     std::cout << plan.str() << '\n';

@@ -14,8 +14,8 @@
 
 namespace kinegraph {
 
-/// Evaluates sequences of actions in geometry: solves for waypoints, plans the motions between them, and checks the plan.
-/// The outcome depends on the actions and the seed only. Several threads may evaluate at the same time.
+/// Evaluates sequences of actions in geometry: solves for waypoints, plans the motions between them, and checks the
+/// plan. The outcome depends on the actions and the seed only. Several threads may evaluate at the same time.
 class SequenceEvaluator {
  public:
   /// `scene` is planned in; checkTaskPlan gets `original`. Both are only copied. `limits`: velocity and acceleration of

@@ -32,8 +32,8 @@ struct InTheWay {
 };
 std::vector<InTheWay> inTheWay(const TaskAction& action, const std::vector<Literal>& start);
 
-/// Returns the initial facts on which a failure depends: another grasp may succeed, and a carrier may bring the objects on
-/// it within reach.
+/// Returns the initial facts on which a failure depends: another grasp may succeed, and a carrier may bring the objects
+/// on it within reach.
 std::vector<Literal> whileFacts(const std::vector<TaskAction>& alone, const std::vector<Literal>& start);
 
 /// Returns an object that would stand on itself, directly or not, in one of the states; "" if there is none.

@@ -52,8 +52,8 @@ MatrixXd line(const VectorXd& a, const VectorXd& b, int count) {
   return rows;
 }
 
-/// The action whose retreat, reversed, is the approach of an action: placing approaches from above, picking along the axis
-/// of the hand.
+/// The action whose retreat, reversed, is the approach of an action: placing approaches from above, picking along the
+/// axis of the hand.
 TaskAction reversedAction(const TaskAction& action) {
   if (isPick(action)) return {"place", action[1], action[3], action[2]};
   if (isHold(action)) return {"open", action[1], action[2], action[3]};
@@ -134,7 +134,8 @@ TaskMotions::Found TaskMotions::search(const Config& C, const VectorXd& q0, cons
   return found;
 }
 
-/// A hand moves a door by its handle: along the straight line of the joints projected to the grip, or along another path.
+/// A hand moves a door by its handle: along the straight line of the joints projected to the grip, or along another
+/// path.
 TaskMotions::Found TaskMotions::planGuided(const Config& C, const VectorXd& q0, const VectorXd& q1,
                                            const TaskAction& action) {
   const std::string &handle = action[2], &hand = action[3];
@@ -200,7 +201,8 @@ TaskMotions::Found TaskMotions::planFree(const Config& C, const VectorXd& q0, co
   return {steady(C, timed(C, found.path), carried), ""};
 }
 
-/// A straight motion of an object on its ground: the straight motion of the joints, or one that keeps the object on the line.
+/// A straight motion of an object on its ground: the straight motion of the joints, or one that keeps the object on the
+/// line.
 TaskMotions::Found TaskMotions::planPush(const Config& C, const VectorXd& q0, const VectorXd& q1,
                                          const std::string& obj) {
   const MatrixXd straight = rowsOf({q0, q1});
@@ -276,16 +278,16 @@ MotionPlan TaskMotions::countedPlan(PathResult& result) {
   return std::move(result.plan);
 }
 
-/// The straight motion from q to a configuration near it, if that is collision-free; else q alone. It is also collision-free
-/// in reverse.
+/// The straight motion from q to a configuration near it, if that is collision-free; else q alone. It is also
+/// collision-free in reverse.
 std::vector<VectorXd> TaskMotions::retreatPiece(const Config& C, const VectorXd& q,
                                                 const std::optional<VectorXd>& away) const {
   if (away && farthest(*away, q) <= kLargeMotion && isFree(C, rowsOf({q, *away}))) return {q, *away};
   return {q};
 }
 
-/// The configuration a few centimeters away after an action: a hand retreats from a placed object, it lifts a picked one,
-/// and a hook retreats from a pulled object.
+/// The configuration a few centimeters away after an action: a hand retreats from a placed object, it lifts a picked
+/// one, and a hook retreats from a pulled object.
 std::optional<VectorXd> TaskMotions::retreat(const Config& C, const VectorXd& q, const TaskAction& action) const {
   const bool is_pulled = !action.empty() && action[0] == "hook_end";
   if (!isPick(action) && !isPlace(action) && !isGuided(action) && !is_pulled) return std::nullopt;

@@ -30,9 +30,9 @@ class TaskMotions {
     long evaluations = 0;  ///< spent
   };
 
-  /// Plans the motion of an action from q0 to q1, in a scene with held objects attached. `before` is the action at q0, empty
-  /// if there is none. `stopped` is queried regularly; true ends the search. `threads` returns the number of threads that a
-  /// new search may use; the result does not depend on it.
+  /// Plans the motion of an action from q0 to q1, in a scene with held objects attached. `before` is the action at q0,
+  /// empty if there is none. `stopped` is queried regularly; true ends the search. `threads` returns the number of
+  /// threads that a new search may use; the result does not depend on it.
   Found between(const Config& C, const VectorXd& q0, const VectorXd& q1, const TaskAction& action,
                 const TaskAction& before, const CancellationToken& stopped, const std::function<int()>& threads) const;
 
@@ -69,9 +69,9 @@ class TaskMotions {
   long evaluations_ = 0;
 };
 
-/// Returns the velocity and acceleration limits of each dof, (2, n). Each argument is one number for all dofs or one per
-/// dof. Empty: the model's velocities, or 1, and accelerations that reach them in half a second. Throws ValueError for
-/// other sizes.
+/// Returns the velocity and acceleration limits of each dof, (2, n). Each argument is one number for all dofs or one
+/// per dof. Empty: the model's velocities, or 1, and accelerations that reach them in half a second. Throws ValueError
+/// for other sizes.
 MatrixXd taskMotionLimits(const Config& C, const VectorXd& velocity, const VectorXd& acceleration);
 
 }  // namespace kinegraph

@@ -23,13 +23,13 @@ struct Reach {
   double distance(const Vector3d& point) const;
 };
 
-/// Returns the bound on the positions of a frame, from the lengths and limits of the joints above it. It is infinite if a
-/// joint has no limits.
+/// Returns the bound on the positions of a frame, from the lengths and limits of the joints above it. It is infinite if
+/// a joint has no limits.
 Reach reachOf(const Config& C, const std::string& name);
 
-/// Returns the default actions that no motion can carry out, whatever precedes them. The proofs use reach, size, room and
-/// height, and solve no motion problem. `start` has the initial facts; a `fresh` object stays in place until an action puts
-/// or slides it elsewhere.
+/// Returns the default actions that no motion can carry out, whatever precedes them. The proofs use reach, size, room
+/// and height, and solve no motion problem. `start` has the initial facts; a `fresh` object stays in place until an
+/// action puts or slides it elsewhere.
 std::vector<ImpossibleAction> impossibleActions(const Config& C, const std::vector<TaskAction>& actions,
                                                 const std::vector<Literal>& start = {});
 

@@ -25,8 +25,8 @@ class WaypointSolver {
     std::function<std::shared_ptr<ManipulationHelper>()> helper = {};  ///< makes helpers; none: ManipulationHelper
   };
 
-  /// Prepares the problems. Each `seed` leads to other waypoints; with 0, the first guess samples neither placements nor
-  /// grasps. The scene is only copied; `settings` must outlive the solver. Threads query `stopped`; once it returns
+  /// Prepares the problems. Each `seed` leads to other waypoints; with 0, the first guess samples neither placements
+  /// nor grasps. The scene is only copied; `settings` must outlive the solver. Threads query `stopped`; once it returns
   /// true, nobody needs the result.
   WaypointSolver(SpeculativeExecutor& executor, const Settings& settings, std::shared_ptr<const Config> scene,
                  std::vector<TaskAction> actions, int seed, CancellationToken stopped = {});
