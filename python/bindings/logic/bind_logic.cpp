@@ -136,7 +136,7 @@ void bindLogic(nb::module_& m) {
   bindDomain(m);
   bindProblem(m);
   nb::class_<PyPlanSearch> search(m, "PlanSearch", "Enumerates the plans of a problem in logic, the shortest first.");
-  nb::enum_<PlanSearch::Status>(search, "Status", "How the last search for a plan ended.")
+  nb::enum_<PlanSearch::Status>(m, "PlanSearchStatus", "How the last search for a plan ended.")
       .value("found", PlanSearch::Status::found)
       .value("exhausted", PlanSearch::Status::exhausted)
       .value("limit", PlanSearch::Status::limit)
@@ -151,7 +151,7 @@ void bindLogic(nb::module_& m) {
       .def("states", states, "actions"_a, docs::logic::states)
       .def_prop_ro(
           "status", [](const PyPlanSearch& s) { return s.search->status(); },
-          "How the last next() ended, a PlanSearch.Status.")
+          "How the last next() ended, a PlanSearchStatus.")
       .def_prop_ro(
           "expansions", [](const PyPlanSearch& s) { return s.search->expansions(); }, "States expanded so far.")
       .def_prop_ro(

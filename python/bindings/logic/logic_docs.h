@@ -95,7 +95,7 @@ inline constexpr char next[] = R"(Returns the next plan.
 
 Returns:
     A list of actions, each a list of words: its name and the values of its variables. None if there is no further plan
-    (Status.exhausted, a proof), or if the search reached its limit (Status.limit).
+    (PlanSearchStatus.exhausted, a proof), or if the search reached its limit (PlanSearchStatus.limit).
 Raises:
     KeyboardInterrupt: Ctrl-C was pressed.)";
 

@@ -54,7 +54,7 @@ def same(o, e):
 def test_the_first_plan_that_is_feasible_is_as_long_as_that_of_the_reference(name):
     C, tamp, _ = tool(name)
     lgp = robotic.LGP_Tool(C, tamp)
-    assert lgp.solve(verbose=0) and lgp.status == "solved"
+    assert lgp.solve(verbose=0) and lgp.status == ry.LgpStatus.solved
     assert len(lgp.getSolvedPlan()) == len(RECORDED[name]["plan"])
     assert lgp.getSolvedKOMO().getT() == len(lgp.getSolvedPlan())
 
@@ -319,7 +319,7 @@ def test_an_action_of_ones_own_that_takes_something_along():
     assert lgp.getSolvedKOMO().getConfiguration(0).getFrame("blue").getParent().name == "mine_1"
     assert lgp.solveFullMotion(0).feasible
     assert lgp.get_fullMotionProblem().getT() == 120 and tamp.seen == (30, False)
-    assert tamp.domain.actions[0] == "pick_touch" and tamp.search.status == ry.PlanSearch.Status.found
+    assert tamp.domain.actions[0] == "pick_touch" and tamp.search.status == ry.PlanSearchStatus.found
 
 
 def test_functions_of_ones_own_in_problems_are_called_from_threads_too():
