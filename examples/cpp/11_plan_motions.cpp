@@ -1,4 +1,4 @@
-// Motions from A to B, free of collisions at all times. Where there is none, planMotion says why.
+// Collision-free motions to a goal. If there is none, planMotion says why.
 #include <kinegraph/kinegraph.h>
 
 #include <iostream>
@@ -35,10 +35,10 @@ int main() try {
   const MotionPlan around = planMotion(C, goal, {.margin = .01}, start);
   std::cout << around.explain() << "\n";
   if (!around.feasible() || around.clearance() < .0099) return 1;
-  const Config picture = around.picture(C);  // with the trees, the way as it was found, and the path, as lines
+  const Config picture = around.picture(C);  // with the trees, the raw path and the path as lines
   std::cout << picture.getFrames().size() - C.getFrames().size() << " frames of lines\n";
 
-  // To where the gripper is at a place: several postures are goals at once.
+  // To a position of the gripper: several configurations are goals.
   const MotionPlan reach = planMotion(C, MotionGoal({IkTarget::toPosition("l_gripper", {.35, .3, 1.})}), {}, start);
   std::cout << reach.str() << "\n";
   if (!reach.feasible()) return 1;
