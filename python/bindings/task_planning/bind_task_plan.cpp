@@ -7,6 +7,7 @@
 #include "kinegraph/api/task_execution.h"
 #include "kinegraph/api/task_view.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/logic/fol_reader.h"
 #include "python_names.h"
 #include "robot/robot_objects.h"
 #include "task_planning/task_objects.h"
@@ -22,7 +23,8 @@ using TimedStates = nb::typed<nb::tuple, Array, Array, Array, Array>;
 PyConfig copyOf(const Config& C) { return PyConfig{Config(C), nullptr}; }
 
 void makePlan(PyTaskPlan* self, const std::vector<TaskAction>& actions, const Numbers& path, const Numbers& times,
-              const std::vector<nb::slice>& segments, const std::optional<Numbers>& limits) {
+              const std::vector<nb::slice>& segments, const std::optional<Numbers>& limits,
+              const std::vector<std::string>& goal, const std::vector<std::string>& start) {
   PyTaskPlan plan;
   plan.status = TaskStatus::solved;
   plan.actions = actions;
@@ -34,6 +36,8 @@ void makePlan(PyTaskPlan* self, const std::vector<TaskAction>& actions, const Nu
     if (step != 1) throw ValueError(cat("TaskPlan: a segment has step ", step, "; expected consecutive rows"));
     plan.segments.push_back({Eigen::Index(begin), Eigen::Index(end)});
   }
+  plan.goal = readLiterals(join(goal, " "), "goal");
+  plan.start = readLiterals(join(start, " "), "start");
   plan.requireMotion("__init__");
   new (self) PyTaskPlan(std::move(plan));
 }
@@ -179,7 +183,7 @@ void bindTaskPlan(nb::module_& m) {
       });
   nb::class_<PyTaskPlan> plan(m, "TaskPlan", docs::type);
   plan.def("__init__", makePlan, "actions"_a, "path"_a, "times"_a, "segments"_a, nb::kw_only(), "limits"_a = nb::none(),
-           docs::make);
+           "goal"_a = std::vector<std::string>(), "start"_a = std::vector<std::string>(), docs::make);
   bindPlanFields(plan);
   plan.def("eval", eval, "t"_a, docs::eval)
       .def("sample", sample, "rate"_a, docs::sample)

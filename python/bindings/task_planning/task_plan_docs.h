@@ -19,8 +19,12 @@ Args:
     times: Shape (T,), s.
     segments: The rows of path of each action, a slice each.
     limits: Velocity and acceleration limits, shape (2, n); None: not checked.
+    goal: Literals that shall hold, as those of TaskPlan.goal.
+    start: Literals that hold initially, as those of TaskPlan.start. They name hands and objects: without them, carried
+        objects are not checked.
 Raises:
-    ArgumentError: The path is empty, the number of times differs from that of rows, or a segment has a step.)";
+    ArgumentError: The path is empty, the number of times differs from that of rows, or a segment has a step.
+    ParseError: A literal is invalid.)";
 
 inline constexpr char eval[] = R"(Returns the state of the motion at one or several times.
 

@@ -55,7 +55,7 @@ def test_a_tray_is_carried_with_what_stands_on_it_level_and_slowly() -> None:
     plan = ry.planTask(problem.C, problem.goal)
     assert [a[0] for a in plan.actions[:2]] == ["lift", "place"] and len(plan.actions) == problem.least
     assert plan.frames(problem.C, 10.0).shape == (round(10 * plan.duration), problem.C.getFrameDimension(), 7)
-    hasty = ry.TaskPlan(plan.actions, plan.path, 0.5 * plan.times, plan.segments)
+    hasty = ry.TaskPlan(plan.actions, plan.path, 0.5 * plan.times, plan.segments, start=plan.start)
     assert any("'cup0' is accelerated too much for what carries it" in w for w in ry.checkTaskPlan(problem.C, hasty))
 
 
