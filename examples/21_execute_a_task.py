@@ -17,7 +17,7 @@ for name, at, color in (
 
 plan = ry.planTask(C, "(on green red) (on blue green)")
 print(plan)
-print(f"{plan.duration:.1f} s; after 1 s the arm is at", np.round(plan.at(1.0), 2))
+print(f"{plan.duration:.1f} s; after 1 s the arm is at", np.round(plan.eval(1.0)[0], 2))
 
 world = C.copy()  # in the robot's world, one cube differs from the plan
 world.getFrame("blue").setRelativePosition([0.1, 0.37, 0.075])

@@ -18,8 +18,8 @@ int main() try {
   const TaskPlan plan = planTask(C, "(on tray cup) (on table jug)");
   std::cout << plan.str() << "\n";
   if (!plan.feasible()) return 1;
-  Config end = plan.scenes.back();  // with the finally held object attached
-  end.setJointState(plan.at(plan.duration()));
+  Config end = plan.scenes.back();  // with what is held at last attached
+  end.setJointState(plan.eval(plan.duration()).q);
   end.view(true, "the cup is on the tray");
   const std::vector<std::string> wrong = checkTaskPlan(C, plan);
 

@@ -18,7 +18,7 @@ int main() try {
 
   TaskPlan plan = planTask(C, "(on green red) (on blue green)");
   std::cout << plan.str() << "\n";
-  std::cout << plan.duration() << " s; after 1 s the arm is at " << plan.at(1.).transpose() << "\n";
+  std::cout << plan.duration() << " s; after 1 s the arm is at " << plan.eval(1.).q.transpose() << "\n";
 
   Config world = C;  // in the robot's world, one cube differs from the plan
   world.getFrame("blue").setRelativePosition({.1, .37, .075});

@@ -49,6 +49,7 @@ from ._core import (
     KinematicDriver,
     LGP_TAMP_Abstraction,
     LGP_Tool,
+    LgpStatus,
     LogicProblem,
     LoopMode,
     MotionConstraint,
@@ -65,6 +66,7 @@ from ._core import (
     PathContact,
     PathReturn,
     PlanSearch,
+    PlanSearchStatus,
     PlanStatus,
     RecordedDriver,
     RetimeStatus,
@@ -91,8 +93,12 @@ from ._core import (
     SplineTrajectory,
     StepObservation,
     TargetFile,
+    TaskBranch,
     TaskExecution,
+    TaskPlan,
+    TaskPlans,
     TaskRule,
+    TaskStatus,
     TaskWaypoints,
     TimedPath,
     Trajectory,
@@ -104,6 +110,8 @@ from ._core import (
     doorStates,
     planMotion,
     planMotions,
+    planTask,
+    planTasks,
     retime,
     sceneFacts,
     servo,
@@ -165,8 +173,6 @@ if _TYPE_CHECKING:
     from .problems import get_NLP_Problem_names, make_NLP_Problem
     from .quaternion import Quaternion
     from .reachable import reachability
-    from .task_plan import TaskPlan
-    from .tasks import planTask, planTasks
 
 _LAZY = {  # module: names
     "aruco": ("getArucoImage",),
@@ -188,8 +194,6 @@ _LAZY = {  # module: names
     "problems": ("get_NLP_Problem_names", "make_NLP_Problem"),
     "quaternion": ("Quaternion",),
     "reachable": ("reachability",),
-    "task_plan": ("TaskPlan",),
-    "tasks": ("planTask", "planTasks"),
 }
 _MODULE_OF = {name: module for module, names in _LAZY.items() for name in names}
 
@@ -271,6 +275,7 @@ __all__ = [
     "KinematicDriver",
     "LGP_TAMP_Abstraction",
     "LGP_Tool",
+    "LgpStatus",
     "LogicProblem",
     "LoopMode",
     "ManipulationModelling",
@@ -296,6 +301,7 @@ __all__ = [
     "PathFinder",
     "PathReturn",
     "PlanSearch",
+    "PlanSearchStatus",
     "PlanStatus",
     "Quaternion",
     "RRT_PathFinder",
@@ -324,9 +330,12 @@ __all__ = [
     "SplineTrajectory",
     "StepObservation",
     "TargetFile",
+    "TaskBranch",
     "TaskExecution",
     "TaskPlan",
+    "TaskPlans",
     "TaskRule",
+    "TaskStatus",
     "TaskWaypoints",
     "TimedPath",
     "Trajectory",

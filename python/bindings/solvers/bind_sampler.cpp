@@ -37,7 +37,7 @@ const OptionClass<SamplerOptions>& samplerOptions() {
   return options;
 }
 
-PySampler& setOptions(PySampler& self, nb::kwargs given) {
+PySampler& setSamplerOptions(PySampler& self, nb::kwargs given) {
   samplerOptions().setFields(self.sampler.options, given);
   return self;
 }
@@ -60,7 +60,7 @@ void bindSampler(nb::module_& m) {
                         "downhill to the constraints,\n"
                         "and then makes interior steps within them.")
       .def(nb::init<std::shared_ptr<Nlp>>(), "problem"_a, docs::sampler::make)
-      .def("setOptions", setOptions, "options"_a, nb::rv_policy::none, set_options_doc.c_str())
+      .def("setOptions", setSamplerOptions, "options"_a, nb::rv_policy::none, set_options_doc.c_str())
       .def(
           "getOptions", [](const PySampler& s) { return Attributes(samplerOptions().dict(s.sampler.options)); },
           "All options as a dict.")

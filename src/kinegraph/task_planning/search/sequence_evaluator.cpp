@@ -1,4 +1,4 @@
-#include "kinegraph/task_planning/search/task_trials.h"
+#include "kinegraph/task_planning/search/sequence_evaluator.h"
 
 #include <algorithm>
 #include <atomic>
@@ -8,44 +8,44 @@
 
 namespace kinegraph {
 
-TaskTrials::TaskTrials(SpeculativeExecutor& ahead, const TaskAttempt::Settings& settings,
-                       std::shared_ptr<const Config> scene, std::shared_ptr<const Config> given, MatrixXd limits,
-                       std::vector<Literal> goal, std::vector<Literal> start)
-    : ahead_(ahead),
+SequenceEvaluator::SequenceEvaluator(SpeculativeExecutor& executor, const WaypointSolver::Settings& settings,
+                                     std::shared_ptr<const Config> scene, std::shared_ptr<const Config> original,
+                                     MatrixXd limits, std::vector<Literal> goal, std::vector<Literal> start)
+    : executor_(executor),
       settings_(settings),
       scene_(std::move(scene)),
-      given_(std::move(given)),
+      original_(std::move(original)),
       limits_(std::move(limits)),
       goal_(std::move(goal)),
       start_(std::move(start)),
-      motions_(ahead, limits_, start_, settings.seed) {}
+      motions_(executor, limits_, start_, settings.seed) {}
 
-TaskTrials::Outcome TaskTrials::run(const Order& order, const CancellationToken& stopped) const {
+SequenceEvaluator::Outcome SequenceEvaluator::evaluate(const Request& request, const CancellationToken& stopped) const {
   Outcome outcome;
-  TaskAttempt::Found found;
+  WaypointSolver::Result found;
   {
-    TaskAttempt attempt(ahead_, settings_, scene_, order.actions, order.seed, stopped);
-    found = attempt.find(order.wanted, order.at_first_failure);
+    WaypointSolver solver(executor_, settings_, scene_, request.actions, request.seed, stopped);
+    found = solver.solve(request.priority, request.at_first_failure);
   }
   outcome.evaluations = found.evaluations;
-  outcome.cause = found.cause;
+  outcome.waypoint_failure = found.failure;
   if (!found.waypoints) return outcome;
   const Config C = *scene_;  // a thread's own
   const auto parts = std::make_shared<const Motions>(motionsBetween(C, *found.waypoints));
-  const std::vector<TimedRows> rows = moved(C, parts, order.wanted, stopped, outcome);
-  if (outcome.failure) return outcome;
-  TaskPlan plan = planOf(C, *found.waypoints, rows);
+  const std::vector<TimedRows> rows = planMotions(C, parts, request.priority, stopped, outcome);
+  if (outcome.motion_failure) return outcome;
+  TaskPlan plan = assemble(C, *found.waypoints, rows);
   for (const Motion& motion : *parts) plan.scenes.push_back(motion.part.config);
-  plan.violations = checkTaskPlan(Config(*given_), plan, order.states);
+  plan.violations = checkTaskPlan(Config(*original_), plan, request.states);
   if (plan.violations.empty())
     outcome.plan = std::move(plan);
   else
-    outcome.failure = TaskFailure{plan.violations[0], nullptr};
+    outcome.motion_failure = TaskFailure{plan.violations[0], nullptr};
   return outcome;
 }
 
-/// What moves between waypoints, from rest to rest.
-TaskTrials::Motions TaskTrials::motionsBetween(const Config& C, const TaskWaypoints& waypoints) const {
+/// The motion problems between consecutive waypoints, each from rest to rest.
+SequenceEvaluator::Motions SequenceEvaluator::motionsBetween(const Config& C, const TaskWaypoints& waypoints) const {
   const std::vector<TaskAction>& actions = waypoints.actions;
   const MatrixXd settled = withSettledDoors(C, actions, waypoints.m->komo->getPath());
   Motions motions;
@@ -61,16 +61,17 @@ TaskTrials::Motions TaskTrials::motionsBetween(const Config& C, const TaskWaypoi
   return motions;
 }
 
-/// The motions of all actions; up to the first for which there is none, which the outcome then tells.
-std::vector<TimedRows> TaskTrials::moved(const Config& C, const std::shared_ptr<const Motions>& parts, Priority wanted,
-                                         const CancellationToken& stopped, Outcome& outcome) const {
+/// Plans the motions of the actions, up to the first that fails; `outcome` then has its failure.
+std::vector<TimedRows> SequenceEvaluator::planMotions(const Config& C, const std::shared_ptr<const Motions>& parts,
+                                                      Priority priority, const CancellationToken& stopped,
+                                                      Outcome& outcome) const {
   std::vector<Speculative<TaskMotions::Found>> later;
-  const auto left = std::make_shared<std::atomic<int>>(int(parts->size()));  // motions that nobody has ended yet
-  const std::function<int()> threads = [left, most = wanted == Priority::surely ? settings_.threads : 1] {
+  const auto left = std::make_shared<std::atomic<int>>(int(parts->size()));  // motions that are not planned yet
+  const std::function<int()> threads = [left, most = priority == Priority::surely ? settings_.threads : 1] {
     return std::max(most + 1 - *left, 1);
   };
   for (std::size_t i = 0; i < parts->size(); ++i) {
-    later.push_back(ahead_.later<TaskMotions::Found>(
+    later.push_back(executor_.later<TaskMotions::Found>(
         [motions = motions_, parts, i, stopped, left, threads](const CancellationToken& unwanted) {
           const Motion& motion = (*parts)[i];
           TaskMotions::Found found = motions.between(
@@ -79,10 +80,10 @@ std::vector<TimedRows> TaskTrials::moved(const Config& C, const std::shared_ptr<
           --*left;
           return found;
         }));
-    later.back().begin(wanted);
+    later.back().begin(priority);
   }
   std::vector<TimedRows> rows;
-  for (std::size_t i = 0; i < parts->size() && !outcome.failure; ++i) {
+  for (std::size_t i = 0; i < parts->size() && !outcome.motion_failure; ++i) {
     TaskMotions::Found& found = later[i].get();
     outcome.evaluations += found.evaluations;
     if (found.motion) {
@@ -90,19 +91,19 @@ std::vector<TimedRows> TaskTrials::moved(const Config& C, const std::shared_ptr<
       continue;
     }
     const Motion& motion = (*parts)[i];
-    Config ghost = motion.part.config;
-    ghost.setJointState(motion.part.end);
-    outcome.failure =
-        TaskFailure{cat(planText({motion.action}), ": ", found.why), std::make_shared<const Config>(std::move(ghost)),
-                    i, shutBy(C, motion, stopped, outcome)};
+    Config end = motion.part.config;
+    end.setJointState(motion.part.end);
+    outcome.motion_failure =
+        TaskFailure{cat(planText({motion.action}), ": ", found.cause), std::make_shared<const Config>(std::move(end)),
+                    i, blockingDoors(C, motion, stopped, outcome)};
   }
   return rows;
 }
 
-/// Facts about doors that are not open and shut off what an action has to do: that is in one of them, or has a motion
-/// where they are not.
-std::vector<Literal> TaskTrials::shutBy(const Config& C, const Motion& motion, const CancellationToken& stopped,
-                                        Outcome& outcome) const {
+/// Facts about doors that are not open and block a motion: the action moves a part of the door, or the motion exists in
+/// a scene in which those doors do not collide.
+std::vector<Literal> SequenceEvaluator::blockingDoors(const Config& C, const Motion& motion,
+                                                      const CancellationToken& stopped, Outcome& outcome) const {
   if (isHold(motion.action) || isGuided(motion.action)) return {};
   std::vector<Literal> shut;
   Config scene = motion.part.config;
@@ -122,7 +123,8 @@ std::vector<Literal> TaskTrials::shutBy(const Config& C, const Motion& motion, c
   return found.motion ? shut : std::vector<Literal>();
 }
 
-TaskPlan TaskTrials::planOf(const Config& C, const TaskWaypoints& waypoints, const std::vector<TimedRows>& rows) const {
+TaskPlan SequenceEvaluator::assemble(const Config& C, const TaskWaypoints& waypoints,
+                                     const std::vector<TimedRows>& rows) const {
   TaskPlan plan;
   plan.status = TaskStatus::solved;
   plan.goal = goal_;
@@ -144,8 +146,6 @@ TaskPlan TaskTrials::planOf(const Config& C, const TaskWaypoints& waypoints, con
     row += size;
     begins += motion.times[size - 1];
   }
-  plan.message = cat(rows.size(), " actions, ", fixed(begins, 2),
-                     " s; checked: logic, motions free to 1 mm at all times, limits, grasps, placements, support");
   for (std::size_t i = 0; i < plan.actions.size(); ++i) {
     const Config scene = waypoints.m->komo->configuration(int(i));
     const std::optional<Frame> obj = scene.findFrame(objectOf(plan.actions[i]));
