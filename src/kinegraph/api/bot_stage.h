@@ -15,9 +15,10 @@ std::vector<ShownRun::Contact> shownContacts(const std::vector<Contact>& contact
 /// Where people see what a BotOp moves: the page of the configuration that was synced last, if it is open.
 class BotStage {
  public:
-  /// At first, the page of the configuration that the BotOp is made from. `stop` is asked while the page is drawn.
-  BotStage(std::weak_ptr<ConfigViewer> viewer, ConfigViewer::Stop stop)
-      : viewer_(std::move(viewer)), stop_(std::move(stop)) {}
+  /// At first, the page of the configuration that the BotOp is made from. `cancellation` is asked while the page is
+  /// drawn.
+  BotStage(std::weak_ptr<ConfigViewer> viewer, CancellationToken cancellation)
+      : viewer_(std::move(viewer)), cancellation_(std::move(cancellation)) {}
   ~BotStage();  ///< contacts are shown no longer
   BotStage(const BotStage&) = delete;
 
@@ -27,7 +28,7 @@ class BotStage {
 
  private:
   std::weak_ptr<ConfigViewer> viewer_;
-  ConfigViewer::Stop stop_;
+  CancellationToken cancellation_;
 };
 
 }  // namespace kinegraph

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -8,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/logic/landmark_cut.h"
 
 namespace kinegraph {
@@ -26,8 +26,8 @@ class PlanSearch {
     cancelled,
   };
   struct Options {
-    long most_expansions = 2000000;      ///< states that are expanded in all
-    std::function<bool()> keep_going{};  ///< asked now and then; false ends `next` with `cancelled`
+    long most_expansions = 2000000;    ///< states that are expanded in all
+    CancellationToken cancellation{};  ///< ends `next` with `cancelled`
   };
 
   explicit PlanSearch(GroundProblem ground);

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/scene/config.h"
 #include "kinegraph/viewer/scene_edits.h"
 #include "kinegraph/viewer/scene_items.h"
@@ -15,16 +16,15 @@ class ConfigViewer {
  public:
   explicit ConfigViewer(ViewerOptions options = {}) : options_(std::move(options)) {}
 
-  using Stop = std::function<bool()>;  ///< asked while waiting; true ends it; it may throw
-
   /// Takes over what people have changed in browsers (see `takeEdits`), and shows the configuration as it is then.
   /// Returns the key pressed since the last call, or 0. With `pause`, waits for a new key: in the browser, or Enter on
   /// the terminal. Nothing waits where KINEGRAPH_HEADLESS is set, or for more than 5 s in which no browser is
   /// connected; at a terminal or over ssh, though, for as long as none has been there.
-  int view(Config& config, bool pause, const std::optional<std::string>& message, const Stop& stop);
+  int view(Config& config, bool pause, const std::optional<std::string>& message,
+           const CancellationToken& cancellation);
 
   /// Shows a message, and waits for a key with `pause`, as view does. Changes nothing else.
-  int wait(bool pause, const std::optional<std::string>& message, const Stop& stop);
+  int wait(bool pause, const std::optional<std::string>& message, const CancellationToken& cancellation);
 
   /// Shows, without looking at keys and edits.
   void update(const Config& config);
@@ -42,7 +42,7 @@ class ConfigViewer {
   /// Shows a motion of the configuration, with a time slider. Waits until it has been played once, if it plays by
   /// itself, then, with `pause`, for a key; a key ends both. Waits as view does. Returns the key, or 0.
   int showMotion(const Config& config, const ShownMotion& motion, bool pause, const std::optional<std::string>& message,
-                 const Stop& stop);
+                 const CancellationToken& cancellation);
 
   /// Shows a text in the corner of the page, which starts if it does not run.
   void setMessage(const std::string& text);
@@ -73,8 +73,8 @@ class ConfigViewer {
 
  private:
   /// Shows the message with a request for a key, and waits for one.
-  int ask(const std::optional<std::string>& message, const Stop& stop);
-  int waitKey(const std::string& prompt, const Stop& stop);
+  int ask(const std::optional<std::string>& message, const CancellationToken& cancellation);
+  int waitKey(const std::string& prompt, const CancellationToken& cancellation);
   void remember(const std::string& text);
 
   ViewerOptions options_;

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/geometry/shapes/geometry.h"
 #include "kinegraph/viewer/messages/commands.h"
 #include "kinegraph/viewer/messages/look.h"
@@ -122,8 +123,8 @@ class ViewerServer {
   int takeKey();
 
   /// Waits for a key that is pressed without Shift, Ctrl and Alt, and that is not the arrow to the left or right, which
-  /// step through motions. Returns 0 as soon as `stop` (asked every 20 ms) says so.
-  int waitKey(const std::function<bool()>& stop);
+  /// step through motions. Returns 0 as soon as `cancellation` (asked every 20 ms) says so.
+  int waitKey(const CancellationToken& cancellation);
 
   /// Browsers send events from now on; with `instead`, mouse and keys do nothing else on the page.
   void requestEvents(bool instead);

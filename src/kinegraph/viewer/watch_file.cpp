@@ -41,7 +41,7 @@ Reading readScene(const std::string& path) {
 }  // namespace
 
 void watchFile(Config& config, ConfigViewer& viewer, const std::string& path,
-               const std::function<void(const std::string&)>& report, const std::function<bool()>& stop) {
+               const std::function<void(const std::string&)>& report, const CancellationToken& cancellation) {
   FileChanges changes;
   const auto load = [&] {
     Reading reading = readScene(path);
@@ -66,9 +66,9 @@ void watchFile(Config& config, ConfigViewer& viewer, const std::string& path,
   changes.setRead({{path, {}}});  // as if it had been missing so far
   load();
   viewer.server().cursor();  // so that browsers tell where the pointer is
-  WatchKeys keys(config, viewer, report, stop);
+  WatchKeys keys(config, viewer, report, cancellation);
   viewer.server().requestDigits(true);
-  while (viewer.waits() && !stop()) {
+  while (viewer.waits() && !cancellation()) {
     if (viewer.takeEdits(config)) viewer.update(config);
     keys.logEvents();
     const int key = viewer.takeKey();

@@ -110,7 +110,7 @@ TaskAttempt::TaskAttempt(SpeculativeExecutor& ahead, const Settings& settings, s
     const Rng rng(combined({settings.seed, std::uint64_t(seed), problem_->actions.size(), std::uint64_t(i)}));
     choices_.push_back(std::make_shared<Choice>(variants[i], rng));
     for (std::size_t start = 0; start < kStarts; ++start)
-      starts_.push_back(ahead.later<Start>([problem = problem_, choice = choices_.back(), start,
+      starts_.push_back(ahead.defer<Start>([problem = problem_, choice = choices_.back(), start,
                                             number = int(starts_.size())](const CancellationToken& stopped) {
         return solve(*problem, *choice, start, number, stopped);
       }));
@@ -146,7 +146,7 @@ TaskAttempt::Start TaskAttempt::solve(const Problem& problem, Choice& choice, st
 
 TaskAttempt::Found TaskAttempt::find(Priority wanted, const std::function<void()>& at_first_failure) {
   Found found;
-  begin(wanted, std::max(wanted, Priority::likely));
+  begin(wanted, std::max(wanted, Priority::normal));
   VectorXd first;  // where the first start ended
   for (std::size_t i = 0; i < starts_.size(); ++i) {
     if (i > 0 && problem_->isLate()) break;
@@ -173,11 +173,11 @@ TaskAttempt::Found TaskAttempt::find(Priority wanted, const std::function<void()
 TaskCause TaskAttempt::causeOf(VectorXd x) const {
   const std::string text = planText({problem_->actions.back()});
   if (choices_.empty())
-    return std::make_shared<TaskCause::element_type>(ahead_.later<TaskFailure>([text](const CancellationToken&) {
+    return std::make_shared<TaskCause::element_type>(ahead_.defer<TaskFailure>([text](const CancellationToken&) {
       return TaskFailure{cat(text, ": the hand cannot hold it"), nullptr};
     }));
   return std::make_shared<TaskCause::element_type>(
-      ahead_.later<TaskFailure>([text, choice = choices_[0], slice = int(problem_->actions.size()) - 1,
+      ahead_.defer<TaskFailure>([text, choice = choices_[0], slice = int(problem_->actions.size()) - 1,
                                  x = std::move(x)](const CancellationToken& stopped) {
         const std::scoped_lock lock(choice->mutex);
         const std::shared_ptr<Komo>& komo = choice->waypoints->m->komo;

@@ -52,7 +52,7 @@ class TaskAttempt {
   };
 
   /// `at_first_failure` is called when the first start has led nowhere.
-  Found find(Priority wanted = Priority::surely, const std::function<void()>& at_first_failure = {});
+  Found find(Priority wanted = Priority::high, const std::function<void()>& at_first_failure = {});
 
  private:
   struct Problem;

@@ -52,12 +52,12 @@ void TaskSearch::conclude(const Trial& trial) {
 
 TaskCause TaskSearch::causeOf(const TaskFailure& failure) {
   return std::make_shared<TaskCause::element_type>(
-      ahead_.later<TaskFailure>([failure](const CancellationToken&) { return failure; }));
+      ahead_.defer<TaskFailure>([failure](const CancellationToken&) { return failure; }));
 }
 
 void TaskSearch::giveUp(const Actions& actions, const std::string& words, TaskCause cause) {
   guessed_ = true;
-  cause->begin(Priority::likely);
+  cause->begin(Priority::normal);
   branches_.push_back({actions, words, std::move(cause), true});
 }
 
@@ -67,7 +67,7 @@ void TaskSearch::forbidFailing(const Actions& actions) {
     return Actions(actions.begin(), actions.begin() + std::ptrdiff_t(count));
   };
   std::size_t count = 1;
-  expectAll(unknownBeginnings(actions), Priority::likely);
+  expectAll(unknownBeginnings(actions), Priority::normal);
   while (count < actions.size() && !failureOf(first(count))) ++count;
   const Actions beginning = first(count);
   expectNothing();

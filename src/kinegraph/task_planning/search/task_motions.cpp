@@ -185,7 +185,7 @@ TaskMotions::Found TaskMotions::among(const Config& C, const VectorXd& q0, const
     if (configurations.size() + tail.size() > 2) {
       const MotionPlan found = way(C, configurations.back(), tail.back(), {}, [&] {
         direct = pathSpeculatively(C, q0, q1);
-        direct.begin(Priority::likely);
+        direct.begin(Priority::normal);
       });
       if (found.feasible()) {
         for (Eigen::Index i = 0; i < found.path.rows(); ++i) configurations.push_back(found.path.row(i));
@@ -260,7 +260,7 @@ MotionPlan TaskMotions::way(const Config& C, const VectorXd& start, const Vector
 /// The same, on another thread if one is free.
 Speculative<TaskMotions::Way> TaskMotions::pathSpeculatively(const Config& C, const VectorXd& start,
                                                              const VectorXd& goal) const {
-  return ahead_.later<Way>([motions = *this, scene = std::make_shared<const Config>(C), start,
+  return ahead_.defer<Way>([motions = *this, scene = std::make_shared<const Config>(C), start,
                             goal](const CancellationToken& stopped) mutable {
     motions.evaluations_ = 0;
     motions.threads_ = [] { return 1; };

@@ -91,13 +91,13 @@ void TaskSearch::begin(std::vector<Literal> start) {
   problem_.start.insert(problem_.start.end(), start_.begin(), start_.end());
   trials_ = std::make_shared<const TaskTrials>(ahead_, settings_, scene_, given_, limits_, goal_, start_);
   PlanSearch::Options limits;
-  limits.keep_going = [this] {
+  limits.cancellation = [this] {
     try {
       options_.cancellation.check();
     } catch (...) {
       interruption_ = std::current_exception();
     }
-    return !interruption_;
+    return bool(interruption_);
   };
   search_ = std::make_unique<PlanSearch>(ground(problem_), limits);
 }
@@ -155,11 +155,11 @@ std::optional<TaskPlan> TaskSearch::next() {
   struct Rest {  // nobody works while nobody waits
     TaskSearch& search;
     ~Rest() {
-      search.ahead_.rest();
+      search.ahead_.cancelAll();
       search.expectNothing();
     }
   };
-  ahead_.rest();
+  ahead_.cancelAll();
   const Rest rest{*this};
   return nextPlan();
 }
@@ -232,7 +232,7 @@ void TaskSearch::expect(const Actions& actions, const Circumstances& there, Prio
   auto known = expected_.find({actions, there});
   if (known == expected_.end())
     known = expected_.try_emplace({actions, there}, ahead_, settings_, sceneIn(there), actions, 0).first;
-  known->second.begin(first, Priority::maybe);
+  known->second.begin(first, Priority::low);
 }
 
 void TaskSearch::expectAll(const std::vector<Actions>& all, Priority first) {
@@ -282,8 +282,8 @@ bool TaskSearch::isKnownToFail(const Actions& actions) const {
 Speculative<TaskTrials::Outcome> TaskSearch::outcomeOf(const Trial& trial, int seed, Priority wanted) {
   TaskTrials::Order order{trial.actions, trial.states, seed, wanted};
   if (seed == 0)
-    order.at_first_failure = [this, all = unknownBeginnings(trial.actions)] { expectAll(all, Priority::maybe); };
-  return ahead_.later<TaskTrials::Outcome>(
+    order.at_first_failure = [this, all = unknownBeginnings(trial.actions)] { expectAll(all, Priority::low); };
+  return ahead_.defer<TaskTrials::Outcome>(
       [trials = trials_, order = std::move(order)](const CancellationToken& stopped) {
         return trials->run(order, stopped);
       });
@@ -296,12 +296,12 @@ std::optional<TaskPlan> TaskSearch::nextOf(Trial& trial) {
   while (trial.seed < seeds()) {
     const int seed = trial.seed++;
     if (seed == 0 && isKnownToFail(trial.actions)) break;
-    if (!later.contains(seed)) later[seed] = outcomeOf(trial, seed, Priority::surely);
+    if (!later.contains(seed)) later[seed] = outcomeOf(trial, seed, Priority::high);
     const int ahead = trial.found || needs_seeds_ ? options_.threads - 1 : 0;
     for (int next = seed + 1; next <= std::min(seed + ahead, seeds() - 1); ++next) {
       if (later.contains(next)) continue;
-      later[next] = outcomeOf(trial, next, Priority::maybe);
-      later[next].begin(Priority::maybe);
+      later[next] = outcomeOf(trial, next, Priority::low);
+      later[next].begin(Priority::low);
     }
     TaskTrials::Outcome& outcome = later[seed].get();
     evaluations_ += outcome.evaluations;

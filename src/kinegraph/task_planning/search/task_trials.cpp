@@ -66,11 +66,11 @@ std::vector<TimedRows> TaskTrials::moved(const Config& C, const std::shared_ptr<
                                          const CancellationToken& stopped, Outcome& outcome) const {
   std::vector<Speculative<TaskMotions::Found>> later;
   const auto left = std::make_shared<std::atomic<int>>(int(parts->size()));  // motions that nobody has ended yet
-  const std::function<int()> threads = [left, most = wanted == Priority::surely ? settings_.threads : 1] {
+  const std::function<int()> threads = [left, most = wanted == Priority::high ? settings_.threads : 1] {
     return std::max(most + 1 - *left, 1);
   };
   for (std::size_t i = 0; i < parts->size(); ++i) {
-    later.push_back(ahead_.later<TaskMotions::Found>(
+    later.push_back(ahead_.defer<TaskMotions::Found>(
         [motions = motions_, parts, i, stopped, left, threads](const CancellationToken& unwanted) {
           const Motion& motion = (*parts)[i];
           TaskMotions::Found found = motions.between(

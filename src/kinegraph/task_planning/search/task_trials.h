@@ -28,7 +28,7 @@ class TaskTrials {
     std::vector<TaskAction> actions;
     std::vector<std::vector<Literal>> states;  ///< along them
     int seed = 0;
-    Priority wanted = Priority::surely;
+    Priority wanted = Priority::high;
     std::function<void()> at_first_failure = {};  ///< called once the first start has led to no waypoints
   };
   struct Outcome {
