@@ -58,7 +58,7 @@ BELOW: dict[str, list[str]] = {
     "komo/path": [*_SCENE, "features", "nlp"],
     "komo/collision": [*_SCENE, "features", "nlp", "komo/path"],
     "komo": [*_SCENE, "features", "nlp", "komo/path", "komo/collision"],
-    "control": _PROBLEMS,
+    "control": [*_PROBLEMS, "trajectories"],
     "trajectory_optimization": [*_PROBLEMS, "trajectories"],
     "planning/steering": [*_SCENE, "features", "nlp"],
     "planning/search": [*_SCENE, "features", "nlp", "planning/steering"],

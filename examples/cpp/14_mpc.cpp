@@ -1,4 +1,4 @@
-// A receding horizon drives a simulated Panda, which follows a target and takes up a push: one step of the solver a call.
+// Model predictive control of a simulated Panda, which follows a target and recovers from a push: one solver step per call.
 #include <kinegraph/kinegraph.h>
 
 #include <cmath>
@@ -9,7 +9,7 @@ using namespace kinegraph;
 int main() try {
   constexpr double tau = .05;
   constexpr int slices = 20;
-  Config M;  // what the planner knows
+  Config M;  // model of the planner
   M.addFile(modelPath("scenarios/pandaSingle.g"));
   M.addFrame("target").setPose(M.getFrame("l_gripper").getPose());
   const Vector3d start = M.getFrame("l_gripper").getPosition();
@@ -22,7 +22,7 @@ int main() try {
   komo.addObjective({}, FS::poseDiff, {"l_gripper", "target"}, OT::sos, 10.);
   Mpc mpc(komo, {.evaluations = 2});
 
-  Config C;  // what is simulated
+  Config C;  // simulated world
   C.addFile(modelPath("scenarios/pandaSingle.g"));
   Simulation S(C);
   MatrixXd ahead(slices, 3);
