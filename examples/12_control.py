@@ -24,7 +24,7 @@ def main() -> None:
     target.setPosition(start - [0, 0, 1])  # below the table
     for _ in range(600):
         ik.step(0.005)
-    print("held back by:", *ik.active, sep="\n    ")
+    print("restricted by:", *ik.active, sep="\n    ")
     print(f"overlap: {C.coll_totalViolation():.4f} m")
 
 

@@ -59,7 +59,7 @@ BELOW: dict[str, list[str]] = {
     "komo/path": [*_SCENE, "features", "nlp"],
     "komo/collision": [*_SCENE, "features", "nlp", "rrt", "komo/path"],
     "komo": [*_SCENE, "features", "nlp", "komo/path", "komo/collision"],
-    "control": _PROBLEMS,
+    "control": [*_PROBLEMS, "trajectories"],
     "trajectory_optimization": [*_PROBLEMS, "trajectories"],
     "planning/steering": [*_SCENE, "features", "nlp", "rrt"],
     "planning/search": [*_SCENE, "features", "nlp", "rrt", "planning/steering"],

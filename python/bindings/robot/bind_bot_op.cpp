@@ -8,7 +8,7 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "kinegraph/api/bot_stage.h"
-#include "kinegraph/common/interrupt_watch.h"
+#include "kinegraph/common/interrupt_monitor.h"
 #include "kinegraph/robot/bot_op.h"
 #include "kinegraph/robot/kinematic_driver.h"
 #include "kinegraph/robot/simulated_driver.h"
@@ -34,7 +34,8 @@ BotOpOptions optionsOf(PyConfig& config, bool realtime) {
   };
   options.watched = [stage] { return stage->isWatched(); };
   options.cancellation = checkInterrupt;
-  if (options.realtime) options.interrupted = [watch = std::make_shared<InterruptWatch>()] { return watch->takeNew(); };
+  if (options.realtime)
+    options.interrupted = [watch = std::make_shared<InterruptMonitor>()] { return watch->wasInterrupted(); };
   return options;
 }
 

@@ -23,7 +23,7 @@ int BotStage::show(const BotOp& bot, Config& config, const std::shared_ptr<Confi
                    const std::string& message) {
   viewer_ = viewer;
   if (!viewer || !viewer->isOpen()) return 0;
-  const int key = viewer->view(config, false, message, stop_);
+  const int key = viewer->view(config, false, message, cancellation_);
   ShownRun run;
   run.is_steered = false;
   run.contacts = shownContacts(bot.getContacts());

@@ -15,10 +15,10 @@ std::vector<ShownRun::Contact> shownContacts(const std::vector<Contact>& contact
 /// Shows the robot of a BotOp on the page of the last synced configuration, if the page is open.
 class BotStage {
  public:
-  /// Starts with the page of the configuration that the BotOp was made from. `stop` is checked while the page is
+  /// Starts with the page of the configuration that the BotOp was made from. `cancellation` is checked while the page is
   /// updated.
-  BotStage(std::weak_ptr<ConfigViewer> viewer, ConfigViewer::Stop stop)
-      : viewer_(std::move(viewer)), stop_(std::move(stop)) {}
+  BotStage(std::weak_ptr<ConfigViewer> viewer, CancellationToken cancellation)
+      : viewer_(std::move(viewer)), cancellation_(std::move(cancellation)) {}
   ~BotStage();  ///< removes the contacts from the page
   BotStage(const BotStage&) = delete;
 
@@ -28,7 +28,7 @@ class BotStage {
 
  private:
   std::weak_ptr<ConfigViewer> viewer_;
-  ConfigViewer::Stop stop_;
+  CancellationToken cancellation_;
 };
 
 }  // namespace kinegraph

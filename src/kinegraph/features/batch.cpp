@@ -207,16 +207,16 @@ void nearestPoints(const State& scene, const Eigen::Ref<const RowMatrix>& Q, con
 
 namespace {
 
-/// A checker for each thread, which goes back to those that are kept.
-class Crew {
+/// One edge checker per thread. The destructor gives them back to the pool.
+class ThreadCheckers {
  public:
-  Crew(const State& scene, double margin, double tolerance, int count, const BatchOptions& options)
+  ThreadCheckers(const State& scene, double margin, double tolerance, int count, const BatchOptions& options)
       : kept_(options.checkers ? options.checkers : &own_) {
     const int threads = std::clamp(options.threads, 1, std::max(1, (count + kPart - 1) / kPart));
     while (int(checkers_.size()) < threads) checkers_.push_back(kept_->take(scene, margin, tolerance));
   }
-  Crew(const Crew&) = delete;
-  ~Crew() {
+  ThreadCheckers(const ThreadCheckers&) = delete;
+  ~ThreadCheckers() {
     for (auto& checker : checkers_) kept_->giveBack(std::move(checker));
   }
 
@@ -233,7 +233,7 @@ class Crew {
 template <class Limit>
 void areFreeInLanes(const State& scene, const Eigen::Ref<const RowMatrix>& Q, double margin, std::span<bool> valid,
                     const BatchOptions& options, const Limit& limit) {
-  Crew crew(scene, margin, kTolerance, int(Q.rows()), options);
+  ThreadCheckers checkers(scene, margin, kTolerance, int(Q.rows()), options);
   const auto part = [&](int worker, int from, int to) {
     const double* rows[EdgeChecker::kLanes];
     int places[EdgeChecker::kLanes], count = 0;
@@ -244,12 +244,12 @@ void areFreeInLanes(const State& scene, const Eigen::Ref<const RowMatrix>& Q, do
         rows[count++] = Q.row(i).data();
       }
       if (count == 0 || (count < EdgeChecker::kLanes && i + 1 < to)) continue;
-      crew.of(worker).areFree({rows, std::size_t(count)}, free);
+      checkers.of(worker).areFree({rows, std::size_t(count)}, free);
       for (int k = 0; k < count; ++k) valid[places[k]] = free[k];
       count = 0;
     }
   };
-  parallelFor(int(Q.rows()), kPart, crew.size(), part, options.cancellation);
+  parallelFor(int(Q.rows()), kPart, checkers.size(), part, options.cancellation);
 }
 
 }  // namespace
@@ -278,14 +278,14 @@ void areMotionsFree(const State& scene, const Eigen::Ref<const RowMatrix>& from,
   checkJoints(scene, to);
   if (from.rows() != to.rows()) throw ValueError(cat("motions: ", from.rows(), " starts and ", to.rows(), " ends"));
   if (!(tolerance > 0.)) throw ValueError(cat("motions: tolerance is ", tolerance, "; expected a distance > 0 in m"));
-  Crew crew(scene, margin, tolerance, int(from.rows()), options);
+  ThreadCheckers checkers(scene, margin, tolerance, int(from.rows()), options);
   const auto part = [&](int worker, int first, int end) {
     for (int i = first; i < end; ++i) {
       const double *a = from.row(i).data(), *b = to.row(i).data();
-      free[i] = withinLimits(scene.model(), a) && withinLimits(scene.model(), b) && crew.of(worker).isFree(a, b);
+      free[i] = withinLimits(scene.model(), a) && withinLimits(scene.model(), b) && checkers.of(worker).isFree(a, b);
     }
   };
-  parallelFor(int(from.rows()), kPart, crew.size(), part, options.cancellation);
+  parallelFor(int(from.rows()), kPart, checkers.size(), part, options.cancellation);
 }
 
 }  // namespace kinegraph

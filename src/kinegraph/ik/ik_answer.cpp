@@ -14,23 +14,23 @@ constexpr std::size_t kPairsNamed = 3;
 
 }  // namespace
 
-IkResult IkSearch::solve(const std::vector<IkTarget>& targets, const Stop& stop) {
+IkResult IkSearch::solve(const std::vector<IkTarget>& targets, const CancellationToken& cancellation) {
   IkJob job;
   open(job, targets);
   VectorXd x(problem_->variables());
   for (bool decided = false; !decided;) {
-    if (stop()) return finish(job, true, stop);
+    if (cancellation()) return finish(job, true, cancellation);
     job_ = &job;
     problem_->startingPoint(job.attempts, x_.data());
     IkApproach made = approach();
     made.evals = 0;  // they are counted
     x = x_;
-    decided = judge(job, x, made, stop);
+    decided = judge(job, x, made, cancellation);
   }
-  return finish(job, false, stop);
+  return finish(job, false, cancellation);
 }
 
-bool IkSearch::judge(IkJob& job, const VectorXd& x, const IkApproach& made, const Stop& stop) {
+bool IkSearch::judge(IkJob& job, const VectorXd& x, const IkApproach& made, const CancellationToken& cancellation) {
   job_ = &job;
   job.evals += made.evals;
   job.kept_is_present = false;
@@ -45,8 +45,8 @@ bool IkSearch::judge(IkJob& job, const VectorXd& x, const IkApproach& made, cons
     moveTo(x_);
     step_.resize(problem_->rows, problem_->variables());
     measureTargets(false);
-    if (targetsMet() || approach().met) outcome = avoidCollisions(stop);
-    if (outcome == Outcome::feasible && problem_->pulls) outcome = bringNear(stop);
+    if (targetsMet() || approach().met) outcome = avoidCollisions(cancellation);
+    if (outcome == Outcome::feasible && problem_->pulls) outcome = bringNear(cancellation);
     missed = errors_.sum();
   }
   job.cancelled = outcome == Outcome::cancelled;
@@ -63,7 +63,7 @@ bool IkSearch::judge(IkJob& job, const VectorXd& x, const IkApproach& made, cons
   return done || (job.feasible && !problem_->options.best);
 }
 
-IkResult IkSearch::finish(IkJob& job, bool cancelled, const Stop& stop) {
+IkResult IkSearch::finish(IkJob& job, bool cancelled, const CancellationToken& cancellation) {
   job_ = &job;
   job.cancelled = job.cancelled || cancelled;
   if (cancelled || !job.kept_is_present) {
@@ -71,7 +71,7 @@ IkResult IkSearch::finish(IkJob& job, bool cancelled, const Stop& stop) {
     measure();
   }
   // A failure is told at the point that misses least, since the reasons that are named are those that hold there.
-  if (!job.feasible && !job.cancelled) job.feasible = polish(stop);
+  if (!job.feasible && !job.cancelled) job.feasible = polish(cancellation);
   IkResult result;
   result.q = q_;
   result.position_error = errors_.position;
@@ -92,7 +92,7 @@ IkResult IkSearch::finish(IkJob& job, bool cancelled, const Stop& stop) {
 }
 
 /// From a feasible x_ to the nearest one in its neighborhood.
-IkSearch::Outcome IkSearch::bringNear(const Stop& stop) {
+IkSearch::Outcome IkSearch::bringNear(const CancellationToken& cancellation) {
   if (problem_->pairs.empty()) near_.clear();
   kept_ = x_;
   double least = costOf(x_), share = 1.;
@@ -113,10 +113,10 @@ IkSearch::Outcome IkSearch::bringNear(const Stop& stop) {
     keepIfBetter();
     if (moved < 1e-5) break;
     if (costOf(x_) > before) share = std::max(.5 * share, .05);
-    if (stop()) outcome = Outcome::cancelled;
+    if (cancellation()) outcome = Outcome::cancelled;
   }
   // The last step may have left the targets or touched something: the next answer from there may still be the nearest.
-  if (outcome != Outcome::cancelled && !feasible() && moveApart(10, stop) == Outcome::feasible) keepIfBetter();
+  if (outcome != Outcome::cancelled && !feasible() && moveApart(10, cancellation) == Outcome::feasible) keepIfBetter();
   x_ = kept_;
   measure();
   return Outcome::feasible;
@@ -134,10 +134,10 @@ double IkSearch::squaredMiss() const {
 
 /// Lessens what the best failure misses by, as far as it goes; true if that made it an answer. Where much is missed,
 /// only steps that are damped enough go down (Levenberg).
-bool IkSearch::polish(const Stop& stop) {
+bool IkSearch::polish(const CancellationToken& cancellation) {
   kept_ = x_;
   double least = squaredMiss(), damping = 0.;
-  for (int i = 0; i < 200 && !stop(); ++i) {
+  for (int i = 0; i < 200 && !cancellation(); ++i) {
     stepApart(nullptr, damping);
     const double moved = step_.step().lpNorm<Eigen::Infinity>();
     measure();

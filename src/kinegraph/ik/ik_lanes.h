@@ -51,7 +51,7 @@ class IkLanes {
 
   /// results[i] answers problems[i]; `done` counts them.
   void solve(const std::vector<IkTarget>* problems, int count, IkResult* results, std::atomic<int>& done,
-             const Stop& stop);
+             const CancellationToken& cancellation);
 
  private:
   /// An attempt that has ended and waits for those before it to be judged.
@@ -95,7 +95,7 @@ class IkLanes {
   const std::vector<IkTarget>* problems_ = nullptr;
   IkResult* results_ = nullptr;
   std::atomic<int>* done_ = nullptr;
-  const Stop* stop_ = nullptr;
+  const CancellationToken* cancellation_ = nullptr;
   int count_ = 0, next_ = 0;
   bool cancelled_ = false;
 };

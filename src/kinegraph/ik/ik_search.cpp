@@ -139,18 +139,18 @@ IkApproach IkSearch::approach() {
 }
 
 /// From x_ that meets the targets, and is measured, to one where also no pair collides.
-IkSearch::Outcome IkSearch::avoidCollisions(const Stop& stop) {
+IkSearch::Outcome IkSearch::avoidCollisions(const CancellationToken& cancellation) {
   errors_.penetration = 0.;
   if (problem_->pairs.empty()) return Outcome::feasible;
   measureDistances();
   if (errors_.penetration == 0.) return Outcome::feasible;
   // The worst pair of every attempt is counted, because a failure is best told by what was mostly in the way.
   ++job_->blocked[std::ranges::min_element(near_, {}, &NearPair::distance)->pair];
-  return moveApart(problem_->options.steps, stop);
+  return moveApart(problem_->options.steps, cancellation);
 }
 
 /// Steps that mind the distances, until all is well. x_ is measured.
-IkSearch::Outcome IkSearch::moveApart(int steps, const Stop& stop) {
+IkSearch::Outcome IkSearch::moveApart(int steps, const CancellationToken& cancellation) {
   double before = 1e300;
   for (int i = 0;; ++i) {
     if (feasible()) return Outcome::feasible;
@@ -159,7 +159,7 @@ IkSearch::Outcome IkSearch::moveApart(int steps, const Stop& stop) {
       if (errors_.sum() > .8 * before) return Outcome::missed;
       before = errors_.sum();
     }
-    if (stop()) return Outcome::cancelled;
+    if (cancellation()) return Outcome::cancelled;
     stepApart(nullptr);
     measure();
   }

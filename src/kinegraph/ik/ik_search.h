@@ -1,16 +1,13 @@
 #pragma once
 
-#include <functional>
 #include <limits>
 
 #include "kinegraph/collision/near_pairs.h"
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/ik/damped_step.h"
 #include "kinegraph/ik/ik_problem.h"
 
 namespace kinegraph {
-
-/// Asked now and then; true ends a search. It may throw.
-using Stop = std::function<bool()>;
 
 /// A target as numbers, and how far it is missed.
 struct IkGoal {
@@ -50,15 +47,15 @@ class IkSearch {
   explicit IkSearch(std::shared_ptr<const IkProblem> problem);
 
   /// `targets` are of the problem's frames and kinds.
-  IkResult solve(const std::vector<IkTarget>& targets, const Stop& stop);
+  IkResult solve(const std::vector<IkTarget>& targets, const CancellationToken& cancellation);
 
   // The same in parts, for those who make the approaches themselves: open, judge until it is true, finish.
   void open(IkJob& job, const std::vector<IkTarget>& targets);
 
   /// Goes on from where the approach of attempt number `job.attempts` ended, and keeps what it finds. True if no
   /// further attempt is needed.
-  bool judge(IkJob& job, const VectorXd& x, const IkApproach& approach, const Stop& stop);
-  IkResult finish(IkJob& job, bool cancelled, const Stop& stop);
+  bool judge(IkJob& job, const VectorXd& x, const IkApproach& approach, const CancellationToken& cancellation);
+  IkResult finish(IkJob& job, bool cancelled, const CancellationToken& cancellation);
 
   /// True if an approach is not worth going on with at this step; `before` is its memory, large at first.
   static bool stalls(int step, double square, double& before);
@@ -92,11 +89,11 @@ class IkSearch {
 
   enum class Outcome { feasible, missed, cancelled };
   IkApproach approach();
-  Outcome avoidCollisions(const Stop& stop);
-  Outcome moveApart(int steps, const Stop& stop);
-  Outcome bringNear(const Stop& stop);
+  Outcome avoidCollisions(const CancellationToken& cancellation);
+  Outcome moveApart(int steps, const CancellationToken& cancellation);
+  Outcome bringNear(const CancellationToken& cancellation);
   double costOf(const VectorXd& x) const { return (x - problem_->nearest).squaredNorm(); }
-  bool polish(const Stop& stop);
+  bool polish(const CancellationToken& cancellation);
 
   std::string explain();
   std::string pairName(int pair) const;

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
+#include "kinegraph/common/progress.h"
 #include "kinegraph/ik/ik_options.h"
 #include "kinegraph/ik/ik_target.h"
 
@@ -38,27 +39,26 @@ struct IkResult {
   std::string str() const;  ///< "solved in 2 attempts, within 1e-8 m and 3e-9 rad", or the status and the message
 };
 
-/// Called now and then by the calling thread, with the number of problems that are done; true ends the search, which
-/// then gives the best answers so far. It may throw.
-using IkWatch = std::function<bool(int done)>;
-
 /// Joint values within their limits that bring frames to their targets, without collisions.
 ///
 /// Damped Gauss-Newton steps on positions and rotation vectors from many starting points: the Config's q, then an
 /// additive (Kronecker) low-discrepancy sequence. An attempt that reaches its targets in collision goes on with the
-/// distances as further rows. Joints that move none of the targets stay where they are: those that move a frame and what
-/// its target is relative to alike, too. The pairs that count
-/// are those that joints move apart; where one that only such joints move is too near, no answer is `solved`. The Config is not changed; the same arguments give the same bits. Throws
-/// FrameNotFound, and ValueError for targets that no active joint moves, and for those taken from a frame that the
-/// targets move. Source: Buss, Introduction to inverse
+/// distances as further rows. Joints that move none of the targets stay where they are: those that move a frame and
+/// what its target is relative to alike, too. The pairs that count
+/// are those that joints move apart; where one that only such joints move is too near, no answer is `solved`. The
+/// Config is not changed; the same arguments give the same bits. Throws FrameNotFound, and ValueError for targets that
+/// no active joint moves, and for those taken from a frame that the targets move. Source: Buss, Introduction to inverse
 /// kinematics with Jacobian transpose, pseudoinverse and damped least squares, 2004.
 IkResult solveIk(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options = {},
-                 const IkWatch& watch = {});
+                 const CancellationToken& cancellation = {});
 
 /// One problem per entry of `problems`. All have the frames and kinds of the first one's targets; else ValueError.
-/// Every result is the one that `solveIk` would give, whatever the number of threads.
+/// Every result is the one that `solveIk` would give, whatever the number of threads. The calling thread now and then
+/// calls `progress` with the number of solved problems, and asks `cancellation`, which ends the search with the best
+/// answers so far.
 std::vector<IkResult> solveIkBatch(const Config& config, const std::vector<std::vector<IkTarget>>& problems,
-                                   const IkOptions& options = {}, int threads = 1, const IkWatch& watch = {});
+                                   const IkOptions& options = {}, int threads = 1,
+                                   const ProgressCallback& progress = {}, const CancellationToken& cancellation = {});
 
 struct IkProblem;
 
@@ -70,7 +70,7 @@ class IkSolver {
   IkSolver(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options = {});
 
   std::vector<IkResult> solve(std::vector<std::vector<IkTarget>> problems, int threads = 1,
-                              const IkWatch& watch = {}) const;
+                              const ProgressCallback& progress = {}, const CancellationToken& cancellation = {}) const;
 
  private:
   std::shared_ptr<const IkProblem> problem_;

@@ -119,10 +119,10 @@ class ObjectiveScale final : public NlpParameter {
 };
 
 /// A frame at rest on its parent, in all slices in which it is.
-class FramePlace final : public MovedParameter {
+class FramePlace final : public FiniteDifferenceParameter {
  public:
   FramePlace(const Nlp& nlp, const std::string& name, bool turns)
-      : MovedParameter(cat(turns ? "pose of " : "position of ", name), namesOf(name, turns)) {
+      : FiniteDifferenceParameter(cat(turns ? "pose of " : "position of ", name), namesOf(name, turns)) {
     const Path& path = requireKomo(nlp)->path();
     frame_ = frameId(path.state(0).model(), name, "sensitivity");
     std::string joint_of;
@@ -258,9 +258,9 @@ class FramePlace final : public MovedParameter {
 };
 
 /// The slices before the first.
-class MotionStart final : public MovedParameter {
+class MotionStart final : public FiniteDifferenceParameter {
  public:
-  explicit MotionStart(const Nlp& nlp) : MovedParameter("start", namesOf(*requireKomo(nlp))) {
+  explicit MotionStart(const Nlp& nlp) : FiniteDifferenceParameter("start", namesOf(*requireKomo(nlp))) {
     if (requireKomo(nlp)->order() == 0)
       throw ValueError("a problem of order 0 has no slices before the first: its solution does not depend on a start");
   }

@@ -55,7 +55,7 @@ const std::vector<PlanSearch::Edge>& PlanSearch::edges(int state) {
       status_ = Status::limit;
       throw Stopped();
     }
-    if (expansions_ % kAskEvery == 0 && options_.keep_going && !options_.keep_going()) {
+    if (expansions_ % kAskEvery == 0 && options_.cancellation.isCancelled()) {
       status_ = Status::cancelled;
       throw Stopped();
     }

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -8,6 +7,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/logic/landmark_cut.h"
 
 namespace kinegraph {
@@ -27,7 +27,7 @@ class PlanSearch {
   };
   struct Options {
     long max_expansions = 2000000;       ///< total number of expanded states
-    std::function<bool()> keep_going{};  ///< queried regularly; false ends `next` with `cancelled`
+    CancellationToken cancellation{};  ///< ends `next` with `cancelled`
   };
 
   explicit PlanSearch(GroundProblem ground);

@@ -109,22 +109,23 @@ void ConfigViewer::update(const Config& config) {
 
 bool ConfigViewer::takeEdits(Config& config) { return items_.isOf(config) && edits_->takeInto(config); }
 
-int ConfigViewer::view(Config& config, bool pause, const std::optional<std::string>& message, const Stop& stop) {
+int ConfigViewer::view(Config& config, bool pause, const std::optional<std::string>& message,
+                       const CancellationToken& cancellation) {
   takeEdits(config);
   update(config);
-  const int key = wait(pause, message, stop);
+  const int key = wait(pause, message, cancellation);
   if (pause && takeEdits(config)) update(config);
   return key;
 }
 
-int ConfigViewer::wait(bool pause, const std::optional<std::string>& message, const Stop& stop) {
-  if (pause) return promptKey(message, stop);
+int ConfigViewer::wait(bool pause, const std::optional<std::string>& message, const CancellationToken& cancellation) {
+  if (pause) return promptKey(message, cancellation);
   if (message) setMessage(*message);
   return server().takeKey();
 }
 
 int ConfigViewer::showMotion(const Config& config, const ShownMotion& motion, bool pause,
-                             const std::optional<std::string>& message, const Stop& stop) {
+                             const std::optional<std::string>& message, const CancellationToken& cancellation) {
   update(config);
   server().showMotion(motion);
   if (message) setMessage(*message);
@@ -134,22 +135,22 @@ int ConfigViewer::showMotion(const Config& config, const ShownMotion& motion, bo
     using Clock = std::chrono::steady_clock;
     const auto end =
         Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(motion.seconds));
-    key = waitKey(message.value_or(""), [&] { return Clock::now() >= end || stop(); });
+    key = waitKey(message.value_or(""), [&] { return Clock::now() >= end || cancellation(); });
   }
-  return pause && key == 0 ? promptKey(message, stop) : key;
+  return pause && key == 0 ? promptKey(message, cancellation) : key;
 }
 
-int ConfigViewer::promptKey(const std::optional<std::string>& message, const Stop& stop) {
+int ConfigViewer::promptKey(const std::optional<std::string>& message, const CancellationToken& cancellation) {
   std::string text = message.value_or("");
   if (!text.ends_with("]")) text += text.empty() ? "[press key to continue]" : "\n[press key to continue]";
   int key = server().takeKey();
   setMessage(text);
-  if (waits()) key = waitKey(text, stop);
+  if (waits()) key = waitKey(text, cancellation);
   setMessage(message.value_or(""));
   return key;
 }
 
-int ConfigViewer::waitKey(const std::string& prompt, const Stop& stop) {
+int ConfigViewer::waitKey(const std::string& prompt, const CancellationToken& cancellation) {
   constexpr auto kPatience = std::chrono::seconds(5);  // a reloaded page is back sooner
   const bool patient = isPatient();
   if (isatty(STDIN_FILENO)) {
@@ -164,7 +165,7 @@ int ConfigViewer::waitKey(const std::string& prompt, const Stop& stop) {
       last_seen = now;
       seen = true;
     }
-    return (entered = enterWasPressed()) || ((!patient || seen) && now - last_seen > kPatience) || stop();
+    return (entered = enterWasPressed()) || ((!patient || seen) && now - last_seen > kPatience) || cancellation();
   });
   return entered ? 13 : key;
 }

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/scene/config.h"
 #include "kinegraph/viewer/scene_edits.h"
 #include "kinegraph/viewer/scene_items.h"
@@ -16,16 +17,14 @@ class ConfigViewer {
  public:
   explicit ConfigViewer(ViewerOptions options = {}) : options_(std::move(options)) {}
 
-  using Stop = std::function<bool()>;  ///< checked while waiting; true ends the wait; may throw
-
   /// Applies the changes that users made in browsers (see `takeEdits`), and shows the resulting configuration. Returns
   /// the key pressed since the last call, or 0. With `pause`, waits for a new key: in the browser, or Enter on the
   /// terminal. It does not wait if KINEGRAPH_HEADLESS is set, or for more than 5 s without a connected browser. At a
   /// terminal or over ssh, it waits without limit for the first browser.
-  int view(Config& config, bool pause, const std::optional<std::string>& message, const Stop& stop);
+  int view(Config& config, bool pause, const std::optional<std::string>& message, const CancellationToken& cancellation);
 
   /// Shows a message and, with `pause`, waits for a key like view. Changes nothing else.
-  int wait(bool pause, const std::optional<std::string>& message, const Stop& stop);
+  int wait(bool pause, const std::optional<std::string>& message, const CancellationToken& cancellation);
 
   /// Shows the configuration without reading keys and edits.
   void update(const Config& config);
@@ -43,7 +42,7 @@ class ConfigViewer {
   /// Shows a motion of the configuration, with a time slider. Waits until an automatically played motion has ended,
   /// then, with `pause`, for a key; a key ends both. Waits under the conditions of view. Returns the key, or 0.
   int showMotion(const Config& config, const ShownMotion& motion, bool pause, const std::optional<std::string>& message,
-                 const Stop& stop);
+                 const CancellationToken& cancellation);
 
   /// Shows a text in the corner of the page, and starts the page if necessary.
   void setMessage(const std::string& text);
@@ -74,8 +73,8 @@ class ConfigViewer {
 
  private:
   /// Shows the message with a request for a key, and waits for one.
-  int promptKey(const std::optional<std::string>& message, const Stop& stop);
-  int waitKey(const std::string& prompt, const Stop& stop);
+  int promptKey(const std::optional<std::string>& message, const CancellationToken& cancellation);
+  int waitKey(const std::string& prompt, const CancellationToken& cancellation);
   void remember(const std::string& text);
 
   ViewerOptions options_;

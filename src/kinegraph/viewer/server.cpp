@@ -222,7 +222,7 @@ int ViewerServer::takeKey() {
   return std::exchange(impl_->state_->key, 0);
 }
 
-int ViewerServer::waitKey(const std::function<bool()>& stop) {
+int ViewerServer::waitKey(const CancellationToken& cancellation) {
   for (;;) {
     {
       std::unique_lock lock(impl_->state_->mutex);
@@ -230,7 +230,7 @@ int ViewerServer::waitKey(const std::function<bool()>& stop) {
                                       [&] { return impl_->state_->key != 0 && impl_->state_->key_releases; });
       if (impl_->state_->key != 0 && impl_->state_->key_releases) return std::exchange(impl_->state_->key, 0);
     }
-    if (stop()) return 0;
+    if (cancellation()) return 0;
   }
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/geometry/shapes/geometry.h"
 #include "kinegraph/viewer/messages/appearance.h"
 #include "kinegraph/viewer/messages/commands.h"
@@ -121,8 +122,8 @@ class ViewerServer {
   int takeKey();
 
   /// Waits for a key that is pressed without Shift, Ctrl and Alt, except the left and right arrows, which step through
-  /// motions. Returns 0 as soon as `stop` (checked every 20 ms) returns true.
-  int waitKey(const std::function<bool()>& stop);
+  /// motions. Returns 0 as soon as `cancellation` (checked every 20 ms) returns true.
+  int waitKey(const CancellationToken& cancellation);
 
   /// Requests events from browsers; with `instead`, mouse and keys have no other effect on the page.
   void requestEvents(bool instead);

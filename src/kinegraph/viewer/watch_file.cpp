@@ -41,7 +41,7 @@ LoadedScene readScene(const std::string& path) {
 }  // namespace
 
 void watchFile(Config& config, ConfigViewer& viewer, const std::string& path,
-               const std::function<void(const std::string&)>& report, const std::function<bool()>& stop) {
+               const std::function<void(const std::string&)>& report, const CancellationToken& cancellation) {
   FileChanges changes;
   const auto load = [&] {
     LoadedScene loaded = readScene(path);
@@ -65,9 +65,9 @@ void watchFile(Config& config, ConfigViewer& viewer, const std::string& path,
   changes.setRead({{path, {}}});  // as if the file had not existed before
   load();
   viewer.server().cursor();  // lets browsers report the pointer's position
-  WatchKeys keys(config, viewer, report, stop);
+  WatchKeys keys(config, viewer, report, cancellation);
   viewer.server().requestDigits(true);
-  while (viewer.waits() && !stop()) {
+  while (viewer.waits() && !cancellation()) {
     if (viewer.takeEdits(config)) viewer.update(config);
     keys.logEvents();
     const int key = viewer.takeKey();

@@ -44,7 +44,7 @@ bool WatchKeys::press(int key) {
         return true;
       case 'a':
         viewer_.showMotion(config_, jointSweep(config_), false, "every joint through its limits [any key stops it]",
-                           stop_);
+                           cancellation_);
         viewer_.update(config_);
         report("the joints are back at their values");
         return true;

@@ -13,8 +13,8 @@ namespace kinegraph {
 class WatchKeys {
  public:
   using Report = std::function<void(const std::string&)>;
-  WatchKeys(Config& config, ConfigViewer& viewer, Report report, ConfigViewer::Stop stop)
-      : config_(config), viewer_(viewer), report_(std::move(report)), stop_(std::move(stop)) {}
+  WatchKeys(Config& config, ConfigViewer& viewer, Report report, CancellationToken cancellation)
+      : config_(config), viewer_(viewer), report_(std::move(report)), cancellation_(std::move(cancellation)) {}
 
   /// Handles a key. Returns whether the key has a function. Errors are reported.
   bool press(int key);
@@ -34,7 +34,7 @@ class WatchKeys {
   Config& config_;
   ConfigViewer& viewer_;
   Report report_;
-  ConfigViewer::Stop stop_;
+  CancellationToken cancellation_;
   Rng random_;
   bool logs_ = false;
 };

@@ -32,7 +32,7 @@ def test_a_path_that_jumps_over_a_wall_is_feasible_but_not_free() -> None:
     komo, result = across()
     assert result.feasible
     assert result.free is False
-    assert "the motion is not free: 'ball' and 'wall' overlap by 115 mm at phase time" in result.message
+    assert "the solution is invalid between slices: 'ball' and 'wall' overlap by 115 mm at phase time" in result.message
     assert not komo.isFree()
     contact = min(komo.checkMotion(), key=lambda c: c.distance)
     assert contact.frames == ("ball", "wall")

@@ -34,7 +34,7 @@ FOUND = {
         r"\[.* 1\.962\d*e\+01\]",
         r"^True $",
         r"SolverStatus\.infeasible the constraints contradict each other",
-        r"If positionDiff of l_gripper, target gives way by 3\.07 m, all others can hold",
+        r"If positionDiff of l_gripper, target is relaxed by 3\.07 m, all others can hold",
     ],
     "planning": [
         r"^solved: \d+ configurations, length",

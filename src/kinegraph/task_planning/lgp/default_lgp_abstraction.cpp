@@ -82,13 +82,13 @@ DefaultLgpAbstraction::DefaultLgpAbstraction(const Config& scene, const std::str
   LogicProblem problem{"problem", domain, {}, domain.start, readLiterals(file.terminal, lgp_file)};
   for (Literal& fact : sceneFacts(C)) problem.start.push_back(std::move(fact));
   PlanSearch::Options options;
-  options.keep_going = [this, cancellation = std::move(cancellation)] {
+  options.cancellation = [this, cancellation = std::move(cancellation)] {
     try {
       cancellation.check();
     } catch (...) {
       interruption_ = std::current_exception();
     }
-    return !interruption_;
+    return bool(interruption_);
   };
   search_ = std::make_shared<PlanSearch>(ground(std::move(problem)), options);
   if (!search_->problem().unreachable.empty()) {

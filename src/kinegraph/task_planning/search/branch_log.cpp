@@ -5,7 +5,7 @@
 namespace kinegraph {
 
 void BranchLog::addGivenUp(const Actions& actions, const std::string& condition, FutureFailure failure) {
-  failure->begin(Priority::likely);
+  failure->begin(Priority::normal);
   pending_.push_back({actions, condition, std::move(failure), true});
 }
 

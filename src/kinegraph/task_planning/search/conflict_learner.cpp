@@ -43,7 +43,7 @@ ConflictLearner::ConflictLearner(SpeculativeExecutor& executor, const Config& sc
 
 void ConflictLearner::learnMotionFailure(const Actions& actions, const TaskFailure& failure) {
   const auto known = std::make_shared<FutureFailure::element_type>(
-      executor_.later<TaskFailure>([failure](const CancellationToken&) { return failure; }));
+      executor_.defer<TaskFailure>([failure](const CancellationToken&) { return failure; }));
   if (failure.doors.empty()) {
     giveUp(actions, "", known);
     return logic_.forbidPrefix(actions);
@@ -62,7 +62,7 @@ void ConflictLearner::learnWaypointFailure(const Actions& actions) {
   };
   const std::vector<Literal>& start = logic_.start();
   std::size_t count = 1;
-  waypoints_.prefetch(waypoints_.unknownPrefixes(actions), Priority::likely);
+  waypoints_.prefetch(waypoints_.unknownPrefixes(actions), Priority::normal);
   while (count < actions.size() && !waypoints_.failureOf(first(count))) ++count;
   const Actions prefix = first(count);
   waypoints_.dropPrefetched();

@@ -67,11 +67,11 @@ std::vector<TimedRows> SequenceEvaluator::planMotions(const Config& C, const std
                                                       Outcome& outcome) const {
   std::vector<Speculative<TaskMotions::Found>> later;
   const auto left = std::make_shared<std::atomic<int>>(int(parts->size()));  // motions that are not planned yet
-  const std::function<int()> threads = [left, most = priority == Priority::surely ? settings_.threads : 1] {
+  const std::function<int()> threads = [left, most = priority == Priority::high ? settings_.threads : 1] {
     return std::max(most + 1 - *left, 1);
   };
   for (std::size_t i = 0; i < parts->size(); ++i) {
-    later.push_back(executor_.later<TaskMotions::Found>(
+    later.push_back(executor_.defer<TaskMotions::Found>(
         [motions = motions_, parts, i, stopped, left, threads](const CancellationToken& unwanted) {
           const Motion& motion = (*parts)[i];
           TaskMotions::Found found = motions.between(

@@ -28,7 +28,7 @@ class SequenceEvaluator {
     std::vector<TaskAction> actions;
     std::vector<std::vector<Literal>> states;  ///< in logic, before and after each action
     int seed = 0;
-    Priority priority = Priority::surely;
+    Priority priority = Priority::high;
     std::function<void()> at_first_failure = {};  ///< called when the first guess has led to no waypoints
   };
   struct Outcome {

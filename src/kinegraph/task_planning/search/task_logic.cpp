@@ -16,13 +16,13 @@ void TaskLogic::restart(std::vector<Literal> start) {
   problem_ = {"problem", domain_, {}, domain_.start, goal_};
   problem_.start.insert(problem_.start.end(), start_.begin(), start_.end());
   PlanSearch::Options options;
-  options.keep_going = [this] {
+  options.cancellation = [this] {
     try {
       cancellation_.check();
     } catch (...) {
       interruption_ = std::current_exception();
     }
-    return !interruption_;
+    return bool(interruption_);
   };
   search_ = std::make_unique<PlanSearch>(ground(problem_), options);
 }

@@ -187,7 +187,7 @@ TaskMotions::Found TaskMotions::planFree(const Config& C, const VectorXd& q0, co
     if (configurations.size() + tail.size() > 2) {
       const MotionPlan found = findPath(C, configurations.back(), tail.back(), {}, [&] {
         direct = pathSpeculatively(C, q0, q1);
-        direct.begin(Priority::likely);
+        direct.begin(Priority::normal);
       });
       if (found.feasible()) {
         for (Eigen::Index i = 0; i < found.path.rows(); ++i) configurations.push_back(found.path.row(i));
@@ -263,7 +263,7 @@ MotionPlan TaskMotions::findPath(const Config& C, const VectorXd& start, const V
 /// The same ahead of time, if a thread is free.
 Speculative<TaskMotions::PathResult> TaskMotions::pathSpeculatively(const Config& C, const VectorXd& start,
                                                                     const VectorXd& goal) const {
-  return executor_.later<PathResult>([motions = *this, scene = std::make_shared<const Config>(C), start,
+  return executor_.defer<PathResult>([motions = *this, scene = std::make_shared<const Config>(C), start,
                                       goal](const CancellationToken& stopped) mutable {
     motions.evaluations_ = 0;
     motions.threads_ = [] { return 1; };

@@ -93,11 +93,11 @@ std::optional<TaskPlan> TaskSearch::next() {
   struct Rest {  // threads work only while the caller waits
     TaskSearch& search;
     ~Rest() {
-      search.executor_.rest();
+      search.executor_.cancelAll();
       search.waypoints_.dropPrefetched();
     }
   };
-  executor_.rest();
+  executor_.cancelAll();
   const Rest rest{*this};
   return nextPlan();
 }
@@ -178,9 +178,9 @@ Speculative<TaskSearch::Outcome> TaskSearch::outcomeOf(const Trial& trial, int s
   SequenceEvaluator::Request request{trial.actions, trial.states, seed, priority};
   if (seed == 0)
     request.at_first_failure = [this, prefixes = waypoints_.unknownPrefixes(trial.actions)] {
-      waypoints_.prefetch(prefixes, Priority::maybe);
+      waypoints_.prefetch(prefixes, Priority::low);
     };
-  return executor_.later<Outcome>(
+  return executor_.defer<Outcome>(
       [evaluator = evaluator_, request = std::move(request)](const CancellationToken& stopped) {
         return evaluator->evaluate(request, stopped);
       });
@@ -193,12 +193,12 @@ std::optional<TaskPlan> TaskSearch::nextOf(Trial& trial) {
   while (trial.seed < seeds()) {
     const int seed = trial.seed++;
     if (seed == 0 && waypoints_.isKnownToFail(trial.actions)) break;
-    if (!outcomes.contains(seed)) outcomes[seed] = outcomeOf(trial, seed, Priority::surely);
+    if (!outcomes.contains(seed)) outcomes[seed] = outcomeOf(trial, seed, Priority::high);
     const int ahead = trial.has_plan || needs_seeds_ ? options_.threads - 1 : 0;
     for (int next = seed + 1; next <= std::min(seed + ahead, seeds() - 1); ++next) {
       if (outcomes.contains(next)) continue;
-      outcomes[next] = outcomeOf(trial, next, Priority::maybe);
-      outcomes[next].begin(Priority::maybe);
+      outcomes[next] = outcomeOf(trial, next, Priority::low);
+      outcomes[next].begin(Priority::low);
     }
     Outcome& outcome = outcomes[seed].get();
     evaluations_ += outcome.evaluations;

@@ -45,7 +45,7 @@ void WaypointCache::prefetch(const std::vector<Actions>& all, Priority first) {
     auto found = prefetched_.find(key);
     if (found == prefetched_.end())
       found = prefetched_.try_emplace(key, executor_, settings_, scene_, actions, 0).first;
-    found->second.begin(first, Priority::maybe);
+    found->second.begin(first, Priority::low);
   }
 }
 

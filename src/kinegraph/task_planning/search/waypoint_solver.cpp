@@ -111,7 +111,7 @@ WaypointSolver::WaypointSolver(SpeculativeExecutor& executor, const Settings& se
     const Rng rng(combined({settings.seed, std::uint64_t(seed), problem_->actions.size(), std::uint64_t(i)}));
     choices_.push_back(std::make_shared<Choice>(variants[i], rng));
     for (std::size_t guess = 0; guess < kGuesses; ++guess)
-      solutions_.push_back(executor.later<Solution>(
+      solutions_.push_back(executor.defer<Solution>(
           [problem = problem_, choice = choices_.back(), guess, number = int(solutions_.size())](
               const CancellationToken& stopped) { return solveFrom(*problem, *choice, guess, number, stopped); }));
   }
@@ -146,7 +146,7 @@ WaypointSolver::Solution WaypointSolver::solveFrom(const Problem& problem, Choic
 
 WaypointSolver::Result WaypointSolver::solve(Priority priority, const std::function<void()>& at_first_failure) {
   Result result;
-  begin(priority, std::max(priority, Priority::likely));
+  begin(priority, std::max(priority, Priority::normal));
   VectorXd first;  // the end of the solver from the first guess
   for (std::size_t i = 0; i < solutions_.size(); ++i) {
     if (i > 0 && problem_->isLate()) break;
@@ -173,11 +173,11 @@ WaypointSolver::Result WaypointSolver::solve(Priority priority, const std::funct
 FutureFailure WaypointSolver::failureAt(VectorXd x) const {
   const std::string text = planText({problem_->actions.back()});
   if (choices_.empty())
-    return std::make_shared<FutureFailure::element_type>(executor_.later<TaskFailure>([text](const CancellationToken&) {
+    return std::make_shared<FutureFailure::element_type>(executor_.defer<TaskFailure>([text](const CancellationToken&) {
       return TaskFailure{cat(text, ": the hand cannot hold it"), nullptr};
     }));
   return std::make_shared<FutureFailure::element_type>(
-      executor_.later<TaskFailure>([text, choice = choices_[0], slice = int(problem_->actions.size()) - 1,
+      executor_.defer<TaskFailure>([text, choice = choices_[0], slice = int(problem_->actions.size()) - 1,
                                     x = std::move(x)](const CancellationToken& stopped) {
         const std::scoped_lock lock(choice->mutex);
         const std::shared_ptr<Komo>& komo = choice->waypoints->m->komo;

@@ -43,7 +43,7 @@ class WaypointSolver {
 
   /// Solves, with `priority` for guesses that threads still have to start. `at_first_failure` is called when the first
   /// guess has failed.
-  Result solve(Priority priority = Priority::surely, const std::function<void()>& at_first_failure = {});
+  Result solve(Priority priority = Priority::high, const std::function<void()>& at_first_failure = {});
 
  private:
   struct Problem;

@@ -1,4 +1,4 @@
-#include "kinegraph/common/interrupt_watch.h"
+#include "kinegraph/common/interrupt_monitor.h"
 
 #include <csignal>
 
@@ -10,11 +10,11 @@ namespace kinegraph {
 
 namespace {
 
-// A handler of signals belongs to the process and is given nothing but the signal: hence these.
+// Global, because a signal handler belongs to the process and receives nothing but the signal.
 std::atomic<unsigned> interrupts = 0;
-std::mutex watches_mutex;
-int watches = 0;
-struct sigaction before;  // the handler in whose place ours is
+std::mutex monitors_mutex;
+int monitors = 0;
+struct sigaction before;  // the handler that ours replaces
 
 void count(int number, siginfo_t* information, void* context) {
   interrupts.fetch_add(1);
@@ -48,18 +48,18 @@ void uninstall() {
 
 }  // namespace
 
-InterruptWatch::InterruptWatch() {
-  const std::lock_guard lock(watches_mutex);
-  if (watches++ == 0) install();
+InterruptMonitor::InterruptMonitor() {
+  const std::lock_guard lock(monitors_mutex);
+  if (monitors++ == 0) install();
   seen_ = interrupts;
 }
 
-InterruptWatch::~InterruptWatch() {
-  const std::lock_guard lock(watches_mutex);
-  if (--watches == 0) uninstall();
+InterruptMonitor::~InterruptMonitor() {
+  const std::lock_guard lock(monitors_mutex);
+  if (--monitors == 0) uninstall();
 }
 
-bool InterruptWatch::takeNew() {
+bool InterruptMonitor::wasInterrupted() {
   const unsigned now = interrupts;
   return std::exchange(seen_, now) != now;
 }

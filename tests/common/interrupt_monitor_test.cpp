@@ -1,4 +1,4 @@
-#include "kinegraph/common/interrupt_watch.h"
+#include "kinegraph/common/interrupt_monitor.h"
 
 #include <gtest/gtest.h>
 
@@ -35,28 +35,28 @@ auto presentHandler() {
 
 }  // namespace
 
-TEST(InterruptWatch, CountsBesideTheHandler) {
+TEST(InterruptMonitor, CountsBesideTheHandler) {
   const InterruptHandler handler(handleInterrupt);
   handled_interrupts = 0;
   {
-    InterruptWatch watch;
-    EXPECT_FALSE(watch.takeNew());
+    InterruptMonitor watch;
+    EXPECT_FALSE(watch.wasInterrupted());
     std::raise(SIGINT);
-    InterruptWatch later;
-    EXPECT_TRUE(watch.takeNew());
-    EXPECT_FALSE(watch.takeNew());
-    EXPECT_FALSE(later.takeNew());
+    InterruptMonitor later;
+    EXPECT_TRUE(watch.wasInterrupted());
+    EXPECT_FALSE(watch.wasInterrupted());
+    EXPECT_FALSE(later.wasInterrupted());
     std::raise(SIGINT);
-    EXPECT_TRUE(watch.takeNew());
-    EXPECT_TRUE(later.takeNew());
+    EXPECT_TRUE(watch.wasInterrupted());
+    EXPECT_TRUE(later.wasInterrupted());
   }
   EXPECT_EQ(handled_interrupts, 2);
   EXPECT_EQ(presentHandler(), handleInterrupt);
 }
 
-TEST(InterruptWatch, LeavesALaterHandlerAlone) {
+TEST(InterruptMonitor, LeavesALaterHandlerAlone) {
   const InterruptHandler handler(SIG_IGN);
-  std::optional<InterruptWatch> watch;
+  std::optional<InterruptMonitor> watch;
   {
     const InterruptHandler first(handleInterrupt);
     watch.emplace();
@@ -66,8 +66,8 @@ TEST(InterruptWatch, LeavesALaterHandlerAlone) {
   EXPECT_EQ(presentHandler(), SIG_IGN);
 }
 
-TEST(InterruptWatch, IsNotInTheWayWhereNobodyHandlesIt) {
+TEST(InterruptMonitor, IsNotInTheWayWhereNobodyHandlesIt) {
   const InterruptHandler handler(SIG_DFL);
-  const InterruptWatch watch;
+  const InterruptMonitor watch;
   EXPECT_EQ(presentHandler(), SIG_DFL);
 }

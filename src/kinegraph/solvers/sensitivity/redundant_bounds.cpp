@@ -1,4 +1,4 @@
-#include "kinegraph/solvers/sensitivity/doubled_limits.h"
+#include "kinegraph/solvers/sensitivity/redundant_bounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,11 +7,11 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kApart = 1e-9;  // of two motions that are the same
+constexpr double kApart = 1e-9;  // relative difference of motions that count as equal
 
 bool has(const std::vector<int>& sorted, int number) { return std::ranges::binary_search(sorted, number); }
 
-/// Calls `visit(column, value)` for what is not zero in a row.
+/// Calls `visit(column, value)` for the nonzeros of a row.
 template <class Visit>
 void visitRow(const Jacobian& J, int row, const Visit& visit) {
   if (J.zero_row[std::size_t(row)]) return;
@@ -25,7 +25,7 @@ void visitRow(const Jacobian& J, int row, const Visit& visit) {
 
 void insert(std::vector<int>& sorted, int number) { sorted.insert(std::ranges::lower_bound(sorted, number), number); }
 
-/// Moves those numbers of one list to another for which `leaves` holds.
+/// Moves the numbers that `leaves` selects from one list to another.
 template <class Leaves>
 void moveSome(std::vector<int>& from, std::vector<int>& to, const Leaves& leaves) {
   for (const int number : from) {
@@ -36,7 +36,7 @@ void moveSome(std::vector<int>& from, std::vector<int>& to, const Leaves& leaves
 
 }  // namespace
 
-DoubledLimits::DoubledLimits(PolishedSolution& at) : is_held_(at.fixed), pin_(at.fixed.size(), -1) {
+RedundantBounds::RedundantBounds(PolishedSolution& at) : is_held_(at.fixed), pin_(at.fixed.size(), -1) {
   for (const int i : at.weak_lower) is_held_[std::size_t(i)] = false;
   for (const int i : at.weak_upper) is_held_[std::size_t(i)] = false;
   for (const int row : at.active) {
@@ -51,17 +51,16 @@ DoubledLimits::DoubledLimits(PolishedSolution& at) : is_held_(at.fixed), pin_(at
   }
   const auto isPinned = [&](int i) { return pin_[std::size_t(i)] >= 0; };
   moveSome(at.weak_rows, rows_, [&](int row) {
-    bool has_choice = false;
-    visitRow(at.J, row, [&](int column, double) {
-      has_choice = has_choice || (!is_held_[std::size_t(column)] && !isPinned(column));
-    });
-    return !has_choice;
+    bool is_free = false;
+    visitRow(at.J, row,
+             [&](int column, double) { is_free = is_free || (!is_held_[std::size_t(column)] && !isPinned(column)); });
+    return !is_free;
   });
   moveSome(at.weak_lower, lower_, isPinned);
   moveSome(at.weak_upper, upper_, isPinned);
 }
 
-double DoubledLimits::motionOf(const PolishedSolution& at, int variable, const VectorXd& dphi) const {
+double RedundantBounds::motionOf(const PolishedSolution& at, int variable, const VectorXd& dphi) const {
   if (is_held_[std::size_t(variable)]) return variable == moved_ ? 1. : 0.;
   const int row = pin_[std::size_t(variable)];
   double others = dphi[row], own = 1.;
@@ -75,8 +74,8 @@ double DoubledLimits::motionOf(const PolishedSolution& at, int variable, const V
   return -others / own;
 }
 
-void DoubledLimits::move(PolishedSolution& at, const Nlp& nlp, const VectorXd& dphi,
-                         const std::optional<NlpParameter::Bound>& bound) {
+void RedundantBounds::move(PolishedSolution& at, const Nlp& nlp, const VectorXd& dphi,
+                           const std::optional<NlpParameter::Bound>& bound) {
   moved_ = -1;
   if (bound && at.x[bound->variable] == (bound->is_upper ? nlp.upper() : nlp.lower())[bound->variable])
     moved_ = bound->variable;
