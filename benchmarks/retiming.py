@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
-"""How fast is `retime`, how near to the least time, and does it keep its limits? Beside toppra, ruckig and an LP reference.
+"""How fast is `retime`, how near to the least time, and does it keep its limits? Compared with toppra, ruckig and an LP reference.
 
     python benchmarks/retiming.py [--paths 70] [--seed 1] [--references 3] [--only jerk]
 
 Random paths of seven dofs, 3 to 11 points spread along a line and moved by 0.2 rad, with the Panda's limits of velocity and
-acceleration ("full"), or a quarter of the accelerations and jerks of ten times that per second ("gentle"). All packages get the same
-cubic spline. Times are processor times, medians; the bound is `retime` with 4000 intervals, and toppra's with as many for the first
-paths (packages that are not installed are left out: toppra==0.6.10, ruckig==0.19.4, scipy).
+acceleration ("full"), or a quarter of the accelerations with jerk limits of ten times that per second ("gentle"). All packages get the
+same cubic spline. Times are medians of processor time. The bound is `retime` with 4000 intervals, and toppra with as many for the first
+paths. Packages that are not installed are left out (toppra==0.6.10, ruckig==0.19.4, scipy).
 
-With limits of the jerk, `retime`, toppra and ruckig take turns, path by path, within equal limits of velocity and acceleration; ruckig keeps the jerk,
-too, and stands still at each point (waypoints are not in its free version); toppra knows no limits of the jerk, and its motion exceeds
-them. Durations are compared with the least one, which is `retime` with 3200 intervals, and for the first paths with a reference: a sequence
-of linear programs over s'^2 on 200 and 800 equal intervals, each constraint linearized, from scipy's HiGHS: slow, and written without
-a look at the library. Its limits hold at its places only, so that it may be faster than possible. Limits are looked at on 20,000 samples.
+With jerk limits, `retime`, toppra and ruckig take turns, path by path, within equal limits of velocity and acceleration. ruckig keeps the
+jerk limits, too, and stops at each point (its free version has no waypoints). toppra has no jerk limits, and its motions exceed them.
+Durations are relative to `retime` with 3200 intervals and, for the first paths, to a reference: a sequence of linear programs over s'^2
+on 200 and 800 equal intervals with linearized constraints, solved by scipy's HiGHS. It is slow, and was written independently of the
+library. Its limits hold at its gridpoints only, so that it may be faster than possible. Limits are checked on 20,000 samples.
 """
 
 import argparse

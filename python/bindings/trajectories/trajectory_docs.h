@@ -1,6 +1,6 @@
 #pragma once
 
-/// The manual of what bind_trajectory.cpp binds.
+/// The docstrings of bind_trajectory.cpp, and of SplineTrajectory.
 namespace kinegraph::python::docs::trajectory {
 
 inline constexpr char Trajectory[] = R"(A timed motion q(t), 0 <= t <= duration. BotOp.follow executes any of them.
