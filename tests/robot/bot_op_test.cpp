@@ -45,7 +45,7 @@ CommandLog runScript(BotOp& bot, Config& C) {
 TEST(BotOp, NeedsARobot) {
   Config nothing;
   nothing.addText("ball: { shape: sphere, size: [.1], mass: 1 }");
-  expectError<ValueError>([&] { BotOp bot(nothing); }, {"no joints"});
+  expectError<ValueError>([&] { BotOp bot(nothing); }, {"no active joints"});
 }
 
 TEST(BotOp, TakesTheTimeOfItsArgument) {
@@ -431,7 +431,7 @@ TEST(BotOp, AsksForRowsOfAJacobianThatAreIndependent) {
              Eigen::Vector2d(.5, 1.).asDiagonal().toDenseMatrix())
                 .norm(),
             1e-12);
-  expectError<ValueError>([&] { b.bot.setCompliance(MatrixXd::Ones(2, 2)); }, {"not independent"});
+  expectError<ValueError>([&] { b.bot.setCompliance(MatrixXd::Ones(2, 2)); }, {"linearly dependent"});
   expectError<ValueError>([&] { b.bot.setCompliance(row(1., 0.), 2.); }, {"compliance is 2"});
   expectError<ValueError>([&] { b.bot.setCompliance(MatrixXd::Ones(1, 3)); }, {"3 columns"});
 }

@@ -93,5 +93,5 @@ TEST(ViolatedEffort, IsThatOfAPendulumHeldLevel) {
   EXPECT_FALSE(violatedEffort(still, 0., .01, robot, C));
   robot.effort[0] = 19.5;
   const std::string broken = violatedEffort(still, 0., .01, robot, C).value();
-  EXPECT_NE(broken.find("'arm1' would 19.62 N m"), std::string::npos) << broken;
+  EXPECT_NE(broken.find("'arm1' would have an effort of 19.62 N m"), std::string::npos) << broken;
 }

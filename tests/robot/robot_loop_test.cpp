@@ -113,7 +113,7 @@ TEST(RobotLoop, IsStoppedIfItDoesNotFollow) {
   loop.apply(FollowSpline{straight(0., 1., 0., 1.)});
   for (int i = 0; i < 60; ++i) loop.step();
   EXPECT_NE(loop.fault().find("joint 'arm1' is 0.3"), std::string::npos) << loop.fault();
-  EXPECT_NE(loop.fault().find("is something in its way?"), std::string::npos);
+  EXPECT_NE(loop.fault().find("does an obstacle block it?"), std::string::npos);
   EXPECT_LT(driver->commands().back().q[0], .32);
 }
 

@@ -203,8 +203,9 @@ void BotOp::follow(const Trajectory& trajectory, const FollowOptions& options) {
   const double begin = appends ? loop_->motion().end() : std::max(now, options.start_time);
   const auto trajectory_samples = sampled(trajectory, begin, options_.period);
   const MotionStates& samples = trajectory_samples->samples();
-  loop_->requireReady(call, begin > now ? VectorXd(loop_->reference(now).row(0)) : VectorXd(samples.q.row(0)));
+  loop_->requireReady(call, {});
   requireStart(*trajectory_samples, options, begin);
+  loop_->requireReady(call, begin > now ? VectorXd(loop_->reference(now).row(0)) : VectorXd(samples.q.row(0)));
   if (const auto violation = violatedLimit(samples, loop_->info())) throw ValueError(cat(call, ": ", *violation));
   if (const auto violation = violatedEffort(samples, loop_->info(), model_))
     throw ValueError(cat(call, ": ", *violation));

@@ -18,7 +18,7 @@ class SplineTrajectory final : public Trajectory {
   int dimension() const override { return spline_.dimension(); }
   double duration() const override { return duration_; }
 
-  /// Velocity and acceleration are zero at the end, as those of the spline.
+  /// At the end, velocity and acceleration are the left-hand limits; those of the spline itself are zero there.
   void evalTo(double t, double* q, double* velocity, double* acceleration) const override;
 
   const BSpline& spline() const { return spline_; }
