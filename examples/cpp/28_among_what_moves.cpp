@@ -50,7 +50,7 @@ int main() try {
   const std::vector<ObstacleTrajectory> moving = {{"cart", VectorXd{{0., 2., 4.}}, poses}};
   const MotionPlan past = planMotion(C, goal, {.margin = .01, .moving = moving}, start);
   std::cout << past.str() << "\n";
-  for (const std::string& note : past.notes) std::cout << note << "\n";
+  for (const std::string& note : past.warnings) std::cout << note << "\n";
   if (!past.feasible() || !keepsClear(C, past)) return 1;
 
   // On its way the robot is sent elsewhere: it goes on with its velocity, and bends.

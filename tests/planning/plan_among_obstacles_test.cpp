@@ -23,7 +23,7 @@ TEST(PlanAmongObstacles, WhatPassesElsewhereCostsNoTime) {
   const MotionPlan plan = planMotion(discAndBox(), kAcross, among(cart));
   ASSERT_TRUE(plan.feasible()) << plan.message;
   EXPECT_NEAR(plan.duration(), 2.25, 1e-9);
-  EXPECT_EQ(plan.stages.back().name, "obstacle_trajectories");
+  EXPECT_EQ(plan.stages.back().name, "dynamic_obstacles");
 }
 
 TEST(PlanAmongObstacles, ItKeepsClearOfWhatCrossesItsWay) {

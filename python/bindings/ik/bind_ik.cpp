@@ -22,7 +22,7 @@ class Watch {
   Watch(std::size_t total, int verbose) : total_(total), verbose_(verbose), start_(Clock::now()) {}
 
   bool operator()(int done) {
-    if (check_() && verbose_ > 0 && total_ > 1 && seconds() > .5) draw(done);
+    if (check_.checkIfDue() && verbose_ > 0 && total_ > 1 && seconds() > .5) draw(done);
     return false;
   }
 

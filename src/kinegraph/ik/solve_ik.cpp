@@ -100,7 +100,7 @@ std::vector<IkResult> IkSolver::solve(std::vector<std::vector<IkTarget>> given, 
         search->solve(&problems[std::size_t(from)], to - from, &results[std::size_t(from)], done,
                       worker == 0 ? watching : stopped);
       },
-      watching);
+      [&] { watching(); });  // after a stop the remaining parts end at once, with the status `cancelled`
   return answered();
 }
 

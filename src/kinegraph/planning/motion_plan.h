@@ -29,7 +29,7 @@ std::string planStatusName(PlanStatus status);
 
 /// What a stage of planMotion took.
 struct PlanStage {
-  std::string name;      ///< "ends", "search", "shorten", "tighten", "verify", "time", "obstacle_trajectories"
+  std::string name;      ///< "ends", "search", "shorten", "tighten", "verify", "time", "dynamic_obstacles"
   double seconds = 0.;   ///< wall time
   long evaluations = 0;  ///< see PlanOptions: looks at up to eight postures side by side, or at a motion at all times
   std::string note;      ///< what came of it

@@ -97,7 +97,7 @@ class PlanAmongObstacles {
     if (!was_reached_) least_ = plan.duration();
     const DynamicTiming timing = timeAmongObstacles(plan.timed, limits_, check_, cancellation_);
     const bool fits = timing.was_found && !check_.contact(plan.timed.curve(), timing.scaling, limits_.acceleration);
-    plan.stages.push_back({"obstacle_trajectories", std::chrono::duration<double>(Clock::now() - began).count(),
+    plan.stages.push_back({"dynamic_obstacles", std::chrono::duration<double>(Clock::now() - began).count(),
                            check_.evaluations - before, cat("a way ", how, fits ? "" : " that could not be timed")});
     if (!was_reached_) failed_goal_ = plan.path.bottomRows(1).transpose();
     if (fits) {

@@ -65,7 +65,7 @@ def test_every_call_that_a_message_names_is_one_in_python_too() -> None:
 
 
 def test_all_that_a_result_says_is_told_in_python() -> None:
-    bound = "".join(file.read_text() for file in BINDINGS.glob("*.cpp"))
+    bound = "".join(file.read_text() for file in BINDINGS.rglob("*.cpp"))
     assert re.findall(r'def_r[ow]\(\s*"(?:message|text)"', bound) == []  # as it is in C++
     for body in re.findall(r'def_prop_ro\(\s*"message",(.*?)"', bound, re.DOTALL):
         assert "inPython" in body or "messageOf" in body, body

@@ -11,7 +11,7 @@ import pytest
 import kinegraph
 import typed_script
 
-ROOT = Path(__file__).parent.parent.parent
+ROOT = Path(__file__).parent.parent.parent.parent
 STUB = Path(kinegraph.__file__).parent / "_core.pyi"
 
 

@@ -63,7 +63,7 @@ def test_a_panda_keeps_clear_of_a_load_that_passes(cart: ry.Config, slower: floa
     assert leastOfTime(cart, plan, tracks) >= 0.01 - 1e-6
     assert any("waits for" in note for note in plan.warnings)
     np.testing.assert_allclose(plan.obstaclesAt(slower)["cart"], poseAt(slower * TIMES, POSES, slower))
-    assert plan.stages[-1]["name"] == "moving"
+    assert plan.stages[-1]["name"] == "dynamic_obstacles"
 
 
 def test_another_arm_moves_as_its_joints_are_told() -> None:
@@ -154,7 +154,7 @@ def test_what_moves_lets_a_robot_go_on_with_its_acceleration(cart: ry.Config, sh
     for target in (None, other):
         bend = plan.replan(cart, at=at, goal=target, obstacle_trajectories=tracks)
         assert bend.feasible, bend.message
-        assert not [note for note in bend.notes if "without" in note]
+        assert not [note for note in bend.warnings if "without" in note]
         for before, after, tolerance in zip(plan.at(at), bend.at(0), (1e-12, 1e-9, 1e-6), strict=True):
             np.testing.assert_allclose(after, before, atol=tolerance)
         assert leastOfTime(cart, bend, tracks, 4e-3) >= 0.01 - 1e-6

@@ -54,7 +54,7 @@ def test_a_copy_goes_on_as_the_plan_does(column: ry.Config) -> None:
         column, q + TURN, q - TURN, margin=0.01, obstacle_trajectories=moving, jerk=60, constraints=[tilt]
     )
     again = pickle.loads(pickle.dumps(plan))
-    assert plan.feasible and again.notes == plan.warnings
+    assert plan.feasible and again.warnings == plan.warnings
     np.testing.assert_array_equal(again.obstaclesAt(1.3)["cart"], plan.obstaclesAt(1.3)["cart"])
     assert again.clearance() == plan.clearance()
     at = 0.4 * plan.duration
