@@ -261,7 +261,7 @@ def test_an_arm_that_is_too_heavy_is_named():
     timed = ry.retime(pendulum(3.0), [[-1.5], [1.5]], acceleration=100, torque=True)
     assert timed.status == ry.RetimeStatus.cannot_move
     assert "'arm' cannot rest" in timed.message
-    assert "-3 to 3 N m are allowed" in timed.message
+    assert "the limits are -3 to 3 N m" in timed.message
     C = ry.Config()
     C.addText("base: {}\narm (base): { joint: hingeX }")
     with pytest.raises(ry.ArgumentError, match="no joint of the scene has an effort limit"):
