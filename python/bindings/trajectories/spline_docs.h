@@ -105,7 +105,7 @@ Returns:
 Raises:
     ArgumentError: There are no knots, or a time is NaN.)";
 
-inline constexpr char getKnots[] = R"(Returns the knots, (number of control points + degree + 1,) in s.)";
+inline constexpr char getKnots[] = R"(Returns the knots, (count,) in s: one per control point, and degree + 1 more.)";
 
 inline constexpr char getCtrlPoints[] = R"(Returns the control points with duplicates, (count, d).)";
 

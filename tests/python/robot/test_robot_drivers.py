@@ -343,7 +343,7 @@ def test_a_driver_without_its_methods_says_which(panda: ry.Config) -> None:
         def read(self):  # type: ignore[no-untyped-def]
             return "here"
 
-    with pytest.raises(ry.RobotFault, match=r"read\(\) returned something else"):
+    with pytest.raises(ry.RobotFault, match=r"read\(\) returned an object of a wrong type"):
         ry.BotOp(panda, driver=Wrong(panda))
 
 
