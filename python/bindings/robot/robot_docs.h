@@ -6,19 +6,20 @@ namespace kinegraph::python::docs::robot {
 inline constexpr char BotOp[] =
     R"(Moves a simulated or real robot along motions, operates its grippers, and shows both.
 
-Time is virtual unless the robot is real or `realtime` is set. It advances in calls that wait (sync, wait, home, stop), by exactly
-their duration, as fast as the computation allows, or at the pace of the wall clock while a browser shows the configuration. A
-repeated query (get_t, getTimeToEnd, gripperDone, ...) at the same time advances the clock by one control period, so that polling
-loops terminate. The same script gives the same motion, to the bit.
+Time is virtual unless the robot is real or `realtime` is set. It advances in calls that wait (sync, wait, home, stop),
+by exactly their duration, as fast as the computation allows, or at the pace of the wall clock while a browser shows the
+configuration. A repeated query (get_t, getTimeToEnd, gripperDone, ...) at the same time advances the clock by one
+control period, so that polling loops terminate. The same script gives the same motion, to the bit.
 
-Ctrl-C holds the robot, then raises. A motion beyond a limit of the robot raises an error that names the limit and a remedy.)";
+Ctrl-C holds the robot, then raises. A motion beyond a limit of the robot raises an error that names the limit and a
+remedy.)";
 
 inline constexpr char BotOp_make[] =
     R"(Simulates a robot in a copy of a configuration, or moves a robot through a driver.
 
-Parameters of params_add: botsim/tau, the control period in s (.01); botsim/hyperSpeed, control time per wall-clock time while a
-browser shows the configuration or with realtime, no limit if it is not positive (1); botsim/realtime (False); botsim/engine,
-'physx' (our dynamic engine) or 'kinematic'; bot/blockRealRobot, True to simulate always (False).
+Parameters of params_add: botsim/tau, the control period in s (.01); botsim/hyperSpeed, control time per wall-clock time
+while a browser shows the configuration or with realtime, no limit if it is not positive (1); botsim/realtime (False);
+botsim/engine, 'physx' (our dynamic engine) or 'kinematic'; bot/blockRealRobot, True to simulate always (False).
 
 Args:
     C: The scene; copied. Its joints are those of the robot.
@@ -31,15 +32,16 @@ Raises:
     RobotFault: The robot reports an error.)";
 
 inline constexpr char get_tauExternal[] =
-    R"(Returns the joint forces by contacts, (n,) N m or N: the mean since the last call. NaN if the robot does not measure them.)";
+    R"(Returns the joint forces by contacts, (n,) N m or N: the mean since the last call. NaN if the robot does not
+measure them.)";
 
 inline constexpr char getTimeToEnd[] =
     R"(Returns the time until the motion ends, s; 0 or less if it has ended, or if there is none.)";
 
 inline constexpr char moveTo[] = R"(Moves to joint values and rests there. Does not wait.
 
-The motion takes T = (sqrt(6 c d + v^2) - v) / c for a distance d, a velocity v towards the target, and the time cost c; at least
-.1 s, and longer if limits of velocity and acceleration require it.
+The motion takes T = (sqrt(6 c d + v^2) - v) / c for a distance d, a velocity v towards the target, and the time cost c;
+at least .1 s, and longer if limits of velocity and acceleration require it.
 
 Args:
     q_target: (n,) rad or m.
@@ -51,18 +53,18 @@ Raises:
 
 inline constexpr char move[] = R"(Moves along a smooth path and rests at its end. Does not wait.
 
-The motion is a spline of degree 3 with these control points: it comes near the inner points and ends at the last. To execute a
-plan exactly, use follow(plan).
+The motion is a spline of degree 3 with these control points: it comes near the inner points and ends at the last. To
+execute a plan exactly, use follow(plan).
 
 Args:
     path: (K, n) joint values, rad or m, or (n,) for one point.
     times: (K,) in s after the end of the present motion; or the time of the last point, which the others share evenly.
     overwrite: True replaces the present motion smoothly; times then count from overwriteCtrlTime.
-    overwriteCtrlTime: Control time (s) at which the new motion takes over; negative: now. If it has passed, the new motion
-        starts at the point that it would have reached by now.
+    overwriteCtrlTime: Control time (s) at which the new motion takes over; negative: now. If it has passed, the new
+        motion starts at the point that it would have reached by now.
 Raises:
-    ArgumentError: Sizes do not match, times decrease, or the motion exceeds a limit of position, velocity, acceleration or
-        effort; the message names the joint, the time, and the factor on the duration that would do.
+    ArgumentError: Sizes do not match, times decrease, or the motion exceeds a limit of position, velocity, acceleration
+        or effort; the message names the joint, the time, and the factor on the duration that would do.
     RobotFault: The robot was stopped, or is not at the start of the motion.)";
 
 inline constexpr char moveAutoTimed[] =
@@ -78,9 +80,10 @@ Raises:
 
 inline constexpr char follow[] = R"(Executes a trajectory exactly. Does not wait.
 
-The reference of each control period is motion.eval(t), with velocity and acceleration; nothing is resampled, so that a verified plan
-keeps its margin. The trajectory starts at the end of the present motion, or replaces it with overwrite, and the robot rests at the
-end. A trajectory that ends with a velocity is followed by a stopping segment. The trajectory is evaluated in this call.
+The reference of each control period is motion.eval(t), with velocity and acceleration; nothing is resampled, so that a
+verified plan keeps its margin. The trajectory starts at the end of the present motion, or replaces it with overwrite,
+and the robot rests at the end. A trajectory that ends with a velocity is followed by a stopping segment. The trajectory
+is evaluated in this call.
 
 Args:
     motion: A Trajectory, such as a TimedPath or a motion plan, or a BSpline.
@@ -89,8 +92,8 @@ Args:
     overwrite: True replaces the present motion instead of following it.
     start_time: Control time of the start with overwrite, s; negative: now.
 Raises:
-    ArgumentError: The robot is not at the trajectory's start, or the trajectory has another number of dofs, or exceeds a limit of
-        position, velocity, acceleration or effort.
+    ArgumentError: The robot is not at the trajectory's start, or the trajectory has another number of dofs, or exceeds
+        a limit of position, velocity, acceleration or effort.
     RobotFault: The robot was stopped.)";
 
 inline constexpr char floating[] =
@@ -113,10 +116,11 @@ Raises:
     RobotFault: The robot has a fixed stiffness.)";
 
 inline constexpr char stepAction[] =
-    R"(Accelerates constantly for a short time: one step of a policy. Accelerations and velocities are clipped to their limits.
+    R"(Accelerates constantly for a short time: one step of a policy. Accelerations and velocities are clipped to their
+limits.
 
-From the observation's time and reference, the robot accelerates by a = (delta - 2 xi lmbda qvel) / lmbda^2 for lmbda seconds, and
-comes to rest in the next lmbda seconds unless another step follows.
+From the observation's time and reference, the robot accelerates by a = (delta - 2 xi lmbda qvel) / lmbda^2 for lmbda
+seconds, and comes to rest in the next lmbda seconds unless another step follows.
 
 Args:
     delta: (n,) target relative to the present reference, rad or m.
@@ -250,7 +254,8 @@ inline constexpr char getContacts[] =
     R"(Returns the present contacts in the simulated world, as Simulation.getContacts does.
 
 Returns:
-    A dict per contact point, in world coordinates: `frames` (two names, "ground" for the plane z = 0), `position` (m), `normal` (from
+    A dict per contact point, in world coordinates: `frames` (two names, "ground" for the plane z = 0), `position` (m),
+        `normal` (from
     the first to the second), `distance` (m, negative for an overlap), `force` (N, of the first on the second). Empty
     in a world without forces, and for a real robot.)";
 
@@ -304,7 +309,8 @@ Raises:
     FrameNotFound: There is no such frame.)";
 
 inline constexpr char CommandLog[] =
-    R"(All commands to a robot with their control periods. From the same start, the same log gives the same motion, to the bit.)";
+    R"(All commands to a robot with their control periods. From the same start, the same log gives the same motion, to
+the bit.)";
 
 inline constexpr char saveLog[] = R"(Writes the log into a file.
 
@@ -351,8 +357,9 @@ Raises:
 inline constexpr char RobotDriver[] =
     R"(The interface of BotOp to a robot. Subclasses drive your own robots.
 
-A subclass defines info, read, write and stop, and if needed connect, disconnect, recover, moveGripper, and, for simulated robots,
-step. Calls come from one thread at a time. An exception stops the robot, and BotOp raises it as a RobotFault.)";
+A subclass defines info, read, write and stop, and if needed connect, disconnect, recover, moveGripper, and, for
+simulated robots, step. Calls come from one thread at a time. An exception stops the robot, and BotOp raises it as a
+RobotFault.)";
 
 inline constexpr char write[] = R"(Moves the robot.
 

@@ -4,27 +4,30 @@
 namespace kinegraph::python::docs::retime {
 
 inline constexpr char ofPath[] =
-    R"(Computes the fastest motion along a path within limits of velocity, acceleration and jerk, which hold at all times.
+    R"(Computes the fastest motion along a path within limits of velocity, acceleration and jerk, which hold at all
+times.
 
-Limits are one number for all dofs or one per dof; infinity for none. The motion starts and ends at rest unless velocities are
-passed; with jerk limits it does so without acceleration. Points that equal their predecessor take no time.
+Limits are one number for all dofs or one per dof; infinity for none. The motion starts and ends at rest unless
+velocities are passed; with jerk limits it does so without acceleration. Points that equal their predecessor take no
+time.
 
 Args:
     path: Shape (K, n), rad or m.
     velocity: Limit of |dq/dt|, rad/s or m/s.
     acceleration: Limit of |d2q/dt2|, rad/s^2 or m/s^2.
     jerk: Limit of |d3q/dt3|, rad/s^3 or m/s^3; None for none.
-    corners: "blend" rounds corners within tolerance, "stop" stops at each, "spline" takes a cubic spline through all points,
-        which may deviate far from the lines between them.
+    corners: "blend" rounds corners within tolerance, "stop" stops at each, "spline" takes a cubic spline through all
+        points, which may deviate far from the lines between them.
     tolerance: Largest distance of a blend from its corner, in every dof, rad or m.
-    is_free: Checks a blend for collisions: is_free(points, deviation) -> bool, with points (M, n) on the blend, which deviates
-        from the chords between them by at most deviation in every dof. After False, smaller blends are tried, then the motion
-        stops at the corner. None: all blends are free.
+    is_free: Checks a blend for collisions: is_free(points, deviation) -> bool, with points (M, n) on the blend, which
+        deviates from the chords between them by at most deviation in every dof. After False, smaller blends are tried,
+        then the motion stops at the corner. None: all blends are free.
     start_velocity: dq/dt at the start, shape (n,), along the path; None: at rest.
     end_velocity: dq/dt at the end, shape (n,), along the path; None: at rest.
     intervals: Number of intervals of the time scaling, on curved parts.
-    start_acceleration: d2q/dt2 at the start, shape (n,), for motions with jerk limits: the acceleration that the curvature
-        of the path requires at start_velocity, plus a multiple of start_velocity; None: a constant speed at the start.
+    start_acceleration: d2q/dt2 at the start, shape (n,), for motions with jerk limits: the acceleration that the
+        curvature of the path requires at start_velocity, plus a multiple of start_velocity; None: a constant speed at
+        the start.
 Returns:
     TimedPath. If the problem is infeasible, its feasible is False and its message gives the cause.
 Raises:
@@ -47,11 +50,12 @@ Args:
     start_velocity: dq/dt at the start, shape (n,), along the path; None: at rest.
     end_velocity: dq/dt at the end, shape (n,), along the path; None: at rest.
     intervals: Number of intervals of the time scaling, on curved parts.
-    start_acceleration: d2q/dt2 at the start, shape (n,), for motions with jerk limits: the acceleration that the curvature
-        of the path requires at start_velocity, plus a multiple of start_velocity; None: a constant speed at the start.
+    start_acceleration: d2q/dt2 at the start, shape (n,), for motions with jerk limits: the acceleration that the
+        curvature of the path requires at start_velocity, plus a multiple of start_velocity; None: a constant speed at
+        the start.
 Returns:
-    TimedPath. If the problem is infeasible, its feasible is False and its message gives the cause, such as a joint that cannot
-    hold the arm's weight.
+    TimedPath. If the problem is infeasible, its feasible is False and its message gives the cause, such as a joint that
+    cannot hold the arm's weight.
 Raises:
     ArgumentError: As without config; the path has another number of dofs, or the model lacks a limit.)";
 

@@ -5,16 +5,17 @@ namespace kinegraph::python::docs::spline {
 
 inline constexpr char type[] = R"(A motion x(t) of d dofs as a B-spline. Setters return the spline itself.
 
-Points have times (s). A spline of degree 2 or more comes near the inner points, but does not pass through them. The first and the
-last point are repeated floor(degree / 2) times (duplicates): the spline starts and ends at them, at rest or with a given
-velocity. Before its start it stays at the first point, from its end on at the last one, with zero derivatives.)";
+Points have times (s). A spline of degree 2 or more comes near the inner points, but does not pass through them. The
+first and the last point are repeated floor(degree / 2) times (duplicates): the spline starts and ends at them, at rest
+or with a given velocity. Before its start it stays at the first point, from its end on at the last one, with zero
+derivatives.)";
 
 inline constexpr char make[] = R"(Creates an empty spline; call set.)";
 
 inline constexpr char setKnots[] = R"(Sets the knots for points at given times, and removes the control points.
 
-The first and the last time are knots degree + 1 times. Between them, the knots of an odd degree are the inner times, those of
-an even degree the midpoints of neighbors.
+The first and the last time are knots degree + 1 times. Between them, the knots of an odd degree are the inner times,
+those of an even degree the midpoints of neighbors.
 
 Args:
     degree: 0 (steps) to 9; 2 or 3 is smooth.
@@ -56,8 +57,8 @@ inline constexpr char append[] = R"(Appends points after the present end. An err
 Args:
     points: (k, d); one point may be (d,).
     times_rel: (k,) in s, after the present end.
-    inside: False: the spline passes through its previous end, at rest if it ended at rest, else with its velocity. True: the
-        previous end becomes an inner point, which the spline only comes near.
+    inside: False: the spline passes through its previous end, at rest if it ended at rest, else with its velocity.
+        True: the previous end becomes an inner point, which the spline only comes near.
 Returns:
     The spline itself.
 Raises:
