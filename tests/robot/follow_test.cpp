@@ -164,7 +164,8 @@ TEST(Follow, LaterMotionsAreAppendedOrReplaceIt) {
   const BSpline after(3, points, pair(cut, cut + 1.), motion.eval(cut).velocity);
   while (c.now() < cut + 1.) {
     c.stepOnce();
-    EXPECT_LT((c.bot.stepObservation().qref - after.eval(c.now())).norm(), 1e-3) << c.now();  // the acceleration jumps near the cut
+    EXPECT_LT((c.bot.stepObservation().qref - after.eval(c.now())).norm(), 1e-3)
+        << c.now();  // the acceleration jumps near the cut
   }
 
   Bench d;

@@ -105,9 +105,9 @@ class BotOp {
   void moveAutoTimed(const MatrixXd& path, double max_velocity = 1., double max_acceleration = 1.);
 
   /// Executes a trajectory as it is: the reference of each control period is trajectory.eval(t), with velocity and
-  /// acceleration. t = 0 is the end of the present motion, or now, or a later control time with `overwrite`. The robot rests
-  /// at the end; a trajectory that ends with a velocity is followed by a stopping segment. The trajectory is evaluated in
-  /// this call, and not needed later.
+  /// acceleration. t = 0 is the end of the present motion, or now, or a later control time with `overwrite`. The robot
+  /// rests at the end; a trajectory that ends with a velocity is followed by a stopping segment. The trajectory is
+  /// evaluated in this call, and not needed later.
   ///
   /// Throws ValueError if the robot or its reference is not at the trajectory's start, within the tolerances, and if the
   /// trajectory exceeds a limit of position, velocity, acceleration or effort.

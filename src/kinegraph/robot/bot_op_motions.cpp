@@ -34,7 +34,7 @@ void requirePath(const char* call, const MatrixXd& path, Eigen::Index n) {
 MatrixXd asRow(const VectorXd& q) { return q.transpose(); }
 VectorXd asVector(double number) { return VectorXd::Constant(1, number); }
 
-/// Evaluates a trajectory that starts at the control time `begin`: at its start, at all control periods, and at its end.
+/// Evaluates a trajectory that starts at the control time `begin`: at its start, at all control periods, at its end.
 std::shared_ptr<const SampledTrajectory> sampled(const Trajectory& trajectory, double begin, double period) {
   const double duration = trajectory.duration();
   if (!(duration >= 0.) || !(duration / period < kMaxPeriods))
