@@ -37,24 +37,17 @@ C.setJointState(start)
 stays = np.array([[0, 2, 1, 1, 0, 0, 0], [*hand, 1, 0, 0, 0]])
 print(ry.planMotion(C, goal, start, obstacle_trajectories={"cart": ([0.0, 1.0], stays)}).message)
 
-# The moving robot gets another goal: the new motion continues with its velocity.
+# A new goal for a moving robot: the new plan starts with the velocity of the old one.
 C.getFrame("cart").setPosition([0, 2, 1])
 bot = ry.BotOp(C, False)
 plan = ry.planMotion(C, goal, start, velocity=0.6, acceleration=1.5)
-
-
-def sampled(motion: ry.MotionPlan) -> tuple[np.ndarray, np.ndarray]:
-    at = np.linspace(0, motion.duration, 100)[1:]
-    return np.array([motion.eval(t)[0] for t in at]), at
-
-
-bot.move(*sampled(plan))
+bot.follow(plan)  # exactly, as it was verified
 while bot.get_t() < 0.4 * plan.duration:
     bot.sync(C, 0.05)
 now = bot.get_t() + 0.1
 bend = plan.replan(C, at=now, goal=goal + np.array([-0.3, 0.3, 0, 0, 0, 0.1, 0]))
 assert bend.feasible
-bot.move(*sampled(bend), overwrite=True, overwriteCtrlTime=now)
+bot.follow(bend, overwrite=True, start_time=now)
 slowest = 1.0
 while bot.get_t() < now + 0.3:
     bot.sync(C, 0.01)

@@ -62,7 +62,7 @@ void bindPlan(nb::module_& m);
 void bindRoadmap(nb::module_& m);
 void bindSpline(nb::module_& m);
 void bindSplineMotion(nb::module_& m);
-void bindOperation(nb::module_& m);
+void bindRobot(nb::module_& m);
 void bindDynamics(nb::class_<PyConfig>& config);
 void bindCompatibility(nb::class_<PyConfig>& config);
 void bindFormats(nb::class_<PyConfig>& config, nb::class_<Frame>& frame);

@@ -60,7 +60,7 @@ NB_MODULE(_core, m) {
   bindSplineMotion(m);
   bindTasks(m);
   bindSimulation(m);
-  bindOperation(m);
+  bindRobot(m);
   m.def(
       "parseText",
       [](const std::string& text, const std::string& name) { return Attributes(toDict(kinegraph::parse(text, name))); },

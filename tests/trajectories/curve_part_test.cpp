@@ -27,7 +27,7 @@ TEST(CurvePart, IsTheWholeCurveBetweenItsEnds) {
   }
 }
 
-TEST(CurvePart, ALawAlongItIsOneAlongTheWhole) {
+TEST(CurvePart, ATimeScalingAlongItIsOneAlongTheWhole) {
   const PathCurve curve = someCurve(false);
   const CurvePart part = partOf(curve, .4 * curve.length(), .9 * curve.length());
   const MotionLimits limits{VectorXd::Constant(3, 1.), VectorXd::Constant(3, 2.), {}};
@@ -40,7 +40,7 @@ TEST(CurvePart, ALawAlongItIsOneAlongTheWhole) {
   }
 }
 
-TEST(CurvePart, TheRestOfALawIsTheLawFromThenOn) {
+TEST(CurvePart, TheRestOfATimeScalingIsItFromThenOn) {
   for (const bool smooth : {false, true}) {
     const PathCurve curve = someCurve(smooth);
     MotionLimits limits{VectorXd::Constant(3, 1.), VectorXd::Constant(3, 2.), {}};

@@ -14,7 +14,7 @@ using namespace kinegraph;
 
 namespace {
 
-constexpr double kWithin = 1e-9;  // by which a limit may be exceeded, as a share
+constexpr double kWithin = 1e-9;  // largest relative violation of a limit
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 MotionLimits limitsOf(int dofs, double velocity, double acceleration, double jerk = 0.) {
@@ -35,8 +35,8 @@ MatrixXd corner() {
   return path;
 }
 
-/// How much of its limits a motion uses at most, at `samples` times: of the velocity, the acceleration, and the jerk by
-/// differences of accelerations (their mean over a step is no larger than the jerk).
+/// The largest ratios of a motion to its limits at `samples` times. Differences of accelerations give the mean jerk of
+/// a step, which is at most the largest jerk.
 struct Use {
   double velocity = 0., acceleration = 0., jerk = 0.;
 };
@@ -77,7 +77,7 @@ TEST(Retime, ALineTakesWhatBangCruiseBangTakes) {
 TEST(Retime, ALineWithJerkTakesWhatTheSevenPhasesTake) {
   // jerk 8 for 0.5 s to 4 m/s^2, 0 hold; 2 m/s after 1 s and 1 m; 8 m at 2 m/s; the same down
   EXPECT_NEAR(retime(line(10.), limitsOf(1, 2., 4., 8.)).duration(), 1. + 4. + 1., 1e-9);
-  // four phases of equal time t with jerk 1: the way is 2 t^3
+  // four phases of equal time t with jerk 1: the distance is 2 t^3
   EXPECT_NEAR(retime(line(2.), limitsOf(1, 100., 100., 1.)).duration(), 4., 1e-9);
 }
 
@@ -139,7 +139,7 @@ TEST(Retime, BlendsMissTheirCornerByTheToleranceAndAreFasterThanStops) {
   }
 }
 
-TEST(Retime, WhereItTurnsBackARoundedCornerTakesNoLongerThanAStop) {
+TEST(Retime, AtAReversalABlendTakesNoLongerThanAStop) {
   const MotionLimits limits{VectorXd::Ones(2), VectorXd::Ones(2), VectorXd::Constant(2, 10.)};
   for (const double degrees : {0., .01, .1, .3, 1., 5.}) {
     const double a = degrees / 180. * std::numbers::pi;
@@ -157,7 +157,7 @@ TEST(Retime, BlendsThatAreNotFreeBecomeSmallerAndThenStops) {
   options.is_free = [&](const MatrixXd& points, double deviation) {
     ++asked;
     EXPECT_LT(deviation, .01);
-    return points.col(1).maxCoeff() < .1;  // how far along the second line it goes
+    return points.col(1).maxCoeff() < .1;  // extent along the second line
   };
   const TimedPath small = retime(corner(), limitsOf(2, 1., 2.), options);
   EXPECT_GT(asked, 1);
@@ -186,11 +186,11 @@ TEST(Retime, LimitsHoldAllAlongRandomPaths) {
     const Use use = useOf(timed, limits, 2000);
     EXPECT_LE(use.velocity, 1. + kWithin) << i;
     EXPECT_LE(use.acceleration, 1. + kWithin) << i;
-    EXPECT_LE(use.jerk, 1. + 1e-6) << i;  // of differences, which round
+    EXPECT_LE(use.jerk, 1. + 1e-6) << i;  // differences have rounding errors
   }
 }
 
-TEST(Retime, WithLimitsOfTheJerkAHundredIntervalsAreNearlyAsFastAsManyMore) {
+TEST(Retime, WithJerkLimitsAHundredIntervalsAreNearlyAsFastAsManyMore) {
   Rng rng(19);
   RetimeOptions options, fine;
   options.corners = fine.corners = Corners::spline;
@@ -204,7 +204,7 @@ TEST(Retime, WithLimitsOfTheJerkAHundredIntervalsAreNearlyAsFastAsManyMore) {
   }
 }
 
-TEST(Retime, WhoIsAskedNowAndThenMayEndIt) {
+TEST(Retime, ATokenCancelsIt) {
   Rng rng(23);
   const MatrixXd path = randomPath(rng, 6, 3);
   for (const double jerk : {0., 30.}) {
@@ -270,7 +270,7 @@ TEST(Retime, AccelerationsKeepTheirLimitsWhereItHardlyAccelerates) {
   }
 }
 
-TEST(Retime, WhatCannotBeBrakedIsSaid) {
+TEST(Retime, ReportsAnEndVelocityThatCannotBeBraked) {
   RetimeOptions options;
   options.start_velocity = VectorXd::Constant(1, 3.);
   const TimedPath timed = retime(line(1.), limitsOf(1, 10., 2.), options);  // sqrt(2 * 2 * 1) = 2 can be braked
@@ -279,7 +279,7 @@ TEST(Retime, WhatCannotBeBrakedIsSaid) {
   expectError<ValueError>([&] { timed.eval(0.); }, {"there is no motion", "cannot be braked"});
 }
 
-TEST(Retime, WhatItSaysWouldDoDoesAndLittleMoreDoesNot) {
+TEST(Retime, TheVelocityThatWouldDoDoesAndLittleMoreDoesNot) {
   const MatrixXd path{{0., 0.}, {.2, .1}, {.25, .4}, {.6, .5}};
   int told = 0;
   for (const double jerk : {0., 5., 60.}) {
@@ -307,7 +307,7 @@ TEST(Retime, WhatItSaysWouldDoDoesAndLittleMoreDoesNot) {
   EXPECT_GE(told, 6);
 }
 
-TEST(Retime, RowsOfTheCallerHoldAtAllPlacesAndSayWhatCannotBeHeld) {
+TEST(Retime, ConstraintsOfTheCallerHoldAtAllGridpointsAndNameTheOneThatForbidsRest) {
   ConstraintSource rows;  // s'' + s'^2 + c <= 3, with c = 1 + s
   rows.low = VectorXd::Constant(1, -kNoLimit), rows.high = VectorXd::Constant(1, 3.);
   rows.names = {"shoulder"};
@@ -315,17 +315,17 @@ TEST(Retime, RowsOfTheCallerHoldAtAllPlacesAndSayWhatCannotBeHeld) {
     return ScalingConstraints{VectorXd::Constant(1, 1.), VectorXd::Constant(1, 1.), VectorXd::Constant(1, 1. + s)};
   };
   RetimeOptions options;
-  options.rows = rows;
+  options.constraints = rows;
   const TimedPath timed = retime(line(1.), limitsOf(1, 10., 10.), options);
   ASSERT_TRUE(timed.feasible()) << timed.message;
   for (int i = 0; i <= 1000; ++i) {
     const MotionState state = timed.eval(timed.duration() * i / 1000.);
     EXPECT_LE(state.acceleration[0] + state.velocity[0] * state.velocity[0] + 1. + state.q[0], 3. + 1e-3);
   }
-  options.rows.high[0] = 1.5;
+  options.constraints.high[0] = 1.5;
   const TimedPath held = retime(line(1.), limitsOf(1, 10., 10.), options);
   EXPECT_EQ(held.status, RetimeStatus::cannot_move);
-  EXPECT_NE(held.message.find("'shoulder' cannot be held"), std::string::npos) << held.message;
+  EXPECT_NE(held.message.find("'shoulder' cannot rest"), std::string::npos) << held.message;
 }
 
 TEST(Retime, InfiniteLimitsLimitNothing) {
@@ -337,10 +337,10 @@ TEST(Retime, InfiniteLimitsLimitNothing) {
   limits.acceleration[0] = kNoLimit;
   EXPECT_NEAR(retime(path, limits).duration(), 1., 1e-6);
   path(1, 0) = 0.;
-  expectError<ValueError>([&] { retime(path, limits); }, {"nothing limits the motion at 0 %", "dofs 1"});
+  expectError<ValueError>([&] { retime(path, limits); }, {"the speed is unlimited at 0 %", "dofs 1"});
 }
 
-TEST(Retime, WhereHardlyAJerkIsLimitedItIsNearlyAsFastAsWithoutLimitsOfIt) {
+TEST(Retime, WithLargeJerkLimitsItIsNearlyAsFastAsWithoutThem) {
   Rng rng(29);
   const MatrixXd path = randomPath(rng, 5, 2);
   RetimeOptions options;
@@ -353,7 +353,7 @@ TEST(Retime, WhereHardlyAJerkIsLimitedItIsNearlyAsFastAsWithoutLimitsOfIt) {
   }
 }
 
-TEST(Retime, WhereTooFewIntervalsHaveNoLawMoreAreTaken) {
+TEST(Retime, TooFewIntervalsAreDoubled) {
   Rng rng(31);
   for (int i = 0; i < 250; ++i) {
     const MatrixXd path = randomPath(rng, 12, 2);
@@ -369,7 +369,7 @@ TEST(Retime, WhereTooFewIntervalsHaveNoLawMoreAreTaken) {
   }
 }
 
-TEST(Retime, ManyIntervalsHaveALawThatIsAsFastAndKeepsTheLimits) {
+TEST(Retime, ManyIntervalsAreAsFastAndKeepTheLimits) {
   Rng rng(29);
   const MatrixXd path = randomPath(rng, 4, 2);
   for (const Corners corners : {Corners::spline, Corners::blend}) {
@@ -387,12 +387,12 @@ TEST(Retime, ManyIntervalsHaveALawThatIsAsFastAndKeepsTheLimits) {
       const Use use = useOf(many, limits);
       EXPECT_LE(use.velocity, 1. + kWithin);
       EXPECT_LE(use.acceleration, 1. + kWithin);
-      EXPECT_LE(use.jerk, 1. + kWithin);  // 0 where it has no limit
+      EXPECT_LE(use.jerk, 1. + kWithin);  // 0 without a limit
     }
   }
 }
 
-TEST(Retime, ManyIntervalsEndWhenAskedTo) {
+TEST(Retime, ATokenCancelsManyIntervals) {
   Rng rng(31);
   const MatrixXd path = randomPath(rng, 4, 2);
   for (const double jerk : {0., 60.}) {

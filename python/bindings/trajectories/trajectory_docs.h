@@ -1,12 +1,13 @@
 #pragma once
 
-/// The manual of what bind_trajectory.cpp binds.
+/// The docstrings of bind_trajectory.cpp, and of SplineTrajectory.
 namespace kinegraph::python::docs::trajectory {
 
 inline constexpr char Trajectory[] = R"(A timed motion q(t), 0 <= t <= duration. BotOp.follow executes any of them.
 
-Retimed paths (TimedPath), motion plans, SplineTrajectory and SampledTrajectory are trajectories. A subclass in Python has a
-property duration (s) and a method eval(t) that returns q, velocity and acceleration, shape (n,) each, for a number t:
+Retimed paths (TimedPath), motion plans, SplineTrajectory and SampledTrajectory are trajectories. A subclass in Python
+has a property duration (s) and a method eval(t) that returns q, velocity and acceleration, shape (n,) each, for a
+number t:
 
     class Swing(ry.Trajectory):
         duration = 2.0

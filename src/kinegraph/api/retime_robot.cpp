@@ -73,7 +73,7 @@ TimedPath retime(const Config& config, const MatrixXd& path, const RobotLimits& 
   motion.validate(n);
   const PathCurve curve = curveOf(path, motion, options);
   RetimeOptions with_torque = options;
-  with_torque.rows = torqueRows(config, curve);
+  with_torque.constraints = torqueRows(config, curve);
   return retime(path, curve, motion, with_torque);
 }
 

@@ -41,7 +41,8 @@ void SampledTrajectory::evalTo(double t, double* q, double* velocity, double* ac
   out_velocity = s.velocity.row(i).transpose();
   out_acceleration = s.acceleration.row(i).transpose();
   if (tau == 0.) return;
-  // q0 + v0 tau + a0/2 tau^2 + c3 tau^3 + c4 tau^4 + c5 tau^5; the last three meet the state at the end of the interval.
+  // q0 + v0 tau + a0/2 tau^2 + c3 tau^3 + c4 tau^4 + c5 tau^5; the last three meet the state at the end of the
+  // interval.
   const double h = s.times[i + 1] - s.times[i];
   for (Eigen::Index j = 0; j < n; ++j) {
     const double v0 = out_velocity[j], a0 = out_acceleration[j];

@@ -4,8 +4,8 @@
 
 namespace kinegraph {
 
-/// A trajectory through given states. At a sample's time its state is returned to the bit; between two samples, each dof
-/// is the quintic polynomial with their positions, velocities and accelerations (Hermite interpolation).
+/// A trajectory through given states. At a sample's time its state is returned to the bit; between two samples, each
+/// dof is the quintic polynomial with their positions, velocities and accelerations (Hermite interpolation).
 class SampledTrajectory final : public Trajectory {
  public:
   SampledTrajectory() = default;

@@ -21,11 +21,12 @@ SplineTrajectory::SplineTrajectory(BSpline spline, double origin) : spline_(std:
 
 void SplineTrajectory::evalTo(double t, double* q, double* velocity, double* acceleration) const {
   if (std::isnan(t)) throw ValueError("SplineTrajectory::eval: t is NaN; expected a time in s");
-  const double time = t >= duration_ ? spline_.end() : origin_ + std::max(t, 0.);
+  const double end = spline_.end(), time = t >= duration_ ? end : origin_ + std::max(t, 0.);
+  const double before = std::min(time, std::nextafter(end, spline_.start()));
   const Eigen::Index n = dimension();
   Eigen::Map<VectorXd>(q, n) = spline_.eval(time);
-  Eigen::Map<VectorXd>(velocity, n) = spline_.eval(time, 1);
-  Eigen::Map<VectorXd>(acceleration, n) = spline_.eval(time, 2);
+  Eigen::Map<VectorXd>(velocity, n) = spline_.eval(before, 1);
+  Eigen::Map<VectorXd>(acceleration, n) = spline_.eval(before, 2);
 }
 
 }  // namespace kinegraph

@@ -11,14 +11,14 @@ class SplineTrajectory final : public Trajectory {
   /// Keeps a copy of the spline; t = 0 is its first knot. Throws ValueError if it has no control points.
   explicit SplineTrajectory(BSpline spline);
 
-  /// The same, with the time of the spline (s) at t = 0. Before its first knot a spline stays at its first control point.
-  /// Throws ValueError if the spline ends before `origin`.
+  /// The same, with the time of the spline (s) at t = 0. Before its first knot a spline stays at its first control
+  /// point. Throws ValueError if the spline ends before `origin`.
   SplineTrajectory(BSpline spline, double origin);
 
   int dimension() const override { return spline_.dimension(); }
   double duration() const override { return duration_; }
 
-  /// Velocity and acceleration are zero at the end, as those of the spline.
+  /// At the end, velocity and acceleration are the left-hand limits; those of the spline itself are zero there.
   void evalTo(double t, double* q, double* velocity, double* acceleration) const override;
 
   const BSpline& spline() const { return spline_; }

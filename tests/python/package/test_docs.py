@@ -53,7 +53,7 @@ FOUND = {
     "timing": [
         r"<TimedPath 4 points in \d\.\d+ s>",
         r"^\[ True  True\]",
-        r"'arm' cannot be held at .* -3 to 3 N m are allowed",
+        r"'arm' cannot rest at .* the limits are -3 to 3 N m",
     ],
     "sensitivities": [r"^\(70, 7\) True", r"'position of box, x'", r"^True$", r"^4 .*shortest one"],
     "simulation": [r"\(64, 7\) \(64, 1, 7\)"],

@@ -33,7 +33,7 @@ FOUND = {
     "12_control": [r"within 0\.\d+ mm on average", r"restricted by:\n +.*table", r"overlap: 0\.0000 m"],
     "13_timing": [
         r"stop: 1\.\d+ s",
-        r"blend: \d\.\d+ s, with limits of the jerk \d\.\d+ s",
+        r"blend: \d\.\d+ s, with jerk limits \d\.\d+ s",
         r"passes the middle point",
     ],
     "15_grasp_and_lift": [

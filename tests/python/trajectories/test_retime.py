@@ -1,4 +1,4 @@
-"""The fastest motion along a path: limits checked by differences, durations against what is known on paper."""
+"""The fastest motion along a path: limits checked by differences, durations against exact results."""
 
 import pickle
 import threading
@@ -16,7 +16,7 @@ WITHIN = 1e-9
 
 
 def use(timed, velocity, acceleration, samples=4001):
-    """Which share of its limits a motion uses at most."""
+    """The largest ratio of a motion to its limits."""
     _, qd, qdd = timed.eval(np.linspace(0, timed.duration, samples))
     return np.max(np.abs(qd) / velocity), np.max(np.abs(qdd) / acceleration)
 
@@ -71,7 +71,7 @@ def test_a_number_stands_for_all_dofs():
     assert ry.retime(path, 1, 2).duration == ry.retime(path, [1, 1], [2, 2]).duration
 
 
-def test_at_takes_one_time_or_many():
+def test_eval_takes_one_time_or_many():
     timed = ry.retime([[0.0, 0.0], [1.0, 2.0]], 1, 2)
     one, many = timed.eval(0.5), timed.eval([0.1, 0.5])
     for a, b in zip(one, many, strict=True):
@@ -118,7 +118,7 @@ def test_copies_move_alike(corners, jerk):
     np.testing.assert_array_equal(copy.path, path)
 
 
-def test_a_failure_and_a_path_without_a_way_can_be_stored():
+def test_a_failure_and_a_path_without_motion_can_be_stored():
     for timed in (ry.retime([[0.0], [1.0]], 10, 2, start_velocity=[3.0]), ry.retime([[1.0, 2.0]], 1, 1)):
         copy = pickle.loads(pickle.dumps(timed))
         assert copy.status == timed.status
@@ -153,7 +153,7 @@ def test_ctrl_c_ends_it(jerk):
         ry.retime(path, 1, 2, jerk, corners="spline", intervals=1000000)
 
 
-def test_ctrl_c_ends_the_search_for_a_law_with_limits_of_the_jerk():
+def test_ctrl_c_ends_the_search_with_jerk_limits():
     path = np.random.default_rng(4).uniform(-2, 2, (6, 7))
     begin = time.perf_counter()
     ry.retime(path, 1, 2, 30.0, corners="spline", intervals=30000)
@@ -181,7 +181,7 @@ def test_other_threads_run_meanwhile(panda):
     assert len(counted) > 3
 
 
-def test_what_cannot_be_braked_is_an_outcome():
+def test_an_end_velocity_that_cannot_be_braked_is_an_outcome():
     timed = ry.retime([[0.0], [1.0]], 10, 2, start_velocity=[3.0])
     assert not timed
     assert timed.status == ry.RetimeStatus.start_too_fast
@@ -253,15 +253,15 @@ def test_torques_hold_all_along(jerk):
         C.setJointState(q)
         torques.append(C.inverseDynamics(qd, qdd)[0])
     assert np.max(np.abs(torques)) <= 7.0 * (1 + WITHIN)
-    assert np.max(np.abs(torques)) > 6.9  # and they are what limits the motion
+    assert np.max(np.abs(torques)) > 6.9  # the torques limit the motion
     assert ry.retime(pendulum(70.0), [[-1.5], [1.5]], acceleration=100, torque=True).duration < timed.duration
 
 
 def test_an_arm_that_is_too_heavy_is_named():
     timed = ry.retime(pendulum(3.0), [[-1.5], [1.5]], acceleration=100, torque=True)
     assert timed.status == ry.RetimeStatus.cannot_move
-    assert "'arm' cannot be held" in timed.message
-    assert "-3 to 3 N m are allowed" in timed.message
+    assert "'arm' cannot rest" in timed.message
+    assert "the limits are -3 to 3 N m" in timed.message
     C = ry.Config()
     C.addText("base: {}\narm (base): { joint: hingeX }")
     with pytest.raises(ry.ArgumentError, match="no joint of the scene has one"):
