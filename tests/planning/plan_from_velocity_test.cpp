@@ -26,7 +26,7 @@ struct Running {
 };
 
 void expectGoesOn(const MotionPlan& before, double time, const MotionPlan& after) {
-  const MotionState left = before.at(time), taken = after.at(0.);
+  const MotionState left = before.eval(time), taken = after.eval(0.);
   EXPECT_TRUE(taken.q.isApprox(left.q, 1e-12));
   EXPECT_TRUE(taken.velocity.isApprox(left.velocity, 1e-9))
       << taken.velocity.transpose() << " " << left.velocity.transpose();
@@ -151,12 +151,12 @@ struct RunningGently {
 
 /// Checks the jerk limits of a motion that replaces another one from `time` on.
 void expectGentle(const MotionPlan& before, double time, const MotionPlan& after) {
-  const MotionState left = before.at(time);
-  EXPECT_LE((after.at(0.).acceleration - left.acceleration).norm(), 1e-6);
+  const MotionState left = before.eval(time);
+  EXPECT_LE((after.eval(0.).acceleration - left.acceleration).norm(), 1e-6);
   VectorXd last = left.acceleration;
   constexpr double kStep = 1e-3;
   for (double t = kStep; t <= after.duration(); t += kStep) {
-    const VectorXd now = after.at(t).acceleration;
+    const VectorXd now = after.eval(t).acceleration;
     ASSERT_LE((now - last).cwiseAbs().maxCoeff(), 30. * kStep * (1. + 1e-6) + 1e-9) << t;
     last = now;
   }

@@ -117,7 +117,7 @@ TEST(PlanMotion, ProofAndTimingAreLeftOutWhereNobodyAsksForThem) {
   EXPECT_EQ(path.path, timed.path);
   EXPECT_EQ(path.times().size(), 0);
   EXPECT_EQ(path.str().find(" s"), std::string::npos) << path.str();
-  EXPECT_THROW(path.at(0.), ValueError);
+  EXPECT_THROW(path.eval(0.), ValueError);
   EXPECT_THROW(planMotion(roomForABox(.5), kGoal, {.slices = 20, .timing = false}), ValueError);
 }
 

@@ -106,7 +106,7 @@ def test_tracks_that_make_no_sense_are_refused(cart: ry.Config) -> None:
     q = cart.getJointState()
     for moving, said in [
         ({"cart": ([0.0], [[0.0, 0, 0]])}, "expected 7"),
-        ({"cart": ([1.0, 0.0], np.tile(POSES[0], (2, 1)))}, "rising"),
+        ({"cart": ([1.0, 0.0], np.tile(POSES[0], (2, 1)))}, "increasing"),
         ({"cart": [0.0]}, "expected a dict"),
         ([1], "expected a dict"),
         ({"l_gripper": ([0.0], POSES[:1])}, "moves with q"),
