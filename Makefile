@@ -1,12 +1,15 @@
-# make demo    installs into .venv and runs the main job
-# make test    installs what the tests need, and runs everything
-# make test-models   reads every robot of two large collections and compares with Pinocchio and MuJoCo (2 GB, minutes)
-# PYTHON=...   the Python to use (3.11 or newer)
+# make demo           installs into .venv and runs the demo
+# make test           installs the requirements of the tests, and runs all tests
+# make test-models    reads every robot of two large collections and compares with Pinocchio and MuJoCo (2 GB, minutes)
+# make tidy           runs clang-tidy on the library; ARGS="src/kinegraph/komo" takes some rooms
+# make nightly        runs tests, Clang, sanitizers, fuzzers and benchmarks, and writes docs/results/VERSION.md (hours);
+#                     ARGS=--quick takes a small sample of each
+# PYTHON=...          the Python to use (3.11 or newer)
 
 PYTHON ?= python3
 VENV := .venv
 
-.PHONY: demo install test test-models clean
+.PHONY: demo install test test-models tidy nightly clean
 
 demo: install
 	$(VENV)/bin/kinegraph demo $(ARGS)
@@ -19,6 +22,12 @@ test:
 
 test-models:
 	PYTHON="$(PYTHON)" bash tools/test_models.sh $(ARGS)
+
+tidy:
+	PYTHON="$(PYTHON)" bash tools/tidy.sh $(ARGS)
+
+nightly:
+	PYTHON="$(PYTHON)" bash tools/nightly.sh $(ARGS)
 
 $(VENV)/bin/python:
 	bash tools/make_venv.sh "$(PYTHON)" $(VENV)

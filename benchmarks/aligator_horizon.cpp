@@ -1,5 +1,5 @@
-// A receding horizon by aligator: reads problems from a file, solves each from the shifted solution of the one before, and
-// writes processor times, iterations and paths.  horizon PROBLEMS TOLERANCE
+// Solves a receding horizon by aligator. Reads problems from a file, solves each from the shifted previous solution,
+// and writes processor times, iterations and paths.  horizon PROBLEMS TOLERANCE
 #include <aligator/core/traj-opt-problem.hpp>
 #include <aligator/core/vector-space.hpp>
 #include <aligator/modelling/constraints/box-constraint.hpp>

@@ -1,15 +1,16 @@
-"""A receding horizon by Kinegraph's Mpc and by aligator, in turns: times, and the costs of what they find.
+"""Compares a receding horizon by Kinegraph's Mpc with aligator, in turns: times, and costs of the solutions.
 
     pip install libaligator==0.19.1 cmeel-eigen     (in an environment of its own; P is its cmeel.prefix)
-    g++ -std=c++20 -O2 -DNDEBUG -DBOOST_MPL_LIMIT_LIST_SIZE=30 -DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS \\
-        -DPINOCCHIO_ENABLE_TEMPLATE_INSTANTIATION -DALIGATOR_ENABLE_TEMPLATE_INSTANTIATION -DALIGATOR_MULTITHREADING_OFF \\
-        -IP/include -IP/include/pinocchio/deprecated -IP/include/eigen3 benchmarks/aligator_horizon.cpp -o horizon \\
+    g++ -std=c++20 -O2 -DNDEBUG -DBOOST_MPL_LIMIT_LIST_SIZE=30 -DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS \
+        -DPINOCCHIO_ENABLE_TEMPLATE_INSTANTIATION -DALIGATOR_ENABLE_TEMPLATE_INSTANTIATION \
+        -DALIGATOR_MULTITHREADING_OFF \
+        -IP/include -IP/include/pinocchio/deprecated -IP/include/eigen3 benchmarks/aligator_horizon.cpp -o horizon \
         -LP/lib -Wl,-rpath,P/lib -laligator -lpinocchio_default -lfmt -lmimalloc
     python benchmarks/aligator_horizon.py ./horizon
 
-A Panda, 20 slices of 50 ms, least squares of accelerations and of the gripper's distance to a figure of eight, limits of joints
-and velocities; no collisions. Both solve the same problems, each from its own solution of the one before, which is shifted. Processor
-times, from Python and from C++, of the least of three rounds per problem.
+A Panda follows a figure of eight: 20 slices of 50 ms, least squares of accelerations and of the gripper's distance,
+limits of joints and velocities, no collisions. Both solve the same problems, each from its own previous solution,
+shifted. Times are processor times, from Python and from C++, of the fastest of three rounds per problem.
 """
 
 import subprocess
@@ -19,9 +20,9 @@ import time
 from pathlib import Path
 
 import numpy as np
-from control import SLICES, TAU, VELOCITY, eight, panda
 
 import kinegraph as ry
+from control import SLICES, TAU, VELOCITY, eight, panda
 
 STEPS, OF_TARGET = 400, 100.0
 
@@ -37,7 +38,7 @@ def horizon(C):
 
 
 def of_motion(C):
-    """What a squared acceleration costs in a slice."""
+    """Returns the cost of the squared accelerations in a slice."""
     komo = ry.KOMO(C, SLICES * TAU, round(1 / TAU), 2, False)
     komo.addControlObjective([], 2, 1e-1)
     path = np.tile(C.getJointState(), (SLICES, 1))
@@ -53,7 +54,7 @@ def cost(C, weight, q, velocity, path, targets):
 
 
 def run(evaluations, problems=None):
-    """Microseconds, paths and problems (q, velocity, targets); with problems: these."""
+    """Returns microseconds, paths and problems (q, velocity, targets); solves `problems` if they are given."""
     C = panda()
     home = np.array(C.getFrame("l_gripper").getPosition())
     mpc = ry.Mpc(horizon(C), evaluations=evaluations)
@@ -79,7 +80,7 @@ def numbers(values):
 
 
 def scene(C):
-    """The chain as aligator's program reads it: axes and places of joints, place of the gripper."""
+    """Describes the chain for aligator's program: axes and positions of joints, position of the gripper."""
     C.setJointState(np.zeros(7))
     frames = [C.getFrame(name) for name in C.getJointNames()] + [C.getFrame("l_gripper")]
     lines, before = "7\n", None

@@ -1,22 +1,22 @@
 #!/usr/bin/env python3
-"""How do collision queries grow with the number of shapes?
+"""Measures collision queries against the number of shapes.
 
     python benchmarks/collisions.py [--shapes 100 1000 10000] [--reference PATH_TO_REFERENCE_PYTHON] [--rounds 5]
 
-Boxes, balls, capsules and cylinders fill a space that grows with their number, so that each touches as many others, and a Panda
-stands among them. Times are per call, the least of the rounds:
+Boxes, balls, capsules and cylinders fill a space that grows with their number, so that each touches equally many
+others. A Panda stands among them. Times are per call, the fastest of the rounds:
 
-    compile     the first question after the scene was made: all there is to prepare
-    walk        setJointState to a posture near the last one, and getCollisions
-    jump        setJointState to a random posture, and getCollisions
+    compile     the first query after the scene was created, with all preparations
+    walk        setJointState to a configuration near the last one, and getCollisions
+    jump        setJointState to a random configuration, and getCollisions
     edit        setPosition of one obstacle, and getCollisions
     violation   as jump, coll_totalViolation
     feature     as jump, eval of accumulatedCollisions with its Jacobian
-    valid       a configuration of isValid, which takes 256 random postures in one call
-    motion      checkMotion between two random postures
+    valid       a configuration of isValid, which takes 256 random ones in one call
+    motion      checkMotion between two random configurations
 
-With a reference, the package `robotic`, it answers `jump` where it can: 100 and 1000 shapes (the pairs that it lists take more
-memory than there is for more).
+With --reference, the package `robotic` answers `jump` for 100 and 1000 shapes. For more shapes its list of pairs
+exceeds the memory.
 """
 
 import argparse
@@ -121,7 +121,7 @@ def runWorker(python, options, shapes, folder):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--shapes", type=int, nargs="+", default=[100, 1000, 10000])
-    parser.add_argument("--reference", help="a python in which `import robotic` gives the reference package")
+    parser.add_argument("--reference", help="a Python with the reference package as `robotic`")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--worker", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--out", help=argparse.SUPPRESS)

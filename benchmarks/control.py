@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
-"""How fast control loops answer, and how well they keep what they should.
+"""Measures the speed of control loops, and how well they respect their constraints.
 
     python benchmarks/control.py [mpc] [diffik] [--steps 400] [--peers PYTHON ...]
 
-`mpc`: a receding horizon of 20 slices of 50 ms, order 2: a Panda follows a figure of eight at 0.3 m/s, within limits of joints and
-velocities, without touching itself, the table, or five spheres that cross the arm's way. It follows its plan exactly. Penetration is
-looked at ten times between two calls. Times are the least of each call in five runs.
+`mpc`: a receding horizon of 20 slices of 50 ms, order 2. A Panda follows a figure of eight at 0.3 m/s within limits of
+joints and velocities. It avoids itself, the table, and five spheres that cross its path, and executes its plan exactly.
+Penetration is checked ten times between two calls. Times are the fastest of each call in five runs.
 
-`diffik`: a gripper at 0.3 m/s (rms), 5 ms steps, 45 pairs: `free` along a figure of eight, `dip` through the table, `far` out of reach.
-In turns with mink, pink (the 10 nearest pairs) and placo (no pairs), where one of the given Pythons has them; see control_peers.py.
+`diffik`: a gripper at 0.3 m/s (rms), 5 ms steps, 45 pairs: `free` along a figure of eight, `dip` through the table,
+`far` out of reach. mink, pink (the 10 nearest pairs) and placo (no pairs) run in turns if one of the given Pythons has
+them; see control_peers.py.
 
-Times are processor times of the thread. Steps take microseconds, and the timer of the system interrupts some of them: `least`
-is of the least time of each step in five runs, which do the same to the bit.
+Times are processor times of the thread. Steps take microseconds, and the system timer interrupts some of them. `least`
+uses the fastest time of each step in five runs, which compute the same bits.
 """
 
 import argparse
@@ -72,7 +73,7 @@ def least_distance(C, mpc, t, home, aside):
 
 
 def mpc_loop(steps, aside, looks, **options):
-    """Seconds, results and errors (mm) of each call, the path, and the least distance (m), if `looks`."""
+    """Returns seconds, results and errors (mm) of each call, the path, and the least distance (m) if `looks`."""
     C = panda(SPHERES)
     home = np.array(C.getFrame("l_gripper").getPosition())
     mpc = ry.Mpc(horizon(C), **options)
@@ -131,7 +132,7 @@ def diff_ik_loop(kind, steps):
 
 
 def judge(name, kind, seconds, path, note=""):
-    """What it took, and what was kept."""
+    """Summarizes times and violations of a loop."""
     C = panda()
     home, start = np.array(C.getFrame("target").getPosition()), np.array(C.getJointState())
     poses = np.asarray(C.getFramePoses(path, ["l_gripper"])).reshape(len(path), 7)
@@ -186,7 +187,7 @@ def main():
     parser.add_argument("what", nargs="*", default=["mpc", "diffik"], choices=["mpc", "diffik"])
     parser.add_argument("--steps", type=int, default=400)
     parser.add_argument("--loop", type=int, default=4190, help="steps of diffik")
-    parser.add_argument("--peers", nargs="*", default=[], metavar="PYTHON", help="that have mink, pink or placo")
+    parser.add_argument("--peers", nargs="*", default=[], metavar="PYTHON", help="Pythons with mink, pink or placo")
     arguments = parser.parse_args()
     if "mpc" in arguments.what:
         print("receding horizon: median and 99th percentile of the least time of each call in five runs, us")

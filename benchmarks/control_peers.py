@@ -1,7 +1,8 @@
-"""The loops of benchmarks/control.py with mink, pink and placo, for a Python that has them: `control_peers.py NAME SCENE.json`.
+"""Runs the loops of benchmarks/control.py with mink, pink and placo: `control_peers.py NAME SCENE.json`.
 
-The same Panda as in panda_peers.py: a 6D task of weight 1, a posture of cost 1e-2 (placo: 1e-4 of the square), damping 1e-6, limits of
-position and velocity, pairs kept 10 mm apart (placo: without pairs). Prints processor times of each step as JSON.
+The Panda is that of panda_peers.py. All use a 6D task of weight 1, a posture task of cost 1e-2 (placo: 1e-4 of the
+square), damping 1e-6, limits of position and velocity, and pairs at least 10 mm apart (placo: no pairs). Prints
+processor times of each step as JSON.
 """
 
 import json
@@ -17,7 +18,9 @@ DT = 0.005
 
 
 def target(kind, home, t):
-    """Its position: a figure of eight; a circle that goes through the table; a way out of reach. All at about 0.3 m/s."""
+    """Returns the position of the target: a figure of eight, a circle through the table, or a path out of reach; about
+    0.3 m/s.
+    """
     if kind == "free":
         return home + np.array([0.2 * np.sin(1.5 * t), 0, 0.1 * np.sin(3 * t)])
     if kind == "dip":

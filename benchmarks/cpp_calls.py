@@ -1,15 +1,16 @@
 #!/usr/bin/env python3
-"""What does the kinematics of a Panda cost in a C++ program: a new joint vector, the gripper's position and its Jacobian?
+"""Measures the kinematics of a Panda in a C++ program: a new joint vector, the gripper's position and its Jacobian.
 
     python benchmarks/cpp_calls.py PROGRAM [--reference PATH_TO_REFERENCE_PYTHON] [--peers PATH_TO_PYTHON] [--rounds 11]
 
-PROGRAM is Kinegraph's, as the build makes it (build/dev/benchmarks/kinegraph_calls). For the package `robotic` (--reference)
-and for Pinocchio (--peers) a small program is compiled here by g++, with the headers and libraries that their wheels bring:
-Pinocchio's, which is compiled with it, for this processor. All have 6 rows of Jacobian written into a matrix that is kept, and
-go through the same joint vectors within the limits; `robotic` has its own scenarios/pandaSingle.g, Pinocchio a chain of joints
-about z from Kinegraph's. Positions and Jacobians are compared first.
+PROGRAM is Kinegraph's program of the build (build/dev/benchmarks/kinegraph_calls). For the package `robotic`
+(--reference) and for Pinocchio (--peers) a small program is compiled by g++ with the headers and libraries of their
+wheels, and Pinocchio's for this processor. All write 6 rows of Jacobian into an existing matrix, and use the same joint
+vectors within the limits. `robotic` loads its own scenarios/pandaSingle.g, Pinocchio a chain of joints about z derived
+from Kinegraph's. Positions and Jacobians are compared first.
 
-Each round starts every program once, in turns; a program's time in a round is its middle sample of 100, in processor time.
+Each round starts every program once, in turns. The time of a program in a round is the median of 100 samples, in
+processor time.
 """
 
 import argparse
@@ -31,7 +32,7 @@ FRAME = "l_gripper"
 
 def askPython(python, code):
     environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
-    with tempfile.TemporaryDirectory() as folder:  # the reference writes a log file where it runs
+    with tempfile.TemporaryDirectory() as folder:  # the reference writes a log file to its working directory
         done = subprocess.run([python, "-c", code], env=environment, cwd=folder, capture_output=True, text=True)
     if done.returncode:
         sys.exit(f"{python}: {done.stderr[-1000:]}")
@@ -48,7 +49,7 @@ def compiled(folder, name, flags):
 
 
 def compileReference(folder, python):
-    """The command, without joint vectors, and the version."""
+    """Returns the command, without joint vectors, and the version."""
     code = "import json, os, robotic as r; print(json.dumps([os.path.dirname(r.__file__), r.raiPath('scenarios/pandaSingle.g'), r.version()]))"
     package, scene, version = json.loads(askPython(python, code))
     flags = [f"-I{package}/include/rai", f"-L{package}", "-lrai", f"-Wl,-rpath,{package}"]
@@ -88,7 +89,7 @@ def run(command, folder):
 
 
 def compareAnswers(reports):
-    """Exits unless all programs say the same; the reference's file has quaternions that are rounded."""
+    """Exits unless all programs agree; the quaternions in the reference's file are rounded."""
     for name, runs in reports.items():
         rows = zip(reports["kinegraph"][0]["answers"], runs[0]["answers"])
         error = max(abs(a - b) for ours, theirs in rows for a, b in zip(ours, theirs, strict=True))
@@ -112,8 +113,8 @@ def printTable(reports):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("model", help="the compiled benchmarks/cpp_calls/kinegraph.cpp")
-    parser.add_argument("--reference", help="a python in which `import robotic` gives the reference package")
-    parser.add_argument("--peers", help="a python that has Pinocchio")
+    parser.add_argument("--reference", help="a Python with the reference package as `robotic`")
+    parser.add_argument("--peers", help="a Python with Pinocchio")
     parser.add_argument("--rounds", type=int, default=11)
     options = parser.parse_args()
     if options.rounds < 1:

@@ -1,8 +1,9 @@
-"""What a map costs: engines in turns for items of 1 ms, inverse kinematics with and without files, and workers that are killed.
+"""Measures the overhead of maps: engines in turns for items of 1 ms, IK with and without files, killed workers.
 
     python benchmarks/fleets.py [--seconds 30] [--workers 2] [--kill 60]
 
-Work is counted, not started: each engine's time begins when its first result is there. Ray needs the extra `ray`, files need `fleets`.
+Only finished work counts, and the time of an engine starts with its first result. Ray needs the extra `ray`, files need
+`fleets`.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ def targets(count: int, seed: int) -> np.ndarray:
 
 
 def steadyRate(results: Iterator[int], seconds: float) -> float:
-    """Items per second, from the first hundred on."""
+    """Returns items per second, from the hundredth on."""
     for _ in range(100):
         next(results)
     start, count = time.perf_counter(), 0
@@ -44,7 +45,7 @@ def steadyRate(results: Iterator[int], seconds: float) -> float:
 
 
 def compareEngines(engines: list[str], workers: int, seconds: float) -> None:
-    """Inverse kinematics of 500 targets, about 1 ms, per item: the same work on each engine."""
+    """Compares engines on items of 500 IK targets, about 1 ms each."""
     C = panda()
 
     def solve(seed: int) -> int:
@@ -61,7 +62,7 @@ def compareEngines(engines: list[str], workers: int, seconds: float) -> None:
 
 
 def compareWithPlainBatch(workers: int, seconds: float) -> None:
-    """The rate of one call with all targets, of a map without files, and of one that writes each q."""
+    """Compares one call with all targets, a map without files, and a map that writes each q."""
     import pyarrow as pa
 
     C, chunk = panda(), 20_000
@@ -98,7 +99,7 @@ def compareWithPlainBatch(workers: int, seconds: float) -> None:
 
 
 def killWorkers(engine: str, workers: int, seconds: float) -> None:
-    """Kills a worker every second or so, and compares all results with those of a run that is left alone."""
+    """Kills a worker about every second, and compares all results with those of an undisturbed run."""
     C = panda()
 
     def solve(index: int) -> tuple[int, bytes]:
@@ -118,7 +119,7 @@ def killWorkers(engine: str, workers: int, seconds: float) -> None:
                 os.kill(pid, signal.SIGKILL)
                 kills += 1
             except ProcessLookupError:
-                pass  # of a worker that is gone
+                pass  # the worker has ended
     expected = hashlib.sha256()
     for _, q in ry.imap(solve, range(count), engine="threads", workers=workers):
         expected.update(q)

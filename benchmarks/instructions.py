@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Counts the instructions of each kernel with valgrind and compares them with those that are recorded.
+"""Counts the instructions of each kernel with valgrind and compares them with recorded counts.
 
     python benchmarks/instructions.py build/dev/benchmarks/kernels [--record]
 
-Unlike times, the counts are the same on a busy machine. They depend on the compiler and on what the processor offers to the
-C library, so `instructions.json` says under which conditions they were recorded; elsewhere, and without valgrind, nothing is
-compared and the exit status is 77. It is 1 if a kernel needs over 5 % more than recorded: make it leaner, or, where it is
-worth it, record the new count with --record, in the same commit.
+Unlike times, the counts are the same on a busy machine. They depend on the compiler and on the processor features that
+the C library uses. `instructions.json` therefore has the conditions of its counts; under other conditions, and without
+valgrind, nothing is compared and the exit status is 77. It is 1 if a kernel needs over 5 % more than recorded. Then
+make the kernel leaner, or record the new count with --record in the same commit if it is worth it.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).parent.parent
 RECORD = Path(__file__).parent / "instructions.json"
-COUNTS = {  # calls with and without what is done once
+COUNTS = {  # few and many calls: the difference excludes the setup
     "forward kinematics": (100, 2100),
     "Jacobian": (100, 2100),
     "position": (100, 2100),
@@ -47,7 +47,7 @@ def count(model: str, kernel: str, calls: int) -> int:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("model", help="the compiled benchmarks/kernels.cpp")
-    parser.add_argument("--record", action="store_true", help="keep the counts as those to compare with")
+    parser.add_argument("--record", action="store_true", help="record the counts for later comparisons")
     options = parser.parse_args()
     if not shutil.which("valgrind"):
         print("valgrind is not installed")

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""How soon does Ctrl-C end what takes long, and what is there then?
+"""Measures how soon Ctrl-C ends long calls, and checks their results.
 
     python benchmarks/interrupts.py [--times 50] [--only solveIk]
 
-Another process sends SIGINT at random times, 5 to 300 ms after the start. Each call has to end by a result with status cancelled
-and finite numbers, or by KeyboardInterrupt, as said in the table; a further solve has to work. `early`: ended before the signal,
-which is then awaited. Robots: until one that moves is told to hold (goal: 50 ms). Wall-clock time from the signal to the end; the machine should be quiet. Goal: below 0.1 s.
+Another process sends SIGINT at random times, 5 to 300 ms after the start. Each call must return a result with status
+cancelled and finite numbers, or raise KeyboardInterrupt, as listed in the table. A further solve must work. `early`
+counts calls that ended before the signal. For robots, the time runs until a moving robot receives the command to hold
+(goal: 50 ms). Times are wall-clock times from the signal to the end, on a quiet machine. The goal is 0.1 s.
 """
 
 import argparse
@@ -50,7 +51,7 @@ def position(frame):
 
 
 class Ripples:
-    """A cost with many minima, slow to evaluate as Python is."""
+    """A cost with many minima, evaluated slowly in Python."""
 
     dimension, types, bounds = 6, [ry.OT.sos, ry.OT.f], np.array([[-3.0] * 6, [3.0] * 6])
 
@@ -132,7 +133,9 @@ def cases():
 
 
 def heldAfter(realtime: bool, busy: bool, times: int, sender, rng) -> list[float]:
-    """Seconds from the signal until a robot that moves is told to hold, each time. Busy: no call of the robot's runs meanwhile."""
+    """Returns the seconds from the signal until a moving robot is commanded to hold. `busy`: the script does other
+    work.
+    """
     C = panda()
     seconds = []
     for _ in range(times):
@@ -180,7 +183,7 @@ def wasCancelled(answer) -> bool:
 
 
 def interrupted(call, sender, delay: float) -> tuple[str, float]:
-    """How it ended, and seconds after the signal."""
+    """Returns the kind of end, and its seconds after the signal."""
     sender.stdin.write(f"{delay}\n")
     sender.stdin.flush()
     try:
@@ -203,7 +206,7 @@ def main() -> int:
     parser.add_argument("--times", type=int, default=50)
     parser.add_argument("--only", default="")
     options = parser.parse_args()
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # also where a shell runs this in the background
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # also if a shell runs this in the background
     rng = np.random.default_rng(0)
     sender = subprocess.Popen([sys.executable, "-c", SENDER], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     failed = False

@@ -1,7 +1,7 @@
-// What Kinegraph does most often, on the Panda: times, or runs one kernel for a profiler.
+// Times the most frequent computations of Kinegraph on the Panda, or runs one of these kernels for a profiler.
 //     kernels MODELS_FOLDER                  microseconds per call of each
 //     kernels MODELS_FOLDER KERNEL COUNT     runs one COUNT times
-//     kernels --conditions                   what instruction counts depend on besides the sources
+//     kernels --conditions                   conditions of instruction counts besides the sources
 #include <array>
 #include <chrono>
 #include <cstdio>
@@ -22,7 +22,7 @@ namespace {
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// The Panda on its table, a target for its gripper, and joint vectors to go through.
+/// The Panda on its table, a target for its gripper, and a list of joint vectors.
 struct Bench {
   explicit Bench(const std::string& models) : file(models + "/scenarios/pandaSingle.g") {
     config.addFile(file);
@@ -71,7 +71,7 @@ void evaluate(Bench& bench, int count, FeatureSymbol feature, const std::vector<
   }
 }
 
-/// The same questions about many configurations in one call.
+/// The same queries for many configurations in one call.
 struct Batch {
   explicit Batch(Bench& bench) : scene(bench.config.state()), Q(kBatch, scene.dofs()) {
     for (int i = 0; i < kBatch; ++i) Q.row(i) = bench.posture(i).transpose();

@@ -1,26 +1,27 @@
 #!/usr/bin/env python3
-"""What do poses, Jacobians and distances of a Panda cost, one configuration at a time and many in one call?
+"""Measures poses, Jacobians and distances of a Panda, one configuration at a time and many in one call.
 
-    python benchmarks/kinematics.py [--reference PATH_TO_REFERENCE_PYTHON] [--peers PATH_TO_PYTHON] [--rounds 5] [--threads 2]
+    python benchmarks/kinematics.py [--reference PATH_TO_REFERENCE_PYTHON] [--peers PATH_TO_PYTHON] [--rounds 5]
+        [--threads 2]
 
-Times are per configuration, on random joint vectors within the limits, in both packages' own scenarios/pandaSingle.g:
+Times are per configuration, on random joint vectors within the limits, in the scenarios/pandaSingle.g of both packages:
 
     position    the gripper's position and its Jacobian (3, n)
     pose        the gripper's position and quaternion and their Jacobian (7, n)
     frame       the gripper's pose
-    contacts    which pairs collide (Kinegraph's batch: the distances of all pairs)
+    contacts    the colliding pairs (Kinegraph's batch: the distances of all pairs)
     distances   the distances of all pairs, with nearest points and normals (coal: computeDistances)
     valid       within limits and without collision?
 
-"single" is setJointState and the question, in a Python loop; "batch" is one call for all configurations, and "threads" the
-same on several threads, where a busy machine shows. With a reference, the package `robotic`, each round runs a process per
-package, in turns, and the ratios are those within a round: the reference's loop over Kinegraph's loop, and over its batch.
+"single" is setJointState and the query, in a Python loop. "batch" is one call for all configurations, and "threads" the
+same on several threads, which a busy machine disturbs. With --reference, each round runs a process per package, in
+turns. Ratios are those within a round: the loop of `robotic` over Kinegraph's loop, and over its batch.
 
-Pinocchio (with coal) and MuJoCo take part where they are installed, in this Python or in that of --peers. They have
-Kinegraph's Panda, and answer with what is nearest in one or two calls of theirs: for the Jacobians one of 6 rows, for the
-collisions of the same pairs contacts without their distances. Positions and numbers of valid configurations are compared.
+Pinocchio (with coal) and MuJoCo take part if they are installed, in this Python or in that of --peers. They have
+Kinegraph's Panda, and answer with one or two of their own closest calls: for Jacobians one of 6 rows, for collisions of
+the same pairs contacts without distances. Positions and numbers of valid configurations are compared.
 
-Last, position of the tip and Jacobian for chains of 10, 100 and 1000 joints, single, in Kinegraph.
+Finally, position of the tip and Jacobian are measured for chains of 10, 100 and 1000 joints, single, in Kinegraph.
 """
 
 import argparse
@@ -41,7 +42,7 @@ CHAINS = [10, 100, 1000]
 TIP = "l_gripper"
 
 
-# --- what both packages run -----------------------------------------------------------------------------------------
+# --- the part that both packages run --------------------------------------------------------------------------------
 
 
 def worker(options):
@@ -71,7 +72,7 @@ def worker(options):
         report["scene"] = panda_peers.describe(ry, C, TIP)
     Path(options.out).write_text(json.dumps(report))
     sys.stdout.flush()
-    os._exit(0)  # the reference's destructors are none of this benchmark's business
+    os._exit(0)  # skips the destructors of the reference
 
 
 def peerWorker(options):
@@ -148,7 +149,7 @@ def timeCalls(batch, count, repeats=10):
     return times
 
 
-# --- who runs it, in turns ------------------------------------------------------------------------------------------
+# --- the processes, in turns ----------------------------------------------------------------------------------------
 
 
 def runWorker(python, folder, options, worker="package", is_reference=False):
@@ -156,7 +157,7 @@ def runWorker(python, folder, options, worker="package", is_reference=False):
     out.unlink(missing_ok=True)
     environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", KINEGRAPH_HEADLESS="1")
     if is_reference:
-        environment.pop("PYTHONPATH", None)  # it may lead to Kinegraph's `robotic`
+        environment.pop("PYTHONPATH", None)  # it may point to Kinegraph's `robotic`
     command = [
         python,
         os.path.abspath(__file__),
@@ -175,7 +176,7 @@ def runWorker(python, folder, options, worker="package", is_reference=False):
 
 
 def findPeers(python):
-    """Versions of the peers that a Python has."""
+    """Returns the versions of the peers in a Python."""
     code = "import json, panda_peers; print(json.dumps(panda_peers.installed()))"
     environment = dict(os.environ, PYTHONPATH=os.path.dirname(os.path.abspath(__file__)))
     done = subprocess.run([python, "-c", code], env=environment, capture_output=True, text=True, timeout=120)
@@ -236,13 +237,13 @@ def cell(number, digits):
 
 
 def least(runs, name, kind):
-    """µs; None where one has no answer."""
+    """Returns the least time in µs, or None without an answer."""
     times = [r["times"].get(f"{name} {kind}") for r in runs]
     return 1e6 * min(min(t) for t in times) if times and all(times) else None
 
 
 def medianRatio(others, ours, name, kind):
-    """Median over the rounds of: another one's loop over ours, of `kind`, both medians of the round."""
+    """Returns the median over the rounds of the other package's loop time over our `kind`, medians in each round."""
     if least(others, name, "single") is None:
         return None
     rounds = zip(others, ours)
@@ -252,8 +253,10 @@ def medianRatio(others, ours, name, kind):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--reference", help="a python in which `import robotic` gives the reference package")
-    parser.add_argument("--peers", default=sys.executable, help="a python that may have Pinocchio or MuJoCo (this one)")
+    parser.add_argument("--reference", help="a Python with the reference package as `robotic`")
+    parser.add_argument(
+        "--peers", default=sys.executable, help="a Python that may have Pinocchio or MuJoCo (default: this one)"
+    )
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--count", type=int, default=4096, help="configurations in a batch, 100 or more")
     parser.add_argument("--threads", type=int, default=2, help="threads of the column of that name")
@@ -271,7 +274,7 @@ def main():
         pythons["reference"] = os.path.abspath(options.reference)
     peers = findPeers(options.peers)
     reports = {who: [] for who in (*pythons, *peers)}
-    with tempfile.TemporaryDirectory() as folder:  # the reference writes a log file where it runs
+    with tempfile.TemporaryDirectory() as folder:  # the reference writes a log file to its working directory
         scene = runWorker(sys.executable, folder, options)["scene"]
         (Path(folder) / "scene.json").write_text(json.dumps(scene))
         for round_index in range(options.rounds):

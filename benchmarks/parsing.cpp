@@ -1,8 +1,8 @@
-// How fast are `.g` texts read, and does the time grow with their length alone?
+// Measures the speed of reading `.g` texts, and whether the time is linear in their length.
 //     parsing [ROUNDS]
-// Texts of three kinds, each in three lengths: a scene as people write it, a mesh as `write` writes it (numbers), and
-// block-style YAML. Prints MB/s of the whole parser, tree of values and all, and of the scanner alone, which only finds
-// the words and numbers; the best of some rounds, in processor time.
+// Texts of three kinds, each in three lengths: a handwritten scene, a mesh written by `write` (numbers), and
+// block-style YAML. Prints MB/s of the whole parser with its tree of values, and of the scanner alone, which only finds
+// the words and numbers. Times are the best of some rounds, in processor time.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -41,7 +41,7 @@ std::string yamlText(std::size_t bytes) {
   return text;
 }
 
-/// Goes through a text from token to token: names, words, numbers, strings, brackets.
+/// Scans a text token by token: names, words, numbers, strings, brackets.
 class Tokens : private Scanner {
  public:
   Tokens(std::string_view text, const std::string& file) : Scanner(text, file) {}
@@ -68,7 +68,7 @@ class Tokens : private Scanner {
 
 double seconds() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
-/// MB/s of `read`, the best of some rounds.
+/// Returns MB/s of `read`, the best of some rounds.
 template <class Read>
 double speed(const std::string& text, int rounds, const Read& read) {
   double best = 1e9;

@@ -1,17 +1,20 @@
-"""How planMotion does on MotionBenchMaker, beside VAMP and OMPL.
+"""Measures planMotion on MotionBenchMaker, and compares it with VAMP and OMPL.
 
     python benchmarks/planning.py [--robot panda] [--indices 1 2 3] [--seeds 0] [--restarts 4] [--shapes meshes]
-    python benchmarks/planning.py --all --seeds 0 1 2 3 4  # all of it
-    python benchmarks/planning.py --all --beside vamp=PYTHON mplib=PYTHON  # and others, in a Python that has them
+    python benchmarks/planning.py --all --seeds 0 1 2 3 4  # all problems
+    python benchmarks/planning.py --all --beside vamp=PYTHON mplib=PYTHON  # and other planners, in a Python with them
 
-Says, for each kind of scene and for all: how many problems are solved, how many within a second of processor time, how many answers are truly
-free (an independent look at the path and at postures every 5 ms of the timed motion, see `leastDistance`), median and 95th percentile
-of the time of each stage, ms (`first` is the call up to the first path; stages are wall time, `all` is processor time of the call but for
-the timing of the motion), the path's length as a multiple of the straight line's, the motion's duration, s, and the path's least clearance,
-mm. Of each problem, times are the least of the rounds.
+For each kind of scene and for all, it prints these figures. Times of a problem are the least of the rounds.
 
-Others get the same problems (see planning_peers.py), and their answers are looked at in the same way: with the meshes of the robot,
-and with the shapes that they plan with.
+- The number of solved problems, and of those solved within a second of processor time.
+- The number of answers that are truly collision-free: an independent check of the path and of configurations every 5 ms
+  of the timed motion, see `leastDistance`.
+- Median and 95th percentile of the time of each stage, ms. `first` is the call up to the first path. Stages are wall
+  times; `all` is processor time of the call without the timing of the motion.
+- The length of the path as a multiple of the straight line, the duration of the motion, s, and the least clearance, mm.
+
+Other planners get the same problems (see planning_peers.py). Their answers are checked in the same way, with the meshes
+of the robot and with the shapes of the planner.
 """
 
 import argparse
@@ -28,17 +31,17 @@ import numpy as np
 
 import kinegraph as ry
 
-STAGES = ["ends", "search", "shorten", "tighten", "verify", "time"]
+STAGES = ["endpoints", "search", "shortcut", "rope_shortcut", "verify", "timing"]
 REACH = 1.5  # m/rad: of these robots, no joint moves a point faster
-STEP = 1e-3  # rad or m: between postures that are looked at, at least
+STEP = 1e-3  # rad or m: least step between checked configurations
 
 
 class Look:
-    """At paths of one scene, by a call that knows nothing of motions: distances of all pairs at postures.
+    """Checks paths of one scene by a call that knows nothing of motions: distances of all pairs at configurations.
 
-    Between two postures no pair comes nearer than half of what it has at both, less what the joints may move it. Where that is not
-    enough a posture between them is looked at, until they are a milliradian apart. Pairs whose distance never changes are of parts
-    that no joint moves apart, and do not count.
+    Between two configurations no pair comes nearer than half of its distances at both, less the motion of its joints.
+    If this bound is insufficient, a configuration between them is checked, until they are a milliradian apart. Pairs of
+    constant distance belong to parts that no joint moves apart, and do not count.
     """
 
     def __init__(self, C):
@@ -51,7 +54,7 @@ class Look:
         return self.C.getDistances(Q)[:, self.moves].min(axis=1)
 
     def leastDistance(self, path):
-        """Of all postures of the path that were looked at, m; ends soon where it is negative."""
+        """Returns the least distance of all checked configurations of the path, m; ends early if it is negative."""
         a, b = path[:-1], path[1:]
         least = self.distances(path)
         of_a, of_b, least = least[:-1], least[1:], least.min()
@@ -73,13 +76,13 @@ class Look:
 
 
 def timed(C, problem, options):
-    """A plan, and what it took, ms."""
+    """Returns a plan and its times, ms."""
     wall, processor = time.perf_counter(), time.process_time()
     plan = ry.planMotion(C, problem.goal, problem.start, **options)
     wall, processor = time.perf_counter() - wall, time.process_time() - processor
     times = {stage["name"]: 1e3 * stage["seconds"] for stage in plan.stages}
-    later = sum(times.get(stage, 0.0) for stage in [*STAGES[2:], "bend"])
-    own = {"first": 1e3 * wall - later, "call": 1e3 * processor, "all": 1e3 * processor - times.get("time", 0.0)}
+    later = sum(times.get(stage, 0.0) for stage in [*STAGES[2:], "smoothing"])
+    own = {"first": 1e3 * wall - later, "call": 1e3 * processor, "all": 1e3 * processor - times.get("timing", 0.0)}
     return plan, times | own
 
 
@@ -97,7 +100,7 @@ def ours(problem, options, rounds=1):
     row |= {key: min(times[key] for _, times in runs) for key in runs[0][1]}
     if plan.feasible:
         look = Look(C)
-        motion = np.array([plan.at(t)[0] for t in np.arange(0, plan.duration, 5e-3)])
+        motion = np.array([plan.eval(t)[0] for t in np.arange(0, plan.duration, 5e-3)])
         row["free"] = look.isFree(plan.path) and look.isFree(motion)
         row["ratio"] = plan.length / np.linalg.norm(problem.goal - problem.start)
         row["duration"] = plan.duration
@@ -114,7 +117,7 @@ def length(path):
 
 
 def others(name, python, robots, problems):
-    """Rows of another planner, which runs in a Python of its own."""
+    """Returns the rows of another planner, which runs in a Python of its own."""
     pose = lambda frame: frame.getPose().tolist()  # noqa: E731
     questions = []
     for problem in problems:
@@ -170,7 +173,7 @@ def table(title, rows):
         if not done:
             continue
         words = [f"{scene:17} {len(done):4}/{len(of):<4} free {100 * np.mean([row['free'] for row in done]):5.1f} %"]
-        for key in ["first", *STAGES, "bend", "own clock", "all"]:
+        for key in ["first", *STAGES, "smoothing", "own clock", "all"]:
             values = [row[key] for row in done if key in row]
             if values:
                 words.append(f"{key} {np.median(values):.3g}/{np.percentile(values, 95):.3g}")
@@ -197,10 +200,10 @@ def main():
     parser.add_argument("--rounds", type=int, default=1)
     parser.add_argument("--margin", type=float, default=0.0)
     parser.add_argument("--optimize", default="length")
-    parser.add_argument("--slices", type=int, default=0, help="of KOMO as a further stage, with --optimize time")
+    parser.add_argument("--slices", type=int, default=0, help="slices of KOMO as a further stage, with --optimize time")
     parser.add_argument("--beside", nargs="+", default=[], metavar="NAME=PYTHON")
     arguments = parser.parse_args()
-    warnings.filterwarnings("ignore", ".*no joint moves them apart")  # tables touch their legs
+    warnings.filterwarnings("ignore", ".*at a constant relative pose")  # tables touch their legs
     robot = motion_bench_maker.Robot(arguments.robot, arguments.shapes)
     indices = range(1, 101) if arguments.all else arguments.indices
     problems = list(robot.problems(arguments.scenes, indices))

@@ -1,9 +1,10 @@
-"""The problems of benchmarks/planning.py for other planners, in a Python that has them: `planning_peers.py NAME QUESTIONS.json`.
+"""Runs other planners on the problems of benchmarks/planning.py: `planning_peers.py NAME QUESTIONS.json`.
 
-`vamp` (vamp-planner 0.6.4): RRT-Connect with the settings of its own benchmark, and its simplification. Robots are spheres; a cylinder
-is a capsule to it, or in the scene `box` a box, as in its own loader. `own clock` is what it says itself: it starts after memory has been
-allocated. `mplib` (MPlib 0.2.1, scipy): OMPL's RRTConnect and simplification over FCL, with the convex hulls of the Panda's meshes. Times are processor times, ms; `first`
-is the call up to the first path, `all` with simplification. Answers are written to QUESTIONS.answers.
+`vamp` (vamp-planner 0.6.4) is RRT-Connect with the settings of its own benchmark, and its simplification. Robots are
+spheres. A cylinder is a capsule, or in the scene `box` a box, as in its own loader. `own clock` is its own report,
+which starts after memory has been allocated. `mplib` (MPlib 0.2.1, scipy) is OMPL's RRTConnect and simplification over
+FCL, with the convex hulls of the Panda's meshes. Times are processor times, ms; `first` is the call up to the first
+path, `all` includes simplification. Answers are written to QUESTIONS.answers.
 """
 
 import json
@@ -15,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-RANGES = {"panda": 1.0, "ur5": 1.5, "fetch": 1.0}  # rad, of VAMP's own benchmark
+RANGES = {"panda": 1.0, "ur5": 1.5, "fetch": 1.0}  # rad, from VAMP's own benchmark
 HANDS = {"panda": "panda_hand", "ur5": "ee_link", "fetch": "gripper_link"}
 
 
@@ -31,7 +32,7 @@ def rotation(pose):
 
 
 def angles(R):
-    """Such that R = Rz Ry Rx."""
+    """Returns the angles of R = Rz Ry Rx."""
     cosine = np.hypot(R[0, 0], R[1, 0])
     if cosine > 1e-9:
         return [np.arctan2(R[2, 1], R[2, 2]), np.arctan2(-R[2, 0], cosine), np.arctan2(R[1, 0], R[0, 0])]
@@ -77,7 +78,7 @@ def withVamp(robot, problems):
 
 
 def writeHull(file):
-    """The convex hull of an .obj where MPlib looks for it, as binary .stl."""
+    """Writes the convex hull of an .obj as binary .stl, at the path that MPlib expects."""
     from scipy.spatial import ConvexHull
 
     points = np.array([line.split()[1:4] for line in file.read_text().splitlines() if line.startswith("v ")], float)

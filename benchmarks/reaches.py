@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
-"""Random reaches behind obstacles, solved by the default solver: how many, with how many evaluations, at what cost?
+"""Solves random reaches behind obstacles by the default solver: number solved, evaluations, and costs.
 
     python benchmarks/reaches.py [--problems 120] [--seed 1] [--save FILE] [--against FILE]
 
-Four robots (a Panda on its table, a Panda that drives, a UR10, a small arm that drives) start anywhere where they are free. A goal is
-where the gripper is at another free posture; up to five balls, boxes and capsules lie around, one of them at the straight way
-in joint space wherever it can. Paths have 16, 32, 64 or 128 slices. Some problems ask for a direction of the gripper
-as well, for joint limits, or for other weights. All numbers come from the seed.
+Four robots (a Panda on its table, a mobile Panda, a UR10, a small mobile arm) start at random collision-free
+configurations. The goal is the gripper position of another one. Up to five balls, boxes and capsules lie around, if
+possible one of them on the straight path in joint space. Paths have 16, 32, 64 or 128 slices. Some problems also have a
+direction of the gripper, joint limits, or other weights. The seed determines all numbers.
 
-An answer counts as solved if it misses the goal by at most 1 mm (direction: 1e-2) and no slice is deeper than 1 mm in a collision,
-whatever the solver says. --save keeps answers as JSON; --against compares with such a file problem by problem: who solves it,
-evaluations, costs of those that both solve. A cost is compared as long as both are within the solver's tolerance.
+An answer is solved if it misses the goal by at most 1 mm (direction: 1e-2) and no slice has a collision deeper than 1
+mm, regardless of the solver's status. --save stores the answers as JSON. --against compares with such a file problem by
+problem: solved or not, evaluations, and costs of problems that both solve. Costs are compared as long as both are
+within the tolerance of the solver.
 """
 
 import argparse
@@ -33,7 +34,7 @@ MOST_DEPTH, MOST_MISS, MOST_TURN = 1e-3, 1e-3, 1e-2
 
 
 def depth(C, q):
-    """How deep shapes are in each other in all, m."""
+    """Returns the sum of all penetrations, m."""
     C.setJointState(q)
     C.computeCollisions()
     return C.getTotalPenetration()
@@ -63,7 +64,7 @@ def range_of_joints(C):
 
 
 def problems(count, seed):
-    """Scene, start, what is asked."""
+    """Yields scene, start, and objectives."""
     rng = np.random.default_rng(seed)
     names = list(GRIPPERS)
     scenes = {}

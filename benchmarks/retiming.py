@@ -1,18 +1,21 @@
 #!/usr/bin/env python3
-"""How fast is `retime`, how near to the least time, and does it keep its limits? Beside toppra, ruckig and an LP reference.
+"""Measures the speed of `retime`, its distance to the least duration, and its limits. Compares toppra, ruckig and an LP
+reference.
 
     python benchmarks/retiming.py [--paths 70] [--seed 1] [--references 3] [--only jerk]
 
-Random paths of seven dofs, 3 to 11 points spread along a line and moved by 0.2 rad, with the Panda's limits of velocity and
-acceleration ("full"), or a quarter of the accelerations and jerks of ten times that per second ("gentle"). All packages get the same
-cubic spline. Times are processor times, medians; the bound is `retime` with 4000 intervals, and toppra's with as many for the first
-paths (packages that are not installed are left out: toppra==0.6.10, ruckig==0.19.4, scipy).
+Random paths of seven dofs have 3 to 11 points spread along a line and moved by 0.2 rad. They use the Panda's limits of
+velocity and acceleration ("full"), or a quarter of the accelerations and jerks of ten times that per second ("gentle").
+All packages get the same cubic spline. Times are processor times, medians. The bound is `retime` with 4000 intervals,
+and for the first paths also toppra's with as many. Missing packages are skipped (toppra==0.6.10, ruckig==0.19.4,
+scipy).
 
-With limits of the jerk, `retime`, toppra and ruckig take turns, path by path, within equal limits of velocity and acceleration; ruckig keeps the jerk,
-too, and stands still at each point (waypoints are not in its free version); toppra knows no limits of the jerk, and its motion exceeds
-them. Durations are compared with the least one, which is `retime` with 3200 intervals, and for the first paths with a reference: a sequence
-of linear programs over s'^2 on 200 and 800 equal intervals, each constraint linearized, from scipy's HiGHS: slow, and written without
-a look at the library. Its limits hold at its places only, so that it may be faster than possible. Limits are looked at on 20,000 samples.
+With limits of the jerk, `retime`, toppra and ruckig take turns, path by path, within equal limits of velocity and
+acceleration. ruckig also limits the jerk and stops at each point (waypoints are not in its free version). toppra does
+not limit the jerk. Durations are compared with the least one, that of `retime` with 3200 intervals. For the first paths
+there is a reference as well: a sequence of linear programs over s'^2 on 200 and 800 equal intervals, with linearized
+constraints, by scipy's HiGHS. It is slow, and was written independently of the library. Its limits hold at its
+gridpoints only, so that it may be faster than possible. Limits are checked on 20,000 samples.
 """
 
 import argparse
@@ -51,7 +54,7 @@ def timed(q, *limits, repeat=5, **options):
 
 def excess(motion, acceleration, jerk=None):
     t = np.linspace(0, motion.duration, 20001)
-    _, qd, qdd = motion.at(t)
+    _, qd, qdd = motion.eval(t)
     found = [np.max(np.abs(qd) / V), np.max(np.abs(qdd) / acceleration)]
     if jerk is not None:
         found.append(np.max(np.abs(np.diff(qdd, axis=0)) / ((t[1] - t[0]) * jerk)))
@@ -83,7 +86,7 @@ def toppra_durations(q, acceleration, intervals):
 
 
 def ruckig_duration(q, acceleration, jerk):
-    """Rest to rest along each line."""
+    """Returns the duration of rest-to-rest motions along each line."""
     import ruckig
 
     start, total = process_time(), 0.0
@@ -100,7 +103,7 @@ def ruckig_duration(q, acceleration, jerk):
 
 
 def jerk_reference(q, acceleration, jerk, intervals=200, rounds=30):
-    """Least time over b = s'^2 at equal places, each round a linear program around the last answer."""
+    """Returns the least duration over b = s'^2 at equal gridpoints, by linear programs around the previous solution."""
     import scipy.sparse as sp
     from scipy.interpolate import CubicSpline
     from scipy.optimize import linprog
@@ -196,7 +199,7 @@ def without_jerk(paths, acceleration, options):
 
 
 def with_jerk(paths, acceleration, jerk, references):
-    """`retime`, toppra and ruckig in turns."""
+    """Compares `retime`, toppra and ruckig in turns."""
     peers = {
         "toppra, no limits of the jerk": lambda q: toppra_durations(q, acceleration, 100),
         "ruckig, from point to point": lambda q: ruckig_duration(q, acceleration, jerk),

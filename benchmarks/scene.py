@@ -1,12 +1,12 @@
-"""How long does it take to copy, load and move a scene?
+"""Measures how long a scene takes to copy, load and move.
 
     python benchmarks/scene.py                            this package alone
     python benchmarks/scene.py --reference ENV/bin/python   and the package `robotic` of another environment
 
-The same three jobs, on scenes of growing size, with the same numbers in both: a copy of a configuration of 50 frames (the
-reference has no copy; addConfigurationCopy into an empty one does the same), loading a file of 10,000 frames, and
-setJointState followed by all world poses. Times are of the processor, so that other work on the machine does not count.
-Prints the median of the repetitions and the fastest, and ratios of medians.
+The same three jobs on scenes of growing size, with the same numbers in both packages: a copy of a configuration of 50
+frames (in the reference addConfigurationCopy into an empty one, as it has no copy), loading a file of 10,000 frames,
+and setJointState followed by all world poses. Times are processor times. Prints the median of the repetitions, the
+fastest, and ratios of medians.
 """
 
 import argparse
@@ -55,10 +55,10 @@ print("RESULT" + json.dumps(result))
 
 
 def measure(python: str, package: str, copy: str) -> dict[str, tuple[float, float]]:
-    """Median and fastest time of each job, s, in a process of its own."""
+    """Returns the median and the fastest time of each job, s, from a process of its own."""
     environment = dict(os.environ)
     if python != sys.executable:
-        environment.pop("PYTHONPATH", None)  # which would give it this package under the other's name
+        environment.pop("PYTHONPATH", None)  # it would give this package under the other's name
     code = JOBS.format(package=package, copy=copy)
     done = subprocess.run([python, "-c", code], capture_output=True, text=True, check=True, env=environment)
     line = next(line for line in done.stdout.splitlines() if line.startswith("RESULT"))

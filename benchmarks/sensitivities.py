@@ -1,9 +1,9 @@
-"""How long derivatives of solutions take, beside the solutions themselves.
+"""Measures derivatives of solutions, in comparison with the solutions themselves.
 
     python benchmarks/sensitivities.py
 
-Processor times from Python in microseconds, of solving and differentiating in turns, medians of many rounds; and how far dx/dp is
-from differences of solutions that were brought to rounding (h = 1e-5).
+Prints processor times from Python in microseconds, of solving and differentiating in turns, medians of many rounds.
+Also prints the deviation of dx/dp from differences of solutions that were converged to rounding (h = 1e-5).
 """
 
 import time
@@ -16,7 +16,7 @@ H = 1e-5
 
 
 def reach(slices=20, collisions=False):
-    """A Panda's path to a box: 20 slices, order 2."""
+    """Returns a Panda's path to a box: 20 slices, order 2."""
     C = ry.Config()
     C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
     C.addFrame("box").setPosition([0.3, 0.3, 1.0]).setShape(ry.ST.marker, [0.1])
@@ -76,7 +76,7 @@ def inverse_kinematics(rounds):
 
 
 def accuracy(collisions):
-    """The largest difference to solutions that were moved, relative to the largest entry."""
+    """Returns the largest deviation from displaced solutions, relative to the largest entry."""
 
     def solved(moved):
         C, komo = reach(collisions=collisions)

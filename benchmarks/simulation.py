@@ -1,8 +1,8 @@
-"""How exact and how fast the simulation is: a table of slips, sags and processor times.
+"""Measures the accuracy and speed of the simulation: a table of slips, sags and processor times.
 
     python benchmarks/simulation.py
 
-Times are processor times of this process, best of several rounds, but for the ratio of threads, which is of wall time.
+Times are processor times of this process, best of several rounds, except for the wall-time ratio of threads.
 """
 
 import time
@@ -31,7 +31,7 @@ def reach(position, side):
 
 
 def tracking():
-    """A spline of .5 rad in 1 s with all joints: largest error, and that .2 s after, mrad."""
+    """Returns the largest error on a spline of .5 rad in 1 s with all joints, and the error .2 s later, mrad."""
     C = panda()
     q = C.getJointState()
     S = ry.Simulation(C)
@@ -46,7 +46,7 @@ def tracking():
 
 
 class Grasp:
-    """A Panda that takes the thing called box, in a simulation, and where the thing is in its hand."""
+    """A Panda that grasps the frame box in a simulation, and the pose of the box in its hand."""
 
     def __init__(self, C, side, force):
         self.C = C
@@ -65,14 +65,16 @@ class Grasp:
             self.S.step(q, 0.01, ry.ControlMode.position)
 
     def place(self):
-        """Position (3,), m, and axes (3, 3) in the hand's axes."""
+        """Returns position (3,), m, and axes (3, 3) in the axes of the hand."""
         hand, box = self.C.getFrame("l_gripper"), self.C.getFrame("box")
         R = hand.getRotationMatrix().T
         return R @ (box.getPosition() - hand.getPosition()), R @ box.getRotationMatrix()
 
 
 def grasp(mass, force, side):
-    """Slips in the hand while it lifts by .2 m, holds 10 s, turns by 1 rad in 1 s; and the error of the place, mm."""
+    """Returns slips in the hand, mm, for a lift by .2 m, 10 s of holding, a rotation by 1 rad in 1 s, and the placement
+    error.
+    """
     g = Grasp(panda(START, mass), side, force)
     places = [g.place()[0]]
     g.go(g.at, g.up)
@@ -89,8 +91,12 @@ def grasp(mass, force, side):
 
 
 def random_grasp(rng):
-    """A box of random size, mass, angle and place, gripped with half more force than it needs in a turn by 1 rad in 1 s: the flat of a
-    finger, 1 cm wide, carries weight times 1, and moment with an arm of 3.8 mm. Slip while it turns, mm and degrees; infinite if lost."""
+    """Grips a box of random size, mass, angle and position with half more force than needed, and rotates it by 1 rad in
+    1 s.
+
+    The flat of a finger, 1 cm wide, carries weight times 1, and moment with an arm of 3.8 mm. Returns the slip during
+    the rotation, mm and degrees; infinite if the box was lost.
+    """
     mass, yaw, aside = rng.uniform(0.05, 1.0), rng.uniform(-0.19, 0.19), rng.uniform(-0.01, 0.01, 2)
     size = [rng.uniform(0.03, 0.06), rng.uniform(0.03, 0.045), rng.uniform(0.03, 0.09), 0.003]
     C = panda()
@@ -108,14 +114,14 @@ def random_grasp(rng):
 
 
 def random_grasps(count=40):
-    """How many of so many random boxes are held; median and worst slip, mm, and worst angle, degrees."""
+    """Returns the number of held random boxes, their median and worst slip, mm, and the worst angle, degrees."""
     slips, angles = np.array([random_grasp(np.random.default_rng(seed)) for seed in range(count)]).T
     held = np.isfinite(slips)
     return held.sum(), np.median(slips), slips[held].max(), angles[held].max()
 
 
 def built_tower():
-    """The robot builds a tower of four boxes of .2 kg: the largest error of a box's place, across, mm."""
+    """Returns the largest horizontal error of a box, mm, in a tower of four boxes of .2 kg built by the robot."""
     C = panda()
     starts = [START + np.array([0.15 * i - 0.3, -0.15 if i % 2 else -0.03, 0]) for i in range(4)]
     for i, start in enumerate(starts):
@@ -125,7 +131,7 @@ def built_tower():
     arm = panda()
 
     def via(position):
-        """Goes there in 2 s, straight and upright."""
+        """Moves to a pose in 2 s, straight and upright."""
         path = []
         for point in np.linspace(C.getFrame("l_gripper").getPosition(), position, 21)[1:]:
             ry.solveIk(arm, {"l_gripper": {"position": point, "z": [0, 0, 1], "y": [1, 0, 0]}}, apply=True)
@@ -154,7 +160,7 @@ def built_tower():
 
 
 def tower():
-    """Ten boxes: creep of the top from 1 s to 10 s, and its sag, mm."""
+    """Returns creep of the top of ten boxes from 1 s to 10 s, and its sag, mm."""
     C = ry.Config()
     for i in range(10):
         C.addFrame(f"b{i}").setShape(ry.ST.ssBox, BOX).setPosition([0, 0, 0.03 + 0.06 * i]).setMass(0.1)
@@ -166,7 +172,7 @@ def tower():
 
 
 def turntable():
-    """A box at a radius of .4 m on a disc that turns at 1 rad/s for 10 s: by how much the radius grows, mm."""
+    """Returns the growth of the radius, mm, of a box at .4 m on a disc that rotates at 1 rad/s for 10 s."""
     C = ry.Config()
     C.addText("hub: {} disc (hub): { joint: hingeZ, shape: cylinder, size: [.05 .6], mass: 1 }")
     C.addFrame("box").setShape(ry.ST.ssBox, BOX).setPosition([0.4, 0, 0.055]).setMass(0.1)
@@ -186,7 +192,7 @@ def best(function, rounds=5):
 
 
 def steps():
-    """Processor time of 10 ms of a Panda with a box, us; of making the simulation, ms."""
+    """Returns processor times of 10 ms of a Panda with a box, us, and of creating the simulation, ms."""
     C = panda([-0.3, 0.35, 0.68], 0.1)
     S = ry.Simulation(C)
     S.step([], 0.5)
@@ -194,7 +200,7 @@ def steps():
 
 
 def environments():
-    """Steps of 50 ms of environments, Panda with a box, per second of processor time; and how much faster two threads are."""
+    """Returns steps of 50 ms per second of processor time, Panda with a box, and the speedup by two threads."""
     C = panda([-0.3, 0.35, 0.68], 0.1)
     u = np.full((32, 7), 0.05)
 
@@ -216,7 +222,7 @@ def environments():
 def main():
     print("tracking of a spline, largest / .2 s after (mrad): {:.6f} / {:.6f}".format(*tracking()))
     for side, words in ([1, 0, 0], "along the radius"), ([0, 1, 0], "across it"):
-        needed = 5.05  # N per kg: what friction needs while the box is lifted
+        needed = 5.05  # N per kg: the force that friction needs during the lift
         for mass, force in (1.0, 30.0), (0.1, 10.0), (1.0, needed * 1.2), (0.1, 0.1 * needed * 1.2):
             numbers = " / ".join(f"{value:.4f}" for value in grasp(mass, force, side))
             print(f"grasp {words}, {mass} kg, {force:.2f} N: lift / hold 10 s / turn / place (mm): {numbers}")

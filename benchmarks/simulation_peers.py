@@ -1,11 +1,11 @@
-"""The same scenes in three engines, in turns: kinegraph, the package `robotic`, and MuJoCo as it comes.
+"""Compares scenes in three engines, in turns: kinegraph, the package `robotic`, and plain MuJoCo.
 
     python benchmarks/simulation_peers.py --robotic PYTHON --mujoco PYTHON
 
-PYTHON are interpreters of environments that have `robotic`, and `mujoco` and numpy; what is left out is not measured. Each scene
-runs in a process of its own, all engines one after the other; times are processor times, the best of three rounds.
-MuJoCo has its defaults, steps of 2 ms and position actuators; the others take steps of 10 ms of their own making. Slips are in mm. In robotic
-nothing is known of forces of grippers, so that a light box is grasped, with the force that it has.
+Both PYTHON are interpreters, one with `robotic`, one with `mujoco` and numpy; an engine without one is skipped. Each
+scene runs in a process of its own, all engines one after the other. Times are processor times, the best of three
+rounds. MuJoCo has its defaults, steps of 2 ms and position actuators. The others take steps of 10 ms of their own.
+Slips are in mm. The grippers of `robotic` have a fixed, unknown force, so that a light box is grasped there.
 """
 
 import argparse
@@ -21,7 +21,7 @@ import numpy as np
 BOX = [0.06, 0.06, 0.06, 0.005]
 ROUNDS = 3
 SLOPE = np.deg2rad(20)
-TUMBLING = np.array([0.0008, 0.0010, 0.0016])  # inertia, kg m^2, of a body of .5 kg that turns about the second axis
+TUMBLING = np.array([0.0008, 0.0010, 0.0016])  # inertia, kg m^2, of a body of .5 kg that rotates about the second axis
 TOP = np.array([0.00205, 0.00205, 0.0016])  # about the tip, of a top of .5 kg with its center .05 m above it
 LEAN = np.array([np.cos(0.2), np.sin(0.2), 0, 0])  # of the top: .4 rad
 
@@ -33,11 +33,11 @@ def wall(function, *arguments):
 
 
 class Ry:
-    """Kinegraph and robotic: one interface."""
+    """Kinegraph and robotic, by one interface."""
 
     def __init__(self, module, configurations="{}"):
         self.ry = importlib.import_module(module)
-        self.configurations = json.loads(configurations)  # of the grasp
+        self.configurations = json.loads(configurations)  # for the grasp
 
     def simulation(self, C):
         return self.ry.Simulation(C, self.ry.SimulationEngine.physx, 0)
@@ -81,7 +81,7 @@ class Ry:
 
     def turntable(self):
         if self.ry.__name__ == "robotic":
-            return {}  # the box is thrown off at once there, for a reason that is not known
+            return {}  # the box is thrown off immediately there, for an unknown reason
         C = self.ry.Config()
         C.addFrame("hub").setPosition([0, 0, 0.5]).setAttributes({"multibody": True})
         disc = C.addFrame("disc", "hub").setJoint(self.ry.JT.hingeZ)
@@ -207,7 +207,7 @@ class Ry:
 
 
 class Mujoco:
-    """MuJoCo with what its manual has as defaults."""
+    """MuJoCo with the defaults of its manual."""
 
     def __init__(self):
         self.mujoco = importlib.import_module("mujoco")
@@ -270,7 +270,7 @@ class Mujoco:
         return {"heap of 20 boxes, 10 ms (us)": 1e4 * wall(self.steps, model, data, 1)}
 
     def tops(self):
-        """With each of its integrators."""
+        """Simulates the top with each integrator."""
         free = "<inertial pos='0 0 0' mass='.5' diaginertia='.0008 .0010 .0016'/><freejoint/>"
         top = "<inertial pos='0 0 .05' mass='.5' diaginertia='.0008 .0008 .0016'/><joint type='ball'/>"
         found = {
@@ -301,8 +301,8 @@ SCENES = ["tower", "slope", "turntable", "heap", "tracking", "step_time", "grasp
 
 
 def measure(python, engine, scene, configurations):
-    """What a scene gives in an engine; nothing if it has none of that."""
-    own = engine == "kinegraph"  # which has a package `robotic` of its own: the others must not find it
+    """Returns the results of a scene in an engine; nothing if the engine lacks it."""
+    own = engine == "kinegraph"  # it contains a package `robotic`, which the others must not find
     environment = {name: value for name, value in os.environ.items() if own or name != "PYTHONPATH"}
     run = subprocess.run(
         [python, __file__, "--one", engine, scene, configurations],
@@ -323,7 +323,7 @@ def one(engine, scene, configurations):
 
 
 def configurations():
-    """Of the grasp, found once, so that both arms do the same."""
+    """Returns configurations of the grasp, computed once, so that both arms do the same."""
     import kinegraph as ry
 
     C = Ry("kinegraph").panda()
@@ -339,8 +339,8 @@ def configurations():
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("--robotic", help="a Python that has robotic")
-    parser.add_argument("--mujoco", help="a Python that has mujoco")
+    parser.add_argument("--robotic", help="a Python with robotic")
+    parser.add_argument("--mujoco", help="a Python with mujoco")
     parser.add_argument("--one", nargs=3, help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.one:

@@ -1,18 +1,18 @@
 #!/usr/bin/env python3
-"""How much faster is `solveIk` than inverse kinematics with restarts by the package `robotic`, at equal accuracy?
+"""Compares `solveIk` with inverse kinematics with restarts by the package `robotic`, at equal accuracy.
 
     python benchmarks/solve_ik.py --reference PATH_TO_REFERENCE_PYTHON [--rounds 3] [--ours PATH_TO_PYTHON]
 
-Each round starts one process per package, in turns, on one thread. Targets are poses of the Panda's gripper at random joint
-states within the limits (free of collisions for `free`); the first attempt starts at home, the others at random:
+Each round starts one process per package, in turns, on one thread. Targets are poses of the Panda's gripper at random
+joint states within the limits (collision-free for `free`). The first attempt starts at home, the others at random:
 
     1mm     pose within 1 mm and 1 mrad; the reference solves a KOMO without regularization, at most 20 attempts
     1e-6    within 1e-6 m and rad; the reference with stop tolerances of 1e-7
     free    1 mm and no collision; the reference with accumulatedCollisions as an equality
     batch   1mm for 4096 targets in one call; the reference in a loop, over fewer of them, one attempt each
 
-Times are processor times, so that a busy machine disturbs less. Both keep the joint limits. Each answer is judged by the
-scene itself, outside of the time. The exit status is 0 when Kinegraph solves at least as many as the reference everywhere.
+Times are processor times, which a busy machine disturbs less. Both respect the joint limits. The scene itself judges
+each answer, outside of the time. The exit status is 0 if Kinegraph solves at least as many as the reference everywhere.
 """
 
 import argparse
@@ -31,7 +31,7 @@ QUANTITIES = {"1mm": 1e-3, "1e-6": 1e-6, "free": 1e-3, "batch": 1e-3}
 ATTEMPTS = 20
 
 
-# --- what both packages run -----------------------------------------------------------------------------------------
+# --- the part that both packages run --------------------------------------------------------------------------------
 
 
 def worker(options):
@@ -57,7 +57,7 @@ def worker(options):
         report[quantity] = {"times": times, "mean": sum(times) / len(answers), "solved": good / count}
     Path(options.out).write_text(json.dumps(report))
     sys.stdout.flush()
-    os._exit(0)  # the reference's destructors are none of this benchmark's business
+    os._exit(0)  # skips the destructors of the reference
 
 
 def randomPose(C, np, rng, limits, free):
@@ -151,7 +151,7 @@ def referenceSolvers(ry, np, target, limits):
     return {quantity: solver(quantity, 1 if quantity == "batch" else ATTEMPTS) for quantity in QUANTITIES}
 
 
-# --- who runs it, in turns ------------------------------------------------------------------------------------------
+# --- the processes, in turns ----------------------------------------------------------------------------------------
 
 
 def runWorker(python, folder, targets, seed, is_reference):
@@ -159,7 +159,7 @@ def runWorker(python, folder, targets, seed, is_reference):
     out.unlink(missing_ok=True)
     environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", KINEGRAPH_HEADLESS="1")
     if is_reference:
-        environment.pop("PYTHONPATH", None)  # it may lead to Kinegraph's `robotic`
+        environment.pop("PYTHONPATH", None)  # it may point to Kinegraph's `robotic`
     command = [python, os.path.abspath(__file__), "--worker", "--out", str(out), "--targets", str(targets)]
     done = subprocess.run(
         [*command, "--seed", str(seed)], cwd=folder, env=environment, capture_output=True, text=True, timeout=1800
@@ -188,8 +188,8 @@ def printTable(reports):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--reference", help="a python in which `import robotic` gives the reference package")
-    parser.add_argument("--ours", default=sys.executable, help="a python that has Kinegraph (default: this one)")
+    parser.add_argument("--reference", help="a Python with the reference package as `robotic`")
+    parser.add_argument("--ours", default=sys.executable, help="a Python with Kinegraph (default: this one)")
     parser.add_argument("--rounds", type=int, default=3)
     parser.add_argument("--targets", type=int, default=200, help="targets per round")
     parser.add_argument("--worker", action="store_true", help=argparse.SUPPRESS)
@@ -203,7 +203,7 @@ def main():
 
     pythons = {"reference": os.path.abspath(options.reference), "kinegraph": os.path.abspath(options.ours)}
     reports = {who: [] for who in pythons}
-    with tempfile.TemporaryDirectory() as folder:  # the reference writes a log file where it runs
+    with tempfile.TemporaryDirectory() as folder:  # the reference writes a log file to its working directory
         for index in range(options.rounds):
             for who in list(pythons) if index % 2 == 0 else list(pythons)[::-1]:
                 reports[who].append(runWorker(pythons[who], folder, options.targets, index, who == "reference"))

@@ -1,12 +1,12 @@
-"""Families of manipulation problems, and how planTask does on them.
+"""Measures planTask on families of manipulation problems.
 
     python benchmarks/tasks.py [--threads 2] [--families tower,crowded] [--seeds 5] [--first 0] [--evaluations 200000]
 
-Each family is a generator of scenes with a seed; positions are drawn so that a plan exists by construction, or none does.
-The hand is a gantry: a frame with three sliding joints, whose limits are its reach. Printed: how many seeds end as
-expected (for what is impossible: with the right cause), processor time, and what the independent checker found wrong in
-plans that were called solved. With --threads each plan is made with one thread and with so many, in turns, and the last
-columns are times by the clock, of all seeds together: s with one, and how much less it takes with the others.
+A family generates a scene for each seed, such that a plan exists by construction, or none exists. The hand is a gantry,
+a frame with three sliding joints whose limits are its reach. The table has the number of seeds with the expected end
+(for infeasible problems: with the right cause), processor time, and findings of the independent checker in solved
+plans. With --threads, each plan is made with one thread and with this number, in turns. The last columns are then wall
+times of all seeds: seconds with one thread, and the ratio with the others.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ TABLE_TOP = 0.6
 
 @dataclass
 class Problem:
-    """A scene, a goal, and how planTask is to end."""
+    """A scene, a goal, and the expected end of planTask."""
 
     C: ry.Config
     goal: str
     expect: str  # a status
     least: int = 0  # actions of the shortest plan
-    why: str = ""  # a pattern that the message of a failure has
+    why: str = ""  # a pattern of the message of a failure
 
 
 def _scene() -> ry.Config:
@@ -50,7 +50,7 @@ def _hand(C: ry.Config, name: str, low: list[float], high: list[float]) -> None:
 
 
 def _fingers(C: ry.Config, name: str, palm: list[float], wrist: float = 0.0) -> None:
-    """A hand with fingers that open 9 cm, and a palm above them; with a wrist that turns about x, to both sides."""
+    """Adds a hand with fingers that open 9 cm, and a palm above them; optionally with a wrist that rotates about x."""
     carriage = C.addFrame(f"{name}carriage", "base").setJoint(ry.JT.trans3, [-0.9, -0.9, 0.0, 0.9, 0.9, 1.0])
     carriage.setJointState([0.0, 0.0, 0.5])
     hand = C.addFrame(f"{name}gripper", f"{name}carriage").setShape(ry.ST.marker, [0.03])
@@ -82,7 +82,7 @@ def _pad(C: ry.Config, name: str, at: list[float], size: list[float]) -> None:
 
 
 def _flush(C: ry.Config, name: str, at: list[float], size: list[float]) -> None:
-    """A zone of the table, at its height."""
+    """Adds a zone of the table, at its height."""
     zone = C.addFrame(name, "base").setRelativePosition([*at, -0.005]).setShape(ry.ST.ssBox, [*size, 0.01, 0.004])
     zone.setColor([0.3, 0.6, 0.3]).setContact(0).setAttributes({"logical": {"is_place": True}, "simulate": False})
 
@@ -94,7 +94,7 @@ def _reach(C: ry.Config) -> None:
 def _spots(
     rng: np.random.Generator, count: int, low: list[float], high: list[float], apart: float
 ) -> list[list[float]]:
-    """Places on the table at least so far from each other."""
+    """Returns positions on the table with a least distance from each other."""
     spots: list[np.ndarray] = []
     while len(spots) < count:
         spot = rng.uniform(low, high)
@@ -125,7 +125,7 @@ def sort(seed: int, k: int = 4) -> Problem:
 
 
 def handover(seed: int) -> Problem:
-    """Two hands that share little room, and a wall between."""
+    """Two hands whose workspaces share little, and a wall between them."""
     C, rng = _scene(), np.random.default_rng(seed)
     _hand(C, "left", [-0.9, -0.9, 0.0], [0.1, 0.9, 1.0])
     _hand(C, "right", [-0.1, -0.9, 0.0], [0.9, 0.9, 1.0])
@@ -139,7 +139,7 @@ def handover(seed: int) -> Problem:
 
 
 def crowded(seed: int) -> Problem:
-    """The goal is occupied; its occupant has to go first."""
+    """The goal is occupied; its occupant must go first."""
     C, rng = _scene(), np.random.default_rng(seed)
     _reach(C)
     _pad(C, "goal", [0.4, 0.3], [0.12, 0.12])
@@ -149,7 +149,7 @@ def crowded(seed: int) -> Problem:
 
 
 def turn(seed: int) -> Problem:
-    """A box is to stand upside down; the palm is too wide for the table's height to turn that far in one grasp."""
+    """A box to be put upside down; the palm is too wide for the table to rotate that far in one grasp."""
     C, rng = _scene(), np.random.default_rng(seed)
     _fingers(C, "g_", [0.1, 0.2, 0.04], wrist=1.66)
     _box(C, "obj", "table", [*rng.uniform(-0.5, 0.5, 2).tolist(), 0.11], [0.07, 0.08, 0.12])
@@ -157,7 +157,7 @@ def turn(seed: int) -> Problem:
 
 
 def slot(seed: int) -> Problem:
-    """A box goes into a shelf whose roof leaves no room for the hand above it: it has to be held from the side."""
+    """A box goes into a shelf whose roof leaves no room for the hand: it must be held from the side."""
     C, rng = _scene(), np.random.default_rng(seed)
     _fingers(C, "g_", [0.08, 0.08, 0.04], wrist=1.66)
     x = float(rng.uniform(-0.4, 0.4))
@@ -169,7 +169,7 @@ def slot(seed: int) -> Problem:
 
 
 def carry(seed: int, k: int = 3) -> Problem:
-    """Cups on a tray that one hand reaches and pads that another one reaches: the tray is carried to the middle."""
+    """Cups on a tray within reach of one hand, pads within reach of another: the tray is carried to the middle."""
     C, rng = _scene(), np.random.default_rng(seed)
     _hand(C, "left", [-0.9, -0.9, 0.0], [0.15, 0.9, 1.0])
     _hand(C, "right", [-0.15, -0.9, 0.0], [0.9, 0.9, 1.0])
@@ -201,7 +201,7 @@ def _stick(C: ry.Config, name: str, at: list[float], angle: float, length: float
 
 
 def hook(seed: int) -> Problem:
-    """A box is beyond the hand's reach, and not beyond that of a stick with a hook."""
+    """A box beyond the reach of the hand, but within reach of a stick with a hook."""
     C, rng = _scene(), np.random.default_rng(seed)
     _fingers(C, "g_", [0.06, 0.06, 0.04])
     C.getFrame("g_carriage").setJoint(ry.JT.trans3, [-0.9, -0.9, 0.0, 0.9, 0.1, 1.0]).setJointState([0, -0.4, 0.5])
@@ -213,7 +213,9 @@ def hook(seed: int) -> Problem:
 
 
 def _cabinet(C: ry.Config, at: list[float], deep: float = 0.4) -> None:
-    """A drawer that opens towards -y, in a cabinet with a roof; `at` is the middle of its front, closed, on the table."""
+    """Adds a drawer that opens toward -y, in a cabinet with a roof; `at` is the center of its closed front, on the
+    table.
+    """
     base = C.addFrame("cabinet", "base").setRelativePosition([*at, 0.0])
     assert base is not None
     for name, where, size in (
@@ -238,7 +240,7 @@ def _cabinet(C: ry.Config, at: list[float], deep: float = 0.4) -> None:
 
 
 def drawer(seed: int) -> Problem:
-    """A drawer is to be opened."""
+    """A drawer to be opened."""
     C, rng = _scene(), np.random.default_rng(seed)
     _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
     _cabinet(C, [float(rng.uniform(-0.4, 0.4)), float(rng.uniform(0.2, 0.4))])
@@ -246,7 +248,7 @@ def drawer(seed: int) -> Problem:
 
 
 def door(seed: int) -> Problem:
-    """A door is to be opened; its handle stands upright, and turns in the hand."""
+    """A door to be opened; its handle stands upright and rotates in the hand."""
     C, rng = _scene(), np.random.default_rng(seed)
     _fingers(C, "g_", [0.06, 0.06, 0.04])
     C.getFrame("g_gripper").setJoint(ry.JT.hingeZ, [-2.0, 2.0]).setJointState([0.0])
@@ -268,7 +270,7 @@ def door(seed: int) -> Problem:
 
 
 def stow(seed: int) -> Problem:
-    """A cup is to be put into a drawer, which is closed and has to be opened first."""
+    """A cup to be put into a closed drawer, which must be opened first."""
     C, rng = _scene(), np.random.default_rng(seed)
     _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
     _cabinet(C, [float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.3, 0.45))])
@@ -277,7 +279,7 @@ def stow(seed: int) -> Problem:
 
 
 def fetch(seed: int) -> Problem:
-    """A cup is in a drawer, which is closed and is to be closed in the end."""
+    """A cup in a closed drawer, which is to be closed in the end."""
     C, rng = _scene(), np.random.default_rng(seed)
     _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
     _cabinet(C, [float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.3, 0.45))])
@@ -286,7 +288,7 @@ def fetch(seed: int) -> Problem:
 
 
 def cleared(seed: int) -> Problem:
-    """A box stands in front of a drawer that is to be opened."""
+    """A box in front of a drawer that is to be opened."""
     C, rng = _scene(), np.random.default_rng(seed)
     _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
     x, y = float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.2, 0.4))
@@ -296,7 +298,7 @@ def cleared(seed: int) -> Problem:
 
 
 def lower(seed: int) -> Problem:
-    """A tall cup stands in an open drawer: it has to be taken out before the drawer is closed."""
+    """A tall cup in an open drawer: it must be taken out before the drawer is closed."""
     C, rng = _scene(), np.random.default_rng(seed)
     _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
     _cabinet(C, [float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.4, 0.5))])
@@ -325,7 +327,7 @@ def beyond(seed: int) -> Problem:
 
 
 def remote(seed: int) -> Problem:
-    """No plan: the handle of a drawer is out of reach, wherever the drawer is."""
+    """No plan: the handle of a drawer is always out of reach."""
     C, rng = _scene(), np.random.default_rng(seed)
     _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
     _cabinet(C, [float(rng.uniform(-0.4, 0.4)), float(rng.uniform(1.5, 1.8))])
@@ -363,7 +365,7 @@ def small(seed: int) -> Problem:
 
 
 def contradiction(seed: int) -> Problem:
-    """No plan: nothing is at two places."""
+    """No plan: nothing is at two positions."""
     C, rng = _scene(), np.random.default_rng(seed)
     _reach(C)
     _pad(C, "p", [0.4, 0.3], [0.14, 0.14])
@@ -400,7 +402,7 @@ def walled(seed: int) -> Problem:
 
 
 def nowhere(seed: int) -> Problem:
-    """No plan: a box is to stand upside down, and there is no room to lay it on its side."""
+    """No plan: a box is to be put upside down, and there is no room to lay it on its side."""
     C, rng = _scene(), np.random.default_rng(seed)
     C.getFrame("table").setAttributes({"logical": {}})
     _fingers(C, "g_", [0.1, 0.2, 0.04], wrist=1.66)

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""How much sooner are 8 motion problems solved on 2 threads than one after the other?
+"""Measures the speedup of 8 motion problems on 2 threads.
 
     python benchmarks/threads.py [--slices 64] [--problems 8] [--threads 2] [--rounds 5]
 
-A Panda reaches 8 targets, each a path of its own. In each round, in turns: `solve` in a loop, `solve` in a pool of Python
-threads (which only helps if the interpreter lock is released), and `solveAll`. Wall-clock times; the machine should be quiet.
-All give the same paths, to the last bit, or the benchmark fails. Goal: below 0.65 of the loop's time on 2 threads.
+A Panda reaches 8 targets, each by a path of its own. Each round runs in turns: `solve` in a loop, `solve` in a pool of
+Python threads (which helps only if the interpreter lock is released), and `solveAll`. Times are wall-clock times on a
+quiet machine. The benchmark fails unless all give the same bits. The goal is less than 0.65 of the loop's time on 2
+threads.
 """
 
 import argparse

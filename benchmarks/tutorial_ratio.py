@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How much faster is Kinegraph than the package `robotic` on what the tutorial does, at equal accuracy?
+"""Compares Kinegraph with the package `robotic` on the steps of the tutorial, at equal accuracy.
 
     python benchmarks/tutorial_ratio.py --reference PATH_TO_REFERENCE_PYTHON [--rounds 7] [--ours PATH_TO_PYTHON]
 
@@ -11,8 +11,8 @@ Each round starts one process per package, in turns, and both run the same scrip
     load=   the same for one and the same file, Kinegraph's
     import  `import robotic`, after numpy
 
-Times are compared as ratios within a round, so that a busy machine disturbs both sides alike. The exit status is 0 when
-Kinegraph's answers are feasible and as accurate as the reference's.
+Ratios are taken within a round, so that a busy machine disturbs both sides alike. The exit status is 0 if Kinegraph's
+answers are feasible and as accurate as the reference's.
 """
 
 import argparse
@@ -30,7 +30,7 @@ Q_HOME = [0.0, -0.5, 0.0, -2.0, 0.0, 2.0, -0.5]
 QUANTITIES = ["ik", "eval", "load", "load=", "import"]
 
 
-# --- what both packages run -----------------------------------------------------------------------------------------
+# --- the part that both packages run --------------------------------------------------------------------------------
 
 
 def worker(options):
@@ -49,7 +49,7 @@ def worker(options):
         times["ik"], report["accuracy"] = timeInverseKinematics(ry, np, scene, options.targets)
     Path(options.out).write_text(json.dumps(report))
     sys.stdout.flush()
-    os._exit(0)  # the reference's destructors are none of this benchmark's business
+    os._exit(0)  # skips the destructors of the reference
 
 
 def versions(ry):
@@ -112,7 +112,7 @@ def timeInverseKinematics(ry, np, scene, count):
     return times, accuracy | {"feasible": feasible, "of": count}
 
 
-# --- who runs it, in turns ------------------------------------------------------------------------------------------
+# --- the processes, in turns ----------------------------------------------------------------------------------------
 
 
 def runWorker(python, role, folder, scene="", targets=0, is_reference=False):
@@ -120,7 +120,7 @@ def runWorker(python, role, folder, scene="", targets=0, is_reference=False):
     out.unlink(missing_ok=True)
     environment = dict(os.environ, OMP_NUM_THREADS="1", OPENBLAS_NUM_THREADS="1", KINEGRAPH_HEADLESS="1")
     if is_reference:
-        environment.pop("PYTHONPATH", None)  # it may lead to Kinegraph's `robotic`
+        environment.pop("PYTHONPATH", None)  # it may point to Kinegraph's `robotic`
     command = [python, os.path.abspath(__file__), "--worker", role, "--out", str(out)]
     command += ["--scene", scene, "--targets", str(targets)]
     done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=600)
@@ -156,7 +156,7 @@ def printTable(reports):
 
 
 def printAccuracy(reports):
-    """Says how good the answers of `ik` are, and returns whether Kinegraph's are as good as the reference's."""
+    """Prints the accuracy of the answers of `ik`, and returns whether Kinegraph's are as good as the reference's."""
     worst = {}
     for who, runs in reports.items():
         of = [r["accuracy"] for r in runs]
@@ -174,8 +174,8 @@ def printAccuracy(reports):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--reference", help="a python in which `import robotic` gives the reference package")
-    parser.add_argument("--ours", default=sys.executable, help="a python that has Kinegraph (default: this one)")
+    parser.add_argument("--reference", help="a Python with the reference package as `robotic`")
+    parser.add_argument("--ours", default=sys.executable, help="a Python with Kinegraph (default: this one)")
     parser.add_argument("--rounds", type=int, default=7)
     parser.add_argument("--targets", type=int, default=300, help="targets of the inverse kinematics per round")
     for internal in ("--worker", "--out", "--scene"):
@@ -190,7 +190,7 @@ def main():
 
     pythons = {"reference": os.path.abspath(options.reference), "kinegraph": os.path.abspath(options.ours)}
     reports = {who: [] for who in pythons}
-    with tempfile.TemporaryDirectory() as folder:  # the reference writes a log file where it runs
+    with tempfile.TemporaryDirectory() as folder:  # the reference writes a log file to its working directory
         about = {w: runWorker(p, "describe", folder, is_reference=w == "reference") for w, p in pythons.items()}
         for round_index in range(options.rounds):
             order = list(pythons) if round_index % 2 == 0 else list(pythons)[::-1]

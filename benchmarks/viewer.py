@@ -1,19 +1,24 @@
-"""How quick are the viewer and the cameras?
+"""Measures the speed of the viewer and the cameras.
 
-    python benchmarks/viewer.py                 all of it; or some of: bundle, first, client, server, frames,
+    python benchmarks/viewer.py                 all parts, or some of: bundle, first, client, server, frames,
                                                  notebook, ik, camera
     python benchmarks/viewer.py client --seconds 20 --size 1280x720
 
-bundle: the page as it is served, compressed. first: from the call of view() until a browser that is already open on the page of
-a program shows the Panda. client: 200 shapes (boxes, spheres, capsules, cylinders, meshes), all moved 60 times per second by a
-program; pictures per second of a headless Chromium that draws in software, with shadows, and how many of the 60 arrive.
-server: share of one core that the server's side of 1000 frames at 60 Hz takes, kinematics included, with a browser's
-connection that reads everything. frames: 10,000 frames with shapes are added one by one, without a page and with one that is told after
-each; then all are moved while a browser draws them, which counts how often its canvas gets another size. notebook: how large what
-notebooks keep of a Panda and of a motion of it is, and how often the page's script is in it. ik: a target is dragged by its handles on the page while `interactiveIk` runs; how often
-poses arrive at the page, how often it draws, and how often the arm is somewhere else on what it draws. camera: RGB and depth, 640x360, of pandaSingle.
+    bundle    size of the served page, compressed
+    first     time from the call of view() until a browser with an open page shows the Panda
+    client    200 shapes (boxes, spheres, capsules, cylinders, meshes), all moved 60 times per second by a program;
+              pictures per second of a headless Chromium that draws in software, with shadows, and the number of the 60
+              that arrive
+    server    share of one core for the server of 1000 frames at 60 Hz, with kinematics and a connected browser that
+              reads everything
+    frames    10,000 frames with shapes added one by one, without a page and with one that is updated each time; then
+              all are moved while a browser draws them; counts changes of its canvas size
+    notebook  size of a Panda and of a motion in a notebook, and the number of copies of the page's script
+    ik        a target is dragged by its handles while `interactiveIk` runs: rates of poses, of drawings, and of changes
+              of the drawn arm
+    camera    RGB and depth, 640x360, of pandaSingle
 
-On a busy machine figures are worse than they are. Needs Chromium and the package `websockets` (first, client, server).
+Figures are worse on a busy machine. Needs Chromium and the package `websockets` (first, client, server).
 """
 
 import argparse
@@ -81,7 +86,8 @@ C.viewer().waitForClient(120)
 kg.interactiveIk(C, "l_gripper")
 """
 
-# the pointer draws a figure about a place, 60 times per second; when the gripper was first seen at a place, by the page's clock
+# The pointer draws a figure around a point, 60 times per second; the page's clock gives the first sight of the gripper
+# at a position.
 DRAG = """
 const canvas = document.getElementById("canvas");
 const point = (kind, x, y) => canvas.dispatchEvent(new PointerEvent(kind,
@@ -105,7 +111,7 @@ setInterval(() => {
 
 
 def start(code: str, *arguments: str) -> tuple[subprocess.Popen, str]:
-    """A program and the address of its viewer."""
+    """Returns a program and the address of its viewer."""
     environment = {k: v for k, v in os.environ.items() if k not in ("KINEGRAPH_HEADLESS", "DISPLAY", "WAYLAND_DISPLAY")}
     model = subprocess.Popen(
         [sys.executable, "-u", "-c", code, *arguments],
@@ -126,7 +132,7 @@ def set_size(browser: Browser, width: int, height: int) -> None:
 
 
 def processor_time(process: int) -> float:
-    """Of a process and all that it has started, s."""
+    """Returns the processor time of a process and its children, s."""
     times, parents = {}, {}
     for entry in Path("/proc").glob("[0-9]*/stat"):
         try:

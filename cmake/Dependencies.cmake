@@ -1,6 +1,6 @@
-# Third-party libraries come as wheels (the list is in pyproject.toml). Inside `pip install` they are already on the
-# path of the building Python. A plain CMake build uses those of the given Python if it has them, and otherwise puts them
-# into a virtual environment of its own below the build folder.
+# Finds third-party libraries, which come as wheels (the list is in pyproject.toml). `pip install` provides them on the
+# path of the building Python. A plain CMake build uses those of the given Python if it has them. Otherwise it installs
+# them into a virtual environment below the build folder.
 
 function(kinegraph_find_prefix result python)
   execute_process(
@@ -13,7 +13,7 @@ function(kinegraph_find_prefix result python)
   endif()
 endfunction()
 
-set(KINEGRAPH_REQUIREMENTS_PYTHON "${Python_EXECUTABLE}")  # the one that has them, and pip
+set(KINEGRAPH_REQUIREMENTS_PYTHON "${Python_EXECUTABLE}")  # has the wheels, and pip
 kinegraph_find_prefix(KINEGRAPH_PREFIX "${Python_EXECUTABLE}")
 if(NOT KINEGRAPH_PREFIX)
   set(venv "${CMAKE_BINARY_DIR}/requirements")
@@ -35,17 +35,17 @@ list(PREPEND CMAKE_PREFIX_PATH "${KINEGRAPH_PREFIX}")
 
 find_package(Eigen3 3.4 CONFIG REQUIRED)
 find_package(assimp CONFIG REQUIRED)
-find_package(boost_headers CONFIG REQUIRED)  # Beast and JSON, which need no library
+find_package(boost_headers CONFIG REQUIRED)  # Beast and JSON are header-only
 find_package(Qhull CONFIG REQUIRED)
 find_package(tinyxml2 CONFIG REQUIRED)
 find_package(ZLIB CONFIG REQUIRED HINTS "${KINEGRAPH_PREFIX}/lib64/cmake/zlib")
 find_package(Threads REQUIRED)
 
-# Assimp reads mesh files and MuJoCo draws camera images. Both are large: they are loaded when they are first needed
-# (common/dynamic_library.h), by these names.
+# Assimp reads mesh files and MuJoCo renders camera images. Both are large and loaded at their first use by these names
+# (common/dynamic_library.h).
 get_target_property(KINEGRAPH_ASSIMP_LIBRARY assimp::assimp IMPORTED_SONAME_RELEASE)
 
-# MuJoCo's wheel has the headers and one library, which needs the C library only.
+# The wheel of MuJoCo has the headers and one library, which depends on the C library only.
 get_filename_component(KINEGRAPH_MUJOCO "${KINEGRAPH_PREFIX}/../mujoco" ABSOLUTE)
 file(GLOB library "${KINEGRAPH_MUJOCO}/libmujoco.so.*")
 add_library(mujoco::mujoco SHARED IMPORTED)
@@ -54,8 +54,8 @@ set_target_properties(mujoco::mujoco PROPERTIES IMPORTED_LOCATION "${library}"
 get_filename_component(KINEGRAPH_MUJOCO_LIBRARY "${library}" NAME)
 set(KINEGRAPH_LIBRARY_FOLDERS "${KINEGRAPH_PREFIX}/lib" "${KINEGRAPH_PREFIX}/lib64" "${KINEGRAPH_MUJOCO}")
 
-# Installs the shared libraries of KINEGRAPH_PREFIX and MuJoCo's that `target` needs into `folder`: those that it is
-# linked with, and those that it loads, which need no others (assimp zlib, which is linked).
+# Installs the shared libraries of KINEGRAPH_PREFIX and MuJoCo that `target` needs into `folder`: the linked ones, and
+# the loaded ones, which need no others (assimp needs zlib, which is linked).
 function(kinegraph_install_libraries target folder component)
   install(CODE "set(prefix [[${KINEGRAPH_PREFIX}]])\nset(mujoco [[${KINEGRAPH_MUJOCO}]])\nset(binary [[$<TARGET_FILE:${target}>]])\nset(folder [[${folder}]])\nset(loaded [[${KINEGRAPH_PREFIX}/lib/${KINEGRAPH_ASSIMP_LIBRARY}]] [[${KINEGRAPH_MUJOCO}/${KINEGRAPH_MUJOCO_LIBRARY}]])" COMPONENT ${component})
   install(CODE [[

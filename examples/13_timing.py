@@ -34,7 +34,7 @@ def curve(x: np.ndarray, y: np.ndarray, left: float, top: float, width: float, h
 def draw(motion: ry.TimedPath, file: str) -> None:
     """Plots the shares of the velocity and acceleration limits, one curve per joint, between lines at the limits."""
     t = np.linspace(0, motion.duration, 600)
-    _, velocity, acceleration = motion.at(t)
+    _, velocity, acceleration = motion.eval(t)
     width, height, margin = 720, 160, 40
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width + 2 * margin}" height="{2 * height + 3 * margin}">'

@@ -1,4 +1,4 @@
-"""Part 27: motions among dynamic obstacles, replanning of a running motion, and better motions with more evaluations.
+"""Part 27: motions among dynamic obstacles, replanning of a running motion, and improving motions.
 
 The motion avoids obstacles with known trajectories, continuously in time. `replan` continues a running motion without a
 stop. `planMotions` yields better and better motions.
@@ -16,7 +16,7 @@ q = C.getJointState()
 turn = np.array([0.6, 0, 0, 0, 0, 0, 0])
 start, goal = q - turn, q + turn
 
-# A load is carried past the arm and then away: its poses and times.
+# The trajectory of a load that is carried past the arm, and then away.
 times = np.array([0.0, 2.0, 4.0])
 poses = np.array([[-0.6, 0.35, 1.1, 1, 0, 0, 0], [0.6, 0.35, 1.1, 1, 0, 0, 0], [0.6, 1.5, 1.1, 0.7, 0, 0, 0.7]])
 plan = ry.planMotion(C, goal, start, margin=0.01, obstacle_trajectories={"cart": (times, poses)})
@@ -25,19 +25,19 @@ assert plan.feasible
 
 # Both together, every 10 ms; nothing touches.
 for t in np.arange(0, plan.duration + 1, 0.01):
-    C.setJointState(plan.at(t)[0])
+    C.setJointState(plan.eval(t)[0])
     C.getFrame("cart").setPose(plan.obstaclesAt(t)["cart"])
     assert not [pair for pair in C.getCollisions(0.009) if "load" in pair[:2]]
     C.view(False, f"among what moves, {t:.2f} s")
 
-# A load stops at the arm's goal.
+# A load that stays at the goal.
 C.setJointState(goal)
 hand = C.getFrame("l_gripper").getPosition()
 C.setJointState(start)
 stays = np.array([[0, 2, 1, 1, 0, 0, 0], [*hand, 1, 0, 0, 0]])
 print(ry.planMotion(C, goal, start, obstacle_trajectories={"cart": ([0.0, 1.0], stays)}).message)
 
-# The robot gets another goal during its motion: it keeps its velocity, and changes direction.
+# The moving robot gets another goal: the new motion continues with its velocity.
 C.getFrame("cart").setPosition([0, 2, 1])
 bot = ry.BotOp(C, False)
 plan = ry.planMotion(C, goal, start, velocity=0.6, acceleration=1.5)
@@ -45,7 +45,7 @@ plan = ry.planMotion(C, goal, start, velocity=0.6, acceleration=1.5)
 
 def sampled(motion: ry.MotionPlan) -> tuple[np.ndarray, np.ndarray]:
     at = np.linspace(0, motion.duration, 100)[1:]
-    return np.array([motion.at(t)[0] for t in at]), at
+    return np.array([motion.eval(t)[0] for t in at]), at
 
 
 bot.move(*sampled(plan))
@@ -62,7 +62,7 @@ while bot.get_t() < now + 0.3:
 bot.wait(C, forKeyPressed=False, forTimeToEnd=True)
 print(f"another goal after {now:.1f} s, never slower than {slowest:.2f} rad/s until {now + 0.3:.1f} s")
 
-# A disc passes two walls with gaps: the first path found is seldom of the shortest homotopy class.
+# A disc moves through two walls with gaps: the first path is seldom in the best homotopy class.
 C = ry.Config()
 C.addFrame("floor")
 C.addFrame("disc", "floor").setJoint(ry.JT.transXY, [-2.0, -2.0, 2.0, 2.0])

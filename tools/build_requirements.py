@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints what the library and its C++ tests require to be built, one requirement a line, as pyproject.toml lists it."""
+"""Prints the build requirements of the library and its C++ tests from pyproject.toml, one per line."""
 
 import tomllib
 from pathlib import Path

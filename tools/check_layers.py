@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""Checks who knows whom: every room of src/kinegraph may include, and link to, only the rooms that this table allows it.
+"""Checks the layers of src/kinegraph: every room includes, and links to, only the rooms that BELOW allows it.
 
-    check_layers.py            reads the includes of all sources
-    check_layers.py BUILD      and what the objects of a build folder leave undefined: a function that is declared in a
-                               room and defined in one above it is an arrow upwards, too
+    check_layers.py                reads the includes of all sources, the members that a room defines for a class of
+                                   another one, and the table in docs/architecture.md
+    check_layers.py BUILD          also reads the undefined symbols of the objects in a build folder, because a function
+                                   that is declared in a room but defined above it is an upward dependency, too
+    check_layers.py --write-docs   writes the table in docs/architecture.md
 
-A room that has become a hall is divided into rooms of its own, such as geometry/distance. Where the table names `geometry`,
-all of its rooms are meant.
+A room that grows too large is divided into rooms of its own, such as geometry/distance. An entry `geometry` allows all
+of its rooms.
 """
 
 import json
@@ -22,7 +24,7 @@ _CORE = ["common", "math"]
 _MODEL = [*_CORE, "geometry", "kinematics", "collision"]
 _SCENE = [*_MODEL, "gfile", "parsers", "scene"]
 _PROBLEMS = [*_SCENE, "features", "nlp", "komo", "solvers"]
-_PLANNING = [*_PROBLEMS, "ik", "trajectories"]
+_PLANNING = [*_PROBLEMS, "ik", "trajectories", "rrt"]
 
 EVERYTHING = [*_PLANNING, "control", "exporters", "trajectory_optimization", "planning", "logic", "task_planning"]
 EVERYTHING += ["rendering", "simulation", "robot", "viewer", "api"]
@@ -43,6 +45,7 @@ BELOW: dict[str, list[str]] = {
     "solvers": [*_CORE, "nlp", "solvers/interface", "solvers/problems", "solvers/algebra", "solvers/methods"],
     "solvers/sampling": [*_CORE, "nlp", "solvers"],
     "solvers/sensitivity": [*_CORE, "nlp", "solvers"],
+    "rrt": _CORE,
     "kinematics": [*_CORE, "geometry"],
     "collision": [*_CORE, "geometry", "kinematics"],
     "parsers": [*_CORE, "gfile", "geometry"],
@@ -54,12 +57,12 @@ BELOW: dict[str, list[str]] = {
     "features": _SCENE,
     "ik": [*_SCENE, "features", "nlp"],
     "komo/path": [*_SCENE, "features", "nlp"],
-    "komo/collision": [*_SCENE, "features", "nlp", "komo/path"],
+    "komo/collision": [*_SCENE, "features", "nlp", "rrt", "komo/path"],
     "komo": [*_SCENE, "features", "nlp", "komo/path", "komo/collision"],
     "control": _PROBLEMS,
     "trajectory_optimization": [*_PROBLEMS, "trajectories"],
-    "planning/steering": [*_SCENE, "features", "nlp"],
-    "planning/search": [*_SCENE, "features", "nlp", "planning/steering"],
+    "planning/steering": [*_SCENE, "features", "nlp", "rrt"],
+    "planning/search": [*_SCENE, "features", "nlp", "rrt", "planning/steering"],
     "planning/smoothing": [*_PLANNING, "planning/steering", "planning/search"],
     "planning/dynamic_obstacles": [*_PLANNING, "planning/steering", "planning/search"],
     "planning": [
@@ -78,21 +81,104 @@ BELOW: dict[str, list[str]] = {
     "api": EVERYTHING,
     ".": EVERYTHING,
 }
+# Members that a class declares in its room and that another room defines, because they need rooms above the class:
+# (room of the class, room of the definition) -> members. No other member may be defined outside of its room.
+DOORS: dict[tuple[str, str], set[str]] = {
+    ("komo", "api"): {
+        "Komo::nlp",
+        "Komo::solve",
+        "Komo::solveFromMany",
+        "Komo::view",
+        "Komo::viewPlay",
+        "Komo::viewer",
+    },
+    ("planning", "api"): {"MotionPlan::view", "PathFinder::view"},
+    ("robot", "api"): {
+        *{"BotOp::BotOp", "BotOp::cameras", "BotOp::getCameraFxycxy", "BotOp::getImageAndDepth"},
+        *{"BotOp::getImageDepthPcl"},
+    },
+    ("scene", "api"): {"Config::eval", "Config::view", "Config::viewPath", "Config::viewer", "Config::watchFile"},
+    ("simulation", "api"): {"Recording::saveHtml", "Simulation::run", "Simulation::view"},
+    ("task_planning/lgp", "api"): {"LgpTool::view_close", "LgpTool::view_solved"},
+    ("task_planning/search", "api"): {
+        *{"TaskPlan::execute", "TaskPlan::failedConfiguration", "TaskPlan::frames", "TaskPlan::play", "TaskPlan::view"},
+    },
+}
+GROUPS = {
+    "core": _CORE,
+    "model": _MODEL,
+    "scene stack": _SCENE,
+    "problem stack": _PROBLEMS,
+    "planning stack": _PLANNING,
+}
+CONTENTS = {
+    "common": "errors, text, random numbers, option tables, cancellation, threads",
+    "math": "poses, rotations, SIMD lanes, banded factorizations",
+    "gfile": "the `.g` text format: lexer, parser, value tree, writer; no robotics",
+    "geometry/shapes": "shapes, meshes, hulls, masses, as values",
+    "geometry/distance": "collision bodies and the signed distance between two of them",
+    "geometry/files": "meshes, grids and images read from files",
+    "trajectories": "B-splines, the abstract `Trajectory`, time parameterization within limits; no robots",
+    "nlp": "the optimization problem as a solver sees it, derivative checks, test problems",
+    "solvers/interface": "options, results, evaluation hook: common to all methods",
+    "solvers/problems": "views of a problem: penalties, relaxed constraints, a single cost",
+    "solvers/algebra": "local models and their linear algebra, quadratic programs",
+    "solvers/methods": "one file per method",
+    "solvers": "`NlpSolver`, many problems at once, explanations of infeasibility",
+    "solvers/sampling": "samples of the feasible set",
+    "solvers/sensitivity": "derivatives of solutions with respect to problem parameters",
+    "rrt": "RRT-Connect, search trees and shortcuts over an abstract search space",
+    "kinematics": "joints, `KinematicModel`, `State`, Jacobians, dynamics, SIMD kernels",
+    "collision": "near pairs of bodies, collision checks of configurations, edges and motions",
+    "parsers": "URDF, MJCF and SRDF, translated to the value tree of a `.g` file",
+    "scene/tree": "the frames of a scene as data, compilation to a `KinematicModel`, edits of whole trees",
+    "scene/loading": "value trees to frames, joints and shapes",
+    "scene": "`Config` and `Frame`, the scene that people edit",
+    "exporters": "scenes written as `.g`, YAML, dict, URDF, MJCF, glTF; surfaces as PLY, STL, COLLADA",
+    "compatibility": "methods of earlier versions of the reference package",
+    "features": "differentiable functions of frames, their registry, batches of configurations",
+    "ik": "inverse kinematics in one call: restarts, lanes, threads",
+    "komo/path": "time grid, modes, the State of every slice, contacts",
+    "komo/collision": "continuous-collision constraints between slices",
+    "komo": "objectives on a time grid; a `Config` becomes an `Nlp`",
+    "control": "differential inverse kinematics, model predictive control",
+    "trajectory_optimization": "multi-start, motions with B-spline control points as variables, skeletons",
+    "planning/steering": "joint space, constraints, collision checks of edges, per-thread contexts",
+    "planning/search": "path search: straight edges, RRT-Connect with restarts",
+    "planning/smoothing": "shortcuts, rope shortcuts, repeated searches for shorter paths",
+    "planning/dynamic_obstacles": "obstacles with known trajectories, timing among them",
+    "planning": "`planMotion`, replanning, roadmaps, proofs of infeasibility",
+    "logic": "facts, rules, `.fol` and PDDL files, grounding, plan search; no geometry",
+    "task_planning": "manipulation helpers, facts of a scene, task rules, waypoint problems",
+    "task_planning/lgp": "`LGP_Tool` and its abstraction of actions",
+    "task_planning/search": "`planTask`, `checkTaskPlan`",
+    "rendering": "camera images without a display",
+    "simulation": "a scene in time: MuJoCo, motors, grippers, simulation state",
+    "robot": "`BotOp`, robot drivers, rate limiter and safety limits",
+    "viewer/messages": "messages between the server and the page",
+    "viewer": "the web server of the page, the shown scene, edits made in a browser",
+    "api": "calls that combine rooms, short names for C++ programs",
+    ".": "`kinegraph.h`, the header for users",
+}
 PAGE = "client_page.cpp"  # written by the build, for the viewer
+DOCS = SOURCE.parent.parent / "docs" / "architecture.md"
+TABLE = re.compile(r"(?<=<!-- written by tools/check_layers.py --write-docs -->\n).*?(?=<!-- end -->)", re.DOTALL)
 
 
 def allowed(room: str, other: str) -> bool:
-    """Whether a file of `room` may include one of `other`."""
+    """Returns whether a file of `room` may include one of `other`."""
     return other == room or any(other == below or other.startswith(below + "/") for below in BELOW[room])
 
 
 def include_problems() -> list[str]:
-    """Rooms that the table does not name, and includes that it does not allow."""
+    """Returns the rooms that are missing from BELOW, and the includes that it does not allow."""
     problems = []
     for file in sorted(SOURCE.rglob("*.[ch]*")):
         room = file.parent.relative_to(SOURCE).as_posix()
         if room not in BELOW:
-            problems.append(f"src/kinegraph/{room}: unknown room; add it to the table in tools/check_layers.py")
+            problems.append(
+                f"src/kinegraph/{room}: unknown room; add it to BELOW and CONTENTS in tools/check_layers.py"
+            )
             continue
         for number, line in enumerate(file.read_text().splitlines(), 1):
             match = re.match(r'#include "kinegraph/(.+)/[^/]+"', line)
@@ -102,9 +188,67 @@ def include_problems() -> list[str]:
     return list(dict.fromkeys(problems))
 
 
+def door_problems() -> list[str]:
+    """Returns the members that are defined outside of their class's room and missing from DOORS, and the reverse."""
+    rooms = defaultdict(set)
+    for header in SOURCE.rglob("*.h"):
+        for name in re.findall(r"^(?:class|struct) (\w+)[^;]*?\{", header.read_text(), re.MULTILINE):
+            rooms[name].add(header.parent.relative_to(SOURCE).as_posix())
+    found: dict[tuple[str, str], set[str]] = defaultdict(set)
+    for file in SOURCE.rglob("*.cpp"):
+        room, text = file.parent.relative_to(SOURCE).as_posix(), file.read_text()
+        local = set(re.findall(r"^\s*(?:class|struct) (\w+)", text, re.MULTILINE))
+        for name, member in re.findall(r"^(?!using|return|\s)[^\n;=]*?\b(\w+)::(~?\w+)\(", text, re.MULTILINE):
+            if name in rooms and name not in local and room not in rooms[name]:
+                found[min(rooms[name]), room].add(f"{name}::{member}")
+    problems = []
+    for (home, room), members in sorted(found.items()):
+        for member in sorted(members - DOORS.get((home, room), set())):
+            problems.append(f"{room} defines {member} of {home}; define it there, or add it to DOORS")
+    for (home, room), members in DOORS.items():
+        for member in sorted(members - found.get((home, room), set())):
+            problems.append(f"tools/check_layers.py: {room} does not define {member} of {home}; remove it from DOORS")
+    return problems
+
+
+def room_list(rooms: list[str]) -> str:
+    """Returns a list of rooms for people: the largest group of GROUPS that is contained, and the rooms beyond it."""
+    if rooms == EVERYTHING:
+        return "everything"
+    for name, group in reversed(GROUPS.items()):
+        if set(group) <= set(rooms):
+            return ", ".join([name, *(room for room in rooms if room not in group)])
+    return ", ".join(rooms) or "nothing"
+
+
+def docs_table() -> str:
+    """Returns the table of docs/architecture.md: the groups of rooms, then every room."""
+    lines, before = [], []
+    for name, group in GROUPS.items():
+        inner = next((n for n, g in reversed(GROUPS.items()) if set(g) < set(group)), None)
+        lines.append(f"- *{name}*: {', '.join([*([inner] if inner else []), *(r for r in group if r not in before)])}")
+        before = group
+    lines += ["", "| room | contents | may include |", "|---|---|---|"]
+    lines += [f"| {room} | {CONTENTS[room]} | {room_list(below)} |" for room, below in BELOW.items()]
+    return "\n".join(["", *lines, "", ""])
+
+
+def docs_problems(write: bool = False) -> list[str]:
+    """Compares the table in docs/architecture.md with this one, or writes it."""
+    if BELOW.keys() != CONTENTS.keys():
+        return [f"tools/check_layers.py: BELOW and CONTENTS differ in {sorted(BELOW.keys() ^ CONTENTS.keys())}"]
+    text = DOCS.read_text()
+    written = TABLE.sub(lambda _: docs_table(), text)
+    if write:
+        DOCS.write_text(written)
+    elif written != text or not TABLE.search(text):
+        return ["docs/architecture.md: the table of rooms is out of date; run tools/check_layers.py --write-docs"]
+    return []
+
+
 def room_of_object(source: Path) -> str | None:
-    """The room that a compiled file belongs to; None if it is none of the library's. Files that CMake compiles at once
-    are named after theirs: Unity/unity_geometry.distance.0_cxx.cxx."""
+    """Returns the room of a compiled file, or None if it does not belong to the library. Files that CMake compiles
+    together are named after their room: Unity/unity_geometry.distance.0_cxx.cxx."""
     if unity := re.fullmatch(r"unity_(.+)\.\d+_cxx\.cxx", source.name):
         return unity[1].replace(".", "/")
     if source.name == PAGE:
@@ -113,25 +257,23 @@ def room_of_object(source: Path) -> str | None:
 
 
 def objects(build: Path) -> dict[Path, str]:
-    """The object files of the library in a build folder, each with its room."""
+    """Returns the object files of the library in a build folder, each with its room."""
     found = {}
     for entry in json.loads((build / "compile_commands.json").read_text()):
         room = room_of_object(Path(entry["file"]))
-        output = (
-            entry.get("output") or entry["command"].split(" -o ")[1].split()[0]
-        )  # older versions of CMake tell none
+        # Older versions of CMake give no "output".
+        output = entry.get("output") or entry["command"].split(" -o ")[1].split()[0]
         if room and "/kinegraph.dir/" in output:
             found[build / output] = room
     return found
 
 
 def symbol_problems(build: Path) -> tuple[list[str], int]:
-    """Symbols that an object of a room needs and that only rooms which it must not know define; and how many objects
-    were read."""
+    """Returns the symbols that are defined only in rooms which their users must not know, and the number of objects."""
     rooms = objects(build)
     missing = [file.name for file in rooms if not file.exists()]
     if missing or not rooms:
-        return [f"{build}: {len(missing)} of {len(rooms)} objects of the library are not there; build it before"], 0
+        return [f"{build}: {len(missing)} of {len(rooms)} objects of the library are missing; build it first"], 0
     listing = subprocess.run(
         ["nm", "-A", "--format=posix", *map(str, rooms)], check=True, capture_output=True, text=True
     )
@@ -155,10 +297,12 @@ def symbol_problems(build: Path) -> tuple[list[str], int]:
 
 
 def main() -> int:
-    problems = include_problems()
-    done = f"layers: {len(BELOW)} rooms, all includes point down"
-    if len(sys.argv) > 1:
-        more, count = symbol_problems(Path(sys.argv[1]).resolve())
+    arguments = sys.argv[1:]
+    problems = include_problems() + door_problems() + docs_problems(write="--write-docs" in arguments)
+    doors = sum(map(len, DOORS.values()))
+    done = f"layers: {len(BELOW)} rooms, all includes point down, {doors} members defined above their class"
+    for build in (a for a in arguments if not a.startswith("--")):
+        more, count = symbol_problems(Path(build).resolve())
         problems += more
         done += f", and so do the symbols that {count} objects need"
     print("\n".join(problems) if problems else done)

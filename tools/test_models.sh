@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Reads every URDF file of the package example-robot-data and every MJCF file of robosuite, and compares the poses with
-# those of Pinocchio and MuJoCo at random states. Installs this source and all of that into build/models_venv.
-# Arguments go to pytest: -k panda takes a sample.
+# Loads every URDF file of the package example-robot-data and every MJCF file of robosuite, and compares the poses with
+# Pinocchio and MuJoCo at random states. Installs all packages into build/models_venv. Arguments are passed to pytest:
+# -k panda takes a sample.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export KINEGRAPH_HEADLESS=1 PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_QUIET=1

@@ -1,4 +1,4 @@
-// What the programs of benchmarks/cpp_calls.py share: joint vectors to go through, and how a call is timed.
+// Shared code of the programs of benchmarks/cpp_calls.py: lists of joint vectors, and the timing of a call.
 #pragma once
 
 #include <time.h>
@@ -14,7 +14,7 @@ namespace calls {
 
 using Numbers = std::vector<double>;
 
-/// Rows of numbers of a text file, a row per line, which begins with how many they are.
+/// Reads rows of numbers from a text file, one row per line, each preceded by its length.
 inline std::vector<Numbers> readRows(const std::string& path) {
   std::ifstream file(path);
   std::vector<Numbers> rows;
@@ -27,15 +27,15 @@ inline std::vector<Numbers> readRows(const std::string& path) {
   return rows;
 }
 
-/// Processor time of this thread, s: waiting for a busy machine does not count.
+/// Returns the processor time of this thread, s, which excludes waiting on a busy machine.
 inline double now() {
   timespec time;
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
   return double(time.tv_sec) + 1e-9 * double(time.tv_nsec);
 }
 
-/// Prints, as JSON: `answer(i)` (the frame's position, then the 6 x n Jacobian by rows) for the first joint vectors,
-/// and what `call(i)` takes, in microseconds, many samples.
+/// Prints JSON: `answer(i)` (the frame's position, then the 6 x n Jacobian by rows) for the first joint vectors, and
+/// many samples of the time of `call(i)`, in microseconds.
 template <class Call, class Answer>
 void report(const std::string& version, std::size_t joint_vectors, const Call& call, const Answer& answer) {
   std::printf("{\"version\": \"%s\", \"answers\": [", version.c_str());

@@ -1,8 +1,7 @@
 // Kinegraph's part of benchmarks/cpp_calls.py.
 //     kinegraph_calls SCENE FRAME JOINT_VECTORS    times the call
-//     kinegraph_calls SCENE FRAME                  describes the chain: per joint its axis and a point on it, at q = 0;
-//     then
-//                                                  the frame's position, and the joints' limits
+//     kinegraph_calls SCENE FRAME                  describes the chain: axis and a point on it per joint, at q = 0,
+//                                                  then the frame's position, and the joints' limits
 #include "calls.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/scene/config.h"

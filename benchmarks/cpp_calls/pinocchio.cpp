@@ -1,5 +1,5 @@
-// Pinocchio's part of benchmarks/cpp_calls.py, compiled by it with the headers of its wheel.
-//     pinocchio_calls CHAIN JOINT_VECTORS    CHAIN: what kinegraph_calls says of it
+// Pinocchio's part of benchmarks/cpp_calls.py, which compiles it with the headers of the wheel.
+//     pinocchio_calls CHAIN JOINT_VECTORS    CHAIN: the description by kinegraph_calls
 #include <pinocchio/multibody.hpp>
 
 #include <pinocchio/algorithm/frames.hpp>
@@ -14,7 +14,7 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// A serial chain of joints about their own z axes, the quickest kind.
+/// A serial chain of joints about their own z axes, the fastest kind.
 pin::Model readChain(const std::string& path, pin::FrameIndex& tip) {
   std::vector<calls::Numbers> rows = calls::readRows(path);
   rows.resize(rows.size() - 2);  // the last ones are limits

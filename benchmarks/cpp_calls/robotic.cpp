@@ -1,5 +1,5 @@
-// The part of the package `robotic` in benchmarks/cpp_calls.py, compiled by it with the headers and the library of its
-// wheel.
+// The part of the package `robotic` in benchmarks/cpp_calls.py, which compiles it with the headers and the library of
+// the wheel.
 //     robotic_calls SCENE FRAME JOINT_VECTORS
 #include <Kin/frame.h>
 #include <Kin/kin.h>
@@ -31,7 +31,7 @@ int main(int argc, char** argv) try {
   };
   calls::report("", joint_vectors.size(), call, answer);
   std::fflush(stdout);
-  _exit(0);  // its destructors are none of this benchmark's business
+  _exit(0);  // skips its destructors
 } catch (const std::exception& error) {
   std::fprintf(stderr, "%s\n", error.what());
   return 1;

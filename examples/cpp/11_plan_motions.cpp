@@ -1,4 +1,4 @@
-// Collision-free motions from A to B. Without one, planMotion explains the reason.
+// Collision-free motions to a goal. If there is none, planMotion says why.
 #include <kinegraph/kinegraph.h>
 
 #include <iostream>
@@ -38,7 +38,7 @@ int main() try {
   const Config picture = around.picture(C);  // with the trees, the raw path and the path as lines
   std::cout << picture.getFrames().size() - C.getFrames().size() << " frames of lines\n";
 
-  // To a position of the gripper: several configurations are goals at once.
+  // To a position of the gripper: several configurations are goals.
   const MotionPlan reach = planMotion(C, MotionGoal({IkTarget::toPosition("l_gripper", {.35, .3, 1.})}), {}, start);
   std::cout << reach.str() << "\n";
   if (!reach.feasible()) return 1;

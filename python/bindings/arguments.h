@@ -6,27 +6,27 @@
 
 namespace kinegraph::python {
 
-/// Setters return the very object that they were called on, so that calls can be chained.
+/// Setters return the same Python object, so calls can be chained.
 constexpr auto kChain = nb::rv_policy::none;
 
-/// The path of a file, as str or as any object that os.fspath takes.
+/// The path of a file: a str or any object accepted by os.fspath.
 struct PathText {
   std::string text;
 };
 
-/// A frame as users give it; `toFrame` finds it.
+/// A frame argument; `toFrame` resolves it.
 class FrameArgument : public nb::object {
   NB_OBJECT_DEFAULT(FrameArgument, nb::object, "str | int | Frame", isAnything)
-  static bool isAnything(PyObject*) noexcept { return true; }  // toFrame says what is wrong
+  static bool isAnything(PyObject*) noexcept { return true; }  // toFrame reports errors
 };
 
-/// An array of any rank, as users give it.
+/// An array argument of any rank.
 class ArrayArgument : public nb::object {
   NB_OBJECT_DEFAULT(ArrayArgument, nb::object, "numpy.typing.ArrayLike", isAnything)
-  static bool isAnything(PyObject*) noexcept { return true; }  // numpy says what is wrong
+  static bool isAnything(PyObject*) noexcept { return true; }  // numpy reports errors
 };
 
-/// What a file or a script says of a scene or a frame: names and values.
+/// Attributes of a scene or a frame: names and values.
 using Attributes = nb::typed<nb::dict, nb::str, nb::any>;
 
 }  // namespace kinegraph::python

@@ -12,7 +12,7 @@ namespace {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Loads numpy's C interface once; it makes an array in a third of the time that numpy.empty takes.
+/// Loads numpy's C interface once; creating an array with it takes a third of the time of numpy.empty.
 void requireNumpy() {
   static const bool loaded = [] {
     if (_import_array() < 0) throw nb::python_error();
@@ -28,7 +28,7 @@ NewArray makeArray(int rank, npy_intp* shape) {
   return {Array(nb::steal(array)), static_cast<double*>(PyArray_DATA(reinterpret_cast<PyArrayObject*>(array)))};
 }
 
-/// An array of contiguous doubles, or null.
+/// Returns the array if it contains contiguous doubles, else null.
 PyArrayObject* asDoubles(PyObject* source) {
   requireNumpy();
   if (!PyArray_Check(source)) return nullptr;
@@ -36,7 +36,7 @@ PyArrayObject* asDoubles(PyObject* source) {
   return PyArray_TYPE(array) == NPY_DOUBLE && PyArray_ISCARRAY_RO(array) ? array : nullptr;
 }
 
-/// A contiguous buffer of doubles, as most arrays are.
+/// Reads a contiguous buffer of doubles, the most common case.
 bool readBuffer(PyObject* source, Numbers& target) {
   if (PyArrayObject* array = asDoubles(source)) {
     target.rank = PyArray_NDIM(array);
@@ -60,7 +60,7 @@ bool readBuffer(PyObject* source, Numbers& target) {
   return doubles;
 }
 
-/// A list or tuple of plain numbers.
+/// Reads a list or tuple of plain numbers.
 bool readFlatSequence(PyObject* source, Numbers& target) {
   if (!PyList_Check(source) && !PyTuple_Check(source)) return false;
   const Py_ssize_t size = PySequence_Fast_GET_SIZE(source);
@@ -121,14 +121,15 @@ NewArray ReusedArrays::get(int rank, const std::ptrdiff_t* shape) {
   for (const Kept& kept : kept_) {
     auto* array = reinterpret_cast<PyArrayObject_fields*>(kept.array.ptr());
     if (!array || Py_REFCNT(array) != 1) continue;
-    // Nobody has it; but who had it may have changed what it is, or may watch it.
+    // The array has no other owner, but a previous owner may have changed its shape, or may watch it by a weak
+    // reference.
     const bool as_made = array->nd == rank && std::equal(shape, shape + rank, array->dimensions) &&
                          array->flags == kept.flags && array->descr == kept.type && !array->base && !array->weakreflist;
     if (as_made) return {Array(kept.array), reinterpret_cast<double*>(array->data)};
   }
   npy_intp extents[] = {shape[0], rank > 1 ? npy_intp(shape[1]) : 1};
   NewArray made = makeArray(rank, extents);
-  constexpr Py_ssize_t kMost = 4096;  // numbers; larger ones take their time anyway
+  constexpr Py_ssize_t kMost = 4096;  // numbers; larger arrays take longer to fill than to allocate
   if (extents[0] * extents[1] > kMost) return made;
   const auto* array = reinterpret_cast<const PyArrayObject_fields*>(made.array.ptr());
   kept_[next_] = {made.array, array->flags, array->descr};

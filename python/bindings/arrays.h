@@ -11,7 +11,7 @@ namespace kinegraph::python {
 
 namespace nb = nanobind;
 
-/// Numbers as a user passes them: a number, a list, a nested list, a numpy array of any dtype. Values are row-major.
+/// Numeric argument: a number, a list, a nested list, or a numpy array of any dtype. Values are row-major.
 struct Numbers {
   VectorXd values;
   int rank = 0;          ///< 0: a single number
@@ -21,10 +21,10 @@ struct Numbers {
   std::size_t columns() const {
     return rank < 2 || rows == 0 ? std::size_t(values.size()) : std::size_t(values.size()) / rows;
   }
-  MatrixXd matrix() const;  ///< rank 2 as it is, less as one row
+  MatrixXd matrix() const;  ///< rank 2 unchanged; lower ranks as one row
 };
 
-/// The same for a call that only reads them: an array of doubles is looked at where it is. Valid while the argument
+/// Numeric argument for calls that only read it: an array of doubles is used without a copy. Valid while the argument
 /// lives.
 struct NumbersView {
   Eigen::Map<const VectorXd> values{nullptr, 0};
@@ -33,16 +33,16 @@ struct NumbersView {
 };
 
 namespace numpy {
-inline bool isArray(PyObject*) noexcept { return true; }  // only ever made here
+inline bool isArray(PyObject*) noexcept { return true; }  // only created here
 }  // namespace numpy
 
-/// A numpy array of float64. The name is what type checkers see.
+/// A numpy array of float64. The name appears in type annotations.
 class Array : public nb::object {
   NB_OBJECT_DEFAULT(Array, nb::object, "numpy.typing.NDArray[numpy.float64]", numpy::isArray)
   explicit Array(nb::object array) : nb::object(std::move(array)) {}
 };
 
-/// Numpy arrays of other numbers.
+/// Numpy arrays of other number types.
 class IndexArray : public nb::object {
   NB_OBJECT_DEFAULT(IndexArray, nb::object, "numpy.typing.NDArray[numpy.uint32]", numpy::isArray)
   explicit IndexArray(nb::object array) : nb::object(std::move(array)) {}
@@ -74,8 +74,7 @@ Array toNumpy(const VectorXd& vector);
 Array toNumpy(const MatrixXd& matrix);
 Array toNumpy(const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& matrix);
 
-/// A numpy array of that size or shape (rows, columns) that nobody else has, and where its numbers are. It is not
-/// filled.
+/// A new, uninitialized numpy array of that size or shape (rows, columns), and a pointer to its numbers.
 struct NewArray {
   Array array;
   double* data;
@@ -85,38 +84,38 @@ NewArray newArray(std::size_t rows, std::size_t columns);
 NewArray newArray(std::size_t layers, std::size_t rows, std::size_t columns);
 NewArray newArray(std::size_t blocks, std::size_t layers, std::size_t rows, std::size_t columns);
 
-/// Numpy arrays of one shape (rank 1 or 2), each handed out again once nobody else holds it: that takes a fraction of
-/// the time of making one. Needs the interpreter lock.
+/// A cache of numpy arrays of one shape (rank 1 or 2): an array without other owners is handed out again, which takes a
+/// fraction of the time of creating one. Requires the GIL.
 class ReusedArrays {
  public:
   ReusedArrays() = default;
   ReusedArrays(ReusedArrays&&) = default;
   ReusedArrays& operator=(ReusedArrays&&) = default;
 
-  /// With numbers that are left over from before.
+  /// The array contains old numbers.
   NewArray get(std::size_t size);
   NewArray get(std::size_t rows, std::size_t columns);
 
  private:
   struct Kept {
     nb::object array;
-    int flags = 0;               ///< numpy's, as they were when it was made
-    const void* type = nullptr;  ///< and its dtype
+    int flags = 0;               ///< numpy's flags at creation
+    const void* type = nullptr;  ///< dtype at creation
   };
   NewArray get(int rank, const std::ptrdiff_t* shape);
 
-  Kept kept_[2];  ///< two, as `y, J = f()` in a loop lets go of the last result after it has the next one
+  Kept kept_[2];  ///< two, because `y, J = f()` in a loop releases the last result only after the next call
   std::size_t next_ = 0;
 };
 
-/// A new numpy array of truth values, and where they are.
+/// A new numpy array of booleans, and a pointer to its values.
 struct NewFlags {
   FlagArray array;
   bool* data;
 };
 NewFlags newFlags(std::size_t size);
 
-/// Reads numbers; false if `source` is none.
+/// Reads numbers; returns false if `source` is not numeric.
 bool readNumbers(nb::handle source, Numbers& target);
 bool readNumbers(nb::handle source, NumbersView& target);
 

@@ -29,8 +29,8 @@ void raiseParseError(const ParseError& error) {
   PyErr_SetObject(errorClass("ParseError").ptr(), instance.ptr());
 }
 
-void raiseOfMemory() {
-  PyErr_SetString(PyExc_MemoryError, "there is not enough memory for this; is one of the numbers too large?");
+void raiseOutOfMemory() {
+  PyErr_SetString(PyExc_MemoryError, "not enough memory for this call; is one of the arguments too large?");
 }
 
 void translate(const std::exception_ptr& pointer, void*) {
@@ -55,9 +55,9 @@ void translate(const std::exception_ptr& pointer, void*) {
   } catch (const std::filesystem::filesystem_error& error) {
     raise("FileError", error);
   } catch (const std::length_error&) {
-    raiseOfMemory();
+    raiseOutOfMemory();
   } catch (const std::bad_alloc&) {
-    raiseOfMemory();
+    raiseOutOfMemory();
   }
 }
 
@@ -76,11 +76,12 @@ void emitWarnings(Config& config) {
 
 void warnOfContacts(const PyConfig& config) {
   const std::uint64_t revision = config.scene()->structureRevision();
-  if (config.noted == revision) return;
-  config.noted = revision;
+  if (config.warned_revision == revision) return;
+  config.warned_revision = revision;
   for (const std::string& note : config.contactWarnings()) {
-    if (std::find(config.notes.begin(), config.notes.end(), note) != config.notes.end()) continue;
-    config.notes.push_back(note);
+    if (std::find(config.given_warnings.begin(), config.given_warnings.end(), note) != config.given_warnings.end())
+      continue;
+    config.given_warnings.push_back(note);
     emitWarning(note);
   }
 }

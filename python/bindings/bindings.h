@@ -21,8 +21,8 @@ using namespace nb::literals;
 
 struct PyViewer;
 
-/// What Python calls a Config: the scene, the viewer that `view()` opens at first use, and what was last asked of
-/// `eval`, `setJointState` and `getNearestPoints`.
+/// A Config in Python: the scene, the viewer that `view()` opens at first use, and caches of the last calls of `eval`,
+/// `setJointState` and `getNearestPoints`.
 struct PyConfig : Config {
   std::shared_ptr<PyViewer> viewer;
   mutable ResidualCache residuals = {};
@@ -30,11 +30,11 @@ struct PyConfig : Config {
   mutable std::shared_ptr<PairDistances> pairs = {};
   mutable EdgeCheckers checkers = {};
   VectorXd joints = {};
-  mutable std::uint64_t noted = 0;              ///< structure revision for which notes were given
-  mutable std::vector<std::string> notes = {};  ///< those that were given
+  mutable std::uint64_t warned_revision = 0;             ///< structure revision of the last contact warnings
+  mutable std::vector<std::string> given_warnings = {};  ///< the contact warnings given so far
 };
 
-/// Warns of `contactWarnings`, of each once per scene.
+/// Warns of `contactWarnings`, each once per scene.
 void warnOfContacts(const PyConfig& config);
 
 void bindErrors(nb::module_& m);
@@ -55,6 +55,7 @@ void bindSolvers(nb::module_& m);
 void bindKomo(nb::module_& m);
 void bindSkeleton(nb::module_& m);
 void bindIk(nb::module_& m);
+void bindTrajectory(nb::module_& m);
 void bindRetime(nb::module_& m);
 void bindPathFinder(nb::module_& m);
 void bindPlan(nb::module_& m);
@@ -68,21 +69,21 @@ void bindFormats(nb::class_<PyConfig>& config, nb::class_<Frame>& frame);
 void bindRendering(nb::module_& m);
 void bindViewer(nb::module_& m, nb::class_<PyConfig>& config);
 
-/// Passes on what was odd about a scene through Python's `warnings`.
+/// Reports warnings about a scene through Python's `warnings`.
 void emitWarnings(Config& config);
 void emitWarning(const std::string& message);
 
-/// A Frame or a frame's name, id in the configuration. Throws FrameNotFound for a name that is not there, which says that
-/// `who` asked for it.
+/// Resolves a Frame, or a frame's name or id in the configuration. Throws FrameNotFound for an unknown name; the
+/// message names the caller `who`.
 Frame toFrame(const Config& config, nb::handle name_or_id, const char* who = "getFrame");
 
-/// For long calls that run without the interpreter lock: takes it, and throws KeyboardInterrupt if Ctrl-C was pressed.
+/// For long calls without the GIL: acquires it, and throws KeyboardInterrupt after Ctrl-C.
 void checkInterrupt();
 
-/// The same as a CancellationToken that checks at most every 20 ms. It never cancels; it throws.
+/// A CancellationToken that calls checkInterrupt() at most every 20 ms. It never cancels; it throws.
 class CheckInterrupts {
  public:
-  /// Checks if the last check is 20 ms ago or more. Returns whether it did.
+  /// Calls checkInterrupt() if the last call was at least 20 ms ago. Returns whether it did.
   bool checkIfDue();
   void operator()() { checkIfDue(); }
 

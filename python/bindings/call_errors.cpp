@@ -12,15 +12,15 @@ namespace nb = nanobind;
 
 namespace {
 
-/// Nanobind has a few entries that all its functions share, by how many arguments they take and of which kinds.
-constexpr std::size_t kMostEntries = 8;
+/// Nanobind has a few call entries shared by all functions, by the number and kind of their arguments.
+constexpr std::size_t kMaxEntries = 8;
 
 vectorcallfunc& entry(std::size_t number) {
-  static std::array<vectorcallfunc, kMostEntries> entries{};
+  static std::array<vectorcallfunc, kMaxEntries> entries{};
   return entries[number];
 }
 
-/// What was raised for arguments that no form of a function takes, or that is no object of the class that is meant.
+/// Returns whether the error says that no overload takes the arguments, or that `self` has the wrong class.
 bool isAboutArguments(const nb::python_error& error) {
   const char* text = error.what();
   if (Py_TYPE(error.value().ptr()) == reinterpret_cast<PyTypeObject*>(PyExc_TypeError))
@@ -29,7 +29,7 @@ bool isAboutArguments(const nb::python_error& error) {
          std::strstr(text, "std::bad_cast") != nullptr;
 }
 
-/// The error that is set says in words what is wrong with these arguments.
+/// Replaces the current error by one that explains the mismatch of the arguments.
 void explain(PyObject* function, PyObject* const* arguments, std::size_t count, PyObject* names) {
   nb::python_error raised;  // takes the error
   if (!isAboutArguments(raised)) return raised.restore();
@@ -42,7 +42,7 @@ void explain(PyObject* function, PyObject* const* arguments, std::size_t count, 
     const nb::object error =
         nb::module_::import_("kinegraph.call_errors").attr("explain")(nb::handle(function), positional, named);
     PyErr_SetObject(reinterpret_cast<PyObject*>(Py_TYPE(error.ptr())), error.ptr());
-  } catch (const std::exception&) {  // as when the interpreter ends
+  } catch (const std::exception&) {  // for example at interpreter shutdown
     raised.restore();
   }
 }
@@ -50,21 +50,22 @@ void explain(PyObject* function, PyObject* const* arguments, std::size_t count, 
 template <std::size_t number>
 PyObject* call(PyObject* function, PyObject* const* arguments, std::size_t flags, PyObject* names) {
   PyObject* result = entry(number)(function, arguments, flags, names);
-  if (!result && PyErr_Occurred()) explain(function, arguments, std::uint32_t(flags), names);  // flags are above that
+  if (!result && PyErr_Occurred())
+    explain(function, arguments, std::uint32_t(flags), names);  // flags are in the bits above the count
   return result;
 }
 
 template <std::size_t... numbers>
-constexpr std::array<vectorcallfunc, kMostEntries> calls(std::index_sequence<numbers...>) {
+constexpr std::array<vectorcallfunc, kMaxEntries> calls(std::index_sequence<numbers...>) {
   return {call<numbers>...};
 }
 
-/// CPython finds how to call an object where its type says (PEP 590).
+/// CPython finds the call entry of an object at an offset given by its type (PEP 590).
 void explainFunction(nb::handle function) {
-  static constexpr std::array<vectorcallfunc, kMostEntries> explained = calls(std::make_index_sequence<kMostEntries>());
+  static constexpr std::array<vectorcallfunc, kMaxEntries> explained = calls(std::make_index_sequence<kMaxEntries>());
   const Py_ssize_t offset = Py_TYPE(function.ptr())->tp_vectorcall_offset;
   auto& slot = *reinterpret_cast<vectorcallfunc*>(reinterpret_cast<char*>(function.ptr()) + offset);
-  for (std::size_t i = 0; i < kMostEntries; ++i) {
+  for (std::size_t i = 0; i < kMaxEntries; ++i) {
     if (slot == explained[i]) return;  // the same function under another name
     if (entry(i) && entry(i) != slot) continue;
     entry(i) = slot;

@@ -4,8 +4,8 @@
 
 namespace kinegraph::python {
 
-/// Functions of the module, and of its classes, say what is wrong with arguments that they do not take, and what may have been
-/// meant: `kinegraph.call_errors.explain`. To be called once all are bound.
+/// Makes all functions of the module and its classes explain arguments that they do not accept, with suggestions; see
+/// `kinegraph.call_errors.explain`. Call it after all bindings are registered.
 void explainWrongArguments(nanobind::module_& m);
 
 }  // namespace kinegraph::python

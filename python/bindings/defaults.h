@@ -7,16 +7,16 @@
 
 namespace kinegraph::python {
 
-/// What `rnd_seed` has set: read where a random generator is made.
+/// State set by `rnd_seed`; read whenever a random generator is created.
 struct Defaults {
-  std::uint64_t seed = 0;  ///< of a solver's initial points
-  Rng random{0};           ///< of random joint states; goes on from call to call
+  std::uint64_t seed = 0;  ///< seed of a solver's initial points
+  Rng random{0};           ///< generator of random joint states; continues from call to call
 };
 
 Defaults& defaults();
 
-/// The options that a solver has where a script gives none: their defaults, with what scripts of earlier years have set
-/// by `params_add({'opt/..': ..})`. Needs the interpreter lock.
+/// The default options of a solver, including those set by `params_add({'opt/..': ..})` in older scripts. Requires the
+/// GIL.
 SolverOptions startingOptions();
 
 }  // namespace kinegraph::python

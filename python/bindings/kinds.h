@@ -15,7 +15,7 @@ enum class SwitchMode : int;
 
 namespace kinegraph::python {
 
-/// Whether an object is a member of an enumeration, whose members are integers, too.
+/// Returns whether an object is a member of an enumeration; such members are integers, too.
 inline bool isMember(nanobind::handle object) noexcept {
   return PyLong_Check(object.ptr()) && !PyLong_CheckExact(object.ptr()) && !PyBool_Check(object.ptr()) &&
          PyObject_HasAttrString(reinterpret_cast<PyObject*>(Py_TYPE(object.ptr())), "__members__");
@@ -25,7 +25,7 @@ inline bool isMember(nanobind::handle object) noexcept {
 
 namespace nanobind::detail {
 
-/// One of an enumeration: a member of it, or the number of one, but no member of another one, so that OT.eq is no feature.
+/// Casts a member of one enumeration, or its number. Rejects members of other enumerations: OT.eq is not a feature.
 template <class T>
 struct KindCaster {
   NB_TYPE_CASTER(T, const_name<T>())
@@ -36,7 +36,7 @@ struct KindCaster {
     const auto take = [&](std::uint32_t how) {
       return NB_CALL(enum_from_python)(NB_CTX_C(cleanup), &typeid(T), source.ptr(), &number, how);
     };
-    if (!take(flags & ~convert)) {  // it is no member of this one, as it nearly always is
+    if (!take(flags & ~convert)) {  // not a member of this enumeration, the most common case
       if (!(flags & convert) || kinegraph::python::isMember(source) || !take(flags)) return false;
     }
     value = T(number);

@@ -18,9 +18,9 @@ using namespace nanobind::literals;
 
 namespace {
 
-/// The memory that a solver frees is what the next one needs. glibc would give it back to the system, a page fault per
-/// 4 KB later (a sixth of the time of a path of 256 slices), unless a large block has been freed before: its thresholds
-/// (M_MMAP_THRESHOLD, M_TRIM_THRESHOLD) follow that, up to 32 MB. Where they were set by the environment they stay.
+/// Keeps freed memory for the next solver. By default glibc returns it to the system, at the cost of one page fault per
+/// 4 KB in the next solve: a sixth of the time of a path of 256 slices. Freeing a large block raises glibc's thresholds
+/// (M_MMAP_THRESHOLD, M_TRIM_THRESHOLD), up to 32 MB; thresholds set by the environment stay.
 void keepFreedMemory() {
 #ifdef __GLIBC__
   void* volatile block = std::malloc((std::size_t(32) << 20) - (std::size_t(64) << 10));  // its pages are never touched
@@ -33,11 +33,12 @@ void keepFreedMemory() {
 NB_MODULE(_core, m) {
   keepFreedMemory();
   m.doc() = "The compiled part of kinegraph.";
-  // A function of the user's that a problem calls keeps its module alive, and that the problem: the end of the process,
-  // not a leak, resolves such circles.
+  // A user's function called by a problem keeps its module alive, and the module the problem. Process exit resolves
+  // such cycles; they are not leaks.
   nb::set_leak_warnings(false);
   m.attr("__version__") = KINEGRAPH_VERSION;
   bindErrors(m);
+  bindTrajectory(m);
   bindScene(m);
   bindRendering(m);
   bindNlp(m);

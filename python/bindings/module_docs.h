@@ -1,16 +1,16 @@
 #pragma once
 
-/// The manual of what module.cpp binds.
+/// Docstrings for module.cpp.
 namespace kinegraph::python::docs::module {
 
-inline constexpr char parseText[] = R"(Text in .g syntax as a dict.
+inline constexpr char parseText[] = R"(Parses a text in .g syntax to a dict.
 
 Args:
     text: The text.
-    name: What messages call it in place of a file name.
+    name: Name of the text in messages, in place of a file name.
 Returns:
     The names and values of the text.
 Raises:
-    ParseError: A mistake in the text; it has the line and the column.)";
+    ParseError: The text has an error; the message has the line and the column.)";
 
 }  // namespace kinegraph::python::docs::module

@@ -13,7 +13,7 @@
 
 namespace kinegraph::python {
 
-/// A field's value from Python. Numbers such as 1e3 and 1.0 count as whole ones, 0 and 1 as False and True.
+/// Converts a field's value from Python. Accepts 1e3 and 1.0 as integers, and 0 and 1 as booleans.
 template <class T>
 T optionValue(const std::string& where, nb::handle value) {
   T out{};
@@ -35,13 +35,13 @@ T optionValue(const std::string& where, nb::handle value) {
   throw ValueError(cat(where, " is ", nb::cast<std::string>(nb::repr(value)), "; expected ", expected));
 }
 
-/// What Python does with the fields of an options struct, by its table.
+/// Python interface of an options struct, derived from its table of fields.
 template <class Options, class... More>
 class OptionClass {
  public:
   using Table = OptionTable<Options, More...>;
 
-  /// Names beyond the table, and what they do.
+  /// Names beyond the table, and their setter.
   struct MoreNames {
     std::vector<std::string> names = {};
     std::function<void(const OptionClass&, Options&, const std::string& name, nb::handle value)> set = {};
@@ -49,7 +49,7 @@ class OptionClass {
 
   explicit OptionClass(const Table& table, MoreNames more = {}) : table_(table), more_(std::move(more)) {}
 
-  /// Does not validate.
+  /// Sets a field without validation.
   void setField(Options& options, const std::string& name, nb::handle value) const {
     if (std::find(more_.names.begin(), more_.names.end(), name) != more_.names.end())
       return more_.set(*this, options, name, value);
@@ -62,7 +62,7 @@ class OptionClass {
         row.member);
   }
 
-  /// All or none of them.
+  /// Sets all fields, or none if one is invalid.
   void setFields(Options& options, nb::dict given) const {
     Options changed = options;
     for (const auto& [name, value] : given) setField(changed, nb::cast<std::string>(name), value);
@@ -85,15 +85,15 @@ class OptionClass {
     return cat(name, "(", join(words), ")");
   }
 
-  /// A line for each field: its name, default, unit and meaning.
+  /// Describes the fields, one line each: name, default, unit and meaning.
   std::string docs(const char* indent = "    ") const {
     std::string text;
     for (const auto& row : table_.rows()) text += cat(indent, row.name, ": ", doc(row), "\n");
     return text;
   }
 
-  /// Gives the class what every options class has: fields by name, dict(), ==, repr, pickling. `start` makes one
-  /// without any given.
+  /// Adds the common interface of options classes: fields by name, dict(), ==, repr, pickling. `start` creates the
+  /// initial values.
   void bind(nb::class_<Options>& options, const char* name, std::function<Options()> start) const {
     const OptionClass self = *this;
     options
@@ -105,11 +105,10 @@ class OptionClass {
               new (made) Options(std::move(filled));
             },
             "fields"_a,
-            "The defaults, with some fields changed.\n\nArgs:\n    fields: By name.\nRaises:\n    ArgumentError: There "
-            "is no "
-            "such field, or it cannot have this value.")
+            "Creates the defaults with some fields changed.\n\nArgs:\n    fields: Values by name.\nRaises:\n    "
+            "ArgumentError: A field does not exist or cannot have its value.")
         .def(
-            "dict", [self](const Options& o) { return Attributes(self.dict(o)); }, "All settings as a dict.")
+            "dict", [self](const Options& o) { return Attributes(self.dict(o)); }, "Returns all fields as a dict.")
         .def(
             "__eq__",
             [self](const Options& a, nb::handle b) {

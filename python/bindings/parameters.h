@@ -8,8 +8,7 @@
 
 namespace kinegraph::python {
 
-/// A parameter that `params_add` has set; `otherwise` where it has not. Throws ValueError, with what is expected. Needs the
-/// interpreter lock.
+/// The parameter set by `params_add`, or `otherwise`. Throws ValueError with the expected type. Requires the GIL.
 template <class T>
 T parameter(const char* name, const T& otherwise, const char* expected) {
   const nb::object set = nb::module_::import_("kinegraph.compatibility.parameters").attr("params_get")();

@@ -12,7 +12,7 @@ namespace {
 
 using Names = std::pair<std::string_view, std::string_view>;
 
-/// What is not called the same in C++ and Python.
+/// Names that differ between C++ and Python.
 constexpr std::array kNames = {
     Names{"JointType", "JT"},
     Names{"Komo", "KOMO"},
@@ -21,7 +21,7 @@ constexpr std::array kNames = {
     Names{"NlpSampler", "NLP_Sampler"},
     Names{"NlpSolver", "NLP_Solver"},
     Names{"ObjectiveType", "OT"},
-    Names{"PathCurve", "TimedPath"},  // which keeps one, and is unpickled with it
+    Names{"PathCurve", "TimedPath"},  // stores a PathCurve and is pickled with it
     Names{"Recording", "SimulationRecording"},
     Names{"RobotLoop", "BotOp"},
     Names{"ShapeType", "ST"},
@@ -45,13 +45,13 @@ std::string_view lookUp(std::span<const Names> names, std::string_view word) {
   return found == names.end() ? word : found->second;
 }
 
-std::string_view wordInPython(char before, std::string_view word, char after) {
+std::string_view nameInPython(char before, std::string_view word, char after) {
   if (before == '=' && word == "true") return "True";
   if (before == '=' && word == "false") return "False";
   return lookUp(after == '=' ? std::span<const Names>(kArguments) : kNames, word);
 }
 
-/// Of the longest of these names that the text starts with; 0: none.
+/// Length of the longest name that the text starts with; 0 if there is none.
 std::size_t lengthOfName(std::string_view text, std::span<const std::string> names) {
   std::size_t longest = 0;
   for (const std::string& name : names) {
@@ -64,13 +64,14 @@ std::size_t lengthOfName(std::string_view text, std::span<const std::string> nam
 }  // namespace
 
 std::string inPython(std::string_view whole, std::span<const std::string> users) {
-  const std::size_t similar = whole.find("similar names: ");  // from there on, names are the user's
+  const std::size_t similar = whole.find("similar names: ");  // names after this point are the user's
   const std::string_view message = whole.substr(0, similar);
   std::string out;
   bool quoted = false;
   for (std::size_t i = 0; i < message.size();) {
     const char before = i == 0 ? ' ' : message[i - 1], after = i + 1 < message.size() ? message[i + 1] : ' ';
-    if (message[i] == '\'' && !isWord(quoted ? after : before)) quoted = !quoted;  // and no apostrophe
+    if (message[i] == '\'' && !isWord(quoted ? after : before))
+      quoted = !quoted;  // an apostrophe inside a word is no quote
     if (const std::size_t length = isWord(before) ? 0 : lengthOfName(message.substr(i), users)) {
       out += message.substr(i, length);
       i += length;
@@ -81,7 +82,7 @@ std::string inPython(std::string_view whole, std::span<const std::string> users)
       std::size_t end = i;
       while (end < message.size() && isWord(message[end])) ++end;
       const std::string_view word = message.substr(i, end - i);
-      out += quoted ? word : wordInPython(before, word, end < message.size() ? message[end] : ' ');
+      out += quoted ? word : nameInPython(before, word, end < message.size() ? message[end] : ' ');
       i = end;
     } else {
       out += message[i++];

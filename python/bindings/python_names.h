@@ -6,10 +6,10 @@
 
 namespace kinegraph::python {
 
-/// A message of the core in the names that Python has for things: `NlpSolver` is NLP_Solver, `OptMethod::newton` is
-/// OptMethod.newton, `first=false` is first=False. What stands in '...' or after "similar names:" is the
-/// user's, and stays, and so do `users`. All messages go through here where they leave C++: errors, warnings, and those
-/// of results.
+/// Translates a message of the core to Python's names: `NlpSolver` becomes NLP_Solver, `OptMethod::newton`
+/// OptMethod.newton, `first=false` first=False. Text in '...' or after "similar names:" and the names `users` come from
+/// the user and stay unchanged. Errors, warnings and messages of results pass through this function when they leave
+/// C++.
 std::string inPython(std::string_view whole, std::span<const std::string> users = {});
 
 }  // namespace kinegraph::python

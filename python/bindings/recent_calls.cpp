@@ -6,7 +6,7 @@ namespace kinegraph::python {
 
 namespace {
 
-/// The names in a list, a tuple, or a string that stands for itself; nothing for other things.
+/// The names in a list or a tuple, or a single string; empty for other objects.
 std::span<PyObject*> items(PyObject*& frames) {
   if (PyUnicode_CheckExact(frames)) return {&frames, 1};
   if (!PyList_CheckExact(frames) && !PyTuple_CheckExact(frames)) return {};

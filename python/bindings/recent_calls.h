@@ -5,9 +5,8 @@
 
 namespace kinegraph::python {
 
-/// What the last few calls of `eval` with built-in features asked, by the identity of their arguments, which strings
-/// and symbols keep: the same call again converts nothing, and takes the arrays that it returned before if they are
-/// free.
+/// Caches the last few calls of `eval` with built-in features by the identity of their arguments, kept alive here:
+/// strings and symbols. A repeated call converts nothing and reuses its returned arrays if they have no other owner.
 class RecentCalls {
  public:
   struct Call {
@@ -23,10 +22,10 @@ class RecentCalls {
   RecentCalls(const RecentCalls&) {}  ///< a copy starts empty
   RecentCalls& operator=(const RecentCalls&) { return *this; }
 
-  /// Null if there was no such call. It stays until `add`.
+  /// Returns the matching call, or null. The pointer is valid until `add`.
   Call* find(const State& scene, nb::handle symbol, nb::handle frames, int order);
 
-  /// Remembers a call in place of the oldest one. Null for frames that are not plain strings.
+  /// Stores a call in place of the oldest one. Returns null unless the frames are plain strings.
   Call* add(const State& scene, nb::handle symbol, nb::handle frames, int order,
             const std::shared_ptr<Residual>& residual);
 

@@ -205,7 +205,7 @@ def _plan(options: argparse.Namespace) -> int:
             print("time", *config.getJointNames()[: config.getJointDimension()], sep=",", file=file)
             for i in range(count):
                 t = motion.duration * i / (count - 1)
-                print(t, *motion.at(t)[0], sep=",", file=file)
+                print(t, *motion.eval(t)[0], sep=",", file=file)
     if not options.no_view:
         config.view_path(motion.path, max(1.0, motion.duration), True, "the motion")
     return 0

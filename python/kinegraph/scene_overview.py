@@ -73,7 +73,7 @@ class _Overview:
         return f"{self.q[i]:.4g}" + (f" in [{lower:.4g}, {upper:.4g}]" if lower <= upper else "")
 
     @staticmethod
-    def _motor(attributes: Mapping[str, object]) -> str:
+    def _motor(attributes: Mapping[str, list[float]]) -> str:
         velocity, effort, *_ = [*attributes.get("ctrl_limits", []), 0, 0]
         return (f" at {velocity:.4g}/s" if velocity > 0 else "") + (f" with {effort:.4g}" if effort > 0 else "")
 

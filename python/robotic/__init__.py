@@ -1,8 +1,13 @@
-"""Scripts written for the reference run with this package: `from robotic import ry` or `import robotic as ry`.
+"""Runs scripts written for the reference: `from robotic import ry` or `import robotic as ry`.
 
-A thin layer over kinegraph: the same classes and functions under the same names, with four differences. What a solve
-returns is `feasible` by the reference's rule (see `SolverReturn`), a simulated `BotOp` takes longer for what is too fast for
-it, with a warning, `Config.getFrame` gives None for a frame that is not there, with a warning, and names that the reference has and Kinegraph does not are there, and say so when they are used. Both packages can be imported in one process; neither changes the other.
+A thin layer over kinegraph with the same classes and functions under the same names, and four differences:
+
+- `feasible` of a solve follows the reference's rule; see `SolverReturn`.
+- A simulated `BotOp` slows down motions that exceed its limits, with a warning.
+- `Config.getFrame` returns None for an unknown frame, with a warning.
+- Names of the reference without an implementation here exist, and raise an explaining error when used.
+
+Both packages can be imported in one process; neither changes the other.
 """
 
 from __future__ import annotations
@@ -23,8 +28,8 @@ if TYPE_CHECKING:
     from kinegraph.compatibility.lgp import default_Logic2KOMO_Translator, default_TAMP_Provider
 
     from . import DataGen, algo, calib, manipulation, nlp, render
+    from .keywords import arg
     from .manipulation import KOMO_ManipulationHelper, LGP_Tool, ManipulationModelling
-    from .words import arg
 
 from .not_yet import (
     KOMO_Objective,
@@ -56,16 +61,16 @@ __all__ = [
 ]
 
 
-# What is loaded when it is first used, as in kinegraph: module, or names.
-_LATER = {
+# Modules loaded at the first use of one of their names, as in kinegraph.
+_LAZY = {
     "kinegraph.compatibility.lgp": ("default_Logic2KOMO_Translator", "default_TAMP_Provider"),
     "robotic.manipulation": ("KOMO_ManipulationHelper", "LGP_Tool", "ManipulationModelling"),
-    "robotic.words": ("arg",),
+    "robotic.keywords": ("arg",),
 }
-_MODULE_OF = {name: module for module, names in _LATER.items() for name in names}
+_MODULE_OF = {name: module for module, names in _LAZY.items() for name in names}
 _SUBMODULES = ("DataGen", "algo", "calib", "manipulation", "nlp", "render", "test")
 
-if not TYPE_CHECKING:  # else any name would do
+if not TYPE_CHECKING:  # otherwise type checkers accept any name
     globals().update(
         {
             name: vars(kinegraph)[name]
@@ -80,7 +85,7 @@ if not TYPE_CHECKING:  # else any name would do
         if name in ("src", "tools"):
             try:
                 return _import_module("." + name, __name__)
-            except ImportError as error:  # says what does the same
+            except ImportError as error:  # the message names the replacement
                 raise AttributeError(str(error)) from None
         if name in _SUBMODULES:
             return _import_module("." + name, __name__)
@@ -102,5 +107,5 @@ if not TYPE_CHECKING:  # else any name would do
 import robotic as ry  # noqa: E402
 
 rai_path = kinegraph.raiPath().rstrip("/")
-_robotic = ry  # where the reference's compiled classes are, in annotations
+_robotic = ry  # the module of the reference's compiled classes, as in annotations
 _sys.modules[__name__ + ".ry"] = _sys.modules[__name__ + "._robotic"] = ry

@@ -2,9 +2,9 @@
 
 from .pending import pending
 
-_OPENCV = "the module cv2.aruco and cv2.calibrateCamera of OpenCV do the same"
+_OPENCV = "OpenCV's cv2.aruco and cv2.calibrateCamera do the same"
 calibrate_intrinsics = pending("calib.calibrate_intrinsics", _OPENCV)
 detect_arucos = pending("calib.detect_arucos", _OPENCV)
 undistort_images = pending("calib.undistort_images", _OPENCV)
 komo_calibrate = pending("calib.komo_calibrate", "KOMO with addFrameDof(..., stable=True) states the same problem")
-render_images = pending("calib.render_images", "CameraView.computeImageAndDepth draws one picture after the other")
+render_images = pending("calib.render_images", "CameraView.computeImageAndDepth renders pictures one by one")

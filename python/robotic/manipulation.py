@@ -1,4 +1,4 @@
-"""Problems of manipulation in a few calls; results speak the reference's rule of what is feasible."""
+"""Manipulation problems in a few calls, with feasibility by the reference's rule."""
 
 from __future__ import annotations
 
@@ -10,12 +10,15 @@ from .results import NLP_Solver, SolverReturn
 
 
 class KOMO_ManipulationHelper(kinegraph.KOMO_ManipulationHelper):
-    """As kinegraph.KOMO_ManipulationHelper; `ret.feasible` is by the reference's rule. Calls of its `komo` (addObjective,
-    getPath ...) can be made on the helper, too, as its latest scripts do."""
+    """Like kinegraph.KOMO_ManipulationHelper, but `ret.feasible` follows the reference's rule.
+
+    Methods of its `komo` (addObjective, getPath ...) can be called on the helper, too, as in the reference's latest
+    scripts.
+    """
 
     _solver = NLP_Solver
 
-    if not TYPE_CHECKING:  # else any name would do
+    if not TYPE_CHECKING:  # otherwise type checkers accept any name
 
         def __getattr__(self, name: str) -> Any:
             if not name.startswith("_") and self.komo is not None and hasattr(self.komo, name):
@@ -25,22 +28,22 @@ class KOMO_ManipulationHelper(kinegraph.KOMO_ManipulationHelper):
 
 
 class LGP_Tool(kinegraph.LGP_Tool):
-    """As kinegraph.LGP_Tool; waypoints are feasible by the reference's rule."""
+    """Like kinegraph.LGP_Tool, but feasibility of waypoints follows the reference's rule."""
 
     def __init__(
         self, C: kinegraph.Config, tamp: kinegraph.LGP_TAMP_Abstraction, translator: object = None, *, threads: int = 1
     ) -> None:
-        """Makes a tool; nothing is searched yet.
+        """Creates a tool without starting a search.
 
         Args:
             C: The scene.
-            tamp: What is asked for plans, and for what their actions ask.
-            translator: Of older scripts; the abstraction does its work.
-            threads: How many solve at the same time.
+            tamp: Provides plans, and the requirements of their actions.
+            translator: Not used; accepted for older scripts, since `tamp` does its work.
+            threads: Number of threads that solve in parallel.
         Raises:
             ArgumentError: threads is less than one.
         """
         super().__init__(C, tamp, translator, threads=threads, results=SolverReturn)
 
 
-ManipulationModelling = KOMO_ManipulationHelper  # as scripts of earlier years call it
+ManipulationModelling = KOMO_ManipulationHelper  # its name in older scripts

@@ -1,4 +1,4 @@
-"""The base of problems of one's own, as scripts write them for `NLP_Solver.setPyProblem`."""
+"""Base class of user-defined problems for `NLP_Solver.setPyProblem`."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from kinegraph import OT as OT
 
 
 class NLP:
-    """A problem: of `dimension` variables, with a type per residual. Subclasses set the fields and write evaluate.
+    """A problem with `dimension` variables and a type per residual. Subclasses set the fields and implement evaluate.
 
     Attributes:
         dimension: Number of variables.
-        types: An OT per residual; featureTypes is the same by its earlier name.
-        bounds: (2, dimension), the lower row and the upper one; none if empty.
+        types: An OT per residual; featureTypes is an alias.
+        bounds: (2, dimension): lower bounds, then upper bounds; empty without bounds.
     """
 
     dimension: int = 0
@@ -35,34 +35,34 @@ class NLP:
         self.types = types
 
     def evaluate(self, x: NDArray[np.float64]) -> tuple[Any, Any]:
-        """The residuals and their Jacobian.
+        """Computes the residuals and their Jacobian.
 
         Args:
             x: (dimension,).
         Returns:
-            phi, one per type, and J, a row per residual.
+            phi, one per type, and J, shape (residuals, dimension).
         """
         raise NotImplementedError(f"{type(self).__name__}.evaluate(x) -> (phi, J)")
 
     def getDimension(self) -> int:
-        """Number of variables."""
+        """Returns the number of variables."""
         return self.dimension
 
     def getFeatureTypes(self) -> list[OT]:
-        """The OT of each residual."""
+        """Returns the OT of each residual."""
         return self.types
 
     def getBounds(self) -> Any:
-        """(2, dimension), or nothing."""
+        """Returns the bounds, (2, dimension), or an empty sequence."""
         return self.bounds
 
 
 class RastriginSOS(NLP):
-    """Rastrigin's function of two variables as a sum of four squares: many minima, the least is 0 at 0.
+    """Rastrigin's function of two variables as a sum of four squares, with many minima; the least is 0 at the origin.
 
     Args:
-        a: How high the waves are.
-        condition: How much steeper the second variable is.
+        a: Frequency of the waves.
+        condition: Factor on the second variable.
     """
 
     def __init__(self, a: float = 4.0, condition: float = 20.0) -> None:
@@ -73,7 +73,7 @@ class RastriginSOS(NLP):
         self.bounds = np.array([[-2.0, -2.0], [2.0, 2.0]])
 
     def evaluate(self, x: NDArray[np.float64]) -> tuple[Any, Any]:
-        """phi = (sin(a x0), sin(a c x1), 2 x0, 2 c x1), c the condition, and J.
+        """Computes phi = (sin(a x0), sin(a c x1), 2 x0, 2 c x1) with c the condition, and J.
 
         Args:
             x: (2,).

@@ -1,11 +1,11 @@
-"""The names of the reference that other work will build."""
+"""Names of the reference without an implementation here."""
 
 from __future__ import annotations
 
 from .pending import pending
 
-_PATHS = "KOMO finds paths (komo.solveFromMany from several starts), and C.checkMotion says where one collides"
+_PATHS = "KOMO finds paths (komo.solveFromMany from several starts), and C.checkMotion reports collisions"
 
 SRRT_PathFinder = pending("SRRT_PathFinder", _PATHS)
-KOMO_Objective = pending("KOMO_Objective", "komo.addObjective adds one, komo.report() tells of each")
+KOMO_Objective = pending("KOMO_Objective", "komo.addObjective adds one, komo.report() describes each")
 MujocoLoader = pending("MujocoLoader", "C.addFile('scene.xml') reads MJCF files")

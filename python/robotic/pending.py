@@ -1,4 +1,4 @@
-"""What the reference exports and Kinegraph does not have yet: it can be imported, and says so when it is used."""
+"""Names that the reference exports without an implementation here: importing works, use raises an explaining error."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from kinegraph.errors import NotFound
 
 
 class NotYet(NotFound, AttributeError):
-    """A name of the reference that Kinegraph does not have yet; the message says what does the same."""
+    """Use of a name without an implementation here; the message gives a replacement."""
 
 
 class _Pending(type):
-    """The class of such names. Whatever is asked of one is an error that says what does the same."""
+    """Metaclass of unimplemented names: every use raises an error with a replacement."""
 
     _advice: str
 
@@ -23,20 +23,20 @@ class _Pending(type):
         raise cls._refuse(f"{cls.__name__}()")
 
     def __getattr__(cls, name: str) -> Any:
-        if name.startswith("_"):  # what Python and notebooks ask of any class
+        if name.startswith("_"):  # looked up by Python and notebooks on any class
             raise AttributeError(name)
         raise cls._refuse(f"{cls.__name__}.{name}")
 
 
 def pending(name: str, advice: str = "") -> Any:
-    """A name that can be imported, and whose use is an error.
+    """Returns a placeholder that can be imported and raises an error when used.
 
     Args:
-        name: As scripts write it behind `robotic.`.
-        advice: What to call instead, in words.
+        name: The name after `robotic.` in scripts.
+        advice: Sentence about the replacement.
     Returns:
-        A class. It can stand in annotations and be a base class' name in `isinstance`, and raises NotYet when it is
-        called or asked for an attribute.
+        A class. It may stand in annotations and in `isinstance`, and raises NotYet when it is called or when an
+        attribute is read.
     """
     text = f"; {advice}" if advice else ""
     return _Pending(name, (), {"_advice": text, "__module__": "robotic", "__doc__": f"Not in Kinegraph yet{text}."})

@@ -1,5 +1,5 @@
-"""Pictures by another renderer."""
+"""Rendering by other engines."""
 
 from .pending import pending
 
-NvisiiRenderer = pending("render.NvisiiRenderer", "CameraView(C).computeImageAndDepth draws pictures")
+NvisiiRenderer = pending("render.NvisiiRenderer", "CameraView(C).computeImageAndDepth renders pictures")

@@ -1,4 +1,4 @@
-"""Results by the reference's rule of what is feasible: summed violations, where Kinegraph asks of each constraint."""
+"""Solver results by the reference's feasibility rule: summed violations, while Kinegraph checks each constraint."""
 
 from __future__ import annotations
 
@@ -7,13 +7,16 @@ from typing import Any
 import kinegraph
 
 BOUND = 0.1
-EARLIER_OPTIONS = {"maxLambda": "lambdaMax", "maxStep": "stepMax"}
+FORMER_OPTIONS = {"maxLambda": "lambdaMax", "maxStep": "stepMax"}
 
 
 class SolverReturn(kinegraph.SolverReturn):
-    """How a solve ended. evals counts all solves of the solver, as in the reference. feasible: the violations of all
-    equalities sum up to less than 0.1, and so do those of all inequalities. message says how far the worst constraint is from holding where kinegraph's rule would not call this
-    feasible; explain() says why."""
+    """How a solve ended.
+
+    evals counts all solves of the solver, as in the reference. feasible: the violations of all equalities sum up to
+    less than 0.1, and so do those of all inequalities. If kinegraph's rule disagrees, message gives the violation of
+    the worst constraint. explain() has details.
+    """
 
     @property
     def evals(self) -> int:
@@ -27,49 +30,49 @@ class SolverReturn(kinegraph.SolverReturn):
 
     @property
     def message(self) -> str:
-        """Why it stopped, in a line, and how far the constraints are from holding if they do not."""
-        said = super().message
+        """Why the solver stopped, in one line, and the violations if some constraints do not hold."""
+        text = super().message
         if super().feasible or not self.done:
-            return said
+            return text
         verdict = "feasible" if self.feasible else "not feasible"
         return (
-            f"{said}; {verdict} by the rule of robotic (eq and ineq below {BOUND}): eq {self.eq:.3g}, ineq {self.ineq:.3g}; "
-            f"the worst constraint is violated by {self.violation:.3g}"
+            f"{text}; {verdict} by the rule of robotic (eq and ineq below {BOUND}): "
+            f"eq {self.eq:.3g}, ineq {self.ineq:.3g}; the worst constraint is violated by {self.violation:.3g}"
         )
 
     def dict(self) -> dict[str, Any]:
-        """evals, time, done, feasible, f, sos, ineq, eq."""
+        """Returns evals, time, done, feasible, f, sos, ineq, eq."""
         return {**super().dict(), "evals": self.evals, "feasible": self.feasible}
 
     def __str__(self) -> str:
-        said = super().__str__().replace(f"evals: {super().evals}", f"evals: {self.evals}", 1)
-        return said.replace(f"feasible: {int(super().feasible)}", f"feasible: {int(self.feasible)}", 1)
+        text = super().__str__().replace(f"evals: {super().evals}", f"evals: {self.evals}", 1)
+        return text.replace(f"feasible: {int(super().feasible)}", f"feasible: {int(self.feasible)}", 1)
 
     def __repr__(self) -> str:
         return f"<SolverReturn {self.status.name}: {self}>"
 
 
 class NLP_Solver(kinegraph.NLP_Solver):
-    """Solves an NLP, as kinegraph.NLP_Solver; results speak the reference's rule of what is feasible."""
+    """Solves an NLP, as kinegraph.NLP_Solver; feasibility of results follows the reference's rule."""
 
     def solve(self, resampleInitialization: int = -1, verbose: int = -100) -> SolverReturn:
-        """Solves, from the last x or the problem's initial point. Ctrl-C ends it: the result is then the best so far.
+        """Solves from the last x or the problem's initial point. Ctrl-C ends the solve and returns the best x so far.
 
         Args:
-            resampleInitialization: 1: from a new initial point; 0: from the last x; -1: the same if there is one.
-            verbose: Instead of the option, if given.
+            resampleInitialization: 1: from a new initial point; 0: from the last x; -1: from the last x, if any.
+            verbose: Overrides the option, if given.
         Returns:
-            The outcome; not converging is no error.
+            The outcome; not converging is not an error.
         """
         return SolverReturn(super().solve(resampleInitialization, verbose))
 
     def setOptions(self, **options: Any) -> NLP_Solver:
-        """Sets options by name, also those of earlier years (maxLambda, maxStep).
+        """Sets options by name, including former names (maxLambda, maxStep).
 
         Args:
             options: The fields of NLP_SolverOptions.
         Raises:
-            ArgumentError: There is no such option, or its value is out of range.
+            ArgumentError: An option does not exist, or its value is out of range.
         """
-        super().setOptions(**{EARLIER_OPTIONS.get(name, name): value for name, value in options.items()})
+        super().setOptions(**{FORMER_OPTIONS.get(name, name): value for name, value in options.items()})
         return self

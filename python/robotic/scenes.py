@@ -1,4 +1,4 @@
-"""Scenes that are asked for frames which may not be there, as scripts do before they add them."""
+"""Scenes with look-ups that tolerate missing frames, as scripts use them before adding frames."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from kinegraph import Frame, FrameNotFound, KinegraphWarning
 
 
 class Config(kinegraph.Config):
-    """As kinegraph.Config. A frame that is not there is None, with a warning that names similar ones, and not an error."""
+    """Like kinegraph.Config, but an unknown frame gives None and a warning with similar names instead of an error."""
 
     def getFrame(self, frameName: str, warnIfNotExist: bool = True) -> Frame:
-        """The first frame of that name.
+        """Returns the first frame with a name.
 
         Args:
-            frameName: Its name.
-            warnIfNotExist: Whether to warn if there is none.
+            frameName: The name.
+            warnIfNotExist: Whether to warn if the frame does not exist.
         Returns:
             The frame, or None.
         """
@@ -26,10 +26,10 @@ class Config(kinegraph.Config):
         except FrameNotFound as error:
             if warnIfNotExist:
                 warnings.warn(str(error), KinegraphWarning, stacklevel=2)
-            return None  # type: ignore[return-value]  # as kinegraph.Config declares it
+            return None  # type: ignore[return-value]  # kinegraph.Config declares a Frame
 
     def delFrame(self, frame: Any) -> None:
-        """Deletes a frame, if it is there.
+        """Deletes a frame if it exists; warns otherwise.
 
         Args:
             frame: A Frame, or its name or id.
@@ -40,10 +40,10 @@ class Config(kinegraph.Config):
             warnings.warn(str(error), KinegraphWarning, stacklevel=2)
 
     def copy(self, other: kinegraph.Config | None = None) -> Any:
-        """A copy that shares nothing that can be changed; with another scene, becomes a copy of that one.
+        """Returns an independent copy; with another scene, replaces this scene by a copy of that one.
 
         Args:
-            other: What to become; None: this scene is copied.
+            other: Scene to copy into this one; None copies this scene.
         Returns:
             The copy, or None.
         """

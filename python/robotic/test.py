@@ -1,4 +1,4 @@
-"""The module kinegraph.test under the name that the reference gives it."""
+"""The module kinegraph.test under the reference's name."""
 
 import sys
 

@@ -138,8 +138,9 @@ TEST(WriteScene, KeepsNamesThatTheLanguageCanHoldAndWarnsOfOthers) {
   std::vector<std::string> warnings;
   EXPECT_EQ(scene(writeScene(config, &warnings)).getFrameNames(), (std::vector<std::string>{"a:1", "two_words", "c"}));
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_EQ(warnings[0],
-            "names that are taken or that a text cannot hold are changed: 'two words' (frame 1) as 'two_words'");
+  EXPECT_EQ(
+      warnings[0],
+      "names that are duplicate or not expressible in the text are changed: 'two words' (frame 1) as 'two_words'");
 }
 
 TEST(WriteScene, TransformsBeforeAJointAreWrittenOnce) {
@@ -180,7 +181,7 @@ TEST(WriteScene, AMeshFromAFileStaysAFileUntilItsPointsChange) {
       << writeScene(config);
 }
 
-TEST(SaveScene, TellsTheFormatByTheExtension) {
+TEST(SaveScene, SelectsTheFormatByTheExtension) {
   const TemporaryFolder folder;
   const Config config = scene("a: { pose: [1 0 0] } j(a): { joint: hingeZ }");
   for (const auto& [name, start] :

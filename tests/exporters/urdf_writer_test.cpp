@@ -127,16 +127,16 @@ TEST(WriteUrdf, AJointThatIsNoPartOfQIsFixedWhereItIsAndSaidSo) {
   for (const char* name : {"f", "tip", "g"})
     EXPECT_TRUE((config.getFrame(name).getPose().inverse() * back.getFrame(name).getPose()).isIdentity(1e-13)) << name;
   ASSERT_EQ(warnings.size(), 3u);
-  EXPECT_EQ(warnings[0], "joint 'f' is no part of q (joint_active: false) and is fixed at q = 0.04");
-  EXPECT_EQ(warnings[1], "joint 'g' is fixed, as 'f' is that it mimics");
-  EXPECT_EQ(warnings[2], "URDF has no joint state; these joints are not at q = 0, where a reader puts them: j");
+  EXPECT_EQ(warnings[0], "joint 'f' is not in q (joint_active: false) and is fixed at q = 0.04");
+  EXPECT_EQ(warnings[1], "joint 'g' is fixed because the joint 'f' it mimics is fixed");
+  EXPECT_EQ(warnings[2], "URDF has no joint state and readers start at q = 0; joints at other values: j");
 }
 
 TEST(WriteUrdf, LostRoundingIsNamed) {
   std::vector<std::string> warnings;
   writeUrdf(scene("a: { shape: ssBox, size: [1 1 1 .1] } b (a): { shape: ssCylinder, size: [1 1 .1] }"), {}, &warnings);
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("lose their rounding: a, b"), std::string::npos);
+  EXPECT_NE(warnings[0].find("without their rounding: a, b"), std::string::npos);
 }
 
 namespace {
@@ -165,7 +165,7 @@ std::size_t pairsAfterSaving(const Config& config, std::vector<std::string>* war
 
 }  // namespace
 
-TEST(WriteSrdf, PairsThatDoNotCollideAreKeptWhateverLeavesThemOut) {
+TEST(WriteSrdf, WritesEveryExcludedPairForAnyKindOfExclusion) {
   for (const char* flag : {"1", "-1", "-2", "-3"}) {
     const Config config = scene(armWith(flag));
     EXPECT_EQ(pairsAfterSaving(config), config.getCollidablePairs().size()) << flag;
@@ -181,7 +181,7 @@ TEST(WriteSrdf, IsNotNeededWhereTheRuleForUrdfFilesSaysTheSame) {
   EXPECT_TRUE(warnings.empty());
   writeUrdf(scene(armWith("-1")), {}, &warnings);
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("which links do not collide"), std::string::npos);
+  EXPECT_NE(warnings[0].find("the text lacks disabled collision pairs"), std::string::npos);
 }
 
 TEST(WriteSrdf, WhatHoldsOfSomeShapesOfALinkOnlyIsWarnedAbout) {

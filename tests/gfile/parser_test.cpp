@@ -99,9 +99,9 @@ TEST(Parser, ErrorsSayWhereAndWhat) {
   EXPECT_EQ(errorOf("a: { x: 0x10 }"), "f.g:1:9: '0x10' is not a number");
   EXPECT_EQ(errorOf("a: { x: 1f }"), "f.g:1:9: '1f' is not a number");
   EXPECT_EQ(errorOf("a: { x: - }"), "f.g:1:9: '-' is not a number");
-  EXPECT_EQ(errorOf("a: {x:1} } b: {}"), "f.g:1:10: this '}' closes nothing; is there one too many before it?");
+  EXPECT_EQ(errorOf("a: {x:1} } b: {}"), "f.g:1:10: this '}' closes nothing; is an earlier '}' superfluous?");
   EXPECT_EQ(errorOf("a: {\n s: \"abc\n }"), "f.g:2:5: this \" is never closed");
-  EXPECT_EQ(errorOf("a: { s: [1 2 }"), "f.g:1:14: '}' in an array; expected numbers or words up to ']'");
+  EXPECT_EQ(errorOf("a: { s: [1 2 }"), "f.g:1:14: '}' in an array; expected numbers or strings up to ']'");
   EXPECT_EQ(errorOf("a: { s: [1 a] }"), "f.g:1:12: 'a' in an array of numbers");
   EXPECT_EQ(errorOf("a: { s: [1 2; 3] }"), "f.g:1:9: rows of different length in an array: 2 and 1");
   EXPECT_NE(errorOf("a: { x: \"a\\\"b\" }"), "");

@@ -100,7 +100,7 @@ TEST_F(MjcfReader, AnglesAreDegreesUnlessTheCompilerSaysRadian) {
   EXPECT_EQ(radians.getJointLimits(), (MatrixXd(2, 1) << -1, 2).finished());
 }
 
-TEST_F(MjcfReader, EulerSequencesTurnAboutFixedOrTurnedAxes) {
+TEST_F(MjcfReader, EulerSequencesRotateAboutFixedOrRotatedAxes) {
   for (const char* sequence : {"xyz", "zyx", "XYZ", "ZXZ", "xYz"}) {
     EXPECT_LT(difference(std::string("<compiler eulerseq='") + sequence +
                          "'/><worldbody><body name='a' euler='20 30 -40'><joint/><geom size='.1'/></body></worldbody>"),
@@ -227,7 +227,7 @@ TEST_F(MjcfReader, MeshesAreLookedForInMeshdirAndScaled) {
   EXPECT_EQ(top, Vector3d(2, 3, 4));
   EXPECT_EQ(config.getFrame("l").getShapeType(), ShapeType::none);
   ASSERT_EQ(warnings_.size(), 1u);
-  EXPECT_NE(warnings_[0].find("mesh 'n.obj' is not there"), std::string::npos);
+  EXPECT_NE(warnings_[0].find("mesh 'n.obj' does not exist"), std::string::npos);
 }
 
 TEST_F(MjcfReader, NeighborsAndExcludedBodiesDoNotCollide) {
@@ -290,7 +290,8 @@ TEST_F(MjcfReader, MistakesSayWhereTheyAreAndWhatIsNear) {
   const auto expect = [&](const std::string& inside, std::initializer_list<const char*> parts) {
     expectError<ParseError>([&] { load(inside); }, parts);
   };
-  expect("<worldbody><body name='a'/><body name='a'/></worldbody>", {"m.xml:2:34", "there is a body 'a' already"});
+  expect("<worldbody><body name='a'/><body name='a'/></worldbody>",
+         {"m.xml:2:34", "the body 'a' is already defined at"});
   expect("<worldbody><body><joint type='hing'/></body></worldbody>", {"m.xml:2:25", "similar names: hinge"});
   expect("<worldbody><body><jiont/></body></worldbody>", {"m.xml:2:18: unknown element <jiont>", "joint"});
   expect("<worldbdy/>", {"m.xml:2:1", "worldbody"});
@@ -307,16 +308,18 @@ TEST_F(MjcfReader, MistakesSayWhereTheyAreAndWhatIsNear) {
   expect("<worldbody><body><joint class='c'/></body></worldbody>", {"no default class 'c'"});
   expect("<contact><exclude body1='world' body2='b'/></contact>", {"m.xml:2:33", "no body 'b'"});
   expect("<equality><joint joint1='x'/></equality>", {"no joint 'x'"});
-  expect("<compiler coordinate='global'/>", {"'global' was removed"});
-  expect("<default><default class='a'><default class='a'/></default></default>", {"a default class 'a' already"});
+  expect("<compiler coordinate='global'/>", {"MuJoCo removed 'global'"});
+  expect("<default><default class='a'><default class='a'/></default></default>",
+         {"the default class 'a' already exists"});
 }
 
-TEST_F(MjcfReader, OneWarningTellsWhatIsNotRead) {
+TEST_F(MjcfReader, OneWarningListsTheIgnoredElements) {
   load(
       "<worldbody><body><joint name='j'/></body></worldbody><actuator><motor joint='j'/><motor joint='j'/></actuator>"
       "<sensor><jointpos joint='j'/></sensor>");
   ASSERT_EQ(warnings_.size(), 1u);
-  EXPECT_NE(warnings_[0].find("not read: actuator/motor (2), sensor/jointpos (1)"), std::string::npos) << warnings_[0];
+  EXPECT_NE(warnings_[0].find("ignored elements: actuator/motor (2), sensor/jointpos (1)"), std::string::npos)
+      << warnings_[0];
 }
 
 TEST_F(MjcfReader, ATextThatIsNotUtf8IsReadWithAWarning) {

@@ -39,7 +39,7 @@ TEST(ParseXml, KnowsLineAndColumnOfElementsAndAttributes) {
 }
 
 TEST(ParseXml, SaysWhatIsNotWellFormedAndWhere) {
-  EXPECT_EQ(messageOf("<a>\n  <b>\n</a>"), "a.xml:2:3: this element is not closed by a tag of its own name");
+  EXPECT_EQ(messageOf("<a>\n  <b>\n</a>"), "a.xml:2:3: the element is not closed by a tag of the same name");
   EXPECT_NE(messageOf("<a x=1/>").find("a.xml:1:1: an attribute is not of the form name=\"value\""), std::string::npos);
   EXPECT_NE(messageOf("").find("no XML element"), std::string::npos);
 }

@@ -249,7 +249,7 @@ TEST(Config, AttachOfAFrameWithoutJointSaysWhatToDoAndThatWorks) {
       "hand (arm) { pose: [1 0 0] }\n"
       "box (table) { pose: [1 .2 0], shape: box, size: [.1 .1 .1] }\n");
   expectError<ValueError>([&] { config.attach("hand", "box"); },
-                          {"'box' has no joint and is fixed to 'table'", "carries 'hand', too", "setJoint"});
+                          {"'box' has no joint and is fixed to 'table'", "also carries 'hand'", "setJoint"});
   config.getFrame("box").setJoint(JointType::rigid);
   config.attach("hand", "box");
   EXPECT_EQ(config.getFrame("box").getParent()->getName(), "hand");
@@ -275,7 +275,7 @@ TEST(Config, AFrameMayBeAskedForTwiceButNotAsAnotherOne) {
   ASSERT_EQ(config.takeWarnings().size(), 3u);
   const int count = config.getFrameDimension();
   expectError<ValueError>([&] { config.addFrame("tool", "link2"); },
-                          {"'tool' exists already, below 'base', not below 'link2'", "'tool_2'"});
+                          {"'tool' already exists, below 'base', not below 'link2'", "'tool_2'"});
   expectError<ValueError>([&] { config.addFrame("base", "link2"); }, {"without a parent, not below 'link2'"});
   expectError<ValueError>([&] { config.addFrame("tool", "base", "joint: hingeY"); },
                           {"with other attributes", "delFrame('tool')"});
@@ -283,7 +283,7 @@ TEST(Config, AFrameMayBeAskedForTwiceButNotAsAnotherOne) {
   EXPECT_EQ(config.getFrame("tool").getJointType(), JointType::hingeX);
 }
 
-TEST(Config, FramesOfOneNameAreToldApartByTheirHandles) {
+TEST(Config, FramesOfOneNameAreDistinguishedByTheirHandles) {
   Config config;
   config.addText("a: { X: [1 0 0] }  a: { X: [2 0 0] }");
   EXPECT_EQ(config.addFrame("b", config.getFrame(1)).getPose().p.x(), 2.);

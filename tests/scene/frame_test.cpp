@@ -59,7 +59,7 @@ TEST(Frame, TheWorldPoseIsTheParentsTimesTheRelativeOne) {
   }
 }
 
-TEST(Frame, APoseThatIsSetIsTheOneThatIsToldAndWhatHangsOnItFollows) {
+TEST(Frame, ASetPoseIsReturnedAndFramesBelowFollow) {
   Config config = tree();
   Rng rng(2);
   for (const char* name : {"base", "link", "tip", "free", "other"}) {  // a root, fixed frames, a free joint

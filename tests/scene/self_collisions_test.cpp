@@ -58,7 +58,7 @@ TEST(SelfCollisions, EveryPairHasItsReason) {
   EXPECT_EQ(pairs.count({"base", "wall"}), 0u) << "no part of the robot";
 }
 
-TEST(SelfCollisions, PairsThatAlwaysOrNeverCollideAreTold) {
+TEST(SelfCollisions, PairsThatAlwaysOrNeverCollideAreClassified) {
   Config config;
   config.addText(
       "base { }\n"
@@ -108,7 +108,7 @@ TEST(SelfCollisions, WhatCannotBeAskedIsAnError) {
   expectError<ValueError>([&] { selfCollisionMatrix(config, {.always = 2.}); }, {"always is 2"});
   expectError<FrameNotFound>([&] { selfCollisionMatrix(config, {.root = "bse"}); }, {"similar names: base"});
   expectError<ValueError>([&] { selfCollisionMatrix(config, {.root = "wall"}); },
-                          {"frame 'wall' has no two shapes", "`contact`"});
+                          {"frame 'wall' has no collidable pair of shapes", "`contact`"});
 }
 
 }  // namespace

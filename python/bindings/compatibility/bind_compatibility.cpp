@@ -9,7 +9,7 @@
 
 namespace kinegraph::python {
 
-/// What scripts of earlier years call and C++ computes. All other earlier names are in kinegraph.compatibility.
+/// Binds the methods of earlier releases that C++ computes. All other earlier names are in kinegraph.compatibility.
 void bindCompatibility(nb::class_<PyConfig>& config) {
   config
       .def(

@@ -1,37 +1,39 @@
 #pragma once
 
-/// The manual of what bind_compatibility.cpp binds.
+/// Docstrings for bind_compatibility.cpp.
 namespace kinegraph::python::docs::compatibility {
 
 inline constexpr char selectJointsByTag[] =
-    R"(Makes the joints at frames that have one of some attributes the active ones, and no others.
+    R"(Activates exactly the joints at frames with one of some attributes.
 
 Args:
     jointGroups: Names of the attributes.
-    notThose: All joints but these become active.
+    notThose: Activates all other joints instead.
 Raises:
     ArgumentError: No frame has one of these attributes.)";
 
 inline constexpr char makeObjectsFree[] =
-    R"(Lets objects move freely: the nearest joint at or above each of these frames becomes a free one, where it is. Roots
-are attached to the first frame of the scene.
+    R"(Makes objects free: the nearest joint at or above each of these frames becomes a free joint at its current pose.
+
+Roots are attached to the first frame of the scene.
 
 Args:
     frameNames: Names of the frames.
 Raises:
-    FrameNotFound: A name that is not in the scene.)";
+    FrameNotFound: A name is not in the scene.)";
 
-inline constexpr char stepDynamics[] = R"(Moves q by one Runge-Kutta step of the equation of motion, without contacts.
+inline constexpr char stepDynamics[] =
+    R"(Advances q by one Runge-Kutta step of the equation of motion, without contacts.
 
 Args:
-    qdot: Velocity of q at first, shape (n,), rad/s or m/s.
+    qdot: Velocity of q before the step, shape (n,), rad/s or m/s.
     u_control: Generalized forces, shape (n,), N m or N.
-    tau: Length of the step, s.
-    dynamicNoise: Standard deviation of accelerations that are added, rad/s^2 or m/s^2.
-    gravity: False leaves gravity out.
+    tau: Duration of the step, s.
+    dynamicNoise: Standard deviation of added random accelerations, rad/s^2 or m/s^2.
+    gravity: False omits gravity.
 Returns:
     The velocity after the step, shape (n,).
 Raises:
-    ArgumentError: qdot or u_control have another size.)";
+    ArgumentError: qdot or u_control has another size.)";
 
 }  // namespace kinegraph::python::docs::compatibility

@@ -13,7 +13,7 @@ namespace kinegraph::python {
 
 namespace {
 
-/// A MotionContact with names.
+/// A MotionContact with frame names.
 struct Contact {
   double time, distance;
   std::pair<std::string, std::string> frames;
@@ -49,15 +49,15 @@ std::optional<Contact> checkMotion(const PyConfig& config, const Numbers& start,
   warnOfContacts(config);
   const std::optional<MotionContact> contact = config.checkMotion(start.values, end.values, margin, tolerance);
   if (!contact) return std::nullopt;
-  Contact told{contact->time,
-               contact->distance,
-               {config.getFrame(contact->a).getName(), config.getFrame(contact->b).getName()},
-               std::nullopt};
-  if (contact->dof >= 0) told.limit = config.getJointNames()[std::size_t(contact->dof)];
-  return told;
+  Contact named{contact->time,
+                contact->distance,
+                {config.getFrame(contact->a).getName(), config.getFrame(contact->b).getName()},
+                std::nullopt};
+  if (contact->dof >= 0) named.limit = config.getJointNames()[std::size_t(contact->dof)];
+  return named;
 }
 
-/// A SelfCollisionMatrix with names.
+/// A SelfCollisionMatrix with frame names.
 struct NamedMatrix {
   SelfCollisionMatrix matrix;
   std::vector<std::string> names;  ///< of all frames
@@ -86,10 +86,10 @@ NamedMatrix selfCollisions(PyConfig& config, int samples, std::uint64_t seed, do
 }
 
 void bindSelfCollisions(nb::module_& m, nb::class_<PyConfig>& config) {
-  nb::class_<NamedMatrix>(m, "SelfCollisionMatrix", "Which parts of a robot may collide with one another.")
+  nb::class_<NamedMatrix>(m, "SelfCollisionMatrix", "Self-collision classes of the pairs of a robot's frames.")
       .def_prop_ro("pairs", matrixRows, docs::collisions::pairs)
       .def_prop_ro(
-          "samples", [](const NamedMatrix& n) { return n.matrix.samples; }, "The number of postures.")
+          "samples", [](const NamedMatrix& n) { return n.matrix.samples; }, "Number of sampled configurations.")
       .def("__len__", [](const NamedMatrix& n) { return n.matrix.pairs.size(); })
       .def("__repr__", [](const NamedMatrix& n) { return cat("<SelfCollisionMatrix: ", n.matrix.str(), ">"); });
   const SelfCollisionOptions defaults;
@@ -103,13 +103,15 @@ void bindSelfCollisions(nb::module_& m, nb::class_<PyConfig>& config) {
 void bindCollisions(nb::module_& m, nb::class_<PyConfig>& config) {
   bindSelfCollisions(m, config);
   nb::class_<Contact>(m, "MotionContact",
-                      "Where a motion of q first brings two frames too near, or a joint beyond its limits.")
-      .def_ro("time", &Contact::time, "In [0, 1]: 0 is the start of the motion, 1 its end. Until then it is free.")
+                      "First obstruction of a motion of q: two frames too close, or a joint beyond its limits.")
+      .def_ro("time", &Contact::time,
+              "In [0, 1]: 0 is the start of the motion, 1 its end. The motion is collision-free before.")
       .def_ro("distance", &Contact::distance,
-              "Of the two at that time, m; negative: penetration depth. Of a limit: what is left to it, rad or m.")
-      .def_ro("frames", &Contact::frames, "Their names; of a limit, twice that of the joint's frame.")
+              "Distance of the two frames at that time, m; negative: penetration depth. For a limit: the distance to "
+              "it, rad or m.")
+      .def_ro("frames", &Contact::frames, "Names of the two frames; for a limit, twice the joint's frame.")
       .def_ro("limit", &Contact::limit,
-              "The dof that leaves its limits, as getJointNames has it; None where two frames come too near.")
+              "The dof that leaves its limits, named as in getJointNames; None for two frames.")
       .def("__repr__", [](const Contact& c) {
         if (c.limit) return cat("<MotionContact: joint ", *c.limit, " leaves its limits at time ", c.time, ">");
         return cat("<MotionContact: ", c.frames.first, " and ", c.frames.second, " at time ", c.time, ", distance ",

@@ -13,7 +13,7 @@ void bindVelocityDynamics(nb::class_<PyConfig>& config) {
   config
       .def(
           "velocityDimension", [](const PyConfig& c) { return velocityDimension(c); },
-          "Number nv of velocities: one per dof, and three for the four numbers of a quaternion.")
+          "Returns the number nv of velocities: one per dof, but three per quaternion.")
       .def(
           "velocityMap", [](const PyConfig& c) { return toNumpy(velocityMap(c)); }, docs::dynamics::velocityMap)
       .def(
@@ -53,7 +53,7 @@ void bindDynamics(nb::class_<PyConfig>& config) {
       .def(
           "dyn_F0",
           [](const PyConfig& c) { return toNumpy(c.equationOfMotion(VectorXd::Zero(c.getJointDimension())).F); },
-          "F at rest, shape (n,): the generalized forces (N m, N) that hold the present q against gravity.")
+          "Returns F at rest, shape (n,): the generalized forces (N m, N) that hold the current q against gravity.")
       .def(
           "inverseDynamics",
           [](const PyConfig& c, const Numbers& velocity, const Numbers& acceleration) {
@@ -66,7 +66,7 @@ void bindDynamics(nb::class_<PyConfig>& config) {
             const auto [mass, center] = c.centerOfMass();
             return nb::typed<nb::tuple, nb::float_, Array>(nb::make_tuple(mass, toNumpy(center.data(), 3)));
           },
-          "Mass of everything that moves (kg) and its center (3,) in world coordinates, m.");
+          "Returns the mass of all moving links (kg) and its center (3,) in world coordinates, m.");
 }
 
 }  // namespace kinegraph::python

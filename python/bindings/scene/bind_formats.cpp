@@ -72,7 +72,7 @@ Attributes asDict(const PyConfig& config) {
   return Attributes(toDict(graph));
 }
 
-/// A dict's entries as the lines of a `.g` file: its keys may hold parents and keywords, as a file's do.
+/// Writes a dict's entries as lines of a `.g` file; its keys may contain parents and keywords.
 std::string sceneText(const Attributes& scene) {
   std::string text;
   for (const auto& [key, value] : scene) {
@@ -84,7 +84,7 @@ std::string sceneText(const Attributes& scene) {
 
 void writeCollada(const PyConfig& config, const PathText& file, const std::string& format) {
   if (format != "collada")
-    throw ValueError(cat("writeCollada: format '", format, "' is not written; expected 'collada'"));
+    throw ValueError(cat("writeCollada: format '", format, "' is not supported; expected 'collada'"));
   saveCollada(config, file.text);
 }
 
@@ -128,12 +128,11 @@ void bindFormats(nb::class_<PyConfig>& config, nb::class_<Frame>& frame) {
       .def("write", writeG, "filename"_a = nb::none(), docs::formats::write)
       .def("writeURDF", writeURDF, "filename"_a = nb::none(), docs::formats::writeURDF)
       .def("asSRDF", asSRDF, docs::formats::asSRDF)
-      .def("asMJCF", asMJCF,
-           "The scene as MJCF text, which MuJoCo loads with the same poses. Meshes stand in the text.")
+      .def("asMJCF", asMJCF, "Returns the scene as MJCF text with inline meshes; MuJoCo loads it with the same poses.")
       .def("writeMJCF", writeMJCF, "filename"_a, docs::formats::writeMJCF);
   frame.def(
       "asDict", [](const Frame& f) { return Attributes(toDict(describeFrame(f.data()))); },
-      "What the frame is now, as the attributes of a .g file.");
+      "Returns the frame's current state as attributes of a .g file.");
   bindMeshFiles(config);
 }
 

@@ -33,12 +33,12 @@ Frame& setAttribute(Frame& frame, nb::str key, nb::any value) {
 void bindTree(nb::class_<Frame>& frame) {
   frame
       .def_prop_ro(
-          "ID", [](const Frame& f) { return f.id(); }, "Place in the list of the scene's frames.")
+          "ID", [](const Frame& f) { return f.id(); }, "Index in the list of the scene's frames.")
       .def_prop_rw(
           "name", [](const Frame& f) { return f.getName(); }, [](Frame& f, std::string n) { f.setName(n); },
           "The frame's name.")
       .def(
-          "getName", [](const Frame& f) { return f.getName(); }, "The frame's name.")
+          "getName", [](const Frame& f) { return f.getName(); }, "Returns the frame's name.")
       .def(
           "__eq__", [](const Frame& a, const Frame& b) { return a == b; }, "other"_a,
           nb::sig("def __eq__(self, other: Frame, /) -> bool"))
@@ -52,10 +52,10 @@ void bindTree(nb::class_<Frame>& frame) {
           [](nb::handle self) {
             return nb::cast<std::string>(nb::module_::import_("kinegraph.scene_html").attr("frameHtml")(self));
           },
-          "A table of what the frame is, for notebooks.")
-      .def("getParent", &Frame::getParent, "The parent frame, or None.")
-      .def("getChildren", &Frame::getChildren, "The frames directly below this one.")
-      .def("getSubtree", &Frame::getSubtree, "All frames below this one, depth first.")
+          "Returns a table that describes the frame, for notebooks.")
+      .def("getParent", &Frame::getParent, "Returns the parent frame, or None.")
+      .def("getChildren", &Frame::getChildren, "Returns the frames directly below this one.")
+      .def("getSubtree", &Frame::getSubtree, "Returns all frames below this one, depth first.")
 
       .def(
           "setParent",
@@ -63,7 +63,7 @@ void bindTree(nb::class_<Frame>& frame) {
           "parent"_a, "keepAbsolutePose_and_adaptRelativePose"_a = false, "checkForLoop"_a = true, kChain,
           docs::frame::setParent)
       .def("unLink", &Frame::unLink, kChain,
-           "Cuts the frame from its parent, where it is, and removes its joint. Returns the frame itself.")
+           "Cuts the frame from its parent, keeps its world pose and removes its joint. Returns the frame itself.")
 
       .def(
           "makeRoot", [](Frame& f, bool until) -> Frame& { return makeRoot(*f.scene(), f.data(), until), f; },
@@ -74,7 +74,7 @@ void bindAttributes(nb::class_<Frame>& frame) {
   frame
       .def(
           "getAttributes", [](const Frame& f) { return Attributes(toDict(f.attributes())); },
-          "The attributes that a file or a script gave the frame, as a dict.")
+          "Returns the attributes given to the frame by files and scripts, as a dict.")
       .def(
           "setAttributes", [](Frame& f, const Attributes& d) -> Frame& { return setAttributes(f, d), f; },
           "attributes"_a, kChain, docs::frame::setAttributes)

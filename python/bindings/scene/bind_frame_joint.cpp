@@ -41,7 +41,7 @@ void bindInertia(nb::class_<Frame>& frame) {
           nb::sig("def getInertia(self) -> tuple[float, numpy.typing.NDArray[numpy.float64] | list[float], "
                   "numpy.typing.NDArray[numpy.float64] | list[float]]"),
           docs::frame_joint::getInertia)
-      .def("getMass", &Frame::getMass, "The mass in kg, 0 if there is none.");
+      .def("getMass", &Frame::getMass, "Returns the mass in kg; 0 without one.");
 }
 
 }  // namespace
@@ -58,10 +58,10 @@ void bindFrameJoint(nb::class_<Frame>& frame) {
           },
           "jointType"_a, "limits"_a = nb::none(), "axis"_a = nb::none(), "scale"_a = 1., "mimic"_a = nb::none(), kChain,
           docs::frame_joint::setJoint)
-      .def("getJointType", &Frame::getJointType, "Its JT; JT.none without a joint.")
+      .def("getJointType", &Frame::getJointType, "Returns the joint type, a JT; JT.none without a joint.")
       .def(
           "getJointState", [](const Frame& f) { return toNumpy(f.getJointState()); },
-          "The joint's dofs, shape (k,), rad or m.")
+          "Returns the joint's dofs, shape (k,), rad or m.")
       .def(
           "setJointState", [](Frame& f, const Numbers& q) -> Frame& { return f.setJointState(q.values); }, "q"_a,
           kChain, docs::frame_joint::setJointState)

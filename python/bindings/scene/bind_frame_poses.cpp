@@ -35,12 +35,13 @@ Vector3d position(const Frame& frame, const Numbers& numbers, const char* call) 
   return numbers.values;
 }
 
-/// A quaternion far from unit length is often no quaternion. The text is always the same, so that Python shows it once.
+/// Warns of a quaternion far from unit length: it is often a misordered pose. The text is constant, so that Python
+/// shows it once.
 void warnOfLength(double norm) {
   if (norm > 1e-10 && std::abs(norm - 1.) > .1) {
     emitWarning(
-        "a quaternion that is far from length 1 is normalized; its numbers are w x y z, and those of a pose x y z qw "
-        "qx qy qz");
+        "a quaternion far from unit length is normalized; expected the order w x y z, and x y z qw "
+        "qx qy qz for a pose");
   }
 }
 
@@ -107,22 +108,22 @@ void bindReading(nb::class_<Frame>& frame) {
           "relativeTo"_a = nb::none(), docs::frame_poses::getQuaternion)
       .def(
           "getRotationMatrix", [](const Frame& f) { return toNumpy(MatrixXd(f.getPose().q.toRotationMatrix())); },
-          "The rotation in the world, shape (3, 3); its columns are the frame's axes.")
+          "Returns the rotation in the world, shape (3, 3); its columns are the frame's axes.")
       .def(
           "getTransform", [](const Frame& f, Relative r) { return fourByFour(poseOf(f, r)); },
           "relativeTo"_a = nb::none(), docs::frame_poses::getTransform)
       .def(
           "getRelativePose", [](const Frame& f) { return toNumpy(f.getRelativePose().numbers().data(), 7); },
-          "The pose in the parent, shape (7,): x y z (m) qw qx qy qz; the identity for a root.")
+          "Returns the pose in the parent, shape (7,): x y z (m) qw qx qy qz; the identity for a root.")
       .def(
           "getRelativePosition", [](const Frame& f) { return toNumpy(f.getRelativePose().p.data(), 3); },
-          "The position in the parent, shape (3,), m.")
+          "Returns the position in the parent, shape (3,), m.")
       .def(
           "getRelativeQuaternion", [](const Frame& f) { return toNumpy(wxyz(f.getRelativePose().q).data(), 4); },
-          "The rotation in the parent, shape (4,): w x y z.")
+          "Returns the rotation in the parent, shape (4,): w x y z.")
       .def(
           "getRelativeTransform", [](const Frame& f) { return fourByFour(f.getRelativePose()); },
-          "The pose in the parent as homogeneous matrix, shape (4, 4), lengths in m.");
+          "Returns the pose in the parent as a homogeneous matrix, shape (4, 4), lengths in m.");
 }
 
 void bindSetting(nb::class_<Frame>& frame) {

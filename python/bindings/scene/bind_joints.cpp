@@ -25,7 +25,7 @@ void setJointState(PyConfig& config, const NumbersView& q, const std::optional<s
   joints && !joints->empty() ? config.setJointState(config.joints, *joints) : config.setJointState(config.joints);
 }
 
-/// Names of q, then of joints that mimic others: they are there as in the reference, but shift no names of q.
+/// Names of q, followed by those of mimicking joints: the reference lists them, but they have no entry in q.
 std::vector<std::string> jointNames(const PyConfig& config) {
   std::vector<std::string> names = config.getJointNames();
   for (const Frame& joint : config.getJoints()) {
@@ -39,12 +39,13 @@ std::vector<std::string> jointNames(const PyConfig& config) {
 }  // namespace
 
 void bindJoints(nb::class_<PyConfig>& config) {
-  config.def("getJoints", &PyConfig::getJoints, "The frames whose joint is active and has dofs.")
+  config.def("getJoints", &PyConfig::getJoints, "Returns the frames whose joint is active and has dofs.")
       .def("getJointNames", jointNames, docs::joints::getJointNames)
-      .def("getJointIDs", &PyConfig::getJointIDs, "Ids of the frames with active joints.")
+      .def("getJointIDs", &PyConfig::getJointIDs, "Returns the ids of the frames with active joints.")
       .def(
-          "getJointDimension", [](const PyConfig& c) { return c.getJointState().size(); },  // compiles nothing
-          "The number n of active dofs, the length of q.")
+          "getJointDimension",
+          [](const PyConfig& c) { return c.getJointState().size(); },  // avoids compiling the model
+          "Returns the number n of active dofs, the length of q.")
       .def(
           "getJointState",
           [](const PyConfig& c, const std::optional<Names>& names) {
@@ -57,13 +58,14 @@ void bindJoints(nb::class_<PyConfig>& config) {
           "verbose"_a = 0, docs::joints::setRandom)
       .def(
           "getJointLimits", [](const PyConfig& c) { return toNumpy(c.getJointLimits()); },
-          "Lower and upper limits, shape (2, n), rad or m; 0 and -1 for a dof without limits.")
+          "Returns the lower and upper limits, shape (2, n), rad or m; 0 and -1 for a dof without limits.")
       .def(
           "getVelocityLimits", [](const PyConfig& c) { return toNumpy(getVelocityLimits(c)); },
-          "How fast each dof of q may change, shape (n,), rad/s or m/s; inf where nothing is said (ctrl_limits, URDF).")
+          "Returns the velocity limit of each dof of q, shape (n,), rad/s or m/s; inf if none is given (ctrl_limits, "
+          "URDF).")
       .def(
           "getEffortLimits", [](const PyConfig& c) { return toNumpy(getEffortLimits(c)); },
-          "The force or torque that may drive each dof of q, shape (n,), N or Nm; inf where nothing is said.")
+          "Returns the force or torque limit of each dof of q, shape (n,), N or Nm; inf if none is given.")
       .def(
           "selectJoints", [](PyConfig& c, const Names& names, bool not_those) { c.selectJoints(names, not_those); },
           "jointNames"_a, "notThose"_a = false, docs::joints::selectJoints);

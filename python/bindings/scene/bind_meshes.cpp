@@ -27,7 +27,7 @@ std::vector<Vector3d> points(const Numbers& numbers, const char* what) {
   return list;
 }
 
-/// Colors of n points, 0..255: rows of 3 or 4 numbers, an image of as many pixels, or one such row for all.
+/// Colors of n points, 0..255: 3 or 4 numbers per point, an image with as many pixels, or one color for all.
 PointColors colorsOf(OptionalNumbers numbers, std::size_t n) {
   if (!numbers || numbers->values.size() == 0) return {};
   const std::size_t size = std::size_t(numbers->values.size());
@@ -36,7 +36,7 @@ PointColors colorsOf(OptionalNumbers numbers, std::size_t n) {
   if (numbers->rank > 2 && n > 0 && size % n == 0) columns = size / n;
   if ((columns != 3 && columns != 4) || (size != columns && size != columns * n)) {
     throw ValueError(cat("got ", size, " color numbers for ", n,
-                         " points; expected 3 (rgb) or 4 (rgba) per point, or of one color, in 0..255"));
+                         " points; expected 3 (rgb) or 4 (rgba) per point, or one color, in 0..255"));
   }
   PointColors colors(size / columns, {0, 0, 0, 255});
   for (std::size_t i = 0; i < size; ++i) {
@@ -47,12 +47,12 @@ PointColors colorsOf(OptionalNumbers numbers, std::size_t n) {
   return colors;
 }
 
-/// Whole numbers from 0 to below `limit`.
+/// Reads whole numbers from 0 to `limit` - 1.
 std::vector<std::uint32_t> indices(const Numbers& numbers, std::size_t limit, const char* what) {
   std::vector<std::uint32_t> list;
   for (double index : numbers.values) {
     if (!(index >= 0. && index < double(limit)) || index != std::floor(index)) {
-      throw ValueError(cat(what, " name vertex ", index, "; there are ", limit));
+      throw ValueError(cat(what, " refer to vertex ", index, "; expected an index below ", limit));
     }
     list.push_back(std::uint32_t(index));
   }
@@ -70,7 +70,7 @@ Frame& setMesh(Frame& frame, const Numbers& vertices, const Numbers& triangles, 
     mesh.triangles.push_back({corners[i], corners[i + 1], corners[i + 2]});
   if (parts) mesh.parts = indices(*parts, mesh.vertices.size() + 1, "convex parts");
   if (!std::is_sorted(mesh.parts.begin(), mesh.parts.end()))
-    throw ValueError("cvxParts are vertex indices in ascending order");
+    throw ValueError("cvxParts are not ascending; expected vertex indices in ascending order");
   return frame.setMesh(std::move(mesh));
 }
 
@@ -84,7 +84,7 @@ Frame& setConvexMesh(Frame& frame, const Numbers& core, OptionalNumbers colors, 
   } else {
     frame.setConvexCore(std::move(corners), radius);
   }
-  if (!given.empty()) {  // a hull has fewer vertices than it was made from: it gets their mean color
+  if (!given.empty()) {  // a hull has fewer vertices than input points: it gets their mean color
     Vector4d mean = Vector4d::Zero();
     for (const auto& c : given) mean += Vector4d(c[0], c[1], c[2], c[3]) / (255. * double(given.size()));
     frame.setColor({mean[0], mean[1], mean[2], mean[3]});
@@ -120,7 +120,7 @@ Grid gridOf(const ArrayArgument& data, const char* call) {
 
 Vector3d boxSize(const Numbers& size, const char* call) {
   if (size.values.size() != 3)
-    throw ValueError(cat(call, ": size is 3 numbers, the extent of the grid in m; got ", size.values.size()));
+    throw ValueError(cat(call, ": expected 3 numbers for size, the extent of the grid in m; got ", size.values.size()));
   return size.values;
 }
 

@@ -50,7 +50,7 @@ Frame frameOf(const PyConfig& config, const FrameArgument& name_or_id) { return 
 
 void setFrameState(PyConfig& config, const Numbers& poses, const std::vector<std::string>& frames) {
   if (poses.values.size() % 7 != 0)
-    throw ValueError("setFrameState: expected n x 7 numbers, a row x y z qw qx qy qz per frame");
+    throw ValueError("setFrameState: expected n x 7 numbers, one pose x y z qw qx qy qz per frame");
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 7, Eigen::RowMajor>> rows(poses.values.data(),
                                                                                          poses.values.size() / 7, 7);
   config.setFrameState(rows, frames);
@@ -64,7 +64,7 @@ void bindEnums(nb::module_& m) {
   for (const auto& [name, type] : jointTypeNames()) joint_types.value(name.c_str(), type);
 }
 
-/// Copies, pickles, and what Python does with a collection of frames.
+/// Binds copying, pickling and the protocols of a collection of frames.
 void bindProtocols(nb::class_<PyConfig>& config) {
   config.def(nb::init<>(), "An empty scene.")
       .def("__copy__",
@@ -136,7 +136,7 @@ void bindBuilding(nb::class_<PyConfig>& config) {
           [](const PyConfig& c) {
             return PyConfig{Config(c), nullptr};
           },
-          "A copy that shares nothing that can be changed, like copy.copy and copy.deepcopy.")
+          "Returns an independent copy, like copy.copy and copy.deepcopy.")
       .def(
           "delFrame", [](PyConfig& c, const FrameArgument& f) { c.delFrame(toFrame(c, f, "delFrame")); }, "frame"_a,
           docs::scene::delFrame)
@@ -151,16 +151,17 @@ void bindFrameAccess(nb::class_<PyConfig>& config) {
       .def("getFrame", getFrame, "frameName"_a, "warnIfNotExist"_a = true,
            nb::sig("def getFrame(self, frameName: str, warnIfNotExist: bool = True) -> Frame"), docs::scene::getFrame)
       .def("__getitem__", frameOf, "frame"_a, docs::scene::frame)
-      .def("getFrames", &PyConfig::getFrames, "All frames, in order.")
-      .def("getRoots", &PyConfig::getRoots, "The frames without a parent.")
-      .def("getFrameNames", &PyConfig::getFrameNames, "The names of all frames, in order.")
-      .def("getFrameDimension", &PyConfig::getFrameDimension, "The number of frames.")
+      .def("getFrames", &PyConfig::getFrames, "Returns all frames, in order.")
+      .def("getRoots", &PyConfig::getRoots, "Returns the frames without a parent.")
+      .def("getFrameNames", &PyConfig::getFrameNames, "Returns the names of all frames, in order.")
+      .def("getFrameDimension", &PyConfig::getFrameDimension, "Returns the number of frames.")
       .def(
           "getFrameState", [](const PyConfig& c) { return toNumpy(c.getFrameState()); },
-          "World poses of all frames, shape (frames, 7): rows x y z (m) qw qx qy qz with qw >= 0.")
+          "Returns the world poses of all frames, shape (frames, 7): x y z (m) qw qx qy qz with qw >= 0.")
       .def("setFrameState", setFrameState, "X"_a, "frames"_a = Names(), docs::scene::setFrameState)
       .def("report", &PyConfig::report,
-           "How many frames, joints, dofs and shapes the scene has, which shapes collide, and contactWarnings().");
+           "Describes the scene: numbers of frames, joints, dofs and shapes, the colliding shapes, and "
+           "contactWarnings().");
 }
 
 }  // namespace
@@ -169,7 +170,7 @@ void bindScene(nb::module_& m) {
   bindEnums(m);
   m.def("checkFile", checkFile, "filename"_a, docs::scene::checkFile);
   nb::class_<Frame> frame(m, "Frame",
-                          "A handle on one frame of a Config. Setters return it, so that calls can be chained.");
+                          "A handle on one frame of a Config. Setters return the frame, so calls can be chained.");
   nb::class_<PyConfig> config(m, "Config", "A scene: named frames with joints and shapes, and the joint vector q.");
   bindProtocols(config);
   bindBuilding(config);

@@ -16,7 +16,7 @@ namespace kinegraph::python {
 
 namespace {
 
-/// Mesh of a shape in local coordinates: its own, or its surface as triangles.
+/// Mesh of a shape in local coordinates: its own, or its triangulated surface.
 Mesh meshOf(const Frame& frame) {
   const auto& shape = frame.data().shape;
   if (!shape) return {};
@@ -31,7 +31,7 @@ Array meshPoints(const Mesh& mesh) {
   return array.array;
 }
 
-/// (m, 3), or (m, 2) for lines: which points belong together.
+/// Vertex indices of the triangles, (m, 3), or of the line segments, (m, 2).
 IndexArray meshTriangles(const Frame& frame, const Mesh& mesh) {
   const bool lines = frame.getShapeType() == ShapeType::lines;
   NewArray array = newArray(lines ? mesh.vertices.size() / 2 : mesh.triangles.size(), lines ? 2 : 3);
@@ -42,7 +42,7 @@ IndexArray meshTriangles(const Frame& frame, const Mesh& mesh) {
   return IndexArray(array.array.attr("astype")("uint32"));
 }
 
-/// A row per color, rgb, or rgba if any is transparent: the mesh's own, or the frame's.
+/// One color per row, rgb, or rgba if any is transparent: the mesh's own, or the frame's.
 ByteArray meshColors(const Frame& frame, const Mesh& mesh) {
   PointColors colors = mesh.colors;
   const auto& shape = frame.data().shape;
@@ -61,7 +61,7 @@ void bindSurfaces(nb::class_<Frame>& frame) {
   frame
       .def(
           "getMeshPoints", [](const Frame& f) { return meshPoints(meshOf(f)); },
-          "Vertices of the shape's surface, shape (n, 3), in the frame's coordinates, m.")
+          "Returns the vertices of the shape's surface, shape (n, 3), in the frame's coordinates, m.")
       .def(
           "getMeshTriangles", [](const Frame& f) { return meshTriangles(f, meshOf(f)); },
           docs::shapes::getMeshTriangles)
@@ -96,17 +96,17 @@ void bindShapes(nb::class_<Frame>& frame) {
           [](Frame& f, const Numbers& color) -> Frame& {
             f.setColor(color.list());
             if ((color.values.array() > 1.).any())
-              emitWarning("color has numbers above 1; they are in 0..1, those of 0..255 divided by 255");
+              emitWarning("color has numbers above 1; expected 0..1 (divide values of 0..255 by 255)");
             return f;
           },
           "color"_a, kChain, docs::shapes::setColor)
       .def(
           "setContact", [](Frame& f, int contact) -> Frame& { return f.setContact(contact); }, "contact"_a, kChain,
           docs::shapes::setContact)
-      .def("getShapeType", &Frame::getShapeType, "Its ST; ST.none without a shape.")
+      .def("getShapeType", &Frame::getShapeType, "Returns the shape type, an ST; ST.none without a shape.")
       .def(
           "getSize", [](const Frame& f) { return toNumpy(f.getSize().data(), f.getSize().size()); },
-          "The sizes as for setShape, shape (k,), m; empty without a shape.");
+          "Returns the sizes as in setShape, shape (k,), m; empty without a shape.");
   bindSurfaces(frame);
   bindMeshes(frame);
 }

@@ -59,7 +59,7 @@ void bindStructure(nb::class_<PyConfig>& config) {
           [](nb::handle self) {
             return nb::cast<std::string>(nb::module_::import_("kinegraph.scene_html").attr("sceneHtml")(self));
           },
-          "A table of the frames, for notebooks.")
+          "Returns a table of the frames, for notebooks.")
       .def("getShapes", getShapes, "shared_only_once"_a = true, docs::structure::getShapes)
       .def(
           "selectJointsBySubtree",

@@ -8,7 +8,7 @@
 
 namespace kinegraph::python {
 
-/// As Python gets them: see Simulation.getContacts.
+/// Contacts as Python dicts; see Simulation.getContacts.
 inline nb::typed<nb::list, nb::dict> contactDicts(const std::vector<Contact>& contacts) {
   nb::list found;
   for (const Contact& contact : contacts) {

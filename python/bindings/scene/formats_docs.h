@@ -1,9 +1,9 @@
 #pragma once
 
-/// The manual of what bind_formats.cpp binds.
+/// Docstrings for bind_formats.cpp.
 namespace kinegraph::python::docs::formats {
 
-inline constexpr char writeMesh[] = R"(Writes all surfaces as one PLY file, in world coordinates, m.
+inline constexpr char writeMesh[] = R"(Writes all surfaces to one PLY file, in world coordinates, m.
 
 Args:
     filename: Path of the file.
@@ -13,9 +13,9 @@ Raises:
 inline constexpr char writeMeshes[] = R"(Writes every mesh once as a PLY file, in the coordinates of its frame, m.
 
 Args:
-    pathPrefix: The files are <pathPrefix><frame>.ply.
-    copyTextures: Not used: PLY files hold no pictures.
-    enumerateAssets: The files are <pathPrefix>mesh_0.ply and so on instead.
+    pathPrefix: Prefix of the files <pathPrefix><frame>.ply.
+    copyTextures: Not used: PLY files contain no pictures.
+    enumerateAssets: Names the files <pathPrefix>mesh_0.ply and so on instead.
 Returns:
     The paths of the files.
 Raises:
@@ -25,9 +25,9 @@ inline constexpr char writeConvexStls[] =
     R"(Writes the convex hull of every mesh as an STL file, in the coordinates of its frame, m.
 
 Args:
-    pathPrefix: The files are <pathPrefix><frame>.stl.
-    shrinkRadius: How far the hulls are drawn in, m; not positive: not at all.
-    verbose: Not used; older scripts pass it.
+    pathPrefix: Prefix of the files <pathPrefix><frame>.stl.
+    shrinkRadius: Distance by which the hulls shrink, m; not applied unless positive.
+    verbose: Not used; accepted for older scripts.
 Returns:
     The paths of the files.
 Raises:
@@ -43,15 +43,14 @@ Raises:
     FileError: The file cannot be written.)";
 
 inline constexpr char writeGltf[] =
-    R"(Writes the scene at the present q as binary glTF: a node per frame, with the surface and the colors that are shown
-for it, y up as glTF has it.
+    R"(Writes the scene at the current q as binary glTF: one node per frame, with its visible surface and colors, y up.
 
 Args:
     filename: Path of the file, .glb.
 Raises:
     FileError: The file cannot be written.)";
 
-inline constexpr char addDict[] = R"doc(Adds frames given as a dict.
+inline constexpr char addDict[] = R"doc(Adds frames from a dict.
 
 Args:
     dict: {"name (parent)" : {attribute : value, ...},
@@ -60,53 +59,54 @@ Args:
 Returns:
     The first frame, or None.
 Raises:
-    ParseError: A mistake in the entries.
-    ArgumentError: A value that is neither bool, number, text, list nor dict.)doc";
+    ParseError: An entry is invalid.
+    ArgumentError: A value is neither bool, number, text, list nor dict.)doc";
 
-inline constexpr char asDict[] = R"doc(The scene as {"name(parent)": {attribute: value, ...}, ...
+inline constexpr char asDict[] = R"doc(Returns the scene as {"name(parent)": {attribute: value, ...}, ...
 }
 , in the order of the frames; addDict reads it.)doc";
 
-inline constexpr char asYaml[] = R"(The scene as text that is YAML and .g at once.
+inline constexpr char asYaml[] = R"(Returns the scene as text that is valid YAML and .g.
 
 Args:
-    serial: On one line.
+    serial: Writes a single line.
 Returns:
     The text.)";
 
-inline constexpr char write[] = R"(The scene as .g text, with all digits.
+inline constexpr char write[] = R"(Returns the scene as .g text with exact numbers, and optionally writes it to a file.
 
 Args:
-    filename: Where it is written as well: as URDF for .urdf, as MJCF for .xml, as YAML for .yml and .yaml, else as
-        .g.
+    filename: Path of the file. The extension selects URDF (.urdf), MJCF (.xml), YAML (.yml, .yaml), else .g. None: no
+        file.
 Returns:
     The text.
 Raises:
     FileError: The file cannot be written.)";
 
-inline constexpr char writeURDF[] = R"(The scene as URDF text. What URDF cannot say is a warning.
+inline constexpr char writeURDF[] = R"(Returns the scene as URDF text, and warns of content without a URDF equivalent.
 
 Args:
-    filename: Where it is written as well. Shapes that URDF has no element for go into .stl files in a folder beside
-        it; without a file they are left out with a warning. Links that do not collide, groups of joints and named
-        states go into an .srdf file of the same name (asSRDF). Joints that are no part of q are fixed.
+    filename: Path of a file to write, too. Shapes without a URDF element go to .stl files in a folder beside it;
+        without a file they are omitted with a warning. Disabled collision pairs, groups of joints and named states go
+        to an .srdf file of the same name (asSRDF). Joints outside of q are fixed.
 Returns:
     The text.
 Raises:
     FileError: The file cannot be written.)";
 
 inline constexpr char asSRDF[] =
-    R"(What the text of writeURDF has no words for, as SRDF text: links that do not collide, groups of joints, named states.
+    R"(Returns the SRDF text for the text of writeURDF: disabled collision pairs, groups of joints, named states.
 
 Returns:
-    The text; '' if there is nothing to say.)";
+    The text; '' if it would be empty.)";
 
 inline constexpr char writeMJCF[] =
-    R"(Writes the scene as MJCF, which MuJoCo loads with the same poses. Bodies, joints, geoms and sites have the names of
-their frames.
+    R"(Writes the scene as MJCF; MuJoCo loads it with the same poses.
+
+Bodies, joints, geoms and sites have the names of their frames.
 
 Args:
-    filename: Path of the file. Meshes that MuJoCo cannot read as they are go into a folder beside it.
+    filename: Path of the file. Meshes that MuJoCo cannot read directly go to a folder beside it.
 Returns:
     The text.
 Raises:

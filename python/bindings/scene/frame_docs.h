@@ -1,49 +1,49 @@
 #pragma once
 
-/// The manual of what bind_frame.cpp binds.
+/// Docstrings for bind_frame.cpp.
 namespace kinegraph::python::docs::frame {
 
 inline constexpr char setParent[] =
-    R"(Attaches the frame below another one. By default the pose in the parent stays, so that the frame moves in the world.
+    R"(Attaches the frame below another one. By default keeps the pose in the parent, so the frame moves in the world.
 
 Args:
-    parent: The frame that is above from now on.
-    keepAbsolutePose_and_adaptRelativePose: The pose in the world stays instead.
-    checkForLoop: Not used: loops are always refused.
+    parent: The new parent.
+    keepAbsolutePose_and_adaptRelativePose: Keeps the world pose instead.
+    checkForLoop: Not used: loops are always rejected.
 Returns:
     The frame itself.
 Raises:
     Error: The parent is the frame itself, below it, or in another scene.)";
 
 inline constexpr char makeRoot[] =
-    R"(Turns the path above the frame around, so that it becomes the root of its tree. Nothing moves.
+    R"(Makes the frame the root of its tree by reversing the path above it. World poses stay.
 
-Joints on the path move to the frame that is below them then, with the sign of q (and the limits) changed.
+Joints on the path move to the frame below them, with changed sign of q and limits.
 
 Args:
-    untilPartBreak: Only up to the first rigid or free joint, which is cut.
+    untilPartBreak: Stops at the first rigid or free joint, which is cut.
 Returns:
     The frame itself.
 Raises:
-    ArgumentError: A joint on the path that no joint type inverts (universal, ...).)";
+    ArgumentError: A joint on the path has no inverse joint type (universal, ...).)";
 
-inline constexpr char setAttributes[] = R"(Adds attributes that the library keeps but does not interpret.
+inline constexpr char setAttributes[] = R"(Adds attributes that the library stores without interpreting them.
 
 Args:
-    attributes: A dict from names to bool, numbers, text, lists or dicts.
+    attributes: Dict from names to bool, numbers, text, lists or dicts.
 Returns:
     The frame itself.
 Raises:
-    ArgumentError: A value of another kind.)";
+    ArgumentError: A value has another type.)";
 
-inline constexpr char setAttribute[] = R"(Adds one attribute, as setAttributes does.
+inline constexpr char setAttribute[] = R"(Adds one attribute; see setAttributes.
 
 Args:
-    key: Its name.
+    key: Name of the attribute.
     value: bool, number, text, list or dict.
 Returns:
     The frame itself.
 Raises:
-    ArgumentError: A value of another kind.)";
+    ArgumentError: The value has another type.)";
 
 }  // namespace kinegraph::python::docs::frame

@@ -1,43 +1,43 @@
 #pragma once
 
-/// The manual of what bind_frame_poses.cpp binds.
+/// Docstrings for bind_frame_poses.cpp.
 namespace kinegraph::python::docs::frame_poses {
 
-inline constexpr char getPose[] = R"(The pose in the world, or in another frame.
+inline constexpr char getPose[] = R"(Returns the pose in the world, or in another frame.
 
 Args:
     relativeTo: The other frame; None: the world.
 Returns:
     x y z (m) qw qx qy qz, shape (7,).
 Raises:
-    FrameDeleted: The other frame is in no scene any more.)";
+    FrameDeleted: The other frame has been deleted.)";
 
-inline constexpr char getPosition[] = R"(The position in the world, or in another frame.
+inline constexpr char getPosition[] = R"(Returns the position in the world, or in another frame.
 
 Args:
     relativeTo: The other frame; None: the world.
 Returns:
     x y z in m, shape (3,).
 Raises:
-    FrameDeleted: The other frame is in no scene any more.)";
+    FrameDeleted: The other frame has been deleted.)";
 
-inline constexpr char getQuaternion[] = R"(The rotation in the world, or in another frame.
+inline constexpr char getQuaternion[] = R"(Returns the rotation in the world, or in another frame.
 
 Args:
     relativeTo: The other frame; None: the world.
 Returns:
     w x y z, shape (4,).
 Raises:
-    FrameDeleted: The other frame is in no scene any more.)";
+    FrameDeleted: The other frame has been deleted.)";
 
-inline constexpr char getTransform[] = R"(The pose in the world, or in another frame, as homogeneous matrix.
+inline constexpr char getTransform[] = R"(Returns the pose in the world, or in another frame, as a homogeneous matrix.
 
 Args:
     relativeTo: The other frame; None: the world.
 Returns:
     Shape (4, 4), lengths in m.
 Raises:
-    FrameDeleted: The other frame is in no scene any more.)";
+    FrameDeleted: The other frame has been deleted.)";
 
 inline constexpr char setPose[] = R"(Sets the pose in the world.
 
@@ -46,12 +46,12 @@ Args:
 Returns:
     The frame itself.
 Raises:
-    ArgumentError: Another size, numbers that are not finite, or a quaternion of length 0.)";
+    ArgumentError: pose has another size, non-finite numbers, or a quaternion of length 0.)";
 
 inline constexpr char setPoseFromText[] = R"doc(Sets the pose in the world from text.
 
 Args:
-    pose: Motions one after another, such as "t(0 0 1) d(90 0 0 1)": t in m, d in degrees, r in rad, about an axis.
+    pose: Consecutive motions, such as "t(0 0 1) d(90 0 0 1)": t in m; d in degrees and r in rad, about an axis.
 Returns:
     The frame itself.
 Raises:
@@ -60,7 +60,7 @@ Raises:
 inline constexpr char setPoseByText[] = R"doc(Sets the pose in the world from text.
 
 Args:
-    pose: Motions one after another, such as "t(0 0 1) d(90 0 0 1)": t in m, d in degrees, r in rad, about an axis.
+    pose: Consecutive motions, such as "t(0 0 1) d(90 0 0 1)": t in m; d in degrees and r in rad, about an axis.
 Returns:
     The frame itself.
 Raises:
@@ -73,16 +73,16 @@ Args:
 Returns:
     The frame itself.
 Raises:
-    ArgumentError: Not three finite numbers.)";
+    ArgumentError: position is not three finite numbers.)";
 
 inline constexpr char setQuaternion[] = R"(Sets the rotation in the world.
 
 Args:
-    quaternion: w x y z, shape (4,); it is normalized.
+    quaternion: w x y z, shape (4,); normalized by this call.
 Returns:
     The frame itself.
 Raises:
-    ArgumentError: Not four finite numbers, or all of them 0.)";
+    ArgumentError: quaternion is not four finite numbers, or all of them are 0.)";
 
 inline constexpr char setRotationMatrix[] = R"(Sets the rotation in the world.
 
@@ -100,12 +100,12 @@ Args:
 Returns:
     The frame itself.
 Raises:
-    ArgumentError: Another size, numbers that are not finite, or a quaternion of length 0.)";
+    ArgumentError: pose has another size, non-finite numbers, or a quaternion of length 0.)";
 
 inline constexpr char setRelativePoseFromText[] = R"doc(Sets the pose in the parent from text.
 
 Args:
-    pose: Motions one after another, such as "t(0 0 1) d(90 0 0 1)": t in m, d in degrees, r in rad, about an axis.
+    pose: Consecutive motions, such as "t(0 0 1) d(90 0 0 1)": t in m; d in degrees and r in rad, about an axis.
 Returns:
     The frame itself.
 Raises:
@@ -114,7 +114,7 @@ Raises:
 inline constexpr char setRelativePoseByText[] = R"doc(Sets the pose in the parent from text.
 
 Args:
-    pose: Motions one after another, such as "t(0 0 1) d(90 0 0 1)": t in m, d in degrees, r in rad, about an axis.
+    pose: Consecutive motions, such as "t(0 0 1) d(90 0 0 1)": t in m; d in degrees and r in rad, about an axis.
 Returns:
     The frame itself.
 Raises:
@@ -127,16 +127,16 @@ Args:
 Returns:
     The frame itself.
 Raises:
-    ArgumentError: Not three finite numbers.)";
+    ArgumentError: position is not three finite numbers.)";
 
 inline constexpr char setRelativeQuaternion[] = R"(Sets the rotation in the parent.
 
 Args:
-    quaternion: w x y z, shape (4,); it is normalized.
+    quaternion: w x y z, shape (4,); normalized by this call.
 Returns:
     The frame itself.
 Raises:
-    ArgumentError: Not four finite numbers, or all of them 0.)";
+    ArgumentError: quaternion is not four finite numbers, or all of them are 0.)";
 
 inline constexpr char setRelativeRotationMatrix[] = R"(Sets the rotation in the parent.
 
@@ -148,25 +148,26 @@ Raises:
     ArgumentError: The matrix is not a rotation.)";
 
 inline constexpr char get_Jacobian_pos[] =
-    R"(The derivative of a point that moves with the frame with respect to q, in world coordinates.
+    R"(Computes the Jacobian of a point fixed in the frame with respect to q, in world coordinates.
 
 Args:
-    world_pos_optional: The point as it is now, in the world, shape (3,), m; None: the frame's origin.
+    world_pos_optional: Current position of the point in the world, shape (3,), m; None: the frame's origin.
 Returns:
     Shape (3, n), m per rad or m.
 Raises:
-    ArgumentError: Not three finite numbers.)";
+    ArgumentError: world_pos_optional is not three finite numbers.)";
 
 inline constexpr char get_Jacobian_angular[] =
-    R"(The angular velocity of the frame per velocity of q, in world coordinates, shape (3, n), rad per rad or m.)";
+    R"(Returns the angular velocity of the frame per velocity of q, in world coordinates, shape (3, n), rad per rad or
+m.)";
 
-inline constexpr char trans_rel2world[] = R"(A point of the frame in world coordinates.
+inline constexpr char trans_rel2world[] = R"(Transforms a point of the frame to world coordinates.
 
 Args:
     point: In the frame's coordinates, shape (3,), m.
 Returns:
-    In the world's coordinates, shape (3,), m.
+    The point in world coordinates, shape (3,), m.
 Raises:
-    ArgumentError: Not three finite numbers.)";
+    ArgumentError: point is not three finite numbers.)";
 
 }  // namespace kinegraph::python::docs::frame_poses

@@ -1,108 +1,108 @@
 #pragma once
 
-/// The manual of what bind_scene.cpp binds.
+/// Docstrings for bind_scene.cpp.
 namespace kinegraph::python::docs::scene {
 
 inline constexpr char addFile[] = R"(Adds the frames of a scene file.
 
-What an .srdf file says (named states, groups, pairs that never collide) goes to the frames of its robot, which must
-be there already; an .srdf file beside a .urdf file is read with it. An error leaves the scene as it was.
+An .srdf file (named states, groups, disabled collision pairs) extends the frames of its robot, which must be added
+first; an .srdf file beside a .urdf file is read with it. On an error the scene is unchanged.
 
 Args:
     filename: Path of a .g, .yml, .urdf or .srdf file, or of a MuJoCo .xml file. Paths of shipped models: ry.raiPath.
-    namePrefix: Put in front of the name of each frame.
+    namePrefix: Prefix of the frame names.
 Returns:
-    The first frame that was added, or None if the file has none.
+    The first added frame, or None if the file has none.
 Raises:
     FileError: The file cannot be read.
-    ParseError: A mistake in the file; it has the file, the line and the column.)";
+    ParseError: The file has an error; the message has the file, the line and the column.)";
 
-inline constexpr char addText[] = R"(Adds the frames of a scene given as text in .g syntax.
+inline constexpr char addText[] = R"(Adds the frames of a scene text in .g syntax.
 
 Args:
-    text: The scene. An error leaves the present scene as it was.
-    name: What messages call the text in place of a file name.
+    text: The scene. On an error the current scene is unchanged.
+    name: Name of the text in messages, in place of a file name.
 Returns:
-    The first frame that was added, or None if the text has none.
+    The first added frame, or None if the text has none.
 Raises:
-    ParseError: A mistake in the text; it has the line and the column.)";
+    ParseError: The text has an error; the message has the line and the column.)";
 
 inline constexpr char addFrame[] = R"(Appends a frame at the pose of its parent, or at the origin of the world.
 
-A shape that is set later collides with nothing until `setContact(1)` says so: `contact` is 0 at first.
+The shape collides with nothing until `setContact(1)`, because `contact` is 0 at first.
 
 Args:
-    name: Its name. If the name exists, that frame is returned as it is, with a warning.
-    parent: The frame above: its name, id or Frame; "" for a root.
+    name: Name of the frame. If it exists, that frame is returned unchanged, with a warning.
+    parent: The parent: its name, id or Frame; "" for a root.
     args: Attributes as in a .g file, such as "shape: box, size: [.1 .1 .1], contact: 1".
 Returns:
     The frame.
 Raises:
-    FrameNotFound: There is no such parent.
-    ParseError: A mistake in args.
+    FrameNotFound: The parent does not exist.
+    ParseError: args has an error.
     Error: The name exists with another parent or other attributes.)";
 
 inline constexpr char addConfigurationCopy[] = R"(Appends copies of all frames of another scene.
 
 Args:
     config: The other scene.
-    prefix: Put in front of the name of each copy.
-    tau: Not used; older scripts pass it.
+    prefix: Prefix of the copies' names.
+    tau: Not used; accepted for older scripts.
 Returns:
     The first copy, or None if the other scene is empty.)";
 
-inline constexpr char copyFrom[] = R"(Becomes a copy of another scene.
+inline constexpr char copyFrom[] = R"(Replaces this scene by a copy of another one.
 
 Args:
     other: The other scene.)";
 
-inline constexpr char delFrame[] = R"(Removes a frame. Its children stay where they are, as roots.
+inline constexpr char delFrame[] = R"(Removes a frame. Its children become roots and keep their world poses.
 
 Args:
     frame: Its name, id or Frame.
 Raises:
-    FrameNotFound: There is no such frame.)";
+    FrameNotFound: The frame does not exist.)";
 
 inline constexpr char attach[] =
-    R"(Cuts the link of a frame off and attaches it, where it is, rigidly below another frame.
+    R"(Cuts off the link of a frame and fixes it below another frame, keeping its world pose.
 
 Args:
     frame1: Name of the new parent.
-    frame2: Name of the frame that is attached.
+    frame2: Name of a frame of the attached link.
 Raises:
-    FrameNotFound: There is no such frame.
+    FrameNotFound: A frame does not exist.
     Error: frame1 is below frame2.)";
 
-inline constexpr char getFrame[] = R"(The first frame of a name.
+inline constexpr char getFrame[] = R"(Returns the first frame with a name.
 
 Args:
     frameName: The name.
-    warnIfNotExist: False: an unknown name gives None in place of an error.
+    warnIfNotExist: False returns None for an unknown name instead of raising an error.
 Returns:
     The Frame.
 Raises:
-    FrameNotFound: There is no such frame; the message has names that are near.)";
+    FrameNotFound: The frame does not exist; the message has similar names.)";
 
-inline constexpr char frame[] = R"(The frame of a name or id.
+inline constexpr char frame[] = R"(Returns the frame with a name or id.
 
 Args:
-    frame: Its name or id. A Frame is returned as it is.
+    frame: Name or id. A Frame is returned unchanged.
 Returns:
     The Frame.
 Raises:
-    FrameNotFound: There is no such frame.)";
+    FrameNotFound: The frame does not exist.)";
 
 inline constexpr char setFrameState[] =
     R"(Sets world poses of frames. Frames with a joint move as far as the joint allows.
 
 Args:
-    X: Poses, shape (frames, 7): rows x y z (m) qw qx qy qz.
-    frames: Names of the frames; without names X is for all of them, in order.
+    X: Poses, shape (frames, 7): x y z (m) qw qx qy qz.
+    frames: Names of the frames; without names, X has the poses of all frames in order.
 Raises:
     ArgumentError: X has another shape.
-    FrameNotFound: A name that is not in the scene.)";
+    FrameNotFound: A name is not in the scene.)";
 
-inline constexpr char checkFile[] = R"(All that is wrong or odd about a scene file, without adding it to a scene.
+inline constexpr char checkFile[] = R"(Checks a scene file for errors and warnings, without adding it to a scene.
 
 Args:
     filename: Path of the file (.g, .yml, .urdf, .xml).

@@ -30,7 +30,7 @@ struct ToPython {
     return list;
   }
   nb::object operator()(const AngleText& t) const {
-    const std::string quoted = cat("<", t.text, ">");  // as addDict reads it
+    const std::string quoted = cat("<", t.text, ">");  // in the form that addDict reads
     return nb::str(quoted.c_str(), quoted.size());
   }
   nb::object operator()(const NameTuple& t) const {
@@ -84,16 +84,16 @@ Value toValue(nb::handle value, const std::string& name) {
       out.data = NumberArray{numbers.list(), 1};
     }
   } else if (nb::isinstance<nb::sequence>(value)) {
-    StringArray words;
+    StringArray strings;
     ValueList values;
     for (nb::handle item : nb::cast<nb::sequence>(value)) {
-      nb::isinstance<nb::str>(item) ? words.push_back(nb::cast<std::string>(item))
+      nb::isinstance<nb::str>(item) ? strings.push_back(nb::cast<std::string>(item))
                                     : values.push_back(toValue(item, name));
     }
-    if (!words.empty() && !values.empty())
-      throw ValueError(cat("attribute '", name, "': a list holds words only, or none"));
+    if (!strings.empty() && !values.empty())
+      throw ValueError(cat("attribute '", name, "': expected a list of only strings, or without strings"));
     if (values.empty()) {
-      out.data = std::move(words);
+      out.data = std::move(strings);
     } else {
       out.data = std::move(values);
     }

@@ -4,7 +4,7 @@
 
 namespace kinegraph::python {
 
-/// A value of the .g language as Python object, and back. `name` is what messages call it.
+/// Converts a value of the .g language to a Python object, and back. `name` is its name in messages.
 nb::object fromValue(const Value& value);
 Value toValue(nb::handle value, const std::string& name);
 nb::dict toDict(const Graph& graph);

@@ -1,38 +1,40 @@
 #pragma once
 
-/// The manual of what bind_shapes.cpp binds.
+/// Docstrings for bind_shapes.cpp.
 namespace kinegraph::python::docs::shapes {
 
 inline constexpr char getMeshTriangles[] =
-    R"(Triangles of the shape's surface, shape (m, 3), indices of vertices; of lines: their ends, shape (m, 2).)";
+    R"(Returns the triangles of the shape's surface, shape (m, 3), as vertex indices; for lines, their ends, shape (m,
+2).)";
 
 inline constexpr char getMeshColors[] =
-    R"(Colors in 0..255, shape (n, 3) or (n, 4): one per vertex, or one row with the frame's color; (0, 3) if it has none.)";
+    R"(Returns colors in 0..255, shape (n, 3) or (n, 4): one per vertex, or only the frame's color; (0, 3) without
+color.)";
 
 inline constexpr char getMesh[] =
-    R"(Points (n, 3), triangles (m, 3) and colors (n, 3) or (n, 4), as getMeshPoints, getMeshTriangles and getMeshColors
-give them.)";
+    R"(Returns points (n, 3), triangles (m, 3) and colors (n, 3) or (n, 4); see getMeshPoints, getMeshTriangles and
+getMeshColors.)";
 
-inline constexpr char setShape[] = R"(Gives the frame a shape. It collides with nothing until `setContact(1)` says so.
+inline constexpr char setShape[] = R"(Gives the frame a shape. It collides with nothing until `setContact(1)`.
 
 Args:
-    type: Of ST.
+    type: An ST.
     size: In m: box [x y z], ssBox [x y z radius], sphere [r], capsule and cylinder [length r], marker [length],
         quad [x y].
 Returns:
     The frame itself.
 Raises:
-    ArgumentError: Another number of sizes, or a negative one.)";
+    ArgumentError: The number of sizes is wrong, or a size is negative.)";
 
-inline constexpr char setShapeByName[] = R"(The same with the name of the type.
+inline constexpr char setShapeByName[] = R"(Gives the frame a shape, by the name of the type.
 
 Args:
-    type: Such as "box".
-    size: As above.
+    type: Name such as "box".
+    size: As for the ST of that name.
 Returns:
     The frame itself.
 Raises:
-    ArgumentError: There is no such type, or it has other sizes.)";
+    ArgumentError: The type does not exist, or it has other sizes.)";
 
 inline constexpr char setColor[] = R"(Sets the color of the frame's shape.
 
@@ -41,13 +43,13 @@ Args:
 Returns:
     The frame itself.
 Raises:
-    ArgumentError: Not 1 to 4 numbers, or some of them not in 0..1.)";
+    ArgumentError: color has not 1 to 4 numbers, or a number outside of 0..1.)";
 
-inline constexpr char setContact[] = R"(Sets what the frame's shape collides with.
+inline constexpr char setContact[] = R"(Sets the contact flag of the frame's shape.
 
 Args:
-    contact: 0: with nothing; 1: with every other shape whose contact is not 0, except on its own link; -k: also not
-        with links within k joints above.
+    contact: 0: collides with nothing; 1: with every other shape with a nonzero flag, except on its own link; -k: also
+        not with links within k joints above.
 Returns:
     The frame itself.)";
 

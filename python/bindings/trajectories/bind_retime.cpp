@@ -78,16 +78,6 @@ TimedPath ofRobot(const PyConfig& config, const Numbers& path, const MaybeNumber
   return retime(scene, q, limits, options);
 }
 
-nb::typed<nb::tuple, Array, Array, Array> stateAt(const TimedPath& timed, const Numbers& t) {
-  const std::size_t n = std::size_t(timed.path.cols()), count = std::size_t(t.values.size());
-  if (t.rank > 1) throw ValueError(cat("retime: at(t) has t of rank ", t.rank, "; expected a number or shape (M,)"));
-  const auto make = [&] { return t.rank == 0 ? newArray(n) : newArray(count, n); };
-  NewArray q = make(), velocity = make(), acceleration = make();
-  for (std::size_t i = 0; i < count; ++i)
-    timed.at(t.values[Eigen::Index(i)], q.data + i * n, velocity.data + i * n, acceleration.data + i * n);
-  return nb::typed<nb::tuple, Array, Array, Array>(nb::make_tuple(q.array, velocity.array, acceleration.array));
-}
-
 nb::tuple timedState(const TimedPath& t) {
   const PathCurve::Parts curve = t.curve().parts();
   const NewArray phases = newArray(t.scaling().phases().size(), 7);
@@ -143,7 +133,7 @@ void bindTimedPath(nb::module_& m) {
              "The start velocity is above the limits, or cannot be braked.")
       .value("end_too_fast", RetimeStatus::end_too_fast, "The end velocity is above the limits, or cannot be reached.")
       .value("cannot_move", RetimeStatus::cannot_move, "A torque limit holds for no speed somewhere.");
-  nb::class_<TimedPath>(m, "TimedPath", "A path, and when a motion is where on it.")
+  nb::class_<TimedPath, Trajectory>(m, "TimedPath", "A path with its time parameterization; a Trajectory.")
       .def_prop_ro("feasible", &TimedPath::feasible, "True if there is a motion.")
       .def_ro("status", &TimedPath::status, "How it ended, a RetimeStatus.")
       .def_prop_ro(
@@ -154,8 +144,6 @@ void bindTimedPath(nb::module_& m) {
       .def_prop_ro(
           "times", [](const TimedPath& t) { return toNumpy(t.times); },
           "When the motion is at each point, or nearest to it in a blend, shape (K,), s; empty without a motion.")
-      .def_prop_ro("duration", &TimedPath::duration, "How long the motion takes, s.")
-      .def("at", stateAt, "t"_a, docs::retime::at)
       .def("__bool__", &TimedPath::feasible)
       .def("__getstate__", timedState)
       .def("__setstate__", setTimedState)

@@ -4,7 +4,9 @@
 #include "bindings.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/trajectories/b_spline.h"
+#include "kinegraph/trajectories/spline_trajectory.h"
 #include "trajectories/spline_docs.h"
+#include "trajectories/trajectory_docs.h"
 
 namespace kinegraph::python {
 
@@ -83,6 +85,13 @@ void bindSpline(nb::module_& m) {
         new (&s) BSpline(BSpline::fromParts(nb::cast<int>(parts[0]), nb::cast<Numbers>(parts[1]).values,
                                             ctrl_points.values.size() ? ctrl_points.matrix() : MatrixXd()));
       });
+  nb::class_<SplineTrajectory, Trajectory>(m, "SplineTrajectory", docs::trajectory::SplineTrajectory)
+      .def(nb::init<BSpline>(), "spline"_a, docs::trajectory::SplineTrajectory_make)
+      .def_prop_ro(
+          "spline", [](const SplineTrajectory& t) { return BSpline(t.spline()); }, "A copy of the spline.")
+      .def("__getstate__", [](const SplineTrajectory& t) { return nb::make_tuple(BSpline(t.spline())); })
+      .def("__setstate__",
+           [](SplineTrajectory& t, const nb::tuple& parts) { new (&t) SplineTrajectory(nb::cast<BSpline>(parts[0])); });
 }
 
 }  // namespace kinegraph::python

@@ -55,13 +55,4 @@ Returns:
 Raises:
     ArgumentError: As without config; a path of another number of dofs; limits that the model does not have.)";
 
-inline constexpr char at[] = R"(Where the motion is, and how it moves.
-
-Args:
-    t: Time since the start, s; a number or shape (M,). What lies outside of 0 to duration counts as the nearer end.
-Returns:
-    q, velocity, acceleration: shape (n,) each, or (M, n); rad or m, and s.
-Raises:
-    ArgumentError: There is no motion, or t is no number.)";
-
 }  // namespace kinegraph::python::docs::retime

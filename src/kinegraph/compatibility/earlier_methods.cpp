@@ -38,7 +38,7 @@ void makeObjectsFree(Config& config, const std::vector<std::string>& names) {
       const Frame first(config.scene(), *config.scene()->frames().front());
       if (top->id == 0)
         throw ValueError(cat("makeObjectsFree: '", top->name,
-                             "' is the first frame of the configuration, to which free objects are attached"));
+                             "' is the first frame of the configuration; free objects are attached to it"));
       object.setParent(first, true);
     }
     object.setJoint(JointType::free);
@@ -53,7 +53,7 @@ VectorXd stepDynamics(Config& config, const VectorXd& velocity, const VectorXd& 
                          " forces; the configuration has ", q.size(), " active dofs"));
   }
   if (!(tau > 0.) || !std::isfinite(tau))
-    throw ValueError(cat("stepDynamics: the time tau, ", tau, " s, is not positive"));
+    throw ValueError(cat("stepDynamics: tau is ", tau, " s; expected a finite time > 0"));
   VectorXd disturbance = VectorXd::Zero(q.size());
   for (double& x : disturbance) x = noise > 0. ? noise * rng.normal() : 0.;
   const auto acceleration = [&](const VectorXd& at, const VectorXd& v) {

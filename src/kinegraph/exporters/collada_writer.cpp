@@ -10,7 +10,7 @@ namespace kinegraph {
 
 namespace {
 
-/// Writes the four libraries of a COLLADA document; elements refer to each other by the ids of their frames.
+/// Builds the four libraries of a COLLADA document; elements refer to each other by frame ids.
 class Collada {
  public:
   explicit Collada(const SceneTree& scene) : scene_(scene) {

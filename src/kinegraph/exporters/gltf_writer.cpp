@@ -22,7 +22,7 @@ namespace {
 
 namespace json = boost::json;
 
-// Numbers that glTF gives its words.
+// Enumeration values of the glTF specification.
 constexpr int kFloat = 5126, kUint32 = 5125, kByte = 5121, kVertexData = 34962, kIndexData = 34963, kPoints = 0,
               kTriangles = 4;
 constexpr std::uint32_t kGltf = 0x46546C67, kJson = 0x4E4F534A, kBinary = 0x004E4942;
@@ -67,18 +67,18 @@ class GltfWriter {
   }
 
  private:
-  /// The numbers of a mesh in the file: indices of accessors.
+  /// Accessor indices of a mesh in the file.
   struct MeshData {
     int positions = -1, colors = -1, triangles = -1, texcoords = -1;
-    std::vector<std::pair<int, int>> textured;  ///< triangles, and the texture on them; `triangles` are the others
-    std::array<std::uint8_t, 4> color = kGray;  ///< where it has one in all
+    std::vector<std::pair<int, int>> textured;  ///< triangles and their texture; `triangles` are the others
+    std::array<std::uint8_t, 4> color = kGray;  ///< used if the mesh has a single color
   };
 
   static void addUnlessEmpty(json::object& object, std::string_view name, const json::array& entries) {
     if (!entries.empty()) object[name] = entries;
   }
 
-  /// The file: a header, the JSON text, the binary part.
+  /// Assembles the file: a header, the JSON text, the binary part.
   std::string packed(std::string json) const {
     json.resize((json.size() + 3) / 4 * 4, ' ');
     const std::size_t total = 12 + 8 + json.size() + (data_.empty() ? 0 : 8 + data_.size());
@@ -109,7 +109,7 @@ class GltfWriter {
     nodes_.push_back(std::move(node));
   }
 
-  /// The mesh of a shape with its material; -1 if there is nothing to see.
+  /// Adds the mesh of a shape with its material; returns -1 if nothing is visible.
   int addMesh(const Shape& shape) {
     std::shared_ptr<const Geometry> geometry = visual_meshes_.of(shape);
     if (!geometry) geometry = shape.geometry;
@@ -139,7 +139,7 @@ class GltfWriter {
     return indexOf(json::object{{"primitives", primitives}}, meshes_, mesh_index_);
   }
 
-  /// Equal entries are one.
+  /// Index of an entry; equal entries are stored once.
   static int indexOf(json::object entry, json::array& entries, std::map<std::string, int>& index) {
     const auto [known, is_new] = index.emplace(json::serialize(entry), int(entries.size()));
     if (is_new) entries.push_back(std::move(entry));
@@ -190,7 +190,7 @@ class GltfWriter {
     if (!is_new) return known->second;
     views_.push_back(json::object{{"buffer", 0}, {"byteOffset", data_.size()}, {"byteLength", image->bytes.size()}});
     data_ += image->bytes;
-    data_.resize((data_.size() + 3) / 4 * 4);  // what follows begins at a whole word
+    data_.resize((data_.size() + 3) / 4 * 4);  // keeps the next block 4-byte aligned
     images_.push_back(json::object{{"bufferView", views_.size() - 1}, {"mimeType", mediaType(*image)}});
     textures_.push_back(json::object{{"source", images_.size() - 1}});
     return known->second;
@@ -247,7 +247,7 @@ class GltfWriter {
   VisualMeshes visual_meshes_;
   json::array nodes_, meshes_, materials_, textures_, images_, accessors_, views_;
   std::map<std::string, int> mesh_index_, material_index_;
-  std::map<std::string, int> texture_index_;  ///< by the bytes of its file
+  std::map<std::string, int> texture_index_;  ///< by the bytes of the file
   std::map<std::shared_ptr<const Geometry>, MeshData> data_of_;
   std::string data_;  ///< the binary part
 };

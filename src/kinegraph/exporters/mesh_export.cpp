@@ -36,7 +36,7 @@ void addTransformed(const Mesh& part, const RigidTransform& X, const Rgba& color
   for (const auto& [a, b, c] : part.triangles) sum.triangles.push_back({first + a, first + b, first + c});
 }
 
-/// A file name of letters, digits and a few signs.
+/// Replaces characters other than letters, digits, '-' and '.' by '_'.
 std::string fileName(std::string name) {
   for (char& c : name) {
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '-' && c != '.') c = '_';
@@ -48,10 +48,10 @@ void makeFolder(const std::string& prefix) {
   const std::filesystem::path folder = std::filesystem::path(prefix + "x").parent_path();
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);
-  if (error) throw FileError(cat("the folder '", folder.string(), "' cannot be made: ", error.message()));
+  if (error) throw FileError(cat("the folder '", folder.string(), "' cannot be created: ", error.message()));
 }
 
-/// Calls `save(mesh, name)` for each mesh of a scene, once if several frames have it, with a name of its own.
+/// Calls `save(mesh, name)` once for each distinct mesh of a scene, with a unique name.
 template <class Save>
 std::vector<std::string> forEachMesh(const Config& config, const std::string& prefix, bool enumerate,
                                      const char* extension, Save save) {
@@ -127,7 +127,7 @@ std::vector<std::string> saveConvexStls(const Config& config, const std::string&
   return forEachMesh(config, prefix, false, ".stl", [&](const Mesh& mesh, const std::string& path) {
     if (mesh.vertices.size() < 4 || !spanVolume(mesh.vertices)) return false;
     Mesh hull = convexHull(mesh.vertices);
-    if (shrink > 0.) hull = convexHull(drawnIn(hull, shrink));
+    if (shrink > 0.) hull = convexHull(shrunkHull(hull, shrink));
     writeStl(hull, path);
     return true;
   });

@@ -16,10 +16,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kThin = 1e-3;                    // m, half the thickness of a quad that moves
-constexpr std::size_t kMaxStlTriangles = 200000;  // that MuJoCo reads
+constexpr double kThin = 1e-3;                    // m, half the thickness of a moving quad
+constexpr std::size_t kMaxStlTriangles = 200000;  // MuJoCo's limit
 
-/// Can MuJoCo read the file itself? (Of STL it knows the binary kind only.)
+/// Returns whether MuJoCo reads the file itself. STL counts as unreadable because MuJoCo reads only its binary form.
 bool readableByMujoco(const std::string& path) {
   const std::string extension = lowerExtension(path);
   return extension == ".obj" || extension == ".msh";
@@ -28,9 +28,9 @@ bool readableByMujoco(const std::string& path) {
 }  // namespace
 
 std::string mjcfNumbers(const std::vector<double>& numbers) {
-  std::vector<std::string> words;
-  for (const double x : numbers) words.push_back(exact(x));
-  return join(words, " ");
+  std::vector<std::string> texts;
+  for (const double x : numbers) texts.push_back(exact(x));
+  return join(texts, " ");
 }
 
 std::string mjcfVector(const Vector3d& v) { return mjcfNumbers({v[0], v[1], v[2]}); }
@@ -102,7 +102,7 @@ std::string MjcfGeoms::mesh(const FrameData& frame) {
   return cat("type=\"mesh\" mesh=\"", xmlEscaped(name), "\"");
 }
 
-/// The attributes of a <mesh>: a file, or numbers.
+/// The attributes of a <mesh>: a file, or inline numbers.
 std::string MjcfGeoms::meshSource(const FrameData& frame) {
   const Geometry& geometry = *frame.shape->geometry;
   if (!geometry.mesh_file.empty() && readableByMujoco(geometry.mesh_file)) {
@@ -113,8 +113,8 @@ std::string MjcfGeoms::meshSource(const FrameData& frame) {
   const Mesh surface = tessellate(geometry);
   if (surface.triangles.empty() || surface.vertices.size() < 4) {
     if (warnings_) {
-      warnings_->push_back(cat("the ", shapeTypeName(geometry.type), " of frame '", frame.name,
-                               "' is left out: MJCF has nothing like it"));
+      warnings_->push_back(
+          cat("the ", shapeTypeName(geometry.type), " of frame '", frame.name, "' is omitted: MJCF has no such shape"));
     }
     return "";
   }

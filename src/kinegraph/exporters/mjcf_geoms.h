@@ -8,12 +8,12 @@
 
 namespace kinegraph {
 
-/// Writes shapes as the geoms of an MJCF text, and the meshes that they need as its assets.
+/// Writes shapes as geoms of an MJCF text, and their meshes as its assets.
 class MjcfGeoms {
  public:
   MjcfGeoms(const MjcfOptions& options, std::vector<std::string>* warnings) : options_(options), warnings_(warnings) {}
 
-  /// The element for the shape of a frame, which is at `pose` in its body. Empty if there is none for it.
+  /// The element for the shape of a frame at `pose` in its body; empty if MJCF has none.
   std::string geom(const FrameData& frame, const std::string& name, const Pose& pose, bool moves);
 
   const std::string& assets() const { return assets_; }
@@ -25,15 +25,15 @@ class MjcfGeoms {
 
   const MjcfOptions& options_;
   std::vector<std::string>* warnings_;
-  std::map<const Geometry*, std::string> names_;  ///< of the meshes
+  std::map<const Geometry*, std::string> names_;  ///< mesh names by geometry
   std::set<std::string> taken_;
   std::string assets_;
 };
 
-/// ` pos="..." quat="..."`, as far as they differ from the identity.
+/// ` pos="..." quat="..."`, omitting identity parts.
 std::string mjcfPose(const Pose& pose);
 
-/// Numbers with blanks between them, exact.
+/// Exact numbers separated by blanks.
 std::string mjcfNumbers(const std::vector<double>& numbers);
 std::string mjcfVector(const Vector3d& v);
 

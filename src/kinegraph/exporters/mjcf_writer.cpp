@@ -16,8 +16,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr std::size_t kMaxExclusionBodies = 500;  // above, pairs of bodies are too many to look at
-const Quaterniond kHalfTurn(0., 1., 0., 0.);      // about x: between our cameras and MuJoCo's
+constexpr std::size_t kMaxExclusionBodies = 500;  // exclusions are omitted for more bodies: too many pairs
+const Quaterniond kHalfTurn(0., 1., 0., 0.);      // about x: converts between our camera axes and MuJoCo's
 
 bool hasShape(const FrameData& frame) {
   return frame.shape && frame.shape->geometry->type != ShapeType::none &&
@@ -26,28 +26,28 @@ bool hasShape(const FrameData& frame) {
 
 bool isCamera(const FrameData& frame) { return frame.shape && frame.shape->geometry->type == ShapeType::camera; }
 
-/// Does q move it? Joints that are not active stand still, and so do those that mimic them.
+/// Returns whether q moves the frame. Inactive joints and their mimics are fixed.
 bool movedByQ(const FrameData& frame) { return frame.moves() && dofSource(frame).joint->active; }
 
-bool turnsFreely(const Joint& joint) {
+bool rotatesFreely(const Joint& joint) {
   const auto is_quaternion = [](const MotionStep& step) { return step.kind == MotionStep::Kind::quaternion; };
   return std::any_of(joint.steps.begin(), joint.steps.end(), is_quaternion);
 }
 
-/// A body of the MJCF text, for its contacts. 0 is the world.
+/// A body of the MJCF text, for contact exclusions. Body 0 is the world.
 struct Body {
   std::string name;
-  int weld = 0;         ///< the topmost body that it is fixed to
-  int parent_weld = 0;  ///< that of the body that this one hangs on
+  int weld = 0;         ///< the topmost body rigidly connected to it
+  int parent_weld = 0;  ///< the same for its parent body
 };
 
-/// A joint on the way to a body, and the constant part of the pose of what lies before it.
+/// A joint above a body, and the constant transform before it.
 struct ChainJoint {
   const FrameData* frame;
   Pose before;
 };
 
-/// A dof that follows that of another joint, times `factor`; 0: it cannot be said.
+/// A dof that follows a dof of another joint times `factor`; 0: MJCF cannot express the coupling.
 struct Follower {
   const FrameData* frame;
   int dof;
@@ -87,7 +87,7 @@ class MjcfWriter {
     if (warnings_) warnings_->push_back(message);
   }
 
-  /// A name that no other element of that kind has.
+  /// A name unused by other elements of that kind.
   std::string unused(const std::string& kind, const std::string& name) {
     const std::string stem = name.empty() ? kind : name;
     std::string free = stem;
@@ -99,8 +99,8 @@ class MjcfWriter {
     if (!frame.moves()) return;
     const FrameData& source = dofSource(frame);
     warn(&source == &frame
-             ? cat("joint '", frame.name, "' is no part of q (joint_active: false) and is fixed where it is")
-             : cat("joint '", frame.name, "' is fixed, as '", source.name, "' is that it mimics"));
+             ? cat("joint '", frame.name, "' is not in q (joint_active: false) and is fixed at its current value")
+             : cat("joint '", frame.name, "' is fixed because the joint '", source.name, "' it mimics is fixed"));
   }
 
   void line(int depth, const std::string& text) { text_ += std::string(std::size_t(2 * depth), ' ') + text + "\n"; }
@@ -115,20 +115,21 @@ class MjcfWriter {
     }
   }
 
-  /// Nothing but a shape or a place, so that no body is needed for it.
+  /// Returns whether the frame is only a shape or a marker and needs no body.
   bool isLeaf(const FrameData& frame) const {
-    const bool weighs_apart = frame.inertia && !(hasShape(frame) && frame.parent);  // of a shape, the body has the mass
+    const bool weighs_apart =
+        frame.inertia && !(hasShape(frame) && frame.parent);  // the body includes the mass of its shapes
     return frame.children.empty() && !movedByQ(frame) && !weighs_apart && !referred_.contains(&frame);
   }
 
-  /// Is this frame only on the way to its child, which then needs no body above it?
-  bool dissolves(const FrameData& frame) const {
+  /// Returns whether the frame only carries its child, so its joint moves to the child's body.
+  bool mergesIntoChild(const FrameData& frame) const {
     if (frame.children.size() != 1 || hasShape(frame) || isCamera(frame) || frame.inertia || referred_.contains(&frame))
       return false;
     const FrameData& child = *frame.children[0];
     if (!movedByQ(frame)) return movedByQ(child) && !frame.moves() && frame.name == child.name + "_origin";
-    if (!movedByQ(child) && dissolves(child)) return !turnsFreely(*frame.joint);  // an origin
-    return !movedByQ(child) && (!turnsFreely(*frame.joint) || child.relativePose().q.vec().isZero(0.));
+    if (!movedByQ(child) && mergesIntoChild(child)) return !rotatesFreely(*frame.joint);  // an origin
+    return !movedByQ(child) && (!rotatesFreely(*frame.joint) || child.relativePose().q.vec().isZero(0.));
   }
 
   void addBody(const FrameData& top, int parent, bool parent_moves, int depth) {
@@ -142,7 +143,7 @@ class MjcfWriter {
         warnFixed(*frame);
         pose = pose * frame->relativePose();
       }
-      if (!dissolves(*frame)) break;
+      if (!mergesIntoChild(*frame)) break;
     }
     const std::string name = unused("body", frame->name);
     std::string joints;
@@ -170,7 +171,7 @@ class MjcfWriter {
     line(depth, "</body>");
   }
 
-  /// The shape of a body's frame, and all below it.
+  /// Adds the shape of a body's frame, and everything below it.
   void addContent(const FrameData& frame, int body, bool moves, int depth) {
     if (hasShape(frame) || isCamera(frame)) addLeaf(frame, body, Pose(), moves, depth);
     for (const FrameData* child : frame.children) {
@@ -199,7 +200,7 @@ class MjcfWriter {
     }
   }
 
-  /// Degrees.
+  /// Vertical field of view, degrees.
   static double verticalAngle(const FrameData& camera) {
     const auto number = [&](const char* key) {
       const Node* node = camera.attributes->find(key);
@@ -211,7 +212,7 @@ class MjcfWriter {
     return focal > 0. ? 360. / M_PI * std::atan(.5 / focal) : 45.;
   }
 
-  /// The joints of a frame in the body whose pose behind them is `behind`.
+  /// The joints of a frame; `behind` is the pose of the body behind them.
   std::string jointElements(const FrameData& frame, const Pose& behind) {
     const Joint& joint = *frame.joint;
     const Joint& source = *dofSource(frame).joint;
@@ -254,20 +255,20 @@ class MjcfWriter {
     const Joint& joint = *frame.joint;
     if (joint.lower.size() <= dof || !std::isfinite(joint.lower[dof]) || !std::isfinite(joint.upper[dof])) return "";
     if (!(joint.lower[dof] < joint.upper[dof])) {
-      warn(cat("the limits of joint '", frame.name, "' are left out: MJCF wants the upper one above the lower one"));
+      warn(cat("the limits of joint '", frame.name, "' are omitted: MJCF requires upper > lower"));
       return "";
     }
     return cat(" range=\"", exact(unit * joint.lower[dof]), " ", exact(unit * joint.upper[dof]), "\"");
   }
 
-  /// What mimics do. To be called when all joints have names.
+  /// The couplings of mimicking joints. Requires that all joints have names.
   std::string equalities() {
     std::string text;
     for (const Follower& follower : followers_) {
       const FrameData& source = dofSource(*follower.frame);
       const auto leader = joint_names_.find({&source, follower.dof});
       if (follower.factor == 0. || leader == joint_names_.end()) {
-        warn(cat("joint '", follower.frame->name, "' mimics '", source.name, "', which cannot be said here in MJCF"));
+        warn(cat("joint '", follower.frame->name, "' mimics '", source.name, "'; MJCF cannot express this coupling"));
         continue;
       }
       text += cat("    <joint joint1=\"", xmlEscaped(joint_names_.at({follower.frame, follower.dof})), "\" joint2=\"",
@@ -293,13 +294,13 @@ class MjcfWriter {
             ? cat("diaginertia=\"", mjcfVector(Vector3d(m.diagonal())), "\"")
             : cat("fullinertia=\"", mjcfNumbers({m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)}), "\"");
     if (!(Eigen::SelfAdjointEigenSolver<Matrix3d>(m).eigenvalues()[0] > 1e-12)) {
-      warn(cat("the inertia of frame '", frame.name, "' is not positive definite; it is replaced"));
+      warn(cat("the inertia of frame '", frame.name, "' is not positive definite and is replaced"));
       form = "diaginertia=\"1e-6 1e-6 1e-6\"";
     }
     line(depth, cat("<inertial pos=\"", mjcfVector(inertia.com), "\" mass=\"", exact(inertia.mass), "\" ", form, "/>"));
   }
 
-  /// Pairs of bodies that MuJoCo would let collide, and the scene does not.
+  /// Excludes the pairs of bodies that MuJoCo checks but the scene does not.
   std::string excludedPairs() {
     std::set<std::pair<int, int>> collidable;
     std::map<std::pair<int, int>, int> shapes_that_collide;
@@ -309,12 +310,12 @@ class MjcfWriter {
       collidable.insert(pair);
       ++shapes_that_collide[pair];
     }
-    std::map<int, int> shapes;  // by body
+    std::map<int, int> shapes;  // per body
     for (const auto& [frame, body] : body_of_shape_) ++shapes[body];
     std::set<int> with_shapes;
     for (const auto& [frame, body] : body_of_shape_) with_shapes.insert(body);
     if (with_shapes.size() > kMaxExclusionBodies) {
-      warn(cat("pairs of frames that do not collide are left out: there are ", with_shapes.size(),
+      warn(cat("exclusions of collision pairs are omitted: the scene has ", with_shapes.size(),
                " bodies with contacts"));
       return "";
     }
@@ -335,9 +336,9 @@ class MjcfWriter {
       }
     }
     if (!lost.empty())
-      warn(cat("MuJoCo lets no body collide with the one that it hangs on; these pairs are lost: ", joinFirst(lost)));
+      warn(cat("MuJoCo ignores collisions between a body and its parent; lost pairs: ", joinFirst(lost)));
     if (!mixed.empty())
-      warn(cat("MJCF excludes pairs of bodies, not of shapes; all shapes of these may collide there: ",
+      warn(cat("MJCF excludes pairs of bodies, not of shapes; all shapes of these bodies may collide: ",
                joinFirst(mixed)));
     return text;
   }
@@ -350,9 +351,9 @@ class MjcfWriter {
   std::vector<Follower> followers_;
   std::vector<double> qpos_;
   std::vector<Body> bodies_;
-  std::map<int, int> body_of_shape_;  ///< bodies by the ids of frames with contacts
+  std::map<int, int> body_of_shape_;  ///< bodies by ids of frames with contacts
   std::set<const FrameData*> referred_;
-  std::map<std::string, std::set<std::string>> names_;                   ///< taken, by kind
+  std::map<std::string, std::set<std::string>> names_;                   ///< used names, by kind
   std::map<std::pair<const FrameData*, int>, std::string> joint_names_;  ///< by frame and dof
 };
 

@@ -30,12 +30,12 @@ std::string saveUrdf(const Config& config, const std::string& path, std::vector<
   const std::string semantics = writeSrdf(config, options, warnings);
   std::vector<std::string> of_text;
   const std::string text = writeUrdf(config, options, &of_text);
-  if (!semantics.empty()) of_text.pop_back();  // that the text alone does not hold what the file beside it does
+  if (!semantics.empty()) of_text.pop_back();  // the SRDF file settles the last warning
   if (warnings) warnings->insert(warnings->end(), of_text.begin(), of_text.end());
   writeText(text, path);
   const std::string beside = fs::path(path).replace_extension(".srdf").string();
   std::error_code ignored;
-  fs::remove(beside, ignored);  // what an earlier scene of that name had to say
+  fs::remove(beside, ignored);  // removes the semantics of an earlier scene of that name
   if (!semantics.empty()) writeText(semantics, beside);
   return text;
 }

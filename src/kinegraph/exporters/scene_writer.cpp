@@ -16,7 +16,7 @@ namespace {
 /// Names of frames in a text, by frame.
 using Names = std::map<const FrameData*, std::string>;
 
-/// The first frame of each shape that several frames share.
+/// The first frame of each shared shape.
 using ShapeOwners = std::map<const Shape*, const FrameData*>;
 
 /// Builds the attributes of one frame.
@@ -113,7 +113,7 @@ class FrameDescription {
     addPoseNumbers("visual_pose", shape.visual_pose);
   }
 
-  /// Of meshes without a file, too, as long as one picture that has a file covers all of it.
+  /// Also for meshes without a file, if a single picture with a file covers the whole mesh.
   void addTexture(const Shape& shape) {
     const Mesh* mesh = shape.geometry->mesh.get();
     std::shared_ptr<const Image> image = shape.texture;
@@ -134,7 +134,7 @@ class FrameDescription {
     if (!names.empty()) add("contact_exclude", std::move(names));
   }
 
-  /// The path as the scene gave it if that is independent of the scene's own place, else the absolute path.
+  /// The original path if it does not depend on the scene's folder, else the absolute path.
   AngleText fileReference(const char* key, const std::string& path) const {
     const Node* node = frame_.attributes->find(key);
     const AngleText* given = node ? node->value.as<AngleText>() : nullptr;
@@ -252,7 +252,7 @@ ShapeOwners sharedShapes(const SceneTree& scene) {
   return shared;
 }
 
-/// The frames that others refer to by name.
+/// Frames referred to by name.
 std::set<const FrameData*> referredTo(const SceneTree& scene, const ShapeOwners& owners) {
   std::set<const FrameData*> frames;
   for (const auto& frame : scene.frames()) {
@@ -264,7 +264,7 @@ std::set<const FrameData*> referredTo(const SceneTree& scene, const ShapeOwners&
   return frames;
 }
 
-/// `name`, or the nearest that a text can hold.
+/// `name`, or the closest name that a text can contain.
 std::string expressible(std::string name, NameRule rule) {
   static const std::set<std::string> keywords = {"Include", "Prefix", "Edit",  "Delete", "DeleteBranch",
                                                  "ChDir",   "Quit",   "shape", "joint"};
@@ -296,7 +296,7 @@ Names namesFor(const SceneTree& scene, const ShapeOwners& owners, NameRule rule,
   if (warnings && !renamed.empty()) {
     const std::size_t rest = renamed.size() - std::min<std::size_t>(renamed.size(), 5);
     renamed.resize(renamed.size() - rest);
-    warnings->push_back(cat("names that are taken or that a text cannot hold are changed: ", join(renamed),
+    warnings->push_back(cat("names that are duplicate or not expressible in the text are changed: ", join(renamed),
                             rest > 0 ? cat(" and ", rest, " more") : ""));
   }
   return names;

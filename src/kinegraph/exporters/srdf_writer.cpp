@@ -11,16 +11,16 @@ namespace kinegraph {
 
 namespace {
 
-constexpr std::size_t kMaxLinks = 1000;  // above, pairs of links are too many to list
+constexpr std::size_t kMaxLinks = 1000;  // pairs are omitted for more links: too many to list
 
 using LinkPair = std::pair<std::string, std::string>;
 
 LinkPair ordered(const std::string& a, const std::string& b) { return a < b ? LinkPair(a, b) : LinkPair(b, a); }
 
-/// Pairs of links by whether their shapes may collide.
+/// Pairs of links, by whether their shapes may collide.
 struct LinkPairs {
-  std::set<LinkPair> collide, spare;  ///< a pair in both has shapes of either kind
-  bool as_by_default = true;          ///< the rule for URDF files without SRDF gives the same
+  std::set<LinkPair> collide, spare;  ///< a pair in both sets has shapes of either kind
+  bool as_by_default = true;          ///< equal to the rule for URDF files without SRDF
 };
 
 LinkPairs linkPairs(const Config& config, const UrdfNames& names) {
@@ -58,12 +58,12 @@ std::string disabledPairs(const LinkPairs& pairs, const UrdfNames& names, std::v
                 hangsOn(a, b) || hangsOn(b, a) ? "Adjacent" : "Never", "\"/>\n");
   }
   if (warnings && !mixed.empty())
-    warnings->push_back(cat("SRDF speaks of links, not of their shapes; all shapes of these links may collide there: ",
-                            joinFirst(mixed)));
+    warnings->push_back(
+        cat("SRDF lists pairs of links, not of shapes; all shapes of these links may collide: ", joinFirst(mixed)));
   return text;
 }
 
-/// That links do collide has to be said only where no pair is disabled: then it is what turns off other rules.
+/// Colliding pairs are listed only if no pair is disabled: an entry replaces the default rules.
 std::string enabledPairs(const LinkPairs& pairs) {
   std::string text;
   for (const auto& [a, b] : pairs.collide)
@@ -87,11 +87,11 @@ std::string groups(const Config& config, const UrdfNames& names) {
 std::string valueText(const Value& value) {
   if (const double* number = value.as<double>()) return exact(*number);
   const NumberArray* array = value.as<NumberArray>();
-  std::vector<std::string> words;
-  for (const double number : array ? array->numbers : std::vector<double>()) words.push_back(exact(number));
-  if (words.size() == 7)
-    std::rotate(words.begin() + 3, words.begin() + 4, words.end());  // a free joint: x y z qx qy qz qw
-  return join(words, " ");
+  std::vector<std::string> texts;
+  for (const double number : array ? array->numbers : std::vector<double>()) texts.push_back(exact(number));
+  if (texts.size() == 7)
+    std::rotate(texts.begin() + 3, texts.begin() + 4, texts.end());  // a free joint: x y z qx qy qz qw
+  return join(texts, " ");
 }
 
 std::string states(const Config& config, const UrdfNames& names) {
@@ -129,7 +129,7 @@ std::string srdfText(const Config& config, const std::string& robot_name, const 
   std::string text = groups(config, names) + states(config, names);
   if (names.link_of_shape.size() > kMaxLinks) {
     if (warnings)
-      warnings->push_back(cat("pairs of links that do not collide are left out: there are ", names.link_of_shape.size(),
+      warnings->push_back(cat("disabled collision pairs are omitted: the scene has ", names.link_of_shape.size(),
                               " shapes with contacts"));
   } else if (const LinkPairs pairs = linkPairs(config, names); !pairs.as_by_default) {
     const std::string disabled = disabledPairs(pairs, names, warnings);
@@ -140,9 +140,9 @@ std::string srdfText(const Config& config, const std::string& robot_name, const 
              : cat("<?xml version=\"1.0\"?>\n<robot name=\"", xmlEscaped(robot_name), "\">\n", text, "</robot>\n");
 }
 
-std::string joinFirst(const std::vector<std::string>& words, std::size_t count) {
-  if (words.size() <= count) return join(words);
-  return cat(join({words.begin(), words.begin() + long(count)}), " and ", words.size() - count, " more");
+std::string joinFirst(const std::vector<std::string>& items, std::size_t count) {
+  if (items.size() <= count) return join(items);
+  return cat(join({items.begin(), items.begin() + long(count)}), " and ", items.size() - count, " more");
 }
 
 }  // namespace kinegraph

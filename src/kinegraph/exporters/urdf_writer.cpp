@@ -19,14 +19,14 @@ namespace kinegraph {
 namespace {
 
 std::string numbers(std::initializer_list<double> values) {
-  std::vector<std::string> words;
-  for (const double x : values) words.push_back(exact(x));
-  return join(words, " ");
+  std::vector<std::string> texts;
+  for (const double x : values) texts.push_back(exact(x));
+  return join(texts, " ");
 }
 
 std::string numbers(const Vector3d& v) { return numbers({v[0], v[1], v[2]}); }
 
-/// The rotation as R_z(yaw) R_y(pitch) R_x(roll). Exact at a pitch of 90 degrees as well.
+/// Decomposes a rotation as R_z(yaw) R_y(pitch) R_x(roll). Exact at a pitch of 90 degrees, too.
 Vector3d rollPitchYaw(const Matrix3d& R) {
   const double yaw = std::hypot(R(0, 0), R(1, 0)) < 1e-14 ? 0. : std::atan2(R(1, 0), R(0, 0));
   const Matrix3d rest = axisRotation(2, -yaw) * R;
@@ -45,7 +45,7 @@ bool isVisible(const FrameData& frame) {
 
 bool isBare(const FrameData& frame) { return !isVisible(frame) && !frame.inertia; }
 
-/// Is this one of the frames <link>_0, <link>_1, ... that hold the shapes of a link?
+/// Returns whether this is one of the frames <link>_0, <link>_1, ... with the shapes of a link.
 bool isShapeOfLink(const FrameData& frame) {
   if (!frame.parent || frame.joint || frame.inertia || !frame.children.empty() || !isVisible(frame)) return false;
   const std::string stem = frame.parent->name + "_";
@@ -58,7 +58,7 @@ bool isOriginOfJoint(const FrameData& frame) {
          frame.name == frame.children[0]->name + "_origin";
 }
 
-/// Does q move it? Joints that are not active stand still, and so do those that mimic them.
+/// Returns whether q moves the frame. Inactive joints and their mimics are fixed.
 bool isFree(const FrameData& frame) { return frame.moves() && dofSource(frame).joint->active; }
 
 /// The child that is the link of this frame's joint, or null.
@@ -74,7 +74,7 @@ const FrameData* linkOfJoint(const FrameData& frame) {
 struct JointElement {
   std::string name, type, parent, child;
   Pose origin;
-  Vector3d axis = Vector3d::Zero();  ///< zero: none is written
+  Vector3d axis = Vector3d::Zero();  ///< zero: not written
   double lower = -kUrdfUnlimited, upper = kUrdfUnlimited, effort = 0., velocity = 0.;
   std::string mimic;
   double multiplier = 1.;
@@ -98,12 +98,12 @@ class UrdfWriter {
       text_ += cat("  <link name=\"", xmlEscaped(world), "\"/>\n");
       for (const FrameData* root : roots) addFixed(*root, world, root->pose);
     }
-    warnOfLosses();
+    reportLosses();
     return cat("<?xml version=\"1.0\"?>\n<robot name=\"", xmlEscaped(options_.robot_name), "\">\n", text_,
                "</robot>\n");
   }
 
-  /// What the text calls what frames are.
+  /// Names of frames in the text.
   const UrdfNames& names() const { return names_; }
 
  private:
@@ -111,12 +111,12 @@ class UrdfWriter {
     if (warnings_) warnings_->push_back(message);
   }
 
-  void warnOfLosses() {
-    const auto tell = [&](const std::vector<std::string>& frames, const char* what) {
+  void reportLosses() {
+    const auto report = [&](const std::vector<std::string>& frames, const char* what) {
       if (!frames.empty()) warn(cat(what, ": ", joinFirst(frames)));
     };
-    tell(rounded_, "URDF has no rounded boxes and cylinders; these frames lose their rounding");
-    tell(moved_, "URDF has no joint state; these joints are not at q = 0, where a reader puts them");
+    report(rounded_, "URDF has no rounded boxes and cylinders; frames without their rounding");
+    report(moved_, "URDF has no joint state and readers start at q = 0; joints at other values");
   }
 
   static std::string unused(std::set<std::string>& taken, std::string name) {
@@ -127,22 +127,22 @@ class UrdfWriter {
   std::string linkName(const std::string& name) { return unused(links_, name); }
   std::string jointName(const std::string& name) { return unused(joints_, name); }
 
-  /// A name for a link that is no frame's.
+  /// A link name that no frame has.
   std::string newLinkName(std::string name) {
     while (reserved_.contains(name)) name += "_";
     return linkName(std::move(name));
   }
 
-  /// The link of a frame, with the shapes that belong to it, and all that hangs on it.
+  /// Adds the link of a frame with its shapes, and everything below it.
   void addFrames(const FrameData& frame, const std::string& link) {
     std::string inside;
-    noteContact(frame, link);
+    addContact(frame, link);
     if (frame.inertia) inside += inertial(*frame.inertia);
     if (isVisible(frame)) inside += shape(frame, Pose());
     for (const FrameData* child : frame.children) {
       if (!isShapeOfLink(*child)) continue;
       inside += shape(*child, child->pose);
-      noteContact(*child, link);
+      addContact(*child, link);
     }
     text_ += inside.empty() ? cat("  <link name=\"", xmlEscaped(link), "\"/>\n")
                             : cat("  <link name=\"", xmlEscaped(link), "\">\n", inside, "  </link>\n");
@@ -151,7 +151,7 @@ class UrdfWriter {
     }
   }
 
-  void noteContact(const FrameData& frame, const std::string& link) {
+  void addContact(const FrameData& frame, const std::string& link) {
     if (isVisible(frame) && frame.shape->contact != 0) names_.link_of_shape[frame.id] = link;
   }
 
@@ -170,10 +170,10 @@ class UrdfWriter {
   void warnFixed(const FrameData& frame) {
     const FrameData& source = dofSource(frame);
     if (&source != &frame)
-      return warn(cat("joint '", frame.name, "' is fixed, as '", source.name, "' is that it mimics"));
+      return warn(cat("joint '", frame.name, "' is fixed because the joint '", source.name, "' it mimics is fixed"));
     std::vector<std::string> q;
     for (const double value : source.joint->q) q.push_back(exact(value));
-    warn(cat("joint '", frame.name, "' is no part of q (joint_active: false) and is fixed at q = ", join(q, " ")));
+    warn(cat("joint '", frame.name, "' is not in q (joint_active: false) and is fixed at q = ", join(q, " ")));
   }
 
   void addFixed(const FrameData& frame, const std::string& parent, const Pose& origin) {
@@ -199,7 +199,7 @@ class UrdfWriter {
       joint.parent = i == 0 ? parent : chain[i - 1].child;
       if (i == 0) joint.origin = origin;
       joint.child = i + 1 == chain.size() ? link : newLinkName(cat(joint.name, "_link"));
-      if (behind && !behind->pose.isIdentity(0.)) {  // the link is turned against the joint frame: turn both
+      if (behind && !behind->pose.isIdentity(0.)) {  // the link is rotated against the joint frame: rotate both
         joint.origin = joint.origin * behind->pose;
         joint.axis = behind->pose.q.conjugate() * joint.axis;
       }
@@ -210,7 +210,7 @@ class UrdfWriter {
     addFrames(behind ? *behind : frame, link);
   }
 
-  /// The joints that make up the motion of a frame, without names and places.
+  /// The URDF joints that compose the motion of a frame, without names and origins.
   std::vector<JointElement> jointsOf(const FrameData& frame) {
     const Joint& joint = *frame.joint;
     std::vector<JointElement> chain;
@@ -220,7 +220,7 @@ class UrdfWriter {
       if (element.type == "planar") element.axis = Vector3d::UnitZ();
       if (joint.mimic)
         warn(cat("joint '", frame.name, "' of type ", jointTypeName(joint.type),
-                 " mimics another, which URDF has no way to say"));
+                 " mimics another; URDF cannot express that"));
       return {element};
     }
     int dof = 0;
@@ -236,7 +236,7 @@ class UrdfWriter {
       }
       dof += step.dofs();
     }
-    if (chain.empty()) {  // time only
+    if (chain.empty()) {  // only a time joint
       chain.emplace_back();
       chain.back().type = "fixed";
     }
@@ -367,8 +367,8 @@ class UrdfWriter {
     }
     const Mesh mesh = tessellate(geometry);
     if (mesh.triangles.empty() || options_.mesh_folder.empty()) {
-      warn(cat("the ", shapeTypeName(geometry.type), " of frame '", frame.name, "' is left out: URDF has ",
-               mesh.triangles.empty() ? "nothing like it" : "it only as a mesh file, and no folder is given for that"));
+      warn(cat("the ", shapeTypeName(geometry.type), " of frame '", frame.name, "' is omitted: URDF ",
+               mesh.triangles.empty() ? "has no such shape" : "needs a mesh file; pass mesh_folder"));
       return {};
     }
     std::filesystem::create_directories(options_.mesh_folder);
@@ -384,7 +384,7 @@ class UrdfWriter {
   std::set<std::string> reserved_;  ///< names of frames
   std::set<std::string> links_, joints_;
   UrdfNames names_;
-  std::vector<std::string> rounded_, moved_;  ///< frames and joints that URDF cannot say all of
+  std::vector<std::string> rounded_, moved_;  ///< frames and joints that lose their rounding or position
 };
 
 }  // namespace
@@ -394,8 +394,8 @@ std::string writeUrdf(const Config& config, const UrdfOptions& options, std::vec
   std::string text = writer.write();
   if (warnings && !srdfText(config, options.robot_name, writer.names(), nullptr).empty())
     warnings->push_back(
-        "which links do not collide, groups of joints or named states are not in the text: URDF has no words for them; "
-        "saved as a file, it gets an SRDF file beside it that says so");
+        "the text lacks disabled collision pairs, joint groups or named states: URDF has no elements for them; "
+        "saving to a file also writes them to an SRDF file beside it");
   return text;
 }
 

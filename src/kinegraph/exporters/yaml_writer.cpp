@@ -10,11 +10,11 @@ namespace kinegraph {
 
 namespace {
 
-/// Values in YAML's flow style, as far as the .g language reads the same from it.
+/// Writes values in YAML's flow style that the .g language reads identically.
 struct YamlWriter {
   std::string operator()(bool b) const { return b ? "true" : "false"; }
 
-  /// With a point, and so a floating-point number to YAML 1.1 as well.
+  /// With a decimal point: YAML 1.1 needs one for a floating-point number.
   std::string operator()(double x) const {
     if (std::isnan(x)) return "+nan";
     if (std::isinf(x)) return x > 0 ? "+inf" : "-inf";
@@ -65,7 +65,7 @@ struct YamlWriter {
     return is_plain ? node.key : cat('"', node.key, '"');
   }
 
-  /// Neither language's escapes are the other's, so the text must do without.
+  /// The escapes of YAML and .g differ, so the text uses none.
   static std::string quoted(const std::string& s) {
     const bool has_single = s.find('\'') != std::string::npos;
     const bool needs_single = s.find_first_of("\"\\") != std::string::npos;

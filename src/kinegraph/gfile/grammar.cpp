@@ -10,8 +10,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kMaxDepth = 200;   // of nested braces, brackets and blocks
-constexpr int kMaxErrors = 100;  // of one text
+constexpr int kMaxDepth = 200;   // nesting of braces, brackets and blocks
+constexpr int kMaxErrors = 100;  // per text
 
 using Data = decltype(Value::data);
 
@@ -76,11 +76,11 @@ void Grammar::report(Diagnostic::Severity severity, std::size_t at, std::string 
   errors_ += severity == Diagnostic::Severity::error;
 }
 
-bool Grammar::hopeless() const { return errors_ >= kMaxErrors; }
+bool Grammar::tooManyErrors() const { return errors_ >= kMaxErrors; }
 
-/// Goes on behind the line of an error, or behind the braces that open on it, unless those are never closed.
+/// Continues after the line of an error, or after the braces that it opens, unless they are never closed.
 void Grammar::recover(std::size_t from) {
-  at_ = hopeless() ? text_.size() : std::max(at_, from);
+  at_ = tooManyErrors() ? text_.size() : std::max(at_, from);
   const std::size_t line_end = std::min(text_.find('\n', at_), text_.size());
   int open = 0;
   std::size_t at = at_;
@@ -92,13 +92,13 @@ void Grammar::recover(std::size_t from) {
   if (peek() == '\n') ++at_;
 }
 
-/// Entries up to the closing brace that belongs to `opened_at`, or to the end of the text.
+/// Parses entries up to the closing brace of `opened_at`, or to the end of the text.
 void Grammar::parseEntries(Graph& graph, std::size_t opened_at) {
   for (;;) {
     skipSeparators();
     if (atEnd()) {
-      if (opened_at != kNoBrace && !hopeless()) {
-        report(Diagnostic::Severity::warning, opened_at, "this '{' is never closed; it is taken to end with the file");
+      if (opened_at != kNoBrace && !tooManyErrors()) {
+        report(Diagnostic::Severity::warning, opened_at, "this '{' is never closed; the end of the file closes it");
       }
       return;
     }
@@ -110,11 +110,11 @@ void Grammar::parseEntries(Graph& graph, std::size_t opened_at) {
   }
 }
 
-/// One entry; a mistake in it is reported.
+/// Parses one entry and reports an error in it.
 void Grammar::parseEntryInto(Graph& graph) {
   const std::size_t start = at_;
   if (peek() == '}') {
-    report(Diagnostic::Severity::error, at_++, "this '}' closes nothing; is there one too many before it?");
+    report(Diagnostic::Severity::error, at_++, "this '}' closes nothing; is an earlier '}' superfluous?");
     return;
   }
   try {
@@ -135,7 +135,7 @@ Node Grammar::parseEntry() {
   skipBlanks();
   if (peek() == '(') node.parents = parseNames();
   skipBlanks();
-  bool marked = false;  // by : or =
+  bool marked = false;  // has a : or =
   std::size_t indent = 0;
   if (peek() == ':' || peek() == '=') {
     marked = true;
@@ -158,22 +158,22 @@ Node Grammar::parseEntry() {
   } else if (!marked && !node.key.empty() &&
              (std::isdigit(static_cast<unsigned char>(node.key[0])) || node.key[0] == '.')) {
     report(Diagnostic::Severity::warning, start,
-           cat("'", node.key,
-               "' stands alone and is taken as a flag of that name; numbers that belong together stand in [ ]"));
+           cat("'", node.key, "' has no key and is read as a flag of that name; write a list of numbers in [ ]"));
   }
   if (negated) node.value.data = false;
   splitHead(node);
   return node;
 }
 
-/// A value stands on the line of its key; but as no entry can start with '[', an array may also follow on the next.
+/// A value follows its key on the same line; an array may also start on the next line because no entry starts with
+/// '['.
 void Grammar::skipToWrappedArray() {
   std::size_t next = at_;
   while (next < text_.size() && isSpace(text_[next])) ++next;
   if (next < text_.size() && text_[next] == '[') at_ = next;
 }
 
-/// Outside of braces a flag means nothing, so that a '{' below a head is its value.
+/// Outside of braces a flag has no meaning, so a '{' on the next line is the value of this key.
 void Grammar::skipToBraceOfHead() {
   std::size_t next = at_;
   while (next < text_.size() && isSpace(text_[next])) ++next;
@@ -190,7 +190,7 @@ std::string Grammar::parseKey() {
   return std::string(text_.substr(start, end - start));
 }
 
-/// Of a graph: the words before the last of its key are tags, and a quoted key may hold the parents, as in "a(b)": {}.
+/// For a graph: words before the last one of the key are tags, and a quoted key may contain the parents: "a(b)": {}.
 void Grammar::splitHead(Node& node) const {
   if (!node.value.as<Graph>()) return;
   const std::size_t open = node.key.find('(');
@@ -239,7 +239,7 @@ Value Grammar::parseValue() {
     static constexpr CharSet kEnds(" \t\r\n,;}");
     value.data = interpretWord(parseWord(kEnds));
   } else {
-    fail(at_, cat("'", c, "' cannot start a value; expected a number, a word, \"text\", [array], {graph} or <file>"));
+    fail(at_, cat("'", c, "' cannot start a value; expected a number, a name, \"text\", [array], {graph} or <file>"));
   }
   return value;
 }

@@ -8,8 +8,8 @@
 
 namespace kinegraph {
 
-/// Recursive descent through the .g language and block-style YAML. Braces and indentation may be mixed: an entry whose
-/// `key:` ends its line is followed by a block if the next line is indented deeper than the key.
+/// Recursive-descent parser of the .g language and block-style YAML. Braces and indentation may be mixed: a `key:` at
+/// the end of its line opens a block if the next line is indented deeper than the key.
 class Grammar : private Scanner {
  public:
   Grammar(std::string_view text, const std::string& file);
@@ -18,7 +18,7 @@ class Grammar : private Scanner {
  private:
   static constexpr std::size_t kNoBrace = std::size_t(-1);
 
-  /// Counts the depth of nesting while it lives, also when left by a Failure.
+  /// Counts the nesting depth; restores it on destruction, also after a Failure.
   class Level {
    public:
     explicit Level(Grammar& grammar, bool braced = true);
@@ -30,7 +30,7 @@ class Grammar : private Scanner {
   };
 
   void report(Diagnostic::Severity severity, std::size_t at, std::string message);
-  bool hopeless() const;  ///< so many errors that going on helps nobody
+  bool tooManyErrors() const;  ///< too many errors to continue
   void recover(std::size_t from);
 
   // grammar.cpp
@@ -55,10 +55,10 @@ class Grammar : private Scanner {
   void parseBlockEntries(Graph& graph, std::size_t indent);
   Value parseSequence(std::size_t indent);
   bool startsItem() const;  ///< "- " of a YAML sequence
-  Value parseScalar();      ///< a value that may be followed by more words on its line, where the file is YAML
+  Value parseScalar();      ///< a value; in YAML files, more words on its line may follow
   bool skipDocumentMark();
 
-  bool yaml_;  ///< by the name of the file
+  bool yaml_;  ///< from the file name
   int depth_ = 0, braces_ = 0, errors_ = 0;
   ParseResult result_;
 };

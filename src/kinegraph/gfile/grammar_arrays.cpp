@@ -6,10 +6,10 @@
 
 namespace kinegraph {
 
-/// What has been read of an array: its elements as numbers, as words, and as they are.
+/// The elements read from an array: as numbers, as strings, and as values.
 struct Grammar::ArrayParts {
   NumberArray numbers;
-  StringArray words;
+  StringArray strings;
   ValueList list;
   std::size_t row_length = 0, row_start = 0;
   bool nested = false;
@@ -18,8 +18,8 @@ struct Grammar::ArrayParts {
     Value value;
     if (nested) {
       value.data = std::move(list);
-    } else if (!words.empty()) {
-      value.data = std::move(words);
+    } else if (!strings.empty()) {
+      value.data = std::move(strings);
     } else {
       if (row_length > 0) numbers.rows = int(numbers.numbers.size() / row_length);
       value.data = std::move(numbers);
@@ -33,7 +33,7 @@ Value Grammar::parseArray() {
   const std::size_t opened_at = at_++;
   ArrayParts parts;
   skipInArray();
-  if (peek() == '<') parseAngle();  // a type and dimensions, as exporters write: the numbers speak for themselves
+  if (peek() == '<') parseAngle();  // a type and dimensions, as exporters write; redundant
   for (;;) {
     skipInArray();
     if (atEnd()) fail(opened_at, "this '[' is never closed");
@@ -47,9 +47,9 @@ Value Grammar::parseArray() {
     Value element = parseElement(parts);
     if (const std::string* word = element.as<std::string>()) {
       if (!parts.numbers.numbers.empty() && !parts.nested) fail(start, cat("'", *word, "' in an array of numbers"));
-      parts.words.push_back(*word);
+      parts.strings.push_back(*word);
     } else if (const double* number = element.as<double>()) {
-      if (!parts.words.empty() && !parts.nested) fail(start, "a number in an array of words");
+      if (!parts.strings.empty() && !parts.nested) fail(start, "a number in an array of strings");
       parts.numbers.numbers.push_back(*number);
     } else {
       parts.nested = true;
@@ -73,7 +73,7 @@ Value Grammar::parseElement(ArrayParts& parts) {
   const std::size_t start = at_;
   Value element;
   element.where = position(at_);
-  const bool textual = !parts.words.empty();
+  const bool textual = !parts.strings.empty();
   if (c == '[' || c == '{') {
     element.data = parseValue().data;
   } else if (c == '"' || c == '\'') {
@@ -93,7 +93,7 @@ Value Grammar::parseElement(ArrayParts& parts) {
       element.data = word;
     }
   } else {
-    fail(start, cat("'", c, "' in an array; expected numbers or words up to ']'"));
+    fail(start, cat("'", c, "' in an array; expected numbers or strings up to ']'"));
   }
   return element;
 }

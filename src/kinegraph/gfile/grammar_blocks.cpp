@@ -5,8 +5,9 @@
 
 namespace kinegraph {
 
-/// Behind `key:` of the entry at `key_at`: is the rest of its line empty and the next line that says something indented
-/// deeper? Only for keys that start their line, outside of braces.
+/// After `key:` at `key_at`: returns whether the rest of its line is empty and the next nonempty line is indented
+/// deeper.
+/// Only for keys at the start of their line, outside of braces.
 bool Grammar::blockFollows(std::size_t key_at, std::size_t& indent) {
   std::size_t key_indent = 0, next = at_;
   if (braces_ > 0 || (!atEnd() && !isOneOf(peek(), "\n#"))) return false;
@@ -20,7 +21,7 @@ bool Grammar::blockFollows(std::size_t key_at, std::size_t& indent) {
   }
   if (next >= text_.size() || !startsLine(next, indent)) return false;
   const bool item_below_key =
-      indent == key_indent && text_.substr(next, 2) == "- ";  // YAML lets "- " stand below its key
+      indent == key_indent && text_.substr(next, 2) == "- ";  // YAML allows "- " at the indentation of its key
   if (indent <= key_indent && !item_below_key) return false;
   at_ = next;
   return true;
@@ -38,7 +39,7 @@ Value Grammar::parseBlock(std::size_t indent) {
   return value;
 }
 
-/// Entries down to the first line that is indented less.
+/// Parses entries down to the first line with less indentation.
 void Grammar::parseBlockEntries(Graph& graph, std::size_t indent) {
   for (;;) {
     skipSeparators();
@@ -54,7 +55,7 @@ Value Grammar::parseSequence(std::size_t indent) {
   Value value;
   value.where = position(at_);
   NumberArray numbers;
-  StringArray words;
+  StringArray strings;
   ValueList list;
   for (;;) {
     skipSeparators();
@@ -64,15 +65,16 @@ Value Grammar::parseSequence(std::size_t indent) {
     skipBlanks();
     Value item = parseScalar();
     if (const double* number = item.as<double>()) numbers.numbers.push_back(*number);
-    if (const std::string* word = item.as<std::string>()) words.push_back(*word);
+    if (const std::string* word = item.as<std::string>()) strings.push_back(*word);
     list.push_back(std::move(item));
     skipBlanks();
-    if (!atEnd() && !isOneOf(peek(), "\n,#")) fail(at_, "an item of a sequence is one number, word or [array]");
+    if (!atEnd() && !isOneOf(peek(), "\n,#"))
+      fail(at_, "expected one number, string or [array] per item of a sequence");
   }
   if (numbers.numbers.size() == list.size()) {
     value.data = std::move(numbers);
-  } else if (words.size() == list.size()) {
-    value.data = std::move(words);
+  } else if (strings.size() == list.size()) {
+    value.data = std::move(strings);
   } else {
     value.data = std::move(list);
   }
@@ -83,7 +85,7 @@ Value Grammar::parseScalar() {
   if (!yaml_ || !(startsWord(peek()) || startsNumber(peek()))) return parseValue();
   static constexpr CharSet kFlow(",;:{}[]\n");
   const std::size_t start = at_;
-  std::size_t end = start;  // of the scalar, or where flow style begins
+  std::size_t end = start;  // end of the scalar, or start of flow style
   while (end < text_.size() && !kFlow[text_[end]] && text_.substr(end, 2) != " #") ++end;
   std::size_t rest = end;  // commas may end a line
   while (rest < text_.size() && (isBlank(text_[rest]) || text_[rest] == ',')) ++rest;
@@ -106,7 +108,7 @@ Value Grammar::parseScalar() {
   return value;
 }
 
-/// A line "---" or "..." between YAML documents.
+/// Skips a line "---" or "..." between YAML documents.
 bool Grammar::skipDocumentMark() {
   std::size_t indent = 0;
   const std::string_view mark = text_.substr(at_, 3);

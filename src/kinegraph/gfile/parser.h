@@ -8,7 +8,7 @@
 
 namespace kinegraph {
 
-/// Something that the parser has to say about a text. `message` is without the place.
+/// An error or warning about a text. `message` excludes the position.
 struct Diagnostic {
   enum class Severity { warning, error };
   Severity severity;
@@ -16,22 +16,22 @@ struct Diagnostic {
   std::string message;
 };
 
-/// A text that was read, and the file that it was read from.
+/// A text and the file that contains it.
 struct SourceText {
   std::string file, text;
 };
 
 struct ParseResult {
   Graph graph;
-  std::vector<Diagnostic> diagnostics = {};  ///< in the order of the text
-  std::vector<SourceText> included = {};     ///< further files that were read: none in the .g language
+  std::vector<Diagnostic> diagnostics = {};  ///< in text order
+  std::vector<SourceText> included = {};     ///< further files read: none in the .g language
 };
 
-/// Parses text of the .g language, all dialects of its grammar. Goes on behind an error, so that all are reported.
+/// Parses a text of the .g language in all dialects of its grammar. Continues after errors, to report all of them.
 ParseResult parseAll(std::string_view text, const std::string& file);
 
-/// The same; throws ParseError with all errors (each with its line and a caret) if there are any.
-/// Warnings are appended to `warnings` where given, each with its place.
+/// Parses a text. Throws ParseError with all errors, each with its line and a caret. Appends warnings with their
+/// positions to `warnings`, if given.
 Graph parse(std::string_view text, const std::string& file, std::vector<std::string>* warnings = nullptr);
 
 /// The line of `text` at `where`, and a caret below the column:

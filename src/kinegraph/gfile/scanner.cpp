@@ -15,11 +15,10 @@ bool startsWord(char c) {
 Scanner::Scanner(std::string_view text, const std::string& file) : text_(text), file_(file) {
   line_starts_.push_back(0);
   for (std::size_t end = 0; (end = text.find('\n', end)) != std::string_view::npos;) line_starts_.push_back(++end);
-  if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // a byte-order mark
+  if (text_.starts_with("\xEF\xBB\xBF")) at_ = 3;  // byte-order mark
 }
 
-/// Reading goes on from line to line, so that the line of a place is nearly always the one of the last place or the
-/// next.
+/// Reading proceeds line by line, so the line of a position is usually that of the previous query or the next.
 std::size_t Scanner::lineOf(std::size_t at) const {
   std::size_t line = last_line_;
   const auto startOf = [&](std::size_t i) { return i < line_starts_.size() ? line_starts_[i] : text_.size() + 1; };
@@ -104,16 +103,16 @@ double Scanner::parseNumber(const CharSet& stop) {
   if (error == std::errc::invalid_argument || !complete) {
     const std::string word = parseWord(stop);
     const char* hint = "";
-    if (word.find_first_of("})") != std::string::npos) hint = "; is there a ']' missing?";
+    if (word.find_first_of("})") != std::string::npos) hint = "; is a ']' missing?";
     const std::string_view unit =
         std::string_view(word).substr(std::min<std::size_t>(word.size(), std::size_t(end - text_.data()) - start));
     static constexpr std::string_view kUnits[] = {"m", "cm", "mm", "kg", "g", "s", "ms", "deg", "rad"};
     if (std::find(std::begin(kUnits), std::end(kUnits), unit) != std::end(kUnits))
-      hint = "; numbers have no unit behind them: m, kg, s and rad are meant";
+      hint = "; numbers have no units: lengths are in m, masses in kg, times in s, angles in rad";
     fail(start, cat("'", word, "' is not a number", hint));
   }
   if (error == std::errc::result_out_of_range) {
-    fail(start, cat("'", std::string(first, end), "' is too large or too small for a number"));
+    fail(start, cat("'", std::string(first, end), "' is outside the range of a double"));
   }
   at_ = std::size_t(end - text_.data());
   return number;

@@ -8,7 +8,7 @@
 
 namespace kinegraph {
 
-/// A set of characters that is asked often: `kStops[c]`.
+/// A set of characters with constant-time look-up: `kStops[c]`.
 class CharSet {
  public:
   explicit consteval CharSet(std::string_view characters) {
@@ -26,7 +26,7 @@ inline bool isOneOf(char c, std::string_view set) { return set.find(c) != std::s
 inline bool startsNumber(char c) { return (c >= '0' && c <= '9') || c == '+' || c == '-' || c == '.'; }
 bool startsWord(char c);
 
-/// A place in a text of the .g language, and the tokens that begin there. Knows nothing of entries.
+/// A position in a text of the .g language, and the tokens that begin there. Independent of entries.
 class Scanner {
  public:
   Scanner(std::string_view text, const std::string& file);
@@ -36,7 +36,7 @@ class Scanner {
   char peek() const { return atEnd() ? '\0' : text_[at_]; }
 
  protected:
-  /// What is thrown at a mistake, and caught by the entry that it is in.
+  /// Thrown at an error and caught by the enclosing entry.
   struct Failure {
     std::size_t at;
     std::string message;
@@ -46,9 +46,9 @@ class Scanner {
   void skipBlanks();
   void skipComment();     ///< to the end of the line
   void skipSeparators();  ///< between entries: blanks, lines, commas, semicolons, comments
-  void skipInArray();     ///< the same but semicolons, which end a row
+  void skipInArray();     ///< like skipSeparators, without semicolons: they end a row
 
-  /// Is there nothing but blanks between the start of its line and `at`? Then the number of them.
+  /// Returns whether only blanks precede `at` on its line, and their number.
   bool startsLine(std::size_t at, std::size_t& indent) const;
 
   std::string parseWord(const CharSet& stop);
@@ -62,10 +62,10 @@ class Scanner {
   std::size_t at_ = 0;
 
  private:
-  std::size_t lineOf(std::size_t at) const;  ///< counted from 0
+  std::size_t lineOf(std::size_t at) const;  ///< 0-based
 
   std::vector<std::size_t> line_starts_;
-  mutable std::size_t last_line_ = 0;  ///< that was asked for: the next is near
+  mutable std::size_t last_line_ = 0;  ///< of the previous query: the next one is close
 };
 
 }  // namespace kinegraph

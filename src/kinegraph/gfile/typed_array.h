@@ -4,8 +4,8 @@
 
 namespace kinegraph {
 
-/// Turns `["float64", [2, 2], "base64..."]`, as exporters write long arrays, into numbers; the data may also be
-/// numbers. Any other value is left as it is. Throws ValueError if the data do not fit the dimensions.
+/// Decodes `["float64", [2, 2], "base64..."]`, the form of long arrays in exported files, to numbers; the data may also
+/// be plain numbers. Leaves other values unchanged. Throws ValueError if the data do not fit the dimensions.
 void decodeTypedArray(Value& value);
 
 }  // namespace kinegraph

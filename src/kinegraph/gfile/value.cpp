@@ -43,7 +43,7 @@ std::string describe(const Value& value) {
     std::string operator()(double x) const { return cat("the number ", x); }
     std::string operator()(const std::string& s) const { return cat("the text '", s, "'"); }
     std::string operator()(const NumberArray& a) const { return cat("a list of ", a.numbers.size(), " numbers"); }
-    std::string operator()(const StringArray& a) const { return cat("a list of ", a.size(), " words"); }
+    std::string operator()(const StringArray& a) const { return cat("a list of ", a.size(), " strings"); }
     std::string operator()(const ValueList& l) const { return cat("a list of ", l.size(), " lists"); }
     std::string operator()(const AngleText& t) const { return cat("<", t.text, ">"); }
     std::string operator()(const NameTuple& t) const { return cat("(", join(t.names, " "), ")"); }

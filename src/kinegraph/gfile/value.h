@@ -12,11 +12,11 @@ namespace kinegraph {
 struct Node;
 struct Value;
 
-/// The entries of a `{ ... }`, or of a whole file, in order. Keys may repeat; lookups find the first.
+/// The entries of a `{ ... }` or of a whole file, in order. Keys may repeat; look-ups find the first.
 struct Graph {
   std::vector<Node> nodes;
 
-  Graph();  // these are defined where Node is complete, as clang wants it
+  Graph();  // defined out of line because clang needs a complete Node
   Graph(const Graph& other);
   Graph(Graph&& other) noexcept;
   Graph& operator=(const Graph& other);
@@ -30,7 +30,7 @@ struct Graph {
   bool operator==(const Graph& other) const;
 };
 
-/// `<text>`: a file, or a pose in files of older years. Whoever reads the key knows which.
+/// `<text>`: a file, or a pose in older files; the reader of the key decides.
 struct AngleText {
   std::string text;
   bool operator==(const AngleText&) const = default;
@@ -42,7 +42,7 @@ struct NameTuple {
   bool operator==(const NameTuple&) const = default;
 };
 
-/// `[1 2; 3 4]`: numbers in row-major order; `rows` is 1 unless `;` separated rows of equal length.
+/// `[1 2; 3 4]`: numbers in row-major order; `rows` is 1 unless `;` separates rows of equal length.
 struct NumberArray {
   std::vector<double> numbers;
   int rows = 1;
@@ -52,7 +52,7 @@ struct NumberArray {
 using StringArray = std::vector<std::string>;
 using ValueList = std::vector<Value>;  ///< arrays of arrays, and mixed ones
 
-/// A value and where it stands in its text. Positions do not take part in comparisons.
+/// A value with its position in the text. Comparisons ignore positions.
 struct Value {
   std::variant<bool, double, std::string, NumberArray, StringArray, ValueList, AngleText, NameTuple, Graph> data = true;
   SourcePosition where;
@@ -77,7 +77,7 @@ struct Node {
   }
 };
 
-/// "a number", "a list of 3 numbers", "a word": for messages.
+/// Describes a value for messages: "the number 1", "a list of 3 numbers", "the text 'a'".
 std::string describe(const Value& value);
 
 }  // namespace kinegraph

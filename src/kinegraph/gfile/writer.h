@@ -6,8 +6,8 @@
 
 namespace kinegraph {
 
-/// Text that parses to the same value: numbers in their shortest exact form, words unquoted where that is possible.
-/// Throws ValueError for text that the language cannot hold (both kinds of quotes in one string).
+/// Text that parses to the same value: numbers in their shortest exact form, strings unquoted if possible. Throws
+/// ValueError for text that the language cannot express (both kinds of quotes in one string).
 std::string write(const Value& value);
 
 /// The entries of a graph on one line, without braces: "shape: box, size: [1 1 1], flag, other!".

@@ -8,7 +8,7 @@ namespace kinegraph {
 
 namespace {
 
-/// 0 x, 1 y, 2 z with the sign, if `axis` is exactly one of the coordinate axes.
+/// Index (0 x, 1 y, 2 z) and sign, if `axis` is exactly a coordinate axis.
 std::optional<std::pair<int, double>> coordinateAxis(const Vector3d& axis) {
   for (int i = 0; i < 3; ++i) {
     if (std::abs(axis[i]) == 1.) return std::pair(i, axis[i]);
@@ -18,13 +18,13 @@ std::optional<std::pair<int, double>> coordinateAxis(const Vector3d& axis) {
 
 }  // namespace
 
-AxisMotion turningAbout(const Vector3d& axis) {
+AxisMotion rotationAbout(const Vector3d& axis) {
   static const char* const hinges[] = {"hingeX", "hingeY", "hingeZ"};
   const auto coordinate = coordinateAxis(axis);
   return {coordinate && coordinate->second > 0. ? hinges[coordinate->first] : "hinge"};
 }
 
-AxisMotion slidingAlong(const Vector3d& axis) {
+AxisMotion translationAlong(const Vector3d& axis) {
   static const char* const slides[] = {"transX", "transY", "transZ"};
   if (const auto coordinate = coordinateAxis(axis)) return {slides[coordinate->first], coordinate->second};
   return {"transX", 1., Quaterniond::FromTwoVectors(Vector3d::UnitX(), axis)};

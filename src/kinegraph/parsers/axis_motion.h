@@ -4,17 +4,18 @@
 
 namespace kinegraph {
 
-/// The motion of a joint about or along an axis, in the terms of a scene.
+/// The motion of a joint about or along an axis, as a joint type of a scene.
 struct AxisMotion {
-  const char* type;                            ///< of the joint
-  double scale = 1.;                           ///< 1 or -1
-  Quaterniond turn = Quaterniond::Identity();  ///< of the joint frame, so that its axis is a coordinate axis
+  const char* type;   ///< joint type
+  double scale = 1.;  ///< 1 or -1
+  Quaterniond rotation =
+      Quaterniond::Identity();  ///< of the joint frame: aligns its coordinate axis with the joint axis
 };
 
-/// hingeX, hingeY, hingeZ, or hinge, which has any axis. `axis` has unit length.
-AxisMotion turningAbout(const Vector3d& axis);
+/// Returns hingeX, hingeY, hingeZ, or hinge for any other axis. `axis` has unit length.
+AxisMotion rotationAbout(const Vector3d& axis);
 
-/// transX, transY, transZ with a sign; for other axes transX in a frame that is turned.
-AxisMotion slidingAlong(const Vector3d& axis);
+/// Returns transX, transY, transZ with a sign; for other axes transX in a rotated frame.
+AxisMotion translationAlong(const Vector3d& axis);
 
 }  // namespace kinegraph

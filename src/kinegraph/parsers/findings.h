@@ -8,7 +8,7 @@
 
 namespace kinegraph {
 
-/// Collects what a reader has to say about a file.
+/// Collects the errors and warnings of a reader.
 class Findings {
  public:
   explicit Findings(std::vector<Diagnostic>& found) : found_(found) {}

@@ -9,7 +9,7 @@
 
 namespace kinegraph {
 
-/// The attributes of a frame that stands at one place of a file.
+/// Builds the attributes of a frame; all get one position in the file.
 class FrameAttributes {
  public:
   explicit FrameAttributes(const SourcePosition& where) : where_(where) {}
@@ -29,7 +29,7 @@ class FrameAttributes {
     addNumbers("pose", {x.begin(), x.end()});
   }
   const Node* find(const char* key) const { return graph_.find(key); }
-  /// The frame with these attributes, as an entry of a scene; `parent` is empty for a root.
+  /// Moves the attributes into a frame entry of a scene; `parent` is empty for a root.
   Node takeFrame(const std::string& name, const std::string& parent, const SourcePosition& where) {
     Node node;
     node.key = name;

@@ -9,13 +9,13 @@ namespace kinegraph {
 
 namespace {
 
-using Words = std::vector<std::string>;
+using Names = std::vector<std::string>;
 
-bool contains(const Words& words, const std::string& word) {
-  return std::find(words.begin(), words.end(), word) != words.end();
+bool contains(const Names& names, const std::string& name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-void checkChildren(const XmlElement& element, const Words& known, Findings& findings) {
+void checkChildren(const XmlElement& element, const Names& known, Findings& findings) {
   for (const XmlElement& child : element.children) {
     if (!contains(known, child.name))
       findings.error(child.where,
@@ -26,12 +26,12 @@ void checkChildren(const XmlElement& element, const Words& known, Findings& find
 }  // namespace
 
 void checkMjcfSections(const MjcfDocument& document, Findings& findings) {
-  static const Words sections = {"compiler", "option",   "size",      "visual",   "statistic",  "default",
+  static const Names sections = {"compiler", "option",   "size",      "visual",   "statistic",  "default",
                                  "custom",   "asset",    "worldbody", "contact",  "deformable", "equality",
                                  "tendon",   "actuator", "sensor",    "keyframe", "extension"};
-  static const Words read = {"equality joint", "contact exclude", "keyframe key"};
-  static const Words of_interest = {"equality", "contact", "deformable", "tendon", "actuator", "sensor", "keyframe"};
-  static const Words assets = {"texture", "material", "mesh", "hfield", "skin", "model"};
+  static const Names read = {"equality joint", "contact exclude", "keyframe key"};
+  static const Names of_interest = {"equality", "contact", "deformable", "tendon", "actuator", "sensor", "keyframe"};
+  static const Names assets = {"texture", "material", "mesh", "hfield", "skin", "model"};
   checkChildren(document.root(), sections, findings);
   for (const XmlElement* asset : document.root().all("asset")) checkChildren(*asset, assets, findings);
   std::map<std::string, int> ignored;
@@ -44,27 +44,27 @@ void checkMjcfSections(const MjcfDocument& document, Findings& findings) {
       ++ignored[cat(section.name, "/", element.name)];
     }
   }
-  Words list;
+  Names list;
   for (const auto& [name, count] : ignored) list.push_back(cat(name, " (", count, ")"));
-  if (!list.empty()) findings.warn(first, cat("not read: ", join(list)));
+  if (!list.empty()) findings.warn(first, cat("ignored elements: ", join(list)));
 }
 
 void checkMjcfBody(const XmlElement& body, Findings& findings) {
-  static const Words read = {"body", "frame", "inertial", "joint", "freejoint", "geom", "site", "camera", "light"};
-  static const Words left_out = {"composite", "flexcomp", "plugin", "attach", "replicate"};
-  Words known = read;
+  static const Names read = {"body", "frame", "inertial", "joint", "freejoint", "geom", "site", "camera", "light"};
+  static const Names left_out = {"composite", "flexcomp", "plugin", "attach", "replicate"};
+  Names known = read;
   known.insert(known.end(), left_out.begin(), left_out.end());
   checkChildren(body, known, findings);
   for (const XmlElement& child : body.children) {
     if (contains(left_out, child.name))
-      findings.warn(child.where, cat("<", child.name, "> is not carried out; what it stands for is left out"));
+      findings.warn(child.where, cat("<", child.name, "> is not supported and is ignored"));
     if (body.name == "worldbody" && (child.name == "joint" || child.name == "freejoint" || child.name == "inertial"))
-      findings.error(child.where, cat("<", child.name, "> belongs into a <body>; the world does not move"));
+      findings.error(child.where, cat("<", child.name, "> must be inside a <body>; the world does not move"));
   }
 }
 
 void checkMjcfAttributes(const XmlElement& element, Findings& findings) {
-  static const std::map<std::string, Words> known = {
+  static const std::map<std::string, Names> known = {
       {"body", {"name", "childclass", "pos", "quat", "axisangle", "xyaxes", "zaxis", "euler"}},
       {"joint", {"name", "class", "type", "pos", "axis", "ref", "range", "limited"}},
       {"geom",
@@ -74,14 +74,14 @@ void checkMjcfAttributes(const XmlElement& element, Findings& findings) {
       {"camera",
        {"name", "class", "pos", "quat", "axisangle", "xyaxes", "zaxis", "euler", "fovy", "resolution", "mode"}},
       {"inertial", {"pos", "quat", "axisangle", "xyaxes", "zaxis", "euler", "mass", "diaginertia", "fullinertia"}}};
-  const auto words = known.find(element.name);
-  if (words == known.end()) return;
+  const auto names = known.find(element.name);
+  if (names == known.end()) return;
   for (const XmlAttribute& attribute : element.attributes) {
-    if (contains(words->second, attribute.name)) continue;
-    for (const std::string& word : words->second) {
-      if (editDistance(attribute.name, word) > 1.2) continue;
+    if (contains(names->second, attribute.name)) continue;
+    for (const std::string& name : names->second) {
+      if (editDistance(attribute.name, name) > 1.2) continue;
       findings.error(attribute.where, cat("unknown attribute '", attribute.name, "' of <", element.name,
-                                          ">; did you mean '", word, "'?"));
+                                          ">; did you mean '", name, "'?"));
       break;
     }
   }

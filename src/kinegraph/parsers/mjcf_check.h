@@ -5,13 +5,13 @@
 
 namespace kinegraph {
 
-/// Complains of sections that MJCF does not have, and tells in one warning what is there that is not read.
+/// Reports unknown sections as errors, and lists the ignored elements in one warning.
 void checkMjcfSections(const MjcfDocument& document, Findings& findings);
 
-/// Complains of elements that a body cannot hold, and warns of those that are not read.
+/// Reports elements that a body cannot contain as errors, and ignored ones as warnings.
 void checkMjcfBody(const XmlElement& body, Findings& findings);
 
-/// Complains of attributes that look misspelt.
+/// Reports misspelled attributes as errors.
 void checkMjcfAttributes(const XmlElement& element, Findings& findings);
 
 }  // namespace kinegraph

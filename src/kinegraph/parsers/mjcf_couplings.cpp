@@ -10,10 +10,10 @@ namespace {
 
 std::string typeOf(const MjcfElement& joint, MjcfValues& values) {
   if (joint.xml().name == "freejoint") return "free";
-  return values.word(joint, "type", {"hinge", "slide", "ball", "free"}, "hinge");
+  return values.keyword(joint, "type", {"hinge", "slide", "ball", "free"}, "hinge");
 }
 
-/// Replaces sources that follow others by those; of joints that follow each other in a circle, one is let go.
+/// Replaces a source that itself follows a joint by that joint's source. Breaks cycles by removing one coupling.
 void resolveChains(std::map<std::string, MjcfCoupling>& couplings, Findings& findings) {
   for (auto entry = couplings.begin(); entry != couplings.end();) {
     auto& [name, coupling] = *entry;
@@ -31,7 +31,7 @@ void resolveChains(std::map<std::string, MjcfCoupling>& couplings, Findings& fin
       continue;
     }
     findings.warn(coupling.where,
-                  cat("joint '", name, "' follows itself by way of others; it is read as one that moves by itself"));
+                  cat("joint '", name, "' follows itself through other joints; it is read as an independent joint"));
     entry = couplings.erase(entry);
   }
 }
@@ -52,7 +52,7 @@ std::map<std::string, MjcfCoupling> mjcfCouplings(const MjcfDocument& document,
   std::map<std::string, MjcfCoupling> couplings;
   for (const XmlElement* xml : document.inSections("equality", "joint")) {
     const MjcfElement element(*xml, {});
-    if (values.word(element, "active", {"true", "false"}, "true") == "false") continue;
+    if (values.keyword(element, "active", {"true", "false"}, "true") == "false") continue;
     const auto find = [&](const char* role) -> const MjcfElement* {
       const XmlAttribute* name = xml->attribute(role);
       if (!name) return nullptr;
@@ -71,19 +71,19 @@ std::map<std::string, MjcfCoupling> mjcfCouplings(const MjcfDocument& document,
     std::vector<double> c = {0., 1., 0., 0., 0.};
     const std::vector<double> given = values.upTo(element, "polycoef", 5);
     std::copy(given.begin(), given.end(), c.begin());
-    const auto moves_by_itself = [&](const std::string& why) {
-      findings.warn(xml->where, cat("<equality>: ", why, "; joint '", name, "' is read as one that moves by itself"));
+    const auto readIndependently = [&](const std::string& why) {
+      findings.warn(xml->where, cat("<equality>: ", why, "; joint '", name, "' is read as an independent joint"));
     };
     const auto has_one_dof = [&](const MjcfElement& joint) {
       const std::string type = typeOf(joint, values);
       return type == "hinge" || type == "slide";
     };
     if (second && (c[2] != 0. || c[3] != 0. || c[4] != 0.)) {
-      moves_by_itself("the polynomial is not linear");
+      readIndependently("the polynomial is not linear");
     } else if (!has_one_dof(*first) || (second && !has_one_dof(*second))) {
-      moves_by_itself("only hinge and slide joints can follow each other");
+      readIndependently("only hinge and slide joints can follow each other");
     } else if (couplings.contains(name)) {
-      moves_by_itself(cat("joint '", name, "' follows another joint already"));
+      readIndependently(cat("joint '", name, "' follows another joint already"));
     } else if (!second || c[1] == 0.) {
       couplings[name] = {"", mjcfReference(*first, values) + c[0], 0., xml->where};
     } else {

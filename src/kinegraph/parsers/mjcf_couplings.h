@@ -15,13 +15,13 @@ struct MjcfCoupling {
   SourcePosition where;
 };
 
-/// The joints that <equality> makes follow another one, by name, each with a source that follows none. `joints` are all
-/// joints that have names. What cannot be said so is left out with a warning.
+/// Returns the couplings of <equality> by joint name, each with an independent source. `joints` are all named joints.
+/// Unsupported couplings are skipped with a warning.
 std::map<std::string, MjcfCoupling> mjcfCouplings(const MjcfDocument& document,
                                                   const std::map<std::string, MjcfElement>& joints, MjcfValues& values,
                                                   Findings& findings);
 
-/// The value of a joint that stands at the place where the file has it: `ref`, in rad or m.
+/// The joint value at the pose in the file: `ref`, in rad or m.
 double mjcfReference(const MjcfElement& joint, MjcfValues& values);
 
 }  // namespace kinegraph

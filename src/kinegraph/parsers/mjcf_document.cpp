@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::size_t kMaxBytes = std::size_t(64) << 20;  // of all files that one includes
+constexpr std::size_t kMaxBytes = std::size_t(64) << 20;  // of all included files together
 constexpr const char* kOutermost = "main";                // class
 
 }  // namespace
@@ -69,7 +69,7 @@ MjcfDocument::MjcfDocument(std::string_view text, const std::string& file, const
   for (const XmlElement* element : root_.all("default")) collectClasses(*element, nullptr);
 }
 
-/// Puts the content of included files in the place of each <include>.
+/// Replaces each <include> by the content of its file.
 void MjcfDocument::expand(XmlElement& element, const std::string& folder, std::vector<std::string>& open) {
   std::vector<XmlElement> children;
   for (XmlElement& child : element.children) {
@@ -102,13 +102,13 @@ void MjcfDocument::include(const XmlElement& element, const std::string& folder,
   included_.push_back({path, ""});
   if (!fs::is_regular_file(path, ignored)) {
     return findings_.error(file->where,
-                           cat("file '", file->value, "' is not there (", path, ")", similarFilesHint(path)));
+                           cat("file '", file->value, "' does not exist (", path, ")", similarFilesHint(path)));
   }
   std::size_t bytes = std::size_t(fs::file_size(path, ignored));
   for (const SourceText& text : included_) bytes += text.text.size();
   if (bytes > kMaxBytes) {
-    return findings_.error(file->where,
-                           cat("with '", file->value, "' the files included have more than ", kMaxBytes >> 20, " MB"));
+    return findings_.error(file->where, cat("including '", file->value, "' exceeds the limit for included files of ",
+                                            kMaxBytes >> 20, " MB"));
   }
   std::ifstream stream(path, std::ios::binary);
   std::stringstream text;
@@ -145,10 +145,9 @@ void MjcfDocument::readSettings() {
       } else if (attribute.name == "eulerseq") {
         const bool legal = value.size() == 3 && value.find_first_not_of("xyzXYZ") == std::string::npos;
         if (legal) settings_.euler_order = value;
-        if (!legal) refuse("three letters of x y z (axes of the turned frame) or X Y Z (fixed axes)");
+        if (!legal) refuse("three letters of x y z (axes of the rotated frame) or X Y Z (fixed axes)");
       } else if (attribute.name == "coordinate") {
-        if (value != "local")
-          refuse("local; 'global' was removed from MuJoCo, whose older versions convert such files");
+        if (value != "local") refuse("local; MuJoCo removed 'global', and its older versions convert such files");
       } else if (attribute.name == "autolimits") {
         settings_.limited_by_range = flag(attribute);
       } else if (attribute.name == "strippath") {
@@ -176,11 +175,11 @@ void MjcfDocument::collectClasses(const XmlElement& element, const Class* outer)
   if (!name && outer) return findings_.error(element.where, "a <default> inside another has no attribute 'class'");
   const std::string key = name && outer ? name->value : kOutermost;
   if (const auto known = classes_.find(key); known != classes_.end() && known->second.outer != outer)
-    return findings_.error(name->where, cat("there is a default class '", key, "' already, elsewhere"));
+    return findings_.error(name->where, cat("the default class '", key, "' already exists below another class"));
   Class& entry = classes_[key];
   entry.elements.push_back(&element);
   if (outer) entry.outer = outer;
-  if (name && !outer && name->value != kOutermost) classes_[name->value].outer = &entry;  // another name of it
+  if (name && !outer && name->value != kOutermost) classes_[name->value].outer = &entry;  // an alias of it
   for (const XmlElement* inner : element.all("default")) collectClasses(*inner, &entry);
 }
 
@@ -212,7 +211,7 @@ bool MjcfDocument::checkClass(const XmlAttribute& reference) const {
   std::vector<std::string> known;
   for (const auto& [name, entry] : classes_) known.push_back(name);
   findings_.error(reference.where,
-                  cat("there is no default class '", reference.value, "'", similarHint(reference.value, known)));
+                  cat("no default class '", reference.value, "'", similarHint(reference.value, known)));
   return false;
 }
 

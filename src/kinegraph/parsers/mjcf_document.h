@@ -10,7 +10,7 @@
 
 namespace kinegraph {
 
-/// An element of an MJCF file, and those in its default classes that say what it leaves open.
+/// An element of an MJCF file, with the elements of its default classes that supply missing attributes.
 class MjcfElement {
  public:
   MjcfElement(const XmlElement& xml, std::vector<const XmlElement*> defaults)
@@ -23,7 +23,7 @@ class MjcfElement {
   /// The element's own attribute, or that of the nearest default, or null.
   const XmlAttribute* attribute(std::string_view name) const;
 
-  /// All of them, the farthest default first.
+  /// The attribute in all layers, the outermost default first.
   std::vector<const XmlAttribute*> layers(std::string_view name) const;
 
   /// Its name, or "".
@@ -37,22 +37,22 @@ class MjcfElement {
   std::vector<const XmlElement*> defaults_;  ///< nearest first
 };
 
-/// What the element <compiler> says about how the others are to be read.
+/// Settings of the element <compiler>.
 struct MjcfSettings {
   bool degrees = true;                ///< angles
-  std::string euler_order = "xyz";    ///< lower case: about the axes of the turned frame
+  std::string euler_order = "xyz";    ///< lower case: about the axes of the rotated frame
   bool limited_by_range = true;       ///< a joint with a range is limited
-  bool strip_mesh_path = false;       ///< of a mesh file, only its name counts
-  bool masses_of_geoms = true;        ///< of bodies without <inertial>
-  bool masses_only_of_geoms = false;  ///< <inertial> does not count
-  std::string mesh_folder;            ///< as it is written
-  std::string texture_folder;         ///< as it is written
+  bool strip_mesh_path = false;       ///< use only the file name of a mesh path
+  bool masses_of_geoms = true;        ///< bodies without <inertial> get the masses of their geoms
+  bool masses_only_of_geoms = false;  ///< ignore <inertial>
+  std::string mesh_folder;            ///< as written
+  std::string texture_folder;         ///< as written
 };
 
-/// An MJCF text with all that it includes, and its default classes.
+/// An MJCF text with its included files and default classes.
 class MjcfDocument {
  public:
-  /// Mistakes go to `findings`. Files that the text includes are relative to `folder`, or to the file that names them.
+  /// Reports errors to `findings`. Included files are relative to `folder`, or to the including file.
   MjcfDocument(std::string_view text, const std::string& file, const std::string& folder, Findings& findings);
 
   const XmlElement& root() const { return root_; }
@@ -62,10 +62,10 @@ class MjcfDocument {
   /// All elements <section><name/></section>.
   std::vector<const XmlElement*> inSections(std::string_view section, std::string_view name) const;
 
-  /// `xml` with its defaults: of its own class, or of `childclass`, or of the outermost class.
+  /// `xml` with its defaults: of its own class, of `childclass`, or of the outermost class.
   MjcfElement element(const XmlElement& xml, const std::string& childclass = {}) const;
 
-  /// Is there a default class of that name? If not, an error.
+  /// Returns whether a default class of that name exists, and reports an error if not.
   bool checkClass(const XmlAttribute& reference) const;
 
  private:

@@ -8,7 +8,7 @@ namespace kinegraph {
 
 namespace {
 
-/// The states of a frame that has dofs of its own; null for others.
+/// The named states of a frame with independent dofs; null for others.
 Graph* statesOf(Node& frame) {
   Graph& attributes = *std::get_if<Graph>(&frame.value.data);
   if (!attributes.find("joint") || attributes.find("mimic")) return nullptr;
@@ -32,9 +32,10 @@ void addKeyframes(const MjcfDocument& document, const std::vector<MjcfJointPlace
     if (!name || name->value.empty() || !qpos) continue;
     const auto numbers = numbersIn(qpos->value);
     if (!numbers || numbers->size() != count) {
-      findings.warn(qpos->where, cat("keyframe '", name->value, "': expected qpos to be ", count,
-                                     " numbers, one per coordinate of a joint",
-                                     numbers ? cat(", not ", numbers->size()) : std::string(), "; it is left out"));
+      findings.warn(
+          qpos->where,
+          cat("keyframe '", name->value, "': expected qpos to be ", count, " numbers, one per coordinate of a joint",
+              numbers ? cat(", not ", numbers->size()) : std::string(), "; the keyframe is ignored"));
       continue;
     }
     const double* next = numbers->data();

@@ -8,14 +8,14 @@
 
 namespace kinegraph {
 
-/// The frame that a joint of an MJCF file has become, and how many numbers of qpos are its own.
+/// The frame of a joint of an MJCF file, and the number of its coordinates in qpos.
 struct MjcfJointPlace {
   std::string frame;
   int numbers;
 };
 
-/// Enters the keyframes of a file as named states of the joints (the attribute `joint_states`) into the frames of
-/// `graph`. `joints` are all joints in the order of qpos. Keyframes without a name or without qpos say nothing here.
+/// Stores the keyframes of a file as named joint states (attribute `joint_states`) of the frames in `graph`. `joints`
+/// are all joints in the order of qpos. Keyframes without a name or without qpos are skipped.
 void addKeyframes(const MjcfDocument& document, const std::vector<MjcfJointPlace>& joints, Graph& graph,
                   Findings& findings);
 

@@ -14,8 +14,8 @@ struct SolidMass {
   Vector3d inertia_per_mass = Vector3d::Zero();  ///< about its center, which is the origin; diagonal, m^2
 };
 
-/// Of a shape of a scene (box, sphere, capsule, cylinder, or ssBoxElip that is an ellipsoid) with these sizes; nothing
-/// for others.
+/// Volume and inertia of a scene shape (box, sphere, capsule, cylinder, or an ellipsoid written as ssBoxElip) with
+/// these sizes; nullopt for other shapes.
 std::optional<SolidMass> solidMass(const std::string& shape, const std::vector<double>& size);
 
 }  // namespace kinegraph

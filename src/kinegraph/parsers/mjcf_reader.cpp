@@ -17,22 +17,22 @@ namespace kinegraph {
 
 namespace {
 
-/// A joint of a body, and the <frame> that it stands in.
+/// A joint of a body, and the pose of the <frame> around it.
 struct BodyJoint {
   MjcfElement element;
   Pose frame;
 };
 
-/// Where the elements of a body are put.
+/// The body that receives elements, and their coordinates.
 struct Place {
-  std::string frame;  ///< of the scene
+  std::string frame;  ///< frame of the scene
   std::string body;   ///< its name
-  Pose pose;          ///< of the coordinates in that frame: other than the identity in <frame>
+  Pose pose;          ///< of the coordinates in that frame; not the identity inside <frame>
   std::string childclass;
   bool on_world = true;        ///< fixed to the world
-  bool hangs_on_world = true;  ///< or one joint away from it
+  bool hangs_on_world = true;  ///< fixed to the world, or connected to it by one joint
   int contact = 1;             ///< flag of its geoms
-  bool weigh = false;          ///< they have masses
+  bool with_mass = false;      ///< its geoms have masses
 };
 
 class MjcfReader {
@@ -74,7 +74,7 @@ class MjcfReader {
   }
 
  private:
-  /// `name`, or what is made of it if that is taken.
+  /// Returns `name`, or a name derived from it if it is taken.
   std::string unusedName(const std::string& name, const std::string& kind) {
     if (names_.insert(name).second) return name;
     const std::string longer = cat(name, "_", kind);
@@ -85,7 +85,7 @@ class MjcfReader {
     }
   }
 
-  /// Gives every element of a kind the name of its frame.
+  /// Assigns a frame name to every element of a kind.
   void nameAll(const XmlElement& container, const std::string& kind, const std::string& body) {
     int shapes = 0;
     nameIn(container, kind, body, shapes);
@@ -106,7 +106,7 @@ class MjcfReader {
       const auto [other, is_new] = elements_.emplace(std::pair(kind, given->value), &element);
       if (!is_new && (kind == "body" || kind == "joint")) {
         findings_.error(given->where,
-                        cat("there is a ", kind, " '", given->value, "' already, at ", other->second->where.str()));
+                        cat("the ", kind, " '", given->value, "' is already defined at ", other->second->where.str()));
       }
     } else if (kind == "geom") {
       frame_of_[&element] = unusedName(cat(body, "_", shapes), kind);
@@ -121,14 +121,14 @@ class MjcfReader {
     return own ? own->value : otherwise;
   }
 
-  /// An element with its defaults, checked.
+  /// Returns an element with its defaults, after checking it.
   MjcfElement element(const XmlElement& xml, const std::string& childclass) {
     checkMjcfAttributes(xml, findings_);
     if (const XmlAttribute* reference = xml.attribute("class")) document_.checkClass(*reference);
     return document_.element(xml, childclass);
   }
 
-  /// All joints with names; checks the elements of all bodies on the way.
+  /// Collects all named joints, and checks the elements of all bodies.
   void collectJoints(const XmlElement& container, const std::string& outer_class) {
     checkMjcfBody(container, findings_);
     if (const XmlAttribute* reference = container.attribute("childclass")) document_.checkClass(*reference);
@@ -141,7 +141,7 @@ class MjcfReader {
     }
   }
 
-  /// Bodies whose contacts are excluded, by the element of the first of them.
+  /// Collects excluded body pairs, keyed by the element of the first body.
   void collectExclusions() {
     std::vector<std::string> bodies = {"world"};
     for (const auto& [key, element] : elements_) {
@@ -173,7 +173,7 @@ class MjcfReader {
     graph_.nodes.push_back(attributes.takeFrame(name, parent, where));
   }
 
-  /// The same place, in the coordinates of a <frame>.
+  /// The same body, in the coordinates of a <frame>.
   Place inFrame(const XmlElement& frame, const Place& place) {
     Place inner = place;
     inner.pose = place.pose * values_.pose(MjcfElement(frame, {}));
@@ -190,7 +190,7 @@ class MjcfReader {
       const bool is_geom = child.name == "geom", is_site = child.name == "site";
       if (!is_geom && !is_site && child.name != "camera") continue;
       const MjcfElement described = element(child, place.childclass);
-      MjcfShapes::Placed placed = is_geom   ? shapes_.geom(described, place.contact, place.weigh)
+      MjcfShapes::Placed placed = is_geom   ? shapes_.geom(described, place.contact, place.with_mass)
                                   : is_site ? shapes_.site(described)
                                             : shapes_.camera(described);
       placed.attributes.addPose(place.pose * placed.pose);
@@ -239,7 +239,7 @@ class MjcfReader {
     if (!own_joint) attributes.addPose(pose);
     const XmlElement* inertial = body.child("inertial");
     const MjcfSettings& settings = document_.settings();
-    place.weigh = settings.masses_only_of_geoms || (settings.masses_of_geoms && !inertial);
+    place.with_mass = settings.masses_only_of_geoms || (settings.masses_of_geoms && !inertial);
     if (inertial && !settings.masses_only_of_geoms) addInertial(*inertial, attributes);
     if (const auto others = excluded_.find(name); others != excluded_.end())
       attributes.add("contact_exclude", StringArray(others->second));
@@ -248,14 +248,14 @@ class MjcfReader {
     addBodies(body, place);
   }
 
-  /// Adds the frames of a joint below `parent` at `pose`, and sets both to where the next thing goes. A last joint
-  /// without a name may be the frame `body` itself: then `own` gets its attributes instead. Returns whether it moves.
+  /// Adds the frames of a joint below `parent` at `pose`, and updates both for the next element. A last joint without a
+  /// name may be the frame `body` itself: `own` then gets its attributes. Returns whether the joint moves.
   bool addJoint(const BodyJoint& joint, const Place& outer, const std::string& body, bool alone, std::string& parent,
                 Pose& pose, std::optional<FrameAttributes>& own) {
     const MjcfElement& element = joint.element;
     const std::string type = element.xml().name == "freejoint"
                                  ? "free"
-                                 : values_.word(element, "type", {"hinge", "slide", "ball", "free"}, "hinge");
+                                 : values_.keyword(element, "type", {"hinge", "slide", "ball", "free"}, "hinge");
     FrameAttributes attributes(element.where());
     const std::string& name = frame_of_.at(&element.xml());
     joints_.push_back({name, type == "free" ? 7 : type == "ball" ? 4 : 1});
@@ -279,7 +279,7 @@ class MjcfReader {
     if (type == "free") {
       if (outer.body != "world" || !alone) {
         findings_.error(element.where(), cat(element.describe(), ": a free joint must be the only one of its body, ",
-                                             "and that directly in <worldbody>"));
+                                             "and its body must be directly in <worldbody>"));
         return true;
       }
       const Vector7d start = pose.numbers();
@@ -310,7 +310,7 @@ class MjcfReader {
     axis.normalize();
     const bool slides = type == "slide";
     const Pose anchor = slides ? Pose() : given_anchor;
-    const AxisMotion motion = slides ? slidingAlong(axis) : turningAbout(axis);
+    const AxisMotion motion = slides ? translationAlong(axis) : rotationAbout(axis);
     const double reference = mjcfReference(element, values_);
     const auto coupling = couplings_.find(element.name());
     const bool coupled = !element.name().empty() && coupling != couplings_.end();
@@ -324,11 +324,11 @@ class MjcfReader {
       place(Pose(), anchor.inverse());
       return false;
     }
-    const Pose turn(Vector3d::Zero(), motion.turn);
+    const Pose rotation(Vector3d::Zero(), motion.rotation);
     attributes.add("joint", std::string(motion.type));
     if (std::string_view(motion.type) == "hinge") attributes.addNumbers("axis", {axis.begin(), axis.end()});
     double scale = motion.scale;
-    if (coupled) {  // it multiplies the motion of the source, that one's scale included
+    if (coupled) {  // multiplies the source's motion, including the source's own scale
       const MjcfElement& source = named_joints_.at(coupling->second.source);
       scale *= coupling->second.factor * scaleOf(source);
       attributes.add("mimic", frame_of_.at(&source.xml()));
@@ -336,19 +336,19 @@ class MjcfReader {
     if (scale != 1.) attributes.add("joint_scale", scale);
     addLimits(element, slides, attributes);
     if (!coupled && reference != 0.) attributes.addNumbers("q", {reference});
-    place(before * turn, turn.inverse() * anchor.inverse());
+    place(before * rotation, rotation.inverse() * anchor.inverse());
     return true;
   }
 
   /// 1, or -1 for a slide against a coordinate axis.
   double scaleOf(const MjcfElement& joint) {
     const Vector3d axis = values_.vector(joint, "axis", Vector3d::UnitZ());
-    const bool slides = values_.word(joint, "type", {"hinge", "slide", "ball", "free"}, "hinge") == "slide";
-    return slides && axis.norm() > 0. ? slidingAlong(axis.normalized()).scale : 1.;
+    const bool slides = values_.keyword(joint, "type", {"hinge", "slide", "ball", "free"}, "hinge") == "slide";
+    return slides && axis.norm() > 0. ? translationAlong(axis.normalized()).scale : 1.;
   }
 
   void addLimits(const MjcfElement& element, bool slides, FrameAttributes& attributes) {
-    const std::string limited = values_.word(element, "limited", {"auto", "true", "false"}, "auto");
+    const std::string limited = values_.keyword(element, "limited", {"auto", "true", "false"}, "auto");
     const std::vector<double> range = values_.numbers(element, "range", 2);
     const bool by_range = document_.settings().limited_by_range && !range.empty();
     if (limited == "false" || (limited == "auto" && !by_range) || range.empty()) return;
@@ -387,11 +387,11 @@ class MjcfReader {
   MjcfValues values_;
   MjcfShapes shapes_;
   Graph graph_;
-  std::set<std::string> names_;         ///< of frames
-  std::map<std::string, int> numbers_;  ///< the last one behind a name
+  std::set<std::string> names_;         ///< names of frames
+  std::map<std::string, int> numbers_;  ///< last number appended to each name
   std::map<const XmlElement*, std::string> frame_of_;
   std::map<std::pair<std::string, std::string>, const XmlElement*> elements_;  ///< by kind and name
-  std::map<std::string, std::string> bodies_of_joints_;  ///< frames of joints that are those of their bodies
+  std::map<std::string, std::string> bodies_of_joints_;  ///< joints that are the frames of their bodies
   std::vector<MjcfJointPlace> joints_;                   ///< in the order of qpos
   std::map<std::string, MjcfElement> named_joints_;
   std::map<std::string, MjcfCoupling> couplings_;

@@ -13,8 +13,8 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kEndlessPlane = 20.;  // m, full width of a plane without end
-constexpr int kFirstHiddenGroup = 3;   // of those that MuJoCo's own viewer does not show
+constexpr double kEndlessPlane = 20.;  // m, full width of an infinite plane
+constexpr int kFirstHiddenGroup = 3;   // MuJoCo's viewer hides groups from here on
 constexpr double kMarkerLength = .05;  // m
 
 std::vector<std::string> namesIn(const std::map<std::string, MjcfElement>& assets) {
@@ -33,8 +33,8 @@ MjcfShapes::MjcfShapes(const MjcfDocument& document, MjcfValues& values, const s
     const std::string name = mesh.name().empty() && file ? fs::path(file->value).stem().string() : mesh.name();
     const auto [other, is_new] = meshes_.emplace(name, mesh);
     if (!is_new)
-      findings_.warn(xml->where, cat("there is a mesh '", name, "' already, at ", other->second.where().str(),
-                                     "; that one is taken"));
+      findings_.warn(xml->where, cat("mesh '", name, "' is already defined at ", other->second.where().str(),
+                                     "; this definition is ignored"));
   }
   for (const XmlElement* xml : document_.inSections("asset", "texture")) {
     const MjcfElement texture = document_.element(*xml);
@@ -45,11 +45,11 @@ MjcfShapes::MjcfShapes(const MjcfDocument& document, MjcfValues& values, const s
     materials_.emplace(document_.element(*xml).name(), document_.element(*xml));
 }
 
-MjcfShapes::Placed MjcfShapes::geom(const MjcfElement& element, int contact, bool weigh) {
+MjcfShapes::Placed MjcfShapes::geom(const MjcfElement& element, int contact, bool with_mass) {
   static const std::vector<std::string> types = {"plane",    "hfield", "sphere", "capsule", "ellipsoid",
                                                  "cylinder", "box",    "mesh",   "sdf"};
   Placed placed{values_.pose(element), FrameAttributes(element.where())};
-  const std::string type = values_.word(element, "type", types, "sphere");
+  const std::string type = values_.keyword(element, "type", types, "sphere");
   const auto line = element.attribute("fromto") ? values_.line(element) : std::nullopt;
   if (line) placed.pose = line->first;
   if (type == "hfield") {
@@ -61,7 +61,7 @@ MjcfShapes::Placed MjcfShapes::geom(const MjcfElement& element, int contact, boo
   }
   if (!placed.attributes.find("shape") && !placed.attributes.find("mesh")) return placed;
   addLooks(element, contact, placed);
-  if (weigh && type != "plane") addMass(element, placed);
+  if (with_mass && type != "plane") addMass(element, placed);
   return placed;
 }
 
@@ -69,7 +69,7 @@ void MjcfShapes::addPrimitive(const MjcfElement& element, const std::string& typ
   std::vector<double> size = values_.upTo(element, "size", 3);
   const std::size_t given = size.size(), radial = type == "box" || type == "ellipsoid" ? 2 : 1;
   std::size_t needed = type == "sphere" ? 1 : type == "plane" || radial == 1 ? 2 : 3;
-  if (line_length > 0.) {  // the size tells only how thick it is
+  if (line_length > 0.) {  // `size` gives only the thickness
     needed = 1;
     size.resize(3);
     if (radial == 2) size[1] = size[0];
@@ -116,11 +116,11 @@ void MjcfShapes::addMesh(const MjcfElement& element, Placed& placed) {
   const XmlAttribute* file = mesh.own("file");
   const Vector3d scale = values_.vector(mesh, "scale", Vector3d::Ones());
   const Vector3d moved = values_.vector(mesh, "refpos", Vector3d::Zero());
-  const std::vector<double> turned = values_.numbers(mesh, "refquat", 4);
+  const std::vector<double> rotated = values_.numbers(mesh, "refquat", 4);
   Quaterniond back = Quaterniond::Identity();
-  if (!turned.empty()) back = Quaterniond(turned[0], turned[1], turned[2], turned[3]).normalized().conjugate();
+  if (!rotated.empty()) back = Quaterniond(rotated[0], rotated[1], rotated[2], rotated[3]).normalized().conjugate();
   if (!back.coeffs().allFinite()) back = Quaterniond::Identity();
-  if (!turned.empty() && scale != Vector3d::Constant(scale[0]))
+  if (!rotated.empty() && scale != Vector3d::Constant(scale[0]))
     findings_.warn(mesh.where(), cat(mesh.describe(), ": 'refquat' together with an uneven 'scale' is read wrongly"));
   placed.pose = placed.pose * Pose(back * Vector3d(-scale.cwiseProduct(moved)), back);
   if (!file) return addInlineMesh(mesh, scale, placed);
@@ -129,13 +129,13 @@ void MjcfShapes::addMesh(const MjcfElement& element, Placed& placed) {
   const std::string path = resolvePath((fs::path(settings.mesh_folder) / name).string(), folder_);
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) {
-    return findings_.warn(file->where, cat("mesh '", name, "' is not there (", path, ")", similarFilesHint(path)));
+    return findings_.warn(file->where, cat("mesh '", name, "' does not exist (", path, ")", similarFilesHint(path)));
   }
   placed.attributes.add("mesh", AngleText{path});
   if (scale != Vector3d::Ones()) placed.attributes.addNumbers("meshscale", {scale.begin(), scale.end()});
 }
 
-/// A mesh whose numbers stand in the file: with faces, or the hull of its vertices.
+/// Reads a mesh with inline numbers: with faces, or the hull of its vertices.
 void MjcfShapes::addInlineMesh(const MjcfElement& mesh, const Vector3d& scale, Placed& placed) {
   const auto list = [&](const char* name) {
     const XmlAttribute* attribute = mesh.own(name);
@@ -153,7 +153,7 @@ void MjcfShapes::addInlineMesh(const MjcfElement& mesh, const Vector3d& scale, P
   if (!faces.empty()) placed.attributes.addNumbers("triangles", std::move(faces));
 }
 
-/// Of a body without <inertial>. Meshes have one only if it is given, and are then hollow.
+/// For bodies without <inertial>. Meshes need an explicit mass, and are then hollow.
 void MjcfShapes::addMass(const MjcfElement& element, Placed& placed) {
   const Node* shape = placed.attributes.find("shape");
   const Node* size = placed.attributes.find("size");
@@ -177,7 +177,7 @@ void MjcfShapes::addMass(const MjcfElement& element, Placed& placed) {
   placed.attributes.addNumbers("inertia", {inertia.begin(), inertia.end()});
 }
 
-/// Color and contact flag.
+/// Sets color and contact flag.
 void MjcfShapes::addLooks(const MjcfElement& element, int contact, Placed& placed) {
   std::vector<double> rgba = color(element);
   const bool collides =
@@ -189,7 +189,7 @@ void MjcfShapes::addLooks(const MjcfElement& element, int contact, Placed& place
   if (collides) placed.attributes.add("contact", double(contact));
 }
 
-/// The material of a geom; null if it has none, which is worth a warning if it names one.
+/// The material of a geom, or null. An unknown material causes a warning.
 const MjcfElement* MjcfShapes::materialOf(const MjcfElement& element) {
   const XmlAttribute* reference = element.attribute("material");
   if (!reference) return nullptr;
@@ -200,7 +200,7 @@ const MjcfElement* MjcfShapes::materialOf(const MjcfElement& element) {
   return nullptr;
 }
 
-/// The picture for the colors of a material: an attribute, or a <layer role="rgb">.
+/// The color texture of a material: an attribute, or a <layer role="rgb">.
 const MjcfElement* MjcfShapes::textureOf(const MjcfElement& material) {
   const XmlAttribute* reference = material.attribute("texture");
   for (const XmlElement* layer : material.xml().all("layer")) {
@@ -215,7 +215,7 @@ const MjcfElement* MjcfShapes::textureOf(const MjcfElement& material) {
   return nullptr;
 }
 
-/// A texture without a file counts with its mean color.
+/// A texture without a file contributes its mean color.
 std::vector<double> MjcfShapes::color(const MjcfElement& element) {
   if (const std::vector<double> own = values_.numbers(element, "rgba", 4); !own.empty()) return own;
   const MjcfElement* material = materialOf(element);
@@ -231,7 +231,7 @@ std::vector<double> MjcfShapes::color(const MjcfElement& element) {
   return rgba;
 }
 
-/// The picture on a geom. How often it is repeated counts where the geom itself does not say where it is: on planes and
+/// Adds the picture of a geom. The repetition applies if the geom has no texture coordinates of its own: to planes and
 /// boxes.
 void MjcfShapes::addTexture(const MjcfElement& element, Placed& placed) {
   const XmlAttribute* reference = element.attribute("material");
@@ -269,7 +269,7 @@ MjcfShapes::Placed MjcfShapes::site(const MjcfElement& element) {
 
 MjcfShapes::Placed MjcfShapes::camera(const MjcfElement& element) {
   Placed placed{values_.pose(element), FrameAttributes(element.where())};
-  placed.pose.q = placed.pose.q * Quaterniond(0., 1., 0., 0.);  // MuJoCo's looks along -z with y up
+  placed.pose.q = placed.pose.q * Quaterniond(0., 1., 0., 0.);  // MuJoCo's camera looks along -z with y up
   placed.attributes.add("shape", std::string("camera"));
   const double angle = values_.number(element, "fovy", 45.);
   if (!(angle > 0. && angle < 180.)) {
@@ -284,9 +284,10 @@ MjcfShapes::Placed MjcfShapes::camera(const MjcfElement& element) {
     placed.attributes.add("height", pixels[1]);
   }
   const std::string mode =
-      values_.word(element, "mode", {"fixed", "track", "trackcom", "targetbody", "targetbodycom"}, "fixed");
+      values_.keyword(element, "mode", {"fixed", "track", "trackcom", "targetbody", "targetbodycom"}, "fixed");
   if (mode != "fixed")
-    findings_.warn(element.where(), cat(element.describe(), ": a camera of mode '", mode, "' is read as a fixed one"));
+    findings_.warn(element.where(),
+                   cat(element.describe(), ": a camera of mode '", mode, "' is read as a fixed camera"));
   return placed;
 }
 

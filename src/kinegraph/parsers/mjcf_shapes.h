@@ -10,7 +10,7 @@
 
 namespace kinegraph {
 
-/// Geoms, sites and cameras of an MJCF file as frames.
+/// Converts geoms, sites and cameras of an MJCF file to frames.
 class MjcfShapes {
  public:
   /// Mesh files are relative to `folder`.
@@ -21,8 +21,8 @@ class MjcfShapes {
     FrameAttributes attributes;
   };
 
-  /// `contact` is the flag of geoms that collide; `weigh`: it has a mass.
-  Placed geom(const MjcfElement& element, int contact, bool weigh);
+  /// `contact` is the flag of colliding geoms; `with_mass` gives the geom a mass.
+  Placed geom(const MjcfElement& element, int contact, bool with_mass);
   Placed site(const MjcfElement& element);
   Placed camera(const MjcfElement& element);
 

@@ -9,7 +9,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kTiny = 1e-10;  // shorter directions are none
+constexpr double kTiny = 1e-10;  // shorter directions count as zero
 
 struct Rotation {
   const char* name;
@@ -19,7 +19,7 @@ constexpr Rotation kRotations[] = {{"quat", 4}, {"axisangle", 4}, {"xyaxes", 6},
 
 }  // namespace
 
-Quaterniond turnZTo(const Vector3d& v) {
+Quaterniond rotationOfZTo(const Vector3d& v) {
   const Vector3d direction = v.normalized(), axis = Vector3d::UnitZ().cross(direction);
   if (axis.norm() < kTiny) return direction[2] > 0. ? Quaterniond::Identity() : Quaterniond(0., 1., 0., 0.);
   return Quaterniond(Eigen::AngleAxisd(std::atan2(axis.norm(), direction[2]), axis.normalized()));
@@ -61,13 +61,13 @@ Vector3d MjcfValues::vector(const MjcfElement& element, const char* name, const 
   return v.empty() ? fallback : Vector3d(v[0], v[1], v[2]);
 }
 
-std::string MjcfValues::word(const MjcfElement& element, const char* name, const std::vector<std::string>& words,
-                             const std::string& fallback) {
+std::string MjcfValues::keyword(const MjcfElement& element, const char* name, const std::vector<std::string>& keywords,
+                                const std::string& fallback) {
   const XmlAttribute* attribute = element.attribute(name);
   if (!attribute) return fallback;
-  if (std::find(words.begin(), words.end(), attribute->value) != words.end()) return attribute->value;
+  if (std::find(keywords.begin(), keywords.end(), attribute->value) != keywords.end()) return attribute->value;
   findings_.error(attribute->where, cat(element.describe(), " ", name, "=\"", attribute->value, "\": expected one of ",
-                                        join(words), similarHint(attribute->value, words)));
+                                        join(keywords), similarHint(attribute->value, keywords)));
   return fallback;
 }
 
@@ -78,8 +78,8 @@ Quaterniond MjcfValues::euler(const std::vector<double>& angles) const {
   for (int i = 0; i < 3; ++i) {
     const char letter = settings_.euler_order[i];
     const bool fixed = letter <= 'Z';
-    const Quaterniond turn(Eigen::AngleAxisd(radians(angles[i]), Vector3d::Unit(letter - (fixed ? 'X' : 'x'))));
-    q = fixed ? turn * q : q * turn;
+    const Quaterniond step(Eigen::AngleAxisd(radians(angles[i]), Vector3d::Unit(letter - (fixed ? 'X' : 'x'))));
+    q = fixed ? step * q : q * step;
   }
   return q;
 }
@@ -103,7 +103,7 @@ std::optional<Quaterniond> MjcfValues::rotation(const MjcfElement& element, cons
   const Vector3d first((*v)[0], (*v)[1], (*v)[2]);
   if (!(first.norm() > kTiny)) return refuse("the axis is zero");
   if (name == "axisangle") return Quaterniond(Eigen::AngleAxisd(radians((*v)[3]), first.normalized()));
-  if (name == "zaxis") return turnZTo(first);
+  if (name == "zaxis") return rotationOfZTo(first);
   Matrix3d R;
   R.col(0) = first.normalized();
   const Vector3d second((*v)[3], (*v)[4], (*v)[5]);
@@ -122,7 +122,7 @@ Pose MjcfValues::pose(const MjcfElement& element) {
     const XmlAttribute* own = element.own(kind.name);
     if (own && given) {
       findings_.error(own->where, cat(element.describe(), ": '", kind.name, "' and '", given->name,
-                                      "' both give the rotation; one of them is enough"));
+                                      "' both give the rotation; expected one of them"));
     }
     if (own) given = own;
   }
@@ -138,10 +138,11 @@ std::optional<std::pair<Pose, double>> MjcfValues::line(const MjcfElement& eleme
   if (v.empty()) return std::nullopt;
   const Vector3d from(v[0], v[1], v[2]), to(v[3], v[4], v[5]);
   if (!((from - to).norm() > kTiny)) {
-    findings_.error(element.attribute("fromto")->where, cat(element.describe(), ": its two ends are the same point"));
+    findings_.error(element.attribute("fromto")->where,
+                    cat(element.describe(), ": both ends of 'fromto' are the same point"));
     return std::nullopt;
   }
-  return std::pair(Pose(.5 * (from + to), turnZTo(from - to)), (from - to).norm());
+  return std::pair(Pose(.5 * (from + to), rotationOfZTo(from - to)), (from - to).norm());
 }
 
 }  // namespace kinegraph

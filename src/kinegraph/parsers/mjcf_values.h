@@ -10,8 +10,8 @@
 
 namespace kinegraph {
 
-/// Reads the attributes of MJCF elements as numbers, words and poses. Mistakes go to the findings, and give the
-/// default.
+/// Reads the attributes of MJCF elements as numbers, keywords and poses. Invalid values are reported and replaced by
+/// the default.
 class MjcfValues {
  public:
   MjcfValues(const MjcfSettings& settings, Findings& findings) : settings_(settings), findings_(findings) {}
@@ -19,22 +19,23 @@ class MjcfValues {
   double number(const MjcfElement& element, const char* name, double fallback);
   Vector3d vector(const MjcfElement& element, const char* name, const Vector3d& fallback);
 
-  /// `count` numbers, or none.
+  /// Returns `count` numbers, or none.
   std::vector<double> numbers(const MjcfElement& element, const char* name, std::size_t count);
 
-  /// Up to `most` numbers, or none. Where an element gives fewer than its defaults, the latter's others remain.
+  /// Returns up to `most` numbers, or none. If an element gives fewer than its defaults, the defaults supply the
+  /// rest.
   std::vector<double> upTo(const MjcfElement& element, const char* name, std::size_t most);
 
-  /// One of `words`; `fallback` if there is none.
-  std::string word(const MjcfElement& element, const char* name, const std::vector<std::string>& words,
-                   const std::string& fallback);
+  /// Returns one of `keywords`; `fallback` if the attribute is missing.
+  std::string keyword(const MjcfElement& element, const char* name, const std::vector<std::string>& keywords,
+                      const std::string& fallback);
 
   double radians(double angle) const;
 
-  /// Of `pos` and one of quat, axisangle, xyaxes, zaxis, euler.
+  /// Pose from `pos` and one of quat, axisangle, xyaxes, zaxis, euler.
   Pose pose(const MjcfElement& element);
 
-  /// Of `fromto`: a pose with its z axis along the line and the origin in its middle, and the length of the line.
+  /// From `fromto`: a pose with the z axis along the line and the origin at its midpoint, and the length of the line.
   std::optional<std::pair<Pose, double>> line(const MjcfElement& element);
 
  private:
@@ -47,7 +48,7 @@ class MjcfValues {
   Findings& findings_;
 };
 
-/// The rotation that turns the z axis into the direction of `v` on the shortest way.
-Quaterniond turnZTo(const Vector3d& v);
+/// The shortest rotation of the z axis to the direction of `v`.
+Quaterniond rotationOfZTo(const Vector3d& v);
 
 }  // namespace kinegraph

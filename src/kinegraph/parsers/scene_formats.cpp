@@ -9,7 +9,7 @@ namespace kinegraph {
 
 namespace {
 
-/// A .xml is URDF if its root says so, and otherwise MJCF.
+/// Reads a .xml file as URDF if its root is <robot>, and as MJCF otherwise.
 ParseResult readXml(std::string_view text, const std::string& file, const std::string& folder) {
   return xmlRootName(text) == "robot" ? readUrdf(text, file, folder) : readMjcf(text, file, folder);
 }

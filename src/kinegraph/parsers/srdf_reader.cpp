@@ -16,7 +16,7 @@ namespace {
 
 using Member = RobotSemantics::Member;
 
-// What MoveIt, Pinocchio and HPP write into such files; only the first row is of use here.
+// Elements written by MoveIt, Pinocchio and HPP; only the first line of them is used here.
 const std::vector<std::string> kElements = {"group",
                                             "group_state",
                                             "disable_collisions",
@@ -81,7 +81,7 @@ class SrdfReader {
     }
   }
 
-  /// The text of an attribute that must be there; "" if it is not.
+  /// The text of a required attribute; "" and an error if it is missing.
   std::string text(const XmlElement& element, const char* name) {
     const XmlAttribute* attribute = element.attribute(name);
     if (attribute && !attribute->value.empty()) return attribute->value;
@@ -112,7 +112,7 @@ class SrdfReader {
     if (is_new) {
       semantics_.groups.push_back(std::move(group));
     } else {
-      found_.error(element.where, cat("there is a group '", group.name, "' already, at ", first->second.str()));
+      found_.error(element.where, cat("the group '", group.name, "' is already defined at ", first->second.str()));
     }
   }
 
@@ -140,7 +140,7 @@ class SrdfReader {
     if (!state.name.empty()) semantics_.states.push_back(std::move(state));
   }
 
-  /// That groups which are named exist, and do not contain themselves.
+  /// Checks that referenced groups exist and do not contain themselves.
   void checkGroups() {
     std::vector<std::string> names;
     std::map<std::string, const RobotSemantics::Group*> groups;
@@ -149,7 +149,7 @@ class SrdfReader {
       groups[group.name] = &group;
     }
     const auto check = [&](const std::string& name, const SourcePosition& where) {
-      if (!groups.contains(name)) found_.warn(where, cat("there is no group '", name, "'", similarHint(name, names)));
+      if (!groups.contains(name)) found_.warn(where, cat("no group '", name, "'", similarHint(name, names)));
     };
     for (const XmlAttribute* attribute : state_groups_) check(attribute->value, attribute->where);
     for (const auto& group : semantics_.groups) {
@@ -195,7 +195,7 @@ RobotSemantics readSemantics(std::string_view text, const std::string& file, std
   try {
     const XmlElement robot = parseXml(text, file);
     RobotSemantics semantics = SrdfReader(found).read(robot);
-    semantics.outside.push_back("root_joint");  // what Pinocchio calls the joint of a floating base
+    semantics.outside.push_back("root_joint");  // Pinocchio's name for the joint of a floating base
     semantics.file = file;
     return semantics;
   } catch (const ParseError& error) {

@@ -8,15 +8,15 @@
 
 namespace kinegraph {
 
-/// What a file says about the frames of a robot besides what they are: an SRDF file. Frames are meant by their names.
+/// The content of an SRDF file: collision pairs, groups and states of a robot's frames, referred to by name.
 struct RobotSemantics {
   struct Pair {
-    std::string a, b;  ///< links; an empty `b` stands for all others
+    std::string a, b;  ///< links; an empty `b` stands for all other links
     SourcePosition where;
   };
   struct Member {
     enum class Kind { joint, link, chain, group } kind;
-    std::string name, tip;  ///< of a chain the first and the last link
+    std::string name, tip;  ///< first and last link of a chain
     SourcePosition where;
   };
   struct Group {
@@ -25,7 +25,7 @@ struct RobotSemantics {
   };
   struct JointValue {
     std::string joint;
-    std::vector<double> values;  ///< as SRDF orders them: of a floating joint x y z qx qy qz qw
+    std::vector<double> values;  ///< in SRDF order: of a floating joint x y z qx qy qz qw
     SourcePosition where;
   };
   struct State {
@@ -33,24 +33,23 @@ struct RobotSemantics {
     std::vector<JointValue> joints;
   };
 
-  std::vector<Pair> no_contact, contact;  ///< `contact` takes pairs out of those without
+  std::vector<Pair> no_contact, contact;  ///< `contact` removes pairs from `no_contact`
   std::vector<Group> groups;
   std::vector<State> states;
-  std::vector<std::string> outside;  ///< joints of the robot to its world, which are no frames of it
-  std::vector<std::string> robot;    ///< the frames of the robot's file, if it was found beside that
-  std::string file, prefix;          ///< `prefix` is put before the names of frames
-  bool asked_for =
-      true;  ///< else it was found beside the robot's file, and names that are not there are nobody's mistake
+  std::vector<std::string> outside;  ///< joints between the robot and its world, without a frame
+  std::vector<std::string> robot;    ///< frames of the robot's file, if the file was found beside it
+  std::string file, prefix;          ///< put before the names of frames
+  bool requested = true;             ///< false: found beside the robot's file, and unknown names cause no warnings
 };
 
-/// The semantics of a text. What is wrong and what is odd is appended to `found`; with an error nothing is returned.
+/// Parses an SRDF text. Appends errors and warnings to `found`; after an error the result is empty.
 RobotSemantics readSemantics(std::string_view text, const std::string& file, std::vector<Diagnostic>& found);
 
-/// Is it a file of that kind, by its name?
+/// Returns whether the name is that of an SRDF file.
 bool isSemanticsFile(const std::string& file);
 
-/// The SRDF file that belongs to a URDF file: of the same name, beside it, or in a folder srdf beside its folder. "" if
-/// there is none.
+/// The SRDF file of a URDF file: same name, in the same folder, or in a folder srdf beside that folder. "" if there is
+/// none.
 std::string semanticsBeside(const std::string& file);
 
 }  // namespace kinegraph

@@ -48,7 +48,7 @@ class UrdfParser {
     found_.push_back({Diagnostic::Severity::warning, where, std::move(message)});
   }
 
-  /// Materials are named at the top of the file, or where they are first used, which may be after another use.
+  /// Materials are defined at the top of the file or at a first use, which may come after a reference.
   void collectMaterials(const XmlElement& element) {
     for (const XmlElement& child : element.children) {
       const XmlAttribute* name = child.name == "material" ? child.attribute("name") : nullptr;
@@ -82,14 +82,14 @@ class UrdfParser {
     return std::vector<double>(count, 0.);
   }
 
-  /// A number, which must be there unless there is a default.
+  /// A number, required unless a default is given.
   double number(const XmlElement& element, const char* name, std::optional<double> fallback = std::nullopt) {
     if (const XmlAttribute* attribute = element.attribute(name)) return numbers(*attribute, element, 1)[0];
     if (!fallback) error(element.where, cat(context_, "<", element.name, "> has no attribute '", name, "'"));
     return fallback.value_or(0.);
   }
 
-  /// A limit, 0 by default; "inf" is `unlimited`, "-inf" minus that.
+  /// A limit, 0 by default; "inf" becomes `unlimited`, "-inf" its negative.
   double limitOf(const XmlElement& limit, const char* name, double unlimited) {
     const XmlAttribute* attribute = limit.attribute(name);
     if (attribute && (attribute->value == "inf" || attribute->value == "+inf")) return unlimited;
@@ -118,7 +118,7 @@ class UrdfParser {
     context_ = cat("link '", link.name, "': ");
     for (const UrdfLink& other : model_.links) {
       if (other.name == link.name)
-        error(element.where, cat("there is a link '", link.name, "' already, at ", other.where.str()));
+        error(element.where, cat("link '", link.name, "' is already defined at ", other.where.str()));
     }
     if (const XmlElement* inertial = element.child("inertial")) link.inertial = readInertial(*inertial);
     for (const XmlElement* visual : element.all("visual")) readShape(*visual, link);
@@ -193,7 +193,7 @@ class UrdfParser {
       if (found == materials_.end()) {
         std::vector<std::string> known;
         for (const auto& [key, material] : materials_) known.push_back(key);
-        warn(name->where, cat(context_, "there is no material '", name->value, "'", similarHint(name->value, known)));
+        warn(name->where, cat(context_, "no material '", name->value, "'", similarHint(name->value, known)));
         return;
       }
       source = found->second;
@@ -239,7 +239,7 @@ class UrdfParser {
     context_ = cat("joint '", joint.name, "': ");
     for (const UrdfJoint& other : model_.joints) {
       if (other.name == joint.name)
-        error(element.where, cat("there is a joint '", joint.name, "' already, at ", other.where.str()));
+        error(element.where, cat("joint '", joint.name, "' is already defined at ", other.where.str()));
     }
     joint.type = jointType(element).value_or(UrdfJointType::fixed);
     joint.parent = linkOf(element, "parent", joint.parent_where);
@@ -267,11 +267,11 @@ class UrdfParser {
     const XmlElement* limit = element.child("limit");
     if (!limit) {
       if (bounded)
-        warn(element.where, cat(context_, "a joint of this type should have a <limit>; it is taken to have none"));
+        warn(element.where, cat(context_, "a joint of this type should have a <limit>; it is read as unlimited"));
       return;
     }
     joint.limit_where = limit->where;
-    joint.effort = limitOf(*limit, "effort", 0.);  // 0: none is known
+    joint.effort = limitOf(*limit, "effort", 0.);  // 0: unknown
     joint.velocity = limitOf(*limit, "velocity", 0.);
     if (!bounded) return;
     joint.lower = limitOf(*limit, "lower", kUrdfUnlimited);

@@ -12,7 +12,7 @@
 
 namespace kinegraph {
 
-/// What a URDF file says, with places for messages. SI units.
+/// The content of a URDF file, with positions for messages. SI units.
 
 /// A <visual> or <collision>.
 struct UrdfShape {
@@ -20,7 +20,7 @@ struct UrdfShape {
   Pose origin;                        ///< in the link
   ShapeType type = ShapeType::none;   ///< box, sphere, cylinder, capsule or mesh
   std::vector<double> size;           ///< as in Geometry
-  std::string mesh;                   ///< the file, as it is written
+  std::string mesh;                   ///< file name as written
   Vector3d scale = Vector3d::Ones();  ///< of the mesh
   std::optional<Vector4d> color;      ///< of the material
   std::string texture;
@@ -47,7 +47,7 @@ struct UrdfMimic {
   SourcePosition where;
 };
 
-/// A limit of this size or more, rad or m, stands for none: URDF wants limits of every prismatic joint.
+/// A limit of at least this size (rad or m) means unlimited: URDF requires limits for every prismatic joint.
 constexpr double kUrdfUnlimited = 1e9;
 
 enum class UrdfJointType { fixed, revolute, continuous, prismatic, planar, floating };
@@ -71,11 +71,11 @@ struct UrdfModel {
   std::vector<UrdfJoint> joints;
 };
 
-/// Reads a URDF text, as far as it can be read; what is wrong or odd about it goes to `found`. That links and joints
-/// form a tree is for others to check.
+/// Parses a URDF text as far as possible and appends errors and warnings to `found`. Does not check that links and
+/// joints form a tree.
 UrdfModel parseUrdf(std::string_view text, const std::string& file, std::vector<Diagnostic>& found);
 
-/// Is there an error among these?
+/// Returns whether the list contains an error.
 bool hasErrors(const std::vector<Diagnostic>& found);
 
 }  // namespace kinegraph

@@ -20,9 +20,9 @@ AxisMotion motionOf(const UrdfJoint& joint) {
       return {"none"};
     case UrdfJointType::revolute:
     case UrdfJointType::continuous:
-      return turningAbout(joint.axis);
+      return rotationAbout(joint.axis);
     case UrdfJointType::prismatic:
-      return slidingAlong(joint.axis);
+      return translationAlong(joint.axis);
     case UrdfJointType::planar:
       return {"transXYPhi", 1., Quaterniond::FromTwoVectors(Vector3d::UnitZ(), joint.axis)};
     case UrdfJointType::floating:
@@ -31,7 +31,7 @@ AxisMotion motionOf(const UrdfJoint& joint) {
   return {"none"};
 }
 
-/// The pose that a joint of one dof has at `q`.
+/// The pose of a one-dof joint at `q`.
 Pose poseAt(const UrdfJoint& joint, double q) {
   if (joint.type == UrdfJointType::prismatic) return {q * joint.axis, Quaterniond::Identity()};
   return {Vector3d::Zero(), Quaterniond(Eigen::AngleAxisd(q, joint.axis))};
@@ -65,7 +65,7 @@ class UrdfReader {
     found_.push_back({Diagnostic::Severity::warning, where, std::move(message)});
   }
 
-  /// A name that is not taken yet: `name` itself, or with underscores behind it.
+  /// Returns an unused name: `name` itself, or with underscores appended.
   std::string unusedName(std::string name) {
     while (!names_.insert(name).second) name += "_";
     return name;
@@ -87,25 +87,25 @@ class UrdfReader {
     return names;
   }
 
-  /// Finds out which joint hangs where.
+  /// Connects joints and links.
   void linkUp() {
     for (const UrdfJoint& joint : model_.joints) {
       for (const auto& [link, where] :
            {std::pair(joint.parent, joint.parent_where), std::pair(joint.child, joint.child_where)}) {
         if (!links_.contains(link)) {
-          error(where, cat("joint '", joint.name, "': there is no link '", link, "'", similarHint(link, linkNames())));
+          error(where, cat("joint '", joint.name, "': no link '", link, "'", similarHint(link, linkNames())));
         }
       }
       const auto [above, is_first] = joint_above_.emplace(joint.child, &joint);
       if (!is_first) {
-        error(joint.child_where,
-              cat("link '", joint.child, "' hangs on two joints: '", above->second->name, "' and '", joint.name, "'"));
+        error(joint.child_where, cat("link '", joint.child, "' is the child of two joints: '", above->second->name,
+                                     "' and '", joint.name, "'"));
       }
       joints_below_[joint.parent].push_back(&joint);
     }
   }
 
-  /// The link that the tree hangs on. An error and null if there is no such thing.
+  /// Returns the root link. Reports an error and returns null if there is no unique root.
   const UrdfLink* findRoot() {
     std::vector<const UrdfLink*> roots;
     for (const UrdfLink& link : model_.links) {
@@ -116,15 +116,15 @@ class UrdfReader {
       return nullptr;
     }
     if (roots.size() > 1) {
-      error(roots[1]->where, cat("there are two links without a joint above them: '", roots[0]->name, "' and '",
-                                 roots[1]->name, "'; a URDF file describes one tree"));
+      error(roots[1]->where, cat("two links have no joint above them: '", roots[0]->name, "' and '", roots[1]->name,
+                                 "'; a URDF file describes one tree"));
       return nullptr;
     }
     std::set<std::string> reached;
     reach(roots[0]->name, reached);
     for (const UrdfLink& link : model_.links) {
       if (reached.contains(link.name)) continue;
-      error(link.where, cat("link '", link.name, "' hangs on itself: the joints above it form a loop"));
+      error(link.where, cat("link '", link.name, "' is its own ancestor: the joints above it form a loop"));
       return nullptr;
     }
     return roots[0];
@@ -144,17 +144,17 @@ class UrdfReader {
     return nullptr;
   }
 
-  /// Makes every mimic refer to the joint that really has the dof. One without a source loses its mimic, and one whose
-  /// source is fixed is fixed as well: such files are about, and their robots are as good as those without mimics.
+  /// Makes every mimic refer to the joint that owns the dof. An unknown source removes the mimic, and a fixed source
+  /// fixes the joint: such files exist and remain usable without the mimic.
   void resolveMimics() {
     std::vector<std::string> names;
     for (const UrdfJoint& joint : model_.joints) names.push_back(joint.name);
     for (UrdfJoint& joint : model_.joints) {
-      if (joint.type == UrdfJointType::fixed) joint.mimic.reset();  // as reduced models have it
+      if (joint.type == UrdfJointType::fixed) joint.mimic.reset();  // as in reduced models
       if (!joint.mimic || findJoint(joint.mimic->joint)) continue;
       warn(joint.mimic->where,
            cat("joint '", joint.name, "' mimics '", joint.mimic->joint,
-               "', which is no joint; it is read as one that moves by itself", similarHint(joint.mimic->joint, names)));
+               "', which is not a joint; it is read as an independent joint", similarHint(joint.mimic->joint, names)));
       joint.mimic.reset();
     }
     for (UrdfJoint& joint : model_.joints) followMimic(joint);
@@ -192,9 +192,9 @@ class UrdfReader {
     graph_.nodes.push_back(attributes.takeFrame(name, parent, where));
   }
 
-  void addLink(const UrdfLink& link, const std::string& parent, const Quaterniond& turn) {
+  void addLink(const UrdfLink& link, const std::string& parent, const Quaterniond& rotation) {
     FrameAttributes attributes(link.inertial ? link.inertial->where : link.where);
-    attributes.addPose({Vector3d::Zero(), turn});
+    attributes.addPose({Vector3d::Zero(), rotation});
     if (link.inertial && link.inertial->mass > 0.) {
       const Matrix3d& m = link.inertial->matrix;
       attributes.add("mass", link.inertial->mass);
@@ -221,8 +221,8 @@ class UrdfReader {
         if (shape.scale != Vector3d::Ones())
           attributes.addNumbers("meshscale", {shape.scale.begin(), shape.scale.end()});
       } else {
-        warn(shape.where, cat("link '", link, "': mesh '", shape.mesh, "' is not there",
-                              path.empty() ? "; packages are looked for in the folders above the file and in those of "
+        warn(shape.where, cat("link '", link, "': mesh '", shape.mesh, "' does not exist",
+                              path.empty() ? "; packages are searched in the folders above the file and in "
                                              "KINEGRAPH_PACKAGE_PATH, ROS_PACKAGE_PATH and AMENT_PREFIX_PATH"
                                            : cat(" (", path, ")")));
       }
@@ -249,7 +249,7 @@ class UrdfReader {
     const AxisMotion motion = motionOf(joint);
     Pose origin = joint.origin;
     if (joint.mimic) origin = origin * poseAt(joint, joint.mimic->offset);
-    origin = origin * Pose(Vector3d::Zero(), motion.turn);
+    origin = origin * Pose(Vector3d::Zero(), motion.rotation);
     FrameAttributes attributes(joint.limit_where);
     std::string parent = joint.parent;
     if (joint.type == UrdfJointType::fixed) {
@@ -264,7 +264,7 @@ class UrdfReader {
       attributes.add("joint", std::string(motion.type));
       if (std::string_view(motion.type) == "hinge")
         attributes.addNumbers("axis", {joint.axis.begin(), joint.axis.end()});
-      double scale = motion.scale;  // of a mimic it multiplies the motion of its source, that one's scale included
+      double scale = motion.scale;  // a mimic multiplies its source's motion, including the source's own scale
       if (joint.mimic) scale *= joint.mimic->multiplier * motionOf(*findJoint(joint.mimic->joint)).scale;
       if (scale != 1.) attributes.add("joint_scale", scale);
       if (joint.limited) attributes.addNumbers("limits", {joint.lower, joint.upper});
@@ -273,7 +273,7 @@ class UrdfReader {
       if (joint.mimic) attributes.add("mimic", frame_of_joint_.at(findJoint(joint.mimic->joint)));
     }
     addFrame(name, parent, joint.where, std::move(attributes));
-    addLink(*links_.at(joint.child), name, motion.turn.conjugate());
+    addLink(*links_.at(joint.child), name, motion.rotation.conjugate());
   }
 
   UrdfModel model_;

@@ -10,18 +10,19 @@ namespace kinegraph {
 /// Reads a URDF text as the frames of a scene, parents first:
 ///
 ///     link                 a frame of that name, with mass, `com` and `inertia`
-///     joint                a frame of that name at the joint's origin, moved by the joint; the child link sits in it.
-///                          Named <joint>_joint if there is a link of that name.
-///     origin of a joint    a frame <joint>_origin between parent link and joint, if it is not the identity
+///     joint                a frame of that name at the joint's origin, moved by the joint; the child link is fixed
+///     in
+///                          it. Named <joint>_joint if a link has that name.
+///     origin of a joint    a frame <joint>_origin between parent link and joint, unless it is the identity
 ///     visual, collision    child frames <link>_0, <link>_1, ...; collisions are transparent red, with contact -2
 ///
-/// revolute and continuous are hingeX, hingeY, hingeZ, or hinge with an axis; prismatic is transX, transY or transZ
-/// with a joint_scale of 1 or -1; planar is transXYPhi and floating is free. A fixed joint is a frame without a joint,
-/// so that what is fixed together counts as one link. For a prismatic or planar joint about any other axis the joint
-/// frame is turned so that its x (z) axis is that axis, and the child link is turned back. Effort and velocity limits
-/// are kept as `ctrl_limits: [velocity effort -1]`. A mesh whose file is missing is left out with a warning.
+/// revolute and continuous become hingeX, hingeY, hingeZ, or hinge with an axis; prismatic becomes transX, transY or
+/// transZ with a joint_scale of 1 or -1; planar becomes transXYPhi, and floating free. A fixed joint becomes a frame
+/// without a joint, which merges the connected links. For a prismatic or planar joint along any other axis the joint
+/// frame is rotated to make its x (z) axis that axis, and the child link is rotated back. Effort and velocity limits
+/// are stored as `ctrl_limits: [velocity effort -1]`. A mesh with a missing file is skipped with a warning.
 ///
-/// With an error among the diagnostics (unknown links, several roots, loops, and what parseUrdf finds) there are no
+/// If the diagnostics contain an error (unknown links, several roots, loops, errors of parseUrdf), there are no
 /// frames.
 ParseResult readUrdf(std::string_view text, const std::string& file, const std::string& folder);
 

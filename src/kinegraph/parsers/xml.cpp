@@ -17,7 +17,7 @@ namespace {
 
 bool isSpace(char c) { return std::isspace(static_cast<unsigned char>(c)) != 0; }
 
-/// Where the start tags of a well-formed XML text and their attributes stand, in order: tinyxml2 knows only lines.
+/// Positions of the start tags and attributes of a well-formed XML text, in order; tinyxml2 records only lines.
 class TagPlaces {
  public:
   struct Tag {
@@ -64,7 +64,7 @@ class TagPlaces {
   std::vector<Tag> tags_;
 };
 
-/// Turns tinyxml2's document into our elements.
+/// Converts tinyxml2's document to XmlElements.
 class Converter {
  public:
   Converter(std::string_view text, const std::string& file) : file_(file), places_(text) {
@@ -107,9 +107,9 @@ class Converter {
 std::string explain(tinyxml2::XMLError error) {
   switch (error) {
     case tinyxml2::XML_ERROR_EMPTY_DOCUMENT:
-      return "there is no XML element in this text";
+      return "the text contains no XML element";
     case tinyxml2::XML_ERROR_MISMATCHED_ELEMENT:
-      return "this element is not closed by a tag of its own name";
+      return "the element is not closed by a tag of the same name";
     case tinyxml2::XML_ERROR_PARSING_ATTRIBUTE:
       return "an attribute is not of the form name=\"value\"";
     case tinyxml2::XML_ERROR_PARSING_ELEMENT:
@@ -119,7 +119,7 @@ std::string explain(tinyxml2::XMLError error) {
     case tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED:
       return "elements are nested too deeply";
     default:
-      return "this is not well-formed XML";
+      return "the text is not well-formed XML";
   }
 }
 
@@ -186,7 +186,7 @@ std::optional<std::vector<double>> numbersIn(std::string_view text) {
     double number = 0.;
     const auto [behind, error] = std::from_chars(at, end, number);
     if (error == std::errc::invalid_argument) return std::nullopt;
-    if (error != std::errc{}) number = std::strtod(std::string(at, behind).c_str(), nullptr);  // too large or too small
+    if (error != std::errc{}) number = std::strtod(std::string(at, behind).c_str(), nullptr);  // out of range
     if (!std::isfinite(number)) return std::nullopt;
     if (behind != end && std::string_view(" \t\r\n").find(*behind) == std::string_view::npos) return std::nullopt;
     numbers.push_back(number);

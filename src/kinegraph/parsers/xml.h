@@ -14,8 +14,8 @@ struct XmlAttribute {
   SourcePosition where;  ///< of the name
 };
 
-/// An element of an XML text, with the places where things stand. Text between elements, comments and processing
-/// instructions are left out.
+/// An element of an XML text with its source positions. Text between elements, comments and processing instructions are
+/// skipped.
 struct XmlElement {
   std::string name;
   std::vector<XmlAttribute> attributes;
@@ -27,16 +27,16 @@ struct XmlElement {
   std::vector<const XmlElement*> all(std::string_view name) const;  ///< all children of that name
 };
 
-/// Parses an XML text and returns its root element. Throws ParseError, whose message has no excerpt.
+/// Parses an XML text and returns its root element. Throws ParseError with a message without excerpt.
 XmlElement parseXml(std::string_view text, const std::string& file);
 
 /// The name of the root element of a text that looks like XML, or "".
 std::string xmlRootName(std::string_view text);
 
-/// The numbers in a text, separated by blanks; nothing if there is anything else in it, or a number that is not finite.
+/// Parses blank-separated numbers; nullopt if the text contains anything else or a non-finite number.
 std::optional<std::vector<double>> numbersIn(std::string_view text);
 
-/// `text` with the characters that XML reserves written as entities.
+/// `text` with XML's reserved characters replaced by entities.
 std::string xmlEscaped(std::string_view text);
 
 }  // namespace kinegraph

@@ -24,7 +24,7 @@ Config::Config(const Config& other) : Config(*other.scene_) {}
 Config& Config::operator=(const Config& other) {
   if (this != &other) {
     Config copy(other);
-    copy.scene_->viewer = std::exchange(scene_->viewer, nullptr);  // the page goes on, with the other scene
+    copy.scene_->viewer = std::exchange(scene_->viewer, nullptr);  // the viewer continues, showing the assigned scene
     *this = std::move(copy);
   }
   return *this;
@@ -32,7 +32,7 @@ Config& Config::operator=(const Config& other) {
 
 namespace {
 
-/// Names of `added` that `scene` has already, as a warning; empty if there are none.
+/// Returns a warning that lists the names of `added` already present in `scene`, or "" if there are none.
 std::string duplicatesWarning(SceneTree& scene, const SceneTree& added, const std::string& prefix,
                               std::string_view file) {
   std::vector<std::string> twice;
@@ -42,8 +42,8 @@ std::string duplicatesWarning(SceneTree& scene, const SceneTree& added, const st
   if (twice.empty()) return "";
   const std::size_t count = twice.size();
   twice.resize(std::min<std::size_t>(count, 3));
-  return cat(file, ": ", count, " of its frames have names that exist already (", join(twice), count > 3 ? ", ..." : "",
-             "); a name finds the first frame; a prefix keeps them apart");
+  return cat(file, ": duplicate frame names: ", count, " (", join(twice), count > 3 ? ", ..." : "",
+             "); a look-up by name finds the first frame; pass a prefix to keep the names distinct");
 }
 
 }  // namespace
@@ -74,11 +74,12 @@ std::optional<Frame> Config::addText(std::string_view text, const std::string& n
 
 namespace {
 
-/// Scripts, and cells of notebooks that are run again, may ask for a frame twice; but not for two that differ.
+/// A script or a notebook cell that runs again may add a frame twice. A request that differs from the existing frame is
+/// an error.
 void checkSameRequest(const FrameData& existing, const FrameData* parent, const std::string& attributes) {
   const FrameData* above = existing.parent;
   while (above && (above->name == existing.name + "_origin" || above->name == "|" + existing.name))
-    above = above->parent;  // of pre and post
+    above = above->parent;  // skips the frames that `pre` and `post` inserted
   std::string difference;
   if (parent && above != parent) {
     difference = cat(above ? cat("below '", above->name, "'") : "without a parent", ", not below '", parent->name, "'");
@@ -88,9 +89,9 @@ void checkSameRequest(const FrameData& existing, const FrameData* parent, const 
   if (difference.empty()) return;
   int number = 2;
   while (existing.tree->find(cat(existing.name, "_", number))) ++number;
-  throw ValueError(cat("addFrame: a frame named '", existing.name, "' exists already, ", difference,
-                       "; take another name (such as '", existing.name, "_", number, "'), or delFrame('", existing.name,
-                       "') before"));
+  throw ValueError(cat("addFrame: a frame named '", existing.name, "' already exists, ", difference,
+                       "; choose another name (such as '", existing.name, "_", number, "'), or call delFrame('",
+                       existing.name, "') first"));
 }
 
 }  // namespace
@@ -107,7 +108,7 @@ Frame Config::addFrame(const std::string& name, const Frame& parent, const std::
 Frame Config::addFrameBelow(const std::string& name, FrameData* parent, const std::string& attributes) {
   if (FrameData* existing = name.empty() ? nullptr : scene_->find(name)) {
     checkSameRequest(*existing, parent, attributes);
-    warnings_.push_back(cat("addFrame: a frame named '", name, "' exists already and is returned as it is"));
+    warnings_.push_back(cat("addFrame: a frame named '", name, "' already exists and is returned unchanged"));
     return Frame(scene_, *existing);
   }
   FrameData& frame = scene_->add(name, parent);
@@ -142,9 +143,9 @@ void Config::attach(const std::string& parent, const std::string& child) {
   const FrameData* above = &target;
   while (above && above != top) above = above->parent;
   if (above && top->name != child) {
-    throw ValueError(
-        cat("attach: '", child, "' has no joint and is fixed to '", top->name, "', which carries '", parent,
-            "', too; give it a joint of its own first, such as setJoint(JointType::rigid), and it is taken alone"));
+    throw ValueError(cat("attach: '", child, "' has no joint and is fixed to '", top->name, "', which also carries '",
+                         parent,
+                         "'; give it its own joint first, such as setJoint(JointType::rigid), to move it alone"));
   }
   const Pose world = scene_->worldPose(*top);
   const std::optional<Joint> former_joint = top->joint;
@@ -215,7 +216,7 @@ void Config::setFrameState(const MatrixXd& poses, const std::vector<std::string>
   if (names.empty()) frames = getFrames();
   if (poses.rows() != Eigen::Index(frames.size()) || poses.cols() != 7) {
     throw ValueError(cat("setFrameState: got ", poses.rows(), " x ", poses.cols(), " numbers; expected ", frames.size(),
-                         " x 7, a row x y z qw qx qy qz per frame"));
+                         " x 7, one pose x y z qw qx qy qz per frame"));
   }
   for (std::size_t i = 0; i < frames.size(); ++i) frames[i].setPose(Pose::fromNumbers(poses.row(i).transpose()));
 }
@@ -237,7 +238,7 @@ void Config::setJointState(const VectorXd& q) {
     throw ValueError(cat("setJointState: got ", q.size(), " numbers; the configuration has ", model->dofs,
                          " active dofs: ", join(getJointNames())));
   }
-  if (!q.allFinite()) throw ValueError(cat("setJointState: numbers that are not finite: ", q.transpose()));
+  if (!q.allFinite()) throw ValueError(cat("setJointState: q contains non-finite numbers: ", q.transpose()));
   scene_->setJointState(q.data());
 }
 
@@ -334,7 +335,7 @@ void Config::setRandom(Rng& rng) {
     }
     if (!uniform) continue;
     int first = 0;
-    for (const MotionStep& step : joint.steps) {  // uniform on the sphere
+    for (const MotionStep& step : joint.steps) {  // a quaternion: uniform on the sphere
       if (step.kind == MotionStep::Kind::quaternion) {
         for (int i = 0; i < 4; ++i) joint.q[first + i] = rng.normal();
         joint.q.segment<4>(first).normalize();
@@ -368,7 +369,7 @@ VectorXd Config::inverseDynamics(const VectorXd& velocity, const VectorXd& accel
 }
 
 std::vector<Config::NearPair> Config::getCollisions(double margin) const {
-  if (std::isnan(margin)) throw ValueError("getCollisions: the margin is nan; expected a distance, m");
+  if (std::isnan(margin)) throw ValueError("getCollisions: margin is nan; expected a distance in m");
   std::vector<NearPair> near;
   scene_->nearPairs().forDistances(margin, [&](int a, int b, double distance) { near.push_back({a, b, distance}); });
   return near;
@@ -402,21 +403,20 @@ std::optional<MotionContact> Config::checkMotion(const VectorXd& from, const Vec
 }
 
 std::string Config::report() const {
-  constexpr std::size_t kMostNamed = 40;
+  constexpr std::size_t kMaxNamed = 40;
   int shapes = 0;
   for (const auto& frame : scene_->frames()) shapes += frame->shape != nullptr;
   const KinematicModel& model = *scene_->model();
   std::vector<std::string> colliding;
   for (const ContactRules::Body& body : model.contacts.bodies) {
-    if (colliding.size() == kMostNamed) break;
+    if (colliding.size() == kMaxNamed) break;
     colliding.push_back(model.frame_name[std::size_t(body.frame)]);
   }
   const std::size_t count = model.contacts.bodies.size();
   std::string text = cat("Configuration: q.N=", getJointDimension(), " #frames=", getFrameDimension(),
                          " #joints=", getJoints().size(), " #shapes=", shapes, " #pairs=", getCollidablePairs().size());
   if (count > 0)
-    text +=
-        cat("\ncollide: ", join(colliding, " "), count > kMostNamed ? cat(" and ", count - kMostNamed, " more") : "");
+    text += cat("\ncollide: ", join(colliding, " "), count > kMaxNamed ? cat(" and ", count - kMaxNamed, " more") : "");
   for (const std::string& note : contactWarnings()) text += cat("\nnote: ", note);
   return text;
 }

@@ -18,7 +18,7 @@ class FeatureSource;
 struct Evaluation;
 
 /// A scene as a person edits it: named frames with joints, shapes and masses, and the joint vector q.
-/// Copies are deep. Everything that is derived (world poses, the compiled Program) follows by itself.
+/// Copies are deep. Derived data (world poses, the compiled KinematicModel) is updated automatically.
 class Config {
  public:
   Config() : scene_(std::make_shared<SceneTree>()) {}
@@ -29,39 +29,38 @@ class Config {
   Config(Config&&) = default;
   Config& operator=(Config&&) = default;
 
-  // --- building --------------------------------------------------------------------------------------------------
+  // Building
 
-  /// Adds the frames of a scene file, in the .g language or of a format that its extension tells (.urdf, .xml);
-  /// `prefix` is put before their names. Returns the first of them, if any. What an .srdf file says about a robot is
-  /// entered into its frames, which are there already; one beside a .urdf file is read with it. On an error (FileError,
-  /// ParseError) the configuration is unchanged. Warnings go to `takeWarnings`.
+  /// Adds the frames of a scene file and returns the first of them, if any. The extension selects the format: .urdf,
+  /// .xml (MJCF), .srdf, otherwise the .g language. `prefix` is put before the names. An .srdf file adds collision
+  /// pairs, groups and states to frames that already exist; one beside a .urdf file is read with it. On an error
+  /// (FileError, ParseError) the configuration is unchanged. `takeWarnings` returns the warnings.
   std::optional<Frame> addFile(const std::string& path, const std::string& prefix = {});
 
-  /// The same for text; `name` stands for the file in messages, and files included are relative to `folder`.
+  /// Adds the frames of scene text. `name` stands for the file in messages; included files are relative to `folder`.
   std::optional<Frame> addText(std::string_view text, const std::string& name = "text", const std::string& folder = {});
 
-  /// Appends a frame. It sits at its parent's pose, or at the world's origin without one. `attributes` is text as
-  /// inside the braces of a `.g` file. A name that exists already gives that frame, unchanged, with a warning; but
-  /// throws ValueError if the call asks for another parent or other attributes than that frame was made with. Throws
-  /// FrameNotFound for an unknown parent.
+  /// Appends a frame at its parent's pose, or at the world's origin without a parent. `attributes` is text as inside
+  /// the braces of a `.g` file. If the name already exists, returns that frame unchanged and adds a warning. Throws
+  /// ValueError if that frame was made with another parent or other attributes, and FrameNotFound for an unknown
+  /// parent.
   Frame addFrame(const std::string& name, const std::string& parent = {}, const std::string& attributes = {});
   Frame addFrame(const std::string& name, const Frame& parent, const std::string& attributes = {});
 
   /// Appends copies of all frames of `other`, names prefixed. Returns the first, if any.
   std::optional<Frame> addConfigurationCopy(const Config& other, const std::string& prefix = {});
 
-  /// Removes a frame, by name the first of that name. Its children become roots and stay where they are.
+  /// Removes a frame (the first one with that name). Its children become roots and keep their world poses.
   void delFrame(const std::string& name);
   void delFrame(const Frame& frame);
   void clear() { scene_->clear(); }
 
-  /// Re-attaches the link that `child` belongs to: its topmost frame is cut off and hangs, rigidly and where it is,
-  /// below `parent`.
+  /// Re-attaches the link of `child`: cuts off its topmost frame and fixes it below `parent`, keeping its world pose.
   void attach(const std::string& parent, const std::string& child);
 
-  // --- frames ----------------------------------------------------------------------------------------------------
+  // Frames
 
-  Frame getFrame(std::string_view name) const;  ///< the first of that name; throws FrameNotFound
+  Frame getFrame(std::string_view name) const;  ///< the first frame with that name; throws FrameNotFound
   std::optional<Frame> findFrame(std::string_view name) const;
   Frame getFrame(int id) const;  ///< throws ValueError
   std::vector<Frame> getFrames() const;
@@ -70,127 +69,132 @@ class Config {
   std::vector<std::string> getFrameNames() const { return scene_->names(); }
   int getFrameDimension() const { return int(scene_->frames().size()); }
 
-  /// World poses, one row (x y z qw qx qy qz) per frame, qw >= 0.
+  /// World poses, shape (frames, 7): x y z qw qx qy qz, qw >= 0.
   MatrixXd getFrameState() const;
 
-  /// Sets the world poses of all frames, or of the named ones. Joints take the nearest poses that they can reach.
+  /// Sets the world poses of all frames, or of the named ones. Joints move to the nearest poses they can reach.
   void setFrameState(const MatrixXd& poses, const std::vector<std::string>& names = {});
 
-  // --- joints ----------------------------------------------------------------------------------------------------
+  // Joints
 
   int getJointDimension() const { return scene_->model()->dofs; }
   VectorXd getJointState() const { return scene_->jointState(); }
   VectorXd getJointState(const std::vector<std::string>& names) const;
 
-  /// Sets q, or the dofs of the named frames in that order, active or not. Throws ValueError for a wrong length or
-  /// numbers that are not finite.
+  /// Sets q, or the dofs of the named frames in that order, active or not. Throws ValueError for a wrong length and for
+  /// non-finite numbers.
   void setJointState(const VectorXd& q);
   void setJointState(const VectorXd& q, const std::vector<std::string>& names);
 
-  /// One name per entry of q: the frame's, with ":i" where its joint has several dofs.
+  /// One name per entry of q: the frame's name, followed by ":i" if its joint has several dofs.
   std::vector<std::string> getJointNames() const;
   std::vector<int> getJointIDs() const;  ///< ids of the frames of getJoints
 
-  /// Names of joint states that the scene knows (attribute `joint_states`, SRDF), or of those of one group.
+  /// Names of the stored joint states (attribute `joint_states`, SRDF), of one group if given.
   std::vector<std::string> getStateNames(const std::string& group = {}) const;
 
-  /// The present q with the values of such a state; joints that it does not name keep theirs. Without a group, the
-  /// states of that name of all groups are taken together. Throws NameError for a name that is not there.
+  /// Returns the current q with the values of a stored state; joints not named by the state keep their values. Without
+  /// a group, merges the states of that name of all groups. Throws NameError for an unknown state or group.
   VectorXd getNamedState(const std::string& name, const std::string& group = {}) const;
 
-  /// Groups of joints (attribute `joint_groups`, SRDF): their names, and those of the joints' frames.
+  /// Groups of joints (attribute `joint_groups`, SRDF): the name of each and the names of its joint frames.
   std::vector<std::pair<std::string, std::vector<std::string>>> getJointGroups() const;
 
-  /// 2 x n: row 0 lower, row 1 upper limits; 0 and -1 for a dof without limits.
+  /// Limits, shape (2, n): lower in row 0, upper in row 1; 0 and -1 for a dof without limits.
   MatrixXd getJointLimits() const;
 
-  /// Makes the joints at or above the named frames the active ones, or all others.
+  /// Activates the joints at or above the named frames and deactivates the others; `not_those` swaps the two sets.
   void selectJoints(const std::vector<std::string>& names, bool not_those = false);
 
-  /// Draws q: per joint uniform within its limits, or Gaussian around its home and clipped, as its sampling attributes
-  /// say.
+  /// Samples q per joint: uniformly within its limits, or Gaussian around its home and clipped, as its sampling
+  /// attributes specify.
   void setRandom(Rng& rng);
 
-  // --- dynamics ---------------------------------------------------------------------------------------------------
+  // Dynamics
 
-  /// What each link weighs; links as in program().
+  /// Inertia of each link; links as in model().
   std::vector<LinkInertia> inertias() const {
     return collectInertias(*scene_, *scene_->model(), *scene_->parameters());
   }
 
-  /// M(q) and F(q, dq) of u = M ddq + F at the present q, with gravity 9.81 m/s^2 along -z.
+  /// M(q) and F(q, dq) of u = M ddq + F at the current q, with gravity 9.81 m/s^2 along -z.
   EquationOfMotion equationOfMotion(const VectorXd& velocity) const;
 
   /// Generalized forces u (N m, N) for a velocity and an acceleration of q.
   VectorXd inverseDynamics(const VectorXd& velocity, const VectorXd& acceleration) const;
 
-  /// Total mass of everything that moves, kg, and its center, world coordinates, m.
+  /// Total mass (kg) of all moving links and its center, world coordinates, m.
   std::pair<double, Vector3d> centerOfMass() const { return kinegraph::centerOfMass(scene_->state(), inertias()); }
 
-  // --- collisions ------------------------------------------------------------------------------------------------
+  // Collisions
 
   struct NearPair {
     int a, b;         ///< frame ids, a < b
     double distance;  ///< m, negative: penetration depth
   };
 
-  /// Pairs of frames that may collide. Both have a shape and a contact flag other than 0, they belong to different
-  /// links, a negative flag -k excludes contacts with the links above within k joints, and so does `contact_exclude`
-  /// with the frames that it names; there, a shape counts as that of its parent, too, if it is fixed to it.
+  /// Pairs of frames that may collide. Both have a shape and a nonzero contact flag and belong to different links. A
+  /// negative flag -k excludes contacts with the links above within k joints. `contact_exclude` excludes the frames it
+  /// names; for both rules, a shape that is fixed to its parent counts as the parent's shape.
   std::vector<std::pair<int, int>> getCollidablePairs() const { return scene_->model()->collidable(); }
 
-  /// All collidable pairs whose distance is at most `margin`, by id, also those that no joint moves apart.
+  /// All collidable pairs with a distance of at most `margin` (m), ordered by id. Includes pairs at a constant relative
+  /// pose.
   std::vector<NearPair> getCollisions(double margin = 0.) const;
 
   /// Sum of the penetration depths of all pairs, or the largest one, in m.
   double getTotalPenetration(bool largest_only = false) const;
 
-  /// What first ends the straight motion of q between two joint vectors: a pair that comes nearer than `margin` (m), at
-  /// any time of it and not just at samples, or a joint that passes its limits (by more than 1e-5 rad or m). None if the
-  /// motion is free. Pairs that no joint moves apart do not count: they say nothing about q. Pairs within margin +
-  /// tolerance may count as too near. Throws ValueError for joint vectors of a wrong length, and for a tolerance that is not positive.
+  /// Returns the first obstruction of the straight motion between two joint vectors: a pair closer than `margin` (m) at
+  /// any time (continuously, not only at samples), or a joint beyond its limits by more than 1e-5 rad or m. Returns
+  /// nullopt for a collision-free motion. Pairs at a constant relative pose are ignored because they do not depend on
+  /// q. Pairs within margin + tolerance may count as too close. Throws ValueError for joint vectors of a wrong length
+  /// and for a tolerance <= 0.
   std::optional<MotionContact> checkMotion(const VectorXd& from, const VectorXd& to, double margin = 0.,
                                            double tolerance = 1e-5) const;
 
-  // --- what rooms above the scene add: defined in front, all in kinegraph/kinegraph.h -------------------------------
+  // Members that higher layers define; kinegraph/kinegraph.h includes all of them.
 
-  /// Value y (d,) of a feature of these frames at the present q, and its Jacobian J (d x n). Throws FrameNotFound, and
-  /// ValueError for a wrong number of frames and for features that need several configurations.
+  /// Value y (d,) of a feature of these frames at the current q, and its Jacobian J (d x n). Throws FrameNotFound, and
+  /// ValueError for a wrong number of frames and for features of several configurations.
   Evaluation eval(const FeatureSource& feature, const std::vector<std::string>& frames = {}) const;
 
-  /// Shows the scene in the browser, and takes over what people have changed there; see ConfigViewer::view. `pause`
-  /// waits for a key. Returns the key pressed since the last call, or 0.
+  /// Shows the scene in the browser and applies the edits made there; see ConfigViewer::view. `pause` waits for a
+  /// key.
+  /// Returns the key pressed since the last call, or 0.
   int view(bool pause = false, const std::string& message = {});
 
-  /// Plays a motion, one joint state per row (T x n), with a time slider; `pause`, then waits for a key. q stays.
+  /// Plays a motion of T joint states, shape (T, n), with a time slider; `pause` then waits for a key. Leaves q
+  /// unchanged.
   int viewPath(const MatrixXd& path, double seconds = 3., bool pause = false, const std::string& message = {});
 
-  /// Loads a scene file and shows it, again whenever it changes, until q is pressed; see kinegraph::watchFile.
+  /// Loads and shows a scene file, and reloads it after each change until q is pressed; see kinegraph::watchFile.
   void watchFile(const std::string& path);
 
-  /// What shows this scene, also while a Simulation or a BotOp moves it. Copies of a Config have viewers of their own.
+  /// The viewer of this scene; it also follows a Simulation or BotOp that moves the scene. A copied Config gets its
+  /// own.
   ConfigViewer& viewer();
 
-  // --- for computing ---------------------------------------------------------------------------------------------
+  // Compiled data
 
   std::shared_ptr<const KinematicModel> model() const { return scene_->model(); }
   std::shared_ptr<const Parameters> parameters() const { return scene_->parameters(); }
   const State& state() const { return scene_->state(); }
   const std::shared_ptr<SceneTree>& scene() const { return scene_; }
 
-  /// The numbers of frames, joints and shapes, which shapes collide, and contactWarnings().
+  /// Describes the scene: numbers of frames, joints and shapes, the colliding shapes, and contactWarnings().
   std::string report() const;
 
-  /// What people may not expect about which shapes collide, a sentence each: shapes that overlap and that no joint moves
-  /// apart; shapes without `contact` near what moves. Python warns of them once per scene.
+  /// Describes unexpected collision settings, one sentence each: overlapping shapes at a constant relative pose, and
+  /// shapes without `contact` near moving links. Python warns of them once per scene.
   std::vector<std::string> contactWarnings() const;
 
-  /// What was odd but not wrong in what was read since the last call.
+  /// Returns and clears the warnings collected since the last call.
   std::vector<std::string> takeWarnings();
 
  private:
   Frame addFrameBelow(const std::string& name, FrameData* parent, const std::string& attributes);
-  FrameData& ownFrame(const Frame& frame, const char* call) const;  ///< throws ValueError if it is another Config's
+  FrameData& ownFrame(const Frame& frame, const char* call) const;  ///< throws ValueError for a frame of another Config
 
   std::shared_ptr<SceneTree> scene_;
   std::vector<std::string> warnings_;

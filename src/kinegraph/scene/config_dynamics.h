@@ -5,7 +5,7 @@
 
 namespace kinegraph {
 
-// The dynamics of a scene in velocities, at its present q; see kinematics/velocity_dynamics.h.
+// Dynamics of a scene in velocity coordinates at its current q; see kinematics/velocity_dynamics.h.
 
 inline int velocityDimension(const Config& config) { return velocityDimension(config.state().model()); }
 

@@ -21,8 +21,7 @@ FrameData& Frame::data() const {
 Frame& Frame::setName(std::string name) {
   const FrameData* taken = name.empty() ? nullptr : scene_->find(name);
   if (taken && taken != &data()) {
-    throw ValueError(
-        cat("frame '", data().name, "' cannot be renamed to '", name, "', which is the name of another frame"));
+    throw ValueError(cat("frame '", data().name, "' cannot be renamed to '", name, "'; another frame has that name"));
   }
   scene_->rename(data(), std::move(name));
   return *this;
@@ -186,7 +185,7 @@ Frame& Frame::setColor(const std::vector<double>& c) {
 
 Frame& Frame::setContact(int contact) {
   if (!data().shape) {
-    throw ValueError(cat("frame '", getName(), "' has no shape that could be in contact; call setShape first"));
+    throw ValueError(cat("frame '", getName(), "' has no shape; call setShape before setContact"));
   }
   editableShape().contact = contact;
   scene_->structureChanged();
@@ -206,7 +205,7 @@ Frame& Frame::setJoint(JointType type, const std::vector<double>& limits, const 
   if (type == JointType::none) {
     if (!limits.empty() || !axis.empty() || mimic) {
       throw ValueError(
-          cat("frame '", frame.name, "': JointType::none removes the joint and takes no limits, axis or mimic"));
+          cat("frame '", frame.name, "': JointType::none removes the joint; it accepts no limits, axis or mimic"));
     }
     frame.joint.reset();
     frame.pose = relative;
@@ -227,7 +226,7 @@ Frame& Frame::setJoint(JointType type, const std::vector<double>& limits, const 
     }
     joint.lower = Eigen::Map<const VectorXd>(limits.data(), dofs);
     joint.upper = Eigen::Map<const VectorXd>(limits.data() + dofs, dofs);
-    if (const std::string why = limitsMistake(limits); !why.empty())
+    if (const std::string why = limitsError(limits); !why.empty())
       throw ValueError(cat("frame '", frame.name, "': ", why));
   }
   if (!axis.empty()) {

@@ -32,7 +32,7 @@ void setLines(Frame& frame, const std::vector<Vector3d>& points, const PointColo
   Mesh mesh;
   const bool colored = colors.size() == n;
   for (std::size_t i = 0; i < n; ++i) {
-    const bool twice = connected && i > 0 && i + 1 < n;  // the end of one segment and the start of the next
+    const bool twice = connected && i > 0 && i + 1 < n;  // an inner point ends one segment and starts the next
     mesh.vertices.insert(mesh.vertices.end(), twice ? 2 : 1, points[i]);
     if (colored) mesh.colors.insert(mesh.colors.end(), twice ? 2 : 1, colors[i]);
   }
@@ -47,7 +47,7 @@ void setMeshFile(Frame& frame, const std::string& path, double scale) {
         cat("setMeshFile of frame '", frame.getName(), "': scale ", scale, " is not a finite number other than 0"));
   }
   const std::string absolute = resolvePath(path, ".");
-  if (absolute.empty()) throw FileError(cat("mesh file '", path, "': its package is not installed"));
+  if (absolute.empty()) throw FileError(cat("mesh file '", path, "': the package is not installed"));
   Geometry geometry;
   Mesh mesh = readMeshFile(absolute);
   for (Vector3d& p : mesh.vertices) p *= scale;
@@ -114,14 +114,14 @@ void setImplicitSurface(Frame& frame, const Grid& grid, const Vector3d& size, in
   Mesh surface = isosurface(values, size);
   if (surface.triangles.empty()) {
     throw ValueError(cat("setImplicitSurface of frame '", frame.getName(),
-                         "': the values are nowhere zero; they should change sign at the surface"));
+                         "': the grid values never cross zero; expected a sign change at the surface"));
   }
   frame.setMesh(std::move(surface));
 }
 
 namespace {
 
-/// For each vertex, the number of its part.
+/// For each vertex, the index of its convex part.
 std::vector<std::uint32_t> partNumbers(const Mesh& mesh) {
   std::vector<std::uint32_t> part(mesh.vertices.size());
   if (!mesh.parts.empty()) {
@@ -193,7 +193,7 @@ std::vector<Frame> splitIntoConvexParts(Frame& frame) {
   return children;
 }
 
-std::vector<Vector3d> drawnIn(const Mesh& hull, double distance) {
+std::vector<Vector3d> shrunkHull(const Mesh& hull, double distance) {
   const std::size_t n = hull.vertices.size();
   std::vector<std::vector<Vector3d>> normals(n);
   Vector3d middle = Vector3d::Zero();
@@ -212,7 +212,7 @@ std::vector<Vector3d> drawnIn(const Mesh& hull, double distance) {
     const Vector3d& p = hull.vertices[v];
     Vector3d mean = Vector3d::Zero();
     for (const Vector3d& normal : normals[v]) mean += normal;
-    double least = 1.;  // how far a step along the mean moves away from the slowest face
+    double least = 1.;  // distance gained from the least favorable face per unit step along the mean
     if (mean.norm() > 1e-9) mean.normalize();
     for (const Vector3d& normal : normals[v]) least = std::min(least, mean.dot(normal));
     const double room = .5 * (p - middle).norm();
@@ -232,7 +232,7 @@ void makeMeshesConvex(SceneTree& scene, double radius) {
     geometry.type = ShapeType::ssCvx;
     geometry.size = {radius};
     Mesh core;
-    core.vertices = drawnIn(convexHull(mesh.vertices), radius);
+    core.vertices = shrunkHull(convexHull(mesh.vertices), radius);
     geometry.mesh = std::make_shared<Mesh>(std::move(core));
     frame->shape->geometry = std::make_shared<Geometry>(std::move(geometry));
     scene.looksChanged(*frame->shape);
@@ -276,7 +276,7 @@ Frame addH5Object(Config& config, const std::string& name, const std::string& pa
     throw FileError(
         cat("'", path, "' holds none of the groups mesh, points, decomp, inertia; it has ", join(file.entries())));
   }
-  if (config.findFrame(name)) throw ValueError(cat("addH5Object: there is a frame named '", name, "' already"));
+  if (config.findFrame(name)) throw ValueError(cat("addH5Object: a frame named '", name, "' already exists"));
   Frame base = config.addFrame(name);
   base.data().inertia = inertia;
   if (mesh) config.addFrame(name + "_mesh", name).setMesh(std::move(*mesh));

@@ -7,9 +7,9 @@
 
 namespace kinegraph {
 
-/// Lets the pairs that are nearer than `margin` (m) at the present q never collide from now on, as `contact_exclude` of a
-/// scene file does, and returns them with their distances. For models of which parts overlap where they are joined. Of a
-/// frame that carries shapes of frames fixed to it, these are meant, too.
+/// Excludes all pairs closer than `margin` (m) at the current q from collision, as `contact_exclude` of a scene file
+/// does, and returns them with their distances. Useful for models with overlapping parts at their joints. A shape that
+/// is fixed to its parent excludes the parent's shapes, too.
 inline std::vector<Config::NearPair> ignoreCollisionsNow(Config& config, double margin = 0.) {
   const std::vector<Config::NearPair> pairs = config.getCollisions(margin);
   SceneTree& scene = *config.scene();

@@ -13,7 +13,7 @@ enum class Motor { velocity, effort };
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The number as given for the joint of a frame, about its motion scale * q.
+/// Limit of the frame's joint in terms of its motion scale * q; infinite if not given.
 double given(const FrameData& frame, Motor motor) {
   const Node* node = frame.attributes->find("ctrl_limits");
   const NumberArray* limits = node ? node->value.as<NumberArray>() : nullptr;
@@ -22,7 +22,7 @@ double given(const FrameData& frame, Motor motor) {
   return said ? limits->numbers[place] : kInfinity;
 }
 
-/// Which dofs of a joint are angles or lengths, and not parts of a quaternion or of a point on a circle.
+/// Marks the dofs of a joint that are angles or lengths, not parts of a quaternion or of a point on a circle.
 std::vector<bool> measurable(const Joint& joint) {
   std::vector<bool> result;
   for (const MotionStep& step : joint.steps) {

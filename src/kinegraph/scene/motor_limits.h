@@ -4,13 +4,13 @@
 
 namespace kinegraph {
 
-/// How fast each dof of q may change: rad/s or m/s of q, from the first number of `ctrl_limits` (velocity, effort, ...;
-/// of URDF files <limit velocity effort/>) of its joint and of those that mimic it. Infinite where nothing is said, for a
-/// number that is not positive, and for the dofs of quaternions and circles, which are no angles.
+/// Velocity limit of each dof of q (rad/s or m/s of q): the first number of `ctrl_limits` (velocity, effort, ...; from
+/// URDF <limit velocity effort/>) of its joint and of the joints mimicking it. Infinite if not given, for a number <=
+/// 0, and for the dofs of quaternions and circles, which are not angles.
 VectorXd getVelocityLimits(const Config& config);
 
-/// The force or torque with which each dof of q may be driven, N or Nm, from the second number of `ctrl_limits` of its
-/// joint. Infinite where nothing is said.
+/// Force or torque limit of each dof of q, N or Nm: the second number of `ctrl_limits` of its joint. Infinite if not
+/// given.
 VectorXd getEffortLimits(const Config& config);
 
 }  // namespace kinegraph

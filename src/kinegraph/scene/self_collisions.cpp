@@ -19,9 +19,9 @@ namespace {
 
 using Reason = SelfCollisionPair::Reason;
 
-constexpr int kPart = 64;  // postures that a thread draws at a time, from a seed of their own
+constexpr int kBatch = 64;  // configurations that a thread samples at a time, from their own seed
 
-/// How postures are drawn: per dof an interval, and whether a limit is missing that an interval cannot stand for.
+/// Sampling interval of each dof. `unbounded` marks dofs without limits that no interval can represent.
 struct Ranges {
   VectorXd lower, upper;
   std::vector<char> unbounded;
@@ -39,19 +39,18 @@ Ranges rangesOf(const KinematicModel& model, const VectorXd& q) {
   }
   for (int dof = 0; dof < model.dofs; ++dof) {
     if (std::isfinite(ranges.lower[dof]) && std::isfinite(ranges.upper[dof])) continue;
-    const double reach = turns[std::size_t(dof)] ? std::numbers::pi : 1.;  // rad, or m around where it is
+    const double reach = turns[std::size_t(dof)] ? std::numbers::pi : 1.;  // rad, or m around the current value
     if (!std::isfinite(ranges.lower[dof])) ranges.lower[dof] = std::min(q[dof], ranges.upper[dof]) - reach;
     if (!std::isfinite(ranges.upper[dof])) ranges.upper[dof] = std::max(q[dof], ranges.lower[dof]) + reach;
     ranges.unbounded[std::size_t(dof)] = !turns[std::size_t(dof)];
   }
-  for (const KinematicModel::DofRange& norm :
-       model.unit_norms) {  // a direction that is drawn evenly has no limits to miss
+  for (const KinematicModel::DofRange& norm : model.unit_norms) {  // a uniformly sampled direction needs no limits
     for (int dof = norm.first; dof < norm.first + norm.count; ++dof) ranges.unbounded[std::size_t(dof)] = 0;
   }
   return ranges;
 }
 
-void draw(Rng& rng, const KinematicModel& model, const Ranges& ranges, VectorXd& q) {
+void sampleConfiguration(Rng& rng, const KinematicModel& model, const Ranges& ranges, VectorXd& q) {
   for (int dof = 0; dof < model.dofs; ++dof) q[dof] = rng.uniform(ranges.lower[dof], ranges.upper[dof]);
   for (const KinematicModel::DofRange& norm : model.unit_norms) {
     for (int dof = norm.first; dof < norm.first + norm.count; ++dof) q[dof] = rng.normal();
@@ -64,10 +63,10 @@ bool hangsOn(const FrameData* frame, const FrameData& root) {
   return frame == &root;
 }
 
-/// The pairs of frames that carry shapes, and the pairs of shapes of each.
-class PairsOfFrames {
+/// Pairs of frames that carry shapes, and the pairs of shapes of each.
+class FramePairs {
  public:
-  PairsOfFrames(const Config& config, const std::string& root) {
+  FramePairs(const Config& config, const std::string& root) {
     const KinematicModel& model = *config.model();
     const FrameData* first = root.empty() ? nullptr : config.scene()->frames()[config.getFrame(root).id()].get();
     std::map<int, int> owner_of;
@@ -88,7 +87,7 @@ class PairsOfFrames {
   }
 
   std::vector<std::pair<int, int>> frames, shapes;
-  std::vector<int> group;  ///< per pair of shapes: the place of its frames
+  std::vector<int> group;  ///< per pair of shapes: index of its pair of frames
 };
 
 bool adjacent(const KinematicModel& model, int a, int b) {
@@ -96,8 +95,8 @@ bool adjacent(const KinematicModel& model, int a, int b) {
   return model.links[std::size_t(link_a)].parent == link_b || model.links[std::size_t(link_b)].parent == link_a;
 }
 
-/// Per pair of frames: the postures in which it collides.
-std::vector<int> countCollisions(const Config& config, const PairsOfFrames& pairs, const Ranges& ranges,
+/// Counts, per pair of frames, the sampled configurations in collision.
+std::vector<int> countCollisions(const Config& config, const FramePairs& pairs, const Ranges& ranges,
                                  const SelfCollisionOptions& options) {
   const auto model = config.model();
   const BodyPairs bodies(*model, pairs.shapes);
@@ -108,7 +107,7 @@ std::vector<int> countCollisions(const Config& config, const PairsOfFrames& pair
     std::vector<int> counts, last;
   };
   std::vector<std::optional<Worker>> workers(std::size_t(options.threads));
-  parallelFor(options.samples, kPart, options.threads, [&](int number, int from, int to) {
+  parallelFor(options.samples, kBatch, options.threads, [&](int number, int from, int to) {
     std::optional<Worker>& worker = workers[std::size_t(number)];
     if (!worker) {
       worker.emplace(Worker{State(model, config.parameters()), PlacedBodies(bodies), VectorXd(model->dofs),
@@ -116,7 +115,7 @@ std::vector<int> countCollisions(const Config& config, const PairsOfFrames& pair
     }
     Rng rng(options.seed + std::uint64_t(from) * 0x9E3779B97F4A7C15u);
     for (int sample = from; sample < to; ++sample) {
-      draw(rng, *model, ranges, worker->q);
+      sampleConfiguration(rng, *model, ranges, worker->q);
       worker->state.setJoints(worker->q.data());
       worker->placed.place(worker->state);
       worker->placed.forMaybeNear(options.margin, [&](int pair) {
@@ -142,7 +141,7 @@ void SelfCollisionOptions::validate() const {
   };
   require(samples >= 1, "samples", samples, "at least 1");
   require(std::isfinite(margin), "margin", margin, "a length in m");
-  require(always > 0. && always <= 1., "always", always, "a share in (0, 1]");
+  require(always > 0. && always <= 1., "always", always, "a fraction in (0, 1]");
   require(threads >= 1, "threads", threads, "at least 1");
 }
 
@@ -162,7 +161,7 @@ const char* selfCollisionReasonName(Reason reason) {
 
 std::string SelfCollisionMatrix::str() const {
   const auto count = [&](Reason reason) { return std::ranges::count(pairs, reason, &SelfCollisionPair::reason); };
-  return cat(pairs.size(), " pairs of frames in ", samples, " postures: ", count(Reason::adjacent), " adjacent, ",
+  return cat(pairs.size(), " pairs of frames in ", samples, " configurations: ", count(Reason::adjacent), " adjacent, ",
              count(Reason::always), " always in collision, ", count(Reason::never), " never, ",
              count(Reason::sometimes), " sometimes");
 }
@@ -170,11 +169,11 @@ std::string SelfCollisionMatrix::str() const {
 SelfCollisionMatrix selfCollisionMatrix(const Config& config, const SelfCollisionOptions& options) {
   options.validate();
   const auto model = config.model();
-  const PairsOfFrames pairs(config, options.root);
+  const FramePairs pairs(config, options.root);
   if (pairs.frames.empty()) {
     throw ValueError(
         cat("selfCollisionMatrix: ", options.root.empty() ? "the scene" : cat("frame '", options.root, "'"),
-            " has no two shapes that may collide and that joints move apart; give the shapes `contact`"));
+            " has no collidable pair of shapes that joints move apart; give the shapes `contact`"));
   }
   const Ranges ranges = rangesOf(*model, config.getJointState());
   const std::vector<int> counts = countCollisions(config, pairs, ranges, options);
@@ -204,7 +203,7 @@ void ignoreSelfCollisions(Config& config, const SelfCollisionMatrix& matrix) {
   bool any = false;
   for (const SelfCollisionPair& pair : matrix.pairs) {
     if (std::size_t(pair.b) >= scene.frames().size())
-      throw ValueError(cat("ignoreSelfCollisions: the matrix is of another scene: there is no frame ", pair.b));
+      throw ValueError(cat("ignoreSelfCollisions: the matrix belongs to another scene: no frame ", pair.b));
     if (pair.matters()) continue;
     scene.frames()[std::size_t(pair.a)]->no_contact.push_back(scene.frames()[std::size_t(pair.b)].get());
     any = true;

@@ -324,17 +324,10 @@ MotionState motionAt(const PathCurve& curve, const TimeScaling& scaling, double 
   return state;
 }
 
-void TimedPath::at(double t, double* q, double* velocity, double* acceleration) const {
-  if (scaling_.phases().empty()) throw ValueError(cat("retime: there is no motion: ", message));
-  if (!(t == t)) throw ValueError("retime: at(t) has a t that is no number");
+void TimedPath::evalTo(double t, double* q, double* velocity, double* acceleration) const {
+  if (scaling_.phases().empty()) throw ValueError(cat("TimedPath::eval: there is no motion: ", message));
+  if (std::isnan(t)) throw ValueError("TimedPath::eval: t is NaN; expected a time in s");
   motionAt(curve_, scaling_, t, q, velocity, acceleration);
-}
-
-MotionState TimedPath::at(double t) const {
-  const int n = curve_.dofs();
-  MotionState state{VectorXd(n), VectorXd(n), VectorXd(n)};
-  at(t, state.q.data(), state.velocity.data(), state.acceleration.data());
-  return state;
 }
 
 std::string TimedPath::str() const {

@@ -50,8 +50,8 @@ void motionAt(const PathCurve& curve, const TimeScaling& scaling, double t, doub
               double* acceleration);
 MotionState motionAt(const PathCurve& curve, const TimeScaling& scaling, double t);
 
-/// A path and when a motion is where on it.
-class TimedPath {
+/// A path with its time parameterization: q(s(t)) along a curve through the points, s(t) from `retime`.
+class TimedPath final : public Trajectory {
  public:
   RetimeStatus status = RetimeStatus::timed;
   std::string message;  ///< "" if timed, else what is too fast, and what would do
@@ -59,13 +59,9 @@ class TimedPath {
   VectorXd times;  ///< (K,): when the motion is at each point, or nearest to it in a blend, s; empty without a motion
 
   bool feasible() const { return status == RetimeStatus::timed; }
-  double duration() const { return scaling_.duration(); }
-
-  /// The motion at t s, held within 0 and duration(). Throws ValueError where there is no motion.
-  MotionState at(double t) const;
-
-  /// The same, written to (n,) each.
-  void at(double t, double* q, double* velocity, double* acceleration) const;
+  int dimension() const override { return curve_.dofs(); }
+  double duration() const override { return scaling_.duration(); }
+  void evalTo(double t, double* q, double* velocity, double* acceleration) const override;
 
   const PathCurve& curve() const { return curve_; }
   const TimeScaling& scaling() const { return scaling_; }

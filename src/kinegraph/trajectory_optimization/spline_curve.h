@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "kinegraph/collision/stray_bound.h"
+#include "kinegraph/collision/displacement_bound.h"
 #include "kinegraph/komo/path/path_motion.h"
 #include "kinegraph/trajectory_optimization/spline_layout.h"
 
@@ -46,7 +46,7 @@ class SplineCurve {
   BSpline spline_;
   std::vector<SliceMotion> motions_;
   MatrixXd bends_;  ///< per polynomial and splined dof: |q''|, at most
-  std::vector<StrayBound> bounds_;
+  std::vector<DeviationBound> bounds_;
   std::vector<int> bound_of_;  ///< per slice
 };
 

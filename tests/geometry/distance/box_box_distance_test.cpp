@@ -37,7 +37,7 @@ TEST(BoxToBox, OverlappingByATenthOfAMeterGivesMinusATenth) {
   EXPECT_NEAR(near.point_b.x(), .3, kRounding);
 }
 
-TEST(BoxToBox, ABoxInsideAnotherIsPushedOutTheShortestWay) {
+TEST(BoxToBox, ABoxInsideAnotherIsPushedOutAlongTheShortestDirection) {
   const NearestPoints near = toBoxAtOrigin(Matrix3d::Identity(), Vector3d(.05, .02, -.03), Vector3d(.01, .01, .01));
   EXPECT_NEAR(near.distance, -(.1 + .01 - .03), kRounding);
   EXPECT_LT((near.normal + Vector3d::UnitZ()).norm(), kRounding);
@@ -131,7 +131,7 @@ TEST(BoxToBox, AgreesWithTheGeneralAlgorithmOnTheHullsOfTheCorners) {
   }
 }
 
-TEST(BoxToBox, SwappingTheBoxesSwapsThePointsAndTurnsTheNormal) {
+TEST(BoxToBox, SwappingTheBoxesSwapsThePointsAndNegatesTheNormal) {
   for (const BoxPairSample& sample : boxPairs(1000, 5)) {
     const NearestPoints ab = boxToBox(sample.a, sample.b), ba = boxToBox(sample.b, sample.a).swapped();
     EXPECT_NEAR(ab.distance, ba.distance, ab.distance > 0. ? kRounding : kIllConditioned) << sample.what;
@@ -141,7 +141,7 @@ TEST(BoxToBox, SwappingTheBoxesSwapsThePointsAndTurnsTheNormal) {
   }
 }
 
-TEST(BoxToBox, WitnessPointsOfParallelFacesAndEdgesMoveSmoothlyUnderSmallTurns) {
+TEST(BoxToBox, WitnessPointsOfParallelFacesAndEdgesMoveSmoothlyUnderSmallRotations) {
   const double angle = 1e-6;  // of a finite difference
   for (const Vector3d& p : {Vector3d(.4, .1, .5), Vector3d(.6, 0, 0), Vector3d(.8, .3, .6), Vector3d(.3, 0, .15)}) {
     const NearestPoints resting = toBoxAtOrigin(Matrix3d::Identity(), p, Vector3d(.2, .2, .1));

@@ -202,7 +202,7 @@ TEST(PairScalings, WitnessPointsLieOnTheSurfaces) {
   }
 }
 
-TEST(PairScalings, SwappingTheBodiesSwapsThePointsAndTurnsTheNormal) {
+TEST(PairScalings, SwappingTheBodiesSwapsThePointsAndNegatesTheNormal) {
   for (const Sample& sample : samples(10, 3, true)) {
     const Proximity ab = sample.near(), ba = proximity(*sample.b.body, sample.X_WB, *sample.a.body, sample.X_WA);
     EXPECT_NEAR(ab.distance, ba.distance, sample.slack(ab)) << sample.what;

@@ -152,7 +152,7 @@ TEST(Proximity, AHullOfBoxCornersIsTheBox) {
   }
 }
 
-TEST(Proximity, SwappingTheBodiesSwapsThePointsAndTurnsTheNormal) {
+TEST(Proximity, SwappingTheBodiesSwapsThePointsAndNegatesTheNormal) {
   for (const Pair& pair : randomPairs(10, 2)) {
     const Proximity ab = pair.near(), ba = proximity(*pair.b.body, pair.X_WB, *pair.a.body, pair.X_WA);
     EXPECT_NEAR(ab.distance, ba.distance, pair.tolerance()) << pair.what;

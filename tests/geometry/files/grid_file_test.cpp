@@ -55,8 +55,8 @@ TEST_F(GridFileTest, MistakesSayWhatWasExpected) {
   expectRefused("", {"field.txt", "expected lo", "nothing"});
   expectRefused(box, {"expected lo", "field", "found lo, up"});
   expectRefused(box + "field: 3", {"'field'", "[ ]"});
-  expectRefused(box + "field: <2 2 2> [1 2 3", {"'field'", "not a number after 3"});
-  expectRefused(box + "field: <2 2 2> [1 2 x]", {"'field'", "not a number after 2"});
+  expectRefused(box + "field: <2 2 2> [1 2 3", {"'field'", "a non-number after 3"});
+  expectRefused(box + "field: <2 2 2> [1 2 x]", {"'field'", "a non-number after 2"});
   expectRefused(box + "field: <2 2 2> [1 2 3]", {"3 numbers", "<2 2 2>", "8"});
   expectRefused(box + "field: [1 2 3 4]", {"0 dimensions"});
   expectRefused(box + "field: <1 2 2> [1 2 3 4]", {"1 numbers along an axis"});

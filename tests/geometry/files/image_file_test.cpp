@@ -88,10 +88,10 @@ TEST(Image, EveryShortenedFileIsAnErrorOrAPicture) {
 TEST(Image, PromisesThatTheBytesCannotKeepAreRefused) {
   std::string png = readImageFile(dataFile("colors.png"))->bytes;
   png.replace(16, 8, std::string("\0\0\x70\0\0\0\x70\0", 8));
-  EXPECT_NE(messageOfImage(png).find("promises 28672 x 28672 pixels"), std::string::npos) << messageOfImage(png);
+  EXPECT_NE(messageOfImage(png).find("announces 28672 x 28672 pixels"), std::string::npos) << messageOfImage(png);
   std::string jpeg = readImageFile(dataFile("colors.jpg"))->bytes;
   jpeg.replace(jpeg.find("\xff\xc0") + 5, 4, "\x70\x70\x70\x70");
-  EXPECT_NE(messageOfImage(jpeg).find("promises 28784 x 28784 pixels"), std::string::npos) << messageOfImage(jpeg);
+  EXPECT_NE(messageOfImage(jpeg).find("announces 28784 x 28784 pixels"), std::string::npos) << messageOfImage(jpeg);
 }
 
 TEST(Image, OtherFilesAreRefused) {

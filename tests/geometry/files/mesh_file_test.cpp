@@ -73,7 +73,7 @@ TEST_F(MeshFile, EqualVerticesOfAnStlFileAreJoined) {
   EXPECT_EQ(mesh.triangles.size(), 2u);
 }
 
-TEST_F(MeshFile, VertexColorsOfAPlyFileAreKept) {
+TEST_F(MeshFile, VertexColorsOfAPlyFileAreRead) {
   const Mesh mesh =
       readMeshFile(write("colored.ply",
                          "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"

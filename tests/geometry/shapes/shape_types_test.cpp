@@ -35,7 +35,7 @@ TEST(ShapeTypes, NamesAndTypesAreARoundTripWithAndWithoutThePrefix) {
   EXPECT_EQ(shapeTypeName(ShapeType::none), "none");
 }
 
-TEST(ShapeTypes, AMisspeltNameIsAnsweredWithTheLegalAndTheNearestWords) {
+TEST(ShapeTypes, AMisspelledNameGivesTheValidAndTheMostSimilarNames) {
   const std::string message = messageOf([] { shapeTypeFromName("ssBax"); });
   EXPECT_NE(message.find("'ssBax'"), std::string::npos) << message;
   EXPECT_NE(message.find("cylinder"), std::string::npos) << message;

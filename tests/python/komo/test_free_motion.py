@@ -104,7 +104,7 @@ def benchmark() -> ModuleType:
     return module
 
 
-@pytest.mark.filterwarnings("ignore:.*overlap and no joint moves them apart")
+@pytest.mark.filterwarnings("ignore:.*overlap at a constant relative pose")
 def test_what_is_called_free_among_thin_walls_is_free() -> None:
     """A few of the problems of benchmarks/free_between_slices.py, from the straight line through the obstacles."""
     problems = benchmark()
@@ -124,7 +124,7 @@ def test_what_is_called_free_among_thin_walls_is_free() -> None:
     assert free[True] >= 4 and free[True] >= free[False]
 
 
-@pytest.mark.filterwarnings("ignore:.*overlap.* and no joint moves them apart")
+@pytest.mark.filterwarnings("ignore:.*overlap.* at a constant relative pose")
 def test_a_spline_that_is_called_free_is_free() -> None:
     """With few slices, so that the spline leaves the lines between them by much."""
     problems = benchmark()

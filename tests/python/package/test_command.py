@@ -81,7 +81,7 @@ def test_an_unknown_command_gives_status_2():
     assert kinegraph("dmeo").returncode == 2
 
 
-def test_check_shows_mistakes_and_oddities_with_their_lines(tmp_path):
+def test_check_shows_errors_and_warnings_with_their_lines(tmp_path):
     scene = tmp_path / "scene.g"
     scene.write_text("a: { colour: [1 0 0] }\nb (c): {}\nd: { shape: bax }\n")
     program = kinegraph("check", str(scene), ry.raiPath("panda/panda.g"))
@@ -93,7 +93,7 @@ def test_check_shows_mistakes_and_oddities_with_their_lines(tmp_path):
     assert program.stdout.endswith("2 checked: 2 errors, 1 warnings\n")
 
 
-def test_check_gives_status_0_for_oddities_unless_strict(tmp_path):
+def test_check_gives_status_0_for_warnings_unless_strict(tmp_path):
     scene = tmp_path / "scene.g"
     scene.write_text("a: { shpae: 3 }\n")
     assert kinegraph("check", str(scene)).returncode == 0

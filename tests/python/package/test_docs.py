@@ -36,7 +36,12 @@ FOUND = {
         r"SolverStatus\.infeasible the constraints contradict each other",
         r"If positionDiff of l_gripper, target gives way by 3\.07 m, all others can hold",
     ],
-    "planning": [r"^solved: \d+ postures, length", r"verify: .* evaluations", r"clearance: [\d.]+ mm", r"waits for \d"],
+    "planning": [
+        r"^solved: \d+ configurations, length",
+        r"verify: .* evaluations",
+        r"clearance: [\d.]+ mm",
+        r"waits for \d",
+    ],
     "operation": [
         r"2\.\d\d s, open by 0\.030 m",
         r"BotOp\.move: joint '\w+' would .*; take at least \d",

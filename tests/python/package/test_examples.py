@@ -43,7 +43,7 @@ FOUND = {
     ],
     "16_conveyor": [r"the boxes move at \[0\.3 0\.3 0\.3\]", r"heights of the boxes"],
     "11_plan_motions": [
-        r"^solved: \d+ postures, length 1\.[23]\d+",
+        r"^solved: \d+ configurations, length 1\.[23]\d+",
         r"clearance: 10(?:\.\d)? mm",
         r"infeasible: there is no way: a ball of 150 mm inside of 'body' does not get past 'left', 'right'",
     ],

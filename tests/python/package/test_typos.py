@@ -12,27 +12,27 @@ import kinegraph as ry
 ERRORS = {
     "box(wrold): {}": "2:1: parent of 'box': 'wrold' is not a frame of this scene; similar names: world",
     "box(world): {shape: bx, size: [.1 .1 .1]}": "2:21: frame 'box', shape: unknown shape type 'bx'; expected one of box, sphere",
-    "box(world): {shape: cube, size: [.1 .1 .1]}": "what others call cube is box",
-    "box(world): {shape: box, size: [.1 .1 .1}": "2:39: '.1}' is not a number; is there a ']' missing?",
-    "box(world): {shape: box, size: .1 .1 .1}": "size of a box has 3 numbers [x y z], not 1; several numbers stand in brackets: [1 2 3]",
-    "box(world): {shape: box, size: [10cm 1 1]}": "'10cm' is not a number; numbers have no unit behind them: m, kg, s and rad are meant",
+    "box(world): {shape: cube, size: [.1 .1 .1]}": "the shape cube of other formats is box",
+    "box(world): {shape: box, size: [.1 .1 .1}": "2:39: '.1}' is not a number; is a ']' missing?",
+    "box(world): {shape: box, size: .1 .1 .1}": "size of a box has 3 numbers [x y z], not 1; write several numbers in brackets: [1 2 3]",
+    "box(world): {shape: box, size: [10cm 1 1]}": "'10cm' is not a number; numbers have no units: lengths are in m, masses in kg, times in s, angles in rad",
     "box(world): {shape: box, size: [1 1 1], color: red}": "color: expected numbers [r g b] in 0..1, got the text 'red'",
     "arm(world): {joint: revolute}": "what others call revolute is hingeX, hingeY or hingeZ, or hinge with axis: [x y z]",
     "arm(world): {type: hingeX}": "'hingeX' is a joint type; write joint: hingeX",
-    "arm(world): {pose: 0 0 1}": "expected a pose, got a single number; several numbers stand in brackets: [1 2 3]",
+    "arm(world): {pose: 0 0 1}": "expected a pose, got a single number; write several numbers in brackets: [1 2 3]",
     'arm(world): {Q: "t(0 0 1) d(90 0 0)"}': "'d' takes 4 numbers (degrees x y z), not 3",
     "box: {Q: [0 0 1]}": "a frame without a parent has no relative pose; write 'name (parent): { ... }', or Q as X",
     "include: <other.g>": "similar names: Include",
     "box(world)": "2:1: 'box (world)' has no attributes; write 'box (world): { ... }', the { on the same line",
-    "box(world): {shape: sphere, size: [1]}}": "this '}' closes nothing; is there one too many before it?",
+    "box(world): {shape: sphere, size: [1]}}": "this '}' closes nothing; is an earlier '}' superfluous?",
 }
 WARNINGS = {
     "box(world): {shpae: box}": "unknown attribute 'shpae'; did you mean 'shape'?",
     "box(world): {shape: box, size: [1 1 1], pos: [0 0 1]}": "unknown attribute 'pos'; did you mean 'pose'?",
-    "box(world): {shape: box, size: [1 1 1], color: [255 0 0]}": "color has numbers above 1; they are in 0..1",
+    "box(world): {shape: box, size: [1 1 1], color: [255 0 0]}": "color has numbers above 1; expected 0..1",
     "box(world): {shape: box, size: [1 1 1], size: [2 2 2]}": "'size' is given twice; the first counts",
     "arm(world): {joint: hingeX, pose: [0 0 1]}": "its hingeX joint cannot reach the pose given by pose and takes the nearest",
-    "box world {shape: sphere, size: [1]}": "names hold no blanks: this is frame 'world' with the tag 'box'; parents stand in parentheses, as in box (world)",
+    "box world {shape: sphere, size: [1]}": "names contain no blanks: this is frame 'world' with the tag 'box'; parents are in parentheses, as in box (world)",
     "arm(world): {\nbox(arm): {}": "'box (arm)' is inside of this frame, and no frame; is a '}' missing before it?",
 }
 
@@ -59,7 +59,7 @@ def test_suspicious_input_is_a_warning(line: str, tmp_path: Path) -> None:
 
 def test_xml_is_no_scene(tmp_path: Path) -> None:
     (tmp_path / "robot.g").write_text('<?xml version="1.0"?>\n<robot name="r"/>')
-    with pytest.raises(ry.ParseError, match="this is XML and no .g scene; URDF files end in .urdf"):
+    with pytest.raises(ry.ParseError, match="the text is XML, not a .g scene; URDF files end in .urdf"):
         ry.Config().addFile(tmp_path / "robot.g")
 
 

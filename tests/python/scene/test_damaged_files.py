@@ -160,5 +160,5 @@ FOUND = sorted((Path(__file__).parent.parent.parent / "data" / "damaged").iterdi
 
 
 @pytest.mark.parametrize("file", FOUND, ids=lambda file: file.name)
-def test_what_fuzzers_have_found_stays_mended(file: Path) -> None:
+def test_inputs_found_by_fuzzers_stay_fixed(file: Path) -> None:
     load(file)

@@ -36,7 +36,7 @@ def test_lists_tuples_arrays_and_integers_are_taken_as_numbers():
         assert np.allclose(frame.setPosition(numbers).getPosition(), [1, 2, 3])
 
 
-def test_what_is_returned_is_a_copy(panda):
+def test_returned_arrays_are_copies(panda):
     q = panda.getJointState()
     q[0] = 1.0
     assert panda.getJointState()[0] == 0.0
@@ -168,7 +168,7 @@ def test_an_unknown_frame_is_none_where_a_script_asks_so(panda):
 def test_frames_of_a_text_whose_names_are_taken_are_a_warning() -> None:
     C = ry.Config()
     C.addText("a: {}")
-    with pytest.warns(ry.KinegraphWarning, match="text: 1 of its frames have names that exist already .a."):
+    with pytest.warns(ry.KinegraphWarning, match="text: duplicate frame names: 1 .a."):
         C.addText("a: {}  b: {}")
 
 
@@ -176,9 +176,9 @@ def test_a_frame_may_be_asked_for_twice_but_not_as_another_one() -> None:
     C = ry.Config()
     C.addFrame("table")
     box = C.addFrame("box", "table", "shape: sphere, size: [.1]")
-    with pytest.warns(ry.KinegraphWarning, match="'box' exists already and is returned as it is"):
+    with pytest.warns(ry.KinegraphWarning, match="'box' already exists and is returned unchanged"):
         assert C.addFrame("box", C.getFrame("table")) == box
-    with pytest.raises(ry.ArgumentError, match="below 'table', not below 'box2'; take another name .such as 'box_2'"):
+    with pytest.raises(ry.ArgumentError, match="below 'table', not below 'box2'; choose another name .such as 'box_2'"):
         C.addFrame("box", C.addFrame("box2"))
     assert C.getFrameNames() == ["table", "box", "box2"]
 
@@ -214,7 +214,7 @@ def test_a_frame_without_joint_is_attached_once_it_has_one_as_the_error_says():
     assert box.getParent().name == "l_gripper" and box.getPosition() == pytest.approx(before, abs=1e-9)
 
 
-def test_limits_the_wrong_way_around_are_written_the_right_way():
+def test_swapped_limits_are_shown_in_the_right_order():
     C = ry.Config()
     frame = C.addFrame("arm", C.addFrame("world").name)
     with pytest.raises(ry.ArgumentError, match=r"expected \[lower, upper\]: \[-1 2\]"):
@@ -245,5 +245,5 @@ def test_scenes_written_beside_the_folder_of_models_find_them(tmp_path, monkeypa
 
 def test_a_color_of_0_to_255_is_hardly_meant():
     C = ry.Config()
-    with pytest.warns(ry.KinegraphWarning, match=r"numbers above 1; they are in 0\.\.1"):
+    with pytest.warns(ry.KinegraphWarning, match=r"numbers above 1; expected 0\.\.1"):
         C.addFrame("ball").setShape(ry.ST.sphere, [0.1]).setColor([255, 0, 0])

@@ -120,7 +120,7 @@ def test_a_dict_has_frames_in_order_with_their_parents(config: ry.Config) -> Non
     }
 
 
-def test_a_frame_tells_its_present_state(config: ry.Config) -> None:
+def test_a_frame_describes_its_current_state(config: ry.Config) -> None:
     config.setJointState([0.5])
     config.getFrame("a").setPosition([1, 2, 3]).setColor([0, 1, 0, 0.5])
     assert config.getFrame("b").asDict()["q"] == [0.5]
@@ -141,7 +141,7 @@ def test_frames_of_a_dict_may_come_before_their_parents() -> None:
     np.testing.assert_array_equal(C.getFrame("b").getPosition(), [1, 2, 3])
 
 
-def test_repeated_names_are_told_apart_in_a_dict(config: ry.Config) -> None:
+def test_repeated_names_are_distinct_in_a_dict(config: ry.Config) -> None:
     config.addConfigurationCopy(config.__copy__())
     with pytest.warns(ry.KinegraphWarning, match="'a' .frame 2. as 'a_2'"):
         assert list(config.asDict()) == ["a", "b(a)", "a_2", "b_2(a_2)"]

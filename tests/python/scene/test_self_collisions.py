@@ -22,7 +22,7 @@ def arm() -> ry.Config:
     return C
 
 
-def test_reasons_agree_with_postures_of_another_generator(arm):
+def test_reasons_agree_with_samples_of_another_generator(arm):
     matrix = arm.selfCollisionMatrix(samples=4000, root=arm.getFrameNames()[0])
     assert matrix.samples == 4000 and len(matrix) == len(matrix.pairs)
     kinds = {reason for _, _, reason, _ in matrix.pairs}
@@ -41,7 +41,7 @@ def test_reasons_agree_with_postures_of_another_generator(arm):
             assert share == 0
 
 
-def test_what_is_left_says_the_same_of_postures(arm):
+def test_the_remaining_pairs_give_the_same_verdicts(arm):
     Q = configurations(arm, 3000, 1)
     before = arm.isValid(Q)
     pairs = len(arm.getCollidablePairs())
@@ -86,10 +86,10 @@ def test_the_command_prints_and_writes(tmp_path: Path, capsys):
     assert "never" in printed and "SelfCollisionMatrix" in printed and "<disable_collisions" in out.read_text()
 
 
-def test_mistakes_are_told(arm):
+def test_invalid_arguments_are_errors(arm):
     with pytest.raises(ry.FrameNotFound, match="similar names"):
         arm.selfCollisionMatrix(root="panda_bas")
     with pytest.raises(ry.ArgumentError, match="samples is 0"):
         arm.selfCollisionMatrix(samples=0)
-    with pytest.raises(ry.ArgumentError, match="has no two shapes"):
+    with pytest.raises(ry.ArgumentError, match="has no collidable pair of shapes"):
         ry.Config().selfCollisionMatrix()

@@ -56,11 +56,11 @@ def test_blurring_shrinks_a_ball_a_little(frame):
 @pytest.mark.parametrize(
     "grid, size, words",
     [
-        (np.ones((3, 3, 3)), [1, 1, 1], "nowhere zero"),
+        (np.ones((3, 3, 3)), [1, 1, 1], "never cross zero"),
         (np.ones((3, 3)), [1, 1, 1], "2 dimensions"),
         (np.ones((1, 3, 3)), [1, 1, 1], "2 x 2 x 2"),
         (np.full((3, 3, 3), np.nan), [1, 1, 1], "finite"),
-        (sphere_grid(4), [1, 1], "size is 3 numbers"),
+        (sphere_grid(4), [1, 1], "expected 3 numbers for size"),
     ],
 )
 def test_grids_that_make_no_surface_are_refused(frame, grid, size, words):

@@ -81,7 +81,7 @@ def test_named_states_give_q_and_leave_other_joints_as_they_are(arm: ry.Config) 
 
 
 def test_states_that_are_not_there_or_not_clear_are_explained(arm: ry.Config) -> None:
-    with pytest.raises(ry.NotFound, match="no state 'hme'; there are home, ready, away; similar names: home"):
+    with pytest.raises(ry.NotFound, match="no state 'hme'; available: home, ready, away; similar names: home"):
         arm.getNamedState("hme")
     with pytest.raises(ry.NotFound, match="no group 'amr' .*similar names: arm"):
         arm.getNamedState("home", "amr")
@@ -108,7 +108,7 @@ def test_disabled_pairs_never_collide(folder: Path, arm: ry.Config) -> None:
     assert frozenset(("l5_0", "l6_0")) in pairs(arm)
 
 
-def test_what_an_srdf_file_says_is_kept_in_copies_and_files(arm: ry.Config, tmp_path: Path) -> None:
+def test_srdf_semantics_survive_copies_and_files(arm: ry.Config, tmp_path: Path) -> None:
     arm.write(tmp_path / "saved.g")
     saved, twice, read = ry.Config(), ry.Config(), ry.Config()
     saved.addFile(tmp_path / "saved.g")
@@ -130,7 +130,9 @@ def test_a_file_of_the_same_name_is_read_with_the_robot(folder: Path) -> None:
         C.addFile(folder / "robot" / "arm.urdf", "l_")
         assert C.getStateNames() == ["home", "ready", "away"] and C.getJointGroups()["arm"] == ["l_j1", "l_j2"]
         place.write_text("<robot>\n<group/></robot>")
-        with pytest.warns(ry.KinegraphWarning, match="arm.srdf:2:1: the file beside the robot's is not used: .*'name'"):
+        with pytest.warns(
+            ry.KinegraphWarning, match="arm.srdf:2:1: the SRDF file beside the robot's file is ignored: .*'name'"
+        ):
             ry.Config().addFile(folder / "robot" / "arm.urdf")
         place.unlink()
 
@@ -164,20 +166,20 @@ def test_states_may_be_written_in_g_files() -> None:
 
 MISTAKES = {
     "<link/>": "1:1: the root of an SRDF file is <robot>, not <link>",
-    "<robot><group name='a'/><group name='a'/></robot>": "1:25: there is a group 'a' already, at .*1:8",
+    "<robot><group name='a'/><group name='a'/></robot>": "1:25: the group 'a' is already defined at .*1:8",
     "<robot><group name='a'><group name='b'/></group><group name='b'><group name='a'/></group></robot>": "contains itself: a > b > a",
     "<robot><group_state nme='a'/></robot>": "1:8: <group_state> has no attribute 'name'; similar names: nme",
     "<robot><group_state name='s'><joint name='j1' value='0 x'/></group_state></robot>": "1:47: state 's', joint 'j1': value=\"0 x\" is not a number",
     "<robot><disable_collisions link1='l0'/></robot>": "no attribute 'link2'",
-    "<robot><disable_collisions link1='x' link2='y'/></robot>": "none of the links and joints .* add the robot before",
+    "<robot><disable_collisions link1='x' link2='y'/></robot>": "none of the links and joints .* add the robot first",
     "<robot><xacro:include/></robot>": "expand the file first",
     "<robot><group>": "bad.srdf:1:",
 }
 ODDITIES = {
     "<robot><disable_colisions/></robot>": "1:8: unknown element <disable_colisions>; similar names: disable_collisions",
-    "<robot><disable_collisions link1='l0' link2='l11'/></robot>": "1:8: there is no link 'l11' in the scene; similar names: l1",
+    "<robot><disable_collisions link1='l0' link2='l11'/></robot>": "1:8: the scene has no link 'l11'; similar names: l1",
     "<robot><group name='g'><chain base_link='l3' tip_link='l0'/><joint name='j1'/></group></robot>": "'l3' is not above 'l0'",
-    "<robot><group_state name='s' group='hnad'><joint name='j1' value='0'/></group_state><group name='hand'/></robot>": "1:30: there is no group 'hnad'; similar names: hand",
+    "<robot><group_state name='s' group='hnad'><joint name='j1' value='0'/></group_state><group name='hand'/></robot>": "1:30: no group 'hnad'; similar names: hand",
     "<robot><group_state name='s'><joint name='j1' value='0 1'/></group_state></robot>": "joint 'j1' has 1 dof, not 2",
 }
 
@@ -192,7 +194,7 @@ def test_mistakes_say_where_they_are_and_change_nothing(arm: ry.Config, tmp_path
 
 
 @pytest.mark.parametrize("text", ODDITIES)
-def test_oddities_are_warnings(arm: ry.Config, tmp_path: Path, text: str) -> None:
+def test_suspicious_entries_are_warnings(arm: ry.Config, tmp_path: Path, text: str) -> None:
     (tmp_path / "odd.srdf").write_text(text)
     with pytest.warns(ry.KinegraphWarning, match=ODDITIES[text]):
         arm.addFile(tmp_path / "odd.srdf")

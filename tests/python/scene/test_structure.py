@@ -38,7 +38,7 @@ def assert_same_poses(before: dict[str, np.ndarray], C: ry.Config) -> None:
         assert np.allclose(frame.getTransform(), before[frame.name], atol=1e-12), frame.name
 
 
-def test_a_new_root_turns_the_path_around_and_moves_nothing():
+def test_a_new_root_reverses_the_path_and_moves_nothing():
     C = scene()
     before = poses(C)
     root = C.getFrame("g").makeRoot(untilPartBreak=False)
@@ -160,10 +160,10 @@ def test_a_frame_moves_to_its_principal_axes_and_leaves_everything_else_in_place
     assert np.allclose(old @ X, f.getTransform())
 
 
-def test_a_frame_whose_shape_would_move_is_not_turned():
+def test_a_frame_whose_shape_would_move_is_not_rotated():
     C = ry.Config()
     box = C.addFrame("box").setShape("box", [1, 2, 3]).setMass(1.0)
-    with pytest.raises(ry.ArgumentError, match="box.*would move with it"):
+    with pytest.raises(ry.ArgumentError, match="box.*would move with the frame"):
         box.transformToDiagInertia(True)
     with pytest.raises(ry.ArgumentError, match="has no mass"):
         C.addFrame("empty").transformToDiagInertia()

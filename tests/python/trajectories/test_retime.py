@@ -17,7 +17,7 @@ WITHIN = 1e-9
 
 def use(timed, velocity, acceleration, samples=4001):
     """Which share of its limits a motion uses at most."""
-    _, qd, qdd = timed.at(np.linspace(0, timed.duration, samples))
+    _, qd, qdd = timed.eval(np.linspace(0, timed.duration, samples))
     return np.max(np.abs(qd) / velocity), np.max(np.abs(qdd) / acceleration)
 
 
@@ -41,13 +41,13 @@ def test_limits_hold_and_the_ends_are_reached(problem, corners, with_jerk):
     assert most_velocity <= 1 + WITHIN
     assert most_acceleration <= 1 + WITHIN
     for t, point in ((0.0, path[0]), (timed.duration, path[-1])):
-        q, qd, _ = timed.at(t)
+        q, qd, _ = timed.eval(t)
         np.testing.assert_allclose(q, point, atol=1e-8)
         np.testing.assert_allclose(qd, 0, atol=1e-6)
     assert np.all(np.diff(timed.times) >= 0)
     if with_jerk:
         t = np.linspace(0, timed.duration, 3001)
-        qdd = timed.at(t)[2]
+        qdd = timed.eval(t)[2]
         if timed.duration > 0:
             assert np.max(np.abs(np.diff(qdd, axis=0)) / ((t[1] - t[0]) * jerk)) <= 1 + 1e-6
 
@@ -73,7 +73,7 @@ def test_a_number_stands_for_all_dofs():
 
 def test_at_takes_one_time_or_many():
     timed = ry.retime([[0.0, 0.0], [1.0, 2.0]], 1, 2)
-    one, many = timed.at(0.5), timed.at([0.1, 0.5])
+    one, many = timed.eval(0.5), timed.eval([0.1, 0.5])
     for a, b in zip(one, many, strict=True):
         assert a.shape == (2,)
         assert b.shape == (2, 2)
@@ -97,7 +97,7 @@ def test_blends_are_asked_for():
 
 def test_a_motion_may_begin_with_an_acceleration():
     motion = ry.retime([[0.0], [1.0]], 1, 2, 30, start_velocity=[0.4], start_acceleration=[-1.5])
-    _, velocity, acceleration = motion.at(0.0)
+    _, velocity, acceleration = motion.eval(0.0)
     assert (velocity[0], acceleration[0]) == pytest.approx((0.4, -1.5), abs=1e-9)
     with pytest.raises(ry.ArgumentError, match="start_acceleration has 2 entries"):
         ry.retime([[0.0], [1.0]], 1, 2, 30, start_velocity=[0.4], start_acceleration=[1.0, 0.0])
@@ -112,7 +112,7 @@ def test_copies_move_alike(corners, jerk):
     t = np.linspace(0, timed.duration, 100)
     assert copy.duration == timed.duration
     assert repr(copy) == repr(timed)
-    for a, b in zip(timed.at(t), copy.at(t), strict=True):
+    for a, b in zip(timed.eval(t), copy.eval(t), strict=True):
         np.testing.assert_array_equal(a, b)
     np.testing.assert_array_equal(copy.times, timed.times)
     np.testing.assert_array_equal(copy.path, path)
@@ -187,7 +187,7 @@ def test_what_cannot_be_braked_is_an_outcome():
     assert timed.status == ry.RetimeStatus.start_too_fast
     assert "at most 2 would do" in timed.message
     with pytest.raises(ry.ArgumentError, match="there is no motion"):
-        timed.at(0)
+        timed.eval(0)
 
 
 @pytest.mark.parametrize(
@@ -249,7 +249,7 @@ def test_torques_hold_all_along(jerk):
     assert timed, timed.message
     torques = []
     for t in np.linspace(0, timed.duration, 3000):
-        q, qd, qdd = timed.at(t)
+        q, qd, qdd = timed.eval(t)
         C.setJointState(q)
         torques.append(C.inverseDynamics(qd, qdd)[0])
     assert np.max(np.abs(torques)) <= 7.0 * (1 + WITHIN)

@@ -155,7 +155,7 @@ TEST(Reader, ErrorsNameThePlaceTheFrameAndTheNearestWord) {
   expectMessage("a: {} b(a): { joint: hingeX, mimic: a }", "'a' has no joint");
   expectMessage("a(b): {} b(a): {}", "one of its descendants");
   expectMessage("a: { shape: box, size: [1 1 1] ", "no error");
-  expectMessage("a: 3", "at the top of a scene stand frames");
+  expectMessage("a: 3", "expected a frame 'name (parent)");
   expectMessage("Include: <nope.g>", "scene file");
   expectMessage("a: { shape: box, color: red, size: [1 1 1] }", "expected numbers [r g b] in 0..1, got the text 'red'");
   const std::string several = messageOf("a: { shape: bax }\nb: { shape: spher }");
@@ -207,7 +207,7 @@ TEST(Reader, MoreMistakesAreExplained) {
   expectMessage("inclde: <f.g>", "similar names: Include");
   expectMessage("Include: 3", "Include takes a file: 'Include: <path>', not the number 3");
   expectMessage("Delete: 3", "Delete takes the name of a frame");
-  expectMessage("a: {} b(a): { joint: generic }", "'_xyc' moves along x, then y, then turns about z");
+  expectMessage("a: {} b(a): { joint: generic }", "'_xyc' moves along x, then y, then rotates about z");
   expectMessage("a: {} b(a): { joint: _xyd }", "'d' is none of x y z a b c");
   expectMessage("a: {} b(a): { joint: 99 }", "joint type 99 does not exist");
   expectMessage("a: { shape: 99 }", "shape type 99 does not exist");
@@ -229,7 +229,7 @@ TEST(Reader, MoreMistakesAreExplained) {
   expectMessage("a: { mesh_rope: [1 0 0 1e9], shape: lines }", "n from 1 to 10000");
 }
 
-TEST(Reader, OdditiesAreWarnedOf) {
+TEST(Reader, SuspiciousEntriesCauseWarnings) {
   const auto expectWarning = [](const char* text, const char* part) {
     const auto warnings = warningsOf(text);
     ASSERT_EQ(warnings.size(), 1u) << text;
@@ -239,10 +239,10 @@ TEST(Reader, OdditiesAreWarnedOf) {
   expectWarning("a: { joints: 3 }", "did you mean 'joint'");
   expectWarning("a: { Mass: 3 }", "did you mean 'mass'");
   expectWarning("a: { contact: 1 }", "'contact' has no effect without a shape");
-  expectWarning("a: {} a: {}", "there is a frame named 'a' already");
+  expectWarning("a: {} a: {}", "a frame named 'a' already exists");
   expectWarning("edit a: {}", "did you mean 'Edit'?");
-  expectWarning("Edit tabel: {} table: {}", "there is no frame 'tabel'; similar names: table");
-  expectWarning("Delete: a", "there is no frame 'a' up to here");
+  expectWarning("Edit tabel: {} table: {}", "no frame 'tabel'; similar names: table");
+  expectWarning("Delete: a", "no frame 'a' before this line");
   expectWarning("Quit", "no effect");
   expectWarning("a: {} b(a): { joint: hingeX, to: [1 0 0] }", "write 'post'");
   expectWarning("a: {} b(a): { joint: hingeX, Q: [1 0 0] }", "a constant offset belongs in 'pre'");
@@ -318,7 +318,7 @@ TEST(Reader, IncludesThatFormALoopOrAreTooDeepAreErrors) {
   EXPECT_THROW(Config().addFile(loop + ".missing"), FileError);
 }
 
-TEST(Reader, SmallFilesCannotIncludeTheirWayToHugeScenes) {
+TEST(Reader, IncludesOfSmallFilesCannotMakeHugeScenes) {
   const TemporaryFolder folder;
   std::string ten;
   for (int level = 0; level < 6; ++level) {
@@ -344,7 +344,7 @@ TEST(Reader, LoadingTheSameNamesTwiceIsWarnedOf) {
   config.addFile(path);
   const auto warnings = config.takeWarnings();
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("2 of its frames have names that exist already (a, b)"), std::string::npos) << warnings[0];
+  EXPECT_NE(warnings[0].find("duplicate frame names: 2 (a, b)"), std::string::npos) << warnings[0];
 }
 
 TEST(Reader, CheckReportsErrorsAndWarningsInOrder) {

@@ -109,7 +109,7 @@ TEST_F(RobotSemanticsTest, AChainThatDoesNotExistIsAWarning) {
             "robot.srdf:3:5: the chain from 'l2' to 'base' does not exist: 'l2' is not above 'base'");
 }
 
-TEST_F(RobotSemanticsTest, StatesPutTheQuaternionsOfFreeJointsInOurOrder) {
+TEST_F(RobotSemanticsTest, StatesReorderTheQuaternionsOfFreeJoints) {
   semantics.states = {{"away", "", {{"f", {1., 2., 3., 0., 0., .6, .8}, {}}, {"j1", {.3}, {}}, {"j3", {9.}, {}}}}};
   apply();
   VectorXd expected(9);
@@ -123,17 +123,17 @@ TEST_F(RobotSemanticsTest, MisspeltNamesAreWarningsWithTheNearestOnes) {
   semantics.outside = {"world"};
   apply();
   ASSERT_EQ(diagnostics.warnings().size(), 2u);
-  EXPECT_NE(diagnostics.warnings()[0].find("robot.srdf:7:1: there is no link 'l9' in the scene; similar names: l1"),
+  EXPECT_NE(diagnostics.warnings()[0].find("robot.srdf:7:1: the scene has no link 'l9'; similar names: l1"),
             std::string::npos);
   EXPECT_NE(diagnostics.warnings()[1].find("state 'home': joint 'j1' has 1 dof, not 2"), std::string::npos);
 }
 
 TEST_F(RobotSemanticsTest, ThoseOfAnotherRobotAreAnErrorOnlyIfAskedFor) {
   semantics.no_contact = {{"left", "right", {}}};
-  semantics.asked_for = false;
+  semantics.requested = false;
   apply();
   EXPECT_FALSE(diagnostics.failed());
-  semantics.asked_for = true;
+  semantics.requested = true;
   apply();
   EXPECT_TRUE(diagnostics.failed());
 }

@@ -9,31 +9,31 @@
 
 using namespace kinegraph;
 
-TEST(LimitsMistake, IsNoneWhereAllLowerLimitsAreBelowTheUpperOnes) {
-  EXPECT_EQ(limitsMistake(std::vector<double>{-1., 1.}), "");
-  EXPECT_EQ(limitsMistake(std::vector<double>{2., 2.}), "");  // one dof that is held
-  EXPECT_EQ(limitsMistake(std::vector<double>{-1., -2., 1., 2.}), "");
-  EXPECT_EQ(limitsMistake(std::vector<double>{0., 0., 0., 0.}), "");
+TEST(LimitsError, IsNoneWhereAllLowerLimitsAreBelowTheUpperOnes) {
+  EXPECT_EQ(limitsError(std::vector<double>{-1., 1.}), "");
+  EXPECT_EQ(limitsError(std::vector<double>{2., 2.}), "");  // one dof that is held
+  EXPECT_EQ(limitsError(std::vector<double>{-1., -2., 1., 2.}), "");
+  EXPECT_EQ(limitsError(std::vector<double>{0., 0., 0., 0.}), "");
 }
 
-TEST(LimitsMistake, WritesLimitsThatAreTheWrongWayAroundTheRightWayAround) {
-  EXPECT_EQ(limitsMistake(std::vector<double>{1., -1.}),
+TEST(LimitsError, SuggestsSwappedLimitsInTheRightOrder) {
+  EXPECT_EQ(limitsError(std::vector<double>{1., -1.}),
             "the lower limit 1 is above the upper limit -1; expected [lower, upper]: [-1 1]");
-  EXPECT_EQ(limitsMistake(std::vector<double>{2., -1., 1., 3.}),
+  EXPECT_EQ(limitsError(std::vector<double>{2., -1., 1., 3.}),
             "a lower limit is above its upper limit: that of dof 0 is 2, and 1; all lower limits come first, then all "
-            "upper ones: [1 -1 2 3] if only these are the wrong way around");
-  EXPECT_EQ(limitsMistake(std::vector<double>{-1., 1.}), "");
-  EXPECT_EQ(limitsMistake(std::vector<double>{1., -1., 2., 3.}), "");  // the advice
+            "upper ones: [1 -1 2 3] if only these are swapped");
+  EXPECT_EQ(limitsError(std::vector<double>{-1., 1.}), "");
+  EXPECT_EQ(limitsError(std::vector<double>{1., -1., 2., 3.}), "");  // the advice
 }
 
-TEST(LimitsMistake, WritesLimitsOfEarlierYearsAsTheyAreWrittenToday) {
+TEST(LimitsError, WritesLimitsOfEarlierYearsAsTheyAreWrittenToday) {
   for (const std::vector<double>& limits : {std::vector<double>{-1., 1., -2., 2.}, {-1., 1., -1., 1.}}) {
-    EXPECT_NE(limitsMistake(limits).find("all lower limits come first"), std::string::npos);
+    EXPECT_NE(limitsError(limits).find("all lower limits come first"), std::string::npos);
   }
-  EXPECT_NE(limitsMistake(std::vector<double>{-1., 1., -2., 2.}).find("[-1 -2 1 2]"), std::string::npos);
+  EXPECT_NE(limitsError(std::vector<double>{-1., 1., -2., 2.}).find("[-1 -2 1 2]"), std::string::npos);
 }
 
-TEST(LimitsMistake, IsToldOfFilesAndOfCalls) {
+TEST(LimitsError, IsReportedForFilesAndForCalls) {
   Config config;
   expectError<ParseError>([&] { config.addText("a: {} b (a): { joint: transXY, limits: [-1 1 -2 2] }"); },
                           {"all lower limits come first", "[-1 -2 1 2]"});

@@ -16,7 +16,7 @@ struct BodyTree {
     int part = -1;              ///< of a leaf
   };
 
-  /// `bodies` share the compound's coordinates. If there are none, the parts are `points`.
+  /// `bodies` share the compound's coordinates. If `bodies` is empty, the parts are `points`.
   BodyTree(std::vector<std::shared_ptr<const CollisionBody>> bodies, std::vector<Vector3d> points);
 
   std::vector<std::shared_ptr<const CollisionBody>> bodies;

@@ -12,7 +12,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kExact = 1e-11;  ///< sine of the angle below which directions are the same up to rounding
+constexpr double kExact = 1e-11;  ///< sine of the angle below which directions are equal up to rounding
 
 /// A unit normal from b to a, in the frame of a, and the gap between the boxes along it.
 struct Axis {
@@ -20,7 +20,7 @@ struct Axis {
   double gap = -std::numeric_limits<double>::infinity();
 };
 
-/// Box b seen from box a: everything below computes in the frame of a.
+/// Box b in the frame of box a. All computations below are in the frame of a.
 struct BoxPair {
   Vector3d a, b;  ///< half sides
   Matrix3d R;     ///< of b
@@ -28,8 +28,8 @@ struct BoxPair {
   double scale() const { return a.sum() + b.sum(); }
 };
 
-/// Whether an edge of one box is nearly but not exactly parallel to a face of the other: then axes across edges are ill
-/// conditioned.
+/// Returns whether an edge of one box is nearly, but not exactly, parallel to a face of the other: axes across edges
+/// are then ill-conditioned.
 bool nearlyParallel(const BoxPair& pair) {
   return (pair.R.array().abs() > kExact && pair.R.array().abs() <= kParallel).any();
 }
@@ -39,7 +39,7 @@ double gapAlong(const BoxPair& pair, const Vector3d& normal) {
          (pair.R.transpose() * normal).cwiseAbs().dot(pair.b);
 }
 
-/// The axis with the widest gap. An axis across two edges must beat the face normals by more than rounding.
+/// The axis with the widest gap. An axis across two edges must exceed the face normals by more than rounding.
 Axis widestGap(const BoxPair& pair) {
   const Matrix3d &R = pair.R, absolute = R.cwiseAbs();
   const Vector3d t = -pair.p, t_b = R.transpose() * t;
@@ -74,7 +74,7 @@ Axis widestGap(const BoxPair& pair) {
   return best;
 }
 
-/// What of a box is farthest along a direction: a corner, an edge (`free` lists its axis) or a face (two axes).
+/// The farthest feature of a box along a direction: a corner, an edge (`free` lists its axis) or a face (two axes).
 struct Feature {
   Vector3d center;  ///< in the box's own frame
   std::array<int, 2> free = {-1, -1};
@@ -98,7 +98,7 @@ struct ClippedFace {
   std::array<Vector3d, 8> corners;
   int size = 0;
 
-  /// Keeps what has side * x[axis] <= half. Source: Sutherland & Hodgman, Reentrant polygon clipping, 1974.
+  /// Keeps the part with side * x[axis] <= half. Source: Sutherland & Hodgman, Reentrant polygon clipping, 1974.
   void clip(int axis, double side, double half) {
     const ClippedFace old = *this;
     size = 0;
@@ -114,7 +114,7 @@ struct ClippedFace {
     }
   }
 
-  /// The centroid of the area; of a polygon without area the middle of its extent.
+  /// The centroid of the area; for a polygon without area, the middle of its extent.
   Vector3d center() const {
     Vector3d sum = Vector3d::Zero(), low = corners[0], high = corners[0];
     for (int i = 1; i < size; ++i) {
@@ -137,8 +137,8 @@ struct ClippedFace {
   }
 };
 
-/// The middle of the part of `feature` (of a box with half sides `half` at R, p) that lies above the face of another
-/// box with half sides `face` across axis `normal_axis`; nothing if no part does.
+/// The middle of the part of `feature` above the face of another box; nullopt if no part is. `feature` belongs to a box
+/// with half sides `half` at R, p; the other box has half sides `face`, and its face lies across axis `normal_axis`.
 std::optional<Vector3d> aboveFace(const Feature& feature, const Vector3d& half, const Matrix3d& R, const Vector3d& p,
                                   const Vector3d& face, int normal_axis) {
   const int u = (normal_axis + 1) % 3, v = (normal_axis + 2) % 3;
@@ -162,11 +162,11 @@ std::optional<Vector3d> aboveFace(const Feature& feature, const Vector3d& half, 
   return polygon.center();
 }
 
-/// Where boxes touch that are nearest along an axis.
+/// The contact of two boxes along their axis of the widest gap.
 struct Contact {
   Vector3d point_a;  ///< in the frame of a
   bool inside =
-      true;  ///< false if the features miss each other along the axis, which is then not the nearest direction
+      true;  ///< false if the features miss each other along the axis; the axis is then not the nearest direction
 };
 
 Contact contactAlong(const BoxPair& pair, const Axis& axis) {
@@ -195,10 +195,10 @@ Contact contactAlong(const BoxPair& pair, const Axis& axis) {
   return contact;
 }
 
-/// The nearest points among those that are a corner of one of the boxes.
+/// The nearest points if one of them is a corner.
 struct CornerGap {
   Vector3d gap;      ///< from b to a
-  Vector3d point_a;  ///< the middle of the equally near
+  Vector3d point_a;  ///< the middle of the equally near ones
 };
 
 CornerGap nearestCorners(const BoxPair& pair) {
@@ -226,7 +226,7 @@ CornerGap nearestCorners(const BoxPair& pair) {
   return {gaps[best], .5 * (low + high)};
 }
 
-/// The shortest of `gap` and those from b to the edges of a: slower than the axes, and exact at any angle.
+/// The shortest of `gap` and the gaps from b to the edges of a. Slower than the axes, and exact at any angle.
 Vector3d nearestEdgeGap(const BoxPair& pair, Vector3d gap) {
   const BoxCore b{{pair.R, pair.p}, pair.b};
   for (int axis = 0; axis < 3; ++axis) {

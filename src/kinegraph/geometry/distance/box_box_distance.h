@@ -4,9 +4,9 @@
 
 namespace kinegraph {
 
-/// Of two boxes a and b. Exact: the separating axis with the widest gap is the normal where the boxes overlap, and
-/// where it meets a face, or an edge of each; boxes that are apart otherwise are nearest at a corner of one of them.
-/// Source: Gottschalk, Lin & Manocha, OBBTree, 1996, for the axes.
+/// Nearest points of two boxes a and b, exact. The separating axis with the widest gap is the normal if the boxes
+/// overlap, or if it meets a face or an edge of each box. Otherwise a corner of one box is a nearest point. Source for
+/// the axes: Gottschalk, Lin & Manocha, OBBTree, 1996.
 NearestPoints boxToBox(const BoxCore& a, const BoxCore& b);
 
 }  // namespace kinegraph

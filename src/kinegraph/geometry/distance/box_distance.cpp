@@ -9,7 +9,7 @@ namespace kinegraph {
 
 namespace {
 
-/// Half the derivative by s of the squared distance from c + s d to the box |x| <= h. Grows with s.
+/// Half the derivative by s of the squared distance from c + s d to the box |x| <= h. Increases with s.
 double slope(const Vector3d& c, const Vector3d& d, const Vector3d& h, double s) {
   double sum = 0.;
   for (int i = 0; i < 3; ++i) {
@@ -19,8 +19,8 @@ double slope(const Vector3d& c, const Vector3d& d, const Vector3d& h, double s) 
   return sum;
 }
 
-/// The middle of the s in [-half, half] where c + s d is nearest to the box: between two of the places where the line
-/// passes a face, the slope is linear.
+/// The middle of the s in [-half, half] that minimize the distance of c + s d to the box. The slope is linear between
+/// consecutive crossings of face planes.
 double nearestParameter(const Vector3d& c, const Vector3d& d, const Vector3d& h, double half) {
   std::array<double, 8> knots{-half};
   int count = 1;
@@ -48,7 +48,7 @@ double nearestParameter(const Vector3d& c, const Vector3d& d, const Vector3d& h,
   return .5 * (low + high);
 }
 
-/// `d` without the components that count as zero.
+/// `d` with components below the rounding threshold set to zero.
 Vector3d snapped(const Vector3d& d) {
   return d.unaryExpr([](double x) { return std::abs(x) <= kParallel ? 0. : x; });
 }
@@ -57,7 +57,7 @@ Vector3d snapped(const Vector3d& d) {
 struct Push {
   Vector3d normal;
   double depth = std::numeric_limits<double>::infinity();
-  int face = -1;  ///< the axis of the face, or -1: across the box edge along `edge`
+  int face = -1;  ///< axis of the face, or -1: across the box edge along `edge`
   int edge = -1;
 };
 
@@ -88,7 +88,7 @@ double pushedParameter(const Vector3d& c, const Vector3d& d, const Vector3d& h, 
     return std::clamp((corner - c).cross(Vector3d::Unit(push.edge)).dot(across) / across.squaredNorm(), -half, half);
   }
   if (std::abs(d[push.face]) > kParallel) return -half * signOf(d[push.face] * push.normal[push.face]);
-  double low = -half, high = half;  // of the stretch that is below the face
+  double low = -half, high = half;  // limits of the part of the segment below the face
   for (int j = 0; j < 3; ++j) {
     if (j == push.face || std::abs(d[j]) <= kParallel) continue;
     const double s = (-h[j] - c[j]) / d[j], t = (h[j] - c[j]) / d[j];

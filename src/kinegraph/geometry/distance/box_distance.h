@@ -4,7 +4,7 @@
 
 namespace kinegraph {
 
-/// 1, also of 0, or -1.
+/// -1 for negative x, else 1.
 inline double signOf(double x) { return x < 0. ? -1. : 1.; }
 
 /// The points center + s * axis with |s| <= half; `axis` is a unit vector.
@@ -20,11 +20,12 @@ struct BoxCore {
   Vector3d half;
 };
 
-/// Of a point a and a box b. Exact: the nearest point is the clamped one, or on the nearest face from inside.
+/// Nearest points of a point a and a box b, exact: the clamped point, or from inside a point of the nearest face.
 NearestPoints pointToBox(const Vector3d& point, const BoxCore& box);
 
-/// Of a segment a and a box b. Exact: the squared distance along the segment is convex and piecewise quadratic; where
-/// the segment meets the box, the shortest push is along a face normal or across an edge and the segment.
+/// Nearest points of a segment a and a box b, exact: the squared distance along the segment is convex and piecewise
+/// quadratic. If the segment intersects the box, the shortest push is along a face normal or across an edge and the
+/// segment.
 NearestPoints segmentToBox(const SegmentCore& segment, const BoxCore& box);
 
 }  // namespace kinegraph

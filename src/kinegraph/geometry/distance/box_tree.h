@@ -6,14 +6,14 @@
 
 namespace kinegraph {
 
-/// A box along the axes of the world.
+/// A world-axis-aligned box.
 struct WorldBox {
   Vector3d low, high;
 
   bool contains(const WorldBox& other) const {
     return (low.array() <= other.low.array()).all() && (other.high.array() <= high.array()).all();
   }
-  /// Do they come within `reach` of each other along every axis?
+  /// Returns whether the boxes are within `reach` of each other along every axis.
   bool meets(const WorldBox& other, double reach) const {
     return (low.array() <= other.high.array() + reach).all() && (other.low.array() <= high.array() + reach).all();
   }
@@ -24,20 +24,20 @@ struct WorldBox {
   WorldBox grown(double by) const { return {low.array() - by, high.array() + by}; }
 };
 
-/// Boxes in a binary tree of boxes around them: which of them meet a given one, in a time that grows as the logarithm
-/// of their number.
+/// A binary tree of bounding boxes: finds the boxes that overlap a given one in a time that grows with the logarithm of
+/// their number.
 class BoxTree {
  public:
-  /// Over boxes[i] for all i; splits at the middle of the longest side.
+  /// Builds the tree over boxes[i] for all i; splits at the middle of the longest side.
   void build(const std::vector<WorldBox>& boxes);
 
-  /// Box i has moved. The order of the tree stays, so it gets slower where boxes travel far; see `spread`.
+  /// Updates a moved box. The order of the tree stays, so queries slow down after long moves; see `spread`.
   void move(int i, const WorldBox& box);
 
-  /// How much larger its boxes have become since it was built: 1 at first.
+  /// Growth of the tree's boxes since it was built; initially 1.
   double spread() const { return built_size_ > 0. ? size_ / built_size_ : 1.; }
 
-  /// Calls visit(i) for the boxes within `reach` of one.
+  /// Calls visit(i) for the boxes within `reach` of `box`.
   template <class Visit>
   void forMeeting(const WorldBox& box, double reach, const Visit& visit) const {
     if (nodes_.empty()) return;
@@ -66,8 +66,8 @@ class BoxTree {
   static double sizeOf(const WorldBox& box) { return (box.high - box.low).sum(); }
 
   std::vector<Node> nodes_;
-  std::vector<int> leaf_;   ///< the node of box i
-  std::vector<int> order_;  ///< while it is built
+  std::vector<int> leaf_;   ///< node of box i
+  std::vector<int> order_;  ///< used during construction
   double size_ = 0., built_size_ = 0.;
 };
 

@@ -10,7 +10,7 @@
 
 namespace kinegraph {
 
-/// Fills a body in.
+/// Fills the fields of a body.
 class BodyMaker {
  public:
   BodyMaker() : body_(new CollisionBody) {}
@@ -60,7 +60,7 @@ class BodyMaker {
     body_->hull_ = makeHull(points, body_->bound_center_, body_->inner_radius_);
   }
 
-  /// `parts` have no rounding; without any, the parts are the points.
+  /// `parts` have no rounding; if empty, the parts are the points.
   void setCompound(const std::vector<Vector3d>& points, std::vector<std::shared_ptr<const CollisionBody>> parts) {
     body_->core_ = CollisionBody::Core::compound;
     boundPoints(points);
@@ -107,7 +107,7 @@ std::shared_ptr<const CollisionBody> hullBody(const std::vector<Vector3d>& point
   return maker.take();
 }
 
-/// The hulls of the convex parts that a mesh names.
+/// Hulls of a mesh's convex parts.
 Parts hullsOfParts(const Mesh& mesh) {
   Parts parts;
   for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
@@ -118,7 +118,7 @@ Parts hullsOfParts(const Mesh& mesh) {
   return parts;
 }
 
-/// A segment for every two vertices.
+/// One segment per pair of vertices.
 Parts segments(const Mesh& mesh) {
   Parts parts;
   for (std::size_t i = 0; i + 1 < mesh.vertices.size(); i += 2) {
@@ -127,7 +127,7 @@ Parts segments(const Mesh& mesh) {
   return parts;
 }
 
-/// Less than two parts are the hull of all points.
+/// Fewer than two parts are replaced by the hull of all points.
 void setParts(BodyMaker& maker, const Mesh& mesh, Parts parts) {
   if (parts.size() < 2) return maker.setHull(mesh.vertices);
   maker.setCompound(mesh.vertices, std::move(parts));

@@ -10,17 +10,18 @@ namespace kinegraph {
 struct BodyTree;
 struct GridField;
 
-/// The corners of a convex polytope, and which of them are neighbors where there are many. Local coordinates, m.
+/// The corners of a convex polytope, and the neighbors of each if there are many. Local coordinates, m.
 struct Hull {
   std::vector<Vector3d> points;
-  std::vector<std::uint32_t> neighbors;       ///< those of point i: [first_neighbor[i], first_neighbor[i + 1])
-  std::vector<std::uint32_t> first_neighbor;  ///< empty: too few points for it to pay, or all in one plane
+  std::vector<std::uint32_t> neighbors;  ///< neighbors of point i: [first_neighbor[i], first_neighbor[i + 1])
+  std::vector<std::uint32_t>
+      first_neighbor;  ///< empty for few points, for which search is faster, or for points in one plane
 
-  /// The index of the point that is farthest along a direction.
+  /// Index of the farthest point along a direction.
   int farthest(const Vector3d& direction) const;
 };
 
-/// What distances are computed with: a core swept by a ball. Immutable.
+/// Geometry for distance computation: a core swept by a ball. Immutable.
 ///
 ///   sphere, marker     a point
 ///   capsule            a segment
@@ -32,7 +33,7 @@ struct Hull {
 ///   sdf                a grid: the points where the interpolated grid is not positive
 class CollisionBody {
  public:
-  /// `segment` and `cylinder` run along z. All but `compound` and `grid` are convex.
+  /// `segment` and `cylinder` extend along z. All kinds except `compound` and `grid` are convex.
   enum class Core { point, segment, box, cylinder, hull, box_ellipsoid, compound, grid };
 
   CollisionBody(const CollisionBody&) = delete;
@@ -43,7 +44,7 @@ class CollisionBody {
   double radius() const { return radius_; }                  ///< of the ball, m
   double halfLength() const { return half_length_; }         ///< of a segment or cylinder
   double coreRadius() const { return core_radius_; }         ///< of a cylinder
-  const Vector3d& halfSides() const { return half_sides_; }  ///< of a box, also of that in a box_ellipsoid
+  const Vector3d& halfSides() const { return half_sides_; }  ///< of a box, also of the one in a box_ellipsoid
   const Vector3d& radii() const { return radii_; }           ///< of the ellipsoid in a box_ellipsoid
   const Hull& hull() const { return hull_; }
   const BodyTree& tree() const { return *tree_; }  ///< of a compound
@@ -57,10 +58,10 @@ class CollisionBody {
     return bound_half_;
   }  ///< half sides of the core's bounding box about boundCenter()
 
-  /// A ball of this radius about boundCenter() is within a convex core, m; 0 where none is known.
+  /// Radius (m) of a ball about boundCenter() inside a convex core; 0 if unknown.
   double innerRadius() const { return inner_radius_; }
 
-  /// The point of a convex core that is farthest along a direction. Local coordinates.
+  /// The farthest point of a convex core along a direction. Local coordinates.
   Vector3d support(const Vector3d& direction) const;
 
  private:

@@ -9,7 +9,7 @@ namespace kinegraph {
 
 namespace {
 
-/// One of the two bodies, seen as a tree of parts.
+/// One of the two bodies, as a tree of parts.
 struct Side {
   const CollisionBody& body;
   const RigidTransform& X;
@@ -42,7 +42,7 @@ class Nearest {
   }
 
  private:
-  /// The parts of these nodes are no nearer than that.
+  /// A lower bound of the distance between the parts of two nodes.
   double bound(int i, int j) const {
     const Vector3d center_a = a_.center(i), center_b = b_.center(j);
     const double gap = (center_a - center_b).norm() - a_.radius(i) - b_.radius(j);

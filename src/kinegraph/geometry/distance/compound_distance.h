@@ -4,9 +4,8 @@
 
 namespace kinegraph {
 
-/// The least distance among the parts of a and b, of which one is a compound, or both are grids: a body that is convex
-/// is its own only part, and so is a grid, which meets another grid by the points of its surface. Parts whose bounding
-/// spheres show that they are farther apart than others are not looked at.
+/// The least distance among the parts of a and b, if one is a compound or both are grids. A convex body or a grid is
+/// its own only part; a grid meets another grid by the points of its surface. Bounding spheres exclude distant parts.
 Proximity nearestParts(const CollisionBody& a, const RigidTransform& X_WA, const CollisionBody& b,
                        const RigidTransform& X_WB);
 

@@ -22,11 +22,11 @@ struct Points {
   const Point& operator[](int i) const { return items[std::size_t(i)]; }
 };
 
-constexpr int kMost = 64;  ///< corners of a patch
-using Patch = Points<Vector3d, kMost>;
-using Polygon = Points<Eigen::Vector2d, 2 * kMost>;
+constexpr int kMaxCorners = 64;  ///< corners of a patch
+using Patch = Points<Vector3d, kMaxCorners>;
+using Polygon = Points<Eigen::Vector2d, 2 * kMaxCorners>;
 
-/// The corners of a hull that are as far along d as the farthest one.
+/// Adds the corners of a hull at the same height along d as the farthest one.
 void addCorners(const Hull& hull, const Vector3d& d, Patch& patch) {
   const int best = hull.farthest(d);
   const Vector3d& top = hull.points[std::size_t(best)];
@@ -37,12 +37,13 @@ void addCorners(const Hull& hull, const Vector3d& d, Patch& patch) {
     }
     return;
   }
-  std::array<int, kMost> found{best};  // the corners of a face are neighbors
+  std::array<int, kMaxCorners> found{best};  // the corners of a face are neighbors
   int count = 1;
   for (int i = 0; i < count; ++i) {
     const std::size_t corner = std::size_t(found[std::size_t(i)]);
     patch.add(hull.points[corner]);
-    for (std::uint32_t k = hull.first_neighbor[corner]; k < hull.first_neighbor[corner + 1] && count < kMost; ++k) {
+    for (std::uint32_t k = hull.first_neighbor[corner]; k < hull.first_neighbor[corner + 1] && count < kMaxCorners;
+         ++k) {
       const int next = int(hull.neighbors[k]);
       if (!isTop(hull.points[std::size_t(next)]) ||
           std::find(found.begin(), found.begin() + count, next) != found.begin() + count)
@@ -52,7 +53,7 @@ void addCorners(const Hull& hull, const Vector3d& d, Patch& patch) {
   }
 }
 
-/// The corners of a box, moved by `offset`, that are farthest along d.
+/// Adds the farthest corners along d of a box moved by `offset`.
 void addBoxCorners(const Vector3d& half, const Vector3d& offset, const Vector3d& d, Patch& patch) {
   for (int i = 0; i < 8; ++i) {
     const Vector3d signs(i & 1 ? 1. : -1., i & 2 ? 1. : -1., i & 4 ? 1. : -1.);
@@ -60,8 +61,8 @@ void addBoxCorners(const Vector3d& half, const Vector3d& offset, const Vector3d&
   }
 }
 
-/// What of a core is farthest along the unit vector d, in its own frame: the corners of a face, the ends of an edge, or
-/// a point.
+/// The farthest feature of a core along the unit vector d, in its own frame: the corners of a face, the ends of an
+/// edge, or a point.
 Patch farthestPatch(const CollisionBody& body, const Vector3d& d) {
   Patch patch;
   const double across = std::hypot(d.x(), d.y()), z = std::copysign(body.halfLength(), d.z());
@@ -103,7 +104,7 @@ Patch farthestPatch(const CollisionBody& body, const Vector3d& d) {
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// The convex hull, counter-clockwise; two points for what has no area. Source: Andrew, Another efficient algorithm for
+/// The convex hull, counterclockwise; two points if it has no area. Source: Andrew, Another efficient algorithm for
 /// convex hulls in two dimensions, 1979.
 Polygon hullOf(Polygon points, double same) {
   const auto begin = points.items.begin();
@@ -122,11 +123,11 @@ Polygon hullOf(Polygon points, double same) {
   for (int i = 0; i < points.size; ++i) extend(points[i], 0);
   const int lower = hull.size - 1;
   for (int i = points.size - 2; i >= 0; --i) extend(points[i], lower);
-  if (hull.size > 1) --hull.size;  // the first one again
+  if (hull.size > 1) --hull.size;  // equals the first point
   return hull;
 }
 
-/// Keeps what of a polygon (or of a line, given as its ends) is left of the line through `at` along the unit vector
+/// Clips a polygon (or a line, given by its ends) to the left side of the line through `at` along the unit vector
 /// `along`. Source: Sutherland & Hodgman, Reentrant polygon clipping, 1974.
 Polygon clipped(const Polygon& polygon, const Eigen::Vector2d& at, const Eigen::Vector2d& along, double same) {
   Polygon kept;
@@ -141,7 +142,7 @@ Polygon clipped(const Polygon& polygon, const Eigen::Vector2d& at, const Eigen::
   return kept;
 }
 
-/// The centroid of the area; of what has no area the middle of its extent.
+/// The centroid of the area; without area, the middle of the extent.
 Eigen::Vector2d center(const Polygon& polygon) {
   Eigen::Vector2d low = polygon[0], high = low, sum = Eigen::Vector2d::Zero();
   double area = 0.;
@@ -158,7 +159,7 @@ Eigen::Vector2d center(const Polygon& polygon) {
   return .5 * (low + high);
 }
 
-/// The part of the line a that runs beside the parallel line b; nothing of lines that cross.
+/// The part of line a beside the parallel line b; empty for crossing lines.
 Polygon besides(const Polygon& a, const Polygon& b, double same) {
   const Eigen::Vector2d along = (a[1] - a[0]).normalized(), other = (b[1] - b[0]).normalized();
   if (std::abs(cross(along, other)) > kParallel) return {};
@@ -193,7 +194,7 @@ std::optional<Vector3d> middleOfContact(const CorePair& pair, const Vector3d& m)
     flat_b.add({x.dot(p), y.dot(p)});
   }
   Polygon common = hullOf(flat_a, same), other = hullOf(flat_b, same);
-  if (common.size > other.size) std::swap(common, other);  // the one with more corners cuts
+  if (common.size > other.size) std::swap(common, other);  // the polygon with more corners clips
   if (common.size < 2) return {};
   if (other.size == 2) {
     common = besides(common, other, same);

@@ -6,10 +6,10 @@
 
 namespace kinegraph {
 
-/// The middle of the patch of A that is farthest along the unit vector m, seen along it over the patch of B that is
-/// farthest the other way: where faces, edges, caps or side lines of two cores are parallel (to within kParallel), all
-/// points of it are equally near. In the frame of A. Nothing where one point is, or the patches miss each other. Round
-/// caps count as polygons of 32 corners.
+/// The middle of the contact patch of two cores, in the frame of A, if parallel faces, edges, caps or side lines (to
+/// within kParallel) make all of its points equally near. The patch is the farthest part of A along the unit vector m,
+/// intersected along m with the farthest part of B in the opposite direction. Returns nullopt for a single nearest
+/// point or patches that miss each other. Round caps count as polygons of 32 corners.
 std::optional<Vector3d> middleOfContact(const CorePair& pair, const Vector3d& m);
 
 }  // namespace kinegraph

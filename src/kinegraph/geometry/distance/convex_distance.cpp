@@ -10,9 +10,9 @@ namespace {
 
 struct Search {
   Simplex simplex;
-  Vector3d v;  ///< the point of the difference that is nearest to the origin
+  Vector3d v;  ///< the point of the difference nearest to the origin
   bool overlap = false;
-  SupportCorners corners;  ///< found last: the next ones are near them
+  SupportCorners corners;  ///< found last; warm start of the next search
 };
 
 MinkowskiPoint supportNear(const CorePair& pair, const Vector3d& m, SupportCorners& corners) {
@@ -21,7 +21,7 @@ MinkowskiPoint supportNear(const CorePair& pair, const Vector3d& m, SupportCorne
   return {p, q, pair.difference(p, q)};
 }
 
-/// Goes on until the distance is known to `relative` of its square, or does not improve.
+/// Iterates until the squared distance has the relative accuracy `relative`, or does not improve.
 void descend(const CorePair& pair, double relative, Search& search) {
   const double scale = pair.scale(), touching = 1e-8 * scale;
   for (int iteration = 0; iteration < 200; ++iteration) {
@@ -64,7 +64,7 @@ NearestPoints convexToConvex(const CollisionBody& a, const RigidTransform& X_WA,
       const Vector3d m = -search.v.normalized();
       deepest = {m, m.dot(supportNear(pair, m, search.corners).w), search.simplex};
       const bool refined = refine(pair, deepest);
-      const double off = settle(pair, {search.simplex.points.data(), std::size_t(search.simplex.size)}, deepest);
+      const double off = findWitnesses(pair, {search.simplex.points.data(), std::size_t(search.simplex.size)}, deepest);
       return refined && off <= 1e-9 * pair.scale();
     };
     if (!found() && curved) {
@@ -77,7 +77,7 @@ NearestPoints convexToConvex(const CollisionBody& a, const RigidTransform& X_WA,
   near.distance = -deepest.height;
   near.normal = X_WA.R * -deepest.m;
   const std::optional<Vector3d> middle = middleOfContact(pair, deepest.m);
-  near.point_a = X_WA * (middle ? *middle : deepest.points.mixed(&MinkowskiPoint::a));
+  near.point_a = X_WA * (middle ? *middle : deepest.points.combined(&MinkowskiPoint::a));
   near.point_b = near.point_a - near.distance * near.normal;
   return near;
 }

@@ -16,7 +16,7 @@ struct MinkowskiPoint {
 
 /// Two convex cores; all directions are in the frame of A.
 ///
-/// The support function h(m) = max over w in A - B of m.w decides everything: its least value over unit vectors m is
+/// The support function h(m) = max over w in A - B of m.w determines the distance: its minimum over unit vectors m is
 /// minus the signed distance, and there -m is the normal from B to A.
 struct CorePair {
   const CollisionBody &a, &b;
@@ -31,16 +31,16 @@ struct CorePair {
     return {p, q, difference(p, q)};
   }
 
-  /// Does a core have a side that bends?
-  bool curved() const { return bends(a) || bends(b); }
+  /// Returns whether one of the cores has a curved side.
+  bool curved() const { return isCurved(a) || isCurved(b); }
 
  private:
-  static bool bends(const CollisionBody& body) {
+  static bool isCurved(const CollisionBody& body) {
     return body.core() == CollisionBody::Core::cylinder || body.core() == CollisionBody::Core::box_ellipsoid;
   }
 };
 
-/// At most four points of which some mixture is nearest to the origin.
+/// At most four points with a convex combination nearest to the origin.
 struct Simplex {
   std::array<MinkowskiPoint, 4> points;
   std::array<double, 4> weights{};
@@ -48,40 +48,40 @@ struct Simplex {
 
   void add(const MinkowskiPoint& point) { points[std::size_t(size++)] = point; }
 
-  /// Computes the weights, drops the points whose weight is zero, and returns the mixture. `inside` tells whether the
-  /// origin lies within four points, which then all stay. Source: Ericson, Real-Time Collision Detection, 5.1.5
+  /// Computes the weights, drops points of zero weight, and returns the convex combination. `inside` reports whether
+  /// the origin lies within four points; all four are then kept. Source: Ericson, Real-Time Collision Detection, 5.1.5
   /// and 5.1.6.
   Vector3d reduce(bool& inside);
 
-  Vector3d mixed(Vector3d MinkowskiPoint::*part) const {
+  Vector3d combined(Vector3d MinkowskiPoint::*part) const {
     Vector3d sum = Vector3d::Zero();
     for (int i = 0; i < size; ++i) sum += weights[std::size_t(i)] * (points[std::size_t(i)].*part);
     return sum;
   }
 };
 
-/// A direction m and the points of A - B that are farthest along it.
+/// A direction m and the farthest points of A - B along it.
 struct Deepest {
   Vector3d m;
   double height;  ///< h(m)
   Simplex points;
 };
 
-/// Newton's method on h from a direction that is nearly the best one: exact to rounding where it converges. Flat edges
-/// and faces, which the points show, fix the direction in part or whole; where sides bend, the curvature of h is known.
-/// What gets worse is left as it was; returns whether it got better. The points stay as they were.
+/// Newton's method on h from a nearly optimal direction m; exact to rounding if it converges. Flat edges and faces,
+/// found from the points, fix the direction partly or completely; on curved sides the curvature of h is known in closed
+/// form. Returns whether h decreased; otherwise `deepest` is unchanged. The points are never changed.
 bool refine(const CorePair& pair, Deepest& deepest);
 
 inline constexpr int kMaxMinkowskiPoints = 256;
 
-/// Replaces the points of `deepest` by a mixture of some that are farthest along its direction m, made from those that
-/// were met on the way there: those of bent sides are moved to where the normal is m. Returns how far the mixture is
-/// off the line along m through the origin, m; 0 if the points are witnesses of the distance.
-double settle(const CorePair& pair, std::span<const MinkowskiPoint> candidates, Deepest& deepest);
+/// Replaces the points of `deepest` by a convex combination of the farthest candidates along its direction m.
+/// Candidates are points met during the search; those of curved sides are moved to the normal m. Returns the distance
+/// (m) of the combination from the line along m through the origin; 0 if the points are witnesses of the distance.
+double findWitnesses(const CorePair& pair, std::span<const MinkowskiPoint> candidates, Deepest& deepest);
 
-/// The shortest push that parts overlapping cores: least h(m) over all m, from points that GJK ended with. Expands a
-/// polytope within A - B. Where sides bend, of pushes whose lengths differ by less than 1e-5 of the size any may be
-/// found. Source: van den Bergen, Collision Detection in Interactive 3D Environments, 4.3.8.
+/// The shortest push that separates overlapping cores: the least h(m) over all m, starting from GJK's final points.
+/// Expands a polytope within A - B. For curved sides, pushes with lengths within 1e-5 of the size are equivalent, and
+/// any of them may be returned. Source: van den Bergen, Collision Detection in Interactive 3D Environments, 4.3.8.
 Deepest shortestPush(const CorePair& pair, const Simplex& start);
 
 }  // namespace kinegraph

@@ -10,8 +10,8 @@ struct CylinderCore {
   double radius = 0., half_length = 0.;
 };
 
-/// Of a point a and a cylinder b. Exact: the point is beyond the side, a cap, or the rim; or inside, nearest to side or
-/// cap.
+/// Nearest points of a point a and a cylinder b, exact: the point is beyond the side, a cap, or the rim; or inside,
+/// nearest to side or cap.
 NearestPoints pointToCylinder(const Vector3d& point, const CylinderCore& cylinder);
 
 }  // namespace kinegraph

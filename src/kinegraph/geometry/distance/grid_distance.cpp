@@ -13,21 +13,21 @@ namespace {
 
 using Core = CollisionBody::Core;
 
-/// A point of the core and the field there.
+/// A point of the core, and the field's value and gradient there.
 struct Sample {
   Vector3d point, gradient;  ///< in the frame of the core
   double value;
 };
 
-class LeastOnCore {
+class MinimumOnCore {
  public:
-  LeastOnCore(const CollisionBody& core, const RigidTransform& X_GridCore, const GridField& field)
+  MinimumOnCore(const CollisionBody& core, const RigidTransform& X_GridCore, const GridField& field)
       : core_(core), X_(X_GridCore), field_(field), size_(core.boundHalf().norm()) {}
 
   Sample find() const {
     Sample best = at(core_.boundCenter());
     if (size_ == 0.) return best;
-    // The extreme points of the core in 26 directions, and those half-way to them.
+    // The extreme points of the core in 26 directions, and the midpoints toward them.
     constexpr int kStarts = 4;
     std::array<Sample, kStarts> starts;
     starts.fill(at(nearestInCore(core_, core_.boundCenter())));
@@ -60,7 +60,7 @@ class LeastOnCore {
     return sample;
   }
 
-  /// Steps against the gradient that end in the core, longer after success and shorter after failure.
+  /// Projected gradient descent within the core; the step grows after success and shrinks after failure.
   Sample downhill(Sample sample) const {
     double step = .25 * size_;
     for (int iteration = 0; iteration < 120 && step > 1e-11 * size_; ++iteration) {
@@ -107,7 +107,7 @@ Vector3d nearestInCore(const CollisionBody& body, const Vector3d& point) {
 
 NearestPoints convexToGrid(const CollisionBody& core, const RigidTransform& X_WA, const CollisionBody& grid,
                            const RigidTransform& X_WB) {
-  const Sample least = LeastOnCore(core, X_WB.inverse() * X_WA, grid.grid()).find();
+  const Sample least = MinimumOnCore(core, X_WB.inverse() * X_WA, grid.grid()).find();
   NearestPoints near;
   near.distance = least.value;
   near.point_a = X_WA * least.point;

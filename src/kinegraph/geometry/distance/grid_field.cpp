@@ -10,11 +10,10 @@ namespace kinegraph {
 
 namespace {
 
-/// Weights of four neighbors, of which the cell is between the middle ones, for the value at t in [0, 1] and for its
-/// slope.
+/// Weights of four neighbors for the value and the slope at t in [0, 1]; the cell lies between the middle two.
 struct Weights {
   double value[4], slope[4];
-  int first;  ///< index of the first neighbor that has a weight; past the ends of the grid values go on straight
+  int first;  ///< index of the first weighted neighbor; values are extrapolated linearly beyond the grid
 
   Weights(double at, int count) {
     const int cell = std::clamp(int(at), 0, count - 2);
@@ -45,7 +44,7 @@ struct Weights {
 };
 
 /// The least value on the sides of the box.
-double leastOutside(const Grid& grid) {
+double minimumOnSides(const Grid& grid) {
   double least = 0.;
   const auto [x, y, z] = grid.cells;
   for (int i = 0; i < x; ++i) {
@@ -65,7 +64,7 @@ GridField::GridField(std::shared_ptr<const Grid> given, const Vector3d& size)
     : grid(std::move(given)), half(.5 * size) {
   checkGrid(*grid);
   for (int axis = 0; axis < 3; ++axis) step[axis] = std::max(size[axis], 1e-9) / (grid->cells[axis] - 1);
-  overhang = -leastOutside(*grid);
+  overhang = -minimumOnSides(*grid);
   Mesh mesh = isosurface(*grid, size);
   mesh.triangles.clear();
   if (mesh.vertices.empty()) {

@@ -8,10 +8,10 @@ namespace kinegraph {
 
 class CollisionBody;
 
-/// The numbers of a grid as a function of space: interpolated by cubics that are smooth (Catmull & Rom) along each
-/// axis. Beyond the grid's box, at a distance r from its nearest point c, it is sqrt(value(c)^2 + r^2), which is not
-/// more than the distance if the values are distances, or value(c) + r where that value is negative. Continuous
-/// everywhere, within the box with its gradient. Local coordinates, m.
+/// The numbers of a grid as a function of space: interpolated by smooth cubics (Catmull & Rom) along each axis. Beyond
+/// the grid's box, at a distance r from its nearest point c, the field is sqrt(value(c)^2 + r^2), or value(c) + r if
+/// that value is negative. If the values are distances, the former does not exceed the distance. Continuous everywhere;
+/// its gradient is continuous within the box. Local coordinates, m.
 struct GridField {
   GridField(std::shared_ptr<const Grid> grid, const Vector3d& size);
   ~GridField();
@@ -20,10 +20,10 @@ struct GridField {
 
   std::shared_ptr<const Grid> grid;
   Vector3d half;         ///< half sides of the box
-  Vector3d step;         ///< between grid points
-  double overhang = 0.;  ///< how far the points that are not positive may reach beyond the box
+  Vector3d step;         ///< spacing of the grid points
+  double overhang = 0.;  ///< maximum extent of the non-positive points beyond the box
   std::shared_ptr<const CollisionBody>
-      surface;  ///< the points where edges of the grid cross zero; its corners if none do
+      surface;  ///< zero crossings on the edges of the grid; its corners if there are none
 };
 
 }  // namespace kinegraph

@@ -10,15 +10,15 @@ namespace kinegraph {
 namespace {
 
 constexpr double kFacetRounding = 1e-9;  ///< m
-constexpr std::size_t kMany = 48;  ///< points from which on walking along neighbors is quicker than looking at all
+constexpr std::size_t kMany = 48;        ///< from this number of points, climbing along neighbors beats a linear search
 
-/// How far a point is within all facets, m; 0 outside.
+/// Depth of a point below all facets, m; 0 outside.
 double depthIn(const Mesh& hull, const Vector3d& point) {
   double depth = std::numeric_limits<double>::infinity();
   for (const auto& triangle : hull.triangles) {
     const Vector3d& a = hull.vertices[triangle[0]];
     const Vector3d normal = (hull.vertices[triangle[1]] - a).cross(hull.vertices[triangle[2]] - a).normalized();
-    if (normal.isZero(.5)) return 0.;  // a triangle without extent
+    if (normal.isZero(.5)) return 0.;  // a degenerate triangle
     depth = std::min(depth, normal.dot(a - point));
   }
   return std::max(depth - kFacetRounding, 0.);

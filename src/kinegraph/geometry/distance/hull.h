@@ -4,8 +4,8 @@
 
 namespace kinegraph {
 
-/// The hull of one point or more, which may lie in a plane. `inner` becomes the radius of a ball about `center` that is
-/// within the hull, m; 0 where none is.
+/// The hull of at least one point; the points may lie in a plane. Sets `inner` to the radius (m) of a ball about
+/// `center` within the hull, or 0 if there is none.
 Hull makeHull(const std::vector<Vector3d>& points, const Vector3d& center, double& inner);
 
 }  // namespace kinegraph

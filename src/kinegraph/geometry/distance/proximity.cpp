@@ -15,12 +15,12 @@ namespace {
 
 using Core = CollisionBody::Core;
 
-/// The core as a segment; a point is one without length.
+/// The core as a segment; a point becomes a segment of zero length.
 SegmentCore segmentOf(const CollisionBody& body, const RigidTransform& X) {
   return {X.p, X.R.col(2), body.core() == Core::segment ? body.halfLength() : 0.};
 }
 
-/// Nearest points of two segments. For parallel ones the middle of the stretch where they run side by side.
+/// Nearest points of two segments; for parallel ones the middle of their overlap.
 /// Source: Ericson, Real-Time Collision Detection, 5.1.9.
 void nearestPoints(const SegmentCore& a, const SegmentCore& b, Vector3d& on_a, Vector3d& on_b) {
   const Vector3d r = a.center - b.center;
@@ -49,7 +49,7 @@ void nearestPoints(const SegmentCore& a, const SegmentCore& b, Vector3d& on_a, V
   on_b = b.at(t);
 }
 
-/// A unit vector across both axes: the normal where two cores meet in a point.
+/// A unit vector perpendicular to both axes: the normal if two cores meet in a point.
 Vector3d acrossBoth(const Vector3d& a, const Vector3d& b) {
   const Vector3d n = a.cross(b);
   if (n.norm() > 1e-9) return n.normalized();

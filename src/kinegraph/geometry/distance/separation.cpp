@@ -9,10 +9,10 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kMostSteps = 40;
-constexpr double kRounding = 1e-13;  // of a square
+constexpr int kMaxSteps = 40;
+constexpr double kRounding = 1e-13;  // relative to a square
 
-/// The farthest corner of a hull, from one that may be near it.
+/// The farthest corner of a hull, found by climbing from a nearby corner.
 Vector3d climb(const Hull& hull, const Vector3d& direction, std::uint32_t& corner) {
   double height = direction.dot(hull.points[corner]);
   for (bool climbing = true; climbing;) {
@@ -48,7 +48,7 @@ std::optional<SeparatingDirection> separation(const CollisionBody& a, const Rigi
   Vector3d v = pair.difference(a.boundCenter(), b.boundCenter());
   if (v.squaredNorm() == 0.) v = Vector3d::UnitX();
   double before = std::numeric_limits<double>::infinity();
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMaxSteps; ++step) {
     const Vector3d p = supportNear(a, -v, corners.a), q = supportNear(b, pair.X_AB.R.transpose() * v, corners.b);
     const MinkowskiPoint point{p, q, pair.difference(p, q)};
     const double square = v.squaredNorm(), along = v.dot(point.w), norm = std::sqrt(square);

@@ -36,7 +36,7 @@ class Polytope {
       if (!expand(face, point)) break;
     }
     if (!curved) refine(pair_, best_);
-    settle(pair_, {vertices_.data(), std::size_t(count_)}, best_);
+    findWitnesses(pair_, {vertices_.data(), std::size_t(count_)}, best_);
     return best_;
   }
 
@@ -44,7 +44,7 @@ class Polytope {
   struct Face {
     int corners[3];
     Vector3d normal;
-    double offset;  ///< of its plane from the origin; infinite for a face without area
+    double offset;  ///< of its plane from the origin; infinite for a degenerate face
   };
 
   Deepest atFace(int face, const Vector3d& m, double height) const {
@@ -55,7 +55,7 @@ class Polytope {
     return deepest;
   }
 
-  /// Completes the points that GJK ended with. False if the difference has no volume.
+  /// Completes GJK's final points to a tetrahedron. Returns false if the difference has no volume.
   bool makeTetrahedron() {
     const double eps = 1e-9 * scale_;
     const auto addFarthest = [&](const Vector3d& direction, const auto& height) {
@@ -94,7 +94,7 @@ class Polytope {
     return true;
   }
 
-  /// Takes a point if it is not in the span of those that are there.
+  /// Adds a point unless it is in the span of the present ones.
   void tryCorner(const MinkowskiPoint& point, double eps) {
     const Vector3d d = count_ == 0 ? Vector3d(Vector3d::Zero()) : Vector3d(point.w - vertices_[0].w);
     bool apart = count_ == 0 || d.norm() > eps;
@@ -161,8 +161,8 @@ class Polytope {
     return true;
   }
 
-  /// Adds a point that is beyond `from`: the faces that it sees are replaced by those to their rim. False if there is
-  /// no room or nothing to gain.
+  /// Adds a point beyond `from`: replaces the visible faces by faces to their rim. Returns false without room or
+  /// gain.
   bool expand(int from, const MinkowskiPoint& point) {
     if (count_ == kMaxVertices) return false;
     const int added = count_;
@@ -186,7 +186,7 @@ class Polytope {
     return edge_count_ > 0;
   }
 
-  /// A face without area goes with the faces around it: it is seen if two of its edges are already on the rim.
+  /// A degenerate face follows its neighbors: it counts as visible if two of its edges are already on the rim.
   bool seesThin(const Face& face) const {
     int shared = 0;
     for (int k = 0; k < 3; ++k) {
@@ -197,7 +197,7 @@ class Polytope {
     return shared >= 2;
   }
 
-  /// An edge that two faces share is not on the rim.
+  /// Adds an edge to the rim; an edge shared by two visible faces is removed.
   bool addEdge(int i, int j) {
     for (int e = 0; e < edge_count_; ++e) {
       if (edges_[e].first != j || edges_[e].second != i) continue;

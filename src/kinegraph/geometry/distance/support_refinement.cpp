@@ -35,12 +35,12 @@ struct Flats {
   }
 };
 
-/// The corner of the box that a point of a box_ellipsoid belongs to.
+/// The corner of the box below a point of a box_ellipsoid.
 Vector3d cornerOf(const CollisionBody& body, const Vector3d& point) {
   return body.halfSides().binaryExpr(point, [](double h, double x) { return std::copysign(h, x); });
 }
 
-/// Do the points show that a cap of the cylinder is touched flat? `d` is the direction in the cylinder's frame.
+/// Returns whether the points lie on a cap of the cylinder. `d` is the direction in the cylinder's frame.
 bool onCap(const CollisionBody& body, const Simplex& simplex, Vector3d MinkowskiPoint::*part, const Vector3d& d) {
   if (body.core() != Core::cylinder || std::hypot(d.x(), d.y()) > 1e-6) return false;
   for (int i = 1; i < simplex.size; ++i) {
@@ -50,7 +50,7 @@ bool onCap(const CollisionBody& body, const Simplex& simplex, Vector3d Minkowski
   return false;
 }
 
-/// The directions along which a core is flat where the points are, turned by R.
+/// Adds the flat directions of a core at the points, rotated by R.
 void addFlats(const CollisionBody& body, const Simplex& simplex, Vector3d MinkowskiPoint::*part, const Matrix3d& R,
               const Vector3d& m, Flats& flats) {
   if (onCap(body, simplex, part, R.transpose() * m)) {
@@ -89,7 +89,7 @@ Matrix3d curvature(const CollisionBody& body, const Vector3d& d) {
   return Matrix3d::Zero();
 }
 
-/// Moves a point of a bent side to where the normal is d.
+/// Moves a point of a curved side to the point with normal d.
 Vector3d moved(const CollisionBody& body, const Vector3d& point, const Vector3d& d) {
   if (body.core() == Core::cylinder) {
     const double across = std::hypot(d.x(), d.y());
@@ -107,10 +107,10 @@ Vector3d moved(const CollisionBody& body, const Vector3d& point, const Vector3d&
 
 }  // namespace
 
-double settle(const CorePair& pair, std::span<const MinkowskiPoint> candidates, Deepest& deepest) {
+double findWitnesses(const CorePair& pair, std::span<const MinkowskiPoint> candidates, Deepest& deepest) {
   const Vector3d &m = deepest.m, d_b = -(pair.X_AB.R.transpose() * m);
   const double scale = pair.scale();
-  std::array<MinkowskiPoint, kMaxMinkowskiPoints> flat;  // seen along m
+  std::array<MinkowskiPoint, kMaxMinkowskiPoints> flat;  // projected along m
   std::size_t count = 0;
   for (const MinkowskiPoint& candidate : candidates) {
     MinkowskiPoint point{moved(pair.a, candidate.a, m), moved(pair.b, candidate.b, d_b), {}};
@@ -176,9 +176,9 @@ bool refine(const CorePair& pair, Deepest& deepest) {
                    h22 = flats.count == 1 ? 1. : t2.dot(H * t2) - height;
       const double determinant = h11 * h22 - h12 * h12;
       if (h11 >= -rounding && h22 >= -rounding && std::abs(g1) <= rounding && std::abs(g2) <= rounding) {
-        converged = true;  // maybe equally good all around
+        converged = true;  // possibly a minimum that is flat all around
       } else if (!(h11 > 0.) || !(determinant > 0.)) {
-        return false;  // not where h is least
+        return false;  // not a minimum of h
       } else {
         const double s1 = -(h22 * g1 - h12 * g2) / determinant, s2 = -(h11 * g2 - h12 * g1) / determinant;
         m = (m + s1 * t1 + s2 * t2).normalized();

@@ -19,14 +19,14 @@ Assimp loadAssimp() {
   return functions;
 }
 
-/// Its C interface keeps one message for all threads, so that one thread reads at a time.
+/// Serializes imports: assimp's C interface has one error message for all threads.
 AssimpScene import(const std::string& path) {
   static std::mutex reading;
   const std::lock_guard lock(reading);
   const Assimp& ai = assimp();
   const std::unique_ptr<aiPropertyStore, decltype(ai.aiReleasePropertyStore)> settings(ai.aiCreatePropertyStore(),
                                                                                        ai.aiReleasePropertyStore);
-  // as robot descriptions mean it
+  // Robot descriptions expect Collada meshes without the conversion of the up direction.
   ai.aiSetImportPropertyInteger(settings.get(), AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, 1);
   AssimpScene scene(ai.aiImportFileExWithProperties(path.c_str(), 0, nullptr, settings.get()), ai.aiReleaseImport);
   if (!scene) throw FileError(cat("mesh file '", path, "' cannot be read: ", ai.aiGetErrorString()));
@@ -56,8 +56,8 @@ const Assimp& assimp() {
 
 AssimpScene readAssimpScene(const std::string& path) {
   AssimpScene scene = import(path);
-  checkFaces(*scene, path);                // which the next steps believe
-  const aiScene* whole = scene.release();  // which is released where a step fails
+  checkFaces(*scene, path);                // the next steps rely on it
+  const aiScene* whole = scene.release();  // assimp releases it if a step fails
   scene.reset(assimp().aiApplyPostProcessing(whole, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices));
   if (!scene || !scene->mRootNode) throw FileError(cat("mesh file '", path, "' cannot be read: it has no triangles"));
   return scene;

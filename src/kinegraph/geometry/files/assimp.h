@@ -17,18 +17,18 @@ namespace kinegraph {
   X(aiApplyPostProcessing) X(aiReleaseImport) X(aiGetErrorString) X(aiGetMaterialColor) X(aiGetMaterialTexture)
 // clang-format on
 
-/// The functions of assimp that are used here, by their own names.
+/// The assimp functions used here, under their own names.
 struct Assimp {
   KINEGRAPH_ASSIMP_FUNCTIONS(KINEGRAPH_LIBRARY_MEMBER)
 };
 
-/// Assimp, loaded by the first call: a scene without such mesh files does without. Throws FileError, which names the
-/// library, if it is missing.
+/// Returns assimp, loaded at the first call: scenes without such mesh files do not need it. Throws FileError with the
+/// library's name if it is missing.
 const Assimp& assimp();
 
 using AssimpScene = std::unique_ptr<const aiScene, decltype(&aiReleaseImport)>;
 
-/// What a mesh file holds, as triangles whose corners exist. Throws FileError.
+/// Reads a mesh file as triangles with valid vertex indices. Throws FileError.
 AssimpScene readAssimpScene(const std::string& path);
 
 }  // namespace kinegraph

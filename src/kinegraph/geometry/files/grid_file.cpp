@@ -21,7 +21,7 @@ struct Table {
   std::vector<double> dims, numbers;
 };
 
-/// Named tables of numbers, one after the other.
+/// Reads consecutive named tables of numbers.
 class TableReader {
  public:
   explicit TableReader(const std::string& path) : path_(path) {
@@ -71,7 +71,7 @@ class TableReader {
     return table;
   }
 
-  /// Those up to `close`; the character at the present place is not one of them.
+  /// Reads the numbers up to `close`; the character at the current position is skipped.
   std::vector<double> numbers(const std::string& name, char open, char close) {
     std::vector<double> list;
     for (++at_; skip(" \t\r\n,;"), next() != close;) {
@@ -79,7 +79,7 @@ class TableReader {
       const char* from = text_.data() + at_;
       const auto [end, status] = std::from_chars(from, text_.data() + text_.size(), number);
       if (status != std::errc())
-        fail(name, cat("has something that is not a number after ", list.size(), " numbers in ", open, " ", close));
+        fail(name, cat("has a non-number after ", list.size(), " numbers in ", open, " ", close));
       list.push_back(number);
       at_ += std::size_t(end - from);
     }
@@ -91,7 +91,7 @@ class TableReader {
     double count = dims.empty() ? 0. : 1.;
     for (const double n : dims) count *= n;
     if (!(count >= 1. && double(text_.size() - at_) >= 4. * count + 2.))
-      fail(name, cat("is shorter than the ", count, " floats that it promises"));
+      fail(name, cat("is shorter than the ", count, " floats in its header"));
     std::vector<double> list(static_cast<std::size_t>(count));
     const char* from = text_.data() + at_ + 1;
     for (double& number : list) {
@@ -101,7 +101,7 @@ class TableReader {
       from += sizeof(value);
     }
     at_ += 4 * list.size() + 1;
-    if (next() != '\0') fail(name, cat("does not end after the ", count, " floats that it promises"));
+    if (next() != '\0') fail(name, cat("does not end after the ", count, " floats in its header"));
     ++at_;
     return list;
   }
@@ -112,9 +112,9 @@ class TableReader {
 };
 
 std::string listed(const std::vector<double>& numbers) {
-  std::vector<std::string> words;
-  for (const double number : numbers) words.push_back(cat(number));
-  return join(words, " ");
+  std::vector<std::string> texts;
+  for (const double number : numbers) texts.push_back(cat(number));
+  return join(texts, " ");
 }
 
 std::map<std::string, Table> readH5Tables(const std::string& path) {
@@ -165,7 +165,7 @@ GridFile readGridFile(const std::string& path) {
     expected *= n;
   }
   if (expected != double(field.numbers.size()))
-    fail(cat(": field has ", field.numbers.size(), " numbers; <", listed(field.dims), "> promises ", expected));
+    fail(cat(": field has ", field.numbers.size(), " numbers; <", listed(field.dims), "> announces ", expected));
   file.grid.values.assign(field.numbers.begin(), field.numbers.end());
   try {
     checkGrid(file.grid);

@@ -54,7 +54,7 @@ double H5File::element(std::uint64_t at, int bytes, bool floating, bool is_signe
 void H5File::expectMark(std::uint64_t at, std::string_view mark) const {
   number(at, 1);
   if (bytes_.compare(at, mark.size(), mark) != 0)
-    fail(at == 0 ? "this is not an HDF5 file" : cat("no '", mark, "' at ", at, "; the file is damaged"));
+    fail(at == 0 ? "not an HDF5 file" : cat("no '", mark, "' at ", at, "; the file is damaged"));
 }
 
 std::vector<H5File::Message> H5File::messages(std::uint64_t header) const {
@@ -141,7 +141,7 @@ H5Dataset H5File::dataset(std::string_view name) const {
   const std::uint64_t header = find(name);
   if (header == 0) {
     const std::string_view group = name.substr(0, std::min(name.rfind('/'), name.size()));
-    fail(cat("there is no '", name, "'; available: ", join(entries(contains(group) ? group : ""))));
+    fail(cat("no object '", name, "'; available: ", join(entries(contains(group) ? group : ""))));
   }
   H5Dataset data;
   std::uint64_t count = 1, at = 0, length = 0;
@@ -152,9 +152,9 @@ H5Dataset H5File::dataset(std::string_view name) const {
       const std::uint64_t first = message.at + (number(message.at, 1) == 1 ? 8 : 4);
       for (std::uint64_t i = 0; i < number(message.at + 1, 1); ++i) {
         data.dims.push_back(number(first + 8 * i, 8));
-        if (data.dims.back() > bytes_.size()) fail(cat("'", name, "' claims to be larger than the file"));
+        if (data.dims.back() > bytes_.size()) fail(cat("'", name, "' has a size larger than the file"));
         count = count * data.dims.back();
-        if (count > bytes_.size()) fail(cat("'", name, "' claims to be larger than the file"));
+        if (count > bytes_.size()) fail(cat("'", name, "' has a size larger than the file"));
       }
     } else if (message.type == kDatatype) {
       const std::uint64_t kind = number(message.at, 1) & 15, flags = number(message.at + 1, 3);
@@ -163,7 +163,8 @@ H5Dataset H5File::dataset(std::string_view name) const {
       is_signed = flags & 8;
       const bool known =
           floating ? bytes == 4 || bytes == 8 : kind == 0 && (bytes == 1 || bytes == 2 || bytes == 4 || bytes == 8);
-      if (!known || (flags & 1)) fail(cat("'", name, "' is not of little-endian integers or floats of 32 or 64 bits"));
+      if (!known || (flags & 1))
+        fail(cat("'", name, "' does not contain little-endian integers or 32- or 64-bit floats"));
     } else if (message.type == kLayout) {
       const std::uint64_t version = number(message.at, 1), kind = number(message.at + 1, 1);
       if (version < 3 || version > 4 || kind > 1)
@@ -175,7 +176,7 @@ H5Dataset H5File::dataset(std::string_view name) const {
   }
   if (!placed || bytes == 0) fail(cat("'", name, "' is not a dataset"));
   if (count == 0) return data;
-  if (length < count * std::uint64_t(bytes)) fail(cat("'", name, "' is shorter than it says"));
+  if (length < count * std::uint64_t(bytes)) fail(cat("'", name, "' is shorter than its stated size"));
   number(at, 1);
   number(at + count * std::uint64_t(bytes) - 1, 1);
   data.numbers.reserve(count);

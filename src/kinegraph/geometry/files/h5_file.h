@@ -14,10 +14,10 @@ struct H5Dataset {
   std::uint64_t rows() const { return dims.empty() ? 1 : dims[0]; }
 };
 
-/// Reads datasets of an HDF5 file of the plain kind that h5py and the C library write unless told otherwise: superblock
-/// version 0 or 1, groups with symbol tables, uncompressed contiguous or compact integers and floats. Everything is
-/// checked against the length of the file. Throws FileError for other kinds, naming what is not supported.
-/// Source: HDF5 File Format Specification, version 3.0, sections II.A, III.A to III.D, IV.A.
+/// Reads datasets of HDF5 files in the default format of h5py and the C library: superblock version 0 or 1, groups with
+/// symbol tables, uncompressed contiguous or compact integers and floats. Checks every address against the length of
+/// the file. Throws FileError for other formats, and names the unsupported feature. Source: HDF5 File Format
+/// Specification, version 3.0, sections II.A, III.A to III.D, IV.A.
 class H5File {
  public:
   explicit H5File(std::string path);
@@ -25,13 +25,13 @@ class H5File {
   bool contains(std::string_view name) const;
   H5Dataset dataset(std::string_view name) const;  ///< `name` is a path such as "mesh/vertices"
 
-  /// The paths of the groups and datasets of `group` ("" is the root).
+  /// Paths of the groups and datasets of `group` ("" is the root).
   std::vector<std::string> entries(std::string_view group = "") const;
 
  private:
   struct Link {
     std::string name;
-    std::uint64_t header;  ///< address of its object header
+    std::uint64_t header;  ///< address of the object header
   };
   struct Message {
     int type;

@@ -10,12 +10,12 @@ namespace kinegraph {
 /// Source: Portable Network Graphics Specification, 2nd ed., W3C 2003.
 Pixels decodePng(std::string_view bytes);
 
-/// JPEG with 8 bits and Huffman codes, sequential or progressive, gray or of three colors. Throws FileError. This is own
-/// code because there is no wheel with libjpeg and its headers to build with, as there is for the other libraries.
+/// JPEG with 8 bits and Huffman codes, sequential or progressive, gray or with three colors. Throws FileError.
+/// Implemented here because, unlike for the other libraries, no wheel provides libjpeg with headers to build against.
 /// Source: CCITT Recommendation T.81, 1992; JPEG File Interchange Format 1.02.
 Pixels decodeJpeg(std::string_view bytes);
 
-/// Unpacks a zlib stream; at most `limit` bytes of it. Throws FileError.
+/// Decompresses a zlib stream, at most `limit` bytes. Throws FileError.
 std::string unpack(std::string_view bytes, std::size_t limit);
 
 }  // namespace kinegraph

@@ -15,20 +15,20 @@ struct Pixels {
   std::vector<std::uint8_t> rgb;  ///< height x width x 3
 };
 
-/// Is this the beginning of a PNG or JPEG file?
+/// Returns whether the bytes begin like a PNG or JPEG file.
 bool isImage(const std::string& bytes);
 
 /// "image/png" or "image/jpeg".
 std::string mediaType(const Image& image);
 
-/// Reads a file as it is. Throws FileError if it is missing, or is neither PNG nor JPEG.
+/// Reads a file without decoding it. Throws FileError if it is missing, or is neither PNG nor JPEG.
 std::shared_ptr<const Image> readImageFile(const std::string& path);
 
-/// Colors of a picture; transparency is left out. Throws FileError for damaged ones, and for those that promise more
-/// pixels than their bytes can hold.
+/// Decodes a picture; transparency is dropped. Throws FileError for damaged data, and for headers with more pixels than
+/// the data can hold.
 Pixels decodeImage(const Image& image);
 
-/// A PNG file of these pixels, not compressed.
+/// Encodes pixels as an uncompressed PNG file.
 Image encodePng(const Pixels& pixels);
 
 }  // namespace kinegraph

@@ -13,8 +13,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kMostPixelsPerByte = 1024.;
-constexpr int kMostScans = 100;
+constexpr double kMaxPixelsPerByte = 1024.;
+constexpr int kMaxScans = 100;
 
 struct Component {
   int id = 0, across = 1, down = 1, quantization = 0;  // `across` and `down`: blocks of it in a unit
@@ -51,7 +51,7 @@ class JpegDecoder {
       else if (marker >= 0xc3 && marker <= 0xcf && marker != 0xc8 && marker != 0xcc)
         throw FileError("it is of a rare kind (lossless or arithmetic)");
       if (marker != 0xda) continue;
-      if (++scans > kMostScans) throw FileError(cat("it has more than ", kMostScans, " scans"));
+      if (++scans > kMaxScans) throw FileError(cat("it has more than ", kMaxScans, " scans"));
       readScan(data, at);
     }
     if (components_.empty()) throw FileError("it has no header");
@@ -65,7 +65,8 @@ class JpegDecoder {
   }
   std::size_t word(std::size_t at) const { return std::size_t(byte(bytes_, at) << 8 | byte(bytes_, at + 1)); }
 
-  /// The end, if there is nothing more and at least a scan was read: many files lack their last marker.
+  /// Position of the next marker; the end if no data follow and at least one scan was read: many files lack the last
+  /// one.
   int nextMarker(std::size_t& at) const {
     for (; at + 1 < bytes_.size(); ++at) {
       const int code = byte(bytes_, at + 1);
@@ -79,7 +80,7 @@ class JpegDecoder {
   void readCodes(std::string_view data) {
     while (!data.empty()) {
       const int what = byte(data, 0);
-      if ((what & 15) > 3 || what >> 4 > 1) throw FileError("a code table with an impossible number");
+      if ((what & 15) > 3 || what >> 4 > 1) throw FileError("a code table with an invalid number");
       const std::size_t used = codes_[std::size_t((what >> 4) * 4 + (what & 15))].read(data.substr(1));
       data.remove_prefix(1 + used);
     }
@@ -89,7 +90,7 @@ class JpegDecoder {
     while (!data.empty()) {
       const int what = byte(data, 0);
       const std::size_t size = what >> 4 ? 2 : 1;
-      if ((what & 15) > 3) throw FileError("a quantization table with an impossible number");
+      if ((what & 15) > 3) throw FileError("a quantization table with an invalid number");
       for (std::size_t i = 0; i < 64; ++i) {
         const std::size_t at = 1 + size * i;
         quantization_[std::size_t(what & 15)][std::size_t(kZigzag[i])] =
@@ -109,8 +110,8 @@ class JpegDecoder {
       throw FileError(cat("it has ", width_, " x ", height_, " pixels of ", count, " colors with ", byte(data, 0),
                           " bits; expected 1 or 3 of 8 bits"));
     }
-    if (double(width_) * height_ > 1e5 + kMostPixelsPerByte * double(bytes_.size())) {
-      throw FileError(cat("it promises ", width_, " x ", height_, " pixels, more than its bytes can hold"));
+    if (double(width_) * height_ > 1e5 + kMaxPixelsPerByte * double(bytes_.size())) {
+      throw FileError(cat("its header announces ", width_, " x ", height_, " pixels, more than its bytes can hold"));
     }
     std::vector<Component> components(static_cast<std::size_t>(count));
     for (std::size_t i = 0; i < components.size(); ++i) {
@@ -148,7 +149,7 @@ class JpegDecoder {
     if (!progressive_) scan.first = 0, scan.last = 63, scan.high = scan.low = 0;
     if (scan.first > scan.last || scan.last > 63 || scan.low > 13 || (scan.first > 0 && count != 1) ||
         (progressive_ && scan.first == 0 && scan.last > 0)) {
-      throw FileError("a scan with impossible bounds");
+      throw FileError("a scan with invalid bounds");
     }
     JpegEntropyReader reader(bytes_, at, scan);
     struct Part {
@@ -162,10 +163,10 @@ class JpegDecoder {
       const auto component =
           std::find_if(components_.begin(), components_.end(), [&](const Component& c) { return c.id == id; });
       if (component == components_.end() || (tables & 15) > 3 || tables >> 4 > 3)
-        throw FileError("a scan of a color that the header lacks");
+        throw FileError("a scan of a color that is not in the header");
       parts.push_back({&*component, &codes_[std::size_t(tables >> 4)], &codes_[std::size_t(4 + (tables & 15))]});
     }
-    if (parts.empty() || parts.size() > components_.size()) throw FileError("a scan of an impossible number of colors");
+    if (parts.empty() || parts.size() > components_.size()) throw FileError("a scan with an invalid number of colors");
     const bool alone = parts.size() == 1;
     const int columns = alone ? parts[0].component->columns : units_across_,
               rows = alone ? parts[0].component->rows : units_down_;
@@ -188,7 +189,7 @@ class JpegDecoder {
     at = reader.position();
   }
 
-  /// Numbers of all pixels of a color, from those of its waves.
+  /// Inverse cosine transform: the samples of a component from its amplitudes.
   void transform(Component& c) const {
     static const auto kWave = [] {
       std::array<std::array<float, 8>, 8> wave{};  // [place][frequency]
@@ -254,7 +255,7 @@ class JpegDecoder {
 
   std::string_view bytes_;
   std::vector<Component> components_;
-  std::array<JpegCode, 8> codes_;  // four of means (DC), four of waves (AC)
+  std::array<JpegCode, 8> codes_;  // four DC codes, four AC codes
   std::array<std::array<int, 64>, 4> quantization_{};
   int width_ = 0, height_ = 0, across_ = 1, down_ = 1, units_across_ = 0, units_down_ = 0, restart_ = 0;
   bool progressive_ = false;

@@ -6,7 +6,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kMostMissing = 16;  // bytes that are read behind the end of a scan, as zeros
+constexpr int kMaxMissing = 16;  // bytes read as zeros beyond the end of a scan
 
 std::int16_t shifted(int amplitude, int bits) { return std::int16_t(amplitude * (1 << bits)); }
 
@@ -19,7 +19,7 @@ std::size_t JpegCode::read(std::string_view data) {
     const int of_length = static_cast<unsigned char>(data[length - 1]);
     offset_[length] = count - code;
     end_[length] = code + of_length;
-    if (end_[length] > 1 << length) throw FileError("an impossible code");
+    if (end_[length] > 1 << length) throw FileError("an invalid code");
     count += of_length;
     code = end_[length] << 1;
   }
@@ -36,7 +36,7 @@ int JpegCode::next(JpegEntropyReader& reader) const {
     reader.skip(int(length));
     return symbols_[std::size_t(offset_[length] + code)];
   }
-  throw FileError("its data hold a word that no code has");
+  throw FileError("its data contain an undefined code word");
 }
 
 std::uint32_t JpegEntropyReader::look16() {
@@ -46,7 +46,7 @@ std::uint32_t JpegEntropyReader::look16() {
     const bool is_marker = next == 0xff && (at_ + 1 >= bytes_.size() || bytes_[at_ + 1] != 0);
     if (at_ >= bytes_.size() || is_marker) {
       next = 0;
-      if (++missing_ > kMostMissing) throw FileError("its data end too early");
+      if (++missing_ > kMaxMissing) throw FileError("its data end too early");
     } else {
       at_ += next == 0xff ? 2 : 1;
     }
@@ -121,7 +121,7 @@ void JpegEntropyReader::firstWaves(const JpegCode& ac, JpegBlock& block) {
   }
 }
 
-/// One more bit of an amplitude that is known not to be zero.
+/// Reads one more bit of an amplitude known to be nonzero.
 void JpegEntropyReader::refine(std::int16_t& amplitude) {
   if (!take(1)) return;
   const int bit = 1 << scan_.low;

@@ -7,10 +7,10 @@
 
 namespace kinegraph {
 
-/// What a block of 8 x 8 pixels is composed of: amplitudes of waves, row by row of frequencies.
+/// Amplitudes of the cosine waves of a block of 8 x 8 pixels, row by row of frequencies.
 using JpegBlock = std::array<std::int16_t, 64>;
 
-/// Where the amplitudes stand in a block, in the order in which files have them.
+/// Index in a block of each amplitude, in file order.
 inline constexpr std::array<int, 64> kZigzag = {0,  1,  8,  16, 9,  2,  3,  10, 17, 24, 32, 25, 18, 11, 4,  5,
                                                 12, 19, 26, 33, 40, 48, 41, 34, 27, 20, 13, 6,  7,  14, 21, 28,
                                                 35, 42, 49, 56, 57, 50, 43, 36, 29, 22, 15, 23, 30, 37, 44, 51,
@@ -21,17 +21,17 @@ class JpegEntropyReader;
 /// A Huffman code.
 class JpegCode {
  public:
-  /// Reads it from the front of `data`; returns how many bytes it took. Throws FileError.
+  /// Reads the code from the front of `data`; returns the number of bytes read. Throws FileError.
   std::size_t read(std::string_view data);
   int next(JpegEntropyReader& reader) const;
 
  private:
   std::array<int, 17> end_{},
-      offset_{};  ///< by length: one more than its last code; where its symbols begin, less its first code
+      offset_{};  ///< by length: one more than its last code; index of its first symbol minus its first code
   std::vector<std::uint8_t> symbols_;
 };
 
-/// Which amplitudes a scan gives: those from `first` to `last`, all of their bits, or those from `low`, or the one at
+/// The amplitudes of a scan: those from `first` to `last`, with all of their bits, the bits from `low`, or the bit
 /// `low`.
 struct JpegScan {
   bool progressive = false;
@@ -48,13 +48,13 @@ class JpegEntropyReader {
 
   void block(const JpegCode& dc, const JpegCode& ac, int& predicted, JpegBlock& block);
 
-  /// Goes on behind the next restart marker.
+  /// Continues after the next restart marker.
   void restart();
 
   std::uint32_t look16();
   void skip(int count) { held_ -= count; }
 
-  /// Where the next marker is looked for.
+  /// Start of the search for the next marker.
   std::size_t position() const { return at_; }
 
  private:
@@ -70,7 +70,7 @@ class JpegEntropyReader {
   JpegScan scan_;
   std::uint64_t bits_ = 0;
   int held_ = 0, missing_ = 0;
-  int empty_blocks_ = 0;  ///< that follow: nothing new in them
+  int empty_blocks_ = 0;  ///< number of following blocks without changes
 };
 
 }  // namespace kinegraph

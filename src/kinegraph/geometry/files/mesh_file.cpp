@@ -8,7 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/assimp.h"
 #include "kinegraph/geometry/files/h5_file.h"
-#include "kinegraph/geometry/files/mesh_promises.h"
+#include "kinegraph/geometry/files/mesh_header.h"
 #include "kinegraph/geometry/files/mesh_textures.h"
 
 namespace kinegraph {
@@ -70,7 +70,7 @@ Mesh readH5Mesh(const std::string& path, const std::string& group) {
     const std::vector<double> f = table("faces", 3, 3).numbers;
     for (std::size_t i = 0; i < f.size(); ++i) {
       if (!(f[i] >= 0. && f[i] < double(mesh.vertices.size()))) {
-        throw FileError(cat("mesh file '", path, "': a face names vertex ", f[i], " of ", mesh.vertices.size()));
+        throw FileError(cat("mesh file '", path, "': a face refers to vertex ", f[i], " of ", mesh.vertices.size()));
       }
     }
     for (std::size_t i = 0; i < f.size(); i += 3)
@@ -104,7 +104,7 @@ Mesh readH5Mesh(const std::string& path, const std::string& group) {
     for (double part : file.dataset(cat(group, "/parts")).numbers) {
       if (!(part >= 0. && part <= double(mesh.vertices.size()))) {
         throw FileError(
-            cat("mesh file '", path, "': a convex part begins at vertex ", part, " of ", mesh.vertices.size()));
+            cat("mesh file '", path, "': a convex part starts at vertex ", part, " of ", mesh.vertices.size()));
       }
       mesh.parts.push_back(std::uint32_t(part));
     }
@@ -117,13 +117,13 @@ Mesh readMeshFile(const std::string& path) {
   if (!std::filesystem::is_regular_file(path)) throw FileError(cat("mesh file '", path, "' does not exist"));
   if (path.ends_with(".h5")) return readH5Mesh(path, "mesh");
   if (path.ends_with(".msh")) return readMshMesh(path);
-  checkMeshPromises(path);
+  checkMeshHeader(path);
   const AssimpScene scene = readAssimpScene(path);
   Mesh mesh;
   MeshTextures textures(*scene, path);
   append(*scene, *scene->mRootNode, aiMatrix4x4(), textures, mesh);
   mesh.texcoords.resize(mesh.texcoords.empty() ? 0 : mesh.vertices.size());
-  if (mesh.vertices.empty()) throw FileError(cat("mesh file '", path, "' holds no vertices"));
+  if (mesh.vertices.empty()) throw FileError(cat("mesh file '", path, "' contains no vertices"));
   const auto broken =
       std::find_if_not(mesh.vertices.begin(), mesh.vertices.end(), [](const Vector3d& p) { return p.allFinite(); });
   if (broken != mesh.vertices.end()) {

@@ -21,7 +21,7 @@ std::shared_ptr<const Image> imageBeside(const std::string& mesh_path, const std
     if (!fs::is_regular_file(path, ignored)) continue;
     try {
       return readImageFile(path.string());
-    } catch (const FileError&) {  // of another kind
+    } catch (const FileError&) {  // another kind of file
       return nullptr;
     }
   }

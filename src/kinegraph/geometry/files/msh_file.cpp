@@ -18,7 +18,7 @@ Mesh readMshMesh(const std::string& path) {
   const double expected = 16. + 12. * vertices + 12. * normals + 8. * texture + 12. * faces;
   if (vertices <= 0 || normals < 0 || texture < 0 || faces < 0 || double(bytes.size()) != expected) {
     throw FileError(cat("mesh file '", path, "' of ", bytes.size(),
-                        " bytes is not one of MuJoCo's: its header promises ", vertices, " vertices, ", normals,
+                        " bytes is not a MuJoCo mesh: its header announces ", vertices, " vertices, ", normals,
                         " normals, ", texture, " texture coordinates and ", faces, " faces"));
   }
   Mesh mesh;
@@ -38,7 +38,7 @@ Mesh readMshMesh(const std::string& path) {
     std::memcpy(corners, at, sizeof(corners));
     for (const std::uint32_t corner : corners) {
       if (corner >= std::uint32_t(vertices))
-        throw FileError(cat("mesh file '", path, "': face ", i, " names vertex ", corner, " of ", vertices));
+        throw FileError(cat("mesh file '", path, "': face ", i, " refers to vertex ", corner, " of ", vertices));
     }
     mesh.triangles.push_back({corners[0], corners[1], corners[2]});
   }

@@ -12,8 +12,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr std::uint32_t kMostPixelsAcross = 1u << 15;
-constexpr double kBestPacking = 1032.;  // bytes out of one that deflate can make
+constexpr std::uint32_t kMaxPixelsAcross = 1u << 15;
+constexpr double kBestPacking = 1032.;  // maximum expansion factor of deflate
 
 std::uint32_t bigEndian(std::string_view bytes, std::size_t at) {
   if (at + 4 > bytes.size()) throw FileError("it ends too early");
@@ -39,9 +39,8 @@ Header readHeader(std::string_view data) {
   header.depth = data[8];
   header.color = data[9];
   header.interlaced = data[12] != 0;
-  if (header.width == 0 || header.height == 0 || header.width > kMostPixelsAcross ||
-      header.height > kMostPixelsAcross) {
-    throw FileError(cat("it has ", header.width, " x ", header.height, " pixels; expected 1 to ", kMostPixelsAcross,
+  if (header.width == 0 || header.height == 0 || header.width > kMaxPixelsAcross || header.height > kMaxPixelsAcross) {
+    throw FileError(cat("it has ", header.width, " x ", header.height, " pixels; expected 1 to ", kMaxPixelsAcross,
                         " across and down"));
   }
   const bool small = header.depth == 1 || header.depth == 2 || header.depth == 4;
@@ -49,7 +48,7 @@ Header readHeader(std::string_view data) {
                     : header.color == 3 ? small || header.depth == 8
                                         : header.depth == 8 || header.depth == 16;
   if (!good || header.color == 1 || header.color == 5 || header.color > 6 || header.color < 0) {
-    throw FileError(cat("colors of type ", header.color, " with ", header.depth, " bits do not exist"));
+    throw FileError(cat("colors of type ", header.color, " with ", header.depth, " bits are not valid"));
   }
   return header;
 }
@@ -67,7 +66,7 @@ std::vector<Pass> passesOf(const Header& header) {
   return {{0, 0, 8, 8}, {4, 0, 8, 8}, {0, 4, 4, 8}, {2, 0, 4, 4}, {0, 2, 2, 4}, {1, 0, 2, 2}, {0, 1, 1, 2}};
 }
 
-/// Undoes the filter of a row, given the row above it.
+/// Undoes the filter of a row, given the row above.
 void unfilter(int filter, std::size_t step, const std::vector<std::uint8_t>& above, std::vector<std::uint8_t>& row) {
   for (std::size_t i = 0; i < row.size(); ++i) {
     const int left = i >= step ? row[i - step] : 0, up = above[i], corner = i >= step ? above[i - step] : 0;
@@ -96,14 +95,14 @@ class PngDecoder {
     for (const Pass& pass : passesOf(header_))
       total += pass.columns(header_) ? pass.rows(header_) * (1 + pass.rowBytes(header_)) : 0;
     const std::string data = unpack(packed, total);
-    if (data.size() < total) throw FileError("it holds fewer pixels than it promises");
+    if (data.size() < total) throw FileError("it contains fewer pixels than its header announces");
     std::size_t at = 0;
     for (const Pass& pass : passesOf(header_)) {
       if (pass.columns(header_) == 0) continue;
       std::vector<std::uint8_t> above(pass.rowBytes(header_)), row(above.size());
       for (std::uint32_t i = 0; i < pass.rows(header_); ++i) {
         const int filter = data[at++];
-        if (filter < 0 || filter > 4) throw FileError(cat("a row with filter ", filter, ", which does not exist"));
+        if (filter < 0 || filter > 4) throw FileError(cat("a row with unknown filter ", filter, ""));
         std::copy_n(data.begin() + std::ptrdiff_t(at), row.size(), row.begin());
         at += row.size();
         unfilter(filter, std::max<std::size_t>(1, header_.bitsPerPixel() / 8), above, row);
@@ -115,7 +114,7 @@ class PngDecoder {
   }
 
  private:
-  /// One number of a row, as it is stored.
+  /// One stored number of a row.
   int sample(const std::vector<std::uint8_t>& row, std::size_t i) const {
     if (header_.depth == 16) return row[2 * i];
     if (header_.depth == 8) return row[i];
@@ -165,7 +164,8 @@ Pixels decodePng(std::string_view bytes) {
   if (!header) throw FileError("it has no header");
   const double promised = double(header->width) * header->height * double(header->bitsPerPixel()) / 8.;
   if (promised > 1e5 + kBestPacking * double(packed.size())) {
-    throw FileError(cat("it promises ", header->width, " x ", header->height, " pixels, more than its bytes can hold"));
+    throw FileError(
+        cat("its header announces ", header->width, " x ", header->height, " pixels, more than its bytes can hold"));
   }
   return PngDecoder(*header, palette).decode(packed);
 }

@@ -15,7 +15,7 @@ namespace kinegraph {
 
 namespace {
 
-/// A run of the library qhull: the hull of points, its facets cut into triangles.
+/// A run of the library qhull: the hull of points, with triangulated facets.
 class Qhull {
  public:
   explicit Qhull(const std::vector<Vector3d>& points) : coordinates_(points) {
@@ -47,11 +47,11 @@ class Qhull {
     qh_memfreeshort(&qh_, &left, &total);
   }
 
-  std::vector<Vector3d> coordinates_;  ///< qhull takes no constant ones
+  std::vector<Vector3d> coordinates_;  ///< qhull requires mutable coordinates
   qhT qh_;
 };
 
-/// The point that is highest by `height`.
+/// The point with the largest `height`.
 template <class Height>
 Vector3d highest(const std::vector<Vector3d>& points, const Height& height) {
   return *std::max_element(points.begin(), points.end(),
@@ -63,10 +63,10 @@ Vector3d highest(const std::vector<Vector3d>& points, const Height& height) {
 bool spanVolume(const std::vector<Vector3d>& points) {
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!points[i].allFinite())
-      throw ValueError(cat("point ", i, " of a hull is (", points[i].transpose(), "); it must be finite"));
+      throw ValueError(cat("point ", i, " of a hull is (", points[i].transpose(), "); expected finite coordinates"));
   }
   if (points.size() < 4) return false;
-  // The tallest tetrahedron on the longest triangle on the farthest two.
+  // The tallest tetrahedron over the largest triangle on the longest edge from the first point.
   const Vector3d a = points[0];
   const Vector3d b = highest(points, [&](const Vector3d& p) { return (p - a).squaredNorm(); }) - a;
   const Vector3d c = highest(points, [&](const Vector3d& p) { return (p - a).cross(b).squaredNorm(); }) - a;
@@ -80,7 +80,7 @@ Mesh convexHull(const std::vector<Vector3d>& points) {
   if (points.size() < 4) throw ValueError(cat("a convex hull needs at least 4 points, got ", points.size()));
   if (!spanVolume(points)) throw ValueError(cat("the ", points.size(), " points of a convex hull lie in one plane"));
   Qhull qhull(points);
-  std::vector<std::uint32_t> index_of(points.size());  // of a given point among the vertices
+  std::vector<std::uint32_t> index_of(points.size());  // from input points to vertices
   Mesh mesh;
   for (const vertexT* vertex = qhull->vertex_list; vertex && vertex->next; vertex = vertex->next) {
     const std::size_t point = qhull.indexOf(*vertex);

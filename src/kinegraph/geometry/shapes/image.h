@@ -7,7 +7,7 @@ namespace kinegraph {
 /// A picture as the bytes of a PNG or JPEG file.
 struct Image {
   std::string bytes;
-  std::string path = {};  ///< of its file; empty if it stood inside another one
+  std::string path = {};  ///< of its file; empty if embedded in another file
 };
 
 }  // namespace kinegraph

@@ -13,7 +13,7 @@ namespace {
 
 using Corner = std::array<int, 3>;
 
-/// A cube cut into six tetrahedra around its diagonal; the cuts of neighboring cubes agree.
+/// A cube cut into six tetrahedra around its diagonal; the cuts of neighboring cubes match.
 constexpr int kTetrahedra[6][4] = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
 
 class Surface {
@@ -73,7 +73,7 @@ class Surface {
     mesh_.triangles.push_back({a, b, c});
   }
 
-  /// The vertex on an edge of the grid; one for all tetrahedra that share the edge.
+  /// The vertex on an edge of the grid, shared by all tetrahedra at the edge.
   std::uint32_t crossing(const Corner& low, const Corner& high) {
     const auto number = [&](const Corner& c) {
       return (std::uint64_t(c[0]) * grid_.cells[1] + c[1]) * grid_.cells[2] + c[2];
@@ -88,7 +88,7 @@ class Surface {
     return entry->second;
   }
 
-  /// Which of the seven neighbors in front an edge leads to.
+  /// Index of the direction of an edge, out of seven.
   static int neighbor(const Corner& a, const Corner& b) {
     return (a[0] != b[0]) + 2 * (a[1] != b[1]) + 4 * (a[2] != b[2]);
   }

@@ -11,12 +11,12 @@ struct ShellMass {
   Matrix3d inertia_per_mass = Matrix3d::Zero();  ///< about the center of mass, m^2
 };
 
-/// Of the six faces of a box with sides a, b, c. Throws ValueError if they have no area.
+/// The six faces of a box with sides a, b, c. Throws ValueError if they have no area.
 ShellMass boxShell(double a, double b, double c);
 ShellMass sphereShell(double radius);
 
-/// Of a shape's surface: exact for box and sphere, of the triangles otherwise. Throws ValueError for shapes without
-/// one.
+/// Mass properties of a shape's surface: exact for box and sphere, else of its triangles. Throws ValueError for shapes
+/// without a surface.
 ShellMass shellMass(const Geometry& geometry);
 
 }  // namespace kinegraph

@@ -58,7 +58,7 @@ Mesh rectangle(const Geometry& g) {
   return mesh;
 }
 
-// The counts that files of 2018 to 2023 have: [0 0 length radius] for what is round.
+// Sizes in files of 2018 to 2023: [0 0 length radius] for round shapes.
 
 void modernizeRound(Sizes& s) {
   if (s.size() == 4) s.erase(s.begin(), s.begin() + 2);
@@ -79,8 +79,8 @@ void modernizeMarker(Sizes& s) {
   if (s.empty()) s = {.1};
 }
 
-std::string demandRadius(const char* name, double radius) {
-  if (radius < 1e-10) throw ValueError(cat("radius of a ", name, " is ", radius, "; it must be positive"));
+std::string requireRadius(const char* name, double radius) {
+  if (radius < 1e-10) throw ValueError(cat("radius of a ", name, " is ", radius, "; expected a positive number"));
   return "";
 }
 
@@ -111,32 +111,32 @@ const ShapeKind kKinds[] = {
      .extent = sides,
      .modernize = modernizeBox},
     {.type = ShapeType::sphere, .name = "sphere", .size_names = "radius", .body = Body::ball,
-     .has_inertia = true, .is_turned = true, .is_drawn_by_page = true,
+     .has_inertia = true, .is_round = true, .is_drawn_by_page = true,
      .core = [](const Geometry& g) { return ShapeCore{.radius = g.size[0]}; },
      .surface = [](const Geometry& g) { return roundedBox(Vector3d::Zero(), g.size[0]); },
      .shell = [](const Sizes& s) { return sphereShell(s[0]); },
      .extent = [](const Sizes& s) -> Vector3d { return Vector3d::Constant(2. * s[0]); },
      .modernize = modernizeSphere},
     {.type = ShapeType::capsule, .name = "capsule", .size_names = "length radius", .body = Body::capsule,
-     .has_inertia = true, .is_turned = true, .is_drawn_by_page = true,
+     .has_inertia = true, .is_round = true, .is_drawn_by_page = true,
      .core = [](const Geometry& g) {
        return ShapeCore{.form = Form::segment, .radius = g.size[1], .half_length = .5 * g.size[0]};
      },
      .surface = [](const Geometry& g) { return roundedBox({0., 0., .5 * g.size[0]}, g.size[1]); },
      .extent = [](const Sizes& s) { return Vector3d(2. * s[1], 2. * s[1], s[0] + 2. * s[1]); },
      .modernize = modernizeRound,
-     .repair = [](Sizes& s) { return demandRadius("capsule", s[1]); }},
+     .repair = [](Sizes& s) { return requireRadius("capsule", s[1]); }},
     {.type = ShapeType::mesh, .name = "mesh", .data = Data::mesh,
      .has_inertia = true,
      .core = [](const Geometry&) { return ShapeCore{.form = Form::hulls_of_parts}; },
      .surface = [](const Geometry& g) { return g.mesh ? *g.mesh : Mesh{}; }},
     {.type = ShapeType::cylinder, .name = "cylinder", .size_names = "length radius", .body = Body::cylinder,
-     .has_inertia = true, .is_turned = true, .is_drawn_by_page = true,
+     .has_inertia = true, .is_round = true, .is_drawn_by_page = true,
      .core = [](const Geometry& g) { return cylinderCore(g.size[0], g.size[1], 0.); },
      .surface = [](const Geometry& g) { return roundedCylinder(g.size[0], g.size[1], 0.); },
      .extent = [](const Sizes& s) { return Vector3d(2. * s[1], 2. * s[1], s[0]); },
      .modernize = modernizeRound,
-     .repair = [](Sizes& s) { return demandRadius("cylinder", s[1]); }},
+     .repair = [](Sizes& s) { return requireRadius("cylinder", s[1]); }},
     {.type = ShapeType::marker, .name = "marker", .size_names = "length",
      .is_symbol = true, .is_drawn_by_page = true,
      .modernize = modernizeMarker},
@@ -155,7 +155,7 @@ const ShapeKind kKinds[] = {
      .extent = sides,
      .repair = repairRoundedBox},
     {.type = ShapeType::ssCylinder, .name = "ssCylinder", .size_names = "length radius rounding", .body = Body::cylinder,
-     .has_inertia = true, .is_turned = true, .is_drawn_by_page = true,
+     .has_inertia = true, .is_round = true, .is_drawn_by_page = true,
      .core = [](const Geometry& g) { return cylinderCore(g.size[0], g.size[1], g.size[2]); },
      .surface = [](const Geometry& g) { return roundedCylinder(g.size[0], g.size[1], g.size[2]); },
      .extent = [](const Sizes& s) { return Vector3d(2. * s[1], 2. * s[1], s[0]); },

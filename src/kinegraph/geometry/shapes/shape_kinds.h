@@ -10,10 +10,10 @@
 
 namespace kinegraph {
 
-/// What distances see of a shape: a core swept by a ball. Where a core has an axis, it is z. Lengths in m.
+/// Collision geometry of a shape: a core swept by a ball. The axis of a core, if any, is z. Lengths in m.
 struct ShapeCore {
-  /// The last five are made of the vertices of the shape's mesh (their hull; the hulls of the parts that it names; each
-  /// one; a segment for every two), or of its grid.
+  /// The last five use the vertices of the shape's mesh (their hull; the hulls of its convex parts; each vertex; a
+  /// segment per pair of vertices) or its grid.
   enum class Form { point, segment, box, cylinder, box_ellipsoid, hull, hulls_of_parts, points, segments, grid };
   Form form = Form::point;
   double radius = 0.;                      ///< of the ball
@@ -23,46 +23,47 @@ struct ShapeCore {
   Vector3d radii = Vector3d::Zero();       ///< of the ellipsoid in a box_ellipsoid
 };
 
-/// A row of the table of shapes: all that the program knows of a type. What is null or false need not be told.
+/// Table entry of a shape type with all type-specific properties. Null and false are the defaults.
 struct ShapeKind {
-  /// What a shape has besides its sizes: a mesh that is what there is to see, the core points that its surface is
-  /// swept along, or a grid of numbers.
+  /// Data besides the sizes: a mesh that is the visible shape, the core points of a swept surface, or a grid of
+  /// numbers.
   enum class Data { none, mesh, core_points, grid };
 
-  /// The simple body that it counts as, sharp or rounded, where facts, grasps and placements speak of such; its first
-  /// sizes are x y z of a box, the radius of a ball, the length and the radius of the other two.
+  /// Simplified body, sharp or rounded, for facts, grasps and placements; its first sizes are x y z of a box, the
+  /// radius of a ball, length and radius of the other two.
   enum class Body { other, box, ball, capsule, cylinder };
 
   ShapeType type = ShapeType::none;
-  std::string_view name;           ///< the word of files
-  std::string_view size_names{};   ///< a word for each entry of `Geometry::size`
-  std::size_t optional_sizes = 0;  ///< entries that may be given although they have no name
+  std::string_view name;           ///< name in files
+  std::string_view size_names{};   ///< a name for each entry of `Geometry::size`
+  std::size_t optional_sizes = 0;  ///< number of additional unnamed entries allowed
   Data data = Data::none;
   Body body = Body::other;
-  bool is_symbol = false;    ///< marks a place, and is no body: never collides, no file format writes it
-  bool has_inertia = false;  ///< its surface carries a mass
-  bool is_turned = false;    ///< about z: pictures are wound around it
+  bool is_symbol = false;    ///< marks a place only: never collides, no file format writes it
+  bool has_inertia = false;  ///< its surface can carry a mass
+  bool is_round = false;     ///< round about z: pictures wrap around the axis
   bool is_drawn_by_page =
-      false;  ///< the page builds it from type and sizes (viewer/src/primitives.ts), else gets triangles
+      false;  ///< the page builds it from type and sizes (viewer/src/primitives.ts); others are sent as triangles
 
   ShapeCore (*core)(const Geometry&) = nullptr;              ///< null: a point
   Mesh (*surface)(const Geometry&) = nullptr;                ///< closed and outward; null: none
-  ShellMass (*shell)(const std::vector<double>&) = nullptr;  ///< exact; null: of the triangles of `surface`
-  Vector3d (*extent)(const std::vector<double>&) = nullptr;  ///< widths along x y z of what stands and carries
-  void (*modernize)(std::vector<double>&) = nullptr;         ///< makes today's sizes of those of older files
-  std::string (*repair)(std::vector<double>&) = nullptr;     ///< makes sizes fit each other, returns a warning or ""
+  ShellMass (*shell)(const std::vector<double>&) = nullptr;  ///< exact; null: computed from the triangles of `surface`
+  Vector3d (*extent)(const std::vector<double>&) =
+      nullptr;                                            ///< widths along x y z for standing on and carrying objects
+  void (*modernize)(std::vector<double>&) = nullptr;      ///< converts the sizes of older files
+  std::string (*repair)(std::vector<double>&) = nullptr;  ///< makes sizes consistent; returns a warning or ""
 
-  std::size_t sizes() const;  ///< how many `size_names` there are
+  std::size_t sizes() const;  ///< number of `size_names`
   bool hasPoints() const { return data == Data::mesh || data == Data::core_points; }
 };
 
-/// The table, without ShapeType::none, in the order of the numbers of the types.
+/// The table in the order of the type numbers, without ShapeType::none.
 std::span<const ShapeKind> shapeKinds();
 
-/// The row of a type; that of `none` has nothing but its name. Throws ValueError for numbers that are no type.
+/// The entry of a type; that of `none` has only a name. Throws ValueError for an invalid number.
 const ShapeKind& shapeKind(ShapeType type);
 
-/// Extent of a shape along its own z axis, m; 0 for those that do not stand on or carry others.
+/// Extent of a shape along its own z axis, m; 0 for shapes that neither stand on nor carry others.
 double shapeHeight(ShapeType type, const std::vector<double>& size);
 
 }  // namespace kinegraph

@@ -11,8 +11,8 @@ namespace kinegraph {
 
 namespace {
 
-/// What other formats call shapes.
-constexpr std::pair<std::string_view, std::string_view> kWordsOfOthers[] = {
+/// Shape names of other formats, with the name used here.
+constexpr std::pair<std::string_view, std::string_view> kForeignNames[] = {
     {"cube", "box"},
     {"cuboid", "box"},
     {"block", "box"},
@@ -39,16 +39,17 @@ std::string shapeTypeName(ShapeType type) { return std::string(shapeKind(type).n
 
 ShapeType shapeTypeFromName(std::string_view name) {
   const std::string_view word = name.starts_with("ST_") ? name.substr(3) : name;
-  std::vector<std::string> words;
+  std::vector<std::string> names;
   for (const auto& [known, type] : shapeTypeNames()) {
     if (known == word) return type;
-    words.push_back(known);
+    names.push_back(known);
   }
-  const auto meant = std::find_if(std::begin(kWordsOfOthers), std::end(kWordsOfOthers),
+  const auto meant = std::find_if(std::begin(kForeignNames), std::end(kForeignNames),
                                   [&](const auto& entry) { return entry.first == word; });
-  const std::string hint = meant != std::end(kWordsOfOthers) ? cat("; what others call ", word, " is ", meant->second)
-                                                             : similarHint(word, words);
-  throw ValueError(cat("unknown shape type '", name, "'; expected one of ", join(words), hint));
+  const std::string hint = meant != std::end(kForeignNames)
+                               ? cat("; the shape ", word, " of other formats is ", meant->second)
+                               : similarHint(word, names);
+  throw ValueError(cat("unknown shape type '", name, "'; expected one of ", join(names), hint));
 }
 
 std::vector<double> checkedSize(ShapeType type, std::vector<double> size, std::string* warning) {
@@ -63,7 +64,7 @@ std::vector<double> checkedSize(ShapeType type, std::vector<double> size, std::s
   }
   for (double x : size) {
     if (!std::isfinite(x) || x < 0.) {
-      throw ValueError(cat("size of a ", kind.name, " has the entry ", x, "; lengths are finite and not negative"));
+      throw ValueError(cat("size of a ", kind.name, " has the entry ", x, "; expected finite lengths >= 0"));
     }
   }
   const std::string repaired = kind.repair ? kind.repair(size) : "";

@@ -11,9 +11,9 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kQuarter = 6;  ///< facets per quarter turn
+constexpr int kQuarter = 6;  ///< facets per quarter circle
 
-/// Merges vertices at the same place and drops the triangles that collapse.
+/// Merges coincident vertices and drops degenerate triangles.
 class MeshBuilder {
  public:
   std::uint32_t vertex(const Vector3d& p) {
@@ -66,7 +66,7 @@ Mesh roundedBox(const Vector3d& h, double r) {
 
 namespace {
 
-/// A profile of (radius, z), from the top of the axis to its bottom, turned about z.
+/// Revolves a profile of (radius, z), from the top of the axis to the bottom, about z.
 Mesh revolve(const std::vector<std::pair<double, double>>& profile) {
   MeshBuilder builder;
   const int sides = 4 * kQuarter;

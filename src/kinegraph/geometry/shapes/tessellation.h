@@ -4,7 +4,7 @@
 
 namespace kinegraph {
 
-/// The surface of a shape as triangles, outward and closed (a quad: two triangles). Shapes without a surface (marker,
+/// The surface of a shape as outward, closed triangles (a quad: two triangles). Shapes without a surface (marker,
 /// camera, point clouds, lines) give an empty mesh; a mesh gives itself.
 Mesh tessellate(const Geometry& geometry);
 

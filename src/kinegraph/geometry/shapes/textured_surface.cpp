@@ -16,7 +16,7 @@ using Corners = std::array<Vector3d, 3>;
 
 Place place(double right, double up) { return {float(right), float(up)}; }
 
-/// Of a triangle on a surface around the z axis: angle and height. The seam is at y = 0, x < 0.
+/// Texture coordinates of a triangle on a surface around the z axis: angle and height. The seam is at y = 0, x < 0.
 std::array<Place, 3> around(const Corners& corners, double low, double high) {
   std::array<double, 3> turn{};
   std::array<bool, 3> on_axis{};
@@ -42,7 +42,7 @@ std::array<Place, 3> around(const Corners& corners, double low, double high) {
   return places;
 }
 
-/// Of a triangle seen along the axis that it faces most: where it is in the extent of the shape.
+/// Texture coordinates of a triangle projected along the axis that it faces most, relative to the shape's extent.
 std::array<Place, 3> seenAlongAxis(const Corners& corners, const Vector3d& low, const Vector3d& size) {
   const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
   int axis = 0;
@@ -66,8 +66,8 @@ Mesh texturedSurface(const Geometry& geometry, std::shared_ptr<const Image> imag
   Mesh mesh;
   if (surface.texcoords.size() == surface.vertices.size()) {
     mesh = surface;
-  } else {  // corners of their own for each triangle
-    const bool turned = shapeKind(geometry.type).is_turned;
+  } else {  // separate corners for each triangle
+    const bool round = shapeKind(geometry.type).is_round;
     Vector3d low = surface.vertices[0], high = low;
     for (const Vector3d& p : surface.vertices) {
       low = low.cwiseMin(p);
@@ -79,7 +79,7 @@ Mesh texturedSurface(const Geometry& geometry, std::shared_ptr<const Image> imag
                                surface.vertices[triangle[2]]};
       const auto first = std::uint32_t(mesh.vertices.size());
       mesh.vertices.insert(mesh.vertices.end(), corners.begin(), corners.end());
-      const auto places = turned ? around(corners, low.z(), high.z()) : seenAlongAxis(corners, low, size);
+      const auto places = round ? around(corners, low.z(), high.z()) : seenAlongAxis(corners, low, size);
       mesh.texcoords.insert(mesh.texcoords.end(), places.begin(), places.end());
       mesh.triangles.push_back({first, first + 1, first + 2});
     }

@@ -16,7 +16,7 @@ namespace kinegraph {
 namespace {
 
 // clang-format off
-/// Attributes that mean something here or elsewhere in the library; a near miss of one of them is worth a warning.
+/// Attributes used by any part of the library; a near miss of one of them causes a warning.
 constexpr std::string_view kKnownAttributes[] = {
     "X", "Q", "pose", "rel", "joint", "q", "limits", "ctrl_limits", "ctrl_H", "joint_scale", "axis", "mimic", "pre",
     "post", "A", "B", "from", "to", "origin", "BinvA", "joint_active", "joint_stable", "sampleUniform", "sampleSdv",
@@ -30,8 +30,8 @@ constexpr std::string_view kKnownAttributes[] = {
 };
 // clang-format on
 
-/// What other formats and languages say.
-constexpr std::pair<std::string_view, std::string_view> kWordsOfOthers[] = {
+/// Attribute names of other formats, with the name used here.
+constexpr std::pair<std::string_view, std::string_view> kForeignNames[] = {
     {"pos", "pose"},        {"position", "pose"}, {"xyz", "pose"},  {"rpy", "pose"},       {"quat", "pose"},
     {"quaternion", "pose"}, {"rgba", "color"},    {"rgb", "color"}, {"geometry", "shape"}, {"filename", "mesh"}};
 
@@ -75,15 +75,16 @@ double AttributeReader::numberOr(const char* key, double otherwise) {
 std::optional<std::vector<double>> AttributeReader::numbers(const Node& node) {
   if (const NumberArray* array = node.value.as<NumberArray>()) return array->numbers;
   if (const double* x = node.value.as<double>()) return std::vector<double>{*x};
-  if (const StringArray* words = node.value.as<StringArray>(); words && words->empty()) return std::vector<double>{};
+  if (const StringArray* strings = node.value.as<StringArray>(); strings && strings->empty())
+    return std::vector<double>{};
   error(node,
         cat("expected numbers", node.key == "color" ? " [r g b] in 0..1" : " [..]", ", got ", describe(node.value)));
   return std::nullopt;
 }
 
-/// `size: 1 2 3` is the number 1 with a flag behind it.
-std::string AttributeReader::severalHint(const Node& node) {
-  return node.value.as<double>() ? "; several numbers stand in brackets: [1 2 3]" : "";
+/// `size: 1 2 3` parses as the number 1 followed by flags.
+std::string AttributeReader::bracketHint(const Node& node) {
+  return node.value.as<double>() ? "; write several numbers in brackets: [1 2 3]" : "";
 }
 
 std::optional<Vector3d> AttributeReader::vector3(const Node& node) {
@@ -97,18 +98,18 @@ std::optional<Vector3d> AttributeReader::vector3(const Node& node) {
 std::optional<std::string> AttributeReader::text(const Node& node) {
   if (const std::string* word = node.value.as<std::string>()) return *word;
   if (const NameTuple* tuple = node.value.as<NameTuple>(); tuple && tuple->names.size() == 1) return tuple->names[0];
-  error(node, cat("expected a word, got ", describe(node.value)));
+  error(node, cat("expected a name, got ", describe(node.value)));
   return std::nullopt;
 }
 
-std::string AttributeReader::givenPath(const Node& node) {
+std::string AttributeReader::pathText(const Node& node) {
   if (const AngleText* angle = node.value.as<AngleText>()) return angle->text;
   if (const std::string* word = node.value.as<std::string>(); word && !word->empty()) return *word;
   throw ValueError(cat("expected a file <path>, got ", describe(node.value)));
 }
 
 std::string AttributeReader::path(const Node& node) {
-  const std::string given = givenPath(node), absolute = resolvePath(given, folder_);
+  const std::string given = pathText(node), absolute = resolvePath(given, folder_);
   if (!absolute.empty()) return absolute;
   throw FileError(missingPackageMessage(given));
 }
@@ -123,7 +124,7 @@ std::optional<Pose> AttributeReader::readPose(std::initializer_list<const char*>
     } else if (const std::string* word = node->value.as<std::string>()) {
       pose = parsePose(*word);
     } else if (const auto list = numbers(*node)) {
-      if (node->value.as<double>()) throw ValueError(cat("expected a pose, got a single number", severalHint(*node)));
+      if (node->value.as<double>()) throw ValueError(cat("expected a pose, got a single number", bracketHint(*node)));
       pose = list->empty() ? Pose()
                            : Pose::fromNumbers(Eigen::Map<const VectorXd>(list->data(), Eigen::Index(list->size())));
     }
@@ -208,9 +209,9 @@ void AttributeReader::checkSpelling() {
                         ")' is inside of this frame, and no frame; is a '}' missing before it?"));
     }
     if (is_known) continue;
-    const auto meant = std::find_if(std::begin(kWordsOfOthers), std::end(kWordsOfOthers),
+    const auto meant = std::find_if(std::begin(kForeignNames), std::end(kForeignNames),
                                     [&](const auto& entry) { return entry.first == node.key; });
-    if (meant != std::end(kWordsOfOthers)) {
+    if (meant != std::end(kForeignNames)) {
       warning(node, cat("unknown attribute '", node.key, "'; did you mean '", meant->second, "'?"));
       continue;
     }

@@ -11,15 +11,15 @@
 
 namespace kinegraph {
 
-/// The attributes of one frame, read with checks. Mistakes are collected, so that all of a file are reported together.
+/// Reads the attributes of one frame and checks them. Collects errors, to report all errors of a file together.
 class AttributeReader {
  public:
-  /// `folder` is where the files that the attributes name are.
+  /// File names in the attributes are relative to `folder`.
   AttributeReader(const Graph& attributes, const std::string& folder, const std::string& frame_name,
                   SceneDiagnostics& diagnostics)
       : attributes_(attributes), folder_(folder), frame_name_(frame_name), diagnostics_(diagnostics) {}
 
-  /// What moves the frame: the joint, and the constant transforms before and behind it, where given.
+  /// The joint, and the constant transforms before and behind it, if present.
   std::optional<Joint> readJoint();
   std::optional<Pose> readBefore() { return readPose({"pre", "A", "origin"}); }
   std::optional<Pose> readBehind();
@@ -27,13 +27,13 @@ class AttributeReader {
   /// Sets joint and pose.
   void applyJoint(FrameData& frame);
 
-  /// Sets shape and inertia, and warns of attributes that look misspelt.
+  /// Sets shape and inertia, and warns of misspelled attributes.
   void applyBody(FrameData& frame);
 
   const Node* find(std::initializer_list<const char*> keys) const;
   std::optional<Pose> readPose(std::initializer_list<const char*> keys);
 
-  /// A word, or one name in parentheses.
+  /// Returns a name: a bare word, or one name in parentheses.
   std::optional<std::string> text(const Node& node);
   void error(const Node& node, const std::string& message);
 
@@ -43,8 +43,8 @@ class AttributeReader {
   double numberOr(const char* key, double otherwise);
   std::optional<std::vector<double>> numbers(const Node& node);
   std::optional<Vector3d> vector3(const Node& node);
-  static std::string severalHint(const Node& node);
-  static std::string givenPath(const Node& node);
+  static std::string bracketHint(const Node& node);
+  static std::string pathText(const Node& node);
   std::string path(const Node& node);  ///< absolute; throws FileError for a package that is not installed
   void applyPose(FrameData& frame);
   void readLimits(Joint& joint);
@@ -72,7 +72,7 @@ class AttributeReader {
   SceneDiagnostics& diagnostics_;
 };
 
-/// Runs a function whose errors belong to an attribute. Returns whether there was none.
+/// Runs a function and reports its errors at `node`. Returns whether it succeeded.
 template <class Function>
 bool AttributeReader::guarded(const Node& node, Function function) {
   try {

@@ -26,7 +26,7 @@ std::optional<Joint> AttributeReader::readJoint() {
     joint = word->starts_with("_") ? Joint(JointType::generic, word->substr(1)) : Joint(jointTypeFromName(*word));
     if (joint->type == JointType::generic && joint->dofs() == 0) {
       throw ValueError(
-          "a generic joint is given by its code, a letter per dof: '_xyc' moves along x, then y, then turns about z");
+          "a generic joint needs its code, one letter per dof: '_xyc' moves along x, then y, then rotates about z");
     }
   });
   if (!joint) return std::nullopt;
@@ -69,7 +69,7 @@ void AttributeReader::readLimits(Joint& joint) {
   }
   joint.lower = Eigen::Map<const VectorXd>(v->data(), Eigen::Index(dofs));
   joint.upper = Eigen::Map<const VectorXd>(v->data() + dofs, Eigen::Index(dofs));
-  if (const std::string why = limitsMistake({v->data(), 2 * dofs}); !why.empty()) error(*limits, why);
+  if (const std::string why = limitsError({v->data(), 2 * dofs}); !why.empty()) error(*limits, why);
 }
 
 void AttributeReader::readDofs(Joint& joint) {
@@ -77,7 +77,7 @@ void AttributeReader::readDofs(Joint& joint) {
   if (const auto home = readDofValues("home", joint)) joint.home = *home;
 }
 
-/// Values of all dofs; quaternions among them are normalized.
+/// Reads the values of all dofs and normalizes the quaternions among them.
 std::optional<VectorXd> AttributeReader::readDofValues(const char* key, const Joint& joint) {
   const Node* node = find({key});
   const auto v = node ? numbers(*node) : std::nullopt;

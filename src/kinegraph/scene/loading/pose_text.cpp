@@ -14,7 +14,7 @@ namespace {
   throw ParseError(where, cat("pose \"", text, "\": ", message));
 }
 
-/// The numbers from `at` on, separated by blanks or commas, up to a character that cannot belong to one.
+/// Reads numbers from `at` on, separated by blanks or commas, up to the first character outside of a number.
 std::vector<double> readNumbers(std::string_view text, std::size_t& at, const SourcePosition& where) {
   std::vector<double> numbers;
   for (;;) {
@@ -63,10 +63,11 @@ Pose motion(char letter, const std::vector<double>& v, std::string_view text, co
       expect(7, "(x y z qw qx qy qz)");
       return Pose::fromNumbers(Eigen::Map<const VectorXd>(v.data(), 7));
     default:
-      fail(where, text,
-           cat("'", letter,
-               "' is no motion; expected t(x y z), d(degrees x y z), r(radians x y z), q(w x y z), E(roll pitch yaw) "
-               "or p(7 numbers)"));
+      fail(
+          where, text,
+          cat("'", letter,
+              "' is not a motion; expected t(x y z), d(degrees x y z), r(radians x y z), q(w x y z), E(roll pitch yaw) "
+              "or p(7 numbers)"));
   }
 }
 
@@ -81,7 +82,7 @@ Pose parsePose(std::string_view text, const SourcePosition& where) {
       ++at;
     if (at >= text.size()) return X;
     const char c = text[at];
-    if (c == 'T') {  // an old marker without effect
+    if (c == 'T') {  // an obsolete marker without effect
       ++at;
       continue;
     }
@@ -91,7 +92,7 @@ Pose parsePose(std::string_view text, const SourcePosition& where) {
       while (at < text.size() &&
              (text[at] == ']' || text[at] == '>' || std::isspace(static_cast<unsigned char>(text[at]))))
         ++at;
-      if (at < text.size()) fail(where, text, cat("'", text.substr(at), "' behind the numbers"));
+      if (at < text.size()) fail(where, text, cat("unexpected '", text.substr(at), "' after the numbers"));
       try {
         return X * Pose::fromNumbers(Eigen::Map<const VectorXd>(numbers.data(), Eigen::Index(numbers.size())));
       } catch (const ValueError& error) {
@@ -106,7 +107,7 @@ Pose parsePose(std::string_view text, const SourcePosition& where) {
     }
     ++at;
     const std::vector<double> numbers = readNumbers(text, at, where);
-    if (at >= text.size() || text[at] != ')') fail(where, text, cat("the '(' behind '", c, "' is never closed by ')'"));
+    if (at >= text.size() || text[at] != ')') fail(where, text, cat("the '(' after '", c, "' is never closed by ')'"));
     ++at;
     try {
       X = X * motion(c, numbers, text, where);

@@ -10,7 +10,7 @@ namespace kinegraph {
 
 namespace {
 
-/// Builds what was read, unless there are mistakes in the grammar: those only make others appear.
+/// Builds the scene, unless the grammar has errors: they would cause spurious further errors.
 void build(SceneSource source, SceneTree& scene, SceneDiagnostics& diagnostics, std::vector<std::string>& warnings) {
   diagnostics.throwErrors();
   SceneBuilder(scene, diagnostics).build(source);

@@ -36,10 +36,10 @@ class Applier {
 
   void apply() {
     if (!knowsAny()) {
-      if (!semantics_.asked_for) return;
+      if (!semantics_.requested) return;
       return diagnostics_.error(
           {semantics_.file, 1, 1},
-          "none of the links and joints named here is a frame of the scene; add the robot before");
+          "none of the links and joints in this file is a frame of the scene; add the robot first");
     }
     if (!semantics_.no_contact.empty() || !semantics_.contact.empty()) dropFlags();
     excludeContacts();
@@ -66,7 +66,7 @@ class Applier {
     return found == by_name_.end() ? nullptr : found->second;
   }
 
-  /// The frame of a joint: a joint that shares its name with a link has "_joint" behind it, see readUrdf.
+  /// Finds the frame of a joint. readUrdf appends "_joint" to a joint that shares its name with a link.
   FrameData* findJoint(const std::string& name) const {
     FrameData* frame = find(name);
     FrameData* renamed = frame && !frame->joint ? find(name + "_joint") : nullptr;
@@ -94,9 +94,9 @@ class Applier {
   }
 
   void warnMissing(const char* kind, const std::string& name, const SourcePosition& where) {
-    if (!semantics_.asked_for || !missing_.insert(name).second) return;
+    if (!semantics_.requested || !missing_.insert(name).second) return;
     const std::string hint = missing_.size() <= 20 ? similarHint(semantics_.prefix + name, scene_.names()) : "";
-    diagnostics_.warning(where, cat("there is no ", kind, " '", semantics_.prefix, name, "' in the scene", hint));
+    diagnostics_.warning(where, cat("the scene has no ", kind, " '", semantics_.prefix, name, "'", hint));
   }
 
   FrameData* link(const std::string& name, const SourcePosition& where) {
@@ -105,7 +105,7 @@ class Applier {
     return frame;
   }
 
-  /// What the file does not name does count: no flag leaves out further pairs.
+  /// Replaces negative contact flags by 1, because the file already lists all excluded pairs.
   void dropFlags() {
     for (FrameData* frame : robot()) {
       if (!hasNegativeFlag(*frame)) continue;
@@ -116,15 +116,15 @@ class Applier {
 
   static bool hasNegativeFlag(const FrameData& frame) { return frame.shape && frame.shape->contact < 0; }
 
-  /// The frames of the robot: those of its file, or all below the lowest frame that is above all links named here. Above
-  /// that, frames count as long as nothing else hangs on them that has such a flag, and so may be another robot.
+  /// Returns the frames of the robot: those of its file, or all frames below the lowest common ancestor of the named
+  /// links. Continues to higher frames until another subtree below them has a negative flag: it may be another robot.
   std::vector<FrameData*> robot() const {
     std::vector<FrameData*> frames;
     for (const std::string& name : semantics_.robot) {
       if (FrameData* frame = find(name)) frames.push_back(frame);
     }
     if (!semantics_.robot.empty()) return frames;
-    std::vector<FrameData*> tops;  // one for each tree
+    std::vector<FrameData*> tops;  // one per tree
     for (const auto* pairs : {&semantics_.no_contact, &semantics_.contact}) {
       for (const auto& pair : *pairs) {
         for (const std::string& name : {pair.a, pair.b}) addBelowTop(find(name), tops);
@@ -189,7 +189,7 @@ class Applier {
     a.no_contact.push_back(&b);
   }
 
-  /// With all other shapes of the robot that the frame belongs to.
+  /// Excludes the pairs of this frame with all other shapes of its robot.
   void excludeAll(FrameData& frame) {
     const auto rootOf = [](const FrameData* f) {
       while (f->parent) f = f->parent;
@@ -198,7 +198,7 @@ class Applier {
     const FrameData* const root = rootOf(&frame);
     for (const auto& other : scene_.frames()) {
       if (!other->shape || rootOf(other.get()) != root) continue;
-      const bool part_of_link = other->parent && !other->joint;  // a shape of a link counts as that link
+      const bool part_of_link = other->parent && !other->joint;  // a fixed shape counts as a shape of its link
       exclude(frame, part_of_link ? *other->parent : *other);
     }
   }
@@ -234,7 +234,7 @@ class Applier {
     for (; frame && frame != base; frame = frame->parent) addMoving(frame, joints);
     if (frame) return;
     joints.resize(before);
-    if (!semantics_.asked_for) return;
+    if (!semantics_.requested) return;
     diagnostics_.warning(chain.where, cat("the chain from '", chain.name, "' to '", chain.tip, "' does not exist: '",
                                           chain.name, "' is not above '", chain.tip, "'"));
   }
@@ -251,7 +251,7 @@ class Applier {
     NumberArray q{value.values, 1};
     const int dofs = frame->joint->dofs();
     if (int(q.numbers.size()) != dofs) {
-      if (!semantics_.asked_for) return;
+      if (!semantics_.requested) return;
       return diagnostics_.warning(value.where, cat("state '", state.name, "': joint '", value.joint, "' has ", dofs,
                                                    dofs == 1 ? " dof, not " : " dofs, not ", q.numbers.size()));
     }
@@ -277,7 +277,7 @@ class Applier {
   SceneDiagnostics& diagnostics_;
   std::unordered_map<std::string, FrameData*> by_name_;
   std::unordered_map<std::string, const RobotSemantics::Group*> groups_;
-  std::set<std::pair<const FrameData*, const FrameData*>> settled_;  ///< pairs that need nothing done any more
+  std::set<std::pair<const FrameData*, const FrameData*>> settled_;  ///< pairs that need no further change
   std::set<std::string> missing_;
 };
 

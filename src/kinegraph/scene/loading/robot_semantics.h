@@ -6,9 +6,10 @@
 
 namespace kinegraph {
 
-/// Enters what an SRDF file says into the frames: `contact_exclude`, and the attributes `joint_groups` and
-/// `joint_states` of joints. Where it names pairs that do or do not collide, no others are left out: flags of contact of
-/// the robot's shapes that are negative become 1. Names that are not there are warnings, and an error if none is.
+/// Applies an SRDF file to the frames: `contact_exclude`, and the attributes `joint_groups` and `joint_states` of
+/// joints.
+/// If the file lists collision pairs, negative contact flags of the robot's shapes become 1, so no other pairs are
+/// excluded. Unknown names cause warnings, and an error if no name is known.
 void applySemantics(const RobotSemantics& semantics, SceneTree& scene, SceneDiagnostics& diagnostics);
 
 }  // namespace kinegraph

@@ -12,7 +12,7 @@ namespace kinegraph {
 
 namespace {
 
-/// Files of before 2018 say `shape name (parent) { type=.. }` and `joint name (A B) { type=.. }`.
+/// Converts files from before 2018: `shape name (parent) { type=.. }` and `joint name (A B) { type=.. }`.
 void modernize(Node& node) {
   Graph& attributes = *std::get_if<Graph>(&node.value.data);
   Node* type = attributes.find("type");
@@ -26,8 +26,8 @@ void modernize(Node& node) {
   if (type) type->key = joint ? "joint" : "shape";
 }
 
-/// Attributes are kept with the place of the file that they name, be it there or not, so that the scene may be saved in
-/// another folder. Where a transform is expected, <...> is one.
+/// Replaces file names in attributes by absolute paths, for existing and missing files, so a scene may be saved in
+/// another folder. Attributes for transforms are skipped: <...> is a transform there.
 void locateFile(Node& node, const std::string& folder) {
   static const std::set<std::string> transforms = {"X", "Q", "pose", "rel", "pre",    "post",
                                                    "A", "B", "from", "to",  "origin", "visual_pose"};
@@ -36,7 +36,7 @@ void locateFile(Node& node, const std::string& folder) {
   if (std::string path = resolvePath(file->text, folder); !path.empty()) file->text = std::move(path);
 }
 
-/// The frame that carries the joint that belongs to a frame of a file: itself, or the one that `post` put before it.
+/// The frame that carries the joint of a source frame: the frame itself, or the parent inserted by `post`.
 FrameData* jointFrame(FrameData& frame) {
   if (frame.joint) return &frame;
   FrameData* parent = frame.parent;
@@ -49,7 +49,7 @@ void SceneBuilder::build(SceneSource& source) {
   for (SourceFrame& frame : source.frames) addFrame(frame);
   const int count = int(frames_.size());
   for (int i = 0; i < count; ++i) linkToParent(*frames_[i], source.frames[i], i);
-  std::vector<int> early;  // frames that come before their parents
+  std::vector<int> early;  // frames listed before their parents
   for (int i = 0; i < count; ++i) {
     if (frames_[i]->parent && frames_[i]->parent->id > i) early.push_back(i);
   }
@@ -97,16 +97,15 @@ void SceneBuilder::addFrame(SourceFrame& source) {
   frames_.push_back(&frame);
   if (source.node.parents.size() > 2) {
     diagnostics_.error(source.node.where, cat("frame '", name, "' has ", source.node.parents.size(),
-                                              " parents; one, or two for a joint between them, are possible"));
+                                              " parents; expected one, or two for a joint between them"));
   }
   if (is_taken) {
     diagnostics_.warning(source.node.where,
-                         cat("there is a frame named '", name, "' already; names that refer to it find the first"));
+                         cat("a frame named '", name, "' already exists; references by name find the first"));
   }
 }
 
-/// The first (or last) frame of that name, or with the prefix that holds where the name stands. If there is none: an
-/// error.
+/// Finds the first (or last) frame of that name, or of that name with `prefix`. Reports an error if there is none.
 FrameData* SceneBuilder::find(const std::string& name, const std::string& prefix, const SourcePosition& where,
                               const std::string& role, bool last) {
   for (const std::string& candidate : {name, prefix + name}) {
@@ -142,7 +141,7 @@ void SceneBuilder::linkToParent(FrameData& frame, const SourceFrame& source, int
   if (FrameData* parent = findParent(parents[0], frame, source, where, place)) link(frame, *parent, where);
 }
 
-/// By name; or, as in old files, by a number that counts back from here: -1 is the entry before.
+/// Finds the parent by name, or by a negative number in old files: -1 is the previous entry.
 FrameData* SceneBuilder::findParent(const std::string& name, const FrameData& frame, const SourceFrame& source,
                                     const SourcePosition& where, int place) {
   int back = 0;
@@ -152,7 +151,7 @@ FrameData* SceneBuilder::findParent(const std::string& name, const FrameData& fr
   return find(name, source.prefix, where, cat("parent of '", frame.name, "':"));
 }
 
-/// A frame with the constant transform before a joint, between the joint frame and its parent.
+/// Inserts a frame with the constant transform before a joint, between the joint frame and its parent.
 FrameData& SceneBuilder::addOrigin(FrameData& joint_frame, const Pose& before) {
   FrameData& origin = scene_.add(joint_frame.name + "_origin", joint_frame.parent);
   origin.pose = before;
@@ -163,7 +162,7 @@ FrameData& SceneBuilder::addOrigin(FrameData& joint_frame, const Pose& before) {
 void SceneBuilder::interpret(FrameData& frame, const SourceFrame& source) {
   AttributeReader read = reader(frame, source);
   if (!frame.parent && !source.node.parents.empty())
-    return read.applyBody(frame);  // the parent was not found, which is enough
+    return read.applyBody(frame);  // the missing parent is already reported
   const std::optional<Pose> before = read.readBefore(), behind = read.readBehind();
   if (const Node* node = read.find({"from", "to"})) {
     diagnostics_.warning(node->where, cat("frame '", frame.name, "': '", node->key,
@@ -172,7 +171,7 @@ void SceneBuilder::interpret(FrameData& frame, const SourceFrame& source) {
   }
   const bool has_joint = read.find({"joint"}) && frame.parent;
   if (has_joint && behind &&
-      !behind->isIdentity(0.)) {  // the joint gets a frame of its own, and this one sits behind it
+      !behind->isIdentity(0.)) {  // the joint moves to an extra frame; this one is fixed behind it
     if (read.readJoint()) {
       FrameData& joint_frame = scene_.add("|" + frame.name, frame.parent);
       read.applyJoint(joint_frame);
@@ -189,7 +188,7 @@ void SceneBuilder::interpret(FrameData& frame, const SourceFrame& source) {
   read.applyBody(frame);
 }
 
-/// `name (A B) { joint: .. }`: a joint frame below A, and B behind it.
+/// `name (A B) { joint: .. }`: attaches a joint frame below A, and B below the joint frame.
 void SceneBuilder::insertJoint(FrameData& frame, const SourceFrame& source) {
   const std::string role = cat("joint '", frame.name, "' between two frames:");
   FrameData* above = find(source.node.parents[0], source.prefix, source.node.where, role);
@@ -210,7 +209,7 @@ void SceneBuilder::insertJoint(FrameData& frame, const SourceFrame& source) {
   read.applyBody(frame);
 }
 
-/// A world pose given before the parent's pose was known.
+/// Applies a world pose read before the parent's pose was known.
 void SceneBuilder::keepWorldPose(FrameData& frame, const SourceFrame& source) {
   AttributeReader read = reader(frame, source);
   if (frame.joint || read.find({"Q", "rel", "pose"})) return;
@@ -238,7 +237,7 @@ void SceneBuilder::resolveContactExclude(FrameData& frame, const SourceFrame& so
   if (const StringArray* list = node->value.as<StringArray>()) names = *list;
   if (const NameTuple* tuple = node->value.as<NameTuple>()) names = tuple->names;
   if (const std::string* name = node->value.as<std::string>()) names = {*name};
-  if (names.empty()) read.error(*node, "expected the names of frames: [a b]");
+  if (names.empty()) read.error(*node, "expected frame names: [a b]");
   for (const std::string& name : names) {
     const std::string role = cat("frame '", frame.name, "', contact_exclude:");
     if (FrameData* other = find(name, source.prefix, node->value.where, role)) frame.no_contact.push_back(other);
@@ -251,7 +250,7 @@ void SceneBuilder::resolveMimic(FrameData& frame, const SourceFrame& source) {
   const auto name = node ? read.text(*node) : std::nullopt;
   if (!name) return;
   FrameData* follower = jointFrame(frame);
-  if (!follower) return read.error(*node, cat("the frame has no joint that could mimic '", *name, "'"));
+  if (!follower) return read.error(*node, cat("the frame has no joint to mimic '", *name, "'"));
   FrameData* other = find(*name, source.prefix, node->value.where, cat("frame '", frame.name, "', mimic:"), true);
   if (!other) return;
   FrameData* leader = jointFrame(*other);

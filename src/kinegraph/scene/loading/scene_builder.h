@@ -9,16 +9,16 @@
 
 namespace kinegraph {
 
-/// Makes the frames of a SceneSource. First all frames, then their parents, then what their attributes say, then the
-/// joints between two frames, then what refers to other frames by name.
+/// Creates the frames of a SceneSource in five passes: frames, parents, attributes, joints between two frames, and
+/// references to other frames by name.
 class SceneBuilder {
  public:
   SceneBuilder(SceneTree& scene, SceneDiagnostics& diagnostics) : scene_(scene), diagnostics_(diagnostics) {}
 
-  /// All frames of a source, into a scene that is empty.
+  /// Adds all frames of a source to an empty scene.
   void build(SceneSource& source);
 
-  /// Attributes of a frame that is in the scene already.
+  /// Applies attributes to a frame that already exists.
   void interpretExisting(FrameData& frame, const SourceFrame& source);
 
  private:

@@ -19,19 +19,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// What all files of one scene may have together: so that a small file cannot include its way to a huge scene.
+// Limits for all files of one scene together, against runaway includes.
 constexpr std::size_t kMaxNesting = 50, kMaxFiles = 2000, kMaxBytes = std::size_t(64) << 20;
 
-/// Reads one file after the other.
+/// Reads scene files one after the other and applies their special keys.
 class SourceReader {
  public:
   explicit SourceReader(SceneDiagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
   std::vector<Node> joint_states;
   std::vector<RobotSemantics> semantics;
-  std::vector<std::string> files;  ///< asked for, in order, whether they exist or not
+  std::vector<std::string> files;  ///< requested files in order, existing or not
 
-  /// `included_at` is where the file is named, if it is.
+  /// `included_at` is the position of the include, if any.
   std::vector<SourceFrame> readFile(const std::string& path, const SourcePosition& included_at) {
     files.push_back(path);
     std::error_code error;
@@ -85,7 +85,7 @@ class SourceReader {
          text.compare(begin, 7, "<mujoco") == 0)) {
       diagnostics_.error(
           {name, 1, 1},
-          "this is XML and no .g scene; URDF files end in .urdf, MJCF files in .xml, SRDF files in .srdf");
+          "the text is XML, not a .g scene; URDF files end in .urdf, MJCF files in .xml, SRDF files in .srdf");
       return {};
     }
     ParseResult parsed = format ? format->read(text, name, folder) : parseAll(text, name);
@@ -117,12 +117,12 @@ class SourceReader {
       } else if (isEdit(node)) {
         edits.push_back(std::move(node));
       } else if (node.key == "Quit" && !node.value.as<Graph>()) {
-        diagnostics_.warning(node.where, "'Quit' has no effect; what follows is read");
+        diagnostics_.warning(node.where, "'Quit' has no effect; the rest of the file is read");
       } else if (node.key == "q" && (node.value.as<NumberArray>() || node.value.as<double>())) {
         joint_states.push_back(std::move(node));
       } else if (const Graph* attributes = node.value.as<Graph>()) {
         const bool nothing = attributes->nodes.empty() && node.key.empty() && node.parents.empty();
-        if (nothing && node.where.str() == node.value.where.str()) continue;  // { } without even a colon
+        if (nothing && node.where.str() == node.value.where.str()) continue;  // { } without a colon
         checkTags(node);
         node.key = prefix + node.key;
         frames.push_back({std::move(node), folder, prefix});
@@ -136,7 +136,7 @@ class SourceReader {
   }
 
  private:
-  /// An SRDF file that nobody asked for: mistakes in it are no reason to refuse the robot, whose frames are given.
+  /// Reads an SRDF file that was not requested; errors in it become warnings and do not reject the robot.
   void readBeside(const std::string& path, const std::vector<SourceFrame>& robot) {
     std::vector<Diagnostic> found;
     std::ifstream stream(path, std::ios::binary);
@@ -152,13 +152,13 @@ class SourceReader {
     const bool failed = std::any_of(found.begin(), found.end(),
                                     [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error; });
     if (!failed) {
-      read.asked_for = false;
+      read.requested = false;
       for (const SourceFrame& frame : robot) read.robot.push_back(frame.node.key);
       semantics.push_back(std::move(read));
     }
     for (Diagnostic& diagnostic : found) {
       if (diagnostic.severity != Diagnostic::Severity::error) continue;
-      diagnostics_.warning(diagnostic.where, "the file beside the robot's is not used: " + diagnostic.message);
+      diagnostics_.warning(diagnostic.where, "the SRDF file beside the robot's file is ignored: " + diagnostic.message);
       return;
     }
   }
@@ -172,7 +172,7 @@ class SourceReader {
     return {};
   }
 
-  /// The text of a word, a string or <...>; anything else is an error.
+  /// Returns the text of a name, a string or <...>; reports an error for anything else.
   const std::string* textOf(const Node& node, const char* expected) {
     if (const AngleText* angle = node.value.as<AngleText>()) return &angle->text;
     if (const std::string* text = node.value.as<std::string>()) return text;
@@ -182,21 +182,20 @@ class SourceReader {
 
   void refuseEntry(const Node& node) {
     std::string hint = similarHint(node.key, {"Include", "Prefix", "Edit", "Delete", "DeleteBranch", "ChDir"});
-    if (node.key.find(' ') != std::string::npos && hint.empty()) hint = "; is there a line end or a comma missing?";
+    if (node.key.find(' ') != std::string::npos && hint.empty()) hint = "; is a line end or a comma missing?";
     if (!node.parents.empty()) {
       return diagnostics_.error(
           node.where, cat("'", node.key, " (", join(node.parents, " "), ")' has no attributes; write '", node.key, " (",
                           join(node.parents, " "), "): { ... }', the { on the same line"));
     }
-    diagnostics_.error(
-        node.where,
-        cat("'", node.key, "' is ", describe(node.value),
-            "; at the top of a scene stand frames 'name (parent): { ... }', q: [joint state], or Include, Prefix, "
-            "Edit, Delete",
-            hint));
+    diagnostics_.error(node.where,
+                       cat("'", node.key, "' is ", describe(node.value),
+                           "; expected a frame 'name (parent): { ... }', q: [joint state], or Include, Prefix, "
+                           "Edit, Delete",
+                           hint));
   }
 
-  /// `Edit` and its like are words before a name; `edit` would silently make a frame.
+  /// Warns of tags such as `edit`, a misspelling of `Edit` that would silently create a frame.
   void checkTags(const Node& node) {
     static const std::set<std::string> tags = {"frame", "body", "shape", "joint"};
     static const std::vector<std::string> words = {"Edit", "Include", "Prefix", "Delete", "DeleteBranch"};
@@ -208,8 +207,8 @@ class SourceReader {
         diagnostics_.warning(node.where,
                              cat("'", tag, "' before a frame's name has no effect; did you mean '", *meant, "'?"));
       } else {
-        diagnostics_.warning(node.where, cat("names hold no blanks: this is frame '", node.key, "' with the tag '", tag,
-                                             "'; parents stand in parentheses, as in ", tag, " (", node.key, ")"));
+        diagnostics_.warning(node.where, cat("names contain no blanks: this is frame '", node.key, "' with the tag '",
+                                             tag, "'; parents are in parentheses, as in ", tag, " (", node.key, ")"));
       }
     }
   }
@@ -219,7 +218,7 @@ class SourceReader {
            ((!node.tags.empty() && node.tags.front() == "Edit") || (node.key == "Edit" && !node.parents.empty()));
   }
 
-  /// `Delete: name`, or `Delete name` alone.
+  /// `Delete: name`, or just `Delete name`.
   static bool isDeletion(const Node& node, const std::string& word) {
     if (node.value.as<Graph>()) return false;
     return node.key == word || (node.value.as<bool>() && node.key.starts_with(word + " "));
@@ -247,7 +246,7 @@ class SourceReader {
     }
   }
 
-  /// Removes the frames that a deletion names, and with DeleteBranch all below them.
+  /// Removes the frames named by a deletion; DeleteBranch also removes all frames below them.
   void deleteFrames(const Node& node) {
     const bool branch = node.key.starts_with("DeleteBranch");
     std::string name;
@@ -270,15 +269,15 @@ class SourceReader {
     }
     const auto known = names(frames);
     if (std::erase_if(frames, [&](const SourceFrame& frame) { return doomed.contains(frame.node.key); }) == 0) {
-      diagnostics_.warning(node.where, cat(branch ? "DeleteBranch" : "Delete", ": there is no frame '", name,
-                                           "' up to here", similarHint(name, known)));
+      diagnostics_.warning(node.where, cat(branch ? "DeleteBranch" : "Delete", ": no frame '", name,
+                                           "' before this line", similarHint(name, known)));
     }
     for (SourceFrame& frame : frames) std::erase(frame.node.parents, name);
     deleted_.insert(name);
   }
 
-  /// The frames of the file that is being read if there is one of that name, else those of the file that includes it,
-  /// ...
+  /// Returns the frames of the innermost file that contains the name, searching from the current file outwards through
+  /// the including files.
   std::vector<SourceFrame>& scopeOf(const std::string& name) {
     for (auto scope = scopes_.rbegin(); scope != scopes_.rend(); ++scope) {
       for (const SourceFrame& frame : **scope) {
@@ -294,7 +293,7 @@ class SourceReader {
     return list;
   }
 
-  /// `Edit name (new parent): {}`, `Edit (name): {}` or `Edit (name new_parent): {}`.
+  /// Applies `Edit name (new parent): {}`, `Edit (name): {}` or `Edit (name new_parent): {}`.
   void applyEdit(const Node& edit) {
     std::vector<std::string> parents = edit.parents;
     std::string name = edit.key;
@@ -312,13 +311,13 @@ class SourceReader {
         std::get_if<Graph>(&frame.node.value.data)->set(attribute);
     }
     if (!found && !deleted_.contains(name))
-      diagnostics_.warning(edit.where, cat("Edit: there is no frame '", name, "'", similarHint(name, names(frames))));
+      diagnostics_.warning(edit.where, cat("Edit: no frame '", name, "'", similarHint(name, names(frames))));
   }
 
   SceneDiagnostics& diagnostics_;
-  std::vector<std::string> open_;                  ///< files that are being read
-  std::vector<std::vector<SourceFrame>*> scopes_;  ///< what each of them has so far
-  std::set<std::string> deleted_;                  ///< names that Delete removed: edits of them may have stood before
+  std::vector<std::string> open_;                  ///< files being read
+  std::vector<std::vector<SourceFrame>*> scopes_;  ///< the frames of each of them so far
+  std::set<std::string> deleted_;                  ///< names removed by Delete: later edits of them are not reported
   std::size_t bytes_ = 0;
 };
 
@@ -348,7 +347,7 @@ std::vector<std::string> sourceFiles(const std::string& path) {
   SourceReader reader(diagnostics);
   try {
     reader.readFile(resolvePath(path, ""), {});
-  } catch (const Error&) {  // told by who reads the scene itself
+  } catch (const Error&) {  // reported by the caller that reads the scene
   }
   return std::move(reader.files);
 }

@@ -34,7 +34,7 @@ bool isJointType(const std::string& word) {
   }
 }
 
-/// Throws ValueError, which says so where the word is a joint type.
+/// Throws ValueError for an unknown shape; the message points out a joint type.
 ShapeType shapeTypeOf(const std::string& word) {
   try {
     return shapeTypeFromName(word);
@@ -92,7 +92,7 @@ bool AttributeReader::readMesh(Geometry& geometry) {
   });
 }
 
-/// Core points of a convex shape: numbers, or the points of a mesh file.
+/// Reads the core points of a convex shape: numbers, or the points of a mesh file.
 bool AttributeReader::readCore(Geometry& geometry) {
   const Node* node = find({"core"});
   return guarded(*node, [&] {
@@ -107,13 +107,13 @@ bool AttributeReader::readCore(Geometry& geometry) {
   });
 }
 
-/// `mesh_rope: [x y z n]`: points on the way from the origin to x y z.
+/// Reads `mesh_rope: [x y z n]`: points on the segment from the origin to x y z.
 bool AttributeReader::readRope(Geometry& geometry) {
   const Node* node = find({"mesh_rope"});
   const auto v = numbers(*node);
   if (!v) return false;
   if (v->size() != 4 || !((*v)[3] >= 1. && (*v)[3] <= kMaxRopeSegments)) {
-    error(*node, cat("expected [x y z n], n segments to the point x y z, n from 1 to ", kMaxRopeSegments));
+    error(*node, cat("expected [x y z n] with n segments to the point x y z, n from 1 to ", kMaxRopeSegments));
     return false;
   }
   Mesh rope;
@@ -123,8 +123,8 @@ bool AttributeReader::readRope(Geometry& geometry) {
   return true;
 }
 
-/// A mesh that stands in the file itself: `vertices: [x y z ...]`, `triangles: [i j k ...]`, `vertex_colors: [r g b a
-/// ...]`, `mesh_parts: [i ...]`, the first vertices of its convex parts.
+/// Reads an inline mesh: `vertices: [x y z ...]`, `triangles: [i j k ...]`, `vertex_colors: [r g b a ...]`, and
+/// `mesh_parts: [i ...]`, the first vertices of its convex parts.
 bool AttributeReader::readVertices(Geometry& geometry) {
   bool good = true;
   const auto list = [&](const char* key, std::size_t columns, double lowest, double highest) {
@@ -157,7 +157,7 @@ bool AttributeReader::readVertices(Geometry& geometry) {
   return good;
 }
 
-/// `grid_cells: [nx ny nz], grid_values: [...]`: numbers on a grid over the box of `size`, the last index fastest.
+/// Reads `grid_cells: [nx ny nz], grid_values: [...]`: a grid over the box of `size`, last index fastest.
 bool AttributeReader::readGrid(Geometry& geometry) {
   const Node* node = find({"grid_values"});
   return guarded(*node, [&] {
@@ -179,13 +179,13 @@ bool AttributeReader::readGrid(Geometry& geometry) {
   });
 }
 
-/// `sdf: <file>`: numbers on a grid, and the box that they fill.
+/// Reads `sdf: <file>`: a grid of numbers and the box it fills.
 bool AttributeReader::readGridOf(const Node& file, Geometry& geometry) {
   return guarded(file, [&] {
     GridFile read = readGridFile(path(file));
     if (geometry.type == ShapeType::none) geometry.type = ShapeType::sdf;
     if (!hasGrid(geometry)) {
-      throw ValueError(cat("a ", shapeTypeName(geometry.type), " has no grid; the shape is sdf unless it says tensor"));
+      throw ValueError(cat("a ", shapeTypeName(geometry.type), " has no grid; expected shape: sdf or tensor"));
     }
     geometry.size = {read.size.x(), read.size.y(), read.size.z()};
     geometry.grid = std::make_shared<Grid>(std::move(read.grid));
@@ -194,7 +194,7 @@ bool AttributeReader::readGridOf(const Node& file, Geometry& geometry) {
 
 bool AttributeReader::readSize(Geometry& geometry) {
   const Node* size = find({"size"});
-  if (!size && geometry.grid && !geometry.size.empty()) return true;  // that of a file
+  if (!size && geometry.grid && !geometry.size.empty()) return true;  // the size comes from the file
   const Node& blamed = size ? *size : *find({"shape", "type", "mesh", "mesh_decomp", "mesh_points"});
   const auto given = size ? numbers(*size) : std::vector<double>{};
   return given && guarded(blamed, [&] {
@@ -202,13 +202,13 @@ bool AttributeReader::readSize(Geometry& geometry) {
            try {
              geometry.size = checkedSize(geometry.type, *given, &enlarged);
            } catch (const ValueError& e) {
-             throw ValueError(cat(e.what(), size ? severalHint(*size) : ""));
+             throw ValueError(cat(e.what(), size ? bracketHint(*size) : ""));
            }
            if (!enlarged.empty()) warning(blamed, enlarged);
          });
 }
 
-/// Type, mesh and size. False if there is a mistake in them.
+/// Reads type, mesh and size. Returns false after an error.
 bool AttributeReader::readGeometry(Geometry& geometry) {
   if (find({"shape", "type"}) && !readShapeType(geometry)) return false;
   bool good = true;
@@ -251,22 +251,22 @@ void AttributeReader::applyShape(FrameData& frame) {
     if (n == 3 || n == 4) frame.shape->color = Vector4d((*c)[0], (*c)[1], (*c)[2], n == 4 ? (*c)[3] : 1.);
     if (frame.shape->color && !frame.shape->color->allFinite()) error(*color, "expected finite numbers");
     if (c && std::any_of(c->begin(), c->end(), [](double x) { return x > 1.5; }))
-      warning(*color, "color has numbers above 1; they are in 0..1, those of 0..255 divided by 255");
+      warning(*color, "color has numbers above 1; expected 0..1 (divide values of 0..255 by 255)");
   }
   if (const Node* contact = find({"contact"})) {
     const double flag = number(*contact).value_or(0.);
     if (!(std::abs(flag) <= 1000.)) return error(*contact, "expected a number from -1000 to 1000");
     frame.shape->contact = int(flag);
   }
-  if (const Node* mesh = find({"visual_mesh"})) {  // may be missing: what is drawn instead is the shape
-    guarded(*mesh, [&] { frame.shape->visual_mesh = resolvePath(givenPath(*mesh), folder_); });
+  if (const Node* mesh = find({"visual_mesh"})) {  // may be missing: the shape itself is shown instead
+    guarded(*mesh, [&] { frame.shape->visual_mesh = resolvePath(pathText(*mesh), folder_); });
   }
   if (const auto pose = readPose({"visual_pose"})) frame.shape->visual_pose = *pose;
   applyTexture(*frame.shape);
 }
 
-/// `texture: <image>`, `texcoords: [right up ...]` for each vertex of a mesh, `texture_repeat: [right up]`. A picture
-/// that cannot be had is worth a warning: the shape shows its color.
+/// Reads `texture: <image>`, `texcoords: [right up ...]` per vertex of a mesh, and `texture_repeat: [right up]`. An
+/// unreadable picture causes a warning, and the shape shows its color.
 void AttributeReader::applyTexture(Shape& shape) {
   if (const Node* node = find({"texcoords"})) {
     const std::vector<double> uv = numbers(*node).value_or(std::vector<double>{});
@@ -282,7 +282,7 @@ void AttributeReader::applyTexture(Shape& shape) {
                       std::all_of(times.begin(), times.end(), [](double x) { return std::isfinite(x); });
     if (!good)
       return error(*node,
-                   cat("expected 1 or 2 finite numbers, how often the picture is repeated to the right and up; got ",
+                   cat("expected 1 or 2 finite numbers, the repetitions of the picture to the right and up; got ",
                        times.size()));
     shape.texture_repeat = {times.front(), times.back()};
   }
@@ -292,7 +292,7 @@ void AttributeReader::applyTexture(Shape& shape) {
     shape.texture = readImageFile(path(*node));
   } catch (const Error& e) {
     const bool missing = std::string(e.what()).ends_with("does not exist");
-    warning(*node, cat("texture: ", e.what(), missing ? similarFilesHint(resolvePath(givenPath(*node), folder_)) : ""));
+    warning(*node, cat("texture: ", e.what(), missing ? similarFilesHint(resolvePath(pathText(*node), folder_)) : ""));
   }
 }
 

@@ -9,7 +9,7 @@ namespace kinegraph {
 
 namespace {
 
-/// Is this frame moved by a joint whose dofs are in q?
+/// Returns whether the frame has a joint with dofs in q.
 bool isLinkFrame(const FrameData& frame) { return frame.moves() && dofSource(frame).joint->active; }
 
 /// All frames, parents before children.
@@ -25,7 +25,7 @@ std::vector<const FrameData*> topologicalOrder(const SceneTree& scene) {
   return order;
 }
 
-/// Numbers the dofs in the order of the frame list and collects what belongs to each.
+/// Numbers the dofs in frame order and collects their limits, homes and weights.
 void compileDofs(const SceneTree& scene, KinematicModel& model) {
   const double inf = std::numeric_limits<double>::infinity();
   std::vector<double> lower, upper, home, weight;
@@ -99,7 +99,7 @@ std::shared_ptr<const KinematicModel> compileModel(const SceneTree& scene) {
 
 namespace {
 
-/// Its parent has been placed.
+/// Computes the frame's offset in its link; the parent must be placed already.
 RigidTransform placeInLink(const FrameData& frame, const KinematicModel& model, Parameters& parameters) {
   const RigidTransform base = frame.parent ? parameters.frame_offset[frame.parent->id] : RigidTransform{};
   if (isLinkFrame(frame)) return placeJoint(model, model.frame_link[frame.id], base, parameters);
@@ -111,7 +111,7 @@ RigidTransform placeInLink(const FrameData& frame, const KinematicModel& model, 
 void updateParameters(const FrameData& frame, const KinematicModel& model, Parameters& parameters) {
   RigidTransform& offset = parameters.frame_offset[frame.id];
   const RigidTransform before = std::exchange(offset, placeInLink(frame, model, parameters));
-  if (isLinkFrame(frame) && offset.R == before.R) return;  // frames below move with its link, where they are as before
+  if (isLinkFrame(frame) && offset.R == before.R) return;  // frames below are relative to the unchanged link
   for (const FrameData* child : frame.children) updateParameters(*child, model, parameters);
 }
 
@@ -137,7 +137,7 @@ std::vector<LinkInertia> collectInertias(const SceneTree& scene, const Kinematic
 
 namespace {
 
-/// The frame with a joint, or root, that a frame is rigidly fixed to.
+/// The nearest frame at or above with a joint, or the root: `frame` is rigidly fixed to it.
 const FrameData* partFrame(const FrameData* frame) {
   while (!frame->joint && frame->parent) frame = frame->parent;
   return frame;
@@ -151,7 +151,7 @@ bool takesPart(const FrameData& frame) {
 
 ContactRules contactRules(const SceneTree& scene) {
   ContactRules rules;
-  std::vector<int> part_of(scene.frames().size(), -1);  // of frames that are a part's own
+  std::vector<int> part_of(scene.frames().size(), -1);  // per frame, for the first frame of each part
   for (const auto& frame : scene.frames()) {
     if (partFrame(frame.get()) != frame.get()) continue;
     part_of[frame->id] = int(rules.parts.size());
@@ -163,7 +163,7 @@ ContactRules contactRules(const SceneTree& scene) {
     for (const FrameData* other : frame->no_contact) rules.excluded.push_back(std::minmax(frame->id, other->id));
     if (!takesPart(*frame)) continue;
     const int owner =
-        frame->parent && !frame->joint ? frame->parent->id : frame->id;  // a shape that is fixed to a parent is its
+        frame->parent && !frame->joint ? frame->parent->id : frame->id;  // a fixed shape belongs to its parent
     rules.bodies.push_back({frame->id, part_of[partFrame(frame.get())->id], frame->shape->contact, owner});
   }
   std::sort(rules.excluded.begin(), rules.excluded.end());

@@ -10,7 +10,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double kDeep = 1e-3, kNear = .05;  // m
-constexpr std::size_t kNamed = 3;
+constexpr std::size_t kMaxNamed = 3;
 
 std::vector<std::pair<int, int>> restingPairs(const State& state) {
   NearPairSearch search(state.sharedModel());
@@ -28,8 +28,8 @@ Proximity proximityOf(const State& state, int a, int b) {
                    state.pose(b));
 }
 
-/// Is the frame's shape drawn around one that collides and belongs to the same frame?
-bool isLookOfAnother(const FrameData& frame, const State& state) {
+/// Returns whether the shape surrounds a colliding shape of the same frame.
+bool surroundsCollidingShape(const FrameData& frame, const State& state) {
   const auto ownerOf = [](const FrameData& f) { return f.parent && !f.joint ? f.parent->id : f.id; };
   const auto& frames = frame.tree->frames();
   for (const ContactRules::Body& body : state.model().contacts.bodies) {
@@ -61,16 +61,16 @@ std::vector<int> passedThrough(const SceneTree& scene, const State& state) {
       return proximityOf(state, frame->id, body.frame).distance < kNear;
     };
     const bool near = std::any_of(model.contacts.bodies.begin(), model.contacts.bodies.end(), isNear);
-    if (near && !isLookOfAnother(*frame, state)) frames.push_back(frame->id);
+    if (near && !surroundsCollidingShape(*frame, state)) frames.push_back(frame->id);
   }
   return frames;
 }
 
-/// The first few, and how many more.
+/// Lists the first few names and the number of the others.
 std::string listed(std::vector<std::string> names) {
   const std::size_t count = names.size();
-  names.resize(std::min(count, kNamed));
-  return cat(join(names, ", "), count > kNamed ? cat(" and ", count - kNamed, " more") : "");
+  names.resize(std::min(count, kMaxNamed));
+  return cat(join(names, ", "), count > kMaxNamed ? cat(" and ", count - kMaxNamed, " more") : "");
 }
 
 }  // namespace
@@ -80,21 +80,21 @@ ContactWarnings contactWarnings(SceneTree& scene) {
   return {restingPairs(state), passedThrough(scene, state)};
 }
 
-std::vector<std::string> describe(const ContactWarnings& notes, const SceneTree& scene) {
+std::vector<std::string> describe(const ContactWarnings& warnings, const SceneTree& scene) {
   const auto nameOf = [&](int frame) { return cat("'", scene.frames()[std::size_t(frame)]->name, "'"); };
   std::vector<std::string> sentences, names;
-  for (const auto& [a, b] : notes.resting) names.push_back(cat(nameOf(a), " and ", nameOf(b)));
+  for (const auto& [a, b] : warnings.resting) names.push_back(cat(nameOf(a), " and ", nameOf(b)));
   if (!names.empty()) {
     sentences.push_back(
         cat(listed(names), names.size() == 1 ? " overlap" : " overlap (pairs of frames)",
-            " and no joint moves them apart: that says nothing about q, and is not counted as a collision"));
+            " at a constant relative pose; such pairs do not depend on q and are not counted as collisions"));
   }
   names.clear();
-  for (const int frame : notes.passed_through) names.push_back(nameOf(frame));
+  for (const int frame : warnings.passed_through) names.push_back(nameOf(frame));
   if (!names.empty()) {
     sentences.push_back(cat(listed(names), names.size() == 1 ? " is" : " are",
-                            " near what moves and collides with nothing, because `contact` is 0; setContact(1) makes an"
-                            " obstacle of a frame, and `simulate` in its attributes says that this is meant"));
+                            " near moving links but cannot collide because `contact` is 0; setContact(1) makes an"
+                            " obstacle of a frame, and the attribute `simulate` silences this warning"));
   }
   return sentences;
 }

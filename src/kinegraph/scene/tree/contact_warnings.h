@@ -8,20 +8,20 @@
 
 namespace kinegraph {
 
-/// What people may not expect about which shapes of a scene collide, at its present q.
+/// Unexpected collision settings of a scene at its current q.
 struct ContactWarnings {
-  /// Pairs of frames that may collide and overlap by more than 1 mm, but no joint moves them apart: they do not count
-  /// where it is asked whether a q is free.
+  /// Pairs of frames that may collide and overlap by more than 1 mm at a constant relative pose. They are ignored when
+  /// a configuration is checked for collisions.
   std::vector<std::pair<int, int>> resting;
 
-  /// Frames at rest whose shape has neither `contact` nor `simulate`, within 5 cm of something that moves and collides:
-  /// it goes through them. What is drawn around a shape that collides, or is transparent, is not meant.
+  /// Static frames whose shape has neither `contact` nor `simulate`, within 5 cm of a moving shape that collides: the
+  /// robot passes through them. Excludes transparent shapes and shapes drawn around a colliding one.
   std::vector<int> passed_through;
 };
 
 ContactWarnings contactWarnings(SceneTree& scene);
 
-/// A sentence for each of the two that there is anything to say about.
-std::vector<std::string> describe(const ContactWarnings& notes, const SceneTree& scene);
+/// Describes the warnings: one sentence per nonempty list.
+std::vector<std::string> describe(const ContactWarnings& warnings, const SceneTree& scene);
 
 }  // namespace kinegraph

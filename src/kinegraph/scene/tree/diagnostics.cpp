@@ -8,7 +8,7 @@ namespace kinegraph {
 
 void SceneDiagnostics::add(Diagnostic diagnostic) {
   if (diagnostic.severity == Diagnostic::Severity::error && ++errors_ > kMaxErrors) return;
-  if (diagnostic.severity == Diagnostic::Severity::warning && found_.size() >= kMaxKept) return;
+  if (diagnostic.severity == Diagnostic::Severity::warning && found_.size() >= kMaxStored) return;
   const auto same = [&](const Diagnostic& other) {
     return other.severity == diagnostic.severity && other.message == diagnostic.message &&
            other.where.str() == diagnostic.where.str();
@@ -52,7 +52,7 @@ void SceneDiagnostics::throwErrors() const {
   for (const Diagnostic& d : found_) {
     if (d.severity != Diagnostic::Severity::error) continue;
     message += first ? cat("\n", ParseError(d.where, withExcerpt(d)).what())
-                     : withExcerpt(d);  // the exception puts its place before it
+                     : withExcerpt(d);  // the exception adds the position
     if (!first) first = &d;
   }
   if (errors_ > kMaxErrors) message += cat("\n... and ", errors_ - kMaxErrors, " more errors");

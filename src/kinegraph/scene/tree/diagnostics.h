@@ -8,10 +8,10 @@
 
 namespace kinegraph {
 
-/// What was found while reading a scene: mistakes and oddities with their places, and the texts that they are in.
+/// Errors and warnings found while reading a scene, with their positions and the source texts.
 class SceneDiagnostics {
  public:
-  /// Remembers a text, so that messages can show its lines.
+  /// Stores a text for excerpts in messages.
   void addText(const std::string& file, std::string text) { texts_[file] = std::move(text); }
   const std::map<std::string, std::string>& texts() const { return texts_; }
 
@@ -22,19 +22,19 @@ class SceneDiagnostics {
   bool failed() const { return errors_ > 0; }
   bool flooded() const { return errors_ >= kMaxErrors; }  ///< later errors are only counted
 
-  /// "file:line:column: message", each warning once.
+  /// "file:line:column: message"; each warning appears once.
   std::vector<std::string> warnings() const;
 
-  /// All that was found, in order: "file:line:column: error: message" (or warning), the line and a caret.
+  /// All findings in order: "file:line:column: error: message" (or warning), the line and a caret.
   std::vector<std::string> report() const;
   int count(Diagnostic::Severity severity) const;
 
-  /// Throws one ParseError with all errors, if there are any.
+  /// Throws one ParseError that lists all errors, if there are any.
   void throwErrors() const;
 
  private:
   static constexpr int kMaxErrors = 50;
-  static constexpr std::size_t kMaxKept = 1000;  ///< errors and warnings
+  static constexpr std::size_t kMaxStored = 1000;  ///< errors and warnings
 
   std::string withExcerpt(const Diagnostic& diagnostic) const;
 

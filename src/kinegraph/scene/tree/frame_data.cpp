@@ -11,14 +11,14 @@ Joint::Joint(JointType joint_type, std::string joint_code)
 
 std::shared_ptr<const CollisionBody> Shape::body() const {
   {
-    const std::lock_guard lock(made_->mutex);
-    if (!made_->of) {
-      made_->body = makeCollisionBody(*geometry);
-      made_->of = geometry;
+    const std::lock_guard lock(body_cache_->mutex);
+    if (!body_cache_->of) {
+      body_cache_->body = makeCollisionBody(*geometry);
+      body_cache_->of = geometry;
     }
-    if (made_->of == geometry) return made_->body;
+    if (body_cache_->of == geometry) return body_cache_->body;
   }
-  made_ = std::make_shared<Made>();  // the copies have another geometry
+  body_cache_ = std::make_shared<BodyCache>();  // the copies have another geometry
   return body();
 }
 

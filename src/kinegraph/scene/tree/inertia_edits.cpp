@@ -26,7 +26,7 @@ void clearBelow(FrameData& frame) {
   }
 }
 
-/// Pose of the principal axes in the frame: right-handed, as near to the frame's own axes as they can be.
+/// Pose of the principal axes in the frame: right-handed, as close to the frame's own axes as possible.
 Pose principalAxes(const Inertia& inertia) {
   const Matrix3d& I = inertia.matrix;
   if (I.isDiagonal(1e-12)) return {inertia.com, Quaterniond::Identity()};
@@ -66,7 +66,7 @@ void moveShape(SceneTree& scene, Shape& shape, const Pose& back) {
   Mesh mesh = *geometry.mesh;
   for (Vector3d& p : mesh.vertices) p = back.p + back.q * p;
   geometry.mesh = std::make_shared<Mesh>(std::move(mesh));
-  geometry.mesh_file.clear();  // the points are no longer those of the file
+  geometry.mesh_file.clear();  // the points differ from the file's now
   geometry.mesh_scale.setOnes();
   shape.geometry = std::make_shared<Geometry>(std::move(geometry));
   shape.visual_pose = back * shape.visual_pose;
@@ -103,13 +103,13 @@ Pose moveToPrincipalAxes(SceneTree& scene, FrameData& frame, bool transform_mesh
     throw ValueError(cat("transformToDiagInertia: frame '", frame.name, "' ", why));
   };
   if (!frame.inertia) refuse("has no mass");
-  if (frame.moves()) refuse(cat("has a ", jointTypeName(frame.joint->type), " joint, which determines where it is"));
+  if (frame.moves()) refuse(cat("has a ", jointTypeName(frame.joint->type), " joint, which determines its pose"));
   if (!canMove(frame, transform_mesh)) {
     const bool points = hasFreePoints(*frame.shape->geometry);
     refuse(cat("has a shape of type ", shapeTypeName(frame.shape->geometry->type),
-               !points                       ? ", which would move with it"
-               : frame.shape.use_count() > 1 ? ", which it shares with another frame"
-                                             : "; with transform_mesh=true its points stay where they are"));
+               !points                       ? ", which would move with the frame"
+               : frame.shape.use_count() > 1 ? ", shared with another frame"
+                                             : "; pass transform_mesh=true to keep its points in place"));
   }
   const Pose X = principalAxes(*frame.inertia), back = X.inverse();
   frame.inertia = inAxes(*frame.inertia, X);
@@ -120,7 +120,7 @@ Pose moveToPrincipalAxes(SceneTree& scene, FrameData& frame, bool transform_mesh
   }
   for (FrameData* child : std::vector<FrameData*>(frame.children)) {
     if (!child->moves()) continue;
-    FrameData& origin = scene.add(child->name + "_origin", &frame);  // a joint cannot take up the constant offset
+    FrameData& origin = scene.add(child->name + "_origin", &frame);  // a joint cannot hold the constant offset
     origin.pose = back;
     scene.link(*child, origin);
   }

@@ -7,9 +7,9 @@
 
 namespace kinegraph {
 
-std::string limitsMistake(std::span<const double> limits) {
+std::string limitsError(std::span<const double> limits) {
   if (std::any_of(limits.begin(), limits.end(), [](double limit) { return std::isnan(limit); }))
-    return "a limit is nan; one that is not there is -inf, or inf";
+    return "a limit is nan; write -inf or inf for a missing limit";
   const std::size_t dofs = limits.size() / 2;
   std::size_t crossed = dofs;
   bool all_equal = true, in_turn = dofs > 1, a_range = false;
@@ -40,7 +40,7 @@ std::string limitsMistake(std::span<const double> limits) {
     lower += cat(std::min(limits[i], limits[dofs + i]), " ");
     upper += cat(std::max(limits[i], limits[dofs + i]), i + 1 < dofs ? " " : "");
   }
-  return cat(mistake, ": [", lower, upper, "] if only these are the wrong way around");
+  return cat(mistake, ": [", lower, upper, "] if only these are swapped");
 }
 
 }  // namespace kinegraph

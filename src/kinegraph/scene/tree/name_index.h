@@ -8,13 +8,13 @@
 
 namespace kinegraph {
 
-/// The first and the last frame of each name, so that scenes of thousands of frames find one without looking at all.
-/// `ready` says whether it knows all names; small scenes do without.
+/// The first and the last frame of each name, for fast look-up in scenes of thousands of frames. `ready` reports
+/// whether the index is complete; small scenes are searched without it.
 class NameIndex {
  public:
   bool ready() const { return ready_; }
 
-  /// Forgets all; `ready` is false until `build`.
+  /// Clears the index; `ready` is false until `build`.
   void forget() {
     ends_.clear();
     ready_ = false;
@@ -26,7 +26,7 @@ class NameIndex {
     ready_ = true;
   }
 
-  /// A frame that comes after all that are known.
+  /// Adds a frame that comes after all indexed ones.
   void append(FrameData& frame) { ends_.try_emplace(frame.name, Ends{&frame, &frame}).first->second.last = &frame; }
 
   FrameData* first(std::string_view name) const {

@@ -9,7 +9,7 @@ namespace kinegraph {
 
 namespace {
 
-/// Calls visit(group, state, value) for all states that a frame has a value in; `group` is "" outside of groups.
+/// Calls visit(group, state, value) for all states of this frame's joint; `group` is "" outside of groups.
 template <class Visit>
 void forStates(const FrameData& frame, const Visit& visit) {
   const Node* node = frame.attributes->find("joint_states");
@@ -52,7 +52,7 @@ std::vector<std::string> groupsOfStates(const SceneTree& scene) {
 void checkGroup(const SceneTree& scene, const std::string& group) {
   const std::vector<std::string> names = groupsOfStates(scene);
   if (group.empty() || std::find(names.begin(), names.end(), group) != names.end()) return;
-  throw NameError(cat("no group '", group, "' has named states; there are ", names.empty() ? "none" : join(names),
+  throw NameError(cat("no group '", group, "' has named states; available: ", names.empty() ? "none" : join(names),
                       similarHint(group, names)));
 }
 
@@ -83,7 +83,7 @@ VectorXd namedState(SceneTree& scene, const std::string& name, const std::string
       const VectorXd values = dofValues(*frame, name, value);
       if (first.size() > 0 && values != first) {
         throw ValueError(cat("state '", name, "' has two values of joint '", frame->name, "': in group '", first_group,
-                             "' and in group '", of, "'; say which group is meant"));
+                             "' and in group '", of, "'; pass the group"));
       }
       first = values;
       first_group = of;
@@ -94,8 +94,8 @@ VectorXd namedState(SceneTree& scene, const std::string& name, const std::string
   }
   if (found) return q;
   const std::vector<std::string> names = stateNames(scene, group);
-  throw NameError(cat("there is no state '", name, "'", group.empty() ? "" : cat(" of group '", group, "'"),
-                      "; there are ", names.empty() ? "none" : join(names), similarHint(name, names)));
+  throw NameError(cat("no state '", name, "'", group.empty() ? "" : cat(" of group '", group, "'"),
+                      "; available: ", names.empty() ? "none" : join(names), similarHint(name, names)));
 }
 
 std::vector<std::pair<std::string, std::vector<std::string>>> jointGroups(const SceneTree& scene) {

@@ -9,21 +9,21 @@
 
 namespace kinegraph {
 
-// Joint states that have a name, and groups of joints. They stand at the joints' frames, as attributes, so that they
-// are copied, saved and deleted with them:
-//     joint_groups: [arm hand]                          the groups that the joint belongs to
+// Named joint states and groups of joints. They are attributes of the joints' frames, so they are copied, saved and
+// deleted with them:
+//     joint_groups: [arm hand]                          groups of the joint
 //     joint_states: { home: .3, arm: { ready: -1 } }    its value in states, and in the states of a group
-// SRDF files bring them along.
+// SRDF files provide them, too.
 
-/// The names of all states, or of those of a group, in the order in which they first appear.
+/// Names of all states, or of those of a group, in order of first appearance.
 std::vector<std::string> stateNames(const SceneTree& scene, const std::string& group = {});
 
-/// The present q with the values of a state; joints that it does not name keep theirs. Without a group, states of that
-/// name of all groups are taken together. Throws NameError for a name that is not there, and ValueError if values do
-/// not fit.
+/// Returns the current q with the values of a state; joints not named by the state keep theirs. Without a group, merges
+/// the states of that name of all groups. Throws NameError for an unknown name, and ValueError for values that do not
+/// fit or contradict.
 VectorXd namedState(SceneTree& scene, const std::string& name, const std::string& group = {});
 
-/// Names of groups, in the order in which they first appear, and of the frames of their joints.
+/// Names of groups, in order of first appearance, and the names of their joints' frames.
 std::vector<std::pair<std::string, std::vector<std::string>>> jointGroups(const SceneTree& scene);
 
 }  // namespace kinegraph

@@ -20,7 +20,8 @@ static_assert(std::endian::native == std::endian::little, "scenes are written li
 
 constexpr char kMark[] = "kinegraph scene 2\n";
 
-/// Appends values. Archives call `archive(value)`; what follows describes each type once for writing and reading.
+/// Appends values. Archives call `archive(value)`; the functions below describe each type once, for writing and
+/// reading.
 class Writer {
  public:
   static constexpr bool reading = false;
@@ -32,7 +33,7 @@ class Writer {
   void size(std::size_t n) { (*this)(std::uint64_t(n)); }
   void raw(const void* data, std::size_t n) { bytes.append(static_cast<const char*>(data), n); }
 
-  /// Objects that several owners share are written at their first occurrence. Returns whether this is it.
+  /// Shared objects are written at their first occurrence. Returns whether this is the first.
   bool shared(const void* object) {
     const auto [place, is_new] = known_.try_emplace(object, known_.size());
     size(place->second);
@@ -52,16 +53,16 @@ class Reader {
   requires std::is_arithmetic_v<T>
   void operator()(T& value) { raw(&value, sizeof(T)); }
   void raw(void* data, std::size_t n) {
-    if (n > bytes_.size()) throw ValueError("the bytes of a scene end too early");
+    if (n > bytes_.size()) throw ValueError("the bytes of the scene end too early");
     if (n > 0) std::memcpy(data, bytes_.data(), n);
     bytes_.remove_prefix(n);
   }
 
-  /// A count of things of at least `least` bytes each.
+  /// Reads a count of items of at least `least` bytes each.
   std::size_t size(std::size_t least = 1) {
     std::uint64_t n = 0;
     (*this)(n);
-    if (n > bytes_.size() / least) throw ValueError("the bytes of a scene are damaged: a count is too large");
+    if (n > bytes_.size() / least) throw ValueError("the bytes of the scene are damaged: a count is too large");
     return std::size_t(n);
   }
   std::uint64_t number() {
@@ -71,23 +72,23 @@ class Reader {
   }
   bool done() const { return bytes_.empty(); }
 
-  /// The shared object of that number, or where to put it.
+  /// The shared object of that number, or the place to store it.
   std::any* known(std::uint64_t number) {
-    if (number > known_.size()) throw ValueError("the bytes of a scene are damaged: a reference leads nowhere");
+    if (number > known_.size()) throw ValueError("the bytes of the scene are damaged: a reference is out of range");
     if (number == known_.size()) known_.emplace_back();
     return &known_[number];
   }
 
  private:
   std::string_view bytes_;
-  std::vector<std::any> known_ = {std::any()};  ///< number 0 stands for none
+  std::vector<std::any> known_ = {std::any()};  ///< number 0 is null
 };
 
 template <class A, class T>
 void items(A& archive, T& values) {  // vectors of plain numbers, or of arrays of them
   using Item = typename T::value_type;
   static_assert(
-      std::is_trivially_destructible_v<Item>);  // Eigen's fixed vectors are plain numbers, but not trivially copyable
+      std::is_trivially_destructible_v<Item>);  // Eigen's fixed vectors are plain numbers but not trivially copyable
   if constexpr (A::reading) {
     values.resize(archive.size(sizeof(Item)));
   } else {
@@ -135,7 +136,7 @@ void optional(A& archive, std::optional<T>& value, Each each) {
   each(*value);
 }
 
-/// A pointer to something that others may point to as well.
+/// A pointer to an object that may have several owners.
 template <class T, class A, class Each>
 void sharedObject(A& archive, std::shared_ptr<T>& pointer, Each each) {
   using Plain = std::remove_const_t<T>;
@@ -151,7 +152,7 @@ void sharedObject(A& archive, std::shared_ptr<T>& pointer, Each each) {
     } else if (const auto* object = std::any_cast<std::shared_ptr<Plain>>(known)) {
       pointer = *object;
     } else {
-      throw ValueError("the bytes of a scene are damaged: a reference to another kind of thing");
+      throw ValueError("the bytes of the scene are damaged: a reference has the wrong type");
     }
   } else if (archive.shared(pointer.get())) {
     each(const_cast<Plain&>(*pointer));
@@ -185,7 +186,7 @@ void value(A& archive, Value& v) {
   auto index = std::uint8_t(v.data.index());
   archive(index);
   if constexpr (A::reading) {
-    if (index >= kCount) throw ValueError("the bytes of a scene are damaged: an attribute is of no known kind");
+    if (index >= kCount) throw ValueError("the bytes of the scene are damaged: an attribute has an unknown type");
     makeAlternative(v.data, index, std::make_index_sequence<kCount>());
   }
   position(archive, v.where);
@@ -248,7 +249,8 @@ void mesh(A& archive, Mesh& m) {
   if constexpr (A::reading) {
     for (const auto& triangle : m.triangles) {
       for (std::uint32_t v : triangle) {
-        if (v >= m.vertices.size()) throw ValueError("the bytes of a scene are damaged: a triangle without vertex");
+        if (v >= m.vertices.size())
+          throw ValueError("the bytes of the scene are damaged: a triangle refers to a missing vertex");
       }
     }
     std::size_t end = 0;
@@ -256,7 +258,7 @@ void mesh(A& archive, Mesh& m) {
       const bool good =
           t.image && t.first >= end && t.count <= m.triangles.size() && t.first <= m.triangles.size() - t.count;
       if (!good || m.texcoords.size() != m.vertices.size())
-        throw ValueError("the bytes of a scene are damaged: a picture on no triangles");
+        throw ValueError("the bytes of the scene are damaged: a texture has no triangles");
       end = t.first + t.count;
     }
   }
@@ -276,7 +278,7 @@ void geometry(A& archive, Geometry& g) {
   });
   if constexpr (A::reading) {
     g.type = ShapeType(type);
-    if (g.type != ShapeType::none) shapeTypeName(g.type);  // throws for other numbers
+    if (g.type != ShapeType::none) shapeTypeName(g.type);  // throws for invalid numbers
   }
 }
 
@@ -292,7 +294,7 @@ void shape(A& archive, Shape& s) {
   archive(s.texture_repeat[1]);
 }
 
-/// All of a joint but what it mimics.
+/// All fields of a joint except `mimic`.
 template <class A>
 void joint(A& archive, Joint& j) {
   int type = int(j.type);
@@ -324,7 +326,7 @@ void frame(A& archive, FrameData& f) {
   if constexpr (A::reading) {
     graph(archive, f.attributes.edit());
   } else {
-    graph(archive, const_cast<Graph&>(*f.attributes));  // only read
+    graph(archive, const_cast<Graph&>(*f.attributes));  // writing only reads it
   }
 }
 
@@ -350,7 +352,7 @@ std::string sceneToBytes(const SceneTree& scene) {
 std::shared_ptr<SceneTree> sceneFromBytes(std::string_view bytes) {
   constexpr std::size_t kMarkSize = sizeof(kMark) - 1;
   if (bytes.substr(0, kMarkSize) != std::string_view(kMark, kMarkSize)) {
-    throw ValueError("these bytes are not a scene, or one of another version of kinegraph");
+    throw ValueError("the bytes are not a scene of this version of kinegraph");
   }
   Reader archive(bytes.substr(kMarkSize));
   auto scene = std::make_shared<SceneTree>();
@@ -363,7 +365,7 @@ std::shared_ptr<SceneTree> sceneFromBytes(std::string_view bytes) {
   const auto read = [&]() -> FrameData* {
     std::int64_t id = -1;
     archive(id);
-    if (id >= std::int64_t(count)) throw ValueError("the bytes of a scene are damaged: a frame that is not there");
+    if (id >= std::int64_t(count)) throw ValueError("the bytes of the scene are damaged: a frame id is out of range");
     return id < 0 ? nullptr : scene->frames()[std::size_t(id)].get();
   };
   for (std::size_t i = 0; i < count; ++i) {
@@ -376,16 +378,16 @@ std::shared_ptr<SceneTree> sceneFromBytes(std::string_view bytes) {
       items(archive, ids);
       for (std::int64_t id : ids) {
         if (id < 0 || id >= std::int64_t(count))
-          throw ValueError("the bytes of a scene are damaged: a frame that is not there");
+          throw ValueError("the bytes of the scene are damaged: a frame id is out of range");
         others->push_back(scene->frames()[std::size_t(id)].get());
       }
     }
   }
-  if (!archive.done()) throw ValueError("the bytes of a scene are damaged: there are more than it has");
+  if (!archive.done()) throw ValueError("the bytes of the scene are damaged: extra bytes at the end");
   try {
     checkConsistency(*scene);
   } catch (const Error& error) {
-    throw ValueError(cat("the bytes of a scene are damaged: ", error.what()));
+    throw ValueError(cat("the bytes of the scene are damaged: ", error.what()));
   }
   scene->structureChanged();
   return scene;

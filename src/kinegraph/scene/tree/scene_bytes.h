@@ -8,12 +8,12 @@
 
 namespace kinegraph {
 
-/// Everything that a scene holds as bytes: frames in order, joints with q, shapes with their meshes (shared ones once),
-/// inertias, attributes. Numbers keep all their bits. Meshes are written, not the files that they came from. For
-/// handing a scene to another process of the same version; files that people keep are written as `.g`.
+/// Serializes a scene to bytes: frames in order, joints with q, shapes with their meshes (shared ones once), inertias
+/// and attributes, all numbers bit-exact. Writes the meshes themselves, not their file names. Intended for processes
+/// that run the same version; save long-lived scenes as `.g`.
 std::string sceneToBytes(const SceneTree& scene);
 
-/// The scene that sceneToBytes wrote. Throws ValueError for bytes that it did not write, or another version of it.
+/// Restores a scene written by sceneToBytes. Throws ValueError for other bytes or those of another version.
 std::shared_ptr<SceneTree> sceneFromBytes(std::string_view bytes);
 
 }  // namespace kinegraph

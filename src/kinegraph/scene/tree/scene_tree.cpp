@@ -12,9 +12,9 @@ namespace kinegraph {
 
 namespace {
 
-constexpr auto kAdopted = std::numeric_limits<std::uint64_t>::max();  // revision of a program that an equal scene had
+constexpr auto kAdopted = std::numeric_limits<std::uint64_t>::max();  // revision of a model adopted from an equal scene
 
-/// Are the dofs of its joint entries of q?
+/// Returns whether the dofs of the frame's joint are entries of q.
 bool isDofFrame(const FrameData& frame) { return frame.moves() && frame.joint->active && !frame.joint->mimic; }
 
 }  // namespace
@@ -168,15 +168,15 @@ FrameData* SceneTree::append(const SceneTree& other, const std::string& prefix, 
   }
   structureChanged();
   if (first == 0 && prefix.empty() && other.model_ && other.compiled_revision_ == other.structure_revision_) {
-    model_ = other.model_;  // an equal scene
+    model_ = other.model_;  // the scenes are equal
     compiled_revision_ = kAdopted;
     model();
   }
   return frames_[first].get();
 }
 
-/// Takes over what edits change that keep the structure: joints, and the rest where it may have changed.
-void SceneTree::bringUpToDate(Snapshot& snapshot) const {
+/// Updates a snapshot after edits that keep the structure: joint states, and everything else that may have changed.
+void SceneTree::updateSnapshot(Snapshot& snapshot) const {
   const std::vector<std::shared_ptr<FrameData>>& copies = snapshot.scene->frames_;
   const bool just_dofs = !snapshot.is_stale && compiled_revision_ == structure_revision_;
   if (just_dofs) {
@@ -203,7 +203,7 @@ std::shared_ptr<const SceneTree> SceneTree::snapshot() {
   snapshot_revision_ = structure_revision_;
   for (Snapshot& kept : snapshots_) {
     if (kept.scene.use_count() > 1) continue;
-    bringUpToDate(kept);
+    updateSnapshot(kept);
     return kept.scene;
   }
   const auto copy = std::make_shared<SceneTree>();
@@ -222,7 +222,7 @@ const std::shared_ptr<const KinematicModel>& SceneTree::model() {
       if (isDofFrame(*frame)) dof_frames_.push_back(frame.get());
     }
     parameters_.reset();
-    parameters_before_.reset();
+    previous_parameters_.reset();
     state_.reset();
     near_pairs_.reset();
     q_.resize(model_->dofs);
@@ -236,9 +236,9 @@ const std::shared_ptr<const Parameters>& SceneTree::parameters() {
   if (poses_stale_ || !moved_.empty()) {
     if (poses_stale_) {
       parameters_ = collectParameters(*this, *model_);
-      parameters_before_.reset();
+      previous_parameters_.reset();
     } else {
-      moveInParameters();
+      updateMovedParameters();
     }
     moved_.clear();
     motion_checker_.reset();
@@ -248,19 +248,18 @@ const std::shared_ptr<const Parameters>& SceneTree::parameters() {
   return parameters_;
 }
 
-/// Takes the parameters from before the last ones if nobody holds them any more, and lets them follow all that was
-/// moved since; else a copy.
-void SceneTree::moveInParameters() {
-  std::shared_ptr<Parameters> next = std::move(parameters_before_);
+/// Reuses the previous parameters if no one else holds them, and updates all frames moved since; copies otherwise.
+void SceneTree::updateMovedParameters() {
+  std::shared_ptr<Parameters> next = std::move(previous_parameters_);
   if (next && next.use_count() == 1) {
     std::atomic_thread_fence(std::memory_order_acquire);
-    for (const FrameData* frame : moved_before_) updateParameters(*frame, *model_, *next);
+    for (const FrameData* frame : previous_moved_) updateParameters(*frame, *model_, *next);
   } else {
     next = std::make_shared<Parameters>(*parameters_);
   }
   for (const FrameData* frame : moved_) updateParameters(*frame, *model_, *next);
-  parameters_before_ = std::const_pointer_cast<Parameters>(std::exchange(parameters_, std::move(next)));
-  moved_before_.swap(moved_);
+  previous_parameters_ = std::const_pointer_cast<Parameters>(std::exchange(parameters_, std::move(next)));
+  previous_moved_.swap(moved_);
 }
 
 const State& SceneTree::state() {
@@ -295,12 +294,12 @@ MotionChecker& SceneTree::motionChecker() {
 
 Pose SceneTree::worldPose(const FrameData& frame) {
   const bool is_compiled = compiled_revision_ == structure_revision_;
-  const bool pays = is_compiled ? asked_since_edit_ : steps_to_parents_ > kCompileSteps * frames_.size();
+  const bool pays = is_compiled ? queried_since_edit_ : steps_to_parents_ > kCompileSteps * frames_.size();
   return pays ? Pose(state().pose(frame.id)) : poseAlongParents(frame);
 }
 
 Pose SceneTree::poseAlongParents(const FrameData& frame) {
-  asked_since_edit_ = true;
+  queried_since_edit_ = true;
   for (const FrameData* above = &frame; above; above = above->parent) ++steps_to_parents_;
   return frame.worldPose();
 }
@@ -315,7 +314,7 @@ VectorXd SceneTree::jointState() {
     gatherJointState(q.data());
     return q;
   }
-  // Between edits of the structure a look at all frames takes a small part of what compiling them would.
+  // Between edits of the structure, reading all frames costs a small part of compiling them.
   std::vector<double> values;
   for (const auto& frame : frames_) {
     if (isDofFrame(*frame)) values.insert(values.end(), frame->joint->q.begin(), frame->joint->q.end());

@@ -27,7 +27,7 @@ void moveBelow(SceneTree& scene, FrameData& frame, FrameData& parent, const Pose
 void reconnectToLinks(SceneTree& scene) {
   for (const auto& frame : scene.frames()) {
     if (!frame->parent) continue;
-    Pose before;  // of the present parent in its link's frame
+    Pose before;  // pose of the current parent in its link's frame
     FrameData* link = frame->parent;
     for (; link->parent && !link->joint; link = link->parent) before = link->relativePose() * before;
     if (link == frame->parent) continue;
@@ -106,7 +106,7 @@ void checkJoint(const SceneTree& scene, const FrameData& frame) {
   const bool here =
       source.tree == &scene && source.id < int(scene.frames().size()) && scene.frames()[source.id].get() == &source;
   require(here && source.joint && source.joint->dofs() == joint.dofs(), frame,
-          "what its joint mimics is not such a joint of this scene");
+          "its joint mimics a joint of another scene or of another number of dofs");
   std::set<const FrameData*> seen = {&frame};
   for (const FrameData* next = &source; next->joint && next->joint->mimic; next = next->joint->mimic) {
     require(seen.insert(next).second, frame, "its joint mimics itself");
@@ -119,7 +119,7 @@ void checkConsistency(const SceneTree& scene) {
   const auto& frames = scene.frames();
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const FrameData& frame = *frames[i];
-    require(frame.id == int(i) && frame.tree == &scene, frame, cat("is at place ", i));
+    require(frame.id == int(i) && frame.tree == &scene, frame, cat("is at index ", i));
     const FrameData* above = &frame;
     for (std::size_t steps = 0; above->parent; above = above->parent)
       require(++steps <= frames.size(), frame, "its parents form a loop");

@@ -9,7 +9,7 @@ namespace kinegraph {
 
 namespace {
 
-/// Is the inverse of every motion of this joint the motion of the negative dofs?
+/// Returns whether negating the dofs inverts every motion of this joint.
 bool inverseIsNegative(const Joint& joint) {
   const auto slides = [](const MotionStep& step) { return step.slides(); };
   return joint.dofs() <= 1 || std::all_of(joint.steps.begin(), joint.steps.end(), slides);
@@ -17,7 +17,7 @@ bool inverseIsNegative(const Joint& joint) {
 
 std::string quoted(const FrameData& frame) { return cat("frame '", frame.name, "'"); }
 
-/// The joint of `frame` as seen from the other side. `relative` is its present relative pose.
+/// The inverse of the joint of `frame`. `relative` is its current relative pose.
 Joint inverseJoint(const FrameData& frame, const Pose& relative) {
   Joint joint = *frame.joint;
   if (joint.type == JointType::tau) return joint;
@@ -61,13 +61,13 @@ void makeRoot(SceneTree& scene, FrameData& frame, bool until_part_break) {
     inverse_pose.push_back(relative.inverse());
     inverse_joint.push_back(path[i]->joint ? std::optional(inverseJoint(*path[i], relative)) : std::nullopt);
   }
-  for (const auto& other : scene.frames()) {  // those that repeat a negated q
+  for (const auto& other : scene.frames()) {  // joints that mimic a negated q
     if (!other->joint || !other->joint->mimic || std::find(path.begin(), path.end(), other.get()) != path.end())
       continue;
     const auto source = std::find(path.begin(), path.end() - 1, &dofSource(*other));
     if (source != path.end() - 1 && !inverseIsNegative(*(*source)->joint)) {
       throw ValueError(cat("makeRoot: ", quoted(*other), " mimics the ", jointTypeName((*source)->joint->type),
-                           " joint of ", quoted(**source), ", which cannot be inverted then"));
+                           " joint of ", quoted(**source), "; that joint cannot be inverted while another mimics it"));
     }
   }
 
@@ -77,7 +77,7 @@ void makeRoot(SceneTree& scene, FrameData& frame, bool until_part_break) {
   };
   struct Follower {
     Joint* joint;
-    bool changes_sign;  // as the only one of itself and its source
+    bool changes_sign;  // whether exactly one of the joint and its source is inverted
   };
   std::vector<Follower> followers;
   for (const auto& other : scene.frames()) {
@@ -116,7 +116,7 @@ void selectJointsBySubtree(SceneTree& scene, const FrameData& root) {
 }
 
 int dofIndex(SceneTree& scene, const FrameData& frame) {
-  if (!frame.joint) throw ValueError(cat(quoted(frame), " has no joint, so it has no place in q"));
+  if (!frame.joint) throw ValueError(cat(quoted(frame), " has no joint, so it has no index in q"));
   const FrameData& source = dofSource(frame);
   if (source.joint->active && source.moves()) return scene.model()->frame_dofs[source.id].first;
   int first = 0;

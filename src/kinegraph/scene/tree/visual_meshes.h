@@ -9,11 +9,11 @@
 
 namespace kinegraph {
 
-/// What shapes are shown with: mesh files, read once each, and surfaces with pictures on them.
+/// Visual geometry of shapes: mesh files, each read once, and textured surfaces.
 class VisualMeshes {
  public:
-  /// The mesh that is shown in place of `shape`, in the frame's coordinates; null if that is the shape's own geometry,
-  /// as also where a file cannot be had.
+  /// The mesh shown in place of `shape`, in the frame's coordinates; null if the shape's own geometry is shown or the
+  /// file cannot be read.
   std::shared_ptr<const Geometry> of(const Shape& shape);
 
  private:
@@ -21,9 +21,8 @@ class VisualMeshes {
 
   std::shared_ptr<const Geometry> fromFile(const Shape& shape);
 
-  std::map<std::string, std::shared_ptr<const Geometry>> meshes_;  ///< by path and pose; null: not to be had
-  std::map<Covered, std::shared_ptr<const Geometry>>
-      covered_;  ///< with pictures; null: there is nothing to put them on
+  std::map<std::string, std::shared_ptr<const Geometry>> meshes_;  ///< by path and pose; null: unreadable
+  std::map<Covered, std::shared_ptr<const Geometry>> covered_;     ///< textured surfaces; null: no surface to texture
 };
 
 }  // namespace kinegraph

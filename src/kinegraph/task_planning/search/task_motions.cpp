@@ -68,7 +68,7 @@ TimedRows rowsOf(const TimedPath& timed, const MatrixXd& configurations) {
   const double step = timed.duration() / double(count - 1);
   for (int i = 0; i < count; ++i) rows.times[i] = double(i) * step;
   rows.times[count - 1] = timed.duration();
-  for (int i = 0; i < count; ++i) rows.path.row(i) = timed.at(rows.times[i]).q;
+  for (int i = 0; i < count; ++i) rows.path.row(i) = timed.eval(rows.times[i]).q;
   rows.path.row(0) = configurations.row(0);
   rows.path.row(count - 1) = configurations.row(configurations.rows() - 1);
   return rows;

@@ -1,4 +1,4 @@
-#include "kinegraph/geometry/files/mesh_promises.h"
+#include "kinegraph/geometry/files/mesh_header.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -16,15 +16,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kAlways = 1e5;  // what may be promised anyway: it costs nothing
+constexpr double kAlways = 1e5;  // always accepted: cheap to allocate
 
-/// The text between `at` and the next of `ends`, behind blanks and quotes.
+/// The text between `at` and the next of `ends`, without leading blanks and quotes.
 std::string_view valueBehind(std::string_view text, std::size_t at, std::string_view ends) {
   at = std::min(text.find_first_not_of(" \t\r\n:=\"'", at), text.size());
   return text.substr(at, std::min(text.find_first_of(ends, at), text.size()) - at);
 }
 
-/// Calls visit(value) for what stands behind every `key`.
+/// Calls visit(value) for the value after every `key`.
 template <class Visit>
 void forValues(std::string_view text, std::string_view key, std::string_view ends, const Visit& visit) {
   for (std::size_t at = text.find(key); at != std::string_view::npos; at = text.find(key, at + key.size())) {
@@ -34,8 +34,8 @@ void forValues(std::string_view text, std::string_view key, std::string_view end
 
 double numberOf(std::string_view text) { return std::strtod(std::string(text.substr(0, 40)).c_str(), nullptr); }
 
-/// The counts of all elements that the header of a PLY file lists.
-double promisesOfPly(std::string_view text) {
+/// Sums the element counts in the header of a PLY file.
+double elementsInPlyHeader(std::string_view text) {
   double promised = 0.;
   const std::string_view header = text.substr(0, std::min(text.find("end_header"), text.size()));
   forValues(header, "\nelement ", "\r\n",
@@ -45,7 +45,7 @@ double promisesOfPly(std::string_view text) {
 
 }  // namespace
 
-void checkMeshPromises(const std::string& path) {
+void checkMeshHeader(const std::string& path) {
   const std::string extension = lowerExtension(path);
   const bool ply = extension == ".ply", dae = extension == ".dae", gltf = extension == ".gltf" || extension == ".glb";
   if (!ply && !dae && !gltf) return;
@@ -55,7 +55,7 @@ void checkMeshPromises(const std::string& path) {
   const std::string text = bytes.str();
   double promised = 0., held = double(text.size());
   const auto add = [&](std::string_view count) { promised += std::max(numberOf(count), 0.); };
-  if (ply) promised = promisesOfPly(text);
+  if (ply) promised = elementsInPlyHeader(text);
   if (dae) forValues(text, " count=", "\"'", add);
   if (gltf) {
     forValues(text, "\"count\"", ",}", add);
@@ -66,7 +66,7 @@ void checkMeshPromises(const std::string& path) {
     });
   }
   if (promised <= kAlways + held) return;
-  throw FileError(cat("mesh file '", path, "' promises ", exact(promised), " elements, more than its ", exact(held),
+  throw FileError(cat("mesh file '", path, "' announces ", exact(promised), " elements, more than its ", exact(held),
                       " bytes can hold"));
 }
 

@@ -1,10 +1,10 @@
-"""The words of named problems."""
+"""Keywords of named problems."""
 
 import kinegraph
 
 
 class arg:
-    """The words of named problems, as earlier years wrote them."""
+    """Keywords of named problems, by their former names."""
 
     left = kinegraph.ArgWord._left
     right = kinegraph.ArgWord._right
