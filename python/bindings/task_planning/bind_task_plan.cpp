@@ -17,9 +17,6 @@ namespace kinegraph::python {
 
 namespace {
 
-using States = nb::typed<nb::tuple, Array, Array, Array>;
-using TimedStates = nb::typed<nb::tuple, Array, Array, Array, Array>;
-
 PyConfig copyOf(const Config& C) { return PyConfig{Config(C), nullptr}; }
 
 void makePlan(PyTaskPlan* self, const std::vector<TaskAction>& actions, const Numbers& path, const Numbers& times,
@@ -52,20 +49,6 @@ nb::typed<nb::list, PyConfig> scenes(const PyTaskPlan& plan) {
   nb::list list;
   for (const Config& scene : plan.scenes) list.append(copyOf(scene));
   return nb::borrow<nb::typed<nb::list, PyConfig>>(list);
-}
-
-States eval(const PyTaskPlan& plan, const Numbers& t) {
-  if (t.rank == 0) {
-    const MotionState state = plan.eval(t.values[0]);
-    return States(nb::make_tuple(toNumpy(state.q), toNumpy(state.velocity), toNumpy(state.acceleration)));
-  }
-  const MotionStates states = plan.eval(t.values);
-  return States(nb::make_tuple(toNumpy(states.q), toNumpy(states.velocity), toNumpy(states.acceleration)));
-}
-
-TimedStates sample(const PyTaskPlan& plan, double rate) {
-  const MotionStates s = plan.sample(rate);
-  return TimedStates(nb::make_tuple(toNumpy(s.times), toNumpy(s.q), toNumpy(s.velocity), toNumpy(s.acceleration)));
 }
 
 int show(nb::handle C, bool pause, const std::string& text) {
@@ -116,7 +99,7 @@ PyTaskPlan repair(const PyTaskPlan& plan, const PyConfig& C) {
   return {plan.repair(scene), plan.request};
 }
 
-void bindPlanFields(nb::class_<PyTaskPlan>& plan) {
+void bindPlanFields(nb::class_<PyTaskPlan, Trajectory>& plan) {
   plan.def_prop_ro("feasible", &TaskPlan::feasible, "True if there is a plan. checkTaskPlan accepted its motion.")
       .def_ro("status", &TaskPlan::status, "How the search ended, a TaskStatus.")
       .def_prop_ro(
@@ -148,8 +131,7 @@ void bindPlanFields(nb::class_<PyTaskPlan>& plan) {
       .def_prop_ro(
           "goal", [](const PyTaskPlan& p) { return literalTexts(p.goal); }, "The literals of the goal.")
       .def_prop_ro(
-          "start", [](const PyTaskPlan& p) { return literalTexts(p.start); }, "The literals that hold initially.")
-      .def_prop_ro("duration", &TaskPlan::duration, "s, without the time that grippers take; 0 if there is no motion.");
+          "start", [](const PyTaskPlan& p) { return literalTexts(p.start); }, "The literals that hold initially.");
 }
 
 }  // namespace
@@ -181,13 +163,11 @@ void bindTaskPlan(nb::module_& m) {
       .def("__repr__", [](const TaskBranch& b) {
         return cat("<TaskBranch ", planText(b.actions), b.cause.empty() ? "" : ": ", inPython(b.cause), ">");
       });
-  nb::class_<PyTaskPlan> plan(m, "TaskPlan", docs::type);
+  nb::class_<PyTaskPlan, Trajectory> plan(m, "TaskPlan", docs::type);
   plan.def("__init__", makePlan, "actions"_a, "path"_a, "times"_a, "segments"_a, nb::kw_only(), "limits"_a = nb::none(),
            "goal"_a = std::vector<std::string>(), "start"_a = std::vector<std::string>(), docs::make);
   bindPlanFields(plan);
-  plan.def("eval", eval, "t"_a, docs::eval)
-      .def("sample", sample, "rate"_a, docs::sample)
-      .def(
+  plan.def(
           "explain", [](const PyTaskPlan& p) { return inPython(p.explain()); },
           "Several lines: the status, the spent evaluations, and all causes for which branches were given up.")
       .def(

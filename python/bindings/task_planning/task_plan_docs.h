@@ -26,24 +26,6 @@ Raises:
     ArgumentError: The path is empty, the number of times differs from that of rows, or a segment has a step.
     ParseError: A literal is invalid.)";
 
-inline constexpr char eval[] = R"(Returns the state of the motion at one or several times.
-
-Args:
-    t: A time or times, shape (T,), s; clamped to 0 and duration.
-Returns:
-    q, velocity and acceleration: shape (n,) each for a time, (T, n) each for an array of times.
-Raises:
-    ArgumentError: There is no motion.)";
-
-inline constexpr char sample[] = R"(Returns the states at equal time steps from 0 to duration, both included.
-
-Args:
-    rate: Steps per second, Hz; steps are at most 1 / rate apart.
-Returns:
-    times, shape (T,); q, velocity and acceleration, shape (T, n) each.
-Raises:
-    ArgumentError: There is no motion, or rate is not positive.)";
-
 inline constexpr char view[] =
     R"(Shows the plan in the viewer of a scene: its motion. Without a motion, it shows the search tree and, in red, the
 waypoint that failed in the longest branch.

@@ -93,7 +93,7 @@ PyTaskPlan planFrom(const nb::tuple& t) {
 
 }  // namespace
 
-void bindTaskPlanCopies(nb::class_<TaskBranch>& branch, nb::class_<PyTaskPlan>& plan) {
+void bindTaskPlanCopies(nb::class_<TaskBranch>& branch, nb::class_<PyTaskPlan, Trajectory>& plan) {
   branch.def("__getstate__", branchState)
       .def(
           "__setstate__", [](TaskBranch& b, const nb::tuple& state) { new (&b) TaskBranch(branchFrom(state)); },
