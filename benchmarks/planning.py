@@ -31,7 +31,7 @@ import numpy as np
 
 import kinegraph as ry
 
-STAGES = ["ends", "search", "shorten", "tighten", "verify", "time"]
+STAGES = ["endpoints", "search", "shortcut", "rope_shortcut", "verify", "timing"]
 REACH = 1.5  # m/rad: of these robots, no joint moves a point faster
 STEP = 1e-3  # rad or m: least step between checked configurations
 
@@ -81,8 +81,8 @@ def timed(C, problem, options):
     plan = ry.planMotion(C, problem.goal, problem.start, **options)
     wall, processor = time.perf_counter() - wall, time.process_time() - processor
     times = {stage["name"]: 1e3 * stage["seconds"] for stage in plan.stages}
-    later = sum(times.get(stage, 0.0) for stage in [*STAGES[2:], "bend"])
-    own = {"first": 1e3 * wall - later, "call": 1e3 * processor, "all": 1e3 * processor - times.get("time", 0.0)}
+    later = sum(times.get(stage, 0.0) for stage in [*STAGES[2:], "smoothing"])
+    own = {"first": 1e3 * wall - later, "call": 1e3 * processor, "all": 1e3 * processor - times.get("timing", 0.0)}
     return plan, times | own
 
 
@@ -100,7 +100,7 @@ def ours(problem, options, rounds=1):
     row |= {key: min(times[key] for _, times in runs) for key in runs[0][1]}
     if plan.feasible:
         look = Look(C)
-        motion = np.array([plan.at(t)[0] for t in np.arange(0, plan.duration, 5e-3)])
+        motion = np.array([plan.eval(t)[0] for t in np.arange(0, plan.duration, 5e-3)])
         row["free"] = look.isFree(plan.path) and look.isFree(motion)
         row["ratio"] = plan.length / np.linalg.norm(problem.goal - problem.start)
         row["duration"] = plan.duration
@@ -173,7 +173,7 @@ def table(title, rows):
         if not done:
             continue
         words = [f"{scene:17} {len(done):4}/{len(of):<4} free {100 * np.mean([row['free'] for row in done]):5.1f} %"]
-        for key in ["first", *STAGES, "bend", "own clock", "all"]:
+        for key in ["first", *STAGES, "smoothing", "own clock", "all"]:
             values = [row[key] for row in done if key in row]
             if values:
                 words.append(f"{key} {np.median(values):.3g}/{np.percentile(values, 95):.3g}")
@@ -203,7 +203,7 @@ def main():
     parser.add_argument("--slices", type=int, default=0, help="slices of KOMO as a further stage, with --optimize time")
     parser.add_argument("--beside", nargs="+", default=[], metavar="NAME=PYTHON")
     arguments = parser.parse_args()
-    warnings.filterwarnings("ignore", ".*no joint moves them apart")  # tables touch their legs
+    warnings.filterwarnings("ignore", ".*at a constant relative pose")  # tables touch their legs
     robot = motion_bench_maker.Robot(arguments.robot, arguments.shapes)
     indices = range(1, 101) if arguments.all else arguments.indices
     problems = list(robot.problems(arguments.scenes, indices))

@@ -54,7 +54,7 @@ def timed(q, *limits, repeat=5, **options):
 
 def excess(motion, acceleration, jerk=None):
     t = np.linspace(0, motion.duration, 20001)
-    _, qd, qdd = motion.at(t)
+    _, qd, qdd = motion.eval(t)
     found = [np.max(np.abs(qd) / V), np.max(np.abs(qdd) / acceleration)]
     if jerk is not None:
         found.append(np.max(np.abs(np.diff(qdd, axis=0)) / ((t[1] - t[0]) * jerk)))

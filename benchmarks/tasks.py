@@ -31,7 +31,7 @@ class Problem:
 
     C: ry.Config
     goal: str
-    expect: str  # a status
+    expect: ry.TaskStatus
     least: int = 0  # actions of the shortest plan
     why: str = ""  # a pattern of the message of a failure
 
@@ -109,7 +109,7 @@ def tower(seed: int, k: int = 3) -> Problem:
     _reach(C)
     for i, at in enumerate(_spots(rng, k, [-0.7, -0.5], [0.7, 0.5], 0.25)):
         _box(C, f"b{i}", "table", [*at, 0.1], [0.1, 0.1, 0.1], is_place=True)
-    return Problem(C, " ".join(f"(on b{i} b{i + 1})" for i in range(k - 1)), "solved", 2 * (k - 1))
+    return Problem(C, " ".join(f"(on b{i} b{i + 1})" for i in range(k - 1)), ry.TaskStatus.solved, 2 * (k - 1))
 
 
 def sort(seed: int, k: int = 4) -> Problem:
@@ -121,7 +121,9 @@ def sort(seed: int, k: int = 4) -> Problem:
     _pad(C, "blue", [-0.4, 0.6], [room, 0.16])
     for i, at in enumerate(_spots(rng, k, [-0.8, -0.7], [0.8, 0.1], 0.2)):
         _box(C, f"o{i}", "table", [*at, 0.1], [0.08, 0.08, 0.1])
-    return Problem(C, " ".join(f"(on {'red' if i % 2 else 'blue'} o{i})" for i in range(k)), "solved", 2 * k)
+    return Problem(
+        C, " ".join(f"(on {'red' if i % 2 else 'blue'} o{i})" for i in range(k)), ry.TaskStatus.solved, 2 * k
+    )
 
 
 def handover(seed: int) -> Problem:
@@ -135,7 +137,7 @@ def handover(seed: int) -> Problem:
     y = rng.uniform(-0.5, 0.5, 2)
     _pad(C, "goal", [0.6, float(y[0])], [0.14, 0.14])
     _box(C, "obj", "table", [-0.6, float(y[1]), 0.1], [0.08, 0.08, 0.1])
-    return Problem(C, "(on goal obj)", "solved", 3)
+    return Problem(C, "(on goal obj)", ry.TaskStatus.solved, 3)
 
 
 def crowded(seed: int) -> Problem:
@@ -145,7 +147,7 @@ def crowded(seed: int) -> Problem:
     _pad(C, "goal", [0.4, 0.3], [0.12, 0.12])
     _box(C, "c0", "goal", [*rng.uniform(-0.02, 0.02, 2).tolist(), 0.055], [0.08, 0.08, 0.1])
     _box(C, "obj", "table", [*rng.uniform([-0.6, -0.5], [-0.1, 0.5]).tolist(), 0.1], [0.1, 0.1, 0.1])
-    return Problem(C, "(on goal obj)", "solved", 4)
+    return Problem(C, "(on goal obj)", ry.TaskStatus.solved, 4)
 
 
 def turn(seed: int) -> Problem:
@@ -153,7 +155,7 @@ def turn(seed: int) -> Problem:
     C, rng = _scene(), np.random.default_rng(seed)
     _fingers(C, "g_", [0.1, 0.2, 0.04], wrist=1.66)
     _box(C, "obj", "table", [*rng.uniform(-0.5, 0.5, 2).tolist(), 0.11], [0.07, 0.08, 0.12])
-    return Problem(C, "(up zNeg obj)", "solved", 4)
+    return Problem(C, "(up zNeg obj)", ry.TaskStatus.solved, 4)
 
 
 def slot(seed: int) -> Problem:
@@ -165,7 +167,7 @@ def slot(seed: int) -> Problem:
     _wall(C, "roof", [x, 0.63, 0.22], [0.3, 0.26, 0.02])
     _wall(C, "back", [x, 0.77, 0.12], [0.3, 0.02, 0.2])
     _box(C, "obj", "table", [float(rng.uniform(-0.5, 0.5)), float(rng.uniform(-0.6, 0.0)), 0.125], [0.07, 0.07, 0.15])
-    return Problem(C, "(on shelf obj)", "solved", 2)
+    return Problem(C, "(on shelf obj)", ry.TaskStatus.solved, 2)
 
 
 def carry(seed: int, k: int = 3) -> Problem:
@@ -178,7 +180,7 @@ def carry(seed: int, k: int = 3) -> Problem:
     for i, at in enumerate([[-0.08, -0.08], [0.08, -0.08], [0.0, 0.08]][:k]):
         _box(C, f"cup{i}", "tray", [*at, 0.06], [0.06, 0.06, 0.1])
         _pad(C, f"pad{i}", [0.65, -0.4 + 0.4 * i], [0.12, 0.12])
-    return Problem(C, " ".join(f"(on pad{i} cup{i})" for i in range(k)), "solved", 2 + 2 * k)
+    return Problem(C, " ".join(f"(on pad{i} cup{i})" for i in range(k)), ry.TaskStatus.solved, 2 + 2 * k)
 
 
 def push(seed: int) -> Problem:
@@ -189,7 +191,7 @@ def push(seed: int) -> Problem:
     _box(C, "obj", "table", [x, y, 0.1], [0.15, 0.15, 0.1])
     C.getFrame("obj").setAttributes({"logical": {"is_object": True, "is_pushable": True}})
     _flush(C, "zone", [0.5, float(rng.uniform(-0.3, 0.3))], [0.3, 0.3])
-    return Problem(C, "(on zone obj)", "solved", 2)
+    return Problem(C, "(on zone obj)", ry.TaskStatus.solved, 2)
 
 
 def _stick(C: ry.Config, name: str, at: list[float], angle: float, length: float = 0.5) -> None:
@@ -209,7 +211,7 @@ def hook(seed: int) -> Problem:
     _stick(C, "stick", [float(rng.uniform(-0.6, -0.2)), float(rng.uniform(-0.4, -0.2))], float(rng.uniform(-0.7, 0.7)))
     _box(C, "obj", "table", [float(rng.uniform(-0.2, 0.4)), float(rng.uniform(0.25, 0.4)), 0.08], [0.06, 0.06, 0.06])
     _pad(C, "goal", [float(rng.uniform(0.3, 0.6)), float(rng.uniform(-0.5, -0.3))], [0.14, 0.14])
-    return Problem(C, "(on goal obj)", "solved", 6)
+    return Problem(C, "(on goal obj)", ry.TaskStatus.solved, 6)
 
 
 def _cabinet(C: ry.Config, at: list[float], deep: float = 0.4) -> None:
@@ -244,7 +246,7 @@ def drawer(seed: int) -> Problem:
     C, rng = _scene(), np.random.default_rng(seed)
     _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
     _cabinet(C, [float(rng.uniform(-0.4, 0.4)), float(rng.uniform(0.2, 0.4))])
-    return Problem(C, "(opened drawer)", "solved", 2)
+    return Problem(C, "(opened drawer)", ry.TaskStatus.solved, 2)
 
 
 def door(seed: int) -> Problem:
@@ -266,7 +268,7 @@ def door(seed: int) -> Problem:
     leaf.setShape(ry.ST.ssBox, [0.36, 0.02, 0.3, 0.004]).setContact(1)
     handle = C.addFrame("handle", "door").setRelativePosition([0.34 * side, -0.06, 0.2])
     handle.setShape(ry.ST.capsule, [0.1, 0.012]).setContact(1).setAttributes({"logical": {"is_handle": True}})
-    return Problem(C, "(opened door)", "solved", 2)
+    return Problem(C, "(opened door)", ry.TaskStatus.solved, 2)
 
 
 def stow(seed: int) -> Problem:
@@ -275,7 +277,7 @@ def stow(seed: int) -> Problem:
     _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
     _cabinet(C, [float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.3, 0.45))])
     _box(C, "cup", "table", [float(rng.uniform(-0.6, 0.6)), float(rng.uniform(-0.7, -0.4)), 0.1], [0.06, 0.06, 0.1])
-    return Problem(C, "(on drawer_floor cup)", "solved", 4)
+    return Problem(C, "(on drawer_floor cup)", ry.TaskStatus.solved, 4)
 
 
 def fetch(seed: int) -> Problem:
@@ -284,7 +286,7 @@ def fetch(seed: int) -> Problem:
     _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
     _cabinet(C, [float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.3, 0.45))])
     _box(C, "cup", "drawer_floor", [*rng.uniform([-0.08, -0.05], [0.08, 0.05]).tolist(), 0.06], [0.06, 0.06, 0.1])
-    return Problem(C, "(on table cup) (closed drawer)", "solved", 6)
+    return Problem(C, "(on table cup) (closed drawer)", ry.TaskStatus.solved, 6)
 
 
 def cleared(seed: int) -> Problem:
@@ -294,7 +296,7 @@ def cleared(seed: int) -> Problem:
     x, y = float(rng.uniform(-0.3, 0.3)), float(rng.uniform(0.2, 0.4))
     _cabinet(C, [x, y])
     _box(C, "box", "table", [x + float(rng.uniform(-0.12, 0.12)), y - 0.18, 0.1], [0.06, 0.06, 0.1])
-    return Problem(C, "(opened drawer)", "solved", 4)
+    return Problem(C, "(opened drawer)", ry.TaskStatus.solved, 4)
 
 
 def lower(seed: int) -> Problem:
@@ -305,7 +307,7 @@ def lower(seed: int) -> Problem:
     C.getFrame("drawer").setJointState([-0.29])
     _box(C, "cup", "drawer_floor", [float(rng.uniform(-0.08, 0.08)), -0.08, 0.135], [0.06, 0.06, 0.25])
     _pad(C, "tray", [0.6, -0.5], [0.2, 0.2])
-    return Problem(C, "(on tray cup) (closed drawer)", "solved", 4)
+    return Problem(C, "(on tray cup) (closed drawer)", ry.TaskStatus.solved, 4)
 
 
 def far(seed: int) -> Problem:
@@ -314,7 +316,7 @@ def far(seed: int) -> Problem:
     _reach(C)
     _pad(C, "goal", [float(rng.uniform(1.5, 1.8)), 0.0], [0.14, 0.14])
     _box(C, "obj", "table", [-0.2, 0.4, 0.1], [0.08, 0.08, 0.1])
-    return Problem(C, "(on goal obj)", "proved impossible", why="'goal' is at least .* beyond the reach of 'hand'")
+    return Problem(C, "(on goal obj)", ry.TaskStatus.infeasible, why="'goal' is at least .* beyond the reach of 'hand'")
 
 
 def beyond(seed: int) -> Problem:
@@ -323,7 +325,7 @@ def beyond(seed: int) -> Problem:
     box = problem.C.getFrame("obj")
     box.setRelativePosition(box.getRelativePosition() + np.array([0.0, 0.6, 0.0]))
     why = "'obj' is at least .* beyond the reach of 'g_gripper', with 'stick', too"
-    return Problem(problem.C, problem.goal, "proved impossible", why=why)
+    return Problem(problem.C, problem.goal, ry.TaskStatus.infeasible, why=why)
 
 
 def remote(seed: int) -> Problem:
@@ -332,7 +334,7 @@ def remote(seed: int) -> Problem:
     _fingers(C, "g_", [0.06, 0.06, 0.04], wrist=1.66)
     _cabinet(C, [float(rng.uniform(-0.4, 0.4)), float(rng.uniform(1.5, 1.8))])
     return Problem(
-        C, "(opened drawer)", "proved impossible", why="'handle' is at least .* beyond the reach of 'g_gripper'"
+        C, "(opened drawer)", ry.TaskStatus.infeasible, why="'handle' is at least .* beyond the reach of 'g_gripper'"
     )
 
 
@@ -343,7 +345,7 @@ def blocked(seed: int) -> Problem:
     x, y = float(rng.uniform(-0.4, 0.4)), float(rng.uniform(0.2, 0.4))
     _cabinet(C, [x, y])
     _wall(C, "post", [x + float(rng.uniform(-0.12, 0.12)), y - float(rng.uniform(0.12, 0.2)), 0.1], [0.03, 0.03, 0.2])
-    return Problem(C, "(opened drawer)", "proved impossible", why="'drawer' meets 'post' at .* % of its range")
+    return Problem(C, "(opened drawer)", ry.TaskStatus.infeasible, why="'drawer' meets 'post' at .* % of its range")
 
 
 def tall(seed: int) -> Problem:
@@ -351,7 +353,7 @@ def tall(seed: int) -> Problem:
     problem = stow(seed)
     problem.C.getFrame("cup").setShape(ry.ST.ssBox, [0.06, 0.06, 0.25, 0.004]).setRelativePosition([0.0, -0.5, 0.175])
     goal = "(on drawer_floor cup) (closed drawer)"
-    return Problem(problem.C, goal, "not found", why="cup overlap")
+    return Problem(problem.C, goal, ry.TaskStatus.no_plan_found, why="cup overlap")
 
 
 def small(seed: int) -> Problem:
@@ -361,7 +363,9 @@ def small(seed: int) -> Problem:
     _pad(C, "goal", [0.4, 0.3], [0.06, 0.06])
     for name, at in zip("ab", _spots(rng, 2, [-0.8, -0.5], [0.1, 0.5], 0.25), strict=True):
         _box(C, name, "table", [*at, 0.1], [0.1, 0.1, 0.1])
-    return Problem(C, "(on goal a) (on goal b)", "proved impossible", why="'a' and 'b' do not fit on 'goal' together")
+    return Problem(
+        C, "(on goal a) (on goal b)", ry.TaskStatus.infeasible, why="'a' and 'b' do not fit on 'goal' together"
+    )
 
 
 def contradiction(seed: int) -> Problem:
@@ -371,7 +375,7 @@ def contradiction(seed: int) -> Problem:
     _pad(C, "p", [0.4, 0.3], [0.14, 0.14])
     _pad(C, "q", [-0.4, 0.3], [0.14, 0.14])
     _box(C, "a", "table", [*rng.uniform(-0.3, 0.0, 2).tolist(), 0.1], [0.1, 0.1, 0.1])
-    return Problem(C, "(on p a) (on q a)", "proved impossible", why="no sequence of actions reaches")
+    return Problem(C, "(on p a) (on q a)", ry.TaskStatus.infeasible, why="no sequence of actions reaches")
 
 
 def wide(seed: int) -> Problem:
@@ -380,7 +384,7 @@ def wide(seed: int) -> Problem:
     _fingers(C, "g_", [0.08, 0.08, 0.04])
     _pad(C, "goal", [0.4, 0.3], [0.2, 0.2])
     _box(C, "obj", "table", [*rng.uniform(-0.5, 0.1, 2).tolist(), 0.1], [0.12, 0.13, 0.1])
-    return Problem(C, "(on goal obj)", "proved impossible", why="'obj' is wider than 'g_gripper' opens")
+    return Problem(C, "(on goal obj)", ry.TaskStatus.infeasible, why="'obj' is wider than 'g_gripper' opens")
 
 
 def walled(seed: int) -> Problem:
@@ -398,7 +402,7 @@ def walled(seed: int) -> Problem:
     ):
         _wall(C, name, [x + at[0], y + at[1], at[2]], size)
     _pad(C, "goal", [0.5, 0.3], [0.2, 0.2])
-    return Problem(C, "(on goal obj)", "not found", why="wall")
+    return Problem(C, "(on goal obj)", ry.TaskStatus.no_plan_found, why="wall")
 
 
 def nowhere(seed: int) -> Problem:
@@ -411,7 +415,7 @@ def nowhere(seed: int) -> Problem:
     for k, (dx, dy) in enumerate(((-0.06, 0.0), (0.06, 0.0), (0.0, -0.06), (0.0, 0.06))):
         _wall(C, f"rim{k}", [x + dx, y + dy, 0.03], [0.02, 0.14, 0.04] if dx else [0.14, 0.02, 0.04])
     _box(C, "obj", "well", [0.0, 0.0, 0.075], [0.07, 0.08, 0.14])
-    return Problem(C, "(up zNeg obj)", "not found", why="lay obj")
+    return Problem(C, "(up zNeg obj)", ry.TaskStatus.no_plan_found, why="lay obj")
 
 
 FAMILIES: dict[str, Callable[[int], Problem]] = {
@@ -459,13 +463,13 @@ def main() -> None:
         for seed in range(options.first, options.first + options.seeds):
             problem = FAMILIES[name](seed)
             began, at = time.process_time(), time.perf_counter()
-            plan = ry.planTask(problem.C, problem.goal, evaluations=options.evaluations, seed=seed)
+            plan = ry.planTask(problem.C, problem.goal, max_evaluations=options.evaluations, seed=seed)
             seconds.append(time.process_time() - began)
             one += time.perf_counter() - at
             if several:
                 at = time.perf_counter()
                 ry.planTask(
-                    problem.C, problem.goal, evaluations=options.evaluations, seed=seed, threads=options.threads
+                    problem.C, problem.goal, max_evaluations=options.evaluations, seed=seed, threads=options.threads
                 )
                 others += time.perf_counter() - at
             evaluations.append(plan.evaluations)

@@ -133,7 +133,7 @@ def movingFilm(folder: Path) -> None:
     frames = []
     for t in np.arange(0, at + bend.duration + 0.5, 1 / 15):
         motion, now = (plan, t) if t < at else (bend, t - at)
-        C.setJointState(motion.at(now)[0])
+        C.setJointState(motion.eval(now)[0])
         C.getFrame("cart").setPose(motion.obstaclesAt(now)["cart"])
         frames.append(C.getFrameState())
     viewer = C.viewer()

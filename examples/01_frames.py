@@ -1,6 +1,6 @@
-"""Part 1: frames. A scene is a tree of frames; each says where it is, seen from its parent.
+"""Part 1: frames. A scene is a tree of frames, each with a pose relative to its parent.
 
-Loads mini.g, prints its frames, opens the door in it, and then watches the file: edit it and save.
+Loads mini.g, prints its frames, opens its door, and then watches the file: edit it and save.
 """
 
 import os
@@ -25,13 +25,13 @@ C.addFile(SCENE)
 printFrames(C)
 C.view(True, "a post with a sign, and a door handle on a hinge")
 
-# One number moves everything that hangs on the hinge.
+# One number moves everything below the hinge.
 print("\njoints:", C.getJointNames(), "between", C.getJointLimits().tolist())
 C.setJointState([1.0])
 print("door opened by 1 rad\n")
 printFrames(C)
 C.view(True, "the door is open")
-assert abs(C.getFrame("hinge").getRelativeQuaternion()[0]) < 0.9  # cos(.5) = .88: it is turned
+assert abs(C.getFrame("hinge").getRelativeQuaternion()[0]) < 0.9  # cos(.5) = .88: it has rotated
 
 if sys.stdin.isatty() and not os.environ.get("KINEGRAPH_HEADLESS"):
     print(f"\nwatching {SCENE}: change a number and save it; close the view to end")

@@ -1,4 +1,4 @@
-"""Part 2: a box, made step by step in Python, and the same box read from a file."""
+"""Part 2: a box, built step by step in Python, and the same box read from a file."""
 
 import os
 import sys

@@ -1,4 +1,4 @@
-"""Part 3: relative positions. A frame with a parent is placed by its parent, and moves along with it."""
+"""Part 3: relative positions. A frame with a parent moves along with it."""
 
 from pathlib import Path
 
@@ -34,7 +34,7 @@ show(box1)
 show(box2)
 C.view(True, "both moved")
 
-# `Above` means along the parent's z axis, so a tilted parent throws its child to the side.
+# `Above` means along the parent's z axis, so a tilted parent moves its child to the side.
 box1.setQuaternion([np.cos(np.pi / 8), np.sin(np.pi / 8), 0, 0])
 print("after tilting only the first box by 45 degrees about x:")
 show(box1)

@@ -1,10 +1,10 @@
-"""Part 4: a manipulator of two links. Its joint angles say where its end effector is.
+"""Part 4: a manipulator of two links. Its joint angles determine the position of its end effector.
 
-The arm lives in the y-z plane of the world. With the angles (a, b, c) the end effector is at
+The arm moves in the y-z plane of the world. With the angles (a, b, c) the end effector is at
 
     y = .35 sin a + .33 sin(a + b),    z = .35 cos a + .33 cos(a + b),
 
-where .35 and .33 m are the distances between its hinges. The third hinge only turns the end effector.
+with the distances .35 and .33 m between its hinges. The third hinge only rotates the end effector.
 """
 
 from pathlib import Path

@@ -66,7 +66,7 @@ komo.addObjective([], FS.angularVel, ["gripper"], ry.OT.eq, [1.0], [], 1)
 q = C.getJointState()
 q[6] += 0.5
 y = komo.nlp().evaluate(q)[0]
-print("\nangularVel of the gripper when its last joint turns by .5 rad within 1 s:")
+print("\nangularVel of the gripper when its last joint rotates by .5 rad within 1 s:")
 print(" ", np.round(y, 4), "with norm", np.linalg.norm(y).round(4))
 
 # The same features on a scene with a single arm.

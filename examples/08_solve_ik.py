@@ -33,16 +33,16 @@ assert result.feasible
 print("moved by", np.linalg.norm(C.getFrame("r_gripper").getPosition() - right).round(3), "m")
 C.view(True, "both went up by 10 cm")
 
-# Out of reach: an outcome, with the reason.
+# A target out of reach is an outcome with a reason.
 result = ry.solveIk(C, {"l_gripper": [1.5, 0.4, 1.0]})
 print(result.feasible, result.status)
 assert result.status == ry.IkStatus.goal_unreachable
 print(result.message)
 
-# A thousand targets at once; threads share them, and the answers do not depend on how many there are.
+# A thousand targets at once; threads share them, and the solutions do not depend on the number of threads.
 points = left + 0.3 * np.random.default_rng(0).standard_normal((1000, 3))
 start = time.perf_counter()
 results = ry.solveIk(C, {"l_gripper": points}, attempts=10, threads=2)
-assert isinstance(results, ry.IkResults)  # as the targets are rows
+assert isinstance(results, ry.IkResults)  # because the targets are rows
 print(f"{results.feasible.sum()} of {len(results)} reached without collision, {time.perf_counter() - start:.2f} s")
 print("answers:", results.q.shape, "attempts, at most:", results.attempts.max())

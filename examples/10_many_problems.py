@@ -1,7 +1,7 @@
 """Part 10: one problem from many starts, several problems at once, and samples of the feasible set.
 
-A motion problem may have many solutions, or be a choice between several problems: which hand takes the ball? All of them are
-solved in parallel, with the same answers at any number of threads.
+A motion problem may have many solutions, or be a choice between several problems: which hand grasps the ball? All of
+them are solved in parallel, with the same results for any number of threads.
 """
 
 import numpy as np
@@ -24,7 +24,7 @@ def take(gripper: str) -> ry.KOMO:
     return komo
 
 
-# A discrete choice: each hand is a problem of its own; the cheapest that is feasible is chosen.
+# A discrete choice: each hand is a separate problem; the cheapest feasible one is chosen.
 hands = ["l_gripper", "r_gripper"]
 problems = [take(hand) for hand in hands]
 answers = ry.solveAll(problems, threads=2)
@@ -48,4 +48,4 @@ hold.addObjective([], ry.FS.positionDiff, [hands[answers.chosen], "ball"], ry.OT
 sampler = ry.NLP_Sampler(hold.nlp()).setOptions(interiorMethod="MCMC", interiorSampleSteps=10)
 samples = [sampler.sample() for _ in range(10)]
 configurations = np.array([ret.x for ret in samples if ret.feasible])
-print(len(configurations), "postures; each joint spreads by", configurations.std(axis=0))
+print(len(configurations), "configurations; each joint spreads by", configurations.std(axis=0))

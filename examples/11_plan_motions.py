@@ -1,6 +1,6 @@
-"""Part 11: motions from A to B, free of collisions at all times.
+"""Part 11: collision-free motions to a goal.
 
-`planMotion` searches, shortens, verifies and times a motion. Where there is none, it says why.
+`planMotion` searches, shortens, verifies and times a motion. Without one, it explains the reason.
 
     python 11_plan_motions.py [FOLDER]     saves a picture of each search and its path in the folder
 """
@@ -14,7 +14,7 @@ from robotic import ry
 
 
 def show(C: ry.Config, plan: ry.MotionPlan, what: str, camera: list[float], at: list[float]) -> None:
-    """Plays the motion, and saves a picture of what was searched if a folder is given."""
+    """Plays the motion, and saves a picture of the trees and the path if a folder is passed."""
     C.view_path(plan.path, plan.duration, True, what)
     if len(sys.argv) > 1:
         picture = plan.picture(C)
@@ -24,7 +24,7 @@ def show(C: ry.Config, plan: ry.MotionPlan, what: str, camera: list[float], at: 
         picture.viewer().savePng(str(Path(sys.argv[1]) / f"{what.replace(' ', '_')}.png"))
 
 
-# Among obstacles: around a column, 1 cm from everything, to a place for the gripper.
+# Among obstacles: around a column, 1 cm from everything, to a target of the gripper.
 C = ry.Config()
 C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
 column = C.addFrame("column", "table").setShape(ry.ST.ssBox, [0.1, 0.1, 0.8, 0.02])
@@ -37,7 +37,7 @@ print(plan.explain())
 assert plan.feasible and plan.clearance() > 0.0099
 show(C, plan, "around the column", [1.3, 1.5, 1.8], [0.0, 0.1, 1.15])
 
-# With a glass: the gripper keeps its direction all along.
+# With a glass: the gripper keeps its direction along the whole path.
 C.delFrame("column")
 C.setJointState([0.0, -0.5, 0.0, -2.0, 0.0, 2.0, 0.0])
 up, _ = C.eval(ry.FS.vectorZ, ["l_gripper"])
@@ -46,7 +46,7 @@ plan = ry.planMotion(C, {"l_gripper": {"position": [0.3, 0.4, 1.1], "z": up}}, c
 print(plan)
 assert plan.feasible
 for t in np.linspace(0, plan.duration, 50):
-    C.setJointState(plan.at(t)[0])
+    C.setJointState(plan.eval(t)[0])
     assert np.allclose(C.eval(ry.FS.vectorZ, ["l_gripper"])[0], up, atol=2e-3)
 show(C, plan, "with a glass", [1.2, 1.3, 1.6], [0.1, 0.2, 1.15])
 
@@ -77,7 +77,7 @@ for width in (0.5, 0.25):
         show(C, plan, "through the door", [-2.6, 0.2, 2.6], [0.0, 0.3, 0.0])
 print(plan.message)
 
-# From a point cloud: what a camera saw is an obstacle as it is.
+# Around a point cloud of a camera.
 C = ry.Config()
 C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
 around = np.linspace(0, 2 * np.pi, 60, endpoint=False)

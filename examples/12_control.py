@@ -1,4 +1,4 @@
-"""A gripper follows a target in steps of 5 ms, within limits of velocity and acceleration, and stays out of the table."""
+"""A gripper follows a target in steps of 5 ms, within limits of velocity and acceleration, and avoids the table."""
 
 import numpy as np
 
@@ -24,7 +24,7 @@ def main() -> None:
     target.setPosition(start - [0, 0, 1])  # below the table
     for _ in range(600):
         ik.step(0.005)
-    print("held back by:", *ik.active, sep="\n    ")
+    print("restricted by:", *ik.active, sep="\n    ")
     print(f"overlap: {C.coll_totalViolation():.4f} m")
 
 

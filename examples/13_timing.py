@@ -2,7 +2,7 @@
 
     python examples/13_timing.py [PICTURE.svg]
 
-With a file's name it draws how much of its limits each joint uses, against time.
+With a file name it draws velocity and acceleration of each joint relative to their limits, against time.
 """
 
 import sys
@@ -17,7 +17,7 @@ COLORS = ["#1f77b4", "#ff7f0e", "#2ca02c", "#d62728", "#9467bd", "#8c564b", "#e3
 
 
 def panda_path() -> np.ndarray:
-    """From one posture of a Panda to another, around something."""
+    """Returns three configurations of a Panda."""
     C = ry.Config()
     C.addFile(ry.raiPath("panda/panda.g"))
     start = np.array(C.getJointState())[:7]
@@ -32,9 +32,8 @@ def curve(x: np.ndarray, y: np.ndarray, left: float, top: float, width: float, h
 
 
 def draw(motion: ry.TimedPath, file: str) -> None:
-    """Shares of the limits of velocity and acceleration, a curve per joint; the limits are the lines above and below."""
-    t = np.linspace(0, motion.duration, 600)
-    _, velocity, acceleration = motion.at(t)
+    """Draws velocity and acceleration relative to their limits, one curve per joint. The outer lines are the limits."""
+    t, _, velocity, acceleration = motion.sample(600 / motion.duration)
     width, height, margin = 720, 160, 40
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{width + 2 * margin}" height="{2 * height + 3 * margin}">'
@@ -44,8 +43,8 @@ def draw(motion: ry.TimedPath, file: str) -> None:
         (("velocity", velocity / VELOCITY), ("acceleration", acceleration / ACCELERATION))
     ):
         top = margin + row * (height + margin)
-        for priority in (-1, 0, 1):
-            y = top + height / 2 * (1 - priority / 1.1)
+        for level in (-1, 0, 1):
+            y = top + height / 2 * (1 - level / 1.1)
             parts.append(f'<line x1="{margin}" x2="{margin + width}" y1="{y}" y2="{y}" stroke="#999"/>')
         parts.append(f'<text x="{margin}" y="{top - 6}" font-family="sans-serif" font-size="13">{name} / limit</text>')
         for joint, color in enumerate(COLORS):
@@ -61,8 +60,8 @@ def main() -> None:
     for corners in ("stop", "blend", "spline"):
         fast = ry.retime(path, VELOCITY, ACCELERATION, corners=corners, tolerance=0.1)
         smooth = ry.retime(path, VELOCITY, ACCELERATION, 20 * ACCELERATION, corners=corners, tolerance=0.1)
-        print(f"{corners}: {fast.duration:.3f} s, with limits of the jerk {smooth.duration:.3f} s")
-    print("passes the middle point at", np.round(smooth.times[1], 3), "s")
+        print(f"{corners}: {fast.duration:.3f} s, with jerk limits {smooth.duration:.3f} s")
+    print("the motion passes the middle point at", np.round(smooth.times[1], 3), "s")
     if len(sys.argv) > 1:
         draw(smooth, sys.argv[1])
 

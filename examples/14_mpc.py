@@ -1,6 +1,6 @@
-"""A receding horizon drives a simulated Panda: it follows a target, dodges a ball that comes across, and takes up a push.
+"""A receding horizon controls a simulated Panda: it follows a target, avoids a crossing ball, and recovers from a push.
 
-Twenty times a second the motion of the next second is planned anew from what is measured.
+Twenty times a second, the motion of the next second is replanned from measurements.
 """
 
 import numpy as np
@@ -9,7 +9,7 @@ import kinegraph as ry
 
 TAU, SLICES = 0.05, 20
 
-M = ry.Config()  # what the planner knows
+M = ry.Config()  # the planner's model
 M.addFile(ry.raiPath("scenarios/pandaSingle.g"))
 start = np.array(M.getFrame("l_gripper").getPosition())
 M.addFrame("target").setShape(ry.ST.marker, [0.2]).setPose(M.getFrame("l_gripper").getPose())
@@ -21,7 +21,7 @@ def target_at(t: np.ndarray | float) -> np.ndarray:
 
 
 def ball_at(t: np.ndarray | float) -> np.ndarray:
-    return np.asarray(start + np.stack([1 - 0.25 * t, 0 * t, 0.1 + 0 * t], axis=-1))  # through where the hand would be
+    return np.asarray(start + np.stack([1 - 0.25 * t, 0 * t, 0.1 + 0 * t], axis=-1))  # through the hand's position
 
 
 ball.setPosition(ball_at(np.array(0.0)))
@@ -31,9 +31,9 @@ komo.addObjective([], ry.FS.accumulatedCollisions, [], ry.OT.eq, margin=0.02)
 komo.addObjective([], ry.FS.jointLimits, [], ry.OT.ineq)
 komo.addObjective([], ry.FS.poseDiff, ["l_gripper", "target"], ry.OT.sos, [10])
 komo.addObjective([SLICES * TAU], ry.FS.jointState, [], ry.OT.sos, [0.1], order=1)  # nearly at rest at the end
-mpc = ry.Mpc(komo, evaluations=2)  # one step a call
+mpc = ry.Mpc(komo, evaluations=2)  # one step per call
 
-C = ry.Config()  # what is simulated
+C = ry.Config()  # the simulated world
 C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
 S = ry.Simulation(C)
 M.view()
@@ -46,9 +46,9 @@ for i in range(140):
     mpc.setPoses("ball", ball_at(t + ahead))
     mpc.step(S.get_q(), S.get_qDot())
     if i == 110:
-        S.perturb("l_gripper", [0, 60, 0])  # a push of 60 N for 0.1 s
+        S.applyForce("l_gripper", [0, 60, 0])  # a push of 60 N for 0.1 s
     if i == 112:
-        S.clearPerturbations()
+        S.clearForces()
     for s in np.arange(0.01, TAU + 1e-6, 0.01):
         S.step(np.concatenate(mpc.at(s)), 0.01, ry.ControlMode.positionVelocity)
         M.setJointState(S.get_q())

@@ -1,6 +1,6 @@
-"""Part 15: physics. A Panda grasps a box of 1 kg, lifts it, turns, and the box does not slip.
+"""Part 15: physics. A Panda grasps a box of 1 kg, lifts and rotates it, and the box does not slip.
 
-A Simulation moves the Config itself: joints by motors that follow a reference, the box by gravity and contacts.
+A Simulation moves the Config itself: motors move the joints along a reference, gravity and contacts move the box.
 
 `python 15_grasp_and_lift.py lifted.png` saves a picture of the box in the hand.
 """
@@ -57,10 +57,10 @@ if len(sys.argv) > 1:
     C.viewer().savePng(sys.argv[1])
 go(up)
 slip = 1e3 * np.linalg.norm(in_hand() - held)
-print(f"lifted and turned; it has slipped by {slip:.4f} mm")
+print(f"lifted and rotated; it has slipped by {slip:.4f} mm")
 assert slip < 0.05
 
-state = S.getState()  # from here, the same again, bit for bit
+state = S.getState()  # from here, the run repeats bit for bit
 go(at)
 first = C.getFrame("box").getPosition()
 S.setState(state)

@@ -1,6 +1,6 @@
 """Part 16: a conveyor belt carries boxes of different weight, and a bar pushes them off.
 
-`surfaceVelocity` lets a shape's surface run without moving the shape. `python 16_conveyor.py falls.png` saves a picture.
+`surfaceVelocity` moves a shape's surface without moving the shape. `python 16_conveyor.py falls.png` saves a picture.
 """
 
 import sys
@@ -23,7 +23,7 @@ S = ry.Simulation(C)
 for _ in range(150):
     S.step()
 speeds = S.get_frameVelocities()[:, 0, 0]
-print("the boxes go at", np.round(speeds, 4), "m/s")
+print("the boxes move at", np.round(speeds, 4), "m/s")
 assert np.allclose(speeds, 0.3, atol=1e-3)
 
 # The bar waits until the first box (the one that started in front) is before it, then pushes.

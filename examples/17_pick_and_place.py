@@ -1,4 +1,4 @@
-"""Waypoints of picking and placing a box, then the motions between them."""
+"""Waypoints for picking and placing a box, then the motions between them."""
 
 import kinegraph as ry
 

@@ -1,4 +1,4 @@
-"""From a goal to a motion: what is in the way is put aside first; and why something cannot be done."""
+"""Plans a motion for a goal: objects in the way are put aside first. An impossible goal is explained."""
 
 import kinegraph as ry
 
@@ -18,6 +18,6 @@ print(plan)
 if plan.feasible:
     plan.play(C.copy())
 
-# No motion can do this, and the answer says why.
+# No motion achieves this, and the result explains the reason.
 far = C.addFrame("far", "table").setRelativePosition([0.0, 5.0, 0.055]).setShape(ry.ST.ssBox, [0.2, 0.2, 0.01, 0.004])
 print(ry.planTask(C, "(on far cup)"))

@@ -1,4 +1,4 @@
-"""An action of one's own, with two variants: an object that is held is shown to somebody, high or low."""
+"""A custom action with two variants: an object in the hand is shown, high or low."""
 
 import kinegraph as ry
 

@@ -1,7 +1,7 @@
 """Part 20: two robots at a table, moved by one BotOp.
 
-Each arm grasps a block and lifts it, both at once. The world is simulated: the blocks are held by force. All that the robots were
-told is in a log, which gives the same motion again, to the bit. `python 20_two_robots.py lifted.png` saves a picture.
+Both arms grasp a block and lift it at the same time. In the simulated world, the grippers hold the blocks by force. The log of all
+commands repeats the motion, to the bit. `python 20_two_robots.py lifted.png` saves a picture.
 """
 
 import sys
@@ -23,7 +23,7 @@ def scene() -> ry.Config:
 
 
 def hands_at(C: ry.Config, height: float) -> np.ndarray:
-    """Joint values of both arms with the hands around their blocks, or above them."""
+    """Returns joint values of both arms with the hands at `height` above their blocks."""
     targets = {}
     for side in "lr":
         block = C.getFrame(f"{side}_block").getPosition()
@@ -57,5 +57,5 @@ if len(sys.argv) > 1:
 
 again = ry.BotOp(scene(), False)
 again.replay(bot.getLog())
-print("the same again, to the bit:", np.array_equal(again.get_q(), bot.get_q()))
+print("the replay is equal to the bit:", np.array_equal(again.get_q(), bot.get_q()))
 C.view(True, "both blocks are lifted")

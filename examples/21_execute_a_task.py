@@ -1,4 +1,4 @@
-"""A tower of three cubes, planned, built by a simulated robot, and repaired where something went wrong."""
+"""Plans a tower of three cubes, builds it with a simulated robot, and repairs it after a failure."""
 
 import numpy as np
 
@@ -17,9 +17,9 @@ for name, at, color in (
 
 plan = ry.planTask(C, "(on green red) (on blue green)")
 print(plan)
-print(f"{plan.duration:.1f} s; after 1 s the arm is at", np.round(plan.at(1.0), 2))
+print(f"{plan.duration:.1f} s; after 1 s the arm is at", np.round(plan.eval(1.0)[0], 2))
 
-world = C.copy()  # where the robot acts, one cube is not where the plan has it
+world = C.copy()  # in the robot's world, one cube differs from the plan
 world.getFrame("blue").setRelativePosition([0.1, 0.37, 0.075])
 bot = ry.BotOp(world)
 for _ in range(3):

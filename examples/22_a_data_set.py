@@ -1,7 +1,7 @@
-"""Part 22: a data set of inverse kinematics and motions, made by all processors, and read back.
+"""Part 22: a data set of inverse kinematics and motions, computed by all processors, and read back.
 
-`ry.map` applies a function to many items. Results are the same to the bit on threads, processes and clusters. A run that is ended, by
-Ctrl-C or a failure of the machine, goes on where it was when the script is started again.
+`ry.map` applies a function to many items. Results are the same to the bit on threads, processes and clusters. A run
+that is interrupted by Ctrl-C or a failure of the machine continues when the script is started again.
 """
 
 import os
@@ -14,14 +14,14 @@ import pyarrow.dataset  # type: ignore[import-untyped]
 import kinegraph as ry
 
 targets_in_all = int(os.environ.get("TARGETS", 100_000))
-folder = tempfile.mkdtemp()  # for a run that is to go on later: a folder that stays
+folder = tempfile.mkdtemp()  # a permanent folder allows a later continuation
 
 C = ry.Config()
 C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
 
 
 def reach(count: int, seed: int) -> pa.Table:
-    """Inverse kinematics of random targets: a row for each."""
+    """Solves inverse kinematics for random targets, one row each."""
     targets = np.random.default_rng(seed).uniform([-0.6, -0.2, 0.7], [0.6, 0.8, 1.4], (count, 3))
     found = ry.solveIk(C, {"l_gripper": targets})
     return pa.table({"feasible": found.feasible, "q": list(found.q), "target": list(targets)})
@@ -36,7 +36,7 @@ feasible = table["feasible"].to_numpy()
 print(f"{table.num_rows} targets, {100 * feasible.mean():.1f} % of them within reach")
 assert table.num_rows == sum(items) and 0.2 < feasible.mean() < 1
 
-# Motions to some of the postures that were found. What a function gives may be a dict: one row.
+# Motions to some of the configurations that were found. A function may return a dict: one row.
 configurations = np.stack(table.filter(table["feasible"])["q"].to_numpy())[:20]
 
 

@@ -1,4 +1,4 @@
-"""Plans that get faster while one waits; and what was tried, where there is none."""
+"""Plans that improve with more evaluations; and an explanation if there is none."""
 
 import kinegraph as ry
 
@@ -10,7 +10,7 @@ for name, x in (("cup", -0.3), ("jug", 0.0)):
     thing = C.addFrame(name, "table").setRelativePosition([x, 0.3, 0.1]).setJoint(ry.JT.rigid)
     thing.setShape(ry.ST.ssBox, [0.05, 0.05, 0.1, 0.005]).setColor([1, 0.5, 0]).setContact(1)
 
-for plan in ry.planTasks(C, "(on tray cup) (on tray jug)", evaluations=30000):
+for plan in ry.planTasks(C, "(on tray cup) (on tray jug)", max_evaluations=30000):
     print(f"{plan.duration:.2f} s after {plan.evaluations} evaluations")
 
 lid = C.addFrame("lid", "table").setRelativePosition([-0.3, 0.3, 0.19])
@@ -21,6 +21,6 @@ for k, (dx, dy) in enumerate(((-0.1, 0), (0.1, 0), (0, -0.1), (0, 0.1))):
         [0.7, 0.7, 0.9]
     ).setContact(1)
 caged = ry.planTask(C, "(on tray cup)")
-print(caged.why())
+print(caged.explain())
 print(caged.searchTree())
-caged.view(C, False)  # in the browser: a red ghost of the arm where it comes nearest
+caged.view(C, False)  # shows a red copy of the arm at the nearest approach

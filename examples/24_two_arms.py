@@ -1,4 +1,4 @@
-"""Two Pandas: what one reaches is handed over to the other, which reaches the goal."""
+"""Two Pandas: one hands over an object to the other, which reaches the goal."""
 
 import kinegraph as ry
 

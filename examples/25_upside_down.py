@@ -1,4 +1,4 @@
-"""A box is to stand upside down. The wrist cannot turn it over in one grasp: it is laid on its side first."""
+"""A box has to stand upside down. The wrist cannot turn it over in one grasp: it is laid on its side first."""
 
 import kinegraph as ry
 

@@ -1,8 +1,8 @@
-"""Part 26: a policy that learns to push. A finger is to push a box to the middle of a table, from wherever both are.
+"""Part 26: a policy learns to push. A finger has to push a box to the center of a table, from random positions of both.
 
-Many simulations run at once. The policy is told where the finger is, seen from the box and from the way to the middle, and
-answers with a velocity: ten weights. They are found by the cross-entropy method: draw some, keep the best, draw near those.
-`python 26_train_a_policy.py curve.svg` draws how it learned; GENERATIONS=5 in the environment: a shorter training.
+Many simulations run at once. The policy observes the finger relative to the box and to the direction of the center, and
+returns a velocity: ten weights. The cross-entropy method finds them: sample weights, select the best, sample around
+those. `python 26_train_a_policy.py curve.svg` plots the training; the environment variable GENERATIONS=5 shortens it.
 """
 
 import os
@@ -15,9 +15,9 @@ import kinegraph as ry
 
 Array = NDArray[np.float64]
 GENERATIONS = int(os.environ.get("GENERATIONS", 20))
-DRAWN, KEPT, EPISODES = 32, 6, 4  # weights that are drawn, and kept; starts that each is tried from
-STEPS, TAU = 40, 0.1  # decisions in an episode, and s from one to the next
-NEAR, FASTEST = 0.05, 0.3  # m from the middle, which is a success; m/s
+SAMPLES, ELITE, EPISODES = 32, 6, 4  # sampled and selected weights; episodes per sample
+STEPS, TAU = 40, 0.1  # decisions in an episode, and their period in s
+NEAR, FASTEST = 0.05, 0.3  # m from the center, which counts as success; m/s
 FAST = {"inner_step": 0.01, "servo_frequency": 50}  # coarse steps are enough to push
 
 C = ry.Config()
@@ -29,8 +29,8 @@ C.addFrame("box").setShape(ry.ST.ssBox, [0.08, 0.08, 0.06, 0.01]).setMass(0.1).s
 
 
 def policy(weights: Array, finger: Array, box: Array) -> Array:
-    """Velocities (N, 2) of N policies with weights (N, 10), from positions (N, 2). What is learned on one side of the way from
-    the box to the middle holds on the other."""
+    """Returns velocities (N, 2) of N policies with weights (N, 10), from positions (N, 2). The policy is symmetric
+    about the line from the box to the center."""
     distance = np.linalg.norm(box, axis=1) + 1e-9
     along = -box / distance[:, None]
     left = np.stack([-along[:, 1], along[:, 0]], axis=1)
@@ -42,13 +42,14 @@ def policy(weights: Array, finger: Array, box: Array) -> Array:
 
 
 def around(middle: Array, low: float, high: float, rng: np.random.Generator) -> Array:
-    """Random points, each at a distance from its middle between two numbers, in any direction."""
+    """Samples points around centers, at distances between `low` and `high`, in random directions."""
     angle, radius = rng.uniform(-np.pi, np.pi, len(middle)), rng.uniform(low, high, len(middle))
     return np.asarray(middle + radius[:, None] * np.stack([np.cos(angle), np.sin(angle)], axis=1))
 
 
 def play(batch: ry.SimulationBatch, weights: Array, finger: Array, box: Array) -> tuple[Array, Array]:
-    """Episodes, one for each row of weights: the mean reward, and how far the boxes are from the middle at the end, m."""
+    """Runs one episode per row of weights; returns the mean reward and the final distances of the boxes from the
+    center, m."""
     poses = np.tile([0, 0, 0.03, 1, 0, 0, 0], (len(box), 1, 1))
     poses[:, 0, :2] = box
     batch.place([], finger, poses)
@@ -61,7 +62,7 @@ def play(batch: ry.SimulationBatch, weights: Array, finger: Array, box: Array) -
 
 
 def success(weights: Array, seed: int, episodes: int = 100) -> float:
-    """The share of fresh episodes, in %, that end near the middle."""
+    """Returns the share of new episodes, in %, that end near the center."""
     rng = np.random.default_rng(seed)
     box = around(np.zeros((episodes, 2)), 0.15, 0.3, rng)
     batch = ry.SimulationBatch(C, episodes, threads=2, options=FAST)
@@ -70,7 +71,7 @@ def success(weights: Array, seed: int, episodes: int = 100) -> float:
 
 
 def curve(rewards: list[float], file: str) -> None:
-    """Draws how the reward grew, as a picture."""
+    """Plots the reward over the generations."""
     right, down = np.linspace(20, 580, len(rewards)), np.interp(rewards, [min(rewards), max(rewards)], [280, 30])
     points = " ".join(f"{x:.1f},{y:.1f}" for x, y in zip(right, down, strict=True))
     with open(file, "w") as out:
@@ -82,18 +83,18 @@ def curve(rewards: list[float], file: str) -> None:
 rng = np.random.default_rng(0)
 mean, spread = np.zeros(10), np.ones(10)
 before = success(rng.standard_normal(10), seed=1000)
-batch = ry.SimulationBatch(C, DRAWN * EPISODES, threads=2, options=FAST)
+batch = ry.SimulationBatch(C, SAMPLES * EPISODES, threads=2, options=FAST)
 rewards = []
 for generation in range(GENERATIONS):
-    drawn = mean + spread * rng.standard_normal((DRAWN, 10))
-    at = around(np.zeros((EPISODES, 2)), 0.15, 0.3, rng)  # the same for all, so that luck does not count
-    starts = np.tile(around(at, 0.12, 0.25, rng), (DRAWN, 1)), np.tile(at, (DRAWN, 1))
-    gained = play(batch, np.repeat(drawn, EPISODES, axis=0), *starts)[0].reshape(DRAWN, EPISODES).mean(1)
-    best = drawn[np.argsort(-gained, kind="stable")[:KEPT]]
+    drawn = mean + spread * rng.standard_normal((SAMPLES, 10))
+    at = around(np.zeros((EPISODES, 2)), 0.15, 0.3, rng)  # common to all samples, for a fair comparison
+    starts = np.tile(around(at, 0.12, 0.25, rng), (SAMPLES, 1)), np.tile(at, (SAMPLES, 1))
+    gained = play(batch, np.repeat(drawn, EPISODES, axis=0), *starts)[0].reshape(SAMPLES, EPISODES).mean(1)
+    best = drawn[np.argsort(-gained, kind="stable")[:ELITE]]
     mean, spread = best.mean(0), best.std(0) + 0.5 * 0.85**generation
     rewards.append(float(gained.mean()))
     print(f"generation {generation + 1}: mean reward {rewards[-1]:.3f}")
 after = success(mean, seed=1001)
-print(f"within 5 cm of the middle, from 100 fresh starts: before {before:.0f} %, after {after:.0f} %")
+print(f"within 5 cm of the center, from 100 new starts: before {before:.0f} %, after {after:.0f} %")
 if len(sys.argv) > 1:
     curve(rewards, sys.argv[1])

@@ -1,7 +1,7 @@
-"""Part 27: motions among obstacles that move, from a running motion, and better ones with effort.
+"""Part 27: motions among dynamic obstacles, replanning of a running motion, and improving motions.
 
-`moving` says where obstacles are when; the motion keeps clear of them at all times. `replan` goes on from a running motion without a
-stop. `planMotions` gives better motions while one waits.
+The motion avoids obstacles with known trajectories, continuously in time. `replan` continues a running motion without a
+stop. `planMotions` yields better and better motions.
 """
 
 import numpy as np
@@ -16,7 +16,7 @@ q = C.getJointState()
 turn = np.array([0.6, 0, 0, 0, 0, 0, 0])
 start, goal = q - turn, q + turn
 
-# A load is carried past, in front of the arm, and then away: where it is when.
+# The trajectory of a load that is carried past the arm, and then away.
 times = np.array([0.0, 2.0, 4.0])
 poses = np.array([[-0.6, 0.35, 1.1, 1, 0, 0, 0], [0.6, 0.35, 1.1, 1, 0, 0, 0], [0.6, 1.5, 1.1, 0.7, 0, 0, 0.7]])
 plan = ry.planMotion(C, goal, start, margin=0.01, obstacle_trajectories={"cart": (times, poses)})
@@ -25,36 +25,29 @@ assert plan.feasible
 
 # Both together, every 10 ms; nothing touches.
 for t in np.arange(0, plan.duration + 1, 0.01):
-    C.setJointState(plan.at(t)[0])
+    C.setJointState(plan.eval(t)[0])
     C.getFrame("cart").setPose(plan.obstaclesAt(t)["cart"])
     assert not [pair for pair in C.getCollisions(0.009) if "load" in pair[:2]]
     C.view(False, f"among what moves, {t:.2f} s")
 
-# A load that stays where the arm is to go.
+# A load that stays at the goal.
 C.setJointState(goal)
 hand = C.getFrame("l_gripper").getPosition()
 C.setJointState(start)
 stays = np.array([[0, 2, 1, 1, 0, 0, 0], [*hand, 1, 0, 0, 0]])
 print(ry.planMotion(C, goal, start, obstacle_trajectories={"cart": ([0.0, 1.0], stays)}).message)
 
-# On its way the robot is sent elsewhere: it goes on with its velocity, and bends.
+# A new goal for a moving robot: the new plan starts with the velocity of the old one.
 C.getFrame("cart").setPosition([0, 2, 1])
 bot = ry.BotOp(C, False)
 plan = ry.planMotion(C, goal, start, velocity=0.6, acceleration=1.5)
-
-
-def sampled(motion: ry.MotionPlan) -> tuple[np.ndarray, np.ndarray]:
-    at = np.linspace(0, motion.duration, 100)[1:]
-    return np.array([motion.at(t)[0] for t in at]), at
-
-
-bot.move(*sampled(plan))
+bot.follow(plan)  # exactly, as it was verified
 while bot.get_t() < 0.4 * plan.duration:
     bot.sync(C, 0.05)
 now = bot.get_t() + 0.1
 bend = plan.replan(C, at=now, goal=goal + np.array([-0.3, 0.3, 0, 0, 0, 0.1, 0]))
 assert bend.feasible
-bot.move(*sampled(bend), overwrite=True, overwriteCtrlTime=now)
+bot.follow(bend, overwrite=True, start_time=now)
 slowest = 1.0
 while bot.get_t() < now + 0.3:
     bot.sync(C, 0.01)
@@ -62,7 +55,7 @@ while bot.get_t() < now + 0.3:
 bot.wait(C, forKeyPressed=False, forTimeToEnd=True)
 print(f"another goal after {now:.1f} s, never slower than {slowest:.2f} rad/s until {now + 0.3:.1f} s")
 
-# A disc on its way through two walls with gaps: the first way that is found is seldom the shortest kind of way.
+# A disc moves through two walls with gaps: the first path is seldom in the best homotopy class.
 C = ry.Config()
 C.addFrame("floor")
 C.addFrame("disc", "floor").setJoint(ry.JT.transXY, [-2.0, -2.0, 2.0, 2.0])

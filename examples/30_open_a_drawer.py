@@ -1,4 +1,4 @@
-"""A cup goes into a drawer, which is closed: that it has to be opened first is said by the geometry alone."""
+"""A cup goes into a closed drawer. The geometry alone implies that the drawer has to be opened first."""
 
 import kinegraph as ry
 
@@ -14,7 +14,7 @@ for name, at, size in (
     wall = C.addFrame(name, "cabinet").setRelativePosition(at).setShape(ry.ST.ssBox, [*size, 0.004])
     wall.setColor([0.7, 0.5, 0.3, 0.6]).setContact(1)
 
-# It has a joint of one dof with limits; no motor, so that a simulated hand can move it.
+# It has a joint of one dof with limits, and no motor, so a simulated hand can move it.
 drawer = C.addFrame("drawer", "cabinet").setJoint(ry.JT.transY, [-0.2, 0]).setJointState([0])
 drawer.setAttributes({"logical": {"is_drawer": True}, "noMotor": True, "jointFriction": 2.0})
 for name, at, size in (

@@ -1,4 +1,4 @@
-"""Logic-geometric programs: a search in logic proposes plans, waypoints say whether an arm can carry them out."""
+"""Logic-geometric programs: a search in logic proposes plans, and waypoints decide whether an arm can execute them."""
 
 from pathlib import Path
 
@@ -13,13 +13,13 @@ for tray, at, color in (
 ):
     frame = C.addFrame(tray, "table", "logical: { is_place }").setRelativePosition(at).setColor(color)
     frame.setShape(ry.ST.ssBox, [0.07, 0.07, 0.01, 0.004])
-for obj, place, color in (("objG", "stand", [0, 0.7, 0]), ("objB", "trayG", [0, 0, 0.7])):  # where objG shall be
+for obj, place, color in (("objG", "stand", [0, 0.7, 0]), ("objB", "trayG", [0, 0, 0.7])):  # target place of objG
     frame = C.addFrame(obj, place, "logical: { is_object }").setRelativePosition([0, 0, 0.055]).setColor(color)
     frame.setJoint(ry.JT.rigid).setShape(ry.ST.ssBox, [0.06, 0.06, 0.1, 0.005]).setContact(1)
 
 
 class Grasps(ry.default_LGP_TAMP_Abstraction):
-    """An action of our own, and waypoints in which nothing overlaps."""
+    """A custom action, and waypoints without collisions."""
 
     def setup_sequence(self, C: ry.Config, K: int) -> ry.KOMO:
         komo = super().setup_sequence(C, K)
@@ -38,7 +38,8 @@ class Grasps(ry.default_LGP_TAMP_Abstraction):
         m.komo = komo
         held = f"held_{obj}_{round(time)}"
         m.add_stable_frame(ry.JT.free, hand, held)
-        self.switch(m, time, held, obj)  # from then on it moves with the hand
+        self.switch(m, time, held, obj)  # the object moves with the hand from then on
+
         m.grasp_box(time, hand, obj, "l_palm", "y")
 
 

@@ -24,7 +24,7 @@ _CORE = ["common", "math"]
 _MODEL = [*_CORE, "geometry", "kinematics", "collision"]
 _SCENE = [*_MODEL, "gfile", "parsers", "scene"]
 _PROBLEMS = [*_SCENE, "features", "nlp", "komo", "solvers"]
-_PLANNING = [*_PROBLEMS, "ik", "trajectories"]
+_PLANNING = [*_PROBLEMS, "ik", "trajectories", "rrt"]
 
 EVERYTHING = [*_PLANNING, "control", "exporters", "trajectory_optimization", "planning", "logic", "task_planning"]
 EVERYTHING += ["rendering", "simulation", "robot", "viewer", "api"]
@@ -45,6 +45,7 @@ BELOW: dict[str, list[str]] = {
     "solvers": [*_CORE, "nlp", "solvers/interface", "solvers/problems", "solvers/algebra", "solvers/methods"],
     "solvers/sampling": [*_CORE, "nlp", "solvers"],
     "solvers/sensitivity": [*_CORE, "nlp", "solvers"],
+    "rrt": _CORE,
     "kinematics": [*_CORE, "geometry"],
     "collision": [*_CORE, "geometry", "kinematics"],
     "parsers": [*_CORE, "gfile", "geometry"],
@@ -56,12 +57,12 @@ BELOW: dict[str, list[str]] = {
     "features": _SCENE,
     "ik": [*_SCENE, "features", "nlp"],
     "komo/path": [*_SCENE, "features", "nlp"],
-    "komo/collision": [*_SCENE, "features", "nlp", "komo/path"],
+    "komo/collision": [*_SCENE, "features", "nlp", "rrt", "komo/path"],
     "komo": [*_SCENE, "features", "nlp", "komo/path", "komo/collision"],
-    "control": _PROBLEMS,
+    "control": [*_PROBLEMS, "trajectories"],
     "trajectory_optimization": [*_PROBLEMS, "trajectories"],
-    "planning/steering": [*_SCENE, "features", "nlp"],
-    "planning/search": [*_SCENE, "features", "nlp", "planning/steering"],
+    "planning/steering": [*_SCENE, "features", "nlp", "rrt"],
+    "planning/search": [*_SCENE, "features", "nlp", "rrt", "planning/steering"],
     "planning/smoothing": [*_PLANNING, "planning/steering", "planning/search"],
     "planning/dynamic_obstacles": [*_PLANNING, "planning/steering", "planning/search"],
     "planning": [
@@ -126,6 +127,7 @@ CONTENTS = {
     "solvers": "`NlpSolver`, many problems at once, explanations of infeasibility",
     "solvers/sampling": "samples of the feasible set",
     "solvers/sensitivity": "derivatives of solutions with respect to problem parameters",
+    "rrt": "RRT-Connect, search trees and shortcuts over an abstract search space",
     "kinematics": "joints, `KinematicModel`, `State`, Jacobians, dynamics, SIMD kernels",
     "collision": "near pairs of bodies, collision checks of configurations, edges and motions",
     "parsers": "URDF, MJCF and SRDF, translated to the value tree of a `.g` file",
@@ -142,7 +144,7 @@ CONTENTS = {
     "control": "differential inverse kinematics, model predictive control",
     "trajectory_optimization": "multi-start, motions with B-spline control points as variables, skeletons",
     "planning/steering": "joint space, constraints, collision checks of edges, per-thread contexts",
-    "planning/search": "bidirectional trees and their restarts",
+    "planning/search": "path search: straight edges, RRT-Connect with restarts",
     "planning/smoothing": "shortcuts, rope shortcuts, repeated searches for shorter paths",
     "planning/dynamic_obstacles": "obstacles with known trajectories, timing among them",
     "planning": "`planMotion`, replanning, roadmaps, proofs of infeasibility",

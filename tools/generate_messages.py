@@ -63,7 +63,7 @@ def make_header(schema: dict) -> str:
     ]
     for name, fields in {**schema["types"], **schema["messages"]}.items():
         out += cpp_struct(name, fields)
-    out += ["", "/// Messages as the client reads them."]
+    out += ["", "/// Encodes messages for the client."]
     out += [f"std::string jsonText(const {name}& message);" for name in schema["messages"]]
     return "\n".join([*out, "", "}  // namespace kinegraph", ""])
 
@@ -101,8 +101,8 @@ def make_commands_cpp(schema: dict) -> str:
     for number, (name, fields) in enumerate(schema["commands"].items(), 1):
         out += cpp_struct(name, fields, [f"  static constexpr int kKind = {number};"])
     names = ", ".join(schema["commands"])
-    out += ["", "/// What a browser asks for.", f"using Command = std::variant<{names}>;"]
-    out += ["", "/// Reads a binary message from a browser; nothing if it is not exactly one command."]
+    out += ["", "/// A command of a browser.", f"using Command = std::variant<{names}>;"]
+    out += ["", "/// Reads a binary message from a browser; returns nothing unless it is exactly one command."]
     out += ["inline std::optional<Command> readCommand(std::string_view data) {", "  CommandReader reader(data);"]
     out += ["  int kind;", "  if (!reader.read(kind)) return std::nullopt;", "  switch (kind) {"]
     for name, fields in schema["commands"].items():

@@ -1,6 +1,6 @@
-// Part 1: frames. A scene is a tree of frames; each says where it is, seen from its parent.
+// Part 1: frames. A scene is a tree of frames, each with a pose relative to its parent.
 //
-// Loads mini.g, prints its frames, and opens the door in it. `01_frames --watch` then watches the file: edit it and save.
+// Loads mini.g, prints its frames, and opens its door. `01_frames --watch` then watches the file: edit it and save.
 #include <kinegraph/kinegraph.h>
 
 #include <cstring>
@@ -25,7 +25,7 @@ int main(int argc, char** argv) try {
   printFrames(C);
   C.view(true, "a post with a sign, and a door handle on a hinge");
 
-  // One number moves everything that hangs on the hinge.
+  // One number moves everything below the hinge.
   const Vector3d closed = C.getFrame("handle").getPosition();
   std::cout << "\njoints: " << C.getJointNames()[0] << " between " << C.getJointLimits().transpose() << "\n";
   C.setJointState(VectorXd{{1.}});

@@ -1,4 +1,4 @@
-// Part 2: a box, made step by step in C++, and the same box read from a file.
+// Part 2: a box, built step by step in C++, and the same box read from a file.
 #include <kinegraph/kinegraph.h>
 
 #include <cstring>

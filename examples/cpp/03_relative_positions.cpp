@@ -1,4 +1,4 @@
-// Part 3: relative positions. A frame with a parent is placed by its parent, and moves along with it.
+// Part 3: relative positions. A frame with a parent moves along with it.
 #include <kinegraph/kinegraph.h>
 
 #include <iostream>
@@ -33,7 +33,7 @@ int main() try {
   show(box2);
   C.view(true, "both moved");
 
-  // `Above` means along the parent's z axis, so a tilted parent throws its child to the side.
+  // `Above` means along the parent's z axis, so a tilted parent moves its child to the side.
   box1.setQuaternion({std::cos(std::numbers::pi / 8), std::sin(std::numbers::pi / 8), 0, 0});
   std::cout << "after tilting only the first box by 45 degrees about x:\n";
   show(box1);

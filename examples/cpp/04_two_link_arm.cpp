@@ -1,10 +1,10 @@
-// Part 4: a manipulator of two links. Its joint angles say where its end effector is.
+// Part 4: a manipulator of two links. Its joint angles determine the position of its end effector.
 //
-// The arm lives in the y-z plane of the world. With the angles (a, b, c) the end effector is at
+// The arm moves in the y-z plane of the world. With the angles (a, b, c) the end effector is at
 //
 //     y = .35 sin a + .33 sin(a + b),    z = .35 cos a + .33 cos(a + b),
 //
-// where .35 and .33 m are the distances between its hinges. The third hinge only turns the end effector.
+// with the distances .35 and .33 m between its hinges. The third hinge only rotates the end effector.
 #include <kinegraph/kinegraph.h>
 
 #include <iostream>
@@ -33,7 +33,7 @@ int main() try {
     std::cout << "q = " << q.transpose() << ": end effector at " << end.getPosition().transpose()
               << ", by hand the same to " << difference << " m\n";
     worst = std::max(worst, difference);
-    C.view(true, "the arm in another posture");
+    C.view(true, "the arm in another configuration");
   }
 
   // A slow wave: every joint swings with its own phase.

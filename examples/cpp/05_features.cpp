@@ -77,7 +77,7 @@ int main() try {
   const auto nlp = komo.nlp();
   VectorXd y(nlp->types().size());  // a number per residual
   nlp->evaluate(q, y, nullptr);
-  std::cout << "\nangularVel of the gripper when its last joint turns by .5 rad within 1 s: " << y.transpose()
+  std::cout << "\nangularVel of the gripper when its last joint rotates by .5 rad within 1 s: " << y.transpose()
             << ", norm " << y.norm() << "\n";
 
   // The same features on a scene with a single arm.

@@ -1,6 +1,6 @@
 // Part 7: inverse kinematics from scratch, ten damped Newton steps.
 //
-// Near q, the position of the end effector is y + J dq. The step that brings it to the target while staying short,
+// Near q, the position of the end effector is y + J dq. A short step that brings it to the target,
 //
 //     minimize  |y_target - y - J dq|^2 + w |dq|^2,   is   dq = (J^T J + w I)^-1 J^T (y_target - y).
 //

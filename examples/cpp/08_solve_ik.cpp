@@ -15,7 +15,7 @@ int main() try {
   const Frame ball = C.addFrame("ball").setShape(ST::sphere, {.05}).setColor({1, .5, 0}).setPosition({-.1, .2, 1.});
   C.view(true, "two arms, a table and a ball");
 
-  // A frame to a frame's position, from above: z points out of the back of the hand.
+  // Moves a frame to a position, from above: z points out of the back of the hand.
   IkResult result = solveIk(C, {IkTarget::toPosition("l_gripper", ball.getPosition()),
                                 IkTarget::toDirection("l_gripper", Vector3d::UnitZ(), Vector3d::UnitZ())});
   std::cout << result.str() << "\n";
@@ -34,11 +34,11 @@ int main() try {
   C.view(true, "both went up by 10 cm");
   const bool went_up = result.feasible();
 
-  // Out of reach: an outcome, with the reason.
+  // A target out of reach is an outcome with a reason.
   result = solveIk(C, {IkTarget::toPosition("l_gripper", {1.5, .4, 1.})});
   std::cout << result.str() << "\n";
 
-  // A thousand targets at once; threads share them, and the answers do not depend on how many there are.
+  // A thousand targets at once; threads share them, and the solutions do not depend on their number.
   Rng rng(0);
   std::vector<std::vector<IkTarget>> problems;
   for (int i = 0; i < 1000; ++i) {

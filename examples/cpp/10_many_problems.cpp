@@ -1,7 +1,7 @@
 // Part 10: one problem from many starts, several problems at once, and samples of the feasible set.
 //
-// A motion problem may have many solutions, or be a choice between several problems: which hand takes the ball? All of
-// them are solved in parallel, with the same answers at any number of threads.
+// A motion problem may have many solutions, or be a choice between several problems: which hand grasps the ball? All of
+// them are solved in parallel, with the same results for any number of threads.
 #include <kinegraph/kinegraph.h>
 
 #include <iostream>
@@ -22,7 +22,7 @@ int main() try {
   C.addFile(modelPath("scenarios/pandasTable.g"));
   C.addFrame("ball").setShape(ST::sphere, {.05}).setColor({1, .5, 0}).setPosition({.25, .15, .9});
 
-  // A discrete choice: each hand is a problem of its own; the cheapest that is feasible is chosen.
+  // A discrete choice: each hand is a separate problem; the cheapest feasible one is chosen.
   const std::vector<std::string> hands = {"l_gripper", "r_gripper"};
   std::vector<Komo> problems;
   for (const std::string& hand : hands) problems.push_back(take(C, hand));
@@ -51,7 +51,7 @@ int main() try {
   sampler.options.interiorSampleSteps = 10;
   Rng rng(0);
   for (int i = 0; i < 10; ++i) sampler.sample(rng);
-  std::cout << "\n" << sampler.samples().size() << " postures\n";
+  std::cout << "\n" << sampler.samples().size() << " configurations\n";
   return answers.best().feasible && all.best().feasible && sampler.samples().size() >= 5 ? 0 : 1;
 } catch (const Error& error) {
   std::cerr << error.what() << "\n";

@@ -1,4 +1,4 @@
-// Motions from A to B, free of collisions at all times. Where there is none, planMotion says why.
+// Collision-free motions to a goal. If there is none, planMotion says why.
 #include <kinegraph/kinegraph.h>
 
 #include <iostream>
@@ -24,7 +24,7 @@ Config room(double width) {
 }  // namespace
 
 int main() try {
-  // Around a column, 1 cm from everything, to a place for the gripper.
+  // Around a column, 1 cm from everything, to a target of the gripper.
   Config C;
   C.addFile(modelPath("scenarios/pandaSingle.g"));
   Frame column = C.addFrame("column", "table");
@@ -35,15 +35,15 @@ int main() try {
   const MotionPlan around = planMotion(C, goal, {.margin = .01}, start);
   std::cout << around.explain() << "\n";
   if (!around.feasible() || around.clearance() < .0099) return 1;
-  const Config picture = around.picture(C);  // with the trees, the way as it was found, and the path, as lines
+  const Config picture = around.picture(C);  // with the trees, the raw path and the path as lines
   std::cout << picture.getFrames().size() - C.getFrames().size() << " frames of lines\n";
 
-  // To where the gripper is at a place: several postures are goals at once.
+  // To a position of the gripper: several configurations are goals.
   const MotionPlan reach = planMotion(C, MotionGoal({IkTarget::toPosition("l_gripper", {.35, .3, 1.})}), {}, start);
   std::cout << reach.str() << "\n";
   if (!reach.feasible()) return 1;
 
-  // Through a door, and not through one that is too narrow.
+  // Through a door, and an impossible motion through a narrower one.
   for (const double width : {.5, .25}) {
     const MotionPlan plan = planMotion(room(width), VectorXd{{1., 1., 1.57}}, {.evaluations = 20000});
     std::cout << plan.str() << "\n";

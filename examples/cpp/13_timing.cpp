@@ -25,7 +25,7 @@ int main() try {
     const TimedPath fast = retime(path, {velocity, acceleration, {}}, options);
     const TimedPath smooth = retime(path, {velocity, acceleration, 20. * acceleration}, options);
     std::cout << fast.duration() << " s, with limits of the jerk " << smooth.duration() << " s\n";
-    const MotionState middle = smooth.at(smooth.duration() / 2.);
+    const MotionState middle = smooth.eval(smooth.duration() / 2.);
     is_within = is_within && fast.duration() <= smooth.duration() &&
                 (middle.velocity.array().abs() <= velocity.array()).all() &&
                 (middle.acceleration.array().abs() <= acceleration.array()).all();

@@ -1,4 +1,5 @@
-// A receding horizon drives a simulated Panda, which follows a target and takes up a push: one step of the solver a call.
+// A receding horizon controls a simulated Panda, which follows a target and recovers from a push: one solver step per
+// call.
 #include <kinegraph/kinegraph.h>
 
 #include <cmath>
@@ -9,7 +10,7 @@ using namespace kinegraph;
 int main() try {
   constexpr double tau = .05;
   constexpr int slices = 20;
-  Config M;  // what the planner knows
+  Config M;  // the planner's model
   M.addFile(modelPath("scenarios/pandaSingle.g"));
   M.addFrame("target").setPose(M.getFrame("l_gripper").getPose());
   const Vector3d start = M.getFrame("l_gripper").getPosition();
@@ -22,7 +23,7 @@ int main() try {
   komo.addObjective({}, FS::poseDiff, {"l_gripper", "target"}, OT::sos, 10.);
   Mpc mpc(komo, {.evaluations = 2});
 
-  Config C;  // what is simulated
+  Config C;  // the simulated world
   C.addFile(modelPath("scenarios/pandaSingle.g"));
   Simulation S(C);
   MatrixXd ahead(slices, 3);
@@ -32,8 +33,8 @@ int main() try {
     for (int t = 0; t < slices; ++t) ahead.row(t) = targetAt((i + t + 1) * tau).transpose();
     mpc.setPoses("target", ahead);
     mpc.step(S.get_q(), S.get_qDot());
-    if (i == 60) S.perturb("l_gripper", {0., 60., 0.});
-    if (i == 62) S.clearPerturbations();
+    if (i == 60) S.applyForce("l_gripper", {0., 60., 0.});
+    if (i == 62) S.clearForces();
     for (int k = 1; k <= 5; ++k) {
       const MotionPoint point = mpc.at(.01 * k);
       reference << point.q, point.velocity;

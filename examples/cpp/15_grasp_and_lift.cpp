@@ -1,13 +1,13 @@
-// Part 15: physics. A Panda grasps a box of 1 kg, lifts it, turns, and the box does not slip.
+// Part 15: physics. A Panda grasps a box of 1 kg, lifts and rotates it, and the box does not slip.
 //
-// A Simulation moves the Config itself: joints by motors that follow a reference, the box by gravity and contacts.
+// A Simulation moves the Config itself: motors move the joints along a reference, gravity and contacts the box.
 #include <kinegraph/kinegraph.h>
 
 #include <iostream>
 
 using namespace kinegraph;
 
-/// Joint values with the hand at a place, pointing down.
+/// Returns joint values with the hand at a position, pointing down.
 VectorXd reach(const Config& C, const Vector3d& position) {
   const IkResult result = solveIk(C, {IkTarget::toPosition("l_gripper", position),
                                       IkTarget::toDirection("l_gripper", Vector3d::UnitZ(), Vector3d::UnitZ()),
@@ -43,9 +43,9 @@ int main() try {
   const Vector3d held = inHand(C);
   for (const VectorXd& q : {up, turned, up}) go(q);
   const double slip = 1e3 * (inHand(C) - held).norm();
-  std::cout << "lifted and turned; it has slipped by " << slip << " mm\n";
+  std::cout << "lifted and rotated; it has slipped by " << slip << " mm\n";
 
-  const SimulationState state = S.getState();  // from here, the same again, bit for bit
+  const SimulationState state = S.getState();  // from here, the run repeats bit for bit
   go(at);
   const Vector3d first = box.getPosition();
   S.setState(state);

@@ -1,6 +1,6 @@
 // Part 16: a conveyor belt carries boxes of different weight, and a bar pushes them off.
 //
-// `surfaceVelocity` lets a shape's surface run without moving the shape.
+// `surfaceVelocity` moves a shape's surface without moving the shape.
 #include <kinegraph/kinegraph.h>
 
 #include <iostream>
@@ -22,7 +22,7 @@ int main() try {
   Simulation S(C);
   for (int i = 0; i < 150; ++i) S.step();
   const VectorXd speeds = S.get_frameVelocities().col(0);
-  std::cout << "the boxes go at " << speeds.transpose() << " m/s\n";
+  std::cout << "the boxes move at " << speeds.transpose() << " m/s\n";
   const bool as_the_belt = (speeds.array() - .3).abs().maxCoeff() < 1e-3;
 
   // The bar waits until the first box (the one that started in front) is before it, then pushes.

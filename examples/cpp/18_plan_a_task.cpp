@@ -1,4 +1,4 @@
-// Part 18: from a goal to a motion. What is in the way is put aside first; and why something cannot be done.
+// Part 18: from a goal to a motion. Objects in the way are put aside first. An impossible goal is explained.
 #include <kinegraph/kinegraph.h>
 
 #include <iostream>
@@ -19,11 +19,11 @@ int main() try {
   std::cout << plan.str() << "\n";
   if (!plan.feasible()) return 1;
   Config end = plan.scenes.back();  // with what is held at last attached
-  end.setJointState(plan.at(plan.duration()));
+  end.setJointState(plan.eval(plan.duration()).q);
   end.view(true, "the cup is on the tray");
   const std::vector<std::string> wrong = checkTaskPlan(C, plan);
 
-  // An action of one's own: the cup is shown.
+  // A custom action: the cup is shown.
   TaskOptions options;
   options.domain = defaultDomain();
   addAction(*options.domain, "show", {"Obj", "Hand"}, "(is_gripper Hand) (is_object Obj) (on Hand Obj)", "(shown Obj)");
@@ -38,7 +38,7 @@ int main() try {
   const TaskPlan shown = planTask(C, "(shown cup)", options);
   std::cout << shown.str() << "\n";
 
-  // No motion can do this, and the answer says why.
+  // No motion achieves this, and the result explains the reason.
   C.addFrame("far", "table").setRelativePosition({0, 5, .055}).setShape(ST::ssBox, {.2, .2, .01, .004});
   const TaskPlan far = planTask(C, "(on far cup)");
   std::cout << far.str() << "\n";

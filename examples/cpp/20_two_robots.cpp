@@ -1,7 +1,7 @@
 // Part 20: two robots at a table, moved by one BotOp.
 //
-// Each arm grasps a block and lifts it, both at once. The world is simulated: the blocks are held by force. All that the
-// robots were told is in a log, which gives the same motion again, to the bit.
+// Both arms grasp and lift a block at the same time. The world is simulated: forces hold the blocks. A log of all
+// commands repeats the motion, to the bit.
 #include <kinegraph/kinegraph.h>
 
 #include <iostream>
@@ -18,7 +18,7 @@ Config scene() {
   return C;
 }
 
-/// Joint values of both arms with the hands around their blocks, or above them.
+/// Returns joint values of both arms with the hands around their blocks, or above them.
 VectorXd handsAt(const Config& C, double height) {
   Komo komo(C, 1, 1, 0);
   komo.addControlObjective({}, 0, 1e-1);
@@ -33,7 +33,7 @@ VectorXd handsAt(const Config& C, double height) {
     is(FS::vectorZ, {0, 0, 1});
     is(FS::vectorX, {1, 0, 0});
   }
-  if (!komo.solve().feasible) throw Error("no posture with both hands there");
+  if (!komo.solve().feasible) throw Error("no configuration with both hands there");
   return komo.getPath().row(0).transpose();
 }
 

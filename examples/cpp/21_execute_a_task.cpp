@@ -1,4 +1,4 @@
-// A tower of three cubes, planned, built by a simulated robot, and repaired where something went wrong.
+// Plans a tower of three cubes, builds it with a simulated robot, and repairs it after a failure.
 #include <kinegraph/kinegraph.h>
 
 #include <iostream>
@@ -18,9 +18,9 @@ int main() try {
 
   TaskPlan plan = planTask(C, "(on green red) (on blue green)");
   std::cout << plan.str() << "\n";
-  std::cout << plan.duration() << " s; after 1 s the arm is at " << plan.at(1.).transpose() << "\n";
+  std::cout << plan.duration() << " s; after 1 s the arm is at " << plan.eval(1.).q.transpose() << "\n";
 
-  Config world = C;  // where the robot acts, one cube is not where the plan has it
+  Config world = C;  // in the robot's world, one cube differs from the plan
   world.getFrame("blue").setRelativePosition({.1, .37, .075});
   BotOp bot(world);
   TaskExecution run;

@@ -1,4 +1,4 @@
-// Motions among obstacles that move, from a running motion, and better ones with effort.
+// Motions among dynamic obstacles, replanning of a running motion, and improving motions.
 #include <kinegraph/kinegraph.h>
 
 #include <iostream>
@@ -7,10 +7,10 @@ using namespace kinegraph;
 
 namespace {
 
-/// Is nothing nearer than 9 mm to the load, every 10 ms of a motion?
+/// Whether the robot keeps 9 mm to the load, every 10 ms of a motion.
 bool keepsClear(Config& C, const MotionPlan& plan) {
   for (double t = 0.; t <= plan.duration() + 1.; t += .01) {
-    C.setJointState(plan.at(t).q);
+    C.setJointState(plan.eval(t).q);
     C.getFrame("cart").setPose(Pose::fromNumbers(plan.obstaclesAt(t).front()));
     const int load = C.getFrame("load").id();
     for (const Config::NearPair& pair : C.getCollisions(.009))
@@ -44,7 +44,7 @@ int main() try {
   VectorXd start = C.getJointState(), goal = start;
   start[0] -= .6, goal[0] += .6;
 
-  // A load is carried past, in front of the arm, and then away: where it is when.
+  // The trajectory of a load that is carried past the arm, and then away.
   MatrixXd poses(3, 7);
   poses << -.6, .35, 1.1, 1., 0., 0., 0., .6, .35, 1.1, 1., 0., 0., 0., .6, 1.5, 1.1, .7, 0., 0., .7;
   const std::vector<ObstacleTrajectory> moving = {{"cart", VectorXd{{0., 2., 4.}}, poses}};
@@ -53,7 +53,7 @@ int main() try {
   for (const std::string& note : past.warnings) std::cout << note << "\n";
   if (!past.feasible() || !keepsClear(C, past)) return 1;
 
-  // On its way the robot is sent elsewhere: it goes on with its velocity, and bends.
+  // The moving robot gets another goal: the new motion continues with its velocity.
   C.getFrame("cart").setPosition({0., 2., 1.});
   const MotionPlan plan = planMotion(C, goal, {.velocity = VectorXd{{.6}}, .acceleration = VectorXd{{1.5}}}, start);
   const double now = .4 * plan.duration();
@@ -61,9 +61,9 @@ int main() try {
   elsewhere[0] -= .3, elsewhere[1] += .3;
   const MotionPlan bend = plan.replan(C, now, MotionGoal(elsewhere));
   std::cout << "another goal after " << now << " s: " << bend.str() << "\n";
-  if (!bend.feasible() || (bend.at(0.).velocity - plan.at(now).velocity).norm() > 1e-9) return 1;
+  if (!bend.feasible() || (bend.eval(0.).velocity - plan.eval(now).velocity).norm() > 1e-9) return 1;
 
-  // The first way that is found is seldom the shortest kind of way.
+  // The first path is seldom in the best homotopy class.
   MotionPlans better = planMotions(twoWalls(), VectorXd{{1.5, .9}},
                                    {.optimize = "length", .tries = 1, .improve = 20000}, VectorXd{{-1.5, -1.}});
   double length = 0.;

@@ -1,11 +1,12 @@
-// Part 31: logic-geometric programs. A search in logic proposes plans, waypoints say whether an arm can carry them out.
+// Part 31: logic-geometric programs. A search in logic proposes plans, and waypoints decide whether an arm can execute
+// them.
 #include <kinegraph/kinegraph.h>
 
 #include <iostream>
 
 using namespace kinegraph;
 
-/// An action of our own, and waypoints in which nothing overlaps.
+/// A custom action, and waypoints without collisions.
 class Grasps : public default_LGP_TAMP_Abstraction {
  public:
   using default_LGP_TAMP_Abstraction::DefaultLgpAbstraction;
@@ -46,7 +47,7 @@ int main() try {
   tray("trayB", {-.3, .5, .055});
   tray("stand", {-.2, .25, .055});
   thing("objG", "stand");
-  thing("objB", "trayG");  // where objG shall be
+  thing("objB", "trayG");  // target place of objG
 
   LGP_Tool lgp(C, std::make_shared<Grasps>(C, SCENES "31_lgp.lgp"));
   if (!lgp.solve()) throw Error(lgp.message);

@@ -38,6 +38,7 @@ NB_MODULE(_core, m) {
   nb::set_leak_warnings(false);
   m.attr("__version__") = KINEGRAPH_VERSION;
   bindErrors(m);
+  bindTrajectory(m);
   bindScene(m);
   bindRendering(m);
   bindNlp(m);
@@ -59,7 +60,7 @@ NB_MODULE(_core, m) {
   bindSplineMotion(m);
   bindTasks(m);
   bindSimulation(m);
-  bindOperation(m);
+  bindRobot(m);
   m.def(
       "parseText",
       [](const std::string& text, const std::string& name) { return Attributes(toDict(kinegraph::parse(text, name))); },

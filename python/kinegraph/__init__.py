@@ -49,6 +49,7 @@ from ._core import (
     KinematicDriver,
     LGP_TAMP_Abstraction,
     LGP_Tool,
+    LgpStatus,
     LogicProblem,
     LoopMode,
     MotionConstraint,
@@ -65,6 +66,7 @@ from ._core import (
     PathContact,
     PathReturn,
     PlanSearch,
+    PlanSearchStatus,
     PlanStatus,
     RecordedDriver,
     RetimeStatus,
@@ -75,6 +77,7 @@ from ._core import (
     RobotInfo,
     RobotState,
     RRT_PathFinder,
+    SampledTrajectory,
     Sensitivity,
     SimulatedDriver,
     Simulation,
@@ -87,23 +90,31 @@ from ._core import (
     SolverReturn,
     SolverReturns,
     SplineMotion,
+    SplineTrajectory,
     StepObservation,
     TargetFile,
+    TaskBranch,
     TaskExecution,
+    TaskPlan,
+    TaskPlans,
     TaskRule,
+    TaskStatus,
     TaskWaypoints,
     TimedPath,
+    Trajectory,
     checkFile,
     checkTaskPlan,
     default_LGP_TAMP_Abstraction,
     defaultDomain,
     depthImage2PointCloud,
     doorStates,
-    servo,
     planMotion,
     planMotions,
+    planTask,
+    planTasks,
     retime,
     sceneFacts,
+    servo,
     shortcut,
     smooth,
     solveAll,
@@ -139,7 +150,7 @@ from .errors import (
 from .model_paths import raiPath, setRaiPath
 from .seeds import rnd_seed, rnd_seed_random
 
-# What is loaded when it is first used: with it the import takes three times as long.
+# Loaded on first use: at once, the import would take three times as long.
 if _TYPE_CHECKING:
     from . import test as test
     from .aruco import getArucoImage
@@ -162,10 +173,8 @@ if _TYPE_CHECKING:
     from .problems import get_NLP_Problem_names, make_NLP_Problem
     from .quaternion import Quaternion
     from .reachable import reachability
-    from .task_plan import TaskPlan
-    from .tasks import planTask, planTasks
 
-_LATER = {  # module: names
+_LAZY = {  # module: names
     "aruco": ("getArucoImage",),
     "compatibility.skeleton_problems": (
         "ArgWord",
@@ -185,14 +194,12 @@ _LATER = {  # module: names
     "problems": ("get_NLP_Problem_names", "make_NLP_Problem"),
     "quaternion": ("Quaternion",),
     "reachable": ("reachability",),
-    "task_plan": ("TaskPlan",),
-    "tasks": ("planTask", "planTasks"),
 }
-_MODULE_OF = {name: module for module, names in _LATER.items() for name in names}
+_MODULE_OF = {name: module for module, names in _LAZY.items() for name in names}
 
 
 def __getattr__(name: str) -> _Any:
-    if name in _LATER or name == "test":
+    if name in _LAZY or name == "test":
         return _import_module(".test", __name__)
     if name not in _MODULE_OF:
         raise AttributeError(f"module '{__name__}' has no attribute '{name}'", name=name, obj=_sys.modules[__name__])
@@ -208,12 +215,12 @@ _model_paths.announce()
 
 
 def version() -> str:
-    """The version of this package."""
+    """Returns the version of this package."""
     return str(__version__)
 
 
 def compiled() -> str:
-    """One line about the build."""
+    """Returns one line about the build."""
     return f"kinegraph {__version__}"
 
 
@@ -221,10 +228,10 @@ teach(FS, JT, OT, ST, SY, ControlMode, SimulationEngine)
 teach(OptMethod, earlier=_OPT_METHODS)
 _addEarlierMethods()
 _addAbsentNames()
-NLP_SolverID = OptMethod  # as scripts of earlier years call it
-PathFinder = RRT_PathFinder  # as older scripts call it
+NLP_SolverID = OptMethod  # name in scripts of earlier years
+PathFinder = RRT_PathFinder  # name in older scripts
 
-# Written out, so that type checkers know what is exported.
+# Written out, so that type checkers know the exported names.
 __all__ = [
     "FS",
     "JT",
@@ -268,6 +275,7 @@ __all__ = [
     "KinematicDriver",
     "LGP_TAMP_Abstraction",
     "LGP_Tool",
+    "LgpStatus",
     "LogicProblem",
     "LoopMode",
     "ManipulationModelling",
@@ -293,6 +301,7 @@ __all__ = [
     "PathFinder",
     "PathReturn",
     "PlanSearch",
+    "PlanSearchStatus",
     "PlanStatus",
     "Quaternion",
     "RRT_PathFinder",
@@ -305,6 +314,7 @@ __all__ = [
     "RobotFault",
     "RobotInfo",
     "RobotState",
+    "SampledTrajectory",
     "Sensitivity",
     "SimulatedDriver",
     "Simulation",
@@ -317,13 +327,18 @@ __all__ = [
     "SolverReturn",
     "SolverReturns",
     "SplineMotion",
+    "SplineTrajectory",
     "StepObservation",
     "TargetFile",
+    "TaskBranch",
     "TaskExecution",
     "TaskPlan",
+    "TaskPlans",
     "TaskRule",
+    "TaskStatus",
     "TaskWaypoints",
     "TimedPath",
+    "Trajectory",
     "_left",
     "_path",
     "_right",
@@ -336,7 +351,6 @@ __all__ = [
     "default_LGP_TAMP_Abstraction",
     "depthImage2PointCloud",
     "doorStates",
-    "servo",
     "getArucoImage",
     "get_NLP_Problem_names",
     "get_params",
@@ -360,6 +374,7 @@ __all__ = [
     "rnd_seed_random",
     "saveFilm",
     "sceneFacts",
+    "servo",
     "setRaiPath",
     "set_params",
     "shortcut",

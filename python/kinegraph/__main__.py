@@ -1,4 +1,4 @@
-"""`python -m kinegraph` is the command `kinegraph`."""
+"""Runs the command `kinegraph` as `python -m kinegraph`."""
 
 import sys
 

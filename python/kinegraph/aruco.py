@@ -1,4 +1,4 @@
-"""Marker images, drawn by OpenCV where it is installed."""
+"""Marker images, drawn by OpenCV if it is installed."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ _CELLS = 7  # 5 x 5 bits and a black border
 
 
 def getArucoImage(id: int) -> np.ndarray[Any, np.dtype[np.uint8]]:
-    """The ArUco marker of that number, of the 50 markers with 5 x 5 bits.
+    """Draws one of the 50 ArUco markers with 5 x 5 bits.
 
     Args:
-        id: 0 .. 49.
+        id: Number of the marker, 0 .. 49.
     Returns:
-        (9, 9) uint8, a pixel per cell: 0 black, 255 white; a black border, and a white one around it.
+        (9, 9) uint8, one pixel per cell: 0 black, 255 white; with a black border and a white one around it.
     Raises:
         ArgumentError: There is no such marker.
-        Error: The Python package opencv-python-headless (or opencv-python), which draws it, is not installed.
+        Error: The package opencv-python-headless (or opencv-python) is not installed.
     """
     if not 0 <= id < _MARKERS:
         raise ArgumentError(f"getArucoImage: there is no marker {id}; expected 0 .. {_MARKERS - 1}")

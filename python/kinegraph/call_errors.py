@@ -1,4 +1,4 @@
-"""What is wrong with arguments that no form of a compiled function takes, in words. Loaded when that happens first."""
+"""Explains arguments that match no signature of a compiled function. Loaded with the first such error."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from .errors import ArgumentTypeError
 
 
 class _Parameter:
-    """One of a form's parameters: its name, its type as the signature has it, and whether it may be left out."""
+    """A parameter of a signature: its name, its type as written there, and whether it is optional."""
 
     def __init__(self, text: str, keyword_only: bool, defaults: Sequence[Any]) -> None:
         name, _, rest = text.partition(":")
@@ -23,11 +23,11 @@ class _Parameter:
         self.name = name.strip().lstrip("*")
         self.stars = len(name.strip()) - len(self.name)
         self.type = type_text.strip() or "typing.Any"
-        if self.name in ("C", "config"):  # what looks at it itself takes any object
+        if self.name in ("C", "config"):  # functions that check it themselves accept any object
             self.type = self.type.replace("object", "Config")
         self.optional = bool(has_default) or self.stars > 0
         self.keyword_only = keyword_only
-        default = default.strip()  # nanobind writes a number of the list of defaults, or the text of one
+        default = default.strip()  # nanobind writes an index into the list of defaults, or a text
         self.default = repr(defaults[int(default[1:])]) if default.startswith("\\") else default
 
     def __str__(self) -> str:
@@ -37,10 +37,10 @@ class _Parameter:
 
 
 def split(text: str, separator: str) -> list[str]:
-    """The parts of a text between separators that stand in no bracket.
+    """Splits a text at separators outside brackets.
 
     Args:
-        text: As in `dict[str, int] | None`.
+        text: A type, as in `dict[str, int] | None`.
         separator: A character.
     Returns:
         The parts, stripped.
@@ -56,13 +56,13 @@ def split(text: str, separator: str) -> list[str]:
 
 
 def parameters(signature: str, defaults: Sequence[Any] = ()) -> list[_Parameter]:
-    """The parameters of a form, self among them.
+    """Parses the parameters of a signature, including self.
 
     Args:
-        signature: As nanobind gives it, `def name(self, ...) -> type`.
-        defaults: What stands for `\\0`, `\\1`, ... in it.
+        signature: In nanobind's format, `def name(self, ...) -> type`.
+        defaults: The values of `\\0`, `\\1`, ... in it.
     Returns:
-        One each.
+        The parameters.
     """
     inside = signature[signature.index("(") + 1 : signature.rindex(")", 0, _end(signature))]
     found, keyword_only = [], False
@@ -76,7 +76,7 @@ def parameters(signature: str, defaults: Sequence[Any] = ()) -> list[_Parameter]
 
 
 def _end(signature: str) -> int:
-    """Behind the bracket that closes the parameters."""
+    """Returns the position after the bracket that closes the parameters."""
     depth = 0
     for i, character in enumerate(signature):
         depth += (character in "[({") - (character in "])}")
@@ -86,10 +86,10 @@ def _end(signature: str) -> int:
 
 
 def readable(type_text: str) -> str:
-    """A type as people write it.
+    """Shortens a type for messages.
 
     Args:
-        type_text: As the signature has it, `kinegraph._core.JT`.
+        type_text: Type in a signature, `kinegraph._core.JT`.
     Returns:
         `JT`.
     """
@@ -114,13 +114,13 @@ _PLAIN: dict[str, Any] = {
 
 
 def fits(value: Any, type_text: str) -> bool:
-    """Whether a value may be what a type asks for; true where that cannot be told.
+    """Returns whether a value may have a type; true if that is unknown.
 
     Args:
         value: An argument.
-        type_text: Its type as the signature has it.
+        type_text: Its type in the signature.
     Returns:
-        False if it is certainly of another type.
+        False if the value certainly has another type.
     """
     alternatives = split(type_text, "|")
     if len(alternatives) > 1:
@@ -160,7 +160,7 @@ def _memberHint(value: str, kind: type[enum.Enum]) -> str:
 
 
 def _hint(value: Any, type_text: str) -> str:
-    """How to mend it, if that is known."""
+    """Suggests a correction, if one is known."""
     for name in map(readable, split(type_text, "|")):
         kind = getattr(_core, name, None)
         if isinstance(value, str) and isinstance(kind, type) and issubclass(kind, enum.Enum):
@@ -186,7 +186,7 @@ def _shown(value: Any) -> str:
 
 
 def _place(value: Any) -> str:
-    """Which entry of a list is no number."""
+    """Describes the entry of a list that is not a number."""
     if not isinstance(value, (list, tuple)):
         return ""
     for i, each in enumerate(value):
@@ -202,13 +202,13 @@ def _expected(type_text: str) -> str:
 
 
 def _wrong(value: Any, parameter: _Parameter) -> str:
-    said = f"{parameter.name} is {_shown(value)}; expected {_expected(parameter.type)}"
+    reasons = f"{parameter.name} is {_shown(value)}; expected {_expected(parameter.type)}"
     hint = _hint(value, parameter.type)
-    return said + (hint or (_place(value) if "ArrayLike" in parameter.type else ""))
+    return reasons + (hint or (_place(value) if "ArrayLike" in parameter.type else ""))
 
 
 class _Misfit:
-    """What keeps one form of a function from taking these arguments."""
+    """The reasons why a signature does not match the arguments."""
 
     def __init__(self, form: list[_Parameter], positional: Sequence[Any], named: Mapping[str, Any]) -> None:
         by_place = [each for each in form if not each.keyword_only and not each.stars]
@@ -224,20 +224,20 @@ class _Misfit:
         missing = [each for each in form if not each.optional and each not in found]
         wrong = [(each, value) for each, value in given if each.name != "self" and not fits(value, each.type)]
         self.rank = (surplus + len(unknown) + len(wrong), len(missing), -len(form))
-        self.said = []
+        self.reasons = []
         if surplus:
             names = [each.name for each in by_place if each.name != "self"]
             count = len(positional) - (len(by_place) - len(names))
-            takes = f"it takes at most {len(names)}: {', '.join(names)}" if names else "it takes none without a name"
-            self.said.append(f"{count} argument{'s are' if count > 1 else ' is'} given; {takes}")
-        self.said += [f"it has no argument '{name}'{_near(name, [*by_name])}" for name in unknown]
+            takes = f"it takes at most {len(names)}: {', '.join(names)}" if names else "it takes no positional ones"
+            self.reasons.append(f"{count} argument{'s are' if count > 1 else ' is'} given; {takes}")
+        self.reasons += [f"it has no argument '{name}'{_near(name, [*by_name])}" for name in unknown]
         if missing:
-            self.said.append(f"missing: {', '.join(f'{each.name} ({_expected(each.type)})' for each in missing)}")
-        self.said += [_wrong(value, each) for each, value in wrong]
+            self.reasons.append(f"missing: {', '.join(f'{each.name} ({_expected(each.type)})' for each in missing)}")
+        self.reasons += [_wrong(value, each) for each, value in wrong]
 
 
 def _title(function: Any, positional: Sequence[Any]) -> tuple[str, str]:
-    """How it is called in messages, and in a signature."""
+    """Returns a function's name in messages, and in a signature."""
     name = str(function.__name__)
     owner = type(positional[0]).__name__ if positional and type(function).__name__ == "nb_method" else ""
     for each in type(positional[0]).__mro__ if owner else ():
@@ -249,19 +249,19 @@ def _title(function: Any, positional: Sequence[Any]) -> tuple[str, str]:
 
 
 def explain(function: Any, positional: Sequence[Any], named: Mapping[str, Any]) -> Exception:
-    """The error for arguments that no form of a function takes.
+    """Creates the error for arguments that match no signature of a function.
 
     Args:
         function: A function of the compiled module.
-        positional: The arguments without a name, self among them.
-        named: Those with one.
+        positional: Positional arguments, including self.
+        named: Keyword arguments.
     Returns:
-        An ArgumentTypeError that names the argument, what it is, and what was expected.
+        An ArgumentTypeError with the argument's name, its value, and the expected type.
     """
     title, short = _title(function, positional)
     forms = [parameters(signature, defaults or ()) for signature, _, defaults in function.__nb_signature__]
     misfits = [_Misfit(form, positional, named) for form in forms]
-    nearest = min((each for each in misfits if each.said), key=lambda each: each.rank, default=misfits[0])
-    said = "; ".join(nearest.said[:2]) or "no form of it takes these arguments"
+    nearest = min((each for each in misfits if each.reasons), key=lambda each: each.rank, default=misfits[0])
+    reasons = "; ".join(nearest.reasons[:2]) or "no signature matches these arguments"
     written = [f"{short}({', '.join(str(each) for each in form if each.name != 'self')})" for form in forms]
-    return ArgumentTypeError("\n  ".join([f"{title}: {said}", *written]))
+    return ArgumentTypeError("\n  ".join([f"{title}: {reasons}", *written]))

@@ -23,96 +23,90 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="kinegraph",
         description="Robot scenes, inverse kinematics, motion planning and optimization.",
-        epilog="A FILE that is not there may be a model that comes with the package: panda/panda.g, scenarios/pandaSingle.g.",
+        epilog="A missing FILE is searched among the models of the package: panda/panda.g, scenarios/pandaSingle.g.",
     )
     parser.add_argument("--version", action="version", version=f"kinegraph {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     demo = commands.add_parser("demo", help="a Franka Panda follows a wandering target, live in the browser")
-    demo.add_argument("--forever", action="store_true", help="go on until Ctrl-C")
-    demo.add_argument("--seconds", type=float, default=20.0, help="how long (default: 20)")
+    demo.add_argument("--forever", action="store_true", help="run until Ctrl-C")
+    demo.add_argument("--seconds", type=float, default=20.0, help="duration (default: 20)")
     demo.add_argument(
         "--rate", type=float, default=60.0, help="targets per second; 0: as many as possible (default: 60)"
     )
-    demo.add_argument("--seed", type=int, default=0, help="of the target's way (default: 0)")
+    demo.add_argument("--seed", type=int, default=0, help="seed of the target's path (default: 0)")
     demo.add_argument("--no-view", action="store_true", help="compute only")
 
-    view = commands.add_parser("view", help="shows a scene or mesh file in the browser until a key is pressed")
+    view = commands.add_parser("view", help="show a scene or mesh file in the browser until a key is pressed")
     view.add_argument("file")
-    view.add_argument("--watch", action="store_true", help="load the scene again whenever the file changes")
+    view.add_argument("--watch", action="store_true", help="reload the scene whenever the file changes")
 
-    render = commands.add_parser("render", help="a picture of a scene file; needs no display")
+    render = commands.add_parser("render", help="render a picture of a scene file, without a display")
     render.add_argument("file")
-    render.add_argument("-o", "--output", default="out.png", metavar="PNG", help="where to write it (default: out.png)")
+    render.add_argument("-o", "--output", default="out.png", metavar="PNG", help="output file (default: out.png)")
+    render.add_argument("--camera", metavar="FRAME", help="camera frame (default: an outside view of the whole scene)")
+    render.add_argument("--pos", type=_numbers(3), metavar="X,Y,Z", help="position of the camera, m")
     render.add_argument(
-        "--camera", metavar="FRAME", help="a frame to look from (default: from outside, all in the picture)"
-    )
-    render.add_argument("--pos", type=_numbers(3), metavar="X,Y,Z", help="where to look from, m")
-    render.add_argument(
-        "--target", type=_numbers(3), metavar="X,Y,Z", help="where to look to, m (default: the scene's middle)"
+        "--target", type=_numbers(3), metavar="X,Y,Z", help="point at the picture's center, m (default: the scene's)"
     )
     render.add_argument("--joints", metavar="Q", help="joint values, rad or m: 0,0.5,...; or the name of a state")
-    render.add_argument("--size", metavar="WIDTHxHEIGHT", help="pixels (default: as the camera says)")
+    render.add_argument("--size", metavar="WIDTHxHEIGHT", help="pixels (default: those of the camera)")
 
-    info = commands.add_parser("info", help="what a scene file contains")
+    info = commands.add_parser("info", help="describe the content of a scene file")
     info.add_argument("file")
-    info.add_argument("--frames", action="store_true", help="a line for every frame, not only for what moves")
+    info.add_argument("--frames", action="store_true", help="one line per frame, not only per moving part")
 
-    plan = commands.add_parser(
-        "plan", help="a motion of a scene to a goal, free of collisions; exit status 1 if there is none"
-    )
+    plan = commands.add_parser("plan", help="plan a collision-free motion to a goal; exit status 1 if none is found")
     plan.add_argument("file")
     plan.add_argument(
         "--goal",
         required=True,
         nargs="+",
         metavar="GOAL",
-        help="a joint state of the scene by name, a number for each joint, or FRAME=X,Y,Z (or X,Y,Z,QW,QX,QY,QZ, or another frame)",
+        help="name of a joint state, a number per joint, or FRAME=X,Y,Z (or X,Y,Z,QW,QX,QY,QZ, or another frame)",
     )
     plan.add_argument(
-        "--start", nargs="+", metavar="START", help="a joint state by name, or numbers (default: as the scene)"
+        "--start", nargs="+", metavar="START", help="name of a joint state, or numbers (default: the scene's)"
     )
-    plan.add_argument("--margin", type=float, default=0.0, help="distance to keep, m (default: 0)")
+    plan.add_argument("--margin", type=float, default=0.0, help="distance to obstacles, m (default: 0)")
     plan.add_argument("--optimize", default="time", choices=["time", "length", "clearance"], help="(default: time)")
-    plan.add_argument("--seed", type=int, default=0, help="of random postures (default: 0)")
+    plan.add_argument("--seed", type=int, default=0, help="seed of random configurations (default: 0)")
     plan.add_argument("--time-limit", type=float, default=float("inf"), help="s (default: none)")
-    plan.add_argument("-o", "--output", metavar="CSV", help="a row for each 10 ms of the motion: time, then the joints")
+    plan.add_argument("-o", "--output", metavar="CSV", help="output file, a row per 10 ms: time, then joint values")
     plan.add_argument("--no-view", action="store_true", help="print only")
 
     reach = commands.add_parser(
-        "reachability", help="where a robot reaches, cell by cell, within limits and without collisions"
+        "reachability", help="compute the reachable cells of a robot, within limits and without collisions"
     )
     reach.add_argument("file", help="a scene: .g, .urdf, .xml")
-    reach.add_argument("--frame", help="what is to reach (default: the last frame that a joint moves)")
-    reach.add_argument("--spacing", type=float, default=0.1, help="of the grid, m (default: 0.1)")
+    reach.add_argument("--frame", help="the reaching frame (default: the last frame moved by a joint)")
+    reach.add_argument("--spacing", type=float, default=0.1, help="spacing of the grid, m (default: 0.1)")
     reach.add_argument(
         "--directions",
         type=int,
         default=0,
-        help="of the frame's z axis, tried at each cell (default: 0, any orientation)",
+        help="number of directions of the frame's z axis, tried at each cell (default: 0, any orientation)",
     )
     reach.add_argument("--workers", type=int, help="threads (default: one per processor)")
-    reach.add_argument("-o", "--output", metavar="FILE", help="a row for each cell: .csv or .parquet")
-    reach.add_argument("--picture", metavar="PNG", help="the scene with the cells that are reached")
+    reach.add_argument("-o", "--output", metavar="FILE", help="output file with a row per cell: .csv or .parquet")
+    reach.add_argument("--picture", metavar="PNG", help="picture of the scene with the reached cells")
     reach.add_argument("--no-view", action="store_true", help="print only")
 
     pairs = commands.add_parser(
-        "selfcollisions", help="which parts of a robot can collide with one another, found in random postures"
+        "selfcollisions", help="find the pairs of a robot's parts that can collide, in random configurations"
     )
     pairs.add_argument("file")
     pairs.add_argument("--root", metavar="FRAME", help="the robot's first frame (default: the file's first one)")
-    pairs.add_argument("--samples", type=int, default=10000, help="postures (default: 10000)")
-    pairs.add_argument("--seed", type=int, default=0, help="of the postures (default: 0)")
-    pairs.add_argument("--margin", type=float, default=0.0, help="nearer counts as colliding, m (default: 0)")
+    pairs.add_argument("--samples", type=int, default=10000, help="number of configurations (default: 10000)")
+    pairs.add_argument("--seed", type=int, default=0, help="seed of the configurations (default: 0)")
+    pairs.add_argument("--margin", type=float, default=0.0, help="smaller distances are collisions, m (default: 0)")
     pairs.add_argument(
-        "-o", "--output", metavar="SRDF", help="writes the pairs that need no looking at, for a URDF of the same robot"
+        "-o", "--output", metavar="SRDF", help="output file with the pairs to be ignored, for a URDF of the same robot"
     )
 
-    check = commands.add_parser(
-        "check", help="mistakes and oddities in scene files; exit status 1 if there is a mistake"
-    )
+    check = commands.add_parser("check", help="report errors and warnings in scene files; exit status 1 with an error")
     check.add_argument("files", nargs="+", metavar="FILE")
-    check.add_argument("--strict", action="store_true", help="a warning counts as a mistake")
+    check.add_argument("--strict", action="store_true", help="warnings count as errors")
     return parser
 
 
@@ -134,7 +128,7 @@ def _check(files: list[str], strict: bool) -> int:
 
 
 def _find(file: str) -> str:
-    """The path of a file; where there is none, of the model of that name that comes with the package."""
+    """Returns the path of a file, or of the package's model of that name."""
     path = Path(file)
     if path.exists() or path.is_absolute():
         return file
@@ -142,12 +136,12 @@ def _find(file: str) -> str:
         return raiPath(file)
     except FileError:
         if path.parent.is_dir() or not (near := similarModels(file)):
-            return file  # who reads it says what is near
-        raise FileError(f"there is no file or model '{file}'; models with similar names: {', '.join(near)}") from None
+            return file  # the reader's error lists similar names
+        raise FileError(f"no file or model '{file}'; similar names: {', '.join(near)}") from None
 
 
 def _load(file: str) -> Config:
-    """A scene, or a mesh as a frame of its own."""
+    """Loads a scene, or a mesh as a single frame."""
     config, file = Config(), _find(file)
     if Path(file).suffix in _MESHES:
         config.addFrame(Path(file).stem, "", f"mesh: <{Path(file).resolve()}>")
@@ -167,7 +161,7 @@ def _view(file: str, watch: bool) -> None:
 
 
 def _target(text: str) -> tuple[str, object]:
-    """FRAME=X,Y,Z as a target of inverse kinematics."""
+    """Parses FRAME=X,Y,Z as a target of inverse kinematics."""
     frame, _, place = text.partition("=")
     try:
         return frame, [float(number) for number in place.split(",")]
@@ -175,8 +169,8 @@ def _target(text: str) -> tuple[str, object]:
         return frame, place  # another frame
 
 
-def _posture(config: Config, words: list[str], option: str) -> Any:
-    """Numbers, or the name of a joint state."""
+def _jointValues(config: Config, words: list[str], option: str) -> Any:
+    """Parses numbers, or the name of a joint state."""
     if len(words) == 1 and words[0] in config.getStateNames():
         return config.getNamedState(words[0])
     try:
@@ -191,8 +185,8 @@ def _posture(config: Config, words: list[str], option: str) -> Any:
 def _plan(options: argparse.Namespace) -> int:
     config = _load(options.file)
     words = options.goal
-    goal = dict(_target(word) for word in words) if "=" in words[0] else _posture(config, words, "--goal")
-    start = _posture(config, options.start, "--start") if options.start else None
+    goal = dict(_target(word) for word in words) if "=" in words[0] else _jointValues(config, words, "--goal")
+    start = _jointValues(config, options.start, "--start") if options.start else None
     motion = planMotion(
         config,
         goal,
@@ -211,7 +205,7 @@ def _plan(options: argparse.Namespace) -> int:
             print("time", *config.getJointNames()[: config.getJointDimension()], sep=",", file=file)
             for i in range(count):
                 t = motion.duration * i / (count - 1)
-                print(t, *motion.at(t)[0], sep=",", file=file)
+                print(t, *motion.eval(t)[0], sep=",", file=file)
     if not options.no_view:
         config.view_path(motion.path, max(1.0, motion.duration), True, "the motion")
     return 0
@@ -243,7 +237,7 @@ def _info(file: str, frames: bool) -> None:
     print(describeScene(config))
     if any(frame.asDict().get("contact", 0) < 0 for frame in config):
         print(
-            "A shape with contact -k does not collide with links up to k joints above it (an SRDF file tells pairs instead)."
+            "A shape with contact -k does not collide with links up to k joints above it; an SRDF file lists pairs instead."
         )
 
 
@@ -262,7 +256,7 @@ def _selfCollisions(options: argparse.Namespace) -> None:
 
 
 def _numbers(count: int) -> Callable[[str], list[float]]:
-    """Reads an argument such as 1,2,3 or "1 2 3"."""
+    """Returns a parser of arguments such as 1,2,3 or "1 2 3"."""
 
     def read(text: str) -> list[float]:
         words = text.replace(",", " ").split()
@@ -277,7 +271,7 @@ def _numbers(count: int) -> Callable[[str], list[float]]:
 
 
 def _setJoints(config: Config, joints: str) -> None:
-    """By a list of numbers, or the name of a state."""
+    """Sets the joints to a list of numbers, or to a named state."""
     words = joints.replace(",", " ").split()
     try:
         q = [float(word) for word in words]
@@ -316,7 +310,7 @@ def _render(options: argparse.Namespace) -> None:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """Runs the command. Returns its exit status: 0, 1 for a mistake in a file, 2 for one in the arguments."""
+    """Runs the command. Returns its exit status: 0, 1 for an error in a file, 2 for one in the arguments."""
     options = _parser().parse_args(arguments)
     try:
         if options.command == "demo":
@@ -350,8 +344,8 @@ def main(arguments: list[str] | None = None) -> int:
 
 
 def ry_view() -> int:
-    """The command `ry-view FILE` of the package robotic: scenes are watched while they are edited."""
-    parser = argparse.ArgumentParser(prog="ry-view", description="Shows a scene, again whenever it changes, or a mesh.")
+    """Runs the command `ry-view FILE` of the package robotic, which reloads scenes when they are edited."""
+    parser = argparse.ArgumentParser(prog="ry-view", description="Shows a scene, reloaded after changes, or a mesh.")
     parser.add_argument("file", metavar="FILE")
     parser.add_argument("-v", "--version", action="version", version=__version__)
     file = parser.parse_args().file
@@ -361,7 +355,7 @@ def ry_view() -> int:
 
 
 def ry_info() -> int:
-    """The command `ry-info` of the package robotic: what is installed, and the parameters that are set."""
+    """Runs the command `ry-info` of the package robotic: prints the version and the parameters."""
     argparse.ArgumentParser(prog="ry-info", description=ry_info.__doc__).parse_args()
     print(f"kinegraph {__version__}, in place of robotic\nraiPath: {raiPath()}\nparameters: {params_get()}")
     return 0

@@ -1,4 +1,4 @@
-"""The demonstration: inverse kinematics with a hard constraint, solved over and over for a wandering target."""
+"""Demonstration: inverse kinematics with a hard constraint, solved repeatedly for a wandering target."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from ._core import FS, KOMO, OT, ST, Config, Frame, NLP_Solver, SolverReturn
 from .model_paths import raiPath
 
 _HOME = [0.0, -0.5, 0.0, -2.0, 0.0, 2.0, -0.5]
-_REACH = 0.3  # how far the target goes from where it starts, m
+_REACH = 0.3  # largest distance of the target from its start, m
 
 
 @dataclass
 class Summary:
-    """What `followTarget` did."""
+    """Results of `followTarget`."""
 
     solves: int = 0
     infeasible: int = 0
-    worst_error: float = 0.0  # distance of the gripper from the target, m
-    times: list[float] = field(default_factory=list)  # per solve, making the problem included, s
+    worst_error: float = 0.0  # largest distance of the gripper from the target, m
+    times: list[float] = field(default_factory=list)  # per solve, including the creation of the problem, s
 
     def add(self, seconds: float, error: float, feasible: bool) -> None:
         self.solves += 1
@@ -39,7 +39,8 @@ class Summary:
 
 
 def _solve(config: Config) -> tuple[np.ndarray, SolverReturn]:
-    """The tutorial's inverse kinematics: near the present posture, near home, and exactly at the target."""
+    """Solves the tutorial's inverse kinematics: near the present configuration, near home, and exactly at the
+    target."""
     komo = KOMO(config, 1, 1, 0, False)
     komo.addObjective([], FS.jointState, [], OT.sos, [1e-1], config.getJointState())
     komo.addObjective([], FS.jointState, [], OT.sos, [1e-1], _HOME)
@@ -49,8 +50,8 @@ def _solve(config: Config) -> tuple[np.ndarray, SolverReturn]:
 
 
 def _wander(target: Frame, center: np.ndarray, rng: np.random.Generator, velocity: np.ndarray, dt: float) -> np.ndarray:
-    """Moves the target a little: it drifts at random, is drawn back to the center, and never goes farther from it than the
-    arm reaches. Returns its new velocity."""
+    """Moves the target a little. It drifts at random, is attracted to the center, and stays within the arm's reach.
+    Returns its new velocity."""
     offset = target.getPosition() - center
     velocity = velocity + dt * (-3.0 * offset - 1.5 * velocity) + np.sqrt(dt) * 0.5 * rng.standard_normal(3)
     offset = offset + dt * velocity
@@ -67,10 +68,10 @@ def followTarget(seconds: float = 20.0, rate: float = 60.0, seed: int = 0, view:
     """Follows a wandering target with a Franka Panda and prints a line per second.
 
     Args:
-        seconds: How long; inf goes on until Ctrl-C.
+        seconds: Duration; inf runs until Ctrl-C.
         rate: Targets per second; 0 means as many as possible.
-        seed: Of the target's way.
-        view: Show it in the browser.
+        seed: Seed of the target's path.
+        view: Whether to show the motion in the browser.
     Returns:
         Counts, times and the worst error.
     """

@@ -1,4 +1,4 @@
-"""Saved pages of the viewer, made small enough to be part of a notebook."""
+"""Reduces saved pages of the viewer such that they can be part of a notebook."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-LARGEST = 900_000  # bytes of a page, if it can be had
+LARGEST = 900_000  # bytes of a page, if achievable
 _MESH, _MOTION = 2, 4  # kinds of binary messages
-_WORTH_IT = 1000  # bytes from which on a message is packed
-_FINEST = 2048  # parts of the largest mesh, which other vertices than one per part are merged in
-_COARSENINGS = 7  # by two each
+_WORTH_IT = 1000  # smallest message that is packed, bytes
+_FINEST = 2048  # grid cells along the largest mesh at the first merging of vertices
+_COARSENINGS = 7  # each by a factor of two
 
 _Words = NDArray[np.uint32]
 
 
 def embeddedPage(page: str, largest: int = LARGEST) -> str:
-    """The same page, smaller: its script and its messages are packed, and browsers unpack them. Where that is not enough,
-    vertices of meshes that are near each other are merged.
+    """Reduces a page: packs its script and messages, which browsers unpack. If that is not enough, merges close
+    vertices of meshes.
 
     Args:
-        page: A page that the viewer saved.
-        largest: Its size, bytes, if it can be had.
+        page: A page saved by the viewer.
+        largest: Target size, bytes.
     Returns:
-        The page.
+        The smaller page.
     """
     recording = re.search(r'<script type="application/json" id="recording">(.*?)</script>', page, re.DOTALL)
     begin, end = page.rfind("<script>"), page.rfind("</script>")
@@ -59,7 +59,8 @@ def _base64(data: bytes) -> str:
 
 
 def _packed(data: bytes) -> dict[str, Any]:
-    """What takes fewest bytes of: words as differences to those some words before, their bytes apart, deflated."""
+    """Packs data in the smallest of several forms: differences of words at some distance, split into byte planes,
+    deflated."""
     if len(data) < _WORTH_IT:
         return {"binary": b64encode(data).decode()}
     words = np.frombuffer(data + bytes(-len(data) % 4), np.uint32)
@@ -79,7 +80,8 @@ def _differences(words: _Words, stride: int) -> bytes:
 
 
 class _Mesh:
-    """A mesh message: kind, number, counts of vertices, triangles, colors, and of places on pictures and their triangles."""
+    """A mesh message: kind, number, and the counts of vertices, triangles, colors, texture coordinates and textured
+    ranges."""
 
     def __init__(self, data: bytes, counts: tuple[int, ...]) -> None:
         self._number, vertices, triangles, colors = counts[:4]
@@ -90,7 +92,7 @@ class _Mesh:
 
     @classmethod
     def read(cls, data: bytes) -> _Mesh | None:
-        """None for other messages, clouds of points, and what shows pictures."""
+        """Returns None for other messages, point clouds, and textured meshes."""
         if len(data) < 28 or struct.unpack_from("<I", data)[0] != _MESH:
             return None
         counts = struct.unpack_from("<6I", data, 4)
@@ -98,7 +100,7 @@ class _Mesh:
         return cls(data, counts) if is_plain else None
 
     def merged(self, cell: float) -> bytes:
-        """The message with one vertex for all of a color that share a cube of size `cell`, m, at their mean."""
+        """Merges all vertices of one color in a cube of size `cell`, m, to their mean."""
         cells = np.floor((self._points - self._points.min(axis=0)) / cell).astype(np.int64)
         sizes = cells.max(axis=0) + 1
         key = (cells[:, 0] * sizes[1] + cells[:, 1]) * sizes[2] + cells[:, 2]
@@ -110,7 +112,7 @@ class _Mesh:
         mean = np.stack([np.bincount(cluster, self._points[:, k]) / count for k in range(3)], axis=1)
         triangles = _distinct(cluster[self._triangles])
         used, places = np.unique(triangles, return_index=True)
-        used = used[np.argsort(places)]  # in the order in which triangles name them
+        used = used[np.argsort(places)]  # in the order of their use in triangles
         number = np.zeros(len(count), np.uint32)
         number[used] = np.arange(len(used), dtype=np.uint32)
         step = 2.0 ** np.floor(np.log2(cell / 4))  # multiples of a power of two have few bits
@@ -121,7 +123,7 @@ class _Mesh:
 
 
 def _distinct(triangles: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Each triangle once, in their order, without those that have become lines."""
+    """Removes repeated and degenerate triangles, and keeps the order."""
     a, b, c = triangles.T
     triangles = triangles[(a != b) & (b != c) & (c != a)]
     if len(triangles) == 0:

@@ -1,4 +1,4 @@
-"""Enums that say which of their names a misspelt one is near to."""
+"""Enums whose errors suggest similar names."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ class _Teaching(enum.EnumMeta):
         name = _earlier.get(cls, {}).get(name, name)
         if name in members:
             return members[name]
-        import difflib  # not at import: it takes milliseconds, and few need it
+        import difflib  # not at import: it takes milliseconds, and is rarely needed
 
         near = difflib.get_close_matches(name, members, 3, 0.5)
         hint = f"; similar names: {', '.join(near)}" if near else f"; expected one of {', '.join(members)}"
@@ -25,11 +25,11 @@ _earlier: dict[type, dict[str, str]] = {}
 
 
 def teach(*classes: type, earlier: dict[str, str] | None = None) -> None:
-    """Lets these enums explain names that they do not have.
+    """Lets enums explain unknown names.
 
     Args:
         classes: Enums.
-        earlier: Names of earlier years, each with the member that it means.
+        earlier: Earlier names of members.
     """
     for each in classes:
         each.__class__ = _Teaching

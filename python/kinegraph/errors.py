@@ -1,20 +1,20 @@
-"""What can go wrong, in words. Every exception of the library is an `Error`, which is a `RuntimeError`."""
+"""Exceptions. Every exception of the library is an `Error`, which is a `RuntimeError`."""
 
 
 class Error(RuntimeError):
-    """A mistake in a call or a file. The message names the thing, the place and what was expected."""
+    """An error in a call or a file. The message names the place, the value and the expected one."""
 
 
 class ArgumentError(Error, ValueError):
-    """An argument has the wrong size, range or kind."""
+    """An argument has a wrong size, range or kind."""
 
 
 class ArgumentTypeError(ArgumentError, TypeError):
-    """An argument is of another type than expected, is missing, or has a name that there is not."""
+    """An argument has a wrong type, is missing, or has an unknown name."""
 
 
 class NotFound(Error, LookupError):
-    """A name that is not there; the message lists similar ones."""
+    """An unknown name; the message lists similar ones."""
 
 
 class FrameNotFound(NotFound):
@@ -30,14 +30,14 @@ class FileError(Error, OSError):
 
 
 class RobotFault(Error):
-    """A robot that cannot be moved: it reports an error, or a guard has stopped it."""
+    """A robot that cannot be moved: it reports an error, or a safety limit has stopped it."""
 
 
 class ParseError(Error, ValueError):
-    """A text that does not follow its grammar, or a scene that makes no sense.
+    """A text that does not follow its grammar, or an invalid scene.
 
     Attributes:
-        file, line, column: where; the line counts from 1, 0 means unknown.
+        file, line, column: The place; lines count from 1, 0 means unknown.
     """
 
     file: str = ""
@@ -46,4 +46,5 @@ class ParseError(Error, ValueError):
 
 
 class KinegraphWarning(UserWarning):
-    """Something odd that is not an error: an attribute that looks misspelt, an objective that selects nothing."""
+    """A suspicious input that is not an error: an attribute that looks misspelled, an objective that selects
+    nothing."""

@@ -1,4 +1,5 @@
-"""Solvers of other packages behind `OptMethod.Ipopt` and `OptMethod.NLopt`: `pip install kinegraph[ipopt]`, `[nlopt]`."""
+"""Solvers of other packages behind `OptMethod.Ipopt` and `OptMethod.NLopt`: `pip install kinegraph[ipopt]`,
+`[nlopt]`."""
 
 from __future__ import annotations
 
@@ -15,7 +16,7 @@ _CONSTRAINTS = (OT.eq, OT.ineq, OT.ineqB)
 
 
 class _Stopped(Exception):
-    """The caller asked to stop."""
+    """The caller cancelled."""
 
 
 def _require(module: str, method: str, extra: str) -> Any:
@@ -28,7 +29,8 @@ def _require(module: str, method: str, extra: str) -> Any:
 
 
 class _Functions:
-    """The problem as cost, constraints and their derivatives. The last point is kept: programs ask for one after the other."""
+    """The problem as cost, constraints and their derivatives. The last point is cached: solvers query them one after
+    another."""
 
     def __init__(self, problem: dict[str, Any]):
         self.evaluate: Callable = problem["evaluate"]
@@ -97,7 +99,7 @@ def ipopt(problem: dict[str, Any]) -> dict[str, Any]:
         try:
             return functions.at(x)
         except _Stopped:
-            return None  # the callback between iterations ends it; exceptions would be lost in C
+            return None  # the callback between iterations ends the solve; exceptions would be lost in C
 
     def cost(x: np.ndarray) -> float:
         return functions.cost() if evaluate(x) else np.inf

@@ -1,4 +1,4 @@
-"""Motions as films (mp4, webm), drawn without a display."""
+"""Saves motions as films (mp4, webm), without a display."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from ._core import Config
 from .errors import ArgumentError, NotFound
 from .progress import drawProgress
 
-_CODECS = {  # and how fast they are to be
+_CODECS = {  # with their speed settings
     ".mp4": ("h264", {"preset": "veryfast"}),
     ".webm": ("libvpx-vp9", {"deadline": "realtime", "cpu-used": "6", "row-mt": "1"}),
 }
@@ -30,7 +30,7 @@ def _encoder() -> Any:
 
 
 def _states(config: Config, path: np.ndarray, count: int) -> np.ndarray:
-    """`count` states at equal steps along the path, linear in between."""
+    """Interpolates `count` states linearly at equal steps along the path."""
     numbers = path.shape[1:]
     dofs, frames = config.getJointDimension(), config.getFrameDimension()
     if path.ndim not in (2, 3) or len(path) == 0 or numbers not in ((dofs,), (frames, 7)):
@@ -42,7 +42,7 @@ def _states(config: Config, path: np.ndarray, count: int) -> np.ndarray:
     before = np.minimum(at.astype(int), max(len(path) - 2, 0))
     share = (at - before).reshape(-1, *[1] * (path.ndim - 1))
     after = path[np.minimum(before + 1, len(path) - 1)]
-    if path.ndim == 3:  # of two quaternions for one rotation the nearer one
+    if path.ndim == 3:  # uses the nearer of the two quaternions of a rotation
         turned = np.sum(path[before][..., 3:] * after[..., 3:], axis=-1, keepdims=True) < 0
         after = np.concatenate([after[..., :3], np.where(turned, -after[..., 3:], after[..., 3:])], axis=-1)
     return np.asarray((1 - share) * path[before] + share * after)
@@ -56,22 +56,22 @@ def saveFilm(
     rate: float = 25.0,
     size: tuple[int, int] | None = None,
 ) -> Path:
-    """Draws a motion and saves it as a film; needs no display. The camera is that of `config.viewer()`.
+    """Renders a motion and saves it as a film, without a display. The camera is that of `config.viewer()`.
 
-    A bar on a terminal says how far it is. Ctrl-C ends it and leaves no file. The joints stay as they are.
+    A terminal shows a progress bar. Ctrl-C ends the call and leaves no file. The joint state does not change.
 
     Args:
-        file: The file's name, which ends in .mp4 or .webm. Its folder is made if it is missing.
+        file: The file's name, which ends in .mp4 or .webm. A missing folder is created.
         config: The scene.
-        path: Joint vectors, shape (T, n), or poses of all frames, shape (T, frames, 7), as `komo.getPathFrames()`; equal
-            times apart.
-        seconds: How long the film is, s.
+        path: Joint vectors, shape (T, n), or poses of all frames, shape (T, frames, 7), like `komo.getPathFrames()`, at
+            equal time steps.
+        seconds: Duration of the film, s.
         rate: Pictures per second.
-        size: Width and height, pixels; as the viewer's camera, if not given. Odd numbers are made even.
+        size: Width and height, pixels; by default those of the viewer's camera. Odd numbers are made even.
     Returns:
         The file's path.
     Raises:
-        ArgumentError: The path, the name or a number makes no sense.
+        ArgumentError: The path, the name or a number is invalid.
         NotFound: The package av (extra `film`) is not installed.
         OSError: The file cannot be written.
     """
@@ -100,7 +100,7 @@ def saveFilm(
 
 
 def _write(av: Any, file: Path, states: np.ndarray, set_state: Any, viewer: Any, rate: float) -> None:
-    """Draws one picture while the one before is encoded."""
+    """Renders each picture while the previous one is encoded."""
     codec, options = _CODECS[file.suffix]
     began = time.monotonic()
     encoded: Future[None] | None = None

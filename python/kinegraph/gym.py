@@ -1,13 +1,13 @@
-"""Environments for gymnasium (`pip install 'kinegraph[gym]'`): a Panda that reaches, one that lifts, one that pushes, any scene
-with any reward, and many at once.
+"""Environments for gymnasium (`pip install 'kinegraph[gym]'`): a Panda that reaches, lifts or pushes, any scene with
+any reward, and batches of environments.
 
     from kinegraph.gym import ReachEnv
     env = ReachEnv()
     observation, info = env.reset(seed=0)
     observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
 
-An action is a velocity of the joints, as a share of the fastest; LiftEnv has one number more, which opens (> 0) or closes the
-hand. A step takes 50 ms. What is random comes from the seed of `reset`, and so all that follows is the same for the same seed.
+An action is a joint velocity, as a share of the largest; LiftEnv has one more entry, which opens (> 0) or closes the
+hand. A step takes 50 ms. All random numbers come from the seed of `reset`, so equal seeds give equal episodes.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from numpy.typing import NDArray
 
 import kinegraph as ry
 
-_SECONDS = 0.05  # of a step
+_SECONDS = 0.05  # duration of a step
 _SUBSTEPS = 5
 _HOME_NOISE = 0.1  # rad
-_FARTHEST = 100.0  # of numbers of an observation, m, rad or their rates: all are far below
+_FARTHEST = 100.0  # bound of the entries of an observation, m, rad or their rates: all values are far below
 
 
 def _panda() -> ry.Config:
@@ -35,7 +35,7 @@ def _panda() -> ry.Config:
 
 
 class _OneEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
-    """What environments of one simulation share: each episode begins where the first did."""
+    """Base class of environments with one simulation: each episode starts in the same state."""
 
     S: ry.Simulation
     start: ry.SimulationState
@@ -44,15 +44,15 @@ class _OneEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
         raise NotImplementedError
 
     def _vary(self) -> None:
-        """What is random where an episode begins; nothing is."""
+        """Randomizes the start of an episode; by default nothing."""
 
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.float32], dict[str, Any]]:
-        """Begins anew.
+        """Starts a new episode.
 
         Args:
-            seed: Of all that is random from now on.
+            seed: Seed of all random numbers from now on.
             options: Not used.
         Returns:
             The observation and an empty dict.
@@ -64,7 +64,7 @@ class _OneEnv(gymnasium.Env[NDArray[np.float32], NDArray[np.float32]]):
 
 
 class _PandaEnv(_OneEnv):
-    """What environments share that are a Panda whose joints get velocities."""
+    """Base class of environments with a Panda that is controlled by joint velocities."""
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": ["rgb_array"], "render_fps": 20}
 
@@ -83,7 +83,7 @@ class _PandaEnv(_OneEnv):
         self.observation_space = gymnasium.spaces.Box(-_FARTHEST, _FARTHEST, (observations,), np.float32)
 
     def _place(self) -> None:
-        """Puts the arm near its home, by the environment's random numbers."""
+        """Places the arm randomly near its home."""
         q = self.home + self.np_random.uniform(-_HOME_NOISE, _HOME_NOISE, self.home.shape)
         self.C.setJointState(np.clip(q, *self.limits))
         self.S.pushConfigToSim()
@@ -100,7 +100,7 @@ class _PandaEnv(_OneEnv):
         return np.array(self.C.getFrame("l_gripper").getPosition())
 
     def render(self) -> NDArray[np.uint8] | None:  # type: ignore[override]
-        """What the camera above the table sees.
+        """Renders the image of the camera above the table.
 
         Returns:
             The image, (height, width, 3), or None without render_mode.
@@ -109,7 +109,7 @@ class _PandaEnv(_OneEnv):
 
 
 class ReachEnv(_PandaEnv):
-    """The hand is to come to a random point above the table. Observed are q, velocities, hand and target.
+    """Task: move the hand to a random point above the table. Observations: q, velocities, hand and target.
 
     Args:
         render_mode: None or "rgb_array".
@@ -128,7 +128,7 @@ class ReachEnv(_PandaEnv):
         self.target = self.np_random.uniform([-0.4, 0.1, 0.75], [0.4, 0.5, 1.2])
 
     def step(self, action: NDArray[np.float32]) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
-        """Goes on by 50 ms.
+        """Advances by 50 ms.
 
         Args:
             action: (7,) in -1..1.
@@ -141,8 +141,8 @@ class ReachEnv(_PandaEnv):
 
 
 class LiftEnv(_PandaEnv):
-    """The hand is to lift a box from a random place on the table. Observed are q, velocities, the pose of the box, the box
-    from the hand, and the width of the gripper.
+    """Task: lift a box from a random place on the table. Observations: q, velocities, the pose of the box, the box
+    relative to the hand, and the gripper's width.
 
     Args:
         render_mode: None or "rgb_array".
@@ -169,13 +169,13 @@ class LiftEnv(_PandaEnv):
         self._place()
 
     def step(self, action: NDArray[np.float32]) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
-        """Goes on by 50 ms.
+        """Advances by 50 ms.
 
         Args:
             action: (8,) in -1..1; the last number opens or closes the hand.
         Returns:
-            Observation, reward (height of the box minus its distance from the hand, m), terminated (lifted by 10 cm), False,
-            and `height`.
+            Observation, reward (height of the box minus its distance from the hand, m), terminated (lifted by 10 cm),
+            False, and `height`.
         """
         if action[7] > 0:
             self.S.moveGripper("l_gripper", 0.08)
@@ -189,14 +189,14 @@ class LiftEnv(_PandaEnv):
 
 
 class SimulationEnv(_OneEnv):
-    """Any scene, any reward: joints are told velocities, a step takes 50 ms, and time runs out. Observed are q, velocities and
-    the poses of what moves freely.
+    """Any scene with any reward, controlled by joint velocities in steps of 50 ms, with a time limit. Observations: q,
+    velocities and the poses of free frames.
 
     Args:
-        C: The scene, as each episode begins; it follows the simulation.
-        time_limit: s, after which an episode is cut off.
-        reward: Of C as it is after a step.
-        fastest: Velocity that an action of 1 means, rad/s or m/s.
+        C: The scene at the start of each episode; the simulation updates it.
+        time_limit: Time after which an episode is truncated, s.
+        reward: Computes the reward from C after a step.
+        fastest: Velocity of an action of 1, rad/s or m/s.
         render_mode: None, "human" (on the page of C) or "rgb_array".
     Raises:
         ArgumentError: Another render_mode, or a time_limit that is not positive.
@@ -215,7 +215,7 @@ class SimulationEnv(_OneEnv):
         if render_mode not in (None, "human", "rgb_array"):
             raise ry.ArgumentError(f"render_mode is {render_mode!r}; expected None, 'human' or 'rgb_array'")
         if not time_limit > 0:
-            raise ry.ArgumentError(f"time_limit is {time_limit} s; expected more than 0")
+            raise ry.ArgumentError(f"time_limit is {time_limit} s; expected a positive number")
         self.render_mode = render_mode
         self.C, self.time_limit, self.reward, self.fastest = C, time_limit, reward, fastest
         self.S = ry.Simulation(C, verbose=2 if render_mode == "human" else 0)
@@ -231,12 +231,12 @@ class SimulationEnv(_OneEnv):
         return np.clip(parts, -_FARTHEST, _FARTHEST).astype(np.float32)
 
     def step(self, action: NDArray[np.float32]) -> tuple[NDArray[np.float32], float, bool, bool, dict[str, Any]]:
-        """Goes on by 50 ms.
+        """Advances by 50 ms.
 
         Args:
             action: (n,) in -1..1.
         Returns:
-            Observation, reward, False, whether time has run out, and an empty dict.
+            Observation, reward, False, whether the time limit is reached, and an empty dict.
         """
         velocity = self.fastest * np.clip(np.asarray(action, float), -1, 1)
         self.S.step(velocity, _SECONDS, ry.ControlMode.velocity)
@@ -244,7 +244,7 @@ class SimulationEnv(_OneEnv):
         return self._observation(), float(self.reward(self.C)), False, is_over, {}
 
     def render(self) -> NDArray[np.uint8] | None:  # type: ignore[override]
-        """What it looks like now.
+        """Renders the present scene.
 
         Returns:
             The viewer's picture, (height, width, 3), with "rgb_array"; else None.
@@ -256,10 +256,10 @@ class SimulationEnv(_OneEnv):
 
 
 class PushEnv(SimulationEnv):
-    """A Panda with a stick in its hand is to push a box over the table to a target.
+    """Task: push a box over the table to a target, with a stick in a Panda's hand.
 
     Args:
-        time_limit: s, after which an episode is cut off.
+        time_limit: Time after which an episode is truncated, s.
         render_mode: None, "human" (on the page of C) or "rgb_array".
     """
 
@@ -275,17 +275,17 @@ class PushEnv(SimulationEnv):
 
     @staticmethod
     def _reward(C: ry.Config) -> float:
-        """Minus the distances of stick and box and of box and target, m."""
+        """Returns minus the distances stick-box and box-target, m."""
         touch = C.eval(ry.FS.negDistance, ["stick", "box"])[0][0]
         return float(touch - np.linalg.norm(C.eval(ry.FS.positionDiff, ["box", "target"])[0]))
 
 
 class BatchEnv(gymnasium.vector.VectorEnv[NDArray[np.float32], NDArray[np.float32], NDArray[Any]]):
-    """Many reaching Pandas in one SimulationBatch, stepped by threads. Each begins anew in the step after it has arrived.
+    """Many reaching Pandas in one SimulationBatch, stepped in parallel. Each restarts in the step after its success.
 
     Args:
-        num_envs: How many.
-        threads: How many threads step them.
+        num_envs: Number of environments.
+        threads: Number of threads.
     """
 
     def __init__(self, num_envs: int = 16, threads: int = 1) -> None:
@@ -320,10 +320,10 @@ class BatchEnv(gymnasium.vector.VectorEnv[NDArray[np.float32], NDArray[np.float3
     def reset(
         self, *, seed: int | list[int | None] | None = None, options: dict[str, Any] | None = None
     ) -> tuple[NDArray[np.float32], dict[str, Any]]:
-        """Begins all anew.
+        """Restarts all environments.
 
         Args:
-            seed: One number for all that is random from now on.
+            seed: Seed of all random numbers from now on.
             options: Not used.
         Returns:
             Observations, (num_envs, 20), and an empty dict.
@@ -339,12 +339,13 @@ class BatchEnv(gymnasium.vector.VectorEnv[NDArray[np.float32], NDArray[np.float3
     def step(
         self, actions: NDArray[np.float32]
     ) -> tuple[NDArray[np.float32], NDArray[Any], NDArray[Any], NDArray[Any], dict[str, Any]]:
-        """All go on by 50 ms.
+        """Advances all environments by 50 ms.
 
         Args:
             actions: (num_envs, 7) in -1..1.
         Returns:
-            Observations, rewards (minus the distance, m), which have arrived, which were cut off (none), and an empty dict.
+            Observations, rewards (minus the distance, m), which terminated, which were truncated (none), and an empty
+            dict.
         """
         velocity = np.clip(np.asarray(actions, float), -1, 1) * self.fastest
         q = self.batch.q()

@@ -1,4 +1,4 @@
-"""Inverse kinematics that people steer in the browser."""
+"""Inverse kinematics controlled in the browser."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ _MISSED = [0.9, 0.2, 0.2, 0.6]
 _TOLERANCE = 1e-3  # m, rad
 _QUIT = (13, 27, ord("q"))
 _PERIOD = 1 / 60  # s
-_PATIENCE = 5.0  # s without a browser, where nobody may still come
+_PATIENCE = 5.0  # s without a browser, if no user can connect any more
 
 
 def _approach(config: Config, frame: str, target: str, rotation: bool) -> tuple[float, float]:
-    """Moves the joints to where the frame is nearest to the target; returns what is left, m and rad."""
+    """Moves the frame as close to the target as possible; returns the remaining distance (m) and angle (rad)."""
     komo = KOMO(config, 1, 1, 0, False)
     komo.addObjective([], FS.jointState, [], OT.sos, [1e-2], config.getJointState())
     komo.addObjective([], FS.positionDiff, [frame, target], OT.sos, [1e1])
@@ -33,19 +33,20 @@ def _approach(config: Config, frame: str, target: str, rotation: bool) -> tuple[
 
 
 def interactiveIk(config: Config, frame: str, target: str = "ik_target", rotation: bool = False) -> np.ndarray:
-    """Lets people drag a target in the browser; the joints follow, so that `frame` comes as near to it as it can.
+    """Lets users drag a target in the browser; the joints move `frame` as close to it as possible.
 
-    The target is green while it is reached and red while it is not, and the page says what is missing. It ends with q,
-    Enter or Escape in the browser, with Ctrl-C, or when no browser has been connected for 5 s; at a terminal and over
-    ssh it waits for the first one, and has printed where. Where nobody can drag anything (KINEGRAPH_HEADLESS is set) the joints go to the target once.
+    The target is green if reached and red otherwise, and the page shows the remaining error. The call ends with q,
+    Enter or Escape in the browser, with Ctrl-C, or without a connected browser for 5 s. At a terminal and over ssh it
+    prints the address and waits for the first browser. Without possible users (KINEGRAPH_HEADLESS is set), the joints
+    move to the target once.
 
     Args:
-        config: The scene; its joint state follows.
-        frame: Name of the frame that follows.
-        target: Name of the frame that is dragged; made, where `frame` is now, if there is none.
-        rotation: The rotation of the target is to be reached as well.
+        config: The scene; its joint state is updated.
+        frame: Name of the moved frame.
+        target: Name of the dragged frame; a missing one is created at the pose of `frame`.
+        rotation: Whether to reach the target's rotation, too.
     Returns:
-        The joint state in the end, shape (n,).
+        The final joint state, shape (n,).
     """
     if target not in config.getFrameNames():
         ball = config.addFrame(target).setShape(ST.sphere, [0.04]).setColor(_REACHED)
@@ -74,7 +75,7 @@ def interactiveIk(config: Config, frame: str, target: str = "ik_target", rotatio
             break
         time.sleep(_PERIOD)
         moved = viewer.hasEdits()
-        if moved and config.view() in _QUIT:  # takes over where the target is
+        if moved and config.view() in _QUIT:  # takes over the dragged target
             break
     config.view(False, "")
     return config.getJointState()

@@ -4,7 +4,7 @@
     reach = solveIk(C, ["l_gripper"])
     gradient = jax.grad(lambda positions: loss(reach(positions)))
 
-They run on the host, in jit as well. Inputs are batches, a row per problem: they are solved by `threads` threads without the
+They run on the host, also within jit. Inputs are batches, one row per problem: `threads` threads solve them without the
 interpreter lock. Set `jax_enable_x64` for more than six digits.
 """
 
@@ -21,20 +21,21 @@ import numpy as np
 from ._core import KOMO, Config, IkOptions
 from .solution_layers import IkSolutions, KomoSolutions, Numbers, numbers
 
-_KEPT = 16  # solutions whose gradients may be asked for without solving again
+_CACHE_SIZE = 16  # cached solutions, whose gradients need no further solve
 
 
 def _function(problem: Any, size: Callable[..., int]) -> Callable[..., jax.Array]:
-    """The solution as a function of arrays. Solutions are kept by their inputs: the same ones give the same bits."""
-    kept: OrderedDict[bytes, Any] = OrderedDict()
+    """Returns the solution as a function of arrays. Solutions are cached by their inputs: equal ones give equal
+    bits."""
+    cached: OrderedDict[bytes, Any] = OrderedDict()
 
     def solved(values: Sequence[Numbers]) -> Any:
         key = b"".join(value.tobytes() for value in values)
-        if key not in kept:
-            kept[key] = problem.solve(values)
-            if len(kept) > _KEPT:
-                kept.popitem(last=False)
-        return kept[key]
+        if key not in cached:
+            cached[key] = problem.solve(values)
+            if len(cached) > _CACHE_SIZE:
+                cached.popitem(last=False)
+        return cached[key]
 
     def onHost(*inputs: Any) -> Any:
         values = [numbers(value) for value in inputs]
@@ -72,19 +73,19 @@ def solveIk(
     unsolved: str = "raise",
     **fields: float,
 ) -> Callable[..., jax.Array]:
-    """Joint values as a function of batches of targets.
+    """Returns joint values as a function of batches of targets.
 
     Args:
-        config: Scene; not modified, and to stay as it is.
-        frames: Names of the frames that targets are for.
+        config: Scene. Not modified; it must not change later.
+        frames: Names of the frames with targets.
         options: IkOptions; fields of it by name override.
-        threads: Threads to share the work.
-        unsolved: What becomes of problems without an answer: "raise", or "zero" for a gradient of zero.
+        threads: Number of threads.
+        unsolved: Handling of unsolved problems: "raise", or "zero" for a gradient of zero.
         fields: Fields of IkOptions.
     Returns:
-        A function of an array per frame, positions (N, 3) or poses (N, 7), to q, shape (N, n), rad or m.
+        A function from one array per frame, positions (N, 3) or poses (N, 7), to q, shape (N, n), rad or m.
     Raises:
-        ArgumentError: Shapes do not fit, or a problem has no answer; when the function is called.
+        ArgumentError: A shape is wrong, or a problem is unsolved; when the function is called.
     """
     problem = IkSolutions(config, frames, options, threads, unsolved, **fields)
     return _function(problem, lambda *_: problem.size)
@@ -93,17 +94,17 @@ def solveIk(
 def solve(
     make: Callable[..., KOMO], parameters: Sequence[Any], size: int, *, threads: int = 1
 ) -> Callable[..., jax.Array]:
-    """Solutions of motion problems as a function of what they are made of.
+    """Returns solutions of motion problems as a function of their parameters.
 
     Args:
-        make: Called with a row of each of the arrays (numpy), returns a KOMO; the same one for the same rows.
-        parameters: What each array is in the problem, as `SolverReturn.sensitivity` takes it: ("box", "pose") for rows x y
-            z qw qx qy qz, "box" for positions, an objective for its target, ...
+        make: Called with a row of each array (numpy), returns a KOMO; always the same one for the same rows.
+        parameters: The role of each array in the problem, as for `SolverReturn.sensitivity`: ("box", "pose") for rows x
+            y z qw qx qy qz, "box" for positions, an objective for its target, ...
         size: Number of variables of the problems.
-        threads: Threads to share the work.
+        threads: Number of threads.
     Returns:
-        A function of arrays with a row per problem to x, shape (N, size), to rounding.
+        A function from arrays with a row per problem to x, shape (N, size), exact to rounding.
     Raises:
-        ArgumentError: A problem is not solved, or numbers do not fit; when the function is called.
+        ArgumentError: A problem is unsolved, or a size is wrong; when the function is called.
     """
     return _function(KomoSolutions(make, parameters, threads), lambda *_: size)

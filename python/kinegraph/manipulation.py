@@ -1,4 +1,4 @@
-"""Problems of manipulation in a few calls."""
+"""Manipulation problems in a few calls."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ _OPTIONS = {"damping": 1e-1, "stopTolerance": 1e-3, "lambdaMax": 100.0, "stopInn
 
 
 class KOMO_ManipulationHelper(ManipulationHelper):
-    """Problems of manipulation in a few calls: a setup, a call for each thing that a hand does, and solve.
+    """Builds manipulation problems in a few calls: a setup, then grasps, placements and motions, then solve.
 
-    komo: the KOMO, None before a setup. ret: how the last solve ended, or None. path: shape (T, n), rad or m, if it was
-    feasible, else None.
+    komo: the KOMO, None before a setup. ret: the result of the last solve, or None. path: shape (T, n), rad or m, if it
+    was feasible, else None.
 
         m = ry.KOMO_ManipulationHelper()
         m.setup_pick_and_place_waypoints(C, "l_gripper", "box")
@@ -36,7 +36,7 @@ class KOMO_ManipulationHelper(ManipulationHelper):
         """Makes a helper without a problem.
 
         Args:
-            info: What it calls the problem when it says how a solve ended.
+            info: Name of the problem in the output of solve.
         """
         super().__init__()
         self.info = info
@@ -49,12 +49,12 @@ class KOMO_ManipulationHelper(ManipulationHelper):
         return bool(self.ret is not None and self.ret.feasible)
 
     def solve(self, verbose: int = 1) -> SolverReturn:
-        """Solves the problem from the present path of its KOMO.
+        """Solves the problem from the current path of its KOMO.
 
         Args:
-            verbose: 1: a line says how it ended; more: the solver's own lines, too; 0: nothing.
+            verbose: 1: prints the result in a line; more: prints the lines of the solver, too; 0: prints nothing.
         Returns:
-            How it ended. The path is in `path` if it is feasible.
+            The result. The path is in `path` if it is feasible.
         Raises:
             ArgumentError: There is no problem yet.
         """
@@ -78,20 +78,21 @@ class KOMO_ManipulationHelper(ManipulationHelper):
         quaternion_norms: bool = False,
         joint_limits: bool = True,
     ) -> KOMO_ManipulationHelper:
-        """The motion of one phase of a solved sequence, from waypoint to waypoint, with attachments as they are then.
+        """Makes the motion problem of one phase of a solved sequence, between its waypoints, with the attachments of
+        that time.
 
         Args:
             phase: 0: to the first waypoint.
-            fixEnd: It ends exactly at the waypoint; else it only starts on the way there.
+            fixEnd: The motion ends exactly at the waypoint; else it is only initialized by interpolation.
             homing_scale: Weight of the distance from home; 0: none.
             acceleration_scale: Weight of accelerations.
-            accumulated_collisions: Nothing overlaps in any slice.
+            accumulated_collisions: Forbids overlaps in all slices.
             quaternion_norms: Quaternions have norm one.
             joint_limits: Joints stay within their limits.
         Returns:
-            A helper with that motion, to which more can be added before it is solved.
+            A helper with the motion, to which constraints can be added before it is solved.
         Raises:
-            ArgumentError: There is no such phase, or the problem is no sequence.
+            ArgumentError: The phase is out of range, or the problem is no sequence.
         """
         C, _, q1 = self._problem("sub_motion").getSubProblem(phase)
         motion = type(self)(f"sub_motion {phase}" + (f" of {self.info}" if self.info else ""))
@@ -104,15 +105,15 @@ class KOMO_ManipulationHelper(ManipulationHelper):
         return motion
 
     def sub_rrt(self, phase: int, explicitCollisionPairs: list[str] | None = None) -> Any:
-        """A path finder for one phase of a solved sequence, from waypoint to waypoint.
+        """Makes a path finder for one phase of a solved sequence, between its waypoints.
 
         Args:
             phase: 0: to the first waypoint.
-            explicitCollisionPairs: Names of frames, two by two: only these count. None or none: all that may collide.
+            explicitCollisionPairs: Pairs of names: only these collide. None or empty: all collidable pairs.
         Returns:
-            An RRT_PathFinder whose problem is set.
+            An RRT_PathFinder with the problem.
         Raises:
-            ArgumentError: There is no such phase, or the problem is no sequence.
+            ArgumentError: The phase is out of range, or the problem is no sequence.
         """
         import kinegraph
 
@@ -144,7 +145,7 @@ class KOMO_ManipulationHelper(ManipulationHelper):
             time.sleep(duration / len(self.path))
 
     def debug(self, listObjectives: bool = True, plotOverTime: bool = False) -> None:
-        """Prints why constraints do not hold, or how large the errors of the objectives are.
+        """Prints the constraints that do not hold, and the errors of the objectives.
 
         Args:
             listObjectives: Prints the objectives with their errors, the largest first.

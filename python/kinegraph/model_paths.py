@@ -1,4 +1,4 @@
-"""Where the models are that come with the package."""
+"""Paths of the models in the package."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ _SHIPPED = Path(__file__).parent / "models"
 
 
 def announce() -> None:
-    """Tells scene files where things are, unless the user has: `$RAI_PATH` is the model collection that comes with the
-    package, and `package://` finds what installed packages such as example-robot-data bring along."""
+    """Sets search paths of scene files, unless the user has: `$RAI_PATH` to the package's models, and `package://` to
+    the data of installed packages such as example-robot-data."""
     os.environ.setdefault("RAI_PATH", str(_SHIPPED))
     shares = [str(share) for folder in sys.path if (share := Path(folder) / "cmeel.prefix" / "share").is_dir()]
     if shares:
@@ -34,15 +34,15 @@ def setRaiPath(folder: str | os.PathLike[str]) -> None:
 
 
 def raiPath(path: str = "") -> str:
-    """The absolute path of a model file or folder.
+    """Returns the absolute path of a model file or folder.
 
     Args:
         path: Relative to the model collection: 'panda/panda.g', 'scenarios/pandaSingle.g'. The older spellings
-            '../rai-robotModels/...' and 'rai-robotModels/...' mean the same.
+            '../rai-robotModels/...' and 'rai-robotModels/...' work, too.
     Returns:
         The path.
     Raises:
-        FileError: Nothing is there; the message lists similar names.
+        FileError: There is no such model; the message lists similar names.
     """
     relative = str(path).lstrip("/")
     for prefix in ("../rai-robotModels/", "rai-robotModels/"):
@@ -57,14 +57,14 @@ def raiPath(path: str = "") -> str:
     hint = (
         f"; similar names: {', '.join(near)}"
         if near
-        else f"; there are: {', '.join(sorted(p.name for p in _SHIPPED.iterdir()))}"
+        else f"; models: {', '.join(sorted(p.name for p in _SHIPPED.iterdir()))}"
     )
     raise FileError(f"raiPath: there is no model '{path}' in {folders[0]}{hint}")
 
 
 def similarModels(path: str) -> list[str]:
-    """Up to three models, relative to the model collection, whose names are like `path`."""
-    import difflib  # not at import: it takes milliseconds, and few need it
+    """Returns up to three models with names similar to `path`, relative to the model collection."""
+    import difflib  # not at import: it takes milliseconds, and is rarely needed
 
     folders = [Path(os.environ.get("RAI_PATH", _SHIPPED)), _SHIPPED]
     known = sorted({str(file.relative_to(folder)) for folder in folders for file in folder.rglob("*.*")})

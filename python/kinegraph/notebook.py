@@ -11,7 +11,7 @@ _HEIGHT = 480  # pixels
 
 
 def isNotebook() -> bool:
-    """True in a kernel that shows rich output."""
+    """Returns whether this is a kernel with rich output."""
     ipython = sys.modules.get("IPython")
     shell = ipython.get_ipython() if ipython else None
     return shell is not None and "IPKernelApp" in shell.config
@@ -26,5 +26,5 @@ def showInline(url: str) -> None:
 
 
 def inlineFrame(page: str) -> str:
-    """A page as an element of another one, below 1 MB if that can be had."""
+    """Returns a page as an element of another one, below 1 MB if possible."""
     return f'<iframe srcdoc="{html.escape(embeddedPage(page))}" width="100%" height="{_HEIGHT}" style="border: 0"></iframe>'

@@ -1,4 +1,4 @@
-"""Problems by name, to try solvers on: `make_NLP_Problem('Rosenbrock')`."""
+"""Named test problems for solvers: `make_NLP_Problem('Rosenbrock')`."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ def _panda() -> Config:
 
 
 def _reach(C: Config, target: str) -> KOMO:
-    """The Panda's gripper to a point, near to its home posture, within the joint limits."""
+    """Moves the Panda's gripper to a point, near its home configuration, within the joint limits."""
     komo = KOMO(C, 1, 1, 0, False)
     komo.addControlObjective([], 0, 0.1)
     komo.addObjective([], FS.jointLimits, [], OT.ineq)
@@ -30,7 +30,7 @@ def _ik(seed: int) -> KOMO:
 
 
 def _ikObstacle(seed: int) -> KOMO:
-    """The point is behind an upright capsule."""
+    """Inverse kinematics to a point behind an upright capsule."""
     C = _panda()
     C.addFrame("dot", "table").setRelativePosition([0.2, 0.5, 0.3]).setShape(ST.sphere, [0.02])
     C.addFrame("obstacle", "table").setRelativePosition([0.1, 0.2, 0.5]).setShape(ST.capsule, [1, 0.1]).setColor([0.2])
@@ -41,7 +41,7 @@ def _ikObstacle(seed: int) -> KOMO:
 
 
 def _pushToReach(seed: int) -> KOMO:
-    """Four waypoints: go to a box, push it out of the way, take a stick from behind it, touch a point far away with that."""
+    """Four waypoints: go to a box, push it aside, grasp a stick behind it, touch a distant point with the stick."""
     C = _panda()
     box = C.addFrame("box", "table").setJoint(JT.rigid).setRelativePosition([0.4, 0, 0.25])
     box.setShape(ST.ssBox, [0.15, 0.4, 0.4, 0.005]).setMass(0.1).setContact(1)
@@ -74,7 +74,7 @@ def _pushToReach(seed: int) -> KOMO:
     komo.addObjective([2.0], FS.negDistance, ["stick", "box"], OT.ineq, [10.0], [-0.02])
     komo.addObjective([3.0, -1.0], FS.qItself, ["obj_trans"], OT.eq, [10.0], [], 1)
 
-    # The fingers around the stick at 3, nothing else of the arm at the box.
+    # The fingers are around the stick at 3, and nothing else of the arm touches the box.
     komo.addObjective([3.0], FS.positionRel, [gripper, "stick"], OT.eq, [[10, 0, 0], [0, 10, 0]])
     komo.addObjective([3.0], FS.positionRel, [gripper, "stick"], OT.ineq, [0, 0, 10], [0, 0, 0.28])
     komo.addObjective([3.0], FS.positionRel, [gripper, "stick"], OT.ineq, [0, 0, -10], [0, 0, -0.28])
@@ -91,10 +91,11 @@ def _pushToReach(seed: int) -> KOMO:
 
 
 def _supports(seed: int) -> list[str]:
-    """What holds the sphere: for seed 0 what the package robotic draws first, for others each with probability 1/2."""
+    """Samples the sphere's supports: for seed 0 the first sample of the package robotic, otherwise each with
+    probability 1/2."""
     if seed == 0:
         return ["box", "l_finger", "r_finger"]
-    import random  # not at import: it takes milliseconds, and few need it
+    import random  # not at import: it takes milliseconds, and is rarely needed
 
     rng = random.Random(seed)
     while True:
@@ -104,7 +105,7 @@ def _supports(seed: int) -> list[str]:
 
 
 def _stableSphere(seed: int) -> KOMO:
-    """A sphere in the air that is held by contacts with a box, a wall and two movable balls, whichever are drawn."""
+    """A sphere held in the air by contacts with a sample of a box, a wall and two movable balls."""
     C = Config()
     for side in "lr":
         C.addFile(raiPath("scenarios/ballFinger.g"), f"{side}_")
@@ -139,26 +140,26 @@ _MOTIONS = {
 
 
 def get_NLP_Problem_names() -> list[str]:
-    """The names that make_NLP_Problem knows."""
+    """Returns the names of make_NLP_Problem."""
     return [*testProblemNames(), *_MOTIONS]
 
 
 def make_NLP_Problem(problem_name: str, dim: int | None = None, seed: int = 0) -> NLP:
-    """A problem by name.
+    """Creates a problem by name.
 
     Args:
         problem_name: One of get_NLP_Problem_names().
-        dim: Number of variables, of spheres for SpherePacking; None: the parameter 'problem/dim', or 2 (50 spheres).
-        seed: Of the problems that are drawn by chance: square, Rugged, LinearProgram, StableSphere (what holds it).
+        dim: Number of variables, or of spheres for SpherePacking; None: the parameter 'problem/dim', or 2 (50 spheres).
+        seed: Seed of random problems: square, Rugged, LinearProgram, StableSphere (its supports).
     Returns:
         The problem.
     Raises:
-        NotFound: There is no such name; the message lists those that there are.
+        NotFound: There is no such name; the message lists all names.
     """
     if problem_name in _MOTIONS:
         return _MOTIONS[problem_name](seed).nlp()
     if problem_name not in testProblemNames():
-        import difflib  # not at import: it takes milliseconds, and few need it
+        import difflib  # not at import: it takes milliseconds, and is rarely needed
 
         near = difflib.get_close_matches(problem_name, get_NLP_Problem_names())
         hint = f"; similar names: {', '.join(near)}" if near else ""

@@ -1,11 +1,11 @@
-"""A line that says how far a long computation is."""
+"""Progress lines of long computations."""
 
 import sys
 from typing import TextIO
 
 
 def drawProgress(what: str, done: int, total: int, seconds: float, stream: TextIO | None = None) -> None:
-    """Redraws the bar on `stream` (stderr), if it is a terminal; ends the line when all is done."""
+    """Redraws the progress bar on `stream` (stderr), if it is a terminal; ends the line after the last item."""
     stream = stream or sys.stderr
     if not stream.isatty():
         return
@@ -20,7 +20,7 @@ def drawProgress(what: str, done: int, total: int, seconds: float, stream: TextI
 def drawSolve(
     what: str, evals: int, cost: float, violation: float, seconds: float, stream: TextIO | None = None
 ) -> None:
-    """Redraws how far a solver is on `stream` (stderr), if it is a terminal."""
+    """Redraws the progress of a solver on `stream` (stderr), if it is a terminal."""
     stream = stream or sys.stderr
     if not stream.isatty():
         return
@@ -47,16 +47,17 @@ def drawRate(
     ends: bool = False,
     stream: TextIO | None = None,
 ) -> None:
-    """Redraws how far a run over many items is on `stream` (stderr), if it is a terminal, with its rate and the time left.
+    """Redraws the progress of a run over many items on `stream` (stderr), if it is a terminal, with rate and remaining
+    time.
 
     Args:
-        what: The run's name.
-        done: How many items are done.
-        total: How many there are; None if nobody knows.
-        before: How many of those that are done were so at the start.
-        seconds: How long it has run, s.
-        ends: Whether the run is over: then the line stays.
-        stream: Where to draw.
+        what: Name of the run.
+        done: Number of finished items.
+        total: Number of all items; None if unknown.
+        before: Number of items that were finished at the start.
+        seconds: Duration so far, s.
+        ends: Whether the run has ended: then the line stays.
+        stream: Output stream.
     """
     stream = stream or sys.stderr
     if not stream.isatty():

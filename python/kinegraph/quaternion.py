@@ -12,11 +12,11 @@ Numbers = npt.ArrayLike
 Array = npt.NDArray[np.float64]
 
 
-def _asNumbers(values: Numbers, what_is: str, shape: str) -> Array:
+def _asNumbers(values: Numbers, subject: str, shape: str) -> Array:
     try:
         return np.asarray(values, np.float64)
     except (TypeError, ValueError):
-        raise ArgumentError(f"{what_is} {values!r}; expected numbers, shape {shape}") from None
+        raise ArgumentError(f"{subject} {values!r}; expected numbers, shape {shape}") from None
 
 
 def _numbers(values: Numbers, shape: tuple[int, ...], what: str) -> Array:
@@ -33,9 +33,9 @@ def _rotation(value: object, what: str) -> Quaternion:
 
 
 class Quaternion:
-    """A rotation as a quaternion w x y z. Setters change it and return it, so that they can be chained.
+    """A rotation as a quaternion w x y z. Setters modify it and return it, so that calls can be chained.
 
-    q1 * q2 turns by q2 first; -q is the inverse.
+    q1 * q2 rotates by q2 first; -q is the inverse.
 
     Args:
         wxyz: Four numbers; the default is the identity.
@@ -44,12 +44,12 @@ class Quaternion:
     """
 
     def __init__(self, wxyz: Numbers = (1.0, 0.0, 0.0, 0.0)) -> None:
-        """A quaternion of four numbers.
+        """Creates a quaternion of four numbers.
 
         Args:
-            wxyz: Shape (4,): w x y z; of any length, as for a rotation only the direction counts.
+            wxyz: Shape (4,): w x y z, of any length; as a rotation, only the direction matters.
         Raises:
-            ArgumentError: It has another shape.
+            ArgumentError: The shape is wrong.
         """
         self._q = _numbers(wxyz, (4,), "a quaternion").copy()
 
@@ -59,7 +59,7 @@ class Quaternion:
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Quaternion) and bool(np.array_equal(self._q, other._q))
 
-    __hash__ = None  # type: ignore[assignment]  # it changes
+    __hash__ = None  # type: ignore[assignment]  # it is mutable
 
     def __mul__(self, other: Quaternion) -> Quaternion:
         if not isinstance(other, Quaternion):
@@ -72,7 +72,7 @@ class Quaternion:
         return Quaternion(self._q * [1, -1, -1, -1])
 
     def set(self, q: Numbers) -> Quaternion:
-        """Takes these four numbers, as they are.
+        """Sets the four numbers, without normalization.
 
         Args:
             q: w x y z, shape (4,).
@@ -85,15 +85,15 @@ class Quaternion:
         return self
 
     def setZero(self) -> Quaternion:
-        """Becomes the identity. Returns the quaternion itself."""
+        """Sets the identity. Returns the quaternion itself."""
         return self.set([1.0, 0.0, 0.0, 0.0])
 
     def setRad(self, radians: float, axis: Numbers = (1.0, 0.0, 0.0)) -> Quaternion:
-        """Becomes a turn about an axis.
+        """Sets a rotation about an axis.
 
         Args:
-            radians: By how much.
-            axis: Shape (3,), of any length but 0.
+            radians: Angle, rad.
+            axis: Shape (3,), of any nonzero length.
         Returns:
             The quaternion itself.
         Raises:
@@ -106,7 +106,7 @@ class Quaternion:
         return self.set([np.cos(0.5 * radians), *(np.sin(0.5 * radians) * direction / length)])
 
     def setExp(self, vector_w: Numbers) -> Quaternion:
-        """Becomes a turn about a vector by its length.
+        """Sets the rotation about a vector by its length.
 
         Args:
             vector_w: Shape (3,), rad.
@@ -120,7 +120,7 @@ class Quaternion:
         return self.setRad(angle, v) if angle > 0 else self.setZero()
 
     def setEuler(self, euler_zxz: Numbers) -> Quaternion:
-        """Becomes Rz(a) Rx(b) Rz(c) of three angles.
+        """Sets Rz(a) Rx(b) Rz(c) from three angles.
 
         Args:
             euler_zxz: a, b, c, shape (3,), rad.
@@ -130,25 +130,28 @@ class Quaternion:
             ArgumentError: Not three numbers.
         """
         a, b, c = _numbers(euler_zxz, (3,), "the angles")
-        return self.set((_turn(2, a) * _turn(0, b) * _turn(2, c))._q)
+        return self.set((_axisRotation(2, a) * _axisRotation(0, b) * _axisRotation(2, c))._q)
 
     def setRollPitchYaw(self, roll_pitch_yaw: Numbers, reverse: bool = False) -> Quaternion:
-        """Becomes Rx(roll) Ry(pitch) Rz(yaw).
+        """Sets Rx(roll) Ry(pitch) Rz(yaw).
 
         Args:
             roll_pitch_yaw: Roll, pitch and yaw, shape (3,), rad.
-            reverse: Rz(yaw) Ry(pitch) Rx(roll) instead.
+            reverse: Use Rz(yaw) Ry(pitch) Rx(roll) instead.
         Returns:
             The quaternion itself.
         Raises:
             ArgumentError: Not three numbers.
         """
-        turns = [_turn(axis, angle) for axis, angle in enumerate(_numbers(roll_pitch_yaw, (3,), "roll, pitch and yaw"))]
-        a, b, c = reversed(turns) if reverse else turns
+        rotations = [
+            _axisRotation(axis, angle)
+            for axis, angle in enumerate(_numbers(roll_pitch_yaw, (3,), "roll, pitch and yaw"))
+        ]
+        a, b, c = reversed(rotations) if reverse else rotations
         return self.set((a * b * c)._q)
 
     def setMatrix(self, R: Numbers) -> Quaternion:
-        """Becomes the rotation of a matrix.
+        """Sets the rotation of a matrix.
 
         Args:
             R: Shape (3, 3).
@@ -176,11 +179,11 @@ class Quaternion:
         return self.set(products[largest] / (2 * np.sqrt(squares[largest]))).normalize()
 
     def setDiff(self, start: Numbers, end: Numbers) -> Quaternion:
-        """Becomes the shortest turn that brings one direction to another; of opposite ones, about an axis across.
+        """Sets the shortest rotation between two directions; for opposite ones, about a perpendicular axis.
 
         Args:
-            start: Shape (3,), of any length but 0.
-            end: Shape (3,), of any length but 0.
+            start: Shape (3,), of any nonzero length.
+            end: Shape (3,), of any nonzero length.
         Returns:
             The quaternion itself.
         Raises:
@@ -197,7 +200,7 @@ class Quaternion:
         return self.set([1 + a @ b, *np.cross(a, b)]).normalize()
 
     def setRandom(self) -> Quaternion:
-        """Becomes a random rotation, uniform over all; ry.rnd_seed seeds it. Returns the quaternion itself."""
+        """Sets a uniformly random rotation; ry.rnd_seed seeds it. Returns the quaternion itself."""
         scene = Config()
         scene.addFrame("world")
         scene.addFrame("ball", "world", "joint: quatBall, sampleUniform: 1, limits: [-1 -1 -1 -1 1 1 1 1]")
@@ -205,16 +208,16 @@ class Quaternion:
         return self.set(scene.getJointState()).normalize()
 
     def setInterpolateProper(self, t: float, start: Quaternion, end: Quaternion) -> Quaternion:
-        """Becomes a part of the way from one rotation to another at constant angular velocity, the shorter way round.
+        """Interpolates between two rotations at constant angular velocity, along the shorter arc (slerp).
 
         Args:
-            t: The part, 0 .. 1.
-            start: Where the way starts.
-            end: Where it ends.
+            t: Interpolation parameter, 0 .. 1.
+            start: Rotation at t = 0.
+            end: Rotation at t = 1.
         Returns:
             The quaternion itself.
         Raises:
-            ArgumentError: What is given is no Quaternion.
+            ArgumentError: start or end is not a Quaternion.
         """
         between = -_rotation(start, "the start") * _rotation(end, "the end")
         if between._q[0] < 0:
@@ -222,38 +225,38 @@ class Quaternion:
         return self.set((start * Quaternion().setExp(t * between.getLog()))._q)
 
     def setInterpolateEmbedded(self, t: float, start: Quaternion, end: Quaternion) -> Quaternion:
-        """Becomes a part of the way from one rotation to another, along the straight line between the numbers.
+        """Interpolates linearly between the four numbers of two rotations, and normalizes the result.
 
         Args:
-            t: The part, 0 .. 1.
-            start: Where the way starts.
-            end: Where it ends.
+            t: Interpolation parameter, 0 .. 1.
+            start: Rotation at t = 0.
+            end: Rotation at t = 1.
         Returns:
             The quaternion itself.
         Raises:
-            ArgumentError: What is given is no Quaternion.
+            ArgumentError: start or end is not a Quaternion.
         """
         sign = 1.0 if _rotation(start, "the start")._q @ _rotation(end, "the end")._q >= 0 else -1.0
         return self.set((1 - t) * start._q + t * sign * end._q).normalize()
 
     def append(self, q: Quaternion) -> Quaternion:
-        """Becomes self * q.
+        """Sets self * q.
 
         Args:
-            q: The rotation that comes first.
+            q: The rotation that is applied first.
         Returns:
             The quaternion itself.
         Raises:
-            ArgumentError: It is no Quaternion.
+            ArgumentError: q is not a Quaternion.
         """
         return self.set((self * _rotation(q, "q"))._q)
 
     def invert(self) -> Quaternion:
-        """Becomes its inverse. Returns the quaternion itself."""
+        """Inverts the rotation. Returns the quaternion itself."""
         return self.set((-self)._q)
 
     def flipSign(self) -> Quaternion:
-        """Becomes the other four numbers of the same rotation. Returns the quaternion itself."""
+        """Negates the four numbers, which represent the same rotation. Returns the quaternion itself."""
         return self.set(-self._q)
 
     def normalize(self) -> Quaternion:
@@ -271,32 +274,32 @@ class Quaternion:
         """Scales the angle.
 
         Args:
-            f: By which the angle is multiplied.
+            f: Factor of the angle.
         """
         self.setExp(f * self.getLog())
 
     def applyOnPointArray(self, pts: Numbers) -> Array:
-        """Turns points.
+        """Rotates points.
 
         Args:
             pts: Shape (n, 3).
         Returns:
-            The points, turned, shape (n, 3).
+            The rotated points, shape (n, 3).
         Raises:
-            ArgumentError: Another shape.
+            ArgumentError: The shape is wrong.
         """
         array = _asNumbers(pts, "the points are", "(n, 3)")
         if array.ndim != 2 or array.shape[1] != 3:
             raise ArgumentError(f"applyOnPointArray: points have shape {array.shape}; expected (n, 3)")
-        turned: Array = array @ self.getMatrix().T
-        return turned
+        rotated: Array = array @ self.getMatrix().T
+        return rotated
 
     def asArr(self) -> Array:
-        """w x y z, shape (4,)."""
+        """Returns w x y z, shape (4,)."""
         return self._q.copy()
 
     def getMatrix(self) -> Array:
-        """The rotation matrix, shape (3, 3)."""
+        """Returns the rotation matrix, shape (3, 3)."""
         w, x, y, z = self._q / np.linalg.norm(self._q)
         return np.array(
             [
@@ -307,11 +310,11 @@ class Quaternion:
         )
 
     def getRad(self) -> float:
-        """The angle, 0 .. 2 pi rad, as these numbers say."""
+        """Returns the angle of the quaternion, 0 .. 2 pi rad."""
         return float(2 * np.arctan2(np.linalg.norm(self._q[1:]), self._q[0]))
 
     def getLog(self) -> Array:
-        """The rotation vector of the shorter turn, shape (3,), rad."""
+        """Returns the rotation vector of the shorter rotation, shape (3,), rad."""
         q = self._q if self._q[0] >= 0 else -self._q
         length = float(np.linalg.norm(q[1:]))
         if length < 1e-12:
@@ -320,18 +323,18 @@ class Quaternion:
         return vector
 
     def getRollPitchYaw(self) -> Array:
-        """Roll, pitch and yaw, shape (3,), rad, of which setRollPitchYaw makes the same rotation."""
+        """Returns roll, pitch and yaw, shape (3,), rad, the inverse of setRollPitchYaw."""
         m = self.getMatrix()
         pitch = np.arcsin(np.clip(m[0, 2], -1, 1))
         return np.array([np.arctan2(-m[1, 2], m[2, 2]), pitch, np.arctan2(-m[0, 1], m[0, 0])])
 
     def getJacobian(self) -> Array:
-        """The angular velocity in the world per velocity of the four numbers, shape (3, 4)."""
+        """Returns the derivative of the world angular velocity by the velocity of the four numbers, shape (3, 4)."""
         w, x, y, z = self._q
         return 2 * np.array([[-x, w, -z, y], [-y, z, w, -x], [-z, -y, x, w]])
 
     def sqrNorm(self) -> float:
-        """The squared length of the four numbers."""
+        """Returns the squared norm of the four numbers."""
         return float(self._q @ self._q)
 
     @property
@@ -371,5 +374,5 @@ class Quaternion:
         self._q[3] = value
 
 
-def _turn(axis: int, angle: float) -> Quaternion:
+def _axisRotation(axis: int, angle: float) -> Quaternion:
     return Quaternion().setRad(angle, np.eye(3)[axis])

@@ -1,4 +1,4 @@
-"""Where a robot can reach, and from how many directions."""
+"""Computes the reachable positions of a robot, and the directions from which it reaches them."""
 
 from __future__ import annotations
 
@@ -12,19 +12,19 @@ import numpy as np
 from ._core import FS, Config, solveIk
 from .errors import ArgumentError
 
-CHUNK = 512  # targets in one item of a map: some milliseconds
+CHUNK = 512  # targets per item of a map: some milliseconds
 
 
 @dataclass(frozen=True)
 class Reachability:
-    """The cells of a grid that a frame reaches.
+    """The cells of a grid with their reachability by a frame.
 
     Attributes:
         frame: The frame's name.
         spacing: The size of a cell, m.
-        points: The cells' middles, shape (N, 3), m.
-        share: Of the directions that were tried, how many the frame has an answer for at each point, shape (N,), 0 to 1.
-        directions: The directions of the frame's z axis that were tried, shape (k, 3); (0, 3) if any orientation would do.
+        points: Centers of the cells, shape (N, 3), m.
+        share: Share of the tried directions that the frame reaches at each point, shape (N,), 0 to 1.
+        directions: Tried directions of the frame's z axis, shape (k, 3); (0, 3) for any orientation.
     """
 
     frame: str
@@ -35,7 +35,7 @@ class Reachability:
 
     @property
     def volume(self) -> float:
-        """The volume of the cells that are reached from any direction, m³."""
+        """The volume of the cells reached from at least one direction, m³."""
         return float(np.count_nonzero(self.share) * self.spacing**3)
 
     def __str__(self) -> str:
@@ -47,11 +47,11 @@ class Reachability:
         return text
 
     def addTo(self, config: Config, name: str = "reachability") -> None:
-        """Shows the cells in a scene, as a cloud of points: red where few directions are possible, blue where all are.
+        """Adds the cells to a scene as a point cloud: from red for few directions to blue for all.
 
         Args:
             config: The scene.
-            name: Of the frame that is added.
+            name: Name of the added frame.
         """
         reached = self.share > 0
         share = self.share[reached, None]
@@ -59,14 +59,14 @@ class Reachability:
         config.addFrame(name).setPointCloud(self.points[reached], colors)
 
     def save(self, file: str | os.PathLike[str]) -> Path:
-        """Writes a row for each cell: x, y, z (m) and share.
+        """Writes one row per cell: x, y, z (m) and share.
 
         Args:
             file: A name that ends in .csv, or in .parquet (extra `fleets`).
         Returns:
             The file's path.
         Raises:
-            ArgumentError: Another ending.
+            ArgumentError: The name has another ending.
             NotFound: The package pyarrow is not installed.
         """
         path = Path(file)
@@ -96,26 +96,26 @@ def reachability(
     progress: bool = True,
     **options: Any,
 ) -> Reachability:
-    """Finds where a frame can be, cell by cell of a grid, by inverse kinematics with limits and without collisions.
+    """Computes the cells of a grid that a frame reaches, by inverse kinematics with limits and without collisions.
 
-    The grid fills the box around the places that 4096 random postures reach. The scene stays as it is.
+    The grid fills the bounding box of the frame's positions in 4096 random configurations. The scene is not modified.
 
     Args:
         config: The scene.
-        frame: The frame's name; by default the last one that the last joint moves.
-        spacing: Of the grid, m.
-        directions: How many directions of the frame's z axis are tried at each cell, spread evenly over all; 0: only the position
-            counts.
-        engine: Who computes: "threads", "processes" or "ray", as for `map`.
-        workers: How many.
-        seed: Of the random postures.
-        progress: Whether to draw a bar on a terminal.
-        options: Of `solveIk`: collisions, attempts, margin ...
+        frame: The frame's name; by default the last one moved by the last joint.
+        spacing: Spacing of the grid, m.
+        directions: Number of directions of the frame's z axis tried at each cell, evenly spread over the sphere; 0:
+            position only.
+        engine: "threads", "processes" or "ray", see `map`.
+        workers: Number of workers.
+        seed: Seed of the random configurations.
+        progress: Whether to draw a progress bar on a terminal.
+        options: Options of `solveIk`: collisions, attempts, margin ...
     Returns:
-        The cells. After Ctrl-C those that are done; the others count as not reached.
+        The cells. After Ctrl-C, unfinished cells count as not reached.
     Raises:
         FrameNotFound: There is no such frame.
-        ArgumentError: Nothing moves the frame, or a number makes no sense.
+        ArgumentError: No joint moves the frame, or a number is out of range.
     """
     from .fleets import map
 
@@ -143,7 +143,7 @@ def reachability(
 
 
 def _lastFrame(config: Config) -> str:
-    """The last frame below the last joint that has a name of its own."""
+    """Returns the last named frame below the last joint."""
     moved = [f.name for f in config.getFrames() if np.any(config.eval(FS.position, [f.name])[1])]
     if not moved:
         raise ArgumentError("reachability: no joint moves a frame of this scene")
@@ -151,7 +151,7 @@ def _lastFrame(config: Config) -> str:
 
 
 def _grid(config: Config, frame: str, spacing: float, seed: int) -> np.ndarray:
-    """The middles of the cells around what random postures reach."""
+    """Returns the centers of the cells around the positions in random configurations."""
     low, high = np.asarray(config.getJointLimits(), float)
     if not (np.isfinite(low).all() and np.isfinite(high).all()):
         endless = [name for name, a, b in zip(config.getJointNames(), low, high) if not np.isfinite(b - a)]
@@ -169,7 +169,8 @@ def _grid(config: Config, frame: str, spacing: float, seed: int) -> np.ndarray:
 
 
 def _spread(count: int) -> np.ndarray:
-    """Directions spread evenly over the sphere: points of a Fibonacci lattice (Swinbank and Purser 2006), shape (count, 3)."""
+    """Returns directions spread evenly over the sphere: points of a Fibonacci lattice (Swinbank and Purser 2006), shape
+    (count, 3)."""
     i = np.arange(count) + 0.5
     z = 1 - 2 * i / max(count, 1)
     turn = np.pi * (3 - np.sqrt(5)) * i

@@ -1,4 +1,4 @@
-"""What a notebook shows of a Config, a table of its frames, and of a Frame."""
+"""Notebook views of a Config, a table of its frames, and of a Frame."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from .png import encodePng
 if TYPE_CHECKING:
     from . import Config, Frame
 
-_SHOWN = 20  # rows; the rest is counted
+_SHOWN = 20  # rows; further ones are counted
 
 
 def _row(frame: Frame) -> str:
@@ -29,7 +29,7 @@ def _row(frame: Frame) -> str:
 
 
 def _picture(config: Config) -> str:
-    """What the viewer's camera sees, as an element of a page; nothing where pictures cannot be drawn."""
+    """Renders the viewer's picture as a page element; empty if rendering is not possible."""
     try:
         png = encodePng(config.viewer().getRgb())
     except Error:
@@ -38,7 +38,8 @@ def _picture(config: Config) -> str:
 
 
 def sceneHtml(config: Config) -> str:
-    """A picture, a summary line, and a table with the first frames: name, parent, joint, shape, world position in m."""
+    """Returns a picture, a summary line, and a table of the first frames: name, parent, joint, shape, world position in
+    m."""
     frames = config.getFrames()
     summary = f"Config: {len(frames)} frames, {config.getJointDimension()} dofs"
     if not frames:
@@ -50,7 +51,7 @@ def sceneHtml(config: Config) -> str:
 
 
 def frameHtml(frame: Frame) -> str:
-    """A table of what the frame is now: where it is, m and quaternion, and its attributes as in a .g file."""
+    """Returns a table of the frame's present pose, m and quaternion, and its attributes as in a .g file."""
     parent = frame.getParent()
     described = {"parent": parent.name if parent else "none", "world pose": frame.getPose().tolist(), **frame.asDict()}
     rows = "".join(
@@ -60,7 +61,7 @@ def frameHtml(frame: Frame) -> str:
 
 
 def _text(value: object) -> str:
-    """Numbers shortly, and only the first of many."""
+    """Formats numbers briefly, and only the first of long lists."""
     if isinstance(value, list):
         more = f" ... ({len(value)} in all)" if len(value) > _SHOWN else ""
         return " ".join(_text(item) for item in value[:_SHOWN]) + more

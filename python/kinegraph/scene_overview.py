@@ -1,4 +1,4 @@
-"""A scene as a tree of what moves, for people to read."""
+"""Describes a scene as a tree of its moving parts."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ _NAMES_SHOWN = 4
 
 
 def describeScene(config: Config) -> str:
-    """The parts of a scene as a tree: a line for each root and each joint, with the shapes that are fixed to it.
+    """Describes the parts of a scene as a tree: one line per root and joint, with the rigidly attached shapes.
 
-    A joint says its type, where it is in q, its value, `in [lower, upper]` (rad or m), how fast and how strong its motor is
-    where that is known (rad/s or m/s, Nm or N), and the names of shapes; those in `*` take part in collisions.
+    A joint's line has its type, its index in q, its value, `in [lower, upper]` (rad or m), the motor's velocity and
+    effort limits if known (rad/s or m/s, Nm or N), and the names of shapes; those in `*` collide.
     """
     return "\n".join(_Overview(config).lines())
 
@@ -25,7 +25,7 @@ def _moves(frame: Frame) -> bool:
 class _Overview:
     def __init__(self, config: Config) -> None:
         self.config = config
-        self.members: dict[int, list[Frame]] = {}  # by the id of the part's own frame
+        self.members: dict[int, list[Frame]] = {}  # by the id of the part's first frame
         self.below: dict[int, list[Frame]] = {}
         part_of: dict[int, int] = {}
 
@@ -38,7 +38,7 @@ class _Overview:
             self.members.setdefault(partOf(frame), []).append(frame)
             if _moves(frame) and frame.getParent():
                 self.below.setdefault(partOf(frame.getParent()), []).append(frame)
-        self.dofs: dict[str, list[int]] = {}  # places in q, by the name of the joint
+        self.dofs: dict[str, list[int]] = {}  # indices in q, by the joint's name
         self.q, self.limits = config.getJointState(), config.getJointLimits()
         for i, name in enumerate(config.getJointNames()[: len(self.q)]):
             self.dofs.setdefault(name if name in self.dofs else name.rsplit(":", 1)[0], []).append(i)

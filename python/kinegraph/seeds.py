@@ -1,4 +1,4 @@
-"""What is random, and how it repeats."""
+"""Seeds of random numbers."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from ._core import setDefaultSeed
 
 
 def rnd_seed(s: int) -> None:
-    """Seeds what is random from here on: sampled joint states, initial points of solvers.
+    """Seeds all later random numbers: sampled joint states, initial points of solvers.
 
     Args:
-        s: A whole number; the same one gives the same numbers.
+        s: An integer; equal seeds give equal numbers.
     """
     setDefaultSeed(int(s))
 
 
 def rnd_seed_random() -> None:
-    """Seeds it with a number that differs in every run."""
+    """Sets a seed that differs in every run."""
     setDefaultSeed(int.from_bytes(os.urandom(8), "little") >> 1)  # 63 bits

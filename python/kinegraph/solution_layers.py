@@ -1,4 +1,5 @@
-"""What kinegraph.torch and kinegraph.jax share: solutions as functions of arrays, with their vector-Jacobian products, in numpy."""
+"""Common base of kinegraph.torch and kinegraph.jax: solutions as functions of arrays, with vector-Jacobian products, in
+numpy."""
 
 from __future__ import annotations
 
@@ -15,9 +16,9 @@ Numbers = NDArray[np.float64]
 
 
 def _pose_gradient(pose: Numbers, tangent: Numbers) -> Numbers:
-    """The gradient by x y z qw qx qy qz, of which the quaternion is normalized, from that by position and rotation vector.
+    """Converts a gradient by position and rotation vector to one by x y z qw qx qy qz, with a normalized quaternion.
 
-    exp(r) q is q + 1/2 (0, r) q to first order, so that r = 2 vec(dq q*); what changes the norm of q changes nothing.
+    exp(r) q is q + 1/2 (0, r) q to first order, hence r = 2 vec(dq q*); changes of the norm of q have no effect.
     """
     norm = np.linalg.norm(pose[..., 3:], axis=-1, keepdims=True)
     w, x, y, z = np.moveaxis(pose[..., 3:] / norm, -1, 0)
@@ -29,7 +30,7 @@ def _pose_gradient(pose: Numbers, tangent: Numbers) -> Numbers:
 
 
 class IkSolutions:
-    """q (N, n) of solveIk for N targets, and gradients through it."""
+    """The solution q (N, n) of solveIk for N targets, and gradients through it."""
 
     def __init__(
         self,
@@ -63,8 +64,8 @@ class IkSolutions:
         if len(failed) and self.unsolved == "raise":
             i = int(failed[0])
             raise ArgumentError(
-                f"{len(failed)} of {len(results)} targets have no answer, that has no derivative; problem {i}: "
-                f"{results[i].message}; unsolved='zero' takes their gradients as zero"
+                f"{len(failed)} of {len(results)} targets are unsolved and have no derivative; problem {i}: "
+                f"{results[i].message}; unsolved='zero' sets their gradients to zero"
             )
         return results.q, results
 
@@ -82,7 +83,7 @@ class IkSolutions:
 
 
 class KomoSolutions:
-    """x (N, n), exactly, of N motion problems that a function makes of arrays, and gradients through it."""
+    """The exact solutions x (N, n) of N motion problems made from arrays, and gradients through them."""
 
     def __init__(self, make: Callable[..., KOMO], parameters: Sequence[Any], threads: int) -> None:
         self.make = make
@@ -92,11 +93,11 @@ class KomoSolutions:
     def solve(self, values: Sequence[Numbers]) -> tuple[Numbers, list[Sensitivity]]:
         if len(values) != len(self.parameters):
             raise ArgumentError(
-                f"there are {len(values)} arrays for {len(self.parameters)} parameters; expected one for each"
+                f"{len(values)} arrays for {len(self.parameters)} parameters; expected one per parameter"
             )
         counts = {len(value) for value in values}
         if len(counts) != 1:
-            raise ArgumentError(f"the arrays have {sorted(counts)} rows; expected a row per problem in each")
+            raise ArgumentError(f"the arrays have {sorted(counts)} rows; expected one row per problem in each")
         komos = [self.make(*row) for row in zip(*values)]
         results = solveAll(komos, threads=self.threads)
         exact = []
@@ -117,7 +118,7 @@ class KomoSolutions:
                 parts = _pose_gradient(flat, parts)
             if parts.shape[1] != flat.shape[1]:
                 raise ArgumentError(
-                    f"array {k} has {flat.shape[1]} numbers per problem, but {self.parameters[k]!r} has {parts.shape[1]}"
+                    f"array {k} has {flat.shape[1]} entries per problem; {self.parameters[k]!r} has {parts.shape[1]}"
                 )
             found.append(parts.reshape(value.shape))
         return found

@@ -1,4 +1,4 @@
-"""Scenes to look at, as in the tutorial's first command: `ry.test.RndScene()`."""
+"""Demonstration scenes, as in the tutorial's first command: `ry.test.RndScene()`."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from .model_paths import raiPath
 
 
 def randomScene(seed: int = 0, boxes: int = 30) -> Config:
-    """Two robot arms at a table, and many rounded boxes of random size, color and pose around them."""
-    import random  # not at import: it takes milliseconds, and few need it
+    """Creates two robot arms at a table with many rounded boxes of random size, color and pose around them."""
+    import random  # not at import: it takes milliseconds, and is rarely needed
 
     rng = random.Random(seed)
     C = Config()
@@ -29,7 +29,7 @@ def randomScene(seed: int = 0, boxes: int = 30) -> Config:
 
 
 def RndScene() -> None:
-    """Shows a random scene and waits for a key (not where there is nobody to press one)."""
+    """Shows a random scene and waits for a key, if a user can press one."""
     C = randomScene()
     print(C.report())
     C.view(True, "ry.test.RndScene: a random scene")
@@ -51,6 +51,6 @@ _DEMOS = {
 
 
 def __getattr__(name: str) -> NoReturn:
-    """The reference's other demonstrations are not there; the message says what shows the same."""
+    """Raises an error for the reference's other demonstrations, with a replacement."""
     hint = f"; instead: {_DEMOS[name]}" if name in _DEMOS else ""
     raise AttributeError(f"test has no '{name}'{hint}")

@@ -4,8 +4,8 @@
     q = solveIk(C, {"l_gripper": positions})  # (N, 3), may require gradients
     loss(q).backward()
 
-Inputs are batches, a row per problem: they are solved by `threads` threads without the interpreter lock. Gradients are those
-of `result.sensitivity`: one solution of a linear system per problem.
+Inputs are batches, one row per problem: `threads` threads solve them without the interpreter lock. Gradients are those
+of `result.sensitivity`: one linear solve per problem.
 """
 
 from __future__ import annotations
@@ -45,20 +45,20 @@ def solveIk(
     unsolved: str = "raise",
     **fields: float,
 ) -> torch.Tensor:
-    """Joint values for batches of targets, differentiable by the targets.
+    """Returns joint values for batches of targets, differentiable by the targets.
 
     Args:
-        config: Scene; not modified.
+        config: Scene. Not modified.
         targets: Frame name -> positions (N, 3) or poses (N, 7), x y z qw qx qy qz, in the world.
         options: IkOptions; fields of it by name override.
-        threads: Threads to share the work.
-        unsolved: What becomes of problems without an answer: "raise", or "zero" for a gradient of zero.
+        threads: Number of threads.
+        unsolved: Handling of unsolved problems: "raise", or "zero" for a gradient of zero.
         fields: Fields of IkOptions.
     Returns:
-        q, shape (N, n), rad or m; along the shortest way where the targets leave joints free.
+        q, shape (N, n), rad or m; redundant joints move as little as possible.
     Raises:
-        ArgumentError: Shapes do not fit, or a problem has no answer.
-        NotFound: A frame is not there.
+        ArgumentError: A shape is wrong, or a problem is unsolved.
+        NotFound: There is no such frame.
     """
     problem = IkSolutions(config, list(targets), options, threads, unsolved, **fields)
     q: torch.Tensor = _Solution.apply(problem, *targets.values())
@@ -68,18 +68,18 @@ def solveIk(
 def solve(
     make: Callable[..., KOMO], values: Sequence[torch.Tensor], parameters: Sequence[Any], *, threads: int = 1
 ) -> torch.Tensor:
-    """Solutions of motion problems, differentiable by what they are made of.
+    """Returns solutions of motion problems, differentiable by their parameters.
 
     Args:
-        make: Called with a row of each of the values (numpy), returns a KOMO.
+        make: Called with a row of each array (numpy), returns a KOMO.
         values: Arrays with a row per problem.
-        parameters: What each of the values is in the problem, as `SolverReturn.sensitivity` takes it: ("box", "pose") for
-            rows x y z qw qx qy qz, "box" for positions, an objective for its target, ...
-        threads: Threads to share the work.
+        parameters: The role of each array in the problem, as for `SolverReturn.sensitivity`: ("box", "pose") for rows x
+            y z qw qx qy qz, "box" for positions, an objective for its target, ...
+        threads: Number of threads.
     Returns:
-        x, shape (N, n), to rounding: joint values of the slices, one after the other.
+        x, shape (N, n), exact to rounding: joint values of the slices, one after the other.
     Raises:
-        ArgumentError: A problem is not solved, or numbers do not fit.
+        ArgumentError: A problem is unsolved, or a size is wrong.
     """
     x: torch.Tensor = _Solution.apply(KomoSolutions(make, parameters, threads), *values)
     return x

@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from kinegraph.compatibility.lgp import default_Logic2KOMO_Translator, default_TAMP_Provider
 
     from . import DataGen, algo, calib, manipulation, nlp, render
-    from .manipulation import KOMO_ManipulationHelper, LGP_Tool, ManipulationModelling
     from .keywords import arg
+    from .manipulation import KOMO_ManipulationHelper, LGP_Tool, ManipulationModelling
 
 from .not_yet import (
     KOMO_Objective,

@@ -75,6 +75,9 @@
 #include "kinegraph/task_planning/search/plan_task.h"         // planTask, planTasks
 #include "kinegraph/trajectories/b_spline.h"                  // BSpline
 #include "kinegraph/trajectories/retime.h"                    // retime: the fastest motion along a path
+#include "kinegraph/trajectories/sampled_trajectory.h"        // a trajectory through given states
+#include "kinegraph/trajectories/spline_trajectory.h"         // a BSpline as a trajectory
+#include "kinegraph/trajectories/trajectory.h"                // Trajectory: what a robot follows
 #include "kinegraph/trajectory_optimization/multi_start.h"    // one problem from many starts
 #include "kinegraph/trajectory_optimization/skeleton.h"       // what shall hold when, in words
 #include "kinegraph/trajectory_optimization/spline_motion.h"  // motion problems in control points

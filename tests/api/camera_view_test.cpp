@@ -39,7 +39,7 @@ TEST(CameraView, SeesTheSceneFromAFrameAndFollowsIt) {
   EXPECT_EQ(ids[24 * 64 + 32], config.getFrame("wall").id());
 }
 
-TEST(CameraView, StaysWhereACameraIsGiven) {
+TEST(CameraView, StaysAtAFixedCamera) {
   Config config = wallAndCamera();
   CameraView view(config);
   Camera camera = view.setCamera("eye").camera();
@@ -49,7 +49,7 @@ TEST(CameraView, StaysWhereACameraIsGiven) {
   EXPECT_NEAR(nearestDepth(view), 1.3, 1e-5);
 }
 
-TEST(CameraView, MistakesAreTold) {
+TEST(CameraView, ErrorsAreReported) {
   CameraView view(wallAndCamera());
   Camera flat;
   flat.width = 0;

@@ -55,7 +55,7 @@ TEST_F(ConfigCalls, AMotionIsPlayedAndTheJointsStay) {
   EXPECT_THROW(config.viewPath(MatrixXd::Zero(3, 2)), ValueError);
 }
 
-TEST_F(ConfigCalls, FramesTellTheirPoseInParts) {
+TEST_F(ConfigCalls, FramesReturnTheirPoseInParts) {
   config.setJointState(VectorXd{{.3}});
   const Frame hand = config.getFrame("hand");
   EXPECT_EQ(hand.getPosition(), hand.getPose().p);

@@ -26,7 +26,7 @@ Config arm() {
 
 const std::vector<std::string> kEnd = {"end"};
 
-TEST(CustomFeature, ValueAndJacobianAreWhatTheFunctionReturns) {
+TEST(CustomFeature, ValueAndJacobianComeFromTheFunction) {
   const Config config = arm();
   const FeatureSource mine = customFeature(
       "mine", [](Frames f) { return FeatureValue(VectorXd(f[0].getPosition()), f[0].getPositionJacobian()); });

@@ -5,7 +5,7 @@
 namespace kinegraph {
 namespace {
 
-TEST(KomoMotion, HasASliceForEachOfThePathAndBeforeItAndMarksWhatIsViolated) {
+TEST(KomoMotion, HasAllSlicesAndThePrefixAndMarksViolations) {
   Config config;
   config.addText("base: { } \n hand (base): { joint: transX, limits: [-2 2] } \n goal: { X: [1 0 0] }");
   Komo komo(config, 1., 3, 2);
@@ -45,7 +45,7 @@ void expectLine(const NearLine& line, const std::string& names, double distance,
   EXPECT_LT((line.b - Vector3d(xb, 0., 0.)).norm(), 1e-4) << line.b.transpose();
 }
 
-TEST(KomoMotion, ShowsWhereShapesTouchThatMustNot) {
+TEST(KomoMotion, ShowsForbiddenContacts) {
   for (const FeatureSymbol symbol : {FeatureSymbol::accumulatedCollisions, FeatureSymbol::pairCollisions}) {
     Config config = ballAtTable();
     config.getFrame("foot").setContact(0);
@@ -62,7 +62,7 @@ TEST(KomoMotion, ShowsWhereShapesTouchThatMustNot) {
   }
 }
 
-TEST(KomoMotion, ShowsHowFarPairsAreFromWhereTheyShallBe) {
+TEST(KomoMotion, ShowsViolatedDistances) {
   Komo komo(ballAtTable(), 1., 1, 1);
   komo.addObjective({}, FeatureSymbol::distance, {"ball", "table"}, ObjectiveType::eq);
   const ShownMotion motion = motionOf(komo);

@@ -42,7 +42,7 @@ TEST(ModelPath, AFolderOfTheUsersComesFirstAndThePackagesLast) {
   unsetenv("RAI_PATH");
 }
 
-TEST(ModelPath, AMissingModelIsToldWithSimilarNames) {
+TEST(ModelPath, AMissingModelIsReportedWithSimilarNames) {
   unsetenv("RAI_PATH");
   expectError<FileError>([] { modelPath("scenarios/pandaSingel.g"); },
                          {"there is no model 'scenarios/pandaSingel.g'", "scenarios/pandaSingle.g"});

@@ -31,7 +31,7 @@ TEST(RecordedMotion, HasASliceEvery20MillisecondsWhateverTheSteps) {
     EXPECT_LE(motion.poses[i][0].p.z(), motion.poses[i - 1][0].p.z()) << i;
 }
 
-TEST(RecordedMotion, GoesOnWhereTimeWasSetBack) {
+TEST(RecordedMotion, ContinuesIfTimeWasSetBack) {
   Config C = fallingBall();
   Simulation simulation(C);
   const SimulationState start = simulation.getState();

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kEdgeTolerance = 1e-5;  ///< m
 
-/// Two arms, one of which holds a thing, and obstacles of all kinds.
+/// Two arms, one with an attached object, and obstacles of all kinds.
 std::string scene(const std::string& first, const std::string& second) {
   return twoArms(first, second) +
          "held(finger): { Q: \"t(.05 .02 .1) d(35 1 .6 .2)\", shape: cylinder, size: [.1 .03], contact: 1 }\n"
@@ -222,7 +222,7 @@ TEST(EdgeChecker, FindsWherePairsComeNearestOnTheWay) {
     }
     double inside = kMost, ends = std::min({kMost, nearest.at(from), nearest.at(to)});
     for (int i = 1; i < kFine; ++i) inside = std::min(inside, nearest.at(q(double(i) / kFine)));
-    if (inside > ends - kNearEnough) continue;  // it comes nearest at an end
+    if (inside > ends - kNearEnough) continue;  // the minimum is at an end
     EXPECT_LT(least_found, inside + kNearEnough) << trial;
     ++found;
   }

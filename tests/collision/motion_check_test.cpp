@@ -174,7 +174,7 @@ TEST(MotionChecker, AmongManyBodiesFindsTheSameContactsAsAmongFew) {
     if (!found) continue;
     ++hit;
     EXPECT_LT(found->distance,
-              kTolerance);  // long motions go in pieces among many, and may stop elsewhere within the tolerance
+              kTolerance);  // long edges are cut into pieces, and the contact may differ within the tolerance
     EXPECT_NEAR(found->time, expected->time, 1e-2);
     const VectorXd change = to - from, before = from + (expected->time - .02) * change,
                    behind = from + (expected->time + .02) * change;

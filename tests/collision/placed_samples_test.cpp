@@ -10,7 +10,7 @@
 namespace kinegraph {
 namespace {
 
-/// Joints of many types, bodies of many kinds, turned any way.
+/// Joints of many types and bodies of many kinds, at random orientations.
 Config crane(const std::string& more = "") {
   Config C;
   C.addText(R"(
@@ -39,7 +39,7 @@ std::vector<VectorXd> draws(const State& scene, int count) {
   return Q;
 }
 
-/// Eight postures.
+/// Eight configurations.
 void placeDraws(PlacedSamples& samples, const State& scene) {
   const std::vector<VectorXd> Q = draws(scene, 8);
   for (int i = 0; i < 8; ++i) samples.setJoints(i, Q[std::size_t(i)].data());
@@ -95,7 +95,7 @@ TEST_P(InLanes, BoundsAreBelowDistancesAndSpheresAroundBodies) {
   EXPECT_GT(told, 20);
 }
 
-/// Also hulls of few and of many corners, and what is round.
+/// Also hulls of few and of many corners, and round bodies.
 Config craneAmongHulls() {
   Config C = crane(R"(
 drum(arm): {shape: cylinder, size: [0.3, 0.1], Q: [0.2, 0.1, 0.2, 0.8, 0.1, 0.2, 0.3], contact: 1}

@@ -71,7 +71,7 @@ TEST(DiffIk, PairsKeepTheirMargin) {
   EXPECT_NE(ik.active()[0].find("'tip' and 'obstacle'"), std::string::npos) << ik.active()[0];
 }
 
-TEST(DiffIk, FromBeyondALimitItGoesBackAsFastAsItMay) {
+TEST(DiffIk, FromBeyondALimitAJointReturnsAtItsSpeedLimit) {
   Config C = planarArm();
   DiffIk ik(C, withLimits(1., 0.));
   ik.addTask(FeatureSymbol::positionDiff, {"tip", "target"});
@@ -81,7 +81,7 @@ TEST(DiffIk, FromBeyondALimitItGoesBackAsFastAsItMay) {
   EXPECT_LE(C.getJointState()[1], 2. + kKept);
 }
 
-TEST(DiffIk, DampersThatContradictLimitsGiveWayAndAreNamed) {
+TEST(DiffIk, DampersThatContradictLimitsAreRelaxedAndNamed) {
   Config C = planarArm();
   DiffIk ik(C, withLimits(.1, 0.));
   ik.addTask(FeatureSymbol::positionDiff, {"tip", "target"});
@@ -93,7 +93,7 @@ TEST(DiffIk, DampersThatContradictLimitsGiveWayAndAreNamed) {
   EXPECT_LT(eval(C, FeatureSymbol::positionDiff, {"tip", "obstacle"}).y[0], -.05);  // and it goes away
 }
 
-TEST(DiffIk, ThePostureDecidesWhatTasksLeaveOpen) {
+TEST(DiffIk, ThePostureDeterminesTheNullspace) {
   Config C = planarArm();
   DiffIkOptions options = withLimits(5., 0.);
   options.posture = 1e-2;
@@ -104,7 +104,7 @@ TEST(DiffIk, ThePostureDecidesWhatTasksLeaveOpen) {
   EXPECT_LT((C.getJointState() - posture).cwiseAbs().maxCoeff(), 1e-4);
 }
 
-TEST(DiffIk, ATaskOfAHigherLevelHasWhatOthersLeaveOpen) {
+TEST(DiffIk, ATaskOfAHigherPriorityNumberUsesFreeDirections) {
   Config C = planarArm();
   DiffIkOptions options = withLimits(1e4, 0.);
   options.posture = 1e-3;
@@ -128,7 +128,7 @@ TEST(DiffIk, ATaskOfAHigherLevelHasWhatOthersLeaveOpen) {
   EXPECT_LT((J * step + .5 * tip.y.head(2)).norm(), 1e-8);
 }
 
-TEST(DiffIk, LevelsKeepLimitsAndPairs) {
+TEST(DiffIk, PrioritiesKeepLimitsAndPairs) {
   Config C = planarArm();
   C.getFrame("obstacle").setPosition({.9, .8, 0.});  // at the target
   DiffIk ik(C, withLimits(2., 20.));
@@ -147,7 +147,7 @@ TEST(DiffIk, LevelsKeepLimitsAndPairs) {
   EXPECT_LT(distanceTo(C, "obstacle") - .15, .011);
 }
 
-TEST(DiffIk, EqualitiesHoldWhileTasksPull) {
+TEST(DiffIk, EqualitiesHoldBesideTasks) {
   Config C = planarArm();
   C.getFrame("target").setPosition(C.getFrame("tip").getPosition());
   DiffIk ik(C, withLimits(1., 10.));
@@ -162,7 +162,7 @@ TEST(DiffIk, EqualitiesHoldWhileTasksPull) {
   EXPECT_GT((C.getJointState() - before).norm(), .2);  // within what is open
 }
 
-TEST(DiffIk, AnEqualityThatLimitsForbidGivesWayAndIsNamed) {
+TEST(DiffIk, AnEqualityThatLimitsForbidIsRelaxedAndNamed) {
   Config C = planarArm();
   DiffIk ik(C, withLimits(.5, 0.));
   const int tip = ik.addEquality(FeatureSymbol::positionDiff, {"tip", "target"});

@@ -58,6 +58,24 @@ TEST(Mpc, WithoutWishesTheMotionGoesOnAsMeasured) {
   EXPECT_EQ(mpc.at(9.).velocity, VectorXd::Zero(3));
 }
 
+TEST(Mpc, TheHorizonIsTheMotionAsATrajectory) {
+  Mpc mpc(reachingHorizon(planarArm()));
+  const Eigen::Vector3d q(.1, -.2, .3), velocity(.5, 0., -1.);
+  mpc.step(q, velocity);
+  const HorizonTrajectory horizon = mpc.horizon();
+  EXPECT_EQ(horizon.dimension(), 3);
+  EXPECT_NEAR(horizon.duration(), mpc.komo().slices() * mpc.komo().tau(), 1e-12);
+  EXPECT_EQ(horizon.eval(-1.).q, q);
+  for (double t = .007; t < horizon.duration(); t += .013) {
+    const MotionState state = horizon.eval(t), before = horizon.eval(t - 1e-6), after = horizon.eval(t + 1e-6);
+    EXPECT_EQ(state.q, mpc.at(t).q) << t;
+    EXPECT_EQ(state.velocity, mpc.at(t).velocity) << t;
+    EXPECT_LT((state.acceleration - (after.velocity - before.velocity) / 2e-6).norm(), 1e-4) << t;
+  }
+  const VectorXd last = mpc.getPath().bottomRows(1).transpose();
+  EXPECT_LT((horizon.eval(horizon.duration()).q - last).norm(), 1e-12);
+}
+
 TEST(Mpc, WhatItKnowsLeadsToTheSameMotionAsStartingAnew) {
   Config C = planarArm();
   C.getFrame("obstacle").setPosition({.75, 1., 0.});

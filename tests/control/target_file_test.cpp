@@ -34,9 +34,9 @@ TEST(TargetFile, MistakesAreNamedWithTheirPlace) {
   refused("0, 1, 2, 3\n1, 1, 2, 3, 1, 0, 0, 0\n", {"way.csv:2:1: 8 numbers", "4"});
   refused("0, 1, 2, 3\n0, 1, 2, 3\n", {"way.csv:2:1: time 0 does not come after 0"});
   refused("0, 1, 2, 3\n1, 1, 2, inf\n", {"way.csv:2:10: 'inf' is not finite"});
-  refused("0, 1, two, 3\n", {"way.csv:1:7: 'two' is no number"});
-  refused("0, 1, , 3\n", {"way.csv:1:6: '' is no number"});
+  refused("0, 1, two, 3\n", {"way.csv:1:7: 'two' is not a number"});
+  refused("0, 1, , 3\n", {"way.csv:1:6: '' is not a number"});
   refused("0, 1, 2, 3, 0, 0, 0, 0\n", {"way.csv:1:1: the quaternion is zero"});
-  refused("t, x, y, z\n", {"way.csv:2:1: no rows"});
+  refused("t, x, y, z\n", {"way.csv:2:1: the text has no poses"});
   expectError<FileError>([] { TargetFile("nowhere.csv"); }, {"nowhere.csv"});
 }

@@ -146,7 +146,7 @@ TEST_F(WriteMjcf, MeshesStandInTheTextOrInFilesBesideIt) {
   EXPECT_EQ(copy.getFrame("tri").getShapeType(), ShapeType::mesh);
 }
 
-TEST_F(WriteMjcf, AJointThatIsNoPartOfQIsFixedWhereItIsAndSaidSo) {
+TEST_F(WriteMjcf, AJointOutsideOfQIsFixedWithAWarning) {
   const Config config = scene(
       "a: {} j (a): { joint: hingeX, q: .3 } f_origin (j): { pose: [0 0 1] } f (f_origin): { joint: transY, q: .04, "
       "joint_active: False } tip (f): { pose: [0 0 0 1 1 0 0] } g (j): { joint: transY, mimic: f, joint_scale: -1 }");
@@ -156,7 +156,7 @@ TEST_F(WriteMjcf, AJointThatIsNoPartOfQIsFixedWhereItIsAndSaidSo) {
   EXPECT_EQ(again(config).getJointNames(), std::vector<std::string>{"j"});
   ASSERT_EQ(warnings_.size(), 2u);
   std::sort(warnings_.begin(), warnings_.end());
-  EXPECT_NE(warnings_[0].find("joint 'f' is no part of q"), std::string::npos);
+  EXPECT_NE(warnings_[0].find("joint 'f' is not in q"), std::string::npos);
   EXPECT_NE(warnings_[1].find("joint 'g' is fixed because the joint 'f' it mimics is fixed"), std::string::npos);
 }
 

@@ -138,8 +138,9 @@ TEST(WriteScene, KeepsNamesThatTheLanguageCanHoldAndWarnsOfOthers) {
   std::vector<std::string> warnings;
   EXPECT_EQ(scene(writeScene(config, &warnings)).getFrameNames(), (std::vector<std::string>{"a:1", "two_words", "c"}));
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_EQ(warnings[0],
-            "names that are duplicate or not expressible in the text are changed: 'two words' (frame 1) as 'two_words'");
+  EXPECT_EQ(
+      warnings[0],
+      "names that are duplicate or not expressible in the text are changed: 'two words' (frame 1) as 'two_words'");
 }
 
 TEST(WriteScene, TransformsBeforeAJointAreWrittenOnce) {

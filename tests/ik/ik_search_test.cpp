@@ -7,7 +7,7 @@
 namespace kinegraph {
 namespace {
 
-const Stop kNever = [] { return false; };
+const CancellationToken kNever = [] { return false; };
 
 Config arm() {
   Config config;

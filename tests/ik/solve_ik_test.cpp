@@ -301,10 +301,10 @@ TEST(SolveIk, AWatchEndsTheSearchAndMayThrow) {
   std::vector<std::vector<IkTarget>> problems(5000, {IkTarget::toPosition("l_gripper", {5., 0., 0.})});
   for (const int threads : {1, 2}) {
     int calls = 0;
-    const std::vector<IkResult> results = solveIkBatch(config, problems, {}, threads, [&](int) { return ++calls > 0; });
+    const std::vector<IkResult> results = solveIkBatch(config, problems, {}, threads, {}, [&] { return ++calls > 0; });
     EXPECT_EQ(results.back().status, IkStatus::cancelled);
     EXPECT_EQ(results.back().q.size(), 7);
-    EXPECT_THROW(solveIkBatch(config, problems, {}, threads, [](int) -> bool { throw std::runtime_error("stop"); }),
+    EXPECT_THROW(solveIkBatch(config, problems, {}, threads, [](const Progress&) { throw std::runtime_error("stop"); }),
                  std::runtime_error);
   }
 }

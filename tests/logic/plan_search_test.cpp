@@ -114,7 +114,7 @@ TEST(PlanSearch, ABeginningThatIsForbiddenIsNotTakenAgain) {
 }
 
 TEST(PlanSearch, EffortIsLimited) {
-  PlanSearch search(ground(tower(6)), {.most_expansions = 5});
+  PlanSearch search(ground(tower(6)), {.max_expansions = 5});
   EXPECT_FALSE(search.next());
   EXPECT_EQ(search.status(), PlanSearch::Status::limit);
 }

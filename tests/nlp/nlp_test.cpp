@@ -78,7 +78,7 @@ TEST(Nlp, EvaluateSizesPhiAndRefusesAnXOrJOfAnotherSize) {
                             {"Nlp::evaluate: x has 3 entries; the problem has 2 variables"});
     Jacobian J;
     expectError<ValueError>([&] { problem->evaluate(VectorXd::Ones(2), phi, &J); },
-                            {"Nlp::evaluate: J is 0 x 0; expected ", " x 2, as makeJacobian() gives it"});
+                            {"Nlp::evaluate: J is 0 x 0; expected ", " x 2, the sizes of makeJacobian()"});
   }
 }
 
@@ -227,13 +227,13 @@ TEST(EvaluateScalar, IsTheSumWithItsDerivatives) {
   EXPECT_TRUE(near(at.hessian, (MatrixXd(2, 2) << -3. + 2., .75 - 2., .75 - 2., 2.).finished(), 1e-12));
   Windows constrained;
   expectError<ValueError>([&] { evaluateScalar(constrained, somewhere(constrained, 0)); },
-                          {"f and sos only", "row 1 (eq)"});
+                          {"expected f or sos", "row 1 (eq)"});
 }
 
 TEST(CallbackNlp, SizesThatDoNotFitSayWhatWasExpected) {
   const auto nothing = [](const VectorXd&, VectorXd&, MatrixXd&) {};
   expectError<ValueError>([&] { CallbackNlp(3, {sos}, VectorXd::Zero(2), VectorXd::Ones(3), nothing); },
-                          {"dimension 3", "not 2 and 3"});
+                          {"2 lower and 3 upper", "expected 3"});
   expectError<ValueError>([&] { CallbackNlp(-1, {}, {}, {}, nothing); }, {"dimension", "-1"});
   CallbackNlp wrong_rows(2, {sos, sos}, {}, {}, [](const VectorXd&, VectorXd& phi, MatrixXd&) { phi.setZero(3); });
   CallbackNlp wrong_columns(2, {sos}, {}, {}, [](const VectorXd&, VectorXd&, MatrixXd& J) { J.setZero(1, 5); });

@@ -15,9 +15,9 @@ namespace {
 using enum ObjectiveType;
 
 /// phi = (sin(a x), a^2 x y), with a to be moved.
-class Waves final : public MovedParameter {
+class Waves final : public FiniteDifferenceParameter {
  public:
-  Waves() : MovedParameter("a", {"a"}) {}
+  Waves() : FiniteDifferenceParameter("a", {"a"}) {}
   double a = 2.;
 
  private:

@@ -8,12 +8,12 @@ namespace kinegraph {
 
 TEST(LazyValidity, IsFoundOnceWhenItIsFirstAskedFor) {
   int calls = 0;
-  const LazyValidity verdict([&](const std::function<void()>&) {
+  const LazyValidity verdict([&](const CancellationToken&) {
     ++calls;
     return ValidityReport{false, "a meets b"};
   });
   EXPECT_EQ(calls, 0);
-  EXPECT_FALSE(verdict.get().free);
+  EXPECT_FALSE(verdict.get().valid);
   EXPECT_EQ(verdict.get().message, "a meets b");
   EXPECT_EQ(calls, 1);
 }
@@ -24,9 +24,9 @@ TEST(LazyValidity, IsSoughtAnewWhereTheFirstWhoAskedGaveUp) {
     return ValidityReport{};
   });
   EXPECT_THROW(verdict.get([] { throw std::runtime_error("enough"); }), std::runtime_error);
-  EXPECT_TRUE(verdict.get().free);
+  EXPECT_TRUE(verdict.get().valid);
 }
 
-TEST(LazyValidity, MayBeKnownAlready) { EXPECT_FALSE(LazyValidity(ValidityReport{false, "known"}).get().free); }
+TEST(LazyValidity, MayBeKnownAlready) { EXPECT_FALSE(LazyValidity(ValidityReport{false, "known"}).get().valid); }
 
 }  // namespace kinegraph

@@ -290,7 +290,8 @@ TEST_F(MjcfReader, MistakesSayWhereTheyAreAndWhatIsNear) {
   const auto expect = [&](const std::string& inside, std::initializer_list<const char*> parts) {
     expectError<ParseError>([&] { load(inside); }, parts);
   };
-  expect("<worldbody><body name='a'/><body name='a'/></worldbody>", {"m.xml:2:34", "there is a body 'a' already"});
+  expect("<worldbody><body name='a'/><body name='a'/></worldbody>",
+         {"m.xml:2:34", "the body 'a' is already defined at"});
   expect("<worldbody><body><joint type='hing'/></body></worldbody>", {"m.xml:2:25", "similar names: hinge"});
   expect("<worldbody><body><jiont/></body></worldbody>", {"m.xml:2:18: unknown element <jiont>", "joint"});
   expect("<worldbdy/>", {"m.xml:2:1", "worldbody"});
@@ -308,7 +309,8 @@ TEST_F(MjcfReader, MistakesSayWhereTheyAreAndWhatIsNear) {
   expect("<contact><exclude body1='world' body2='b'/></contact>", {"m.xml:2:33", "no body 'b'"});
   expect("<equality><joint joint1='x'/></equality>", {"no joint 'x'"});
   expect("<compiler coordinate='global'/>", {"MuJoCo removed 'global'"});
-  expect("<default><default class='a'><default class='a'/></default></default>", {"the default class 'a' already exists"});
+  expect("<default><default class='a'><default class='a'/></default></default>",
+         {"the default class 'a' already exists"});
 }
 
 TEST_F(MjcfReader, OneWarningListsTheIgnoredElements) {
@@ -316,7 +318,8 @@ TEST_F(MjcfReader, OneWarningListsTheIgnoredElements) {
       "<worldbody><body><joint name='j'/></body></worldbody><actuator><motor joint='j'/><motor joint='j'/></actuator>"
       "<sensor><jointpos joint='j'/></sensor>");
   ASSERT_EQ(warnings_.size(), 1u);
-  EXPECT_NE(warnings_[0].find("ignored elements: actuator/motor (2), sensor/jointpos (1)"), std::string::npos) << warnings_[0];
+  EXPECT_NE(warnings_[0].find("ignored elements: actuator/motor (2), sensor/jointpos (1)"), std::string::npos)
+      << warnings_[0];
 }
 
 TEST_F(MjcfReader, ATextThatIsNotUtf8IsReadWithAWarning) {

@@ -31,7 +31,7 @@ TEST(AccelerationRamp, AVelocityThatGrowsIsKeptWithinItsLimit) {
 }
 
 TEST(AccelerationRamp, WhereItWouldStandStillThereIsNoCurve) {
-  const VectorXd velocity{{.5}}, acceleration{{-std::sqrt(.5 * 30.)}};  // half of the jerk's limit brakes it
+  const VectorXd velocity{{.5}}, acceleration{{-std::sqrt(.5 * 30.)}};  // half of the jerk limit brakes it
   const MotionLimits limits{VectorXd::Constant(1, 1.), VectorXd::Constant(1, 4.), VectorXd::Constant(1, 30.)};
   EXPECT_EQ(rampDown(VectorXd::Zero(1), velocity, acceleration, limits).curve.pieces(), 0);
 }

@@ -37,8 +37,8 @@ inline ObstacleTrajectory moves(const std::string& frame, const std::vector<std:
   return obstacle;
 }
 
-/// The least distance of the disc and anything else, by a look at every `step` s of the motion and for a while after it. What moves is
-/// placed as the text says: straight between poses, with a normalized quaternion; joints straight.
+/// The least distance of the disc and any obstacle every `step` s of the motion, and for a while after it. Places the
+/// obstacles independently: linear interpolation of poses, with normalized quaternions, and of joints.
 inline double leastOfTime(Config C, const MotionPlan& plan, const std::vector<ObstacleTrajectory>& obstacles,
                           double step, double after = 3.) {
   double least = 1.;
@@ -56,7 +56,7 @@ inline double leastOfTime(Config C, const MotionPlan& plan, const std::vector<Ob
       Frame frame = C.getFrame(obstacle.frame);
       values.size() == 7 ? frame.setPose(Pose::fromNumbers(values)) : frame.setJointState(values);
     }
-    C.setJointState(plan.at(t).q);
+    C.setJointState(plan.eval(t).q);
     const int body = C.getFrame("body").id();
     for (const Config::NearPair& pair : C.getCollisions(.5))
       if (pair.a == body || pair.b == body) least = std::min(least, pair.distance);
@@ -64,11 +64,11 @@ inline double leastOfTime(Config C, const MotionPlan& plan, const std::vector<Ob
   return least;
 }
 
-/// No jump of position or velocity, and limits that hold, by a look at every `step` s.
+/// Checks every `step` s that position and velocity are continuous and that limits hold.
 inline void expectSmooth(const MotionPlan& plan, double velocity, double acceleration, double step = 1e-3) {
-  MotionState before = plan.at(0.);
+  MotionState before = plan.eval(0.);
   for (double t = step; t <= plan.duration(); t += step) {
-    const MotionState now = plan.at(t);
+    const MotionState now = plan.eval(t);
     ASSERT_LE((now.q - before.q).cwiseAbs().maxCoeff(), velocity * step * (1. + 1e-9) + 1e-12) << t;
     ASSERT_LE((now.velocity - before.velocity).cwiseAbs().maxCoeff(), acceleration * step * (1. + 1e-9) + 1e-9) << t;
     ASSERT_LE(now.velocity.cwiseAbs().maxCoeff(), velocity * (1. + 1e-9)) << t;

@@ -23,7 +23,7 @@ TEST(PlanAmongObstacles, WhatPassesElsewhereCostsNoTime) {
   const MotionPlan plan = planMotion(discAndBox(), kAcross, among(cart));
   ASSERT_TRUE(plan.feasible()) << plan.message;
   EXPECT_NEAR(plan.duration(), 2.25, 1e-9);
-  EXPECT_EQ(plan.stages.back().name, "dynamic_obstacles");
+  EXPECT_EQ(plan.stages.back().name, "dynamic_timing");
 }
 
 TEST(PlanAmongObstacles, ItKeepsClearOfWhatCrossesItsWay) {
@@ -55,15 +55,15 @@ TEST(PlanAmongObstacles, LimitsOfTheJerkHoldWhileItWaits) {
   const std::vector<ObstacleTrajectory> cart = {moves("cart", {{0., poseAt(0., -1.)}, {8., poseAt(0., 1.)}})};
   PlanOptions options = among(cart);
   options.jerk = VectorXd::Constant(1, 20.);
-  Config C = room(3.);  // a wall so wide that there is no way around the cart
+  Config C = room(3.);  // the wall is so wide that no path leads around the cart
   C.addText("cart: {}\nbox(cart): {shape: ssBox, size: [0.4, 2.0, 0.2, 0.01], contact: 1}");
   C.setJointState(VectorXd{{-1., 0.}});
   const MotionPlan plan = planMotion(C, kAcross, options);
   ASSERT_TRUE(plan.feasible()) << plan.message;
   EXPECT_GE(leastOfTime(C, plan, cart, kFine), .01 - 1e-9);
-  MotionState before = plan.at(0.);
+  MotionState before = plan.eval(0.);
   for (double t = 1e-3; t <= plan.duration(); t += 1e-3) {
-    const MotionState now = plan.at(t);
+    const MotionState now = plan.eval(t);
     ASSERT_LE((now.acceleration - before.acceleration).cwiseAbs().maxCoeff(), 20. * 1e-3 * (1. + 1e-6) + 1e-9) << t;
     before = now;
   }
@@ -86,11 +86,11 @@ TEST(PlanAmongObstacles, WhatStaysAtTheGoalIsNamed) {
   const MotionPlan plan = planMotion(discAndBox(), kAcross, among(cart));
   EXPECT_EQ(plan.status, PlanStatus::no_timing_found);
   EXPECT_NE(plan.message.find("at the goal, 'body' meets 'box', which stays there"), std::string::npos) << plan.message;
-  EXPECT_THROW(plan.at(0.), ValueError);
+  EXPECT_THROW(plan.eval(0.), ValueError);
 }
 
 TEST(PlanAmongObstacles, WhatComesToTheGoalLaterIsNamed) {
-  // The robot is about to arrive, and cannot get away from what comes soon after that, and passes by.
+  // The robot is about to arrive, and cannot avoid an obstacle that passes by soon after that.
   for (int k = 0; k < 12; ++k) {
     PlanOptions options = among({moves("cart", {{.1, poseAt(1., -1.9)}, {.7 + .01 * k, poseAt(1., 1.9)}})});
     options.start_velocity = VectorXd{{.6, 0.}};

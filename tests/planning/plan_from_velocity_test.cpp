@@ -14,7 +14,7 @@ PlanOptions brisk() {
   return options;
 }
 
-/// The disc before a door, on its way through it.
+/// The disc before a door, moving towards it.
 struct Running {
   Config C = room(.8);
   MotionPlan plan;
@@ -26,7 +26,7 @@ struct Running {
 };
 
 void expectGoesOn(const MotionPlan& before, double time, const MotionPlan& after) {
-  const MotionState left = before.at(time), taken = after.at(0.);
+  const MotionState left = before.eval(time), taken = after.eval(0.);
   EXPECT_TRUE(taken.q.isApprox(left.q, 1e-12));
   EXPECT_TRUE(taken.velocity.isApprox(left.velocity, 1e-9))
       << taken.velocity.transpose() << " " << left.velocity.transpose();
@@ -42,7 +42,7 @@ TEST(PlanFromVelocity, ItGoesOnWithItsVelocityToAnotherGoal) {
     ASSERT_TRUE(plan.feasible()) << share << plan.message;
     expectGoesOn(running.plan, time, plan);
     expectSmooth(plan, 1., 4.);
-    EXPECT_TRUE(plan.at(plan.duration()).q.isApprox(goal));
+    EXPECT_TRUE(plan.eval(plan.duration()).q.isApprox(goal));
     EXPECT_GE(leastOfTime(running.C, plan, {}, 5e-4, 0.), .01 - 1e-9) << share;
   }
 }
@@ -71,7 +71,7 @@ TEST(PlanFromVelocity, ItGoesAroundWhatHasAppeared) {
 
 TEST(PlanFromVelocity, WhereItCannotStopInTimeItSaysSo) {
   Running running;
-  const MotionState now = running.plan.at(.3 * running.plan.duration());
+  const MotionState now = running.plan.eval(.3 * running.plan.duration());
   const VectorXd ahead = now.q + .3 * now.velocity.normalized();
   Frame crate = running.C.addFrame("crate");
   crate.setShape(ShapeType::ssBox, {.1, .1, 1., .01}).setPosition({ahead[0], ahead[1], 0.}).setContact(1);
@@ -127,17 +127,17 @@ TEST(PlanFromVelocity, LimitsOfTheJerkHoldFromTheFirstMomentOn) {
   options.start_velocity = VectorXd{{.6, -.3}};
   const MotionPlan plan = planMotion(C, VectorXd{{1., 1.}}, options, VectorXd{{-1.2, 1.}});
   ASSERT_TRUE(plan.feasible()) << plan.message;
-  EXPECT_TRUE(plan.at(0.).velocity.isApprox(options.start_velocity, 1e-9));
-  MotionState before = plan.at(0.);
+  EXPECT_TRUE(plan.eval(0.).velocity.isApprox(options.start_velocity, 1e-9));
+  MotionState before = plan.eval(0.);
   EXPECT_LE(before.acceleration.norm(), 1e-6);
   for (double t = 1e-3; t <= plan.duration(); t += 1e-3) {
-    const MotionState now = plan.at(t);
+    const MotionState now = plan.eval(t);
     ASSERT_LE((now.acceleration - before.acceleration).cwiseAbs().maxCoeff(), 30. * 1e-3 * (1. + 1e-6) + 1e-9) << t;
     before = now;
   }
 }
 
-/// The disc as before, and limits of its jerk.
+/// The same disc with jerk limits.
 struct RunningGently {
   Config C = room(.8);
   MotionPlan plan;
@@ -149,14 +149,14 @@ struct RunningGently {
   }
 };
 
-/// Looks at what limits of the jerk say, from `time` of the motion before on.
+/// Checks the jerk limits of a motion that replaces another one from `time` on.
 void expectGentle(const MotionPlan& before, double time, const MotionPlan& after) {
-  const MotionState left = before.at(time);
-  EXPECT_LE((after.at(0.).acceleration - left.acceleration).norm(), 1e-6);
+  const MotionState left = before.eval(time);
+  EXPECT_LE((after.eval(0.).acceleration - left.acceleration).norm(), 1e-6);
   VectorXd last = left.acceleration;
   constexpr double kStep = 1e-3;
   for (double t = kStep; t <= after.duration(); t += kStep) {
-    const VectorXd now = after.at(t).acceleration;
+    const VectorXd now = after.eval(t).acceleration;
     ASSERT_LE((now - last).cwiseAbs().maxCoeff(), 30. * kStep * (1. + 1e-6) + 1e-9) << t;
     last = now;
   }
@@ -174,7 +174,7 @@ TEST(PlanFromVelocity, ItGoesOnWithItsAccelerationToAnotherGoal) {
       expectGoesOn(running.plan, time, plan);
       expectSmooth(plan, 1., 4.);
       expectGentle(running.plan, time, plan);
-      EXPECT_TRUE(plan.at(plan.duration()).q.isApprox(goal));
+      EXPECT_TRUE(plan.eval(plan.duration()).q.isApprox(goal));
       EXPECT_EQ(plan.path.rows(), plan.times().size());
       EXPECT_GE(leastOfTime(running.C, plan, {}, 5e-4, 0.), .01 - 1e-9) << share;
     }
@@ -203,7 +203,7 @@ TEST(PlanFromVelocity, AmongWhatMovesItGoesOnWithItsAcceleration) {
         expectSmooth(plan, 1., 4.);
         expectGentle(first, time, plan);
         EXPECT_GE(leastOfTime(C, plan, later.obstacle_trajectories, 5e-4), .01 - 1e-9) << share << " " << speed;
-        bent += first.at(time).acceleration.norm() > .1;
+        bent += first.eval(time).acceleration.norm() > .1;
       }
     }
   }
@@ -219,8 +219,8 @@ TEST(PlanFromVelocity, AmongWhatMovesAStartAccelerationIsThatOfTheMotion) {
   options.obstacle_trajectories = {moves("cart", {{0., poseAt(.2, -1.4)}, {2.4, poseAt(.2, 1.)}})};
   const MotionPlan plan = planMotion(C, VectorXd{{1., 0.}}, options);
   ASSERT_TRUE(plan.feasible()) << plan.message;
-  EXPECT_TRUE(plan.at(0.).velocity.isApprox(options.start_velocity, 1e-9));
-  EXPECT_TRUE(plan.at(0.).acceleration.isApprox(options.start_acceleration, 1e-6));
+  EXPECT_TRUE(plan.eval(0.).velocity.isApprox(options.start_velocity, 1e-9));
+  EXPECT_TRUE(plan.eval(0.).acceleration.isApprox(options.start_acceleration, 1e-6));
   EXPECT_GE(leastOfTime(C, plan, options.obstacle_trajectories, 5e-4), .01 - 1e-9);
 }
 
@@ -231,7 +231,7 @@ TEST(PlanFromVelocity, TheRestOfAGentleMotionIsThatMotion) {
   ASSERT_TRUE(plan.feasible()) << plan.message;
   EXPECT_NEAR(plan.duration(), running.plan.duration() - time, 1e-12);
   for (double t = 0.; t < plan.duration(); t += .01) {
-    const MotionState now = plan.at(t), then = running.plan.at(time + t);
+    const MotionState now = plan.eval(t), then = running.plan.eval(time + t);
     ASSERT_LE((now.q - then.q).norm(), 1e-9) << t;
     ASSERT_LE((now.acceleration - then.acceleration).norm(), 1e-7) << t;
   }
@@ -242,7 +242,7 @@ TEST(PlanFromVelocity, AStartAccelerationThatMakesNoSenseIsRefused) {
   PlanOptions options = brisk();
   options.start_velocity = VectorXd{{.5, 0.}};
   options.start_acceleration = VectorXd{{1., 0.}};
-  EXPECT_THROW(planMotion(C, VectorXd{{-1., -1.}}, options), ValueError);  // no limits of the jerk
+  EXPECT_THROW(planMotion(C, VectorXd{{-1., -1.}}, options), ValueError);  // no jerk limits
   options.jerk = VectorXd::Constant(1, 30.);
   options.start_acceleration = VectorXd{{4.5, 0.}};
   const MotionPlan plan = planMotion(C, VectorXd{{-1., -1.}}, options, VectorXd{{-1.5, 1.2}});

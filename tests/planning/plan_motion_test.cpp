@@ -34,7 +34,7 @@ TEST(PlanMotion, GoesThroughADoorInTimeAndKeepsTheMargin) {
   EXPECT_EQ(plan.path.row(0).transpose(), (VectorXd{{-1., 1.2, 1.57}}));
   EXPECT_EQ(plan.path.bottomRows(1).transpose(), kGoal);
   for (int i = 0; i <= 3000; ++i) {
-    C.setJointState(plan.at(i / 3000. * plan.duration()).q);
+    C.setJointState(plan.eval(i / 3000. * plan.duration()).q);
     ASSERT_TRUE(C.getCollisions(.02 - 1e-9).empty()) << i;
   }
   EXPECT_GE(plan.clearance(), .02 - 1e-4);
@@ -77,7 +77,7 @@ TEST(PlanMotion, WhatStandsUprightIsWiderThanTheBallInIt) {
       const MotionPlan plan = planMotion(C, goal, {.max_evaluations = 200}, start);
       if (door == too_narrow) {
         EXPECT_EQ(plan.status, PlanStatus::infeasible) << body << plan.message;
-        EXPECT_NE(plan.message.find("there is no way: " + words + " does not get past"), std::string::npos)
+        EXPECT_NE(plan.message.find("there is no path: " + words + " does not get past"), std::string::npos)
             << plan.message;
       } else {
         EXPECT_NE(plan.status, PlanStatus::infeasible) << body << plan.message;
@@ -117,7 +117,7 @@ TEST(PlanMotion, ProofAndTimingAreLeftOutWhereNobodyAsksForThem) {
   EXPECT_EQ(path.path, timed.path);
   EXPECT_EQ(path.times().size(), 0);
   EXPECT_EQ(path.str().find(" s"), std::string::npos) << path.str();
-  EXPECT_THROW(path.at(0.), ValueError);
+  EXPECT_THROW(path.eval(0.), ValueError);
   EXPECT_THROW(planMotion(roomForABox(.5), kGoal, {.slices = 20, .timing = false}), ValueError);
 }
 

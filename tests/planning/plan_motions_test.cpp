@@ -8,7 +8,7 @@
 namespace kinegraph {
 namespace {
 
-/// Two walls with gaps at different places: the first way that is found is seldom the shortest kind of way.
+/// Two walls with gaps at different places: the first path is seldom in the best homotopy class.
 Config twoWalls() {
   Config C = disc(.05);
   int count = 0;
@@ -64,7 +64,7 @@ TEST(PlanMotions, MoreEffortComesToTheSameLengthFromAnyFirstWay) {
   }
   const auto [least, most] = std::minmax_element(last.begin(), last.end());
   EXPECT_LT(*most / *least, 1.005);
-  EXPECT_GT(*std::max_element(first.begin(), first.end()) / *least, 1.05);  // effort was worth it
+  EXPECT_GT(*std::max_element(first.begin(), first.end()) / *least, 1.05);  // the budget was worth it
 }
 
 TEST(PlanMotions, ThreadsChangeNothingAndPlanMotionEndsWithTheLast) {

@@ -15,7 +15,7 @@ inline Config disc(double radius) {
   return C;
 }
 
-/// One, and a wall with a door of that width.
+/// A disc, and a wall with a door of that width.
 inline Config room(double door) {
   Config C = disc(.2);
   for (const double side : {-1., 1.}) {
@@ -40,7 +40,7 @@ struct Asked {
   }
 };
 
-/// Looks every 0.1 mm, posture by posture.
+/// The least distance at configurations every 0.1 mm.
 inline double leastDistance(Config& C, const std::vector<VectorXd>& points) {
   double least = 1.;
   for (std::size_t i = 1; i < points.size(); ++i) {
@@ -53,8 +53,8 @@ inline double leastDistance(Config& C, const std::vector<VectorXd>& points) {
   return least;
 }
 
-/// Of the taut string from (-1, 1.2) to (1, 1) around both corners of a door of .5, (-+.05, .25), at the disc's radius:
-/// two tangents, two arcs, a line.
+/// The length of a rope from (-1, 1.2) to (1, 1) around both corners of a door of .5, (-+.05, .25), at the disc's
+/// radius: two tangents, two arcs, a line.
 inline double tightenedLength() {
   const double to_start = std::hypot(.95, .95), to_goal = std::hypot(.95, .75), r = .2;
   const double arcs =

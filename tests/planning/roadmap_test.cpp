@@ -44,7 +44,7 @@ TEST(Roadmap, FindsAFreePathAndKnowsItTheSecondTime) {
   const int size = map.size();
   const RoadmapPath second = map.findPath(kStart, kBehindTheWall);
   EXPECT_EQ(second.path, first.path);
-  EXPECT_LT(second.checked, first.checked);
+  EXPECT_LT(second.evaluations, first.evaluations);
   EXPECT_EQ(map.size(), size);
 }
 
@@ -69,11 +69,11 @@ TEST(Roadmap, WhatIsSavedIsLoadedWithWhatIsKnown) {
   Roadmap same(C, .01), other(roomWithWall(.5), .01);
   same.load(file);
   EXPECT_EQ(same.configurations(), map.configurations());
-  EXPECT_EQ(same.motions(), map.motions());
+  EXPECT_EQ(same.edges(), map.edges());
   const RoadmapPath answer = same.findPath(kStart, kBehindTheWall);
   EXPECT_EQ(answer.path, path);
   other.load(file);  // another scene: nothing is known
-  EXPECT_GT(other.findPath(kStart, kBehindTheWall).checked, answer.checked);
+  EXPECT_GT(other.findPath(kStart, kBehindTheWall).evaluations, answer.evaluations);
   std::filesystem::remove(file);
 }
 

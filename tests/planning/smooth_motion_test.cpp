@@ -41,13 +41,13 @@ TEST(SmoothMotion, IsFasterThanCornersAndKeepsMarginLimitsAndEnds) {
   ASSERT_TRUE(cornered.feasible() && bent.feasible()) << bent.message;
   EXPECT_LT(bent.duration(), .97 * cornered.duration());
   EXPECT_EQ(bent.path.rows(), 81);
-  EXPECT_LT((bent.at(0.).q - C.getJointState()).norm(), 1e-12);
-  EXPECT_LT((bent.at(bent.duration()).q - kGoal).norm(), 1e-9);
-  EXPECT_LT(bent.at(bent.duration()).velocity.norm(), 1e-6);
+  EXPECT_LT((bent.eval(0.).q - C.getJointState()).norm(), 1e-12);
+  EXPECT_LT((bent.eval(bent.duration()).q - kGoal).norm(), 1e-9);
+  EXPECT_LT(bent.eval(bent.duration()).velocity.norm(), 1e-6);
   EXPECT_GE(bent.clearance(), .02 - 1e-5);
   const int disc = C.getFrame("body").id();
   for (double t = 0.; t <= bent.duration(); t += 1e-3) {
-    const MotionState state = bent.at(t);
+    const MotionState state = bent.eval(t);
     EXPECT_LE(state.velocity.cwiseAbs().maxCoeff(), 1. + 1e-9);
     EXPECT_LE(state.acceleration.cwiseAbs().maxCoeff(), 2. + 1e-9);
     C.setJointState(state.q);
@@ -77,14 +77,14 @@ TEST(SmoothMotion, WhoWatchesMayEndIt) {
   const JointSpace space(*C.model());
   Steering steering({.scene = &state, .space = &space, .clearance = {.margin = .02}});
   int asked = 0;
-  EXPECT_TRUE(smoothMotion(C, steering, plan.timed, limits, .02, 80, [&] { return ++asked < 0; }));
+  EXPECT_TRUE(smoothMotion(C, steering, plan.timed_path, limits, .02, 80, [&] { return ++asked < 0; }));
   EXPECT_GT(asked, 3);
-  EXPECT_FALSE(smoothMotion(C, steering, plan.timed, limits, .02, 80, [] { return true; }));
+  EXPECT_FALSE(smoothMotion(C, steering, plan.timed_path, limits, .02, 80, [] { return true; }));
 }
 
 TEST(SmoothMotion, IsForTheTimeAloneAmongWhatStandsStill) {
   PlanOptions by_length = options(80);
   by_length.optimize = "length";
-  expectError<ValueError>([&] { planMotion(posts(), kGoal, by_length); }, {"slices is for optimize 'time'"});
+  expectError<ValueError>([&] { planMotion(posts(), kGoal, by_length); }, {"slices needs optimize='time'"});
   expectError<ValueError>([&] { planMotion(posts(), kGoal, options(1)); }, {"slices is 1; expected 0, or 2 to"});
 }

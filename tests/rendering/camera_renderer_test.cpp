@@ -74,7 +74,7 @@ TEST_F(Rendering, SmoothedEdgesDoNotMixFrames) {
   EXPECT_EQ(seen, (std::set<std::int32_t>{-1, 0, 200}));
 }
 
-TEST_F(Rendering, ShadowsDarkenWhatTheLightDoesNotReach) {
+TEST_F(Rendering, ShadowsDarkenUnlitSurfaces) {
   Config config;
   config.addText("plate: { X: [0 0 1], shape: box, size: [1 1 .05] }");
   Camera camera;

@@ -34,7 +34,7 @@ TEST(DepthImage, PixelsBecomePointsOnTheirRays) {
   EXPECT_TRUE(near(at(4), Vector3d(0., 0., 3.), 1e-12));
 }
 
-TEST(DepthNoise, WithoutAmplitudeOnlyWhatOneEyeSeesIsLost) {
+TEST(DepthNoise, WithoutAmplitudeOnlyPointsOfOneEyeAreLost) {
   const Camera camera = smallCamera();
   std::vector<float> depth = flat(camera, 1.f);
   DepthNoise noise;
@@ -49,7 +49,7 @@ TEST(DepthNoise, WithoutAmplitudeOnlyWhatOneEyeSeesIsLost) {
   }
 }
 
-TEST(DepthNoise, PointsThatTheOtherEyeSeesElsewhereAreLost) {
+TEST(DepthNoise, PointsAtAnotherDepthInTheOtherEyeAreLost) {
   const Camera camera = smallCamera();
   std::vector<float> depth = flat(camera, 1.f);
   Rng rng(0);
@@ -73,7 +73,7 @@ TEST(DepthNoise, GrowsWithTheSquareOfDepth) {
   EXPECT_NEAR(spread(2.f) / spread(1.f), 4., 1e-3);
 }
 
-TEST(DepthNoise, WhereNothingIsItTakesTheGivenDepth) {
+TEST(DepthNoise, TheBackgroundHasTheDefaultDepth) {
   const Camera camera = smallCamera();
   std::vector<float> depth = flat(camera, -1.f);
   DepthNoise noise;

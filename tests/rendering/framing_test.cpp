@@ -8,7 +8,7 @@
 
 using namespace kinegraph;
 
-TEST(Framing, WhatIsFaintAndCollidesIsNotShown) {
+TEST(Framing, FaintCollisionShapesAreNotShown) {
   Config C;
   C.addFrame("hull", {}, "shape: sphere, size: [9], color: [1 0 0 .2], contact: 1");
   EXPECT_FALSE(shownBall(C));

@@ -39,7 +39,7 @@ TEST(Letters, EveryLineFits) {
   }
 }
 
-TEST(Letters, WhatIsNotAsciiIsAQuestionMark) {
+TEST(Letters, OtherCharactersThanAsciiAreQuestionMarks) {
   EXPECT_EQ(broken("gr\xc3\xbc\xc3\x9f"
                    "e \xe2\x82\xac\x01!",
                    20),

@@ -32,7 +32,7 @@ class Textures : public ::testing::Test {
     return camera;
   }
 
-  /// What is seen a quarter of the picture away from its corners: above left and right, below left and right.
+  /// Returns the colors a quarter of the picture away from its corners: above left and right, below left and right.
   std::string quarters(const Config& config, const Camera& camera = fromAbove()) {
     const CameraImage image = renderer_.render(config, camera);
     std::string names;
@@ -51,7 +51,7 @@ class Textures : public ::testing::Test {
 
 }  // namespace
 
-TEST_F(Textures, APictureOnAQuadIsTheRightWayUp) {
+TEST_F(Textures, APictureOnAQuadIsUpright) {
   Config config;
   config.addText("q: { shape: quad, size: [1.8 1.8], texture: <four.png> }", "scene.g", folder_.path());
   EXPECT_EQ(quarters(config), "rgby");
@@ -62,13 +62,13 @@ TEST_F(Textures, EachSideOfABoxShowsAllOfIt) {
   config.addText("b: { shape: box, size: [1.8 1.8 .2], texture: <four.png> }", "scene.g", folder_.path());
   EXPECT_EQ(quarters(config), "rgby");
   Frame box = config.getFrame("b");
-  box.setPose(parsePose("d(180 1 0 0)"));  // as seen from below, up is y, too
+  box.setPose(parsePose("d(180 1 0 0)"));  // from below, y points up, too
   EXPECT_EQ(quarters(config), "ybgr");
   box.setShape(ShapeType::box, {1.8, .2, 1.8}).setPose(parsePose("d(-90 1 0 0)"));  // the side towards -y, with z up
   EXPECT_EQ(quarters(config), "rgby");
 }
 
-TEST_F(Textures, AMeshSaysItselfWhereItIs) {
+TEST_F(Textures, AMeshHasItsOwnTextureCoordinates) {
   folder_.write("quad.mtl", "newmtl m\nmap_Kd four.png\n");
   folder_.write(
       "quad.obj",
@@ -76,7 +76,7 @@ TEST_F(Textures, AMeshSaysItselfWhereItIs) {
       "usemtl m\nf 1/1 2/2 3/3 4/4\n");
   Config config;
   config.addText("q: { mesh: <quad.obj> }", "scene.g", folder_.path());
-  EXPECT_EQ(quarters(config), "ybgr");  // turned by half a turn
+  EXPECT_EQ(quarters(config), "ybgr");  // rotated by 180 degrees
 }
 
 TEST_F(Textures, TwoPicturesOnOneMeshStayApart) {

@@ -22,7 +22,7 @@ struct Bench {
   double now() const { return .01 * double(bot.getLog().ticks); }
 };
 
-/// Moves, grasps, pauses and asks in one way.
+/// A script with motions, grasps, pauses and queries.
 CommandLog runScript(BotOp& bot, Config& C) {
   MatrixXd path(3, 2);
   path << .2, -.1, .5, .3, .4, .6;
@@ -45,10 +45,10 @@ CommandLog runScript(BotOp& bot, Config& C) {
 TEST(BotOp, NeedsARobot) {
   Config nothing;
   nothing.addText("ball: { shape: sphere, size: [.1], mass: 1 }");
-  expectError<ValueError>([&] { BotOp bot(nothing); }, {"no joints"});
+  expectError<ValueError>([&] { BotOp bot(nothing); }, {"no active joints"});
 }
 
-TEST(BotOp, TakesTheTimeThatItIsTold) {
+TEST(BotOp, TakesTheTimeOfItsArgument) {
   for (const int count : {1, 2, 5}) {
     Bench b;
     MatrixXd path(count, 2);
@@ -70,7 +70,7 @@ TEST(BotOp, TimesOfPointsCountFromTheEndOfWhatItDoes) {
   b.bot.move(path, pair(.5, 1.5));
   EXPECT_NEAR(b.bot.getTimeToEnd(), 2.5, 1e-12);
   b.bot.sync(b.C, 1.);
-  EXPECT_LT((b.bot.get_q() - pair(.2, 0.)).norm(), 1e-12);  // passes through what was the end, at rest
+  EXPECT_LT((b.bot.get_q() - pair(.2, 0.)).norm(), 1e-12);  // passes through the previous end, at rest
   EXPECT_LT(b.bot.get_qDot().norm(), 1e-12);
 }
 
@@ -100,21 +100,21 @@ TEST(BotOp, OverwritesSmoothly) {
   EXPECT_LT((b.bot.get_q() - pair(0., .5)).norm(), 1e-12);
 }
 
-/// Where a robot was told to be, and how fast, at the end of each period.
-std::vector<std::pair<VectorXd, VectorXd>> toldUntil(double end, BotOp& bot, Config& C) {
-  std::vector<std::pair<VectorXd, VectorXd>> told;
+/// The references of q and velocity at the end of each period.
+std::vector<std::pair<VectorXd, VectorXd>> referencesUntil(double end, BotOp& bot, Config& C) {
+  std::vector<std::pair<VectorXd, VectorXd>> references;
   while (double(bot.getLog().ticks) * .01 < end - 1e-9) {
     bot.sync(C, .01);
     const StepObservation now = bot.stepObservation();
-    told.emplace_back(now.qref, now.qvel_ref);
+    references.emplace_back(now.qref, now.qvel_ref);
   }
-  return told;
+  return references;
 }
 
-/// The end of the first motion, from the time on that is given, gives way to another one.
+/// Another motion replaces the first one from the time `cut` on.
 void expectTakesOver(const std::function<std::shared_ptr<RobotDriver>(const Config&)>& driver, double cut) {
   Config C = twoJointArm();
-  C.getFrame("box").setPosition({0., 0., 1.});  // out of the way
+  C.getFrame("box").setPosition({0., 0., 1.});  // out of reach
   const auto robot = [&] { return std::make_unique<BotOp>(C, driver(C)); };
   const auto begin = [&](BotOp& bot) {
     MatrixXd path(3, 2);
@@ -129,18 +129,18 @@ void expectTakesOver(const std::function<std::shared_ptr<RobotDriver>(const Conf
   path << -.2, .1, 0., -.3;
   both->move(path, pair(.6, 1.5), true, cut);
   EXPECT_NEAR(both->getTimeToEnd(), cut + 1.5 - .3, 1e-9);
-  const auto earlier = toldUntil(cut + 2., *alone, C), told = toldUntil(cut + 2., *both, C);
-  ASSERT_EQ(earlier.size(), told.size());
+  const auto earlier = referencesUntil(cut + 2., *alone, C), references = referencesUntil(cut + 2., *both, C);
+  ASSERT_EQ(earlier.size(), references.size());
   const BSpline first = std::get<FollowSpline>(alone->getLog().entries[0].command).motion;
   MatrixXd points(3, 2);
   points << first.eval(cut).transpose(), path;
   const BSpline second(3, points, Eigen::Vector3d(cut, cut + .6, cut + 1.5), first.eval(cut, 1));
-  for (std::size_t i = 0; i < told.size(); ++i) {
+  for (std::size_t i = 0; i < references.size(); ++i) {
     const double t = .01 * double(i + 31);
     const VectorXd q = t <= cut ? earlier[i].first : second.eval(t),
                    velocity = t <= cut ? earlier[i].second : second.eval(t, 1);
-    EXPECT_LT((told[i].first - q).cwiseAbs().maxCoeff(), 1e-9) << t;
-    EXPECT_LT((told[i].second - velocity).cwiseAbs().maxCoeff(), 1e-9) << t;
+    EXPECT_LT((references[i].first - q).cwiseAbs().maxCoeff(), 1e-9) << t;
+    EXPECT_LT((references[i].second - velocity).cwiseAbs().maxCoeff(), 1e-9) << t;
   }
   EXPECT_LT((both->stepObservation().qpos - pair(0., -.3)).norm(), 1e-3);
 }
@@ -205,21 +205,23 @@ TEST(BotOp, RefusesMotionsBeyondLimitsAndDoesNothing) {
     expectError<ValueError>([&] { b.bot.move(path, times); }, parts);
   };
   refused(row(1., 0.), seconds(.5),
-          {"BotOp::move", "'arm1' would 3 /s 0.25 s after its start; its limit is 2 /s; take at least 1.5"});
+          {"BotOp::move",
+           "'arm1' would have a velocity of 3 /s 0.25 s after the start of the motion; its limit is 2 /s; take at "
+           "least 1.5"});
   refused(row(2.5, 0.), seconds(9.), {"'arm1' would go to 2.5; its limits are -2 to 2"});
-  refused(MatrixXd::Zero(1, 3), seconds(1.), {"points of 3 numbers; the robot has 2 joints"});
+  refused(MatrixXd::Zero(1, 3), seconds(1.), {"points have 3 numbers; the robot has 2 joints"});
   refused(MatrixXd::Zero(3, 2), pair(1., 2.), {"3 points and 2 times"});
   refused(row(NAN, 0.), seconds(1.), {"not finite"});
   refused(row(.1, 0.), seconds(-1.), {"the time is -1"});
   EXPECT_TRUE(b.bot.getLog().entries.empty());
   b.bot.setLimits({}, seconds(1.), {});
   refused(row(1., 0.), seconds(2.), {"1.5 /s^2", "its limit is 1 /s^2"});
-  b.bot.moveTo(pair(1., 0.), 10.);  // takes longer by itself
+  b.bot.moveTo(pair(1., 0.), 10.);  // extends the duration automatically
   EXPECT_NEAR(b.bot.getTimeToEnd(), std::sqrt(6.), 1e-6);
   expectError<ValueError>([&] { b.bot.setLimits(seconds(-1.), {}, {}); }, {"velocity[0] is -1"});
 }
 
-TEST(BotOp, ALoopThatAsksUntilAMotionIsOverEnds) {
+TEST(BotOp, APollingLoopUntilTheEndOfAMotionTerminates) {
   Bench b;
   b.bot.move(row(.3, 0.), seconds(.5));
   int asked = 0;
@@ -230,7 +232,7 @@ TEST(BotOp, ALoopThatAsksUntilAMotionIsOverEnds) {
   EXPECT_EQ(b.bot.getGripperPos(0), 0.);
   const double t = b.bot.get_t();
   EXPECT_EQ(b.bot.get_qHome(), pair(0., 0.));
-  EXPECT_NEAR(b.bot.get_t(), t + .01, 1e-12);  // the same question at the same time
+  EXPECT_NEAR(b.bot.get_t(), t + .01, 1e-12);  // a repeated query at the same time
 }
 
 TEST(BotOp, TheSameCallsGiveTheSameBits) {
@@ -250,11 +252,11 @@ TEST(BotOp, ReplaysALogToTheBit) {
   EXPECT_EQ(again.C.getFrameState(), one.C.getFrameState());
   read.bot.replay(CommandLog::fromText(log.text()));
   EXPECT_EQ(read.bot.get_q(), again.bot.get_q());
-  expectError<ValueError>([&] { read.bot.replay(log); }, {"moved before"});
+  expectError<ValueError>([&] { read.bot.replay(log); }, {"moved before; expected a new BotOp"});
   CommandLog other = log;
   other.period = .02;
   Bench fresh;
-  expectError<ValueError>([&] { fresh.bot.replay(other); }, {"period is 0.02 s"});
+  expectError<ValueError>([&] { fresh.bot.replay(other); }, {"period of the log is 0.02 s"});
 }
 
 TEST(BotOp, WhatIsGraspedByNameMovesWithTheHand) {
@@ -304,12 +306,12 @@ TEST(BotOp, HoldsWhereItIsAndStops) {
   EXPECT_EQ(b.bot.getMode(), LoopMode::hold);
 }
 
-TEST(BotOp, WhoEndsAWaitingCallHoldsTheRobot) {
+TEST(BotOp, CancellationHoldsTheRobot) {
   struct Cancelled {};
   Config C = twoJointArm();
   BotOpOptions options;
   options.hyper_speed = 1.;
-  options.watched = [] { return true; };  // as fast as time on the wall
+  options.watched = [] { return true; };  // at the pace of the wall clock
   int looks = 0;
   options.cancellation = [&] {
     if (++looks > 4) throw Cancelled();
@@ -355,7 +357,7 @@ TEST(BotOp, StepsBeyondLimitsAreCutOff) {
   EXPECT_GT(last[0], .2);
 }
 
-TEST(BotOp, AFaultIsToldByEveryWaitingCallUntilItIsMended) {
+TEST(BotOp, EveryWaitingCallReportsAFaultUntilRecovery) {
   RobotState good{0., pair(0., 0.), pair(0., 0.), {}, {}, {}, {}}, wrong = good;
   wrong.error = "protective stop";
   std::vector<RobotState> states;
@@ -366,7 +368,8 @@ TEST(BotOp, AFaultIsToldByEveryWaitingCallUntilItIsMended) {
   Config C = twoJointArm();
   BotOp bot(C, std::make_shared<RecordedDriver>(plainRobot(), states));
   bot.move(row(.02, 0.), seconds(.3));
-  expectError<RobotFault>([&] { bot.wait(C); }, {"was stopped: protective stop; call recover()"});
+  expectError<RobotFault>([&] { bot.wait(C); },
+                          {"was stopped: protective stop; resolve the cause, then call recover()"});
   EXPECT_EQ(bot.getFault(), "protective stop");
   expectError<RobotFault>([&] { bot.moveTo(pair(0., 0.)); }, {"protective stop"});
   bot.recover();
@@ -374,7 +377,7 @@ TEST(BotOp, AFaultIsToldByEveryWaitingCallUntilItIsMended) {
   bot.sync(C, .05);
 }
 
-TEST(BotOp, RealTimeGoesOnByItself) {
+TEST(BotOp, RealTimeAdvancesWithoutCalls) {
   Config C = twoJointArm();
   BotOpOptions options;
   options.realtime = true;
@@ -389,7 +392,7 @@ TEST(BotOp, RealTimeGoesOnByItself) {
   EXPECT_GE(time, 1.);
   const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
   EXPECT_LE(time, options.hyper_speed * passed.count() + options.period) << "what was late is caught up with, no more";
-  Bench again;  // and what happened there happens again in virtual time
+  Bench again;  // the log repeats the motion in virtual time
   again.bot.replay(bot.getLog());
   EXPECT_LT((again.bot.get_q() - pair(.3, 0.)).norm(), 1e-12);
 }
@@ -428,7 +431,7 @@ TEST(BotOp, AsksForRowsOfAJacobianThatAreIndependent) {
              Eigen::Vector2d(.5, 1.).asDiagonal().toDenseMatrix())
                 .norm(),
             1e-12);
-  expectError<ValueError>([&] { b.bot.setCompliance(MatrixXd::Ones(2, 2)); }, {"not independent"});
+  expectError<ValueError>([&] { b.bot.setCompliance(MatrixXd::Ones(2, 2)); }, {"linearly dependent"});
   expectError<ValueError>([&] { b.bot.setCompliance(row(1., 0.), 2.); }, {"compliance is 2"});
   expectError<ValueError>([&] { b.bot.setCompliance(MatrixXd::Ones(1, 3)); }, {"3 columns"});
 }

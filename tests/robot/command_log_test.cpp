@@ -63,12 +63,12 @@ TEST(CommandLog, SaysWhereATextIsNone) {
     expectError<ParseError>([&] { CommandLog::fromText(text, "log"); }, parts);
   };
   fails("", {"log:1:1", "kinegraph commands"});
-  fails("kinegraph commands 1\nperiod -1\n", {"log:2:1", "more than 0"});
-  fails(head + "1 jump 3\n", {"log:3:1", "no command 'jump'"});
-  fails(head + "5 recover\n4 recover\n", {"log:4:1", "period 4 comes after 5"});
+  fails("kinegraph commands 1\nperiod -1\n", {"log:2:1", "above 0"});
+  fails(head + "1 jump 3\n", {"log:3:1", "unknown command 'jump'"});
+  fails(head + "5 recover\n4 recover\n", {"log:4:1", "control period 4 follows 5"});
   fails(head + "1 follow 3 2 0 1 0 0\n", {"log:3:1", "knots"});
-  fails(head + "1 follow 3 x\n", {"'x' is no number"});
+  fails(head + "1 follow 3 x\n", {"'x' is not a number"});
   fails(head + "1 gripper 0 .1 .2\n", {"ends too early"});
-  fails(head + "1 stiffness 100000 100000 1\n", {"too many numbers"});
-  fails(head + "1 end\n2 recover\n", {"nothing is expected after the end"});
+  fails(head + "1 stiffness 100000 100000 1\n", {"expected at most 1e7"});
+  fails(head + "1 end\n2 recover\n", {"a line follows the end"});
 }

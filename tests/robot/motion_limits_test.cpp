@@ -32,7 +32,7 @@ TEST(MotionPeaks, AreAsLargeAsTheLargestOfManySamplesAndHardlyLarger) {
       EXPECT_GE(peaks.velocity[j], v[j] - 1e-12);
       EXPECT_LE(peaks.velocity[j], v[j] * (1 + 1e-5));
       EXPECT_GE(peaks.acceleration[j], a[j] - 1e-12);
-      EXPECT_LE(peaks.acceleration[j], a[j] * (1 + 1e-2));  // where it jumps, at a knot, a sample is beside it
+      EXPECT_LE(peaks.acceleration[j], a[j] * (1 + 1e-2));  // at a jump, the nearest sample is off the knot
       EXPECT_NEAR(std::abs(spline.eval(peaks.velocity_time[j], 1)[j]), peaks.velocity[j], 1e-9);
     }
   }
@@ -49,26 +49,27 @@ TEST(MotionPeaks, OfAMotionFromRestToRestAreThoseOnPaper) {
   EXPECT_NEAR(peaks.slowdown(VectorXd::Constant(1, 1e3), VectorXd::Constant(1, .75 / 4.)), 2., 1e-12);
 }
 
-TEST(BrokenLimit, NamesTheJointTheTimeAndWhatWouldDo) {
+TEST(ViolatedLimit, NamesTheJointTheTimeAndTheFactorThatWouldDo) {
   RobotInfo robot = plainRobot();
   MatrixXd points(2, 2);
   points << 0., 0., 0., 1.;
   const BSpline spline(3, points, pair(0., 1.));  // 1.5 rad/s at .5 s
-  EXPECT_FALSE(brokenLimit(spline, 0., robot));
+  EXPECT_FALSE(violatedLimit(spline, 0., robot));
   robot.velocity[1] = 1.;
-  const std::string slow = brokenLimit(spline, 0., robot).value();
+  const std::string slow = violatedLimit(spline, 0., robot).value();
   EXPECT_EQ(slow,
-            "joint 'arm2' would 1.5 /s 0.5 s after its start; its limit is 1 /s; take at least 1.5 times as long");
-  EXPECT_FALSE(brokenLimit(BSpline(3, points, pair(0., 1.5)), 0., robot));  // and it does
+            "joint 'arm2' would have a velocity of 1.5 /s 0.5 s after the start of the motion; its limit is 1 /s; take "
+            "at least 1.5 times as long");
+  EXPECT_FALSE(violatedLimit(BSpline(3, points, pair(0., 1.5)), 0., robot));  // and it does
   robot.velocity[1] = 2.;
   robot.acceleration[1] = 3.;
-  EXPECT_NE(brokenLimit(spline, 0., robot).value().find("limit is 3 /s^2"), std::string::npos);
+  EXPECT_NE(violatedLimit(spline, 0., robot).value().find("limit is 3 /s^2"), std::string::npos);
   robot.acceleration[1] = 7.;
   robot.upper[1] = .9;
-  EXPECT_EQ(brokenLimit(spline, 0., robot).value(), "joint 'arm2' would go to 1; its limits are -inf to 0.9");
+  EXPECT_EQ(violatedLimit(spline, 0., robot).value(), "joint 'arm2' would go to 1; its limits are -inf to 0.9");
 }
 
-TEST(BrokenLimit, LooksAtTheMotionAndNotAtItsControlPoints) {
+TEST(ViolatedLimit, ChecksTheMotionAndNotItsControlPoints) {
   RobotInfo robot = plainRobot();
   MatrixXd points(3, 2);
   points << 0., 0., 1., 0., 0., 0.;
@@ -76,12 +77,12 @@ TEST(BrokenLimit, LooksAtTheMotionAndNotAtItsControlPoints) {
   const double top = spline.eval(1.)[0];
   EXPECT_LT(top, .7);
   robot.upper[0] = top + .01;
-  EXPECT_FALSE(brokenLimit(spline, 0., robot));
+  EXPECT_FALSE(violatedLimit(spline, 0., robot));
   robot.upper[0] = top - .01;
-  EXPECT_TRUE(brokenLimit(spline, 0., robot));
+  EXPECT_TRUE(violatedLimit(spline, 0., robot));
 }
 
-TEST(BrokenEffort, IsThatOfAPendulumHeldLevel) {
+TEST(ViolatedEffort, IsThatOfAPendulumHeldLevel) {
   Config C;
   C.addText(
       "base: {}\narm1 (base): { joint: hingeY }\narm2 (arm1): { joint: transX }\nmass (arm2): { Q: [1 0 0], mass: 2 }");
@@ -89,8 +90,8 @@ TEST(BrokenEffort, IsThatOfAPendulumHeldLevel) {
   MatrixXd points = MatrixXd::Zero(2, 2);
   const BSpline still(3, points, pair(0., 1.));
   robot.effort[0] = 19.7;  // 2 kg at 1 m: 19.62 N m
-  EXPECT_FALSE(brokenEffort(still, 0., .01, robot, C));
+  EXPECT_FALSE(violatedEffort(still, 0., .01, robot, C));
   robot.effort[0] = 19.5;
-  const std::string broken = brokenEffort(still, 0., .01, robot, C).value();
-  EXPECT_NE(broken.find("'arm1' would 19.62 N m"), std::string::npos) << broken;
+  const std::string broken = violatedEffort(still, 0., .01, robot, C).value();
+  EXPECT_NE(broken.find("'arm1' would have an effort of 19.62 N m"), std::string::npos) << broken;
 }

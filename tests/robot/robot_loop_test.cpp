@@ -15,7 +15,7 @@ std::shared_ptr<RecordedDriver> obedient() {
 
 RobotState state(double time, double q0 = 0.) { return {time, pair(q0, 0.), pair(0., 0.), {}, {}, {}, {}}; }
 
-/// What goes wrong after `good` readings.
+/// A driver that returns one bad state after `good` states.
 std::shared_ptr<RecordedDriver> goesWrong(int good, const RobotState& wrong) {
   std::vector<RobotState> states;
   for (int i = 0; i < good; ++i) states.push_back(state(i * .01));
@@ -55,8 +55,8 @@ TEST(RobotLoop, IsStoppedByNumbersThatAreNotFinite) {
   EXPECT_EQ(loop.mode(), LoopMode::fault);
   EXPECT_NE(loop.fault().find("not finite"), std::string::npos);
   ASSERT_EQ(driver->stops().size(), 1u);
-  EXPECT_EQ(driver->commands().size(), 4u);  // nothing was written after
-  EXPECT_EQ(loop.state().q, pair(0., 0.));   // the last one that made sense
+  EXPECT_EQ(driver->commands().size(), 4u);  // no command follows
+  EXPECT_EQ(loop.state().q, pair(0., 0.));   // the last valid state
 }
 
 TEST(RobotLoop, IsStoppedByAnErrorOfTheRobotUntilItRecovers) {
@@ -74,7 +74,7 @@ TEST(RobotLoop, IsStoppedByAnErrorOfTheRobotUntilItRecovers) {
   loop.apply(RecoverRobot{});
   EXPECT_EQ(driver->recoveries(), 1);
   EXPECT_EQ(loop.mode(), LoopMode::hold);
-  EXPECT_EQ(loop.reference(loop.time()).row(0), row(.2, 0.));  // where it is, not where it was
+  EXPECT_EQ(loop.reference(loop.time()).row(0), row(.2, 0.));  // its q at the recovery
 }
 
 TEST(RobotLoop, IsStoppedByAClockThatStandsStill) {
@@ -105,22 +105,22 @@ TEST(RobotLoop, IsStoppedByADriverThatThrows) {
   EXPECT_EQ(driver->writes, 3);
 }
 
-TEST(RobotLoop, IsStoppedWhereItDoesNotFollow) {
+TEST(RobotLoop, IsStoppedIfItDoesNotFollow) {
   std::vector<RobotState> states;
-  for (int i = 0; i < 100; ++i) states.push_back(state(i * .01));  // stays where it is
+  for (int i = 0; i < 100; ++i) states.push_back(state(i * .01));  // does not move
   const auto driver = std::make_shared<RecordedDriver>(plainRobot(), states);
   RobotLoop loop(driver, .01);
   loop.apply(FollowSpline{straight(0., 1., 0., 1.)});
   for (int i = 0; i < 60; ++i) loop.step();
   EXPECT_NE(loop.fault().find("joint 'arm1' is 0.3"), std::string::npos) << loop.fault();
-  EXPECT_NE(loop.fault().find("is something in its way?"), std::string::npos);
+  EXPECT_NE(loop.fault().find("does an obstacle block it?"), std::string::npos);
   EXPECT_LT(driver->commands().back().q[0], .32);
 }
 
 TEST(RobotLoop, DoesNotBeginWithARobotThatReportsAnError) {
   RobotState wrong = state(0.);
   wrong.error = "emergency stop";
-  expectError<RobotFault>([&] { RobotLoop(goesWrong(0, wrong), .01); }, {"'plain' cannot be moved: emergency stop"});
+  expectError<RobotFault>([&] { RobotLoop(goesWrong(0, wrong), .01); }, {"'plain' cannot move: emergency stop"});
   RobotState short_one = state(0.);
   short_one.q = VectorXd::Zero(3);
   expectError<RobotFault>([&] { RobotLoop(goesWrong(0, short_one), .01); }, {"a q of 3 numbers; expected 2"});
@@ -130,7 +130,7 @@ TEST(RobotLoop, RefusesAMotionThatBeginsFarFromTheRobot) {
   RobotLoop loop(obedient(), .01);
   loop.requireReady("move", pair(.04, 0.));
   expectError<RobotFault>([&] { loop.requireReady("move", pair(.06, 0.)); },
-                          {"move: joint 'arm1' is at 0, 0.06 from where the motion begins; call hold() first"});
+                          {"move: joint 'arm1' is at 0, 0.06 from the start of the motion; call hold() first"});
 }
 
 TEST(RobotLoop, BrakesToRestWithinItsLimits) {
@@ -139,7 +139,7 @@ TEST(RobotLoop, BrakesToRestWithinItsLimits) {
   loop.info().acceleration.setConstant(10.);
   loop.apply(FollowSpline{straight(0., 1., 0., 1.)});
   for (int i = 0; i < 50; ++i) loop.step();  // 1.5 rad/s
-  const BSpline braking = loop.braking();
+  const BSpline braking = loop.stoppingSegment(loop.time(), loop.reference(loop.time()));
   EXPECT_NEAR(braking.end() - loop.time(), 2. * 1.5 / 10., 1e-9);
   EXPECT_LE(peaksOf(braking, loop.time()).acceleration[0], 10. + 1e-9);
   loop.apply(HoldRobot{braking});
@@ -148,11 +148,11 @@ TEST(RobotLoop, BrakesToRestWithinItsLimits) {
   EXPECT_NEAR(loop.state().q[0], .5 + 1.5 * .3 / 3., 1e-9);
 }
 
-TEST(RobotLoop, DoesNotAskAStiffRobotToGiveWay) {
+TEST(RobotLoop, DoesNotAskAStiffRobotToBeCompliant) {
   RobotLoop loop(obedient(), .01);
   expectError<RobotFault>([&] { loop.apply(FloatRobot{}); }, {"'plain' cannot float"});
   expectError<RobotFault>([&] { loop.apply(SetStiffness{MatrixXd::Zero(2, 2)}); }, {"cannot be compliant"});
   expectError<RobotFault>([&] { loop.apply(GripperCommand{}); }, {"has no gripper 0"});
   expectError<RobotFault>([&] { loop.apply(PlaceFrame{}); }, {"is not simulated"});
-  EXPECT_TRUE(loop.log().entries.empty());  // what was refused was not done
+  EXPECT_TRUE(loop.log().entries.empty());  // refused commands are not logged
 }

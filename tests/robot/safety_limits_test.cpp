@@ -13,7 +13,7 @@ RobotCommand to(const VectorXd& q, const VectorXd& velocity) { return {.01, q, v
 
 }  // namespace
 
-TEST(ReferenceGuard, LeavesAMotionWithinLimitsAsItIsToTheBit) {
+TEST(SafetyLimits, LeavesAMotionWithinLimitsAsItIsToTheBit) {
   RobotInfo robot = plainRobot();
   MatrixXd points(2, 2);
   points << 0., 0., 1., -1.;
@@ -32,7 +32,7 @@ TEST(ReferenceGuard, LeavesAMotionWithinLimitsAsItIsToTheBit) {
   }
 }
 
-TEST(ReferenceGuard, FollowsAJumpWithinLimitsAndComesToRestThere) {
+TEST(SafetyLimits, FollowsAJumpWithinLimitsAndComesToRestThere) {
   RobotInfo robot = plainRobot();
   robot.velocity.setConstant(1.);
   robot.acceleration.setConstant(5.);
@@ -52,7 +52,7 @@ TEST(ReferenceGuard, FollowsAJumpWithinLimitsAndComesToRestThere) {
   EXPECT_LT(farthest, .6 + .01);
 }
 
-TEST(ReferenceGuard, StopsAtTheLimitsOfJoints) {
+TEST(SafetyLimits, StopsAtTheLimitsOfJoints) {
   RobotInfo robot = plainRobot();
   robot.upper[0] = .5;
   robot.velocity.setConstant(10.);

@@ -249,7 +249,7 @@ TEST(Config, AttachOfAFrameWithoutJointSaysWhatToDoAndThatWorks) {
       "hand (arm) { pose: [1 0 0] }\n"
       "box (table) { pose: [1 .2 0], shape: box, size: [.1 .1 .1] }\n");
   expectError<ValueError>([&] { config.attach("hand", "box"); },
-                          {"'box' has no joint and is fixed to 'table'", "carries 'hand', too", "setJoint"});
+                          {"'box' has no joint and is fixed to 'table'", "also carries 'hand'", "setJoint"});
   config.getFrame("box").setJoint(JointType::rigid);
   config.attach("hand", "box");
   EXPECT_EQ(config.getFrame("box").getParent()->getName(), "hand");

@@ -110,12 +110,12 @@ TEST(GyroscopicForces, AFlyingBaseWithAWheelStaysInBounds) {
   }
 }
 
-TEST(GyroscopicForces, WhatTurnsTooFastIsNamedOnce) {
+TEST(GyroscopicForces, ABodyThatRotatesTooFastIsNamedOnce) {
   Tumbling body({0., 0., 0.}, 400.);
   body.simulation.step({}, .1);
   const std::vector<std::string> warnings = body.simulation.takeWarnings();
   ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_NE(warnings[0].find("'body' turns by more than .5 rad in an inner step of 0.002 s"), std::string::npos)
+  EXPECT_NE(warnings[0].find("'body' rotates by more than .5 rad in an inner step of 0.002 s"), std::string::npos)
       << warnings[0];
   body.simulation.step({}, .1);
   EXPECT_TRUE(body.simulation.takeWarnings().empty());

@@ -69,7 +69,7 @@ TEST(SimulationLaws, BoxesSlideAsCoulombSays) {
   }
 }
 
-TEST(SimulationLaws, WhatFrictionHoldsDoesNotCreep) {
+TEST(SimulationLaws, AnObjectHeldByFrictionDoesNotCreep) {
   const double angle = 20. * M_PI / 180.;
   Config C;
   addSlope(C, angle, .5);

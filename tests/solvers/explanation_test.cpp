@@ -56,10 +56,10 @@ TEST(Explanation, TwoEqualitiesThatContradictEachOtherShareTheLeastViolation) {
   for (const Conflict& conflict : out.conflicts) {
     EXPECT_NEAR(conflict.violation.scaled, .5, 1e-5);
     EXPECT_TRUE(conflict.suffices);
-    EXPECT_NEAR(conflict.relaxation.scaled, 1., 1e-3) << "alone it gives way by all of it";
+    EXPECT_NEAR(conflict.relaxation.scaled, 1., 1e-3) << "its relaxation alone is all of it";
   }
   EXPECT_GE(out.best, 0);
-  EXPECT_NE(out.str().find("row 0 (eq) is missed by 0.5"), std::string::npos) << out.str();
+  EXPECT_NE(out.str().find("row 0 (eq) is violated by 0.5"), std::string::npos) << out.str();
 }
 
 TEST(Explanation, NamesTheBoundThatIsInTheWay) {

@@ -55,7 +55,7 @@ TEST(LagrangeGradients, CancelOutAtASolution) {
 
 TEST(LagrangeGradients, SizesThatDoNotFitAreNamed) {
   CallbackNlp nlp = plane();
-  expectError<ValueError>([&] { lagrangeGradients(nlp, VectorXd::Zero(3), {}); }, {"3 numbers", "2 variables"});
+  expectError<ValueError>([&] { lagrangeGradients(nlp, VectorXd::Zero(3), {}); }, {"3 entries", "2 variables"});
   expectError<ValueError>([&] { lagrangeGradients(nlp, VectorXd::Zero(2), VectorXd::Zero(1)); },
                           {"1 multipliers", "6 residuals"});
   expectError<ValueError>([&] { lagrangeGradients(nlp, VectorXd::Zero(2), {}, {"one"}); }, {"1 names", "6 residuals"});

@@ -122,7 +122,7 @@ TEST(NlpSolver, TracesJacobians) {
 TEST(NlpSolver, MethodsCanBeAdded) {
   const KnownProblem problem = byName("HS6");
   NlpSolver solver = quiet(problem);
-  solver.addMethod(OptMethod::Ipopt, [&](Nlp& nlp, const VectorXd&, const SolverOptions&, const EvaluationHook&) {
+  solver.addMethod(OptMethod::Ipopt, [&](Nlp& nlp, const VectorXd&, const SolverOptions&, const EvaluationCallback&) {
     SolverResult result;
     result.x = problem.optimum;
     VectorXd phi(Eigen::Index(nlp.types().size()));
@@ -141,7 +141,7 @@ TEST(NlpSolver, MistakesAreExplained) {
   expectError([&] { none.solve(false, rng); }, {"no problem"});
   NlpSolver solver = quiet(byName("HS6"));
   expectError([&] { solver.setProblem(solver.problem()); }, {"already"});
-  expectError<ValueError>([&] { solver.setInitialization(VectorXd::Zero(5)); }, {"5 numbers", "2 variables"});
+  expectError<ValueError>([&] { solver.setInitialization(VectorXd::Zero(5)); }, {"5 entries", "2 variables"});
   solver.options.method = OptMethod::Ipopt;
   expectError<ValueError>([&] { solver.solve(false, rng); }, {"Ipopt", "not available", "augmentedLag"});
 }

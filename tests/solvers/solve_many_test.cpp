@@ -41,7 +41,7 @@ SolverResult outcome(bool feasible, double cost, double violation) {
 
 int choose(const std::vector<SolverResult>& outcomes, bool best = true) {
   return solveMany(int(outcomes.size()), {best, 2},
-                   [&](int, int i, const EvaluationHook&) { return outcomes[std::size_t(i)]; })
+                   [&](int, int i, const EvaluationCallback&) { return outcomes[std::size_t(i)]; })
       .chosen;
 }
 
@@ -71,26 +71,27 @@ TEST(SolveMany, ChoosesByFeasibilityThenByCostOrViolation) {
 TEST(SolveMany, WhereOneSufficesThoseAfterTheFirstAreNotDone) {
   for (const int threads : {1, 3}) {
     const SolveManyResult all = solveMany(
-        20, {false, threads}, [&](int, int i, const EvaluationHook&) { return outcome(i == 4 || i == 7, i, 1.); });
+        20, {false, threads}, [&](int, int i, const EvaluationCallback&) { return outcome(i == 4 || i == 7, i, 1.); });
     EXPECT_EQ(all.chosen, 4);
     for (int i = 0; i < 20; ++i) EXPECT_EQ(all.results[std::size_t(i)].done, i <= 4) << i << " with " << threads;
   }
 }
 
-TEST(SolveMany, AWatchCancelsWhatRunsAndLeavesTheRest) {
+TEST(SolveMany, CancellationEndsRunningProblemsAndLeavesTheRest) {
   // each problem runs until it is told to stop
   std::atomic<bool> runs = false;
+  int ended = 0;
   const SolveManyResult all = solveMany(
       100, {true, 2},
-      [&](int, int, const EvaluationHook& hook) {
+      [&](int, int, const EvaluationCallback& callback) {
         runs = true;
         const VectorXd nothing;
-        while (hook(nothing, nothing)) continue;
+        while (callback(nothing, nothing)) continue;
         SolverResult result = outcome(false, 0., 1.);
         result.status = SolverStatus::cancelled;
         return result;
       },
-      [&](int ended) { return runs && ended == 0; });
+      [&](const Progress& progress) { ended = progress.done; }, [&] { return runs && ended == 0; });
   int done = 0;
   for (const SolverResult& result : all.results) done += result.done;
   EXPECT_GE(done, 1);
@@ -98,29 +99,28 @@ TEST(SolveMany, AWatchCancelsWhatRunsAndLeavesTheRest) {
   EXPECT_EQ(all.best().status, SolverStatus::cancelled);
 }
 
-TEST(SolveMany, TheCallingThreadIsTheFirstWorkerAndWatchesWhileItSolves) {
+TEST(SolveMany, TheCallingThreadIsTheFirstWorkerAndReportsProgress) {
   const auto caller = std::this_thread::get_id();
-  bool watched = false;
+  bool reported = false;
   const SolveManyResult all = solveMany(
       1, {true, 4},
-      [&](int worker, int, const EvaluationHook& hook) {
+      [&](int worker, int, const EvaluationCallback& callback) {
         EXPECT_EQ(worker, 0);
         EXPECT_EQ(std::this_thread::get_id(), caller);
         const VectorXd nothing;
-        while (!watched) EXPECT_TRUE(hook(nothing, nothing));
+        while (!reported) EXPECT_TRUE(callback(nothing, nothing));
         return outcome(true, 0., 0.);
       },
-      [&, first = true](int) mutable {
+      [&, first = true](const Progress&) mutable {
         EXPECT_EQ(std::this_thread::get_id(), caller);
-        watched = !std::exchange(first, false);
-        return false;
+        reported = !std::exchange(first, false);
       });
   EXPECT_TRUE(all.best().feasible);
 }
 
 TEST(SolveMany, WhatIsCancelledBeforeItsFirstValueIsNotDone) {
   for (const int threads : {1, 3}) {
-    const SolveManyResult all = solveMany(5, {true, threads}, [&](int, int i, const EvaluationHook&) {
+    const SolveManyResult all = solveMany(5, {true, threads}, [&](int, int i, const EvaluationCallback&) {
       if (i == 2) throw EvaluationCancelled();
       return outcome(true, i, 0.);
     });
@@ -129,13 +129,13 @@ TEST(SolveMany, WhatIsCancelledBeforeItsFirstValueIsNotDone) {
   }
 }
 
-TEST(SolveMany, AWatchThatThrowsEndsIt) {
-  const auto endless = [&](int, int, const EvaluationHook& hook) {
+TEST(SolveMany, AProgressCallbackThatThrowsEndsIt) {
+  const auto endless = [&](int, int, const EvaluationCallback& callback) {
     const VectorXd nothing;
-    while (hook(nothing, nothing)) continue;
+    while (callback(nothing, nothing)) continue;
     return SolverResult();
   };
-  EXPECT_THROW(solveMany(5, {true, 2}, endless, [](int) -> bool { throw std::runtime_error("enough"); }),
+  EXPECT_THROW(solveMany(5, {true, 2}, endless, [](const Progress&) { throw std::runtime_error("enough"); }),
                std::runtime_error);
 }
 

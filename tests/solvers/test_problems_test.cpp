@@ -137,5 +137,5 @@ TEST(TestProblems, AreTheSameForTheSameSeed) {
 
 TEST(TestProblems, NamesThatAreNotThereSayWhichAreNear) {
   expectError<NameError>([] { makeTestProblem("rosenbrok"); }, {"'rosenbrok'", "similar names: Rosenbrock"});
-  expectError<ValueError>([] { makeTestProblem("Himmelblau", {3}); }, {"Himmelblau", "dimension 3", "expected 2"});
+  expectError<ValueError>([] { makeTestProblem("Himmelblau", {3}); }, {"Himmelblau", "is 3", "expected 2"});
 }

@@ -113,7 +113,7 @@ TEST(BSpline, AppendedAtRestItPassesThroughItsEndAndBeginsAnewThere) {
     if (degree > 1) EXPECT_LT(both.eval(first.end(), 1).norm(), 1e-10) << degree;
     EXPECT_EQ(both.getKnots().size(), both.getCtrlPoints().rows() + degree + 1);
     for (double part : {.1, .5, .9}) {
-      if (degree > 3) continue;  // of higher degrees, the junction is smoother than two motions one after the other
+      if (degree > 3) continue;  // higher degrees have a smoother joint than two separate motions
       const double t = first.start() + part * (first.end() - first.start());
       EXPECT_LT((both.eval(t) - first.eval(t)).norm(), 1e-12) << degree << " " << t;
     }

@@ -27,20 +27,20 @@ TEST(CurvePart, IsTheWholeCurveBetweenItsEnds) {
   }
 }
 
-TEST(CurvePart, ALawAlongItIsOneAlongTheWhole) {
+TEST(CurvePart, ATimeScalingAlongItIsOneAlongTheWhole) {
   const PathCurve curve = someCurve(false);
   const CurvePart part = partOf(curve, .4 * curve.length(), .9 * curve.length());
   const MotionLimits limits{VectorXd::Constant(3, 1.), VectorXd::Constant(3, 2.), {}};
   const TimedPath timed = retime(MatrixXd(), part.curve, limits);
   const TimeScaling scaling = part.onWhole(timed.scaling());
   for (double t = 0.; t < scaling.duration(); t += .01) {
-    const MotionState whole = motionAt(curve, scaling, t), own = timed.at(t);
+    const MotionState whole = motionAt(curve, scaling, t), own = timed.eval(t);
     EXPECT_TRUE(whole.q.isApprox(own.q, 1e-9)) << t;
     EXPECT_LE((whole.velocity - own.velocity).norm(), 1e-9) << t;
   }
 }
 
-TEST(CurvePart, TheRestOfALawIsTheLawFromThenOn) {
+TEST(CurvePart, TheRestOfATimeScalingIsItFromThenOn) {
   for (const bool smooth : {false, true}) {
     const PathCurve curve = someCurve(smooth);
     MotionLimits limits{VectorXd::Constant(3, 1.), VectorXd::Constant(3, 2.), {}};
@@ -52,7 +52,7 @@ TEST(CurvePart, TheRestOfALawIsTheLawFromThenOn) {
       const TimeScaling rest = part.restOf(timed.scaling(), time);
       EXPECT_NEAR(rest.duration(), timed.duration() - time, 1e-12);
       for (double t = 0.; t < rest.duration(); t += .01) {
-        const MotionState now = motionAt(part.curve, rest, t), then = timed.at(time + t);
+        const MotionState now = motionAt(part.curve, rest, t), then = timed.eval(time + t);
         EXPECT_LE((now.q - then.q).norm(), 1e-9) << t;
         EXPECT_LE((now.velocity - then.velocity).norm(), 1e-9) << t;
         EXPECT_LE((now.acceleration - then.acceleration).norm(), 1e-7) << t;
@@ -70,7 +70,7 @@ TEST(CurvePart, JoinedCurvesStopWhereTheyMeet) {
   EXPECT_EQ(both.marks().size(), 3u);
   const MotionLimits limits{VectorXd::Constant(3, 1.), VectorXd::Constant(3, 2.), {}};
   const TimedPath timed = retime(MatrixXd(), both, limits);
-  EXPECT_LE(timed.at(timed.times[1]).velocity.norm(), 1e-9);
+  EXPECT_LE(timed.eval(timed.times[1]).velocity.norm(), 1e-9);
 }
 
 }  // namespace

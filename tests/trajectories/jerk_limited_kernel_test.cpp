@@ -14,7 +14,7 @@ namespace {
 constexpr int kLanes = JerkLimitedKernel::kLanes, kIntervals = 3 * kLanes, kNumbers = kIntervals + kLanes + 1;
 constexpr int kPlain = 3, kAtBegin = 2, kAtEnd = 2, kRows = kPlain + kAtBegin + kAtEnd;
 
-/// Random rows of four blocks, of which the last is that of one interval again, and all that a kernel makes of them.
+/// Random rows of four blocks, the last one for a single interval, and the results of a kernel.
 struct Work {
   std::vector<double> knots, middle, roots, knot_step, middle_step, sums;
   std::vector<JerkLimitedKernel::Rows> rows;
@@ -63,10 +63,10 @@ bool areEqual(const Work& a, const Work& b) {
 
 TEST(JerkLimitedKernel, AllWidthsGiveTheSameBits) {
   Work narrow;
-  narrow.run(smoothKernel(2));
+  narrow.run(jerkLimitedKernel(2));
   for (const int width : laneWidths()) {
     Work work;
-    work.run(smoothKernel(width));
+    work.run(jerkLimitedKernel(width));
     EXPECT_TRUE(areEqual(narrow, work)) << width;
   }
 }
@@ -74,7 +74,7 @@ TEST(JerkLimitedKernel, AllWidthsGiveTheSameBits) {
 TEST(JerkLimitedKernel, SlacksAreWhatIsLeftOfASizeAndMultipliersFitTheBarrier) {
   Work work;
   const JerkLimitedKernel::Coefficients b{work.knots.data(), work.middle.data()};
-  smoothKernel().begin(b, work.roots.data(), work.blocks.data(), 4, .01, 1e-3);
+  jerkLimitedKernel().begin(b, work.roots.data(), work.blocks.data(), 4, .01, 1e-3);
   for (int r = 0; r < kRows; ++r) {
     const JerkLimitedKernel::Rows& row = work.rows[kRows + r];
     for (int i = 0; i < kLanes; ++i) {
@@ -89,7 +89,7 @@ TEST(JerkLimitedKernel, SlacksAreWhatIsLeftOfASizeAndMultipliersFitTheBarrier) {
   }
 }
 
-/// Sums are the gradient and the matrix of what a Newton step needs: the gap's terms fall as the step says.
+/// The sums are gradient and matrix of the Newton system: the terms of the gap decrease as its step predicts.
 TEST(JerkLimitedKernel, AStepOfRowsWithoutRootsReachesTheBarrierToFirstOrder) {
   Work work;
   for (JerkLimitedKernel::Block& block : work.blocks) block.plain = kRows, block.at_begin = block.at_end = 0;
@@ -97,8 +97,8 @@ TEST(JerkLimitedKernel, AStepOfRowsWithoutRootsReachesTheBarrierToFirstOrder) {
   for (double& by : work.middle_step) by *= 1e-4;
   const JerkLimitedKernel::Coefficients b{work.knots.data(), work.middle.data()},
       step{work.knot_step.data(), work.middle_step.data()};
-  smoothKernel().begin(b, work.roots.data(), work.blocks.data(), 4, .01, 1e-3);
-  smoothKernel().findSteps(b, work.roots.data(), step, work.blocks.data(), 4, .02, work.falls);
+  jerkLimitedKernel().begin(b, work.roots.data(), work.blocks.data(), 4, .01, 1e-3);
+  jerkLimitedKernel().findSteps(b, work.roots.data(), step, work.blocks.data(), 4, .02, work.falls);
   for (const JerkLimitedKernel::Rows& row : work.rows) {
     for (int side = 0; side < 2; ++side) {
       for (int i = 0; i < kLanes; ++i) {

@@ -14,7 +14,7 @@ using namespace kinegraph;
 
 namespace {
 
-constexpr double kWithin = 1e-9;  // by which a limit may be exceeded, as a share
+constexpr double kWithin = 1e-9;  // largest relative violation of a limit
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 MotionLimits limitsOf(int dofs, double velocity, double acceleration, double jerk = 0.) {
@@ -35,8 +35,8 @@ MatrixXd corner() {
   return path;
 }
 
-/// How much of its limits a motion uses at most, at `samples` times: of the velocity, the acceleration, and the jerk by
-/// differences of accelerations (their mean over a step is no larger than the jerk).
+/// The largest ratios of a motion to its limits at `samples` times. Differences of accelerations give the mean jerk of
+/// a step, which is at most the largest jerk.
 struct Use {
   double velocity = 0., acceleration = 0., jerk = 0.;
 };
@@ -46,7 +46,7 @@ Use useOf(const TimedPath& timed, const MotionLimits& limits, int samples = 4000
   const double step = timed.duration() / samples;
   VectorXd before;
   for (int i = 0; i <= samples; ++i) {
-    const MotionState state = timed.at(step * i);
+    const MotionState state = timed.eval(step * i);
     use.velocity = std::max(use.velocity, (state.velocity.array().abs() / limits.velocity.array()).maxCoeff());
     use.acceleration =
         std::max(use.acceleration, (state.acceleration.array().abs() / limits.acceleration.array()).maxCoeff());
@@ -77,7 +77,7 @@ TEST(Retime, ALineTakesWhatBangCruiseBangTakes) {
 TEST(Retime, ALineWithJerkTakesWhatTheSevenPhasesTake) {
   // jerk 8 for 0.5 s to 4 m/s^2, 0 hold; 2 m/s after 1 s and 1 m; 8 m at 2 m/s; the same down
   EXPECT_NEAR(retime(line(10.), limitsOf(1, 2., 4., 8.)).duration(), 1. + 4. + 1., 1e-9);
-  // four phases of equal time t with jerk 1: the way is 2 t^3
+  // four phases of equal time t with jerk 1: the distance is 2 t^3
   EXPECT_NEAR(retime(line(2.), limitsOf(1, 100., 100., 1.)).duration(), 4., 1e-9);
 }
 
@@ -88,8 +88,8 @@ TEST(Retime, PathsThatGoNowhereTakeNoTime) {
     EXPECT_TRUE(timed.feasible());
     EXPECT_EQ(timed.duration(), 0.);
     EXPECT_EQ(timed.times, VectorXd::Zero(path.rows()));
-    EXPECT_EQ(timed.at(1.).q, VectorXd::Constant(3, .5));
-    EXPECT_EQ(timed.at(1.).velocity, VectorXd::Zero(3));
+    EXPECT_EQ(timed.eval(1.).q, VectorXd::Constant(3, .5));
+    EXPECT_EQ(timed.eval(1.).velocity, VectorXd::Zero(3));
   }
 }
 
@@ -111,7 +111,7 @@ TEST(Retime, AMotionIsAtEachPointAtItsTime) {
       const TimedPath timed = retime(path, limits, options);
       ASSERT_TRUE(timed.feasible()) << timed.message;
       for (int i = 0; i < path.rows(); ++i)
-        EXPECT_LT((timed.at(timed.times[i]).q - path.row(i).transpose()).cwiseAbs().maxCoeff(), 1e-8);
+        EXPECT_LT((timed.eval(timed.times[i]).q - path.row(i).transpose()).cwiseAbs().maxCoeff(), 1e-8);
     }
   }
 }
@@ -121,7 +121,7 @@ TEST(Retime, StopsAtCornersAreStops) {
   options.corners = Corners::stop;
   for (const MotionLimits& limits : {limitsOf(2, 1., 2.), limitsOf(2, 1., 2., 30.)}) {
     const TimedPath timed = retime(corner(), limits, options);
-    EXPECT_LT(timed.at(timed.times[1]).velocity.norm(), 1e-6);
+    EXPECT_LT(timed.eval(timed.times[1]).velocity.norm(), 1e-6);
     EXPECT_NEAR(timed.duration(), 2. * retime(line(1.), limitsOf(1, 1., 2., limits.limitsJerk() ? 30. : 0.)).duration(),
                 1e-9);
   }
@@ -132,14 +132,14 @@ TEST(Retime, BlendsMissTheirCornerByTheToleranceAndAreFasterThanStops) {
     RetimeOptions options;
     options.tolerance = .02;
     const TimedPath timed = retime(corner(), limits, options);
-    EXPECT_NEAR((timed.at(timed.times[1]).q - Eigen::Vector2d(1., 0.)).cwiseAbs().maxCoeff(), .02, 1e-6);
-    EXPECT_GT(timed.at(timed.times[1]).velocity.norm(), .1);
+    EXPECT_NEAR((timed.eval(timed.times[1]).q - Eigen::Vector2d(1., 0.)).cwiseAbs().maxCoeff(), .02, 1e-6);
+    EXPECT_GT(timed.eval(timed.times[1]).velocity.norm(), .1);
     options.corners = Corners::stop;
     EXPECT_LT(timed.duration(), retime(corner(), limits, options).duration());
   }
 }
 
-TEST(Retime, WhereItTurnsBackARoundedCornerTakesNoLongerThanAStop) {
+TEST(Retime, AtAReversalABlendTakesNoLongerThanAStop) {
   const MotionLimits limits{VectorXd::Ones(2), VectorXd::Ones(2), VectorXd::Constant(2, 10.)};
   for (const double degrees : {0., .01, .1, .3, 1., 5.}) {
     const double a = degrees / 180. * std::numbers::pi;
@@ -157,14 +157,14 @@ TEST(Retime, BlendsThatAreNotFreeBecomeSmallerAndThenStops) {
   options.is_free = [&](const MatrixXd& points, double deviation) {
     ++asked;
     EXPECT_LT(deviation, .01);
-    return points.col(1).maxCoeff() < .1;  // how far along the second line it goes
+    return points.col(1).maxCoeff() < .1;  // extent along the second line
   };
   const TimedPath small = retime(corner(), limitsOf(2, 1., 2.), options);
   EXPECT_GT(asked, 1);
-  EXPECT_GT(small.at(small.times[1]).velocity.norm(), .05);
+  EXPECT_GT(small.eval(small.times[1]).velocity.norm(), .05);
   options.is_free = [](const MatrixXd&, double) { return false; };
   const TimedPath stopping = retime(corner(), limitsOf(2, 1., 2.), options);
-  EXPECT_LT(stopping.at(stopping.times[1]).velocity.norm(), 1e-6);
+  EXPECT_LT(stopping.eval(stopping.times[1]).velocity.norm(), 1e-6);
 }
 
 TEST(Retime, LimitsHoldAllAlongRandomPaths) {
@@ -186,11 +186,11 @@ TEST(Retime, LimitsHoldAllAlongRandomPaths) {
     const Use use = useOf(timed, limits, 2000);
     EXPECT_LE(use.velocity, 1. + kWithin) << i;
     EXPECT_LE(use.acceleration, 1. + kWithin) << i;
-    EXPECT_LE(use.jerk, 1. + 1e-6) << i;  // of differences, which round
+    EXPECT_LE(use.jerk, 1. + 1e-6) << i;  // differences have rounding errors
   }
 }
 
-TEST(Retime, WithLimitsOfTheJerkAHundredIntervalsAreNearlyAsFastAsManyMore) {
+TEST(Retime, WithJerkLimitsAHundredIntervalsAreNearlyAsFastAsManyMore) {
   Rng rng(19);
   RetimeOptions options, fine;
   options.corners = fine.corners = Corners::spline;
@@ -204,7 +204,7 @@ TEST(Retime, WithLimitsOfTheJerkAHundredIntervalsAreNearlyAsFastAsManyMore) {
   }
 }
 
-TEST(Retime, WhoIsAskedNowAndThenMayEndIt) {
+TEST(Retime, ATokenCancelsIt) {
   Rng rng(23);
   const MatrixXd path = randomPath(rng, 6, 3);
   for (const double jerk : {0., 30.}) {
@@ -233,7 +233,7 @@ TEST(Retime, VelocityAndAccelerationAreTheDerivativesOfTheMotion) {
   constexpr double kStep = 1e-5;
   for (int i = 1; i < 50; ++i) {
     const double t = timed.duration() * i / 50.;
-    const MotionState before = timed.at(t - kStep), at = timed.at(t), after = timed.at(t + kStep);
+    const MotionState before = timed.eval(t - kStep), at = timed.eval(t), after = timed.eval(t + kStep);
     EXPECT_LT(((after.q - before.q) / (2. * kStep) - at.velocity).cwiseAbs().maxCoeff(), 1e-6);
     EXPECT_LT(((after.velocity - before.velocity) / (2. * kStep) - at.acceleration).cwiseAbs().maxCoeff(), 1e-3);
   }
@@ -249,8 +249,8 @@ TEST(Retime, VelocitiesAtTheEndsAreKept) {
     const MotionLimits limits = limitsOf(2, 1., 4., jerk);
     const TimedPath timed = retime(path, limits, options);
     ASSERT_TRUE(timed.feasible()) << timed.message;
-    EXPECT_LT((timed.at(0.).velocity - options.start_velocity).norm(), 1e-9);
-    EXPECT_LT((timed.at(timed.duration()).velocity - options.end_velocity).norm(), 1e-9);
+    EXPECT_LT((timed.eval(0.).velocity - options.start_velocity).norm(), 1e-9);
+    EXPECT_LT((timed.eval(timed.duration()).velocity - options.end_velocity).norm(), 1e-9);
     EXPECT_LE(useOf(timed, limits).acceleration, 1. + kWithin);
   }
 }
@@ -266,20 +266,20 @@ TEST(Retime, AccelerationsKeepTheirLimitsWhereItHardlyAccelerates) {
         retime(MatrixXd{{from}, {from + rng.uniform(3., 9.)}}, limitsOf(1, velocity, acceleration), options);
     ASSERT_TRUE(timed.feasible()) << timed.message;
     for (const ScalingPhase& phase : timed.scaling().phases())
-      EXPECT_LE(timed.at(phase.time).acceleration.norm(), acceleration * (1. + kWithin)) << phase.time;
+      EXPECT_LE(timed.eval(phase.time).acceleration.norm(), acceleration * (1. + kWithin)) << phase.time;
   }
 }
 
-TEST(Retime, WhatCannotBeBrakedIsSaid) {
+TEST(Retime, ReportsAnEndVelocityThatCannotBeBraked) {
   RetimeOptions options;
   options.start_velocity = VectorXd::Constant(1, 3.);
   const TimedPath timed = retime(line(1.), limitsOf(1, 10., 2.), options);  // sqrt(2 * 2 * 1) = 2 can be braked
   EXPECT_EQ(timed.status, RetimeStatus::start_too_fast);
   EXPECT_NE(timed.message.find("at most 2 would do"), std::string::npos) << timed.message;
-  expectError<ValueError>([&] { timed.at(0.); }, {"there is no motion", "cannot be braked"});
+  expectError<ValueError>([&] { timed.eval(0.); }, {"there is no motion", "cannot be braked"});
 }
 
-TEST(Retime, WhatItSaysWouldDoDoesAndLittleMoreDoesNot) {
+TEST(Retime, TheVelocityThatWouldDoDoesAndLittleMoreDoesNot) {
   const MatrixXd path{{0., 0.}, {.2, .1}, {.25, .4}, {.6, .5}};
   int told = 0;
   for (const double jerk : {0., 5., 60.}) {
@@ -307,7 +307,7 @@ TEST(Retime, WhatItSaysWouldDoDoesAndLittleMoreDoesNot) {
   EXPECT_GE(told, 6);
 }
 
-TEST(Retime, RowsOfTheCallerHoldAtAllPlacesAndSayWhatCannotBeHeld) {
+TEST(Retime, ConstraintsOfTheCallerHoldAtAllGridpointsAndNameTheOneThatForbidsRest) {
   ConstraintSource rows;  // s'' + s'^2 + c <= 3, with c = 1 + s
   rows.low = VectorXd::Constant(1, -kNoLimit), rows.high = VectorXd::Constant(1, 3.);
   rows.names = {"shoulder"};
@@ -315,17 +315,17 @@ TEST(Retime, RowsOfTheCallerHoldAtAllPlacesAndSayWhatCannotBeHeld) {
     return ScalingConstraints{VectorXd::Constant(1, 1.), VectorXd::Constant(1, 1.), VectorXd::Constant(1, 1. + s)};
   };
   RetimeOptions options;
-  options.rows = rows;
+  options.constraints = rows;
   const TimedPath timed = retime(line(1.), limitsOf(1, 10., 10.), options);
   ASSERT_TRUE(timed.feasible()) << timed.message;
   for (int i = 0; i <= 1000; ++i) {
-    const MotionState state = timed.at(timed.duration() * i / 1000.);
+    const MotionState state = timed.eval(timed.duration() * i / 1000.);
     EXPECT_LE(state.acceleration[0] + state.velocity[0] * state.velocity[0] + 1. + state.q[0], 3. + 1e-3);
   }
-  options.rows.high[0] = 1.5;
+  options.constraints.high[0] = 1.5;
   const TimedPath held = retime(line(1.), limitsOf(1, 10., 10.), options);
   EXPECT_EQ(held.status, RetimeStatus::cannot_move);
-  EXPECT_NE(held.message.find("'shoulder' cannot be held"), std::string::npos) << held.message;
+  EXPECT_NE(held.message.find("'shoulder' cannot rest"), std::string::npos) << held.message;
 }
 
 TEST(Retime, InfiniteLimitsLimitNothing) {
@@ -337,10 +337,10 @@ TEST(Retime, InfiniteLimitsLimitNothing) {
   limits.acceleration[0] = kNoLimit;
   EXPECT_NEAR(retime(path, limits).duration(), 1., 1e-6);
   path(1, 0) = 0.;
-  expectError<ValueError>([&] { retime(path, limits); }, {"nothing limits the motion at 0 %", "dofs 1"});
+  expectError<ValueError>([&] { retime(path, limits); }, {"the speed is unlimited at 0 %", "dofs 1"});
 }
 
-TEST(Retime, WhereHardlyAJerkIsLimitedItIsNearlyAsFastAsWithoutLimitsOfIt) {
+TEST(Retime, WithLargeJerkLimitsItIsNearlyAsFastAsWithoutThem) {
   Rng rng(29);
   const MatrixXd path = randomPath(rng, 5, 2);
   RetimeOptions options;
@@ -353,7 +353,7 @@ TEST(Retime, WhereHardlyAJerkIsLimitedItIsNearlyAsFastAsWithoutLimitsOfIt) {
   }
 }
 
-TEST(Retime, WhereTooFewIntervalsHaveNoLawMoreAreTaken) {
+TEST(Retime, TooFewIntervalsAreDoubled) {
   Rng rng(31);
   for (int i = 0; i < 250; ++i) {
     const MatrixXd path = randomPath(rng, 12, 2);
@@ -369,7 +369,7 @@ TEST(Retime, WhereTooFewIntervalsHaveNoLawMoreAreTaken) {
   }
 }
 
-TEST(Retime, ManyIntervalsHaveALawThatIsAsFastAndKeepsTheLimits) {
+TEST(Retime, ManyIntervalsAreAsFastAndKeepTheLimits) {
   Rng rng(29);
   const MatrixXd path = randomPath(rng, 4, 2);
   for (const Corners corners : {Corners::spline, Corners::blend}) {
@@ -387,12 +387,12 @@ TEST(Retime, ManyIntervalsHaveALawThatIsAsFastAndKeepsTheLimits) {
       const Use use = useOf(many, limits);
       EXPECT_LE(use.velocity, 1. + kWithin);
       EXPECT_LE(use.acceleration, 1. + kWithin);
-      EXPECT_LE(use.jerk, 1. + kWithin);  // 0 where it has no limit
+      EXPECT_LE(use.jerk, 1. + kWithin);  // 0 without a limit
     }
   }
 }
 
-TEST(Retime, ManyIntervalsEndWhenAskedTo) {
+TEST(Retime, ATokenCancelsManyIntervals) {
   Rng rng(31);
   const MatrixXd path = randomPath(rng, 4, 2);
   for (const double jerk : {0., 60.}) {
@@ -418,7 +418,7 @@ TEST(Retime, AMotionGoesOnWithTheAccelerationThatAnotherOneHas) {
     ASSERT_TRUE(before.feasible());
     for (const double share : {.07, .2, .5, .8}) {
       const double time = share * before.duration();
-      const MotionState now = before.at(time);
+      const MotionState now = before.eval(time);
       const ScalingPhase& phase = before.scaling().phaseAt(time);
       const CurvePart rest = partOf(before.curve(), phase.at(time - phase.time).s, before.curve().length());
       options.start_velocity = now.velocity;
@@ -426,8 +426,8 @@ TEST(Retime, AMotionGoesOnWithTheAccelerationThatAnotherOneHas) {
       const MotionLimits wider = limitsOf(3, 1.6, 5., 80.);
       const TimedPath after = retime(MatrixXd(), rest.curve, wider, options);
       ASSERT_TRUE(after.feasible()) << i << " " << share << " " << after.message;
-      EXPECT_LE((after.at(0.).velocity - now.velocity).norm(), 1e-9);
-      EXPECT_LE((after.at(0.).acceleration - now.acceleration).norm(), 1e-7 * (1. + now.acceleration.norm()));
+      EXPECT_LE((after.eval(0.).velocity - now.velocity).norm(), 1e-9);
+      EXPECT_LE((after.eval(0.).acceleration - now.acceleration).norm(), 1e-7 * (1. + now.acceleration.norm()));
       const Use use = useOf(after, wider);
       EXPECT_LE(use.acceleration, 1. + kWithin);
       EXPECT_LE(use.jerk, 1. + kWithin);
@@ -446,7 +446,7 @@ TEST(Retime, AStartAccelerationThatLeavesThePathIsRefused) {
   const MotionLimits limits = limitsOf(2, 2., 4., 60.);
   expectError<ValueError>([&] { retime(path, limits, options); }, {"start_acceleration", "leaves the path"});
   options.start_acceleration = VectorXd{{1., 0.}};
-  EXPECT_NEAR(retime(path, limits, options).at(0.).acceleration[0], 1., 1e-9);
+  EXPECT_NEAR(retime(path, limits, options).eval(0.).acceleration[0], 1., 1e-9);
   expectError<ValueError>([&] { retime(path, limitsOf(2, 2., 4.), options); }, {"limits of the jerk"});
   options.start_velocity = {};
   expectError<ValueError>([&] { retime(path, limits, options); }, {"no start_velocity"});

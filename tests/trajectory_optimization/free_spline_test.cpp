@@ -113,13 +113,13 @@ TEST(FreeSpline, LinesThroughObstaclesAreReplacedByPathsAroundThem) {
     const auto komo = problemOf(problem, 16, true);
     const auto nlp = makeNlp(komo);
     const VectorXd line = komo->path().variables();
-    blocked += dynamic_cast<InitialGuesses&>(*nlp).guessKind(line) == GuessKind::blocked;
+    blocked += nlp->initialGuesses()->guessKind(line) == GuessKind::invalid;
     NlpSolver solver(nlp, 0);
     solver.setInitialization(line);
     const SolverResult result = solver.solve();
     EXPECT_TRUE(result.feasible) << i << ": " << result.summary();
     EXPECT_EQ(result.free(), true) << i;
-    EXPECT_EQ(dynamic_cast<InitialGuesses&>(*nlp).guessKind(result.x), GuessKind::free) << i;
+    EXPECT_EQ(nlp->initialGuesses()->guessKind(result.x), GuessKind::valid) << i;
     evals += result.evals;
   }
   EXPECT_GT(blocked, 5);
@@ -148,9 +148,9 @@ wall (base): { shape: box, size: [.03 1 1], X: [.6 0 0], contact: 1 }
   komo->addFreeMotion({}, kMargin);
   Rng rng(5);
   const auto lines = makeNlp(komo), spline = SplineMotion(komo, {.points = 8}).nlp();
-  const auto guessKind = [](Nlp& nlp, const VectorXd& x) { return dynamic_cast<InitialGuesses&>(nlp).guessKind(x); };
-  for (const auto& nlp : {lines, spline}) EXPECT_EQ(guessKind(*nlp, nlp->initialPoint(rng)), GuessKind::still);
-  for (const auto& [goal, kind] : {std::pair(.4, GuessKind::free), std::pair(1.2, GuessKind::blocked)}) {
+  const auto guessKind = [](Nlp& nlp, const VectorXd& x) { return nlp.initialGuesses()->guessKind(x); };
+  for (const auto& nlp : {lines, spline}) EXPECT_EQ(guessKind(*nlp, nlp->initialPoint(rng)), GuessKind::stationary);
+  for (const auto& [goal, kind] : {std::pair(.4, GuessKind::valid), std::pair(1.2, GuessKind::invalid)}) {
     MatrixXd path = MatrixXd::Zero(10, 2);
     path.col(0) = VectorXd::LinSpaced(10, .1 * goal, goal);
     komo->setPath(path);
@@ -170,12 +170,12 @@ TEST(FreeSpline, VerdictsAgreeWithSamplesOfRandomSplines) {
     for (double& value : c) value += .15 * rng.normal();
     nlp->leaveAt(c);
     const double least = coalDistanceAlong(motion.spline(), problem.scene.state(), 4000);
-    const ValidityReport verdict = nlp->motionValidity(c)->get();
-    EXPECT_EQ(verdict.free, motion.isFree()) << i;
-    EXPECT_TRUE(verdict.free ? least > -1e-6 : least < 4e-5) << i << ": " << least << ", " << verdict.message;
+    const ValidityReport verdict = nlp->validity(c)->get();
+    EXPECT_EQ(verdict.valid, motion.isFree()) << i;
+    EXPECT_TRUE(verdict.valid ? least > -1e-6 : least < 4e-5) << i << ": " << least << ", " << verdict.message;
     EXPECT_TRUE(motion.isFree(least - 5e-4)) << "the bound is as tight as that";
     EXPECT_FALSE(motion.isFree(least + 1e-6)) << i;
-    free += verdict.free;
+    free += verdict.valid;
   }
   EXPECT_GT(free, 5);
   EXPECT_LT(free, 35);
@@ -249,7 +249,7 @@ post (base): { shape: box, size: [.04 .04 1], X: [.8 .02 0], contact: 1 }
   const auto nlp = motion.nlp();
   Rng rng(1);
   VectorXd c = nlp->initialPoint(rng), no_multipliers;
-  EXPECT_FALSE(nlp->motionValidity(c)->get().free);
+  EXPECT_FALSE(nlp->validity(c)->get().valid);
   EXPECT_NE(nlp->refine(c, no_multipliers), Refinement::none);
   EXPECT_LT(checkJacobian(*nlp, c, 1e-6).error, 1e-4);
   EXPECT_LT(checkJacobian(*nlp->separation().problem, c, 1e-6).error, 1e-4);
@@ -287,7 +287,7 @@ wall (base): { shape: box, size: [.03 1 1], X: [.6 0 0], contact: 1 }
   const SolverResult result = resultOf(nlp);
   EXPECT_FALSE(result.feasible) << "there is no way around";
   EXPECT_EQ(result.free(), false);
-  const ValidityReport verdict = nlp->motionValidity(result.x)->get();
+  const ValidityReport verdict = nlp->validity(result.x)->get();
   EXPECT_NE(verdict.message.find("'ball' and 'wall' overlap by 115 mm"), std::string::npos) << verdict.message;
   VectorXd phi(Eigen::Index(nlp->types().size()));
   nlp->evaluate(result.x, phi, nullptr);

@@ -112,11 +112,11 @@ TEST(SolveFromMany, MistakesAreNamed) {
   expectError<ValueError>([&] { sampleStarts(*komo, 0, 0); }, {"number of starts is 0"});
 }
 
-TEST(SolveFromMany, AWatchThatThrowsEndsIt) {
+TEST(SolveFromMany, AProgressCallbackThatThrowsEndsIt) {
   for (const int threads : {1, 2}) {
     const auto komo = twoAnswers();
     const auto starts = sampleStarts(*komo, 2000, 0);
-    const auto fail = [](int) -> bool { throw std::runtime_error("enough"); };
+    const auto fail = [](const Progress&) { throw std::runtime_error("enough"); };
     EXPECT_THROW(solveFromMany(komo, starts, {}, {true, threads}, fail), std::runtime_error);
   }
 }

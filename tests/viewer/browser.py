@@ -53,7 +53,7 @@ def find() -> str | None:
 
 
 def reason(details: dict[str, Any]) -> str:
-    """What went wrong in a script."""
+    """An error in a script."""
     return details.get("exception", {}).get("description", details["text"])
 
 
@@ -157,7 +157,7 @@ class Browser:
         self.press(letter.lower(), code=f"Key{letter}", modifiers=1)
 
     def type(self, text: str) -> None:
-        """Types into what has the focus."""
+        """Types into the focused element."""
         for letter in text:
             self.press(letter, text=letter)
 
@@ -183,7 +183,7 @@ class Browser:
         self.evaluate(f"(({named}).find((x) => x.checkVisibility()) ?? ({named}).at(-1)).click()")
 
     def pixel(self, point: Any) -> tuple[float, float]:
-        """Where a point of the scene is on the page: x and y."""
+        """Returns the place of a point of the scene on the page: x and y."""
         return tuple(self.evaluate(f"kinegraph.pixel(...{json.dumps(list(point))})"))
 
     def is_visible(self, selector: str) -> bool:

@@ -1,4 +1,4 @@
-"""Where points of the scene appear on the page, computed without the page."""
+"""Projects points of the scene to the page, independently of the page."""
 
 from __future__ import annotations
 

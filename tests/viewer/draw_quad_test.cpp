@@ -8,7 +8,7 @@ namespace {
 
 constexpr int kWidth = 6, kHeight = 4;
 
-/// Two pixels, red 10 and 20, side by side; where it is is in heights of the picture.
+/// Two pixels, red 10 and 20, side by side; places are in heights of the picture.
 Quad pair(double x, double y, double height) {
   Quad quad;
   quad.x = x;
@@ -31,7 +31,7 @@ std::vector<int> drawn(const Quad& quad) {
 
 }  // namespace
 
-TEST(DrawQuad, IsWhereItSaysInHeightsOfThePicture) {
+TEST(DrawQuad, HasItsPlaceInHeightsOfThePicture) {
   EXPECT_EQ(drawn(pair(.25, .5, .5)), (std::vector{0, 0,  0,  0,  0,  0,  //
                                                    0, 0,  0,  0,  0,  0,  //
                                                    0, 10, 10, 20, 20, 0,  //

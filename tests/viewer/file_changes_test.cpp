@@ -78,7 +78,7 @@ TEST(FileChanges, AnUndoneEditIsNoChange) {
   EXPECT_EQ(file.delay(stamp(1, 10)), -1);
 }
 
-TEST(FileChanges, StampsTellFilesThatExistFromThoseThatDoNot) {
+TEST(FileChanges, StampsDistinguishExistingAndMissingFiles) {
   const TemporaryFolder folder;
   const std::string path = folder.write("stamped.g", "a: {}");
   const FileStamps stamps = stampsOf({path, path + ".missing"});

@@ -41,7 +41,7 @@ class KinematicModel:
         self._lines.put(None)
 
     def line(self, start: str) -> str:
-        """Waits for a line of output that begins with `start`; returns what follows."""
+        """Waits for a line of output that begins with `start`; returns its rest."""
         while (line := self._lines.get(timeout=PATIENCE)) is not None:
             self.output += line + "\n"
             if line.startswith(start):

@@ -10,7 +10,7 @@ namespace {
 
 Outgoing message(const std::string& data, bool binary) { return {std::make_shared<std::string>(data), binary}; }
 
-/// What is inside the recording's script element.
+/// Returns the content of the recording's script element.
 std::string recordingOf(const std::vector<Outgoing>& messages) {
   const std::string page = recordedPage(messages), start = "id=\"recording\">";
   const std::size_t first = page.find(start) + start.size();

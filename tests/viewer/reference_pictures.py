@@ -1,6 +1,6 @@
-"""Comparison of the page with pictures of it that were looked at, and are kept in `pictures/`.
+"""Compares the page with reference pictures in `pictures/`.
 
-What is compared are means of 8 x 8 pixels, because machines draw edges and shadows a little differently: they may differ by 6
+Means of 8 x 8 pixels are compared, because machines draw edges and shadows slightly differently: they may differ by 6
 of 255 on average over the picture, and by 40 in one place of a hundred. KINEGRAPH_RECORD=1 writes the pictures anew.
 """
 
@@ -37,7 +37,7 @@ def shrink(picture: np.ndarray) -> np.ndarray:
 
 
 def difference(picture: np.ndarray, name: str, folder: Path) -> str:
-    """What is different from the picture of that name, in words, with pictures in `folder`; empty if it is the same."""
+    """Describes the difference from the reference picture, with pictures in `folder`; empty without one."""
     small, file = shrink(picture), PICTURES / f"{name}.png"
     apart = np.abs(small.astype(int) - read_png(file)).max(axis=2)
     mean, share = apart.mean(), (apart > LARGE).mean()

@@ -34,7 +34,7 @@ struct SceneEditsTest : ::testing::Test {
   int id(const char* name) const { return config.getFrame(name).id(); }
 };
 
-/// What a new reader says of each frame, and one that has read the scene before every edit.
+/// Compares a new reader with one that has read the scene before every edit.
 void expectSameAsAnew(const Config& config, SceneItems& known) {
   SceneItems anew;
   anew.read(config);
@@ -50,7 +50,7 @@ void expectSameAsAnew(const Config& config, SceneItems& known) {
 
 }  // namespace
 
-TEST_F(SceneEditsTest, AJointIsSeenAtOnceAndTakenWhenAsked) {
+TEST_F(SceneEditsTest, AJointIsShownAtOnceAndAppliedOnRequest) {
   show();
   const auto edited = edits.apply(SetJointCommand{1, 0, .5});
   ASSERT_TRUE(edited);
@@ -80,7 +80,7 @@ TEST_F(SceneEditsTest, ResetIsHome) {
   EXPECT_EQ(edits.apply(ResetJointsCommand{1})->q, home);
 }
 
-TEST_F(SceneEditsTest, OnlyWhatPeopleChangedIsTaken) {
+TEST_F(SceneEditsTest, OnlyChangesOfUsersAreApplied) {
   show();
   edits.apply(SetJointCommand{1, 0, .5});
   config.setJointState(Eigen::Vector2d(-.5, .4));
@@ -105,7 +105,7 @@ TEST_F(SceneEditsTest, AFrameOnAJointTakesTheNearestPoseWithinItsLimits) {
   EXPECT_EQ(config.getJointState()[1], .5);
 }
 
-TEST_F(SceneEditsTest, WhatMeansNothingChangesNothing) {
+TEST_F(SceneEditsTest, InvalidCommandsChangeNothing) {
   EXPECT_FALSE(edits.apply(SetJointCommand{0, 0, .5}));  // nothing is shown yet
   show();
   EXPECT_FALSE(edits.apply(SetJointCommand{2, 0, .5}));  // of another structure
@@ -156,7 +156,7 @@ TEST(SceneItems, CountAStructureForEveryChangeOfFramesAndNoneForPoses) {
   EXPECT_FALSE(items.isOf(other));
 }
 
-TEST(SceneItems, TellTheJointsAndWhatElseThereIsToSay) {
+TEST(SceneItems, DescribeJointsAndOtherAttributes) {
   Config config = scene();
   SceneItems items;
   items.read(config);
@@ -169,7 +169,7 @@ TEST(SceneItems, TellTheJointsAndWhatElseThereIsToSay) {
   EXPECT_EQ(items.items()[0].details, "shape: box, size: [0.1 0.1 0.1], color: [1 0 0]");
 }
 
-TEST(SceneItems, SayWhatAnEditHasChangedAndWhatFollowsFromIt) {
+TEST(SceneItems, DescribeAnEditAndItsConsequences) {
   Config config = scene();
   SceneItems known;
   const auto look = [&] { expectSameAsAnew(config, known); };

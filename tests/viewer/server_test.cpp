@@ -142,7 +142,7 @@ TEST_F(ViewerServerTest, OnlyPagesOfThisMachineMayFrameIt) {
   EXPECT_NE(clientPage().find("content=\"default-src 'none'; script-src 'sha256-"), std::string_view::npos);
 }
 
-TEST(ViewerServer, SaysAnAddressThatWorksElsewhere) {
+TEST(ViewerServer, ReportsAnAddressForOtherMachines) {
   ViewerOptions options = anyPort();
   options.host = "0.0.0.0";
   EXPECT_FALSE(ViewerServer(options).url().starts_with("http://0.0.0.0"));
@@ -181,7 +181,7 @@ TEST(ViewerServer, HostAndPortThatCannotBeAreErrors) {
   EXPECT_THROW(ViewerServer{options}, Error);
 }
 
-TEST(ViewerServer, AsksForATokenWhereOthersCanReachIt) {
+TEST(ViewerServer, RequiresATokenFromOtherMachines) {
   ViewerOptions options = anyPort();
   options.host = "0.0.0.0";
   const ViewerServer open(options), other(options);
@@ -211,7 +211,7 @@ TEST_F(ViewerServerTest, GivesThePageWithAllThatIsShown) {
   EXPECT_TRUE(answer.ends_with(server.recording()));
 }
 
-TEST_F(ViewerServerTest, WhatOneBrowserChangesAllBrowsersSee) {
+TEST_F(ViewerServerTest, AllBrowsersShowTheChangesOfOne) {
   server.update(frames(2));
   server.onCommand([](const Command& command) -> std::optional<EditedScene> {
     const auto* set = std::get_if<SetJointCommand>(&command);

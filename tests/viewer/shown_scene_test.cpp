@@ -42,7 +42,7 @@ T valueAt(const Outgoing& message, std::size_t at) {
   return value;
 }
 
-/// What the messages contain, in their order: "text", "camera", "scene", "mesh 3", "poses 2".
+/// Summarizes the messages in order: "text", "camera", "scene", "mesh 3", "poses 2".
 std::vector<std::string> kinds(const std::vector<Outgoing>& messages) {
   std::vector<std::string> out;
   for (const Outgoing& message : messages) {
@@ -236,13 +236,13 @@ TEST(ShownScene, ARunIsSentWithEachStepAndItsEndOnce) {
   EXPECT_FALSE(scene.endRun());
   ShownRun run{1.5, .25, true};
   run.contacts.push_back({Vector3d(1., 2., 3.), Vector3d(0., 0., 8.)});
-  run.pull = {Vector3d(1., 0., 0.), Vector3d(0., 1., 0.), 7.};
+  run.perturbation = {Vector3d(1., 0., 0.), Vector3d(0., 1., 0.), 7.};
   scene.setRun(run);
   const auto messages = scene.messagesSince(seen);
   ASSERT_EQ(kinds(messages), Kinds{"run"});
   EXPECT_EQ(
       *messages[0].data,
-      R"({"kind":"run","shown":1,"steered":1,"time":1.5E0,"factor":2.5E-1,"paused":1,"contacts":[1,2,3,0,0,8],"pull":[1,0,0,0,1,0,7]})");
+      R"({"kind":"run","shown":1,"steered":1,"time":1.5E0,"factor":2.5E-1,"paused":1,"contacts":[1,2,3,0,0,8],"perturbation":[1,0,0,0,1,0,7]})");
   EXPECT_TRUE(scene.messagesSince(seen).empty());
   EXPECT_TRUE(scene.endRun());
   const auto end = scene.messagesSince(seen);
@@ -251,23 +251,23 @@ TEST(ShownScene, ARunIsSentWithEachStepAndItsEndOnce) {
   EXPECT_FALSE(scene.endRun());
 }
 
-TEST(ShownScene, NotesAreSentWhenTheyChangeAndGoWithTheFramesThatTheyAreAbout) {
+TEST(ShownScene, WarningsAreSentWhenTheyChangeAndGoWithTheirFrames) {
   ShownScene scene;
   scene.update(std::vector{item("world"), item("box")});
   scene.setJoints(1, {}, VectorXd());
   ShownScene::Seen seen;
   scene.messagesSince(seen);
-  const std::vector<SceneNote> notes{{"'box' is not an obstacle", {1}, true}};
-  EXPECT_TRUE(scene.setNotes(notes));
-  EXPECT_FALSE(scene.setNotes(notes));
+  const std::vector<SceneWarning> warnings{{"'box' is not an obstacle", {1}, true}};
+  EXPECT_TRUE(scene.setWarnings(warnings));
+  EXPECT_FALSE(scene.setWarnings(warnings));
   const auto messages = scene.messagesSince(seen);
-  ASSERT_EQ(kinds(messages), Kinds{"notes"});
+  ASSERT_EQ(kinds(messages), Kinds{"warnings"});
   EXPECT_EQ(*messages[0].data,
-            R"({"kind":"notes","notes":[{"text":"'box' is not an obstacle","frames":[1],"ignored":1}]})");
+            R"({"kind":"warnings","warnings":[{"text":"'box' is not an obstacle","frames":[1],"ignored":1}]})");
   scene.setJoints(2, {}, VectorXd());
   const auto others = scene.messagesSince(seen);
-  ASSERT_EQ(kinds(others), (Kinds{"joints", "notes"}));
-  EXPECT_EQ(*others[1].data, R"({"kind":"notes","notes":[]})");
+  ASSERT_EQ(kinds(others), (Kinds{"joints", "warnings"}));
+  EXPECT_EQ(*others[1].data, R"({"kind":"warnings","warnings":[]})");
 }
 
 TEST(ShownScene, AMotionHasThePairsThatTouchInEachSlice) {

@@ -1,4 +1,4 @@
-"""The page can be used with the keyboard, read by screen readers, and read at all."""
+"""The page works with the keyboard and screen readers, and its texts are legible."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import kinegraph as kg
 
 from .browser import Browser
 
-# the smallest contrast of all texts that are seen, and where: WCAG 2, with what lies behind blended in
+# the smallest contrast of all visible texts, and its place: by WCAG 2, with blended backgrounds
 CONTRAST = """(() => {
   const context = new OffscreenCanvas(1, 1).getContext("2d", { willReadFrequently: true });
   const rgba = (color) => { context.clearRect(0, 0, 1, 1); context.fillStyle = color; context.fillRect(0, 0, 1, 1);

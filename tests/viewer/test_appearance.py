@@ -1,4 +1,4 @@
-"""The page looks as it did when somebody looked at it."""
+"""The page looks like the reference pictures."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ def test_things_far_from_the_origin_cast_shadows(config: kg.Config, browser: Bro
         column, row = (round(value) for value in browser.pixel([x, y, 0]))
         return float(picture[row - 5 : row + 6, column - 5 : column + 6].mean())
 
-    # the sun is at (-2.5, 2.2, 4.5): what is 0.6 m high has its shadow that much farther
+    # the sun is at (-2.5, 2.2, 4.5), which shifts the shadow of a point at a height of 0.6 m
     shadow = brightness(50 + 0.6 * 2.5 / 4.5, -0.6 * 2.2 / 4.5)
     assert shadow < brightness(50 - 0.6, 0.6) - 60
 

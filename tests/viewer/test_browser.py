@@ -1,4 +1,4 @@
-"""What people see in the browser, and what the program gets from it."""
+"""The page in the browser, and its effects on the program."""
 
 from __future__ import annotations
 
@@ -33,13 +33,13 @@ def position(config: kg.Config, frame: str) -> np.ndarray:
 
 
 def wait_for_position(config: kg.Config, browser: Browser, frame: str) -> None:
-    """Waits until the page has a frame where the configuration has it."""
+    """Waits until a frame has the same pose on the page as in the configuration."""
     expected = json.dumps(list(position(config, frame)))
     browser.wait_for(f"{expected}.every((x, i) => Math.abs(x - kinegraph.position({json.dumps(frame)})[i]) < 1e-4)")
 
 
 def points_of_the_arm(config: kg.Config) -> list[np.ndarray]:
-    """Points inside the links: between neighboring joints that are not in the same place."""
+    """Points inside the links: between neighboring joints at different positions."""
     joints = [position(config, name) for name in LINKS]
     return [(a + b) / 2 for a, b in pairwise(joints) if np.linalg.norm(a - b) > 0.25]
 
@@ -291,7 +291,7 @@ def test_watchfile_sees_included_files_come_and_go(browser: Browser, start: Star
     browser.wait_for("kinegraph.position('two') && !kinegraph.position('one')")
 
 
-def test_a_program_that_has_ended_is_told_and_found_again(browser: Browser, start: Start) -> None:
+def test_the_end_of_a_program_is_shown_and_the_page_reconnects(browser: Browser, start: Start) -> None:
     code = "C = kg.Config()\nC.addFrame('NAME').setShape(kg.ST.marker, [.1])\nwhile True: C.view(True)"
     program = start(code.replace("NAME", "old"))
     url = program.url()
@@ -309,7 +309,7 @@ def test_a_program_that_has_ended_is_told_and_found_again(browser: Browser, star
     assert not browser.is_visible("#ended")
 
 
-def test_a_page_for_others_is_found_at_the_address_that_is_told_and_asks_for_its_token(
+def test_a_page_for_others_works_at_the_printed_address_and_requires_its_token(
     config: kg.Config, browser: Browser
 ) -> None:
     config.addFrame("here")

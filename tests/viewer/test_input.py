@@ -1,4 +1,4 @@
-"""What people do with mouse and keys, as a program sees it, and what a program puts on top of the page."""
+"""Mouse and key events in the program, and images of the program on the page."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def cube(config: kg.Config, browser: Browser) -> kg.Config:
     return config
 
 
-def test_events_of_mouse_and_keys_are_told(cube: kg.Config, browser: Browser) -> None:
+def test_events_of_mouse_and_keys_are_reported(cube: kg.Config, browser: Browser) -> None:
     viewer = cube.viewer()
     viewer.setupEventHandler(True)
     browser.wait_for("kinegraph.blocked()")

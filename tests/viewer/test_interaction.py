@@ -1,4 +1,4 @@
-"""What people change in the browser: joints by sliders, frames by handles, and what they ask about frames."""
+"""Edits in the browser: joints by sliders, frames by handles, and the cards of frames."""
 
 from __future__ import annotations
 
@@ -178,16 +178,16 @@ def test_a_button_measures_as_well_and_shows_that_it_is_pressed(arm: kg.Config, 
     assert len({released, hovered, pressed}) == 3
 
 
-def test_a_number_beyond_a_limit_is_told_and_the_limit_taken(arm: kg.Config, browser: Browser) -> None:
+def test_a_number_beyond_a_limit_is_reported_and_clamped(arm: kg.Config, browser: Browser) -> None:
     open_page(arm, browser)
     browser.press_alt("J")
     limit = arm.getJointLimits()[1, 0]
     browser.evaluate("""((x) => { x.value = 77; x.dispatchEvent(new Event("change")); })(
       document.querySelector("[aria-label='hinge, value']"))""")
     browser.wait_for(f"Math.abs(kinegraph.joints()[0] - {limit}) < 1e-9")
-    note = browser.evaluate("document.querySelector('.joint .note').textContent")
-    assert note.startswith("77 is beyond the limit")
-    assert browser.is_visible(".joint .note")
+    warning = browser.evaluate("document.querySelector('.joint .warning').textContent")
+    assert warning.startswith("77 is beyond the limit")
+    assert browser.is_visible(".joint .warning")
 
 
 def test_two_clicks_measure_the_distance(arm: kg.Config, browser: Browser) -> None:

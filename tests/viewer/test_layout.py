@@ -1,4 +1,4 @@
-"""Where things are on pages of any size: nothing lies on what people are to use."""
+"""The layout on pages of any size: nothing covers the controls."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ PARTS = ["#panel", "#motion", "#run", "#message", "#error", "#panel-button", "#h
 RECTANGLES = f"""Object.fromEntries({PARTS}.map((name) => [name, document.querySelector(name)])
   .filter(([, part]) => part.checkVisibility())
   .map(([name, part]) => [name, ((box) => [box.left, box.top, box.right, box.bottom])(part.getBoundingClientRect())]))"""
-# what people cannot hit with a finger, of all that they are to use
+# controls that a finger cannot hit
 COVERED = """[...document.querySelectorAll(".transport *, .round, #tabs button")]
   .filter((x) => x.matches("button, input, select") && x.checkVisibility())
   .filter((x) => {
@@ -84,7 +84,7 @@ def test_panels_and_messages_leave_the_buttons_of_a_simulation_free(config: kg.C
 
 
 @pytest.mark.parametrize("page", ["phone"], indirect=True)
-def test_the_help_on_a_phone_tells_what_fingers_do(config: kg.Config, page: Browser) -> None:
+def test_the_help_on_a_phone_lists_gestures(config: kg.Config, page: Browser) -> None:
     config.addFrame("world")
     config.view()
     page.open(config.viewer().url)

@@ -1,4 +1,4 @@
-"""Motions in the browser: time slider, playing, all slices at once, and what is saved of them."""
+"""Motions in the browser: time slider, playing, all slices at once, and saved files."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def show_arm(config: kg.Config) -> None:
 
 @pytest.fixture
 def komo() -> Iterator[kg.KOMO]:
-    """A path of a Panda through two points, which ends where it cannot be: neither is met."""
+    """A path of a Panda through two points with an unreachable end; it meets neither."""
     config = kg.Config()
     config.addFile(kg.raiPath("scenarios/pandaSingle.g"))
     komo = kg.KOMO(config, 3, 4, 2, False)

@@ -19,7 +19,7 @@ from .browser import Browser
 
 @pytest.fixture
 def shown(monkeypatch: pytest.MonkeyPatch) -> list:
-    """What a notebook was told to show, while IPython's kernel seems to run."""
+    """The output of a notebook, with a simulated IPython kernel."""
     shown: list = []
     shell = SimpleNamespace(config={"IPKernelApp": {}})
     frame = SimpleNamespace(IFrame=lambda *arguments: arguments, display=shown.append)
@@ -41,7 +41,7 @@ def test_nothing_is_shown_outside_of_notebooks(shown: list, config: kg.Config, m
     assert shown == []
 
 
-def test_a_viewer_is_a_picture_that_can_be_turned(config: kg.Config, browser: Browser, tmp_path) -> None:
+def test_a_viewer_is_a_picture_that_can_be_rotated(config: kg.Config, browser: Browser, tmp_path) -> None:
     config.addFrame("the box").setShape(kg.ST.box, [0.1, 0.2, 0.3]).setPosition([1, 2, 3])
     config.view()
     frame = config.viewer()._repr_html_()
@@ -104,7 +104,7 @@ def test_a_large_scene_is_a_small_element_that_looks_the_same(
 
 
 def test_messages_are_unpacked_bit_by_bit(browser: Browser, tmp_path: Path) -> None:
-    """Nothing is merged where there is room: all bytes of a motion are those that were saved."""
+    """Without lack of space nothing is merged: all bytes of a motion equal the saved ones."""
     config = kg.Config()
     config.addFrame("base")
     config.addFrame("one", "base").setJoint(kg.JT.transX, [-3, 3]).setShape(kg.ST.box, [0.2, 0.2, 0.2])

@@ -37,7 +37,7 @@ def page(config: kg.Config, browser: Browser) -> Iterator[Browser]:
 
 
 def test_collision_shapes_are_shown_when_somebody_asks_for_them(config: kg.Config, browser: Browser) -> None:
-    """What is nearly transparent and collides is there for collisions, not for the eye; other transparent things are seen."""
+    """Nearly transparent collision shapes are hidden; other transparent shapes are visible."""
     for i, (name, alpha, contact) in enumerate([("hull", 0.1, 1), ("haze", 0.1, 0), ("glass", 0.5, 1), ("wall", 1, 1)]):
         frame = config.addFrame(name).setShape(kg.ST.box, [0.4, 0.4, 0.4]).setPosition([0.6 * i - 0.9, 0, 0.5])
         frame.setColor([1, 0, 0, alpha]).setContact(contact)
@@ -46,7 +46,7 @@ def test_collision_shapes_are_shown_when_somebody_asks_for_them(config: kg.Confi
     browser.open(config.viewer().url)
 
     def seen() -> list[str]:
-        """The frames that a click finds."""
+        """Returns the frames found by clicks."""
         names = []
         for i in range(4):
             browser.click(*browser.pixel([0.6 * i - 0.9, -0.2, 0.5]))
@@ -59,7 +59,7 @@ def test_collision_shapes_are_shown_when_somebody_asks_for_them(config: kg.Confi
     assert seen() == ["hull", "haze", "glass", "wall"]
 
 
-# a point of each thing that nothing is in front of, and the channel of its color
+# a visible point of each object, and the channel of its color
 PLACES = {
     "table": ([0.3, 0.4, 0.05], 1),
     "box": ([0, 0.15, 0.5], 0),
@@ -70,7 +70,7 @@ CAMERA = Camera([0, 3, 1], [0, 0, 0.5])
 
 
 def seen(page: Browser) -> set[str]:
-    """Which of the things are to be seen where they are."""
+    """Returns the objects that are visible at their points."""
     picture = page.picture().astype(int)
     names = set()
     for name, (point, channel) in PLACES.items():
@@ -106,7 +106,7 @@ def test_names_and_axes_of_frames_can_be_shown(page: Browser) -> None:
     page.wait_for(f"kinegraph.idle() && kinegraph.geometries() > {geometries}")
 
 
-def test_names_that_would_lie_on_each_other_give_way_to_the_nearest(config: kg.Config, browser: Browser) -> None:
+def test_of_overlapping_names_the_nearest_is_shown(config: kg.Config, browser: Browser) -> None:
     for name, place in {"far": [0, 0.5, 0.5], "near": [0, 0, 0.5], "beside": [0.8, 0, 0.5]}.items():
         config.addFrame(name).setPosition(place)
     config.view()
@@ -199,7 +199,7 @@ def test_a_scene_is_seen_as_it_was_left(page: Browser, config: kg.Config) -> Non
     page.open(other.viewer().url)
     assert page.evaluate("kinegraph.camera()") == pytest.approx(turned)
     assert page.is_visible(".name")
-    other.viewer().setCamera([4, 0, 1], [0, 0, 0])  # what the program says counts more
+    other.viewer().setCamera([4, 0, 1], [0, 0, 0])  # the program takes precedence
     page.open(other.viewer().url)
     assert page.evaluate("kinegraph.camera()") == pytest.approx([4, 0, 1])
     assert first != turned

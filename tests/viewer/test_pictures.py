@@ -1,4 +1,4 @@
-"""The pictures and films of the documentation are made anew, and look as those that are there."""
+"""The pictures and films of the documentation are reproducible."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ KINDS = ("*.png", "*.mp4", "simulation_*.svg")
 
 
 def frames(file: Path) -> list[np.ndarray]:
-    """What it shows, as numbers; of a film its first and last picture."""
+    """Returns the pixels, of a film those of its first and last picture."""
     with av.open(str(file)) as container:
         shown = [frame.to_ndarray(format="rgb24").astype(float) for frame in container.decode(video=0)]
     return [shown[0], shown[-1]]

@@ -1,4 +1,4 @@
-"""A simulation on the page: what is shown of it, and what people do with it there."""
+"""A simulation on the page: its display and its controls."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ print('end', S.get_t() < 1e9)
     assert program.end() == 0
 
 
-def test_a_body_is_pulled_by_the_mouse_and_the_force_is_shown(
+def test_a_body_is_perturbed_by_the_mouse_and_the_force_is_shown(
     browser: Browser, start: Callable[..., KinematicModel]
 ) -> None:
     program = start(
@@ -115,7 +115,7 @@ print('highest', recording.freePos[:, 0, 2].max())
     )
     browser.open_page(program.url())  # which never rests
     browser.wait_for(f"kinegraph.run() && {TIME} > 0.1")
-    browser.click_button("pull")
+    browser.click_button("perturb")
     x, y = browser.pixel([0, 0.15, 0.65])
     browser.mouse("mouseMoved", x, y)
     browser.mouse("mousePressed", x, y, button="left")

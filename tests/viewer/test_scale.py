@@ -13,7 +13,7 @@ SCALE = "document.querySelector('#scale').textContent"
 
 
 def show(config: kg.Config, browser: Browser, size: float) -> np.ndarray:
-    """The picture of red blocks on a plate `size` m wide, from where the page looks by itself."""
+    """The picture of red blocks on a plate `size` m wide, with the default camera."""
     config.addFrame("plate").setShape(kg.ST.box, [size, size, 0.02 * size]).setColor([0.2, 0.6, 0.2])
     for i in range(3):
         block = config.addFrame(f"block{i}").setShape(kg.ST.box, [0.2 * size, 0.2 * size, 0.4 * size])
@@ -61,7 +61,8 @@ def test_a_camera_that_the_program_has_placed_stays(config: kg.Config, browser: 
 
 
 def test_the_floor_is_not_painted_over_what_one_sees_through(config: kg.Config, browser: Browser) -> None:
-    """A pane stands on the floor, in front of a part of the red line along x that is near: through it the line is paler."""
+    """A pane stands on the floor, in front of a part of the red line along x that is near: through it the line is
+    paler."""
     pane = config.addFrame("pane").setShape(kg.ST.box, [1, 0.01, 1]).setPosition([0, -0.3, 0.5])
     pane.setColor([0.1, 0.1, 0.9, 0.9])
     config.view()
@@ -86,7 +87,7 @@ def test_no_shadow_on_the_floor_is_painted_over_what_one_sees_through(config: kg
         column, row = (round(value) for value in browser.pixel([x, y, 0]))
         return picture[row - 2 : row + 3, column - 2 : column + 3].reshape(-1, 3).mean(axis=0)
 
-    # the sun is at (-2.5, 2.2, 4.5): what is 0.6 m high has its shadow that much farther
+    # the sun is at (-2.5, 2.2, 4.5), which shifts the shadow of a point at a height of 0.6 m
     shadow = -0.4 + 0.6 * 2.5 / 4.5, 0.6 - 0.6 * 2.2 / 4.5
     picture = np.asarray(browser.picture()).astype(int)
     through = color(*shadow), color(0.6, shadow[1])

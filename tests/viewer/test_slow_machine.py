@@ -1,4 +1,4 @@
-"""While things move on a slow machine the page draws coarsely, and in full when they stand still."""
+"""On a slow machine the page draws coarsely during motions, and in full resolution at rest."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ HURRY = """(() => {
 })()"""
 
 
-# of each animation frame, at a time in ms, and with a change to draw or not: is it one in full resolution?
+# per animation frame with its time in ms and a change flag: whether it has full resolution
 DRAW = """((frames) => {
   const quality = kinegraph.quality();
   return frames.map(([time, changes]) => changes ? (quality.change(time), false) : quality.rest(time));
@@ -31,8 +31,8 @@ DRAW = """((frames) => {
 
 
 class Frames:
-    """Animation frames of a machine that takes `full` ms for a picture in full resolution, `coarse` for others, and no less
-    than `pace` ms from one to the next."""
+    """Animation frames of a machine that takes `full` ms for a picture in full resolution, `coarse` for others, and no
+    less than `pace` ms from one to the next."""
 
     def __init__(self, browser: Browser, coarse: float, full: float, pace: float = 16.0) -> None:
         self._browser, self._coarse, self._full, self._pace = browser, coarse, full, pace

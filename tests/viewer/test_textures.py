@@ -1,4 +1,4 @@
-"""Pictures on shapes are seen, the right way up, on the page and in the files that it gives."""
+"""Textures are visible and upright on the page and in its saved files."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def name(rgb: np.ndarray) -> str:
 
 
 def quarters(browser: Browser, center: list[float], right: list[float], up: list[float]) -> list[str]:
-    """What is seen half way to the corners of a rectangle: above left and right, below left and right."""
+    """The colors half way to the corners of a rectangle: above left and right, below left and right."""
     browser.wait_for("kinegraph.idle()")
     picture = browser.picture()
     seen = []

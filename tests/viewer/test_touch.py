@@ -38,7 +38,7 @@ def camera(page: Browser) -> np.ndarray:
     return np.array(page.evaluate("kinegraph.camera()"))
 
 
-def test_one_finger_turns(page: Browser) -> None:
+def test_one_finger_rotates(page: Browser) -> None:
     move(page, ((100, 100), (220, 100)))
     x, y, z = camera(page)
     assert abs(x) > 0.5

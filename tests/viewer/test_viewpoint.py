@@ -1,4 +1,4 @@
-"""Where the page looks from: as the program says, and what the program sees of what people do."""
+"""The camera of the page: set by the program, and moved by users."""
 
 from __future__ import annotations
 
@@ -94,7 +94,7 @@ def test_a_wide_picture_fits_into_the_page(balls: kg.Config, browser: Browser) -
         np.testing.assert_allclose(page[ball], middle, atol=NEAR)
 
 
-def test_the_page_follows_a_camera_frame_until_somebody_turns_it(balls: kg.Config, browser: Browser) -> None:
+def test_the_page_follows_a_camera_frame_until_a_user_moves_it(balls: kg.Config, browser: Browser) -> None:
     frame = camera_frame(balls, "focalLength: 1.5", [0, -2.5, 1.2], [0, 0, 0.6], 0)
     balls.view()
     viewer = balls.viewer()
@@ -114,7 +114,7 @@ def test_the_page_follows_a_camera_frame_until_somebody_turns_it(balls: kg.Confi
 
 
 @pytest.mark.parametrize("attributes", ["focalLength: 1.5", "orthoAbsHeight: 1.6"])
-def test_pictures_show_what_people_turn_the_page_to(attributes: str, balls: kg.Config, browser: Browser) -> None:
+def test_pictures_use_the_camera_that_users_moved(attributes: str, balls: kg.Config, browser: Browser) -> None:
     frame = camera_frame(balls, attributes + ", width: 640, height: 480", [0.3, -2.5, 1.2], [0.1, 0, 0.6], 0.5)
     balls.view()
     viewer = balls.viewer()
@@ -132,7 +132,7 @@ def test_pictures_show_what_people_turn_the_page_to(attributes: str, balls: kg.C
     again = seen(browser.picture())
     for ball, middle in before.items():
         np.testing.assert_allclose(again[ball], middle, atol=1)
-    viewer.setCamera([0, 3, 1], [0, 0, 0.5])  # counts more than where people were
+    viewer.setCamera([0, 3, 1], [0, 0, 0.5])  # replaces the camera of users
     np.testing.assert_allclose(viewer.getCamera_pose()[:3], [0, 3, 1], atol=1e-9)
 
 
@@ -150,7 +150,7 @@ def target(browser: Browser) -> np.ndarray:
     return np.array(seen_from["pose"][:3]) + seen_from["distance"] * axes(browser)[:, 2]
 
 
-def test_ctrl_drag_turns_freely_and_over_the_pole(balls: kg.Config, browser: Browser) -> None:
+def test_ctrl_drag_rotates_freely_and_over_the_pole(balls: kg.Config, browser: Browser) -> None:
     balls.view()
     balls.viewer().setCamera([0, -3, 1], [0, 0, 0.5])
     browser.open(balls.viewer().url)
@@ -177,7 +177,7 @@ def test_ctrl_drag_near_the_rim_rolls(balls: kg.Config, browser: Browser) -> Non
     browser.drag((WIDTH / 2 + 250, HEIGHT / 2), (WIDTH / 2, HEIGHT / 2 + 250 - 20), 40, CTRL)  # a quarter, clockwise
     after = axes(browser)
     np.testing.assert_allclose(after[:, 2], before[:, 2], atol=1e-4)
-    np.testing.assert_allclose(after[:, 0], -before[:, 1], atol=1e-4)  # what was up is to the right
+    np.testing.assert_allclose(after[:, 0], -before[:, 1], atol=1e-4)  # up becomes right
     np.testing.assert_allclose(browser.evaluate("kinegraph.camera()"), place, atol=1e-6)
 
 
@@ -214,7 +214,7 @@ def test_the_page_shows_no_more_than_a_cameras_range(projection: str, balls: kg.
     assert sees(2)
 
 
-def test_a_view_of_the_program_leaves_the_page_where_people_turned_it(balls: kg.Config, browser: Browser) -> None:
+def test_a_view_of_the_program_leaves_the_camera_of_users(balls: kg.Config, browser: Browser) -> None:
     balls.view()
     browser.open(balls.viewer().url)
     browser.drag((320, 100), (380, 130))

@@ -6,22 +6,22 @@ const SHAFT = 4,
   HEAD = 12,
   HEAD_LENGTH = 15,
   DOT = 7,
-  RIM = 1.5; // pixels: widths, but for the length, and the white rim
-const LONGEST = 0.11; // that an arrow shall be long, in distances of the camera from what it looks at
-const SHORTEST = 0.1; // that the longest shall be long, in parts of that
+  RIM = 1.5; // pixels: widths, head lengths, and the white rim
+const LONGEST = 0.11; // length of the longest arrow, as a share of the camera's distance
+const SHORTEST = 0.1; // lower bound of the longest arrow's length, as a share of the upper one
 const UP = new THREE.Vector3(0, 1, 0);
 
-/** An arrow: where it begins, which way, how long it and its head are, and how thick it is as a part of the usual. */
+/** An arrow: start, direction, length, length of the head, and thickness relative to the usual one. */
 interface Arrow {
   from: THREE.Vector3;
-  way: THREE.Vector3; // unit
+  direction: THREE.Vector3; // unit
   length: number; // m
   head: number; // m
   part: number;
-  pixel: number; // m that a pixel has there
+  pixel: number; // size of a pixel there, m
 }
 
-/** Shafts, heads and dots of one color, as thick as arrows with so wide a rim. */
+/** Shafts, heads and dots of one color, for arrows with a rim of that width. */
 class Arrows {
   readonly group = new THREE.Group();
   private readonly material: THREE.MeshBasicMaterial;
@@ -40,19 +40,19 @@ class Arrows {
 
   show(arrows: readonly Arrow[]): void {
     this.reserve(arrows.length);
-    const turn = new THREE.Quaternion(),
+    const rotation = new THREE.Quaternion(),
       matrix = new THREE.Matrix4(),
       size = new THREE.Vector3();
     const { rim } = this;
-    arrows.forEach(({ from, way, length, head, part, pixel }, i) => {
-      turn.setFromUnitVectors(UP, way);
+    arrows.forEach(({ from, direction, length, head, part, pixel }, i) => {
+      rotation.setFromUnitVectors(UP, direction);
       const width = (SHAFT * part + 2 * rim) * pixel;
-      this.shafts.setMatrixAt(i, matrix.compose(from, turn, size.set(width, length - head, width)));
-      const base = from.clone().addScaledVector(way, length - head - rim * pixel);
+      this.shafts.setMatrixAt(i, matrix.compose(from, rotation, size.set(width, length - head, width)));
+      const base = from.clone().addScaledVector(direction, length - head - rim * pixel);
       const across = (HEAD * part + 3.5 * rim) * pixel;
-      this.heads.setMatrixAt(i, matrix.compose(base, turn, size.set(across, head + 4 * rim * pixel, across)));
+      this.heads.setMatrixAt(i, matrix.compose(base, rotation, size.set(across, head + 4 * rim * pixel, across)));
       const dot = (DOT + 2 * rim) * pixel;
-      this.dots.setMatrixAt(i, matrix.compose(from, turn, size.set(dot, dot, dot)));
+      this.dots.setMatrixAt(i, matrix.compose(from, rotation, size.set(dot, dot, dot)));
     });
     for (const mesh of this.all) {
       mesh.count = arrows.length;
@@ -71,7 +71,7 @@ class Arrows {
     return mesh;
   }
 
-  /** Room for so many. */
+  /** Reserves space for this many arrows. */
   private reserve(count: number): void {
     if (count <= this.dots.instanceMatrix.count) return;
     const renew = (old: THREE.InstancedMesh): THREE.InstancedMesh => {
@@ -86,8 +86,8 @@ class Arrows {
 }
 
 /**
- * Forces as arrows that begin where they act, and dots there. All have one scale, which follows the largest force and how far
- * away the camera is; on the page they are equally thick wherever they are, and have a white rim.
+ * Forces as arrows that start at their points of action, marked by dots. All arrows share one scale, which follows the
+ * largest force and the camera's distance. Their thickness on the page is constant, and they have a white rim.
  */
 export class ForceArrows {
   readonly group = new THREE.Group();
@@ -95,7 +95,7 @@ export class ForceArrows {
   private contacts: readonly number[] = [];
   private metersPerNewton = 0.1;
 
-  /** `rescaled` is called before a picture with another scale. */
+  /** `rescaled` is called before a picture with a new scale. */
   constructor(
     private readonly stage: Stage,
     private readonly rescaled: () => void,
@@ -113,7 +113,7 @@ export class ForceArrows {
     return this.metersPerNewton;
   }
 
-  /** A power of ten in m, at most as long as arrows become: to say the scale with. */
+  /** Length of the scale's label: a power of ten in m, at most the longest arrow. */
   get measure(): number {
     return 10 ** Math.floor(Math.log10(this.longest));
   }
@@ -136,12 +136,12 @@ export class ForceArrows {
       const pixel = this.stage.resolution / this.stage.pixelsPerMeter(from);
       const length = Math.max(this.metersPerNewton * force.length(), 1e-9),
         head = Math.min(HEAD_LENGTH * pixel, 0.6 * length);
-      return { from, way: force.normalize(), length, head, part: head / (HEAD_LENGTH * pixel), pixel };
+      return { from, direction: force.normalize(), length, head, part: head / (HEAD_LENGTH * pixel), pixel };
     });
     for (const layer of this.layers) layer.show(arrows);
   }
 
-  /** Another scale, 1, 2 or 5 times a power of ten, where the longest arrow would be too long, or all would be tiny; else it stays. */
+  /** Sets a new scale, 1, 2 or 5 times a power of ten, if the longest arrow is too long or all arrows are tiny. */
   private rescale(largest: number): void {
     const length = largest * this.metersPerNewton;
     if (largest === 0 || (length <= this.longest && length >= SHORTEST * this.longest)) return;

@@ -1,7 +1,7 @@
 import { ShaderChunk } from "three";
 
-const SAMPLES = 5; // of the shadow map, for each pixel
-const GOLDEN_ANGLE = 2.399963229728653; // rad, between them
+const SAMPLES = 5; // of the shadow map per pixel
+const GOLDEN_ANGLE = 2.399963229728653; // rad, between the samples
 
 /** Replaces a part of a shader of three.js. */
 export function replaceIn(chunk: keyof typeof ShaderChunk, part: string | RegExp, by: string): void {
@@ -10,9 +10,9 @@ export function replaceIn(chunk: keyof typeof ShaderChunk, part: string | RegExp
   ShaderChunk[chunk] = replaced;
 }
 
-/** Shadows have soft edges by looking at five places in a disk that is turned differently for each pixel. They are the same
- * places as ever, but only one of them where the disk has no radius: without a graphics card that is much quicker. */
-export function lookOnceForHardShadows(): void {
+/** Soft shadows: each pixel samples five places in a disk with a different rotation. The sequence of places is
+ * three.js's own. For a disk without radius, one sample is enough, which is much faster in software. */
+export function checkHardShadowsOnce(): void {
   const places = Array.from({ length: SAMPLES }, (_, i) => {
     const radius = Math.sqrt((i + 0.5) / SAMPLES);
     return `vec2(${[Math.cos(i * GOLDEN_ANGLE), Math.sin(i * GOLDEN_ANGLE)].map((x) => (radius * x).toFixed(9)).join(", ")})`;

@@ -1,8 +1,8 @@
 import * as THREE from "three";
 
-const DIRECTIONS = 6; // along which a normal can mostly point: +x -x +y -y +z -z
+const DIRECTIONS = 6; // main directions of normals: +x -x +y -y +z -z
 
-/** Which of the six directions a normal is nearest to. */
+/** Returns the nearest of the six directions of a normal. */
 function directionOf(normals: ArrayLike<number>, vertex: number): number {
   let best = 0;
   for (let k = 1; k < 3; ++k)
@@ -10,7 +10,7 @@ function directionOf(normals: ArrayLike<number>, vertex: number): number {
   return 2 * best + (normals[3 * vertex + best]! < 0 ? 1 : 0);
 }
 
-/** Sums over the vertices that have the same number, divided by how many these are. */
+/** Averages values over the vertices with the same number. */
 function means(values: ArrayLike<number>, numbers: Uint32Array, count: number): Float32Array {
   const sums = new Float32Array(3 * count),
     counts = new Uint32Array(count);
@@ -22,7 +22,7 @@ function means(values: ArrayLike<number>, numbers: Uint32Array, count: number): 
   return sums;
 }
 
-/** Gives equal keys equal numbers, from 0 on; `count` is how many there are. */
+/** Numbers equal keys equally, from 0 on; `count` is the number of different keys. */
 function numbered(keys: Float64Array): { numbers: Uint32Array; count: number } {
   const known = new Map<number, number>();
   const numbers = Uint32Array.from(keys, (key) => {
@@ -33,8 +33,8 @@ function numbered(keys: Float64Array): { numbers: Uint32Array; count: number } {
   return { numbers, count: known.size };
 }
 
-/** The same surface with fewer triangles: all points in a cell of a grid become their mean. Edges between parts that face
- * different sides stay sharp. The geometry has an index, normals and perhaps colors. */
+/** Simplifies a surface: all points in a cell of a grid are replaced by their mean. Edges between faces with different
+ * directions stay sharp. The geometry has an index, normals and optionally colors. */
 export function coarser(geometry: THREE.BufferGeometry, cell: number): THREE.BufferGeometry {
   const { position, normal, color } = geometry.attributes as Record<string, THREE.BufferAttribute | undefined>;
   const points = position!.array,

@@ -1,6 +1,6 @@
 type Field = ["int", number] | ["number", number] | ["number[]", number[]];
 
-/** The bytes of a command as the server reads them: int32, float64, and arrays as their length and float64s. */
+/** Encodes a command for the server: int32, float64, and arrays as length and float64s. */
 export function writeCommand(...fields: Field[]): Uint8Array<ArrayBuffer> {
   const size = fields.reduce(
     (sum, [kind, value]) => sum + (kind === "int" ? 4 : kind === "number" ? 8 : 4 + 8 * value.length),

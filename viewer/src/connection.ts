@@ -7,7 +7,7 @@ export interface Listener {
   closed(): void;
 }
 
-/** The websocket to the program; comes back by itself when the program does. */
+/** The websocket to the program; it reconnects when the program returns. */
 export class Connection {
   private socket: WebSocket | null = null;
 
@@ -37,24 +37,24 @@ export class Connection {
   }
 }
 
-/** Bytes in base64; packed ones are differences of 32-bit words that are `stride` apart, deflated. */
+/** Decodes base64 bytes; packed ones are deflated differences of 32-bit words at a distance of `stride`. */
 type Recorded = { text: string } | { binary: string } | { packed: string; bytes: number; stride: number };
 
 const bytesOf = (base64: string): Uint8Array<ArrayBuffer> => Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
 
 async function unpack(base64: string, bytes: number, stride: number): Promise<ArrayBuffer> {
   const stream = new Blob([bytesOf(base64)]).stream().pipeThrough(new DecompressionStream("deflate"));
-  const planes = new Uint8Array(await new Response(stream).arrayBuffer()); // all lowest bytes, then the second ones, ...
+  const planes = new Uint8Array(await new Response(stream).arrayBuffer()); // all lowest bytes, then all second ones, ...
   const count = planes.length / 4;
-  const words = new Int32Array(count);
+  const values = new Int32Array(count);
   for (let i = 0; i < count; ++i) {
     const code = planes[i]! | (planes[count + i]! << 8) | (planes[2 * count + i]! << 16) | (planes[3 * count + i]! << 24);
-    words[i] = ((code >>> 1) ^ -(code & 1)) + (i < stride ? 0 : words[i - stride]!);
+    values[i] = ((code >>> 1) ^ -(code & 1)) + (i < stride ? 0 : values[i - stride]!);
   }
-  return words.buffer.slice(0, bytes);
+  return values.buffer.slice(0, bytes);
 }
 
-/** Messages that are part of the page itself: it then needs no program. */
+/** Returns the messages embedded in a saved page, which needs no program. */
 export function recordedMessages(): Recorded[] | null {
   const text = document.getElementById("recording")?.textContent;
   return text ? (JSON.parse(text) as Recorded[]) : null;

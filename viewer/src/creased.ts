@@ -1,9 +1,9 @@
 import * as THREE from "three";
 
 const CREASE = Math.cos(0.7); // edges sharper than 0.7 rad stay sharp
-const WELD = 1e-6; // of the size: points nearer than that are the same
+const WELD = 1e-6; // relative to the size: closer points are merged
 
-/** Numbers the points so that equal ones have the same number. */
+/** Numbers points such that equal points have equal numbers. */
 function weld(points: ArrayLike<number>): Uint32Array {
   let largest = 0;
   for (let i = 0; i < points.length; ++i) largest = Math.max(largest, Math.abs(points[i]!));
@@ -19,7 +19,7 @@ function weld(points: ArrayLike<number>): Uint32Array {
   return numbers;
 }
 
-/** Normals of the triangles, as long as these are large (twice the area). */
+/** Normals of the triangles, with twice the area as length. */
 function faceNormals(points: ArrayLike<number>, indices: ArrayLike<number>): Float32Array {
   const normals = new Float32Array(indices.length);
   const [a, b, c] = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
@@ -30,7 +30,7 @@ function faceNormals(points: ArrayLike<number>, indices: ArrayLike<number>): Flo
   return normals;
 }
 
-/** The faces at each point, as one list and where each point's begin. */
+/** The faces at each point: one list, and the start of each point's part. */
 function facesAt(corners: ArrayLike<number>, points: number): { starts: Uint32Array; faces: Uint32Array } {
   const starts = new Uint32Array(points + 1);
   for (let i = 0; i < corners.length; ++i) ++starts[corners[i]! + 1]!;
@@ -41,8 +41,8 @@ function facesAt(corners: ArrayLike<number>, points: number): { starts: Uint32Ar
   return { starts, faces };
 }
 
-/** The same surface with normals that are smooth but where it has edges. Vertices are shared as far as that allows. Triangles
- * keep their order. */
+/** Returns the surface with smooth normals except at sharp edges. Vertices are shared if possible. Triangles keep their
+ * order. */
 export function creased(geometry: THREE.BufferGeometry): THREE.BufferGeometry {
   const points = geometry.getAttribute("position").array;
   const colors = geometry.getAttribute("color")?.array;
@@ -53,7 +53,7 @@ export function creased(geometry: THREE.BufferGeometry): THREE.BufferGeometry {
   const normals = faceNormals(points, corners);
   const { starts, faces } = facesAt(corners, welded.length);
   const outPoints: number[] = [], outNormals: number[] = [], outColors: number[] = [], outPlaces: number[] = [], outIndices: number[] = [];
-  const made: { normal: THREE.Vector3; look: string; vertex: number }[][] = Array.from({ length: welded.length }, () => []);
+  const made: { normal: THREE.Vector3; attributes: string; vertex: number }[][] = Array.from({ length: welded.length }, () => []);
   const [own, other, sum] = [new THREE.Vector3(), new THREE.Vector3(), new THREE.Vector3()];
   for (let i = 0; i < corners.length; ++i) {
     const point = corners[i]!, face = i - (i % 3), source = indices[i]!;
@@ -66,10 +66,10 @@ export function creased(geometry: THREE.BufferGeometry): THREE.BufferGeometry {
     }
     sum.lengthSq() > 0 ? sum.normalize() : sum.copy(own);
     const color = colors ? `${colors[3 * source]},${colors[3 * source + 1]},${colors[3 * source + 2]}` : "";
-    const look = places ? `${color},${places[2 * source]},${places[2 * source + 1]}` : color;
-    let entry = made[point]!.find((known) => known.look === look && known.normal.dot(sum) > 0.9999);
+    const attributes = places ? `${color},${places[2 * source]},${places[2 * source + 1]}` : color;
+    let entry = made[point]!.find((known) => known.attributes === attributes && known.normal.dot(sum) > 0.9999);
     if (!entry) {
-      entry = { normal: sum.clone(), look, vertex: outPoints.length / 3 };
+      entry = { normal: sum.clone(), attributes, vertex: outPoints.length / 3 };
       made[point]!.push(entry);
       outPoints.push(points[3 * point]!, points[3 * point + 1]!, points[3 * point + 2]!);
       outNormals.push(sum.x, sum.y, sum.z);

@@ -4,7 +4,7 @@ import type { FrameMessage, ShapeMessage } from "./messages";
 import { AXIS_COLORS, materialsOf } from "./shapes";
 import type { Shown } from "./shown";
 
-/** What people can switch on and off; a letter with Alt does it on the keyboard. */
+/** Options that users toggle, by a switch or by Alt and a letter. */
 export const OPTIONS = {
   solid: { label: "shapes", letter: "V", initially: true },
   collision: { label: "collision shapes", letter: "L", initially: false },
@@ -15,7 +15,7 @@ export const OPTIONS = {
   wireframe: { label: "triangles only", letter: "W", initially: false },
   xray: { label: "see through everything", letter: "X", initially: false },
   near: { label: "distances below 5 cm, contacts", letter: "D", initially: false },
-  notes: { label: "obstacles that are ignored", letter: "I", initially: true },
+  warnings: { label: "obstacles that are ignored", letter: "I", initially: true },
 } as const;
 
 export type Option = keyof typeof OPTIONS;
@@ -29,7 +29,7 @@ export function isSeen(object: THREE.Object3D): boolean {
   return object.visible && (object.parent === null || isSeen(object.parent));
 }
 
-/** What is nearly transparent and collides is there for collisions, not for the eye. */
+/** Returns whether a shape serves collisions only: it collides and is nearly transparent. */
 function kindOf({ collides }: FrameMessage, shape: ShapeMessage): Option {
   if (shape.type === "marker" || shape.type === "camera") return "markers";
   const alpha = shape.color[3] ?? 1;
@@ -37,12 +37,13 @@ function kindOf({ collides }: FrameMessage, shape: ShapeMessage): Option {
   return alpha < 1 ? "transparent" : "solid";
 }
 
-/** Decides what of the scene is seen: kinds of shapes, axes, names, and frames that are hidden with all below them. */
+/** Determines the visible parts of the scene: kinds of shapes, axes, names, and frames that are hidden with all below
+ * them. */
 export class Display {
   readonly on = new Set<Option>(optionNames.filter((name) => OPTIONS[name].initially));
-  wireframe = false; // whatever is switched on
-  visualsOnly = false; // no markers and transparent shapes, whatever is switched on
-  readonly hidden = new Set<string>(); // names of frames
+  wireframe = false; // overrides the switches
+  visualsOnly = false; // no markers and transparent shapes, overrides the switches
+  readonly hidden = new Set<string>(); // names of hidden frames
 
   apply(frames: ReadonlyMap<number, Shown>): void {
     for (const shown of frames.values()) {

@@ -1,4 +1,4 @@
-/** A new element with properties and children. */
+/** Creates an element with properties and children. */
 export function make<Tag extends keyof HTMLElementTagNameMap>(
   tag: Tag,
   properties: Partial<HTMLElementTagNameMap[Tag]> = {},
@@ -9,12 +9,12 @@ export function make<Tag extends keyof HTMLElementTagNameMap>(
   return element;
 }
 
-/** The element of the page with that id. */
+/** Returns the page's element with an id. */
 export const find = <T extends HTMLElement>(id: string): T => document.getElementById(id) as T;
 
 const bars: HTMLElement[] = [];
 
-/** Panels end above this bar while it is there, however high it is: see style.css. */
+/** Keeps the panels above this bar while it is shown, whatever its height: see style.css. */
 export function leaveRoomAbove(bar: HTMLElement): void {
   bars.push(bar);
   new ResizeObserver(() => {

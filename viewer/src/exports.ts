@@ -18,7 +18,7 @@ function saveBlob(blob: Blob, file: string): void {
   setTimeout(() => URL.revokeObjectURL(url), 10000);
 }
 
-/** The same shape as an object of its own; geometries and materials are shared. */
+/** Copies a shape to an independent object; geometries and materials are shared. */
 function copyOf(object: Object3D): Object3D {
   const plain =
     object instanceof Mesh
@@ -35,7 +35,7 @@ function copyOf(object: Object3D): Object3D {
   return plain;
 }
 
-/** The frames, each below its parent, as glTF has it: the y axis is up. What is not seen has no shape. */
+/** Builds the tree of frames for glTF, whose y axis points up. Hidden shapes are omitted. */
 function hierarchyOf(frames: ReadonlyMap<number, Shown>): Group {
   const root = new Group();
   root.name = "scene";
@@ -54,11 +54,11 @@ function hierarchyOf(frames: ReadonlyMap<number, Shown>): Group {
   return root;
 }
 
-/** Saves what is seen: a picture, the shapes, a video of the motion, the page itself. */
+/** Saves the visible scene: a picture, the shapes, a video of the motion, or the page itself. */
 export class Exports {
   private readonly video = make("button", {
     textContent: "video",
-    title: "WebM of the motion, as it plays",
+    title: "WebM video of the motion",
     onclick: () => void this.saveVideo(),
   });
 
@@ -72,13 +72,13 @@ export class Exports {
       make("button", {
         id: "picture",
         textContent: "picture",
-        title: "PNG of what is seen (Alt P)",
+        title: "PNG picture of the page (Alt P)",
         onclick: () => this.savePicture(),
       }),
       make("button", {
         id: "model",
         textContent: "model",
-        title: "glTF of the shapes, where they are now",
+        title: "glTF model of the shapes at their present poses",
         onclick: () => void this.saveModel(),
       }),
       this.video,
@@ -88,7 +88,7 @@ export class Exports {
             make("button", {
               id: "page",
               textContent: "page",
-              title: "HTML file that shows this without the program",
+              title: "HTML file that shows the scene without the program",
               onclick: () => this.savePage(),
             }),
           ]),
@@ -97,7 +97,7 @@ export class Exports {
     this.refresh();
   }
 
-  /** Call when a motion has come or gone. */
+  /** Call when a motion appears or ends. */
   refresh(): void {
     this.video.disabled = this.timeline.current === null;
   }
@@ -117,7 +117,7 @@ export class Exports {
     saveBlob(new Blob([binary as ArrayBuffer], { type: "model/gltf-binary" }), `${document.title}.glb`);
   }
 
-  /** The video has the pixels of the page's pictures at rest, also on machines that draw moving things more coarsely. */
+  /** Records the video at the page's full resolution, also on machines that draw moving scenes more coarsely. */
   private async saveVideo(): Promise<void> {
     this.stage.holdResolution(true);
     const recorder = new MediaRecorder(this.stage.canvas.captureStream(FRAMES_PER_SECOND), {
@@ -131,7 +131,7 @@ export class Exports {
     recorder.start();
     this.timeline.playFromStart();
     for (let rest = FRAMES_PER_SECOND / 2; rest > 0; rest -= this.timeline.isPlaying ? 0 : 1) {
-      // the end stays for a moment
+// the end stays visible for a moment
       this.stage.redraw();
       await new Promise(requestAnimationFrame);
     }

@@ -2,12 +2,12 @@ import * as THREE from "three";
 
 const SIZE = 60,
   SOLID = 10; // large squares
-const DEPTH = 0.001; // large squares: how far below z = 0 it lies, so that what stands there hides it
+const DEPTH = 0.001; // large squares: depth of the floor below z = 0, so that it does not hide the bottoms of shapes
 
 const GRID = /* glsl */ `
 uniform vec3 ink;
 uniform float square; // m
-uniform float share; // of the pixels across of a fine picture
+uniform float share; // share of the pixels in each direction of a fine picture
 varying vec2 vFloor;
 float gridLine(float spacing) {
   vec2 at = vFloor / spacing, width = fwidth(at);
@@ -17,7 +17,7 @@ float gridLine(float spacing) {
 float axisLine(float across) { return 1.0 - min(abs(across) / max(1.5 * fwidth(across), 1e-6), 1.0); }
 `;
 
-// black where the sun does not reach, lines, red along x and green along y
+// black in the shadow, lines, red along x and green along y
 const PAINT = /* glsl */ `
 float reach = 1.0 - smoothstep(3.0, 14.0, length(vFloor - cameraPosition.xy) / square);
 float line = max(0.16 * gridLine(0.2 * square), 0.42 * gridLine(square)) * reach;
@@ -50,8 +50,8 @@ function gridMaterial(ink: THREE.Color, share: { value: number }, square: { valu
   return material;
 }
 
-/** The floor at z = 0: catches shadows, and has lines around large squares and around five times five in each; x is red,
- * y green. */
+/** The floor at z = 0: it receives shadows, and has lines around large squares and around five by five small ones in
+ * each; the x axis is red, the y axis green. */
 export class Floor {
   readonly group = new THREE.Group();
   private readonly ink = new THREE.Color();
@@ -68,7 +68,7 @@ export class Floor {
 
   constructor() {
     this.grid.receiveShadow = true;
-    this.grid.renderOrder = -1; // before shapes that one sees through, or it would be painted over them
+    this.grid.renderOrder = -1; // before transparent shapes, which it would cover otherwise
     this.solid.visible = false;
     this.group.add(this.solid, this.grid);
     this.setSquare(1);
@@ -83,21 +83,22 @@ export class Floor {
     }
   }
 
-  /** The lines are wherever the camera is. They are a pixel wide, so they are paler where there are fewer: `share` of them across. */
+  /** Centers the lines at the camera. They are one pixel wide, hence paler in coarse pictures: `share` is the
+   * resolution relative to full. */
   follow(camera: THREE.Vector3, share: number): void {
     this.share.value = share;
     this.grid.position.x = camera.x;
     this.grid.position.y = camera.y;
   }
 
-  /** Lines are dark on a light background, and light on a dark one. */
+  /** Makes lines dark on a light background, and light on a dark one. */
   setPaper({ r, g, b }: THREE.Color): void {
     const bright = 0.2 * r + 0.7 * g + 0.1 * b > 0.2;
     if (bright) this.ink.setRGB(0.17, 0.2, 0.24);
     else this.ink.setRGB(0.5, 0.54, 0.6);
   }
 
-  /** A solid floor of that color below the lines; null: none. */
+  /** Sets a solid floor of that color below the lines; null: none. */
   setColor(color: THREE.Color | null): void {
     this.solid.visible = color !== null;
     if (color) this.solid.material.color.copy(color);

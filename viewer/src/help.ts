@@ -2,35 +2,35 @@ import { OPTIONS, optionNames } from "./display";
 import { find, make } from "./element";
 
 const KEYS: [string, string][] = [
-  ["drag", "turn; with the right button or Shift: shift"],
-  ["Ctrl drag, Ctrl wheel", "turn freely; wider or narrower view"],
+  ["drag", "rotate; with the right button or Shift: shift"],
+  ["Ctrl drag, Ctrl wheel", "rotate freely; wider or narrower view"],
   ["wheel, pinch", "nearer, farther"],
   ["click", "select a frame"],
-  ["double click, right click", "turn about that point"],
+  ["double click, right click", "rotate about that point"],
   ["?", "this help"],
   ["Esc", "close help, card, panel, ruler; else to the program"],
   ["Home", "first view"],
-  ["Alt 1 … Alt 4", "look from the front, the side, above, aslant"],
-  ["Alt ← → ↑ ↓", "turn"],
+  ["Alt 1 … Alt 4", "view from the front, the side, above, aslant"],
+  ["Alt ← → ↑ ↓", "rotate"],
   ["Alt Page up, down", "nearer, farther"],
   ["Alt T, J, O", "frames, joints, view"],
   ["Alt P", "save a picture"],
   ["Alt R", "measure"],
-  ["Alt G, Alt B", "move, turn the selected frame"],
+  ["Alt G, Alt B", "move, rotate the selected frame"],
   ["Alt K", "play or pause the motion, or the simulation"],
   ["← →, Shift wheel", "slice by slice, in a motion"],
   ...optionNames.map((name): [string, string] => [`Alt ${OPTIONS[name].letter}`, `${OPTIONS[name].label}, on or off`]),
 ];
 
 const FINGERS: [string, string][] = [
-  ["one finger", "turn"],
+  ["one finger", "rotate"],
   ["two fingers", "shift; nearer and farther by spreading them"],
   ["tap", "select a frame"],
-  ["two taps", "turn about that point"],
-  ["≡", "frames, joints, what is shown, measuring, saving"],
+  ["two taps", "rotate about that point"],
+  ["≡", "frames, joints, view options, measuring, saving"],
 ];
 
-/** The list of what mouse and keys do, or fingers where there is no mouse. */
+/** The list of mouse and key commands, or of gestures on machines without a mouse. */
 export class Help {
   private readonly root = find("help");
   private readonly button = find("help-button");
@@ -41,9 +41,9 @@ export class Help {
       make(
         "dl",
         {},
-        ...(hasMouse ? KEYS : FINGERS).flatMap(([key, what]) => [
+        ...(hasMouse ? KEYS : FINGERS).flatMap(([key, description]) => [
           make("dt", {}, make("kbd", { textContent: key })),
-          make("dd", { textContent: what }),
+          make("dd", { textContent: description }),
         ]),
       ),
       ...(hasMouse ? [make("p", { textContent: "All other keys go to the program." })] : []),

@@ -1,8 +1,8 @@
 import * as THREE from "three";
 import type { PrimitiveMesh } from "./primitives";
 
-const FEWEST = 4; // shapes of one geometry that are worth it
-const HIDDEN = 1; // a layer that no camera sees, but rays do
+const FEWEST = 4; // fewest shapes of one geometry for which it pays off
+const HIDDEN = 1; // a layer that rays see, but no camera
 
 const isPlain = ({ material, parent, visible }: PrimitiveMesh): boolean =>
   visible &&
@@ -12,7 +12,7 @@ const isPlain = ({ material, parent, visible }: PrimitiveMesh): boolean =>
   !material.wireframe &&
   material.emissive.getHex() === 0;
 
-/** Draws shapes with the same geometry in one go; they stay where they are for everything else. */
+/** Draws shapes with the same geometry by one call; everything else still sees separate objects. */
 export class Instances {
   readonly group = new THREE.Group();
   private readonly sets = new Map<THREE.BufferGeometry, THREE.InstancedMesh>();

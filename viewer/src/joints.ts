@@ -1,15 +1,15 @@
 import { find, make } from "./element";
 import { type JointMessage, randomJointsCommand, resetJointsCommand, setJointCommand } from "./messages";
 
-const TURN = Math.PI; // rad: of dofs without limits, to each side
-const REACH = 1; // m, or of dofs without unit
+const HALF_TURN = Math.PI; // rad: range to each side of dofs without limits
+const REACH = 1; // m, also for dofs without unit
 
 interface Row {
   slider: HTMLInputElement;
   number: HTMLInputElement;
 }
 
-/** The dofs with a slider and a number each. What people do here goes to the server, which tells all browsers. */
+/** The dofs, each with a slider and a number. Changes go to the server, which updates all browsers. */
 export class JointPanel {
   private structure = 0;
   private joints: JointMessage[] = [];
@@ -48,7 +48,7 @@ export class JointPanel {
     this.showState(this.q);
   }
 
-  /** Shows joint values: those of the program, or of a moment of a motion. */
+  /** Shows joint values of the program, or of one time of a motion. */
   showState(q: ArrayLike<number>): void {
     this.rows.forEach(({ slider, number }, i) => {
       const value = q[i] ?? 0;
@@ -65,7 +65,7 @@ export class JointPanel {
 
   private makeRow(joint: JointMessage, index: number): Row {
     const limited = joint.lower <= joint.upper;
-    const reach = joint.unit === "rad" ? TURN : REACH;
+    const reach = joint.unit === "rad" ? HALF_TURN : REACH;
     const middle = this.q[index] ?? 0;
     const [min, max] = limited
       ? [joint.lower, joint.upper]
@@ -77,7 +77,7 @@ export class JointPanel {
       step: "any",
       ariaLabel: joint.name,
     });
-    slider.addEventListener("input", () => this.ask(index, slider.valueAsNumber));
+    slider.addEventListener("input", () => this.request(index, slider.valueAsNumber));
     const number = make("input", {
       type: "number",
       min: String(min),
@@ -85,18 +85,18 @@ export class JointPanel {
       step: "0.01",
       ariaLabel: `${joint.name}, value`,
     });
-    const note = make("span", { className: "note", hidden: true });
-    note.setAttribute("role", "alert");
+    const warning = make("span", { className: "warning", hidden: true });
+    warning.setAttribute("role", "alert");
     number.addEventListener("change", () => {
-      const asked = number.valueAsNumber;
-      if (!Number.isFinite(asked)) return;
-      const taken = limited ? Math.max(joint.lower, Math.min(asked, joint.upper)) : asked;
-      note.hidden = taken === asked;
-      note.textContent = `${asked} is beyond the limit ${taken} ${joint.unit}, which is taken`;
+      const requested = number.valueAsNumber;
+      if (!Number.isFinite(requested)) return;
+      const taken = limited ? Math.max(joint.lower, Math.min(requested, joint.upper)) : requested;
+      warning.hidden = taken === requested;
+      warning.textContent = `${requested} is beyond the limit ${taken} ${joint.unit}, which is taken`;
       number.value = taken.toFixed(3);
-      this.ask(index, taken);
+      this.request(index, taken);
     });
-    slider.addEventListener("input", () => (note.hidden = true));
+    slider.addEventListener("input", () => (warning.hidden = true));
     const limits = limited ? `${joint.lower} to ${joint.upper} ${joint.unit}` : "without limits";
     if (index === 0) this.list.replaceChildren();
     this.list.append(
@@ -107,14 +107,14 @@ export class JointPanel {
         number,
         make("span", { className: "unit", textContent: joint.unit }),
         slider,
-        note,
+        warning,
       ),
     );
     return { slider, number };
   }
 
-  /** At most one command per dof and picture. */
-  private ask(index: number, value: number): void {
+  /** Sends at most one command per dof and picture. */
+  private request(index: number, value: number): void {
     if (this.waiting.size === 0) requestAnimationFrame(() => this.flush());
     this.waiting.set(index, value);
   }

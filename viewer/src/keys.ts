@@ -1,4 +1,4 @@
-/** Codes of keys that are no printable character, as GLFW numbers them. */
+/** GLFW codes of keys without a printable character. */
 const NAMED: Record<string, number> = {
   Enter: 13,
   Escape: 27,
@@ -16,7 +16,7 @@ const NAMED: Record<string, number> = {
   End: 269,
 };
 
-/** The code that the program gets for a key, or 0 for keys that it does not get. Letters are lower case. */
+/** Returns the program's code of a key, or 0 for keys reserved for the page. Letters are lower case. */
 export function keyCode(event: KeyboardEvent): number {
   if (event.ctrlKey || event.altKey || event.metaKey) return 0;
   if (event.key.length === 1) {
@@ -28,6 +28,6 @@ export function keyCode(event: KeyboardEvent): number {
   return NAMED[event.key] ?? 0;
 }
 
-/** Shift 1, Ctrl 2, Alt 4, added up. */
+/** Returns the sum of Shift 1, Ctrl 2, Alt 4. */
 export const modifiersOf = (event: KeyboardEvent): number =>
   (event.shiftKey ? 1 : 0) + (event.ctrlKey ? 2 : 0) + (event.altKey ? 4 : 0);

@@ -4,9 +4,9 @@ import { make } from "./element";
 
 const LETTER = 6.4,
   AROUND = 8,
-  HEIGHT = 17; // pixels: about how large labels are
+  HEIGHT = 17; // pixels: approximate height of a label
 
-/** A label at a place of the scene. Where several would lie on each other, only the one with the highest rank is seen, or else
+/** Creates a label at a place of the scene. Of overlapping labels, only the one with the highest rank is shown, or else
  * the nearest. */
 export function label(text: string, rank: number, className = "name"): CSS2DObject {
   const object = new CSS2DObject(make("span", { className, textContent: text }));
@@ -16,7 +16,7 @@ export function label(text: string, rank: number, className = "name"): CSS2DObje
 
 interface Placed {
   object: CSS2DObject;
-  at: THREE.Vector3; // x and y in pixels, z is larger for what is farther away
+  at: THREE.Vector3; // x and y in pixels; z increases with the distance
   width: number;
 }
 

@@ -1,15 +1,15 @@
 import * as THREE from "three";
 
 const SUN = new THREE.Vector3(-2.5, 2.2, 4.5),
-  FILL = new THREE.Vector3(3, -2, 2.5); // directions towards them
-const CENTER = new THREE.Vector3(0, 0, 0.8); // what lights of the program shine at
+  FILL = new THREE.Vector3(3, -2, 2.5); // directions towards the lights
+const CENTER = new THREE.Vector3(0, 0, 0.8); // target of the program's lights
 const SHADOW_PIXELS = 2048; // across the light's view
-const SOFTNESS = 5; // pixels, of the edges of shadows
-const USUAL_SHADOWED = 1; // m; a ball that is much smaller has finer shadows
+const SOFTNESS = 5; // pixels, width of the shadows' edges
+const USUAL_SHADOWED = 1; // m; much smaller scenes have finer shadows
 const NORMAL_BIAS = 0.006,
-  FINEST_FOR_BIAS = 12; // m: up to there pixels of the shadow map are small enough for it
+  FINEST_FOR_BIAS = 12; // m: largest scene whose shadow map is fine enough for it
 
-/** The sky, a sun that casts shadows, and a weaker light from the other side; or those that the program says. */
+/** The sky, a sun that casts shadows, and a weaker light from the other side; or the program's lights. */
 export class Lights {
   readonly group = new THREE.Group();
   private readonly sky = new THREE.HemisphereLight(0xf6f9ff, 0x7d7b7a, 1.85);
@@ -26,10 +26,10 @@ export class Lights {
     shadow.bias = -0.0002;
     this.group.add(this.sky, this.flat, this.sun, this.sun.target, this.others);
     this.setCoarse(false);
-    this.setLook([], false, true);
+    this.setAppearance([], false, true);
   }
 
-  /** `coarse`: shadows have fewer pixels and hard edges. True if they are to be drawn anew. */
+  /** `coarse`: shadows with fewer pixels and hard edges. Returns whether they need to be drawn again. */
   setCoarse(coarse: boolean): boolean {
     const { shadow } = this.sun;
     const size = coarse ? SHADOW_PIXELS / 2 : SHADOW_PIXELS;
@@ -41,8 +41,9 @@ export class Lights {
     return true;
   }
 
-  /** `places` of lights, three numbers each; none: the usual ones. `flat`: colors as they are, without light. */
-  setLook(places: readonly number[], flat: boolean, shadows: boolean): void {
+  /** `places`: positions of the lights, three numbers each; empty: the default lights. `flat`: colors without shading.
+   * */
+  setAppearance(places: readonly number[], flat: boolean, shadows: boolean): void {
     const given = Array.from({ length: Math.floor(places.length / 3) }, (_, i) =>
       new THREE.Vector3(...places.slice(3 * i)).sub(CENTER),
     );
@@ -61,7 +62,7 @@ export class Lights {
     this.fitShadows(this.center, this.radius);
   }
 
-  /** All of a ball casts shadows, however large or far away it is. */
+  /** Lets the whole scene within a ball cast shadows, whatever its size and position. */
   fitShadows(center: THREE.Vector3, radius: number): void {
     this.center.copy(center);
     this.radius = radius;

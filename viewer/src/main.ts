@@ -13,14 +13,14 @@ import { Memory } from "./memory";
 import {
   BinaryKind,
   keyCommand,
-  type LookMessage,
+  type AppearanceMessage,
   type MotionMessage,
   type ServerMessage,
   viewpointCommand,
 } from "./messages";
 import { Motion } from "./motion";
 import { NearLines } from "./near";
-import { Notes } from "./notes";
+import { Warnings } from "./warnings";
 import { Panel } from "./panel";
 import { Quads } from "./quads";
 import { Quality } from "./quality";
@@ -51,20 +51,20 @@ const memory = new Memory(stage, display);
 const near = new NearLines(stage, send);
 const quads = new Quads();
 const input = new InputEvents(stage, send);
-const notes = new Notes(stage, shown.frames, recorded ? null : send, () => {
-  panel.showNotes(notes.all, notes.ignored);
+const warnings = new Warnings(stage, shown.frames, recorded ? null : send, () => {
+  panel.showWarnings(warnings.all, warnings.ignored);
   selection.refresh();
 });
 const panel = new Panel(display, shown.frames, switched, (id) => selection.select(id));
 stage.onDraw(() => shown.prepare((at) => stage.pixelsPerMeter(at), stage.hurries));
-const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id), (id) => notes.about(id));
+const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id), (id) => warnings.about(id));
 const timeline = new Timeline(stage, shown, joints, moved);
 const run = new Run(stage, shown.frames, recorded ? null : send);
 const exports = new Exports(stage, timeline, shown.frames, recorded !== null);
-let unplaced = false; // frames have come whose poses are still to come
-let digits = false; // some switch what is drawn
-let poses = 0; // messages with these that have come
-let announced: MotionMessage | null = null; // its slices are still to come
+let unplaced = false; // the poses of new frames have not arrived yet
+let digits = false; // digit keys toggle parts of the picture
+let poses = 0; // number of received messages with poses
+let announced: MotionMessage | null = null; // its slices have not arrived yet
 stage.onSquare((square) => (find("scale").textContent = `grid: ${lengthText(square)}, ${lengthText(square / 5)}`));
 find("presets").append(
   ...Object.keys(PRESETS).map((name) => make("button", { textContent: name, onclick: () => lookFrom(name) })),
@@ -75,7 +75,7 @@ function lookFrom(preset: string): void {
   stage.lookAlong(new THREE.Vector3(...PRESETS[preset]!));
 }
 
-/** People have switched something. */
+/** Call when a user toggled an option. */
 function switched(): void {
   memory.save();
   redisplay();
@@ -84,11 +84,11 @@ function switched(): void {
 function redisplay(): void {
   display.apply(shown.frames);
   near.show(display.on.has("near"));
-  notes.show(display.on.has("notes"));
+  warnings.show(display.on.has("warnings"));
   stage.redraw();
 }
 
-/** Frames have moved. */
+/** Call when frames have moved. */
 function moved(): void {
   selection.follow();
   stage.redraw();
@@ -99,13 +99,13 @@ function show(id: string, text: string): void {
   find(id).hidden = text === "";
 }
 
-function setLook(look: LookMessage): void {
-  display.visualsOnly = look.visualsOnly !== 0;
-  document.body.classList.toggle("no-text", look.visualsOnly !== 0 || look.text === 0);
-  stage.setLook(look);
-  display.wireframe = look.wireframe !== 0;
-  digits = look.digits !== 0;
-  input.setWanted(look.events, look.cursor !== 0);
+function setAppearance(appearance: AppearanceMessage): void {
+  display.visualsOnly = appearance.visualsOnly !== 0;
+  document.body.classList.toggle("no-text", appearance.visualsOnly !== 0 || appearance.text === 0);
+  stage.setAppearance(appearance);
+  display.wireframe = appearance.wireframe !== 0;
+  digits = appearance.digits !== 0;
+  input.setRequested(appearance.events, appearance.cursor !== 0);
   redisplay();
 }
 
@@ -122,8 +122,8 @@ function receive(message: ServerMessage): void {
     case "joints":
       joints.setJoints(message.structure, message.joints);
       near.setStructure(message.structure);
-      run.pulling.structure = message.structure;
-      notes.setStructure(message.structure);
+      run.perturbation.structure = message.structure;
+      warnings.setStructure(message.structure);
       break;
     case "text":
       document.title = message.title;
@@ -137,11 +137,11 @@ function receive(message: ServerMessage): void {
     case "near":
       near.read(message);
       break;
-    case "notes":
-      notes.read(message.notes);
+    case "warnings":
+      warnings.read(message.warnings);
       break;
-    case "look":
-      setLook(message);
+    case "appearance":
+      setAppearance(message);
       break;
     case "motion":
       announced = message.slices > 0 ? message : null;
@@ -157,7 +157,7 @@ function receive(message: ServerMessage): void {
       selection.select(message.frame, "translate");
       break;
     default:
-      message satisfies never; // every kind of message has its case
+      message satisfies never; // all kinds of messages are handled
   }
   stage.redraw();
 }
@@ -173,7 +173,7 @@ function receiveBinary(data: ArrayBuffer): void {
     exports.refresh();
   } else if (shown.readBinary(data)) {
     if (kind === BinaryKind.poses) ++poses;
-    notes.stir();
+    warnings.stir();
     if (unplaced && kind === BinaryKind.poses) {
       unplaced = false;
       stage.fitScene();
@@ -212,7 +212,7 @@ stage.onClick((event) => {
   else selection.close();
 });
 
-const TURNS: Record<string, [number, number, number]> = {
+const ROTATIONS: Record<string, [number, number, number]> = {
   ArrowLeft: [-0.1, 0, 1],
   ArrowRight: [0.1, 0, 1],
   ArrowUp: [0, 0.1, 1],
@@ -221,11 +221,11 @@ const TURNS: Record<string, [number, number, number]> = {
   PageDown: [0, 0, 1 / 1.15],
 };
 
-/** What Alt and a key do. */
+/** Handles Alt and a key. */
 function takeAlt(code: string): boolean {
   const digit = /^Digit([1-4])$/.exec(code);
   if (digit) lookFrom(Object.keys(PRESETS)[Number(digit[1]) - 1]!);
-  else if (TURNS[code]) stage.viewpoint.turn(...TURNS[code]);
+  else if (ROTATIONS[code]) stage.viewpoint.turn(...ROTATIONS[code]);
   else if (code === "KeyP") exports.savePicture();
   else if (code === "KeyR") measure.toggle();
   else if (code === "KeyK") timeline.current ? timeline.toggle() : run.toggle();
@@ -237,7 +237,7 @@ function takeAlt(code: string): boolean {
 
 const DIGITS: Record<string, Option> = { 1: "solid", 2: "markers", 3: "axes", 4: "near", 7: "names" };
 
-/** Closes what is open, the topmost first. */
+/** Closes the topmost open part. */
 function closeTopmost(): boolean {
   if (help.isOpen) help.toggle();
   else if (measure.on) measure.toggle();
@@ -254,7 +254,7 @@ const OWN_KEYS: Record<string, RegExp> = {
   checkbox: /^ $/,
 };
 
-/** Keys that a control takes itself are not for the program: all that people type into a text, some of the others'. */
+/** Returns whether a control handles the key itself: all keys in a text field, some in other controls. */
 function isTyping({ target, key }: KeyboardEvent): boolean {
   const control = target instanceof HTMLElement ? target.closest("input, select, summary, button") : null;
   if (control instanceof HTMLInputElement) return TEXT.test(control.type) || (OWN_KEYS[control.type]?.test(key) ?? true);
@@ -267,7 +267,7 @@ addEventListener("keydown", (event) => {
   if (input.blocks) return;
   if (event.altKey && takeAlt(event.code)) return event.preventDefault();
   if (event.key === "Escape" && closeTopmost()) return;
-  if (event.key === "Tab") return; // moves on between the controls
+  if (event.key === "Tab") return; // moves between the controls
   if (isTyping(event)) return;
   if (event.key === "?") return help.toggle();
   if (event.key === "Home") return stage.home();
@@ -283,7 +283,7 @@ stage.canvas.addEventListener("pointerdown", leaveControls);
 for (const button of document.querySelectorAll("body > button"))
   button.addEventListener("click", () => (button as HTMLElement).blur());
 
-/** For tests: what is on the page. */
+/** The page's content, for tests. */
 Object.assign(window, {
   kinegraph: {
     frames: () => shown.frames.size,
@@ -292,7 +292,7 @@ Object.assign(window, {
     viewpoint: () => stage.viewpoint.describe(),
     nearLines: () => near.count,
     violatedPairs: () => timeline.pairCount,
-    notes: () => ({ marks: notes.markCount, texts: notes.all.map(({ text }) => text) }),
+    warnings: () => ({ marks: warnings.markCount, texts: warnings.all.map(({ text }) => text) }),
     quads: () => quads.count,
     meshes: () => shown.meshCount,
     geometries: () => stage.renderer.info.memory.geometries,

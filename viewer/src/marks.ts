@@ -3,7 +3,7 @@ import type { Shown } from "./shown";
 
 const COLOR = 0xe03131;
 
-/** Tints frames red: those whose constraints are violated. */
+/** Tints the frames of violated constraints red. */
 export class Marks {
   private tinted: THREE.MeshStandardMaterial[] = [];
   private marked: readonly number[] = [];
@@ -14,7 +14,7 @@ export class Marks {
     return this.tinted.length;
   }
 
-  /** These frames and no others. */
+  /** Marks exactly these frames. */
   show(ids: readonly number[]): void {
     if (ids.length === this.marked.length && ids.every((id, i) => id === this.marked[i])) return;
     this.marked = ids;
@@ -29,7 +29,7 @@ export class Marks {
     }
   }
 
-  /** The nearest frame with a shape, from this one upwards; a frame without any is marked on what carries it. */
+  /** Returns the nearest frame with a shape, from this one upwards. */
   private visible(id: number): number {
     for (let at: Shown | undefined = this.frames.get(id); at; at = this.frames.get(at.message.parent)) {
       if (at.object instanceof THREE.Mesh) return at.message.id;

@@ -4,7 +4,7 @@ import type { Hit, Stage } from "./stage";
 
 const COLOR = 0xd9480f;
 
-/** Measures between two points that are clicked. */
+/** Measures the distance of two clicked points. */
 export class Measure {
   on = false;
   private readonly button = find("measure-button");

@@ -8,9 +8,9 @@ interface Remembered {
   on: Option[];
 }
 
-const MOST = 40; // scenes
+const MAX_SCENES = 40;
 
-/** Keeps camera and switches of each scene in the browser, for the next time that it is shown. */
+/** Stores the camera and options of each scene in the browser for its next use. */
 export class Memory {
   private key = "";
   private cameraIsGiven = false;
@@ -22,12 +22,12 @@ export class Memory {
     stage.onMove(() => this.save());
   }
 
-  /** The program has said where to look from, which counts more. */
+  /** Call when the program has set the camera, which takes precedence. */
   setCameraGiven(): void {
     this.cameraIsGiven = true;
   }
 
-  /** Call when a scene is shown; `names` of its frames say which it is. True if something was remembered. */
+  /** Call when a scene is shown; the `names` of its frames identify it. Returns whether stored values were found. */
   recall(names: Iterable<string>): boolean {
     const key = `kinegraph ${document.title} ${[...names].slice(0, 30).join(" ")}`;
     if (key === this.key) return false;
@@ -54,11 +54,11 @@ export class Memory {
       on: [...this.display.on],
     };
     const keys = Object.keys(storage).filter((key) => key.startsWith("kinegraph "));
-    if (keys.length >= MOST && !keys.includes(this.key)) storage.removeItem(keys[0]!);
+    if (keys.length >= MAX_SCENES && !keys.includes(this.key)) storage.removeItem(keys[0]!);
     storage.setItem(this.key, JSON.stringify(now));
   }
 
-  /** None in pages that may not have any, as in a notebook's frame. */
+  /** Returns the browser's storage; null in pages without access to it, as in a notebook's frame. */
   private storage(): Storage | null {
     try {
       return localStorage;

@@ -1,7 +1,7 @@
 import * as THREE from "three";
 import { coarser } from "./coarser";
 
-/** Cells of the grid per radius of a mesh; each serves up to so many pixels of radius on the screen. */
+/** Grid cells per radius of a mesh, each for radii of up to so many pixels on the screen. */
 const LEVELS = [
   { cells: 2.5, pixels: 12 },
   { cells: 4, pixels: 28 },
@@ -9,11 +9,11 @@ const LEVELS = [
   { cells: 8, pixels: 80 },
   { cells: 16, pixels: 200 },
 ] as const;
-const WORTH = 0.75; // of the triangles, at most, are left where a coarser mesh is worth it
-const FEWEST = 200; // triangles of a mesh that may become coarser
-const PATIENCE = 4; // ms that may go into coarser meshes for a picture
+const WORTH = 0.75; // largest share of the triangles at which a coarser mesh pays off
+const FEWEST = 200; // smallest number of triangles of a mesh that is simplified
+const PATIENCE = 4; // ms per picture for making coarser meshes
 
-/** The triangles of a mesh, and coarser ones that are made when they are asked for. */
+/** A mesh and its coarser levels, which are made on demand. */
 export class Levels {
   private readonly made = new Map<number, THREE.BufferGeometry>();
   readonly radius: number;
@@ -23,7 +23,7 @@ export class Levels {
     this.radius = full.boundingSphere!.radius;
   }
 
-  /** As fine as a radius of so many pixels needs it. `until`: when nothing new is to be made any more, by the page's clock. */
+  /** Returns the level for a radius in pixels. After `until`, by the page's clock, no new level is made. */
   at(pixels: number, until: number): THREE.BufferGeometry {
     const level = LEVELS.findIndex((known) => pixels <= known.pixels);
     if (level < 0 || this.full.index!.count < 3 * FEWEST) return this.full;
@@ -41,7 +41,7 @@ export class Levels {
   }
 }
 
-/** A mesh that can be drawn more coarsely. */
+/** A mesh with levels of detail. */
 export class LevelMesh extends THREE.Mesh<THREE.BufferGeometry, THREE.Material> {
   constructor(
     private readonly levels: Levels,
@@ -57,5 +57,5 @@ export class LevelMesh extends THREE.Mesh<THREE.BufferGeometry, THREE.Material> 
   }
 }
 
-/** When coarser meshes for a picture that begins now have taken long enough. */
+/** Returns the time after which a picture that starts now makes no more coarser meshes. */
 export const deadline = (): number => performance.now() + PATIENCE;

@@ -43,7 +43,7 @@ export interface LinesMessage {
   names: string[];
 }
 
-export interface NoteMessage {
+export interface WarningMessage {
   text: string;
   frames: number[];
   ignored: number;
@@ -85,8 +85,8 @@ export interface CameraMessage {
   far: number;
 }
 
-export interface LookMessage {
-  kind: "look";
+export interface AppearanceMessage {
+  kind: "appearance";
   visualsOnly: number;
   background: number[];
   floor: number[];
@@ -105,9 +105,9 @@ export interface NearMessage {
   lines: LinesMessage;
 }
 
-export interface NotesMessage {
-  kind: "notes";
-  notes: NoteMessage[];
+export interface WarningsMessage {
+  kind: "warnings";
+  warnings: WarningMessage[];
 }
 
 export interface SelectMessage {
@@ -137,7 +137,7 @@ export interface RunMessage {
   factor: number;
   paused: number;
   contacts: number[];
-  pull: number[];
+  perturbation: number[];
 }
 
 export const keyCommand = (code: number, modifiers: number): Uint8Array<ArrayBuffer> =>
@@ -170,10 +170,10 @@ export const viewpointCommand = (pose: number[], distance: number, focal: number
 export const runCommand = (what: number): Uint8Array<ArrayBuffer> =>
   writeCommand(["int", 10], ["int", what]);
 
-export const pullCommand = (structure: number, frame: number, point: number[], target: number[]): Uint8Array<ArrayBuffer> =>
+export const perturbCommand = (structure: number, frame: number, point: number[], target: number[]): Uint8Array<ArrayBuffer> =>
   writeCommand(["int", 11], ["int", structure], ["int", frame], ["number[]", point], ["number[]", target]);
 
-export const notesCommand = (structure: number): Uint8Array<ArrayBuffer> =>
+export const warningsCommand = (structure: number): Uint8Array<ArrayBuffer> =>
   writeCommand(["int", 12], ["int", structure]);
 
-export type ServerMessage = SceneMessage | JointsMessage | TextMessage | CameraMessage | LookMessage | NearMessage | NotesMessage | SelectMessage | MotionMessage | RunMessage;
+export type ServerMessage = SceneMessage | JointsMessage | TextMessage | CameraMessage | AppearanceMessage | NearMessage | WarningsMessage | SelectMessage | MotionMessage | RunMessage;

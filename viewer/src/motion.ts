@@ -3,10 +3,10 @@ import type { MotionMessage } from "./messages";
 import { materialsOf } from "./shapes";
 import type { Shown } from "./shown";
 
-const GHOSTS = 24; // most slices that are drawn at once
+const GHOSTS = 24; // largest number of slices drawn at once
 const GHOST_OPACITY = 0.28;
 
-/** The slices of a motion: poses of all frames and joint values in each. */
+/** The slices of a motion: poses of all frames and joint values. */
 export class Motion {
   readonly slices: number;
   readonly dofs: number;
@@ -30,7 +30,7 @@ export class Motion {
     this.q = new Float32Array(data, 16 + this.poses.byteLength, this.slices * this.dofs);
   }
 
-  /** Puts an object where a frame is at a moment, which may lie between two slices. */
+  /** Sets an object to a frame's pose at a time, which may lie between two slices. */
   place(object: THREE.Object3D, frame: number, moment: number): void {
     if (frame >= this.frames) return;
     const slice = Math.min(Math.floor(moment), this.slices - 1);
@@ -43,7 +43,7 @@ export class Motion {
     object.quaternion.slerpQuaternions(this.from, this.to, part);
   }
 
-  /** Joint values at a moment. */
+  /** Returns the joint values at a time. */
   state(moment: number): Float32Array {
     const slice = Math.min(Math.floor(moment), this.slices - 1);
     const next = Math.min(slice + 1, this.slices - 1);
@@ -53,12 +53,12 @@ export class Motion {
     });
   }
 
-  /** The values of a dof, slice by slice. */
+  /** Returns the values of a dof per slice. */
   curveOf(dof: number): Float32Array {
     return Float32Array.from({ length: this.slices }, (_, t) => this.q[t * this.dofs + dof]!);
   }
 
-  /** Pictures of what moves, in slices spread over the motion. The geometries are those of the frames. */
+  /** Returns copies of the moving shapes in slices spread over the motion. They share the frames' geometries. */
   ghosts(frames: ReadonlyMap<number, Shown>): THREE.Group {
     const group = new THREE.Group();
     const count = Math.min(this.slices, GHOSTS);

@@ -4,7 +4,7 @@ import type { Stage } from "./stage";
 
 export const MARGIN = 0.05; // m
 
-/** Lines between shapes that are near each other, with the distance, as people ask for them. */
+/** Lines between near shapes, with the distance, on request of users. */
 export class NearLines {
   private on = false;
   private structure = 0;
@@ -22,20 +22,20 @@ export class NearLines {
     return this.pairs.count.all;
   }
 
-  /** Call with every structure of the scene: it is asked for anew. */
+  /** Call with every structure of the scene; the lines are requested again. */
   setStructure(structure: number): void {
     this.structure = structure;
-    this.ask();
+    this.request();
   }
 
   show(on: boolean): void {
     if (this.on === on) return;
     this.on = on;
-    this.ask();
+    this.request();
     this.apply(true);
   }
 
-  /** `live`: false while a motion is shown, which the lines say nothing of. */
+  /** `live`: false while a motion is shown, because the lines do not apply to it. */
   apply(live: boolean): void {
     this.pairs.visible = this.on && live;
     this.stage.redraw();
@@ -46,7 +46,7 @@ export class NearLines {
     this.stage.redraw();
   }
 
-  private ask(): void {
+  private request(): void {
     if (this.on) this.send(nearCommand(this.structure, MARGIN));
   }
 }

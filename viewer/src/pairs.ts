@@ -5,11 +5,11 @@ import type { Stage } from "./stage";
 
 const APART = new THREE.Color(0xe8a200),
   TOUCHING = new THREE.Color(0xe03131);
-const LABELS = 12; // most that are shown
+const LABELS = 12; // largest number shown
 const DOT = 7,
   RING = 26,
   WIDTH = 3.5; // pixels
-const OVER = { depthTest: false, transparent: true } as const; // all else
+const OVER = { depthTest: false, transparent: true } as const; // drawn over everything else
 
 /** A red ring with a white rim. */
 function ringPicture(): THREE.Texture {
@@ -26,12 +26,13 @@ function ringPicture(): THREE.Texture {
 }
 
 /**
- * Pairs of shapes: a line from one surface to the other with the distance. Yellow where they are apart; red where they overlap,
- * from the point of one that is deepest in the other to the surface there, with a ring around, however short it is.
+ * Pairs of shapes, each as a line between their surfaces with the distance. Lines are yellow if the shapes are apart.
+ * They are red if the shapes overlap, from the deepest point of one to the surface of the other, with a ring that marks
+ * even short lines.
  */
 export class PairLines {
   readonly group = new THREE.Group();
-  private readonly lines = new THREE.Group(); // a rod each, as thin as a line
+  private readonly lines = new THREE.Group(); // one rod per line
   private readonly rod = new THREE.CylinderGeometry(0.5, 0.5, 1, 6).translate(0, 0.5, 0);
   private readonly materials = new Map([APART, TOUCHING].map((color) => [color, new THREE.MeshBasicMaterial({ ...OVER, color })]));
   private readonly ends = new THREE.Points(
@@ -45,7 +46,7 @@ export class PairLines {
   private readonly labels = new THREE.Group();
   private shown: LinesMessage = { points: [], distances: [], names: [] };
 
-  /** `named`: labels say which shapes they are about. */
+  /** `named`: labels contain the names of the shapes. */
   constructor(
     private readonly stage: Stage,
     private readonly named: boolean,
@@ -57,7 +58,7 @@ export class PairLines {
     this.clear();
   }
 
-  /** How many, and how many of these are shapes that touch or overlap. */
+  /** The number of pairs, and the number of pairs in contact. */
   get count(): { all: number; touching: number } {
     const { distances } = this.shown;
     return this.group.visible
@@ -67,7 +68,7 @@ export class PairLines {
 
   set visible(on: boolean) {
     this.group.visible = on;
-    for (const label of this.labels.children) label.visible = on; // labels are elements of their own
+    for (const label of this.labels.children) label.visible = on; // labels are separate HTML elements
   }
 
   clear(): void {
@@ -95,14 +96,14 @@ export class PairLines {
 
   private line(i: number, color: THREE.Color): THREE.Mesh {
     const line = new THREE.Mesh(this.rod, this.materials.get(color));
-    const way = new THREE.Vector3().fromArray(this.shown.points, 6 * i + 3).sub(line.position.fromArray(this.shown.points, 6 * i));
-    line.scale.y = Math.max(way.length(), 1e-9);
-    line.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), way.normalize());
+    const direction = new THREE.Vector3().fromArray(this.shown.points, 6 * i + 3).sub(line.position.fromArray(this.shown.points, 6 * i));
+    line.scale.y = Math.max(direction.length(), 1e-9);
+    line.quaternion.setFromUnitVectors(new THREE.Vector3(0, 1, 0), direction.normalize());
     line.renderOrder = 1;
     return line;
   }
 
-  /** Lines have the same width from wherever they are seen. */
+  /** Keeps the width of lines on the page constant. */
   private thin(): void {
     for (const { scale, position } of this.lines.children) scale.x = scale.z = (WIDTH * this.stage.resolution) / this.stage.pixelsPerMeter(position);
   }

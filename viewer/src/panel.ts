@@ -1,15 +1,15 @@
 import { type Display, OPTIONS, type Option, optionNames } from "./display";
 import { find, make } from "./element";
-import type { NoteMessage } from "./messages";
+import type { WarningMessage } from "./messages";
 import type { Shown } from "./shown";
 import { SceneTree } from "./tree";
 
 const TABS = { frames: "T", joints: "J", view: "O" } as const;
-const NAMED = 12; // frames of a note that have a button
+const NAMED = 12; // largest number of buttons for the frames of a warning
 type Tab = keyof typeof TABS;
 const tabNames = Object.keys(TABS) as Tab[];
 
-/** The panel at the side: frames, joints, and how the scene is shown. */
+/** The side panel: frames, joints, and view options. */
 export class Panel {
   private readonly root = find("panel");
   private readonly button = find("panel-button");
@@ -35,38 +35,38 @@ export class Panel {
     return !this.root.hidden;
   }
 
-  /** Call when frames have come, gone or changed. */
+  /** Call when frames have been added, removed or changed. */
   refresh(): void {
     if (this.isOpen && this.tab === "frames") this.tree.show(this.frames);
   }
 
-  /** Call when options have changed elsewhere. */
+  /** Call when options have been changed elsewhere. */
   refreshOptions(): void {
     for (const [option, box] of this.boxes) box.checked = this.display.on.has(option);
   }
 
-  /** What the program notes about the scene; `ignored` are frames that are marked. */
-  showNotes(notes: readonly NoteMessage[], ignored: ReadonlySet<number>): void {
+  /** Shows the warnings about the scene; `ignored` are the marked frames. */
+  showWarnings(warnings: readonly WarningMessage[], ignored: ReadonlySet<number>): void {
     this.tree.mark(ignored);
-    document.body.classList.toggle("has-notes", ignored.size > 0);
-    const root = find("notes");
-    root.hidden = notes.length === 0;
-    root.replaceChildren(...notes.map((note) => this.makeNote(note)));
+    document.body.classList.toggle("has-warnings", ignored.size > 0);
+    const root = find("warnings");
+    root.hidden = warnings.length === 0;
+    root.replaceChildren(...warnings.map((warning) => this.makeWarning(warning)));
   }
 
-  private makeNote({ text, frames }: NoteMessage): HTMLElement {
+  private makeWarning({ text, frames }: WarningMessage): HTMLElement {
     const names = [...new Set(frames)].slice(0, NAMED).flatMap((id) => {
       const name = this.frames.get(id)?.message.name;
       return name === undefined ? [] : [make("button", { textContent: name, onclick: () => this.selectFrame(id) })];
     });
-    return make("div", {}, make("p", { className: "note", textContent: text }), make("div", { className: "buttons" }, ...names));
+    return make("div", {}, make("p", { className: "warning", textContent: text }), make("div", { className: "buttons" }, ...names));
   }
 
   select(id: number | null): void {
     this.tree.select(id);
   }
 
-  /** True if the key, pressed with Alt, was for the panel. */
+  /** Handles a key pressed with Alt; returns whether it was for the panel. */
   takeKey(code: string): boolean {
     const letter = code.replace("Key", "");
     const option = optionNames.find((name) => OPTIONS[name].letter === letter);

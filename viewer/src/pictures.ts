@@ -1,17 +1,17 @@
 import * as THREE from "three";
 
-/** Triangles of a mesh that show a picture: where they begin, how many, and the number of the picture. */
+/** Triangles of a mesh with an image: first triangle, count, and the number of the image. */
 export type TexturedTriangles = [first: number, count: number, picture: number];
 
-/** The pictures that meshes show, by the numbers that the server gave them. */
+/** The images on meshes, by the server's numbers. */
 export class Pictures {
   private readonly textures = new Map<number, THREE.Texture>();
   private waiting = 0;
 
-  /** `loaded` is called when a picture has arrived and was unpacked. */
+  /** `loaded` is called when an image has been decoded. */
   constructor(private readonly loaded: () => void) {}
 
-  /** True while pictures are being unpacked. */
+  /** True while images are being decoded. */
   get busy(): boolean {
     return this.waiting > 0;
   }
@@ -27,7 +27,7 @@ export class Pictures {
     void this.unpack(texture, new Blob([data.slice(8)]));
   }
 
-  /** Frees the others. */
+  /** Frees all other images. */
   keep(used: ReadonlySet<number>): void {
     for (const [number, texture] of this.textures) {
       if (used.has(number)) continue;
@@ -41,7 +41,7 @@ export class Pictures {
     try {
       texture.image = await createImageBitmap(file, { imageOrientation: "flipY" });
       texture.needsUpdate = true;
-    } catch { // damaged: the shape stays white
+    } catch { // a damaged image leaves the shape white
     } finally {
       --this.waiting;
       this.loaded();

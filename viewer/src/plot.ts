@@ -11,7 +11,7 @@ const PALETTE = [
   "#868e96",
 ];
 
-/** The color of a curve. */
+/** Returns the color of a curve. */
 export const colorOf = (curve: number): string => PALETTE[curve % PALETTE.length]!;
 
 function prepare(canvas: HTMLCanvasElement): CanvasRenderingContext2D | null {
@@ -23,17 +23,17 @@ function prepare(canvas: HTMLCanvasElement): CanvasRenderingContext2D | null {
   return context;
 }
 
-/** Numbers over the slices of a motion. */
+/** Values over the slices of a motion. */
 export interface Curve {
   name: string;
   values: ArrayLike<number>; // per slice
 }
 
-const SMALLEST = 1e-6; // error that is drawn; what is less is as good as zero
+const SMALLEST = 1e-6; // smallest error on the logarithmic scale; smaller ones count as zero
 
 /**
- * Curves from the lowest to the highest value of all, and where the motion is. With `logarithmic`, powers of ten are
- * evenly apart.
+ * Curves between the lowest and the highest of all values, with the present time of the motion. `logarithmic` spaces
+ * powers of ten evenly.
  */
 export function drawCurves(
   canvas: HTMLCanvasElement,
@@ -79,11 +79,11 @@ export function drawCurves(
   context.stroke();
 }
 
-const TOLERANCE = 1e-3; // of constraints: what is above counts as violated
+const TOLERANCE = 1e-3; // of constraints: larger violations count
 
 export const isViolated = (violation: number | undefined): boolean => (violation ?? 0) > TOLERANCE;
 
-/** Red where constraints are violated, the stronger the more. */
+/** Shows constraint violations in red, with a strength that increases with the violation. */
 export function drawViolations(canvas: HTMLCanvasElement, violations: number[], slices: number): void {
   const context = prepare(canvas);
   if (!context) return;

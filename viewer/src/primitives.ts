@@ -3,7 +3,7 @@ import { RoundedBoxGeometry } from "three/addons/geometries/RoundedBoxGeometry.j
 import { mergeVertices } from "three/addons/utils/BufferGeometryUtils.js";
 import { creased } from "./creased";
 
-/** Parts of a full turn, by level of detail; each serves up to so many pixels of radius on the screen. */
+/** Segments of a full circle per level of detail, each for radii of up to so many pixels on the screen. */
 const LEVELS = [
   { parts: 8, pixels: 6 },
   { parts: 12, pixels: 16 },
@@ -12,7 +12,7 @@ const LEVELS = [
   { parts: 56, pixels: Infinity },
 ] as const;
 
-/** A profile of (radius, z) points turned about z; edges between flat parts stay sharp. */
+/** Rotates a profile of (radius, z) points about z; edges between flat parts stay sharp. */
 function turned(profile: [number, number][], parts: number): THREE.BufferGeometry {
   return creased(
     new THREE.LatheGeometry(
@@ -71,11 +71,11 @@ function build(type: string, size: readonly number[], parts: number): THREE.Buff
 
 const isRound = (type: string): boolean => !["box", "sdf", "tensor", "quad"].includes(type);
 
-/** Geometries of shapes that are described by numbers. Equal shapes share them. */
+/** Geometries of primitive shapes. Equal shapes share them. */
 export class Primitives {
   private readonly made = new Map<string, Map<number, THREE.BufferGeometry>>(); // by shape and level
 
-  /** Null for shapes of other kinds. */
+  /** Returns null for other kinds of shapes. */
   get(type: string, size: readonly number[], level: number): THREE.BufferGeometry | null {
     const key = `${type} ${size.join(" ")}`;
     const levels = this.made.get(key) ?? new Map<number, THREE.BufferGeometry>();
@@ -85,7 +85,7 @@ export class Primitives {
     return geometry;
   }
 
-  /** Frees those of shapes that are not among `used`. */
+  /** Frees the geometries of shapes that are not in `used`. */
   keep(used: Iterable<PrimitiveMesh>): void {
     const keys = new Set(Array.from(used, ({ type, size }) => `${type} ${size.join(" ")}`));
     for (const [key, levels] of this.made) {
@@ -96,7 +96,7 @@ export class Primitives {
   }
 }
 
-/** A shape that is drawn as finely as it is large on the screen. */
+/** A primitive with a level of detail that follows its size on the screen. */
 export class PrimitiveMesh extends THREE.Mesh<THREE.BufferGeometry, THREE.Material> {
   private level: number;
   private readonly radius: number;

@@ -1,6 +1,6 @@
 import { make } from "./element";
 
-/** Pictures on top of the scene; one with a zoom is all there is to see. */
+/** Images on top of the scene; one with a zoom covers everything else. */
 export class Quads {
   private readonly shown = new Map<number, HTMLCanvasElement>();
 

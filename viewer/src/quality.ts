@@ -1,13 +1,13 @@
 const SLOW = 25,
-  FAST = 15; // ms from one picture to the next, while things move
+  FAST = 15; // ms between two pictures of a moving scene
 const STILL = 150,
-  MOST_PATIENT = 1500; // ms without a change before a picture in full resolution: at least, at most
-const QUIET = 2; // animation frames without a change before it: behind one that was slow, changes may wait
-const COUNTED = 3; // animation frames after it that wait for it: who draws lags behind
-const LARGEST = 2; // pixels drawn per pixel of the page, across and down
-const FEWEST = 240; // pixels drawn from top to bottom of a page, if that is between a third and a half of its pixels
+  MAX_WAIT = 1500; // ms without a change before a picture in full resolution: lower and upper bound
+const QUIET = 2; // animation frames without a change before it, because changes may wait behind a slow frame
+const COUNTED = 3; // animation frames counted after it, because the display may lag behind
+const LARGEST = 2; // drawn pixels per pixel of the page and direction
+const FEWEST = 240; // lower bound of drawn rows per page, within a third to a half of the page's pixels
 
-/** True where no graphics card draws, but the processor. */
+/** Returns whether the processor draws, without a graphics card. */
 export function drawsInSoftware(): boolean {
   const context = document.createElement("canvas").getContext("webgl2");
   const named = context?.getExtension("WEBGL_debug_renderer_info");
@@ -17,24 +17,24 @@ export function drawsInSoftware(): boolean {
 }
 
 /**
- * How finely to draw: coarser while things move and the machine is slow, and again in full when they stand still.
- * Without a graphics card edges are smoothed by drawing more pixels than there are, then.
+ * Chooses the resolution: coarser while the scene moves on a slow machine, and full when it stands still. Without a
+ * graphics card, pictures of a scene at rest are drawn with more pixels than the page has, to smooth edges.
  */
 export class Quality {
   private readonly finest: number;
   private moving: number;
   private now: number;
   private pictures = 0;
-  private spent = 0; // ms, of these pictures
-  private changed = -Infinity; // when the last change was drawn
-  private quiet = 0; // animation frames since
-  private rested = true; // nothing has moved since
-  private full = 0; // when the last picture in full resolution was drawn, after a movement
-  private counted = COUNTED; // animation frames since
+  private spent = 0; // ms of these pictures
+  private changed = -Infinity; // time of the last drawn change
+  private quiet = 0; // animation frames since then
+  private rested = true; // no motion since then
+  private full = 0; // time of the last picture in full resolution after a motion
+  private counted = COUNTED; // animation frames since then
   private patience = STILL; // ms without a change before the next one
-  private tick = 0; // when the last animation frame was
-  private drew = false; // and whether it drew a change
-  private isHeld = false; // in full resolution, whatever moves
+  private tick = 0; // time of the last animation frame
+  private drew = false; // whether that frame drew a change
+  private isHeld = false; // full resolution even in motion
 
   constructor(private readonly software: boolean) {
     this.finest = software ? LARGEST : Math.min(devicePixelRatio, LARGEST);
@@ -42,7 +42,7 @@ export class Quality {
     this.now = this.moving;
   }
 
-  /** Pixels drawn per pixel of the page, across and down. */
+  /** Drawn pixels per pixel of the page and direction. */
   get ratio(): number {
     return this.now;
   }
@@ -51,17 +51,17 @@ export class Quality {
     return this.now === this.finest;
   }
 
-  /** Of the resolution of a picture that stands still. */
+  /** The resolution relative to that of a scene at rest. */
   get share(): number {
     return this.now / this.finest;
   }
 
-  /** True while things move, and the machine is too slow to draw them in the resolution of the screen. */
+  /** True while the scene moves and the machine is too slow for the resolution of the screen. */
   get hurries(): boolean {
     return !this.isFull && this.now < Math.min(devicePixelRatio, LARGEST);
   }
 
-  /** All pictures are in full resolution, however long they take; or as usual again. */
+  /** Draws all pictures in full resolution, whatever time they take; or resumes the usual choice. */
   hold(on: boolean): void {
     this.isHeld = on;
     if (on) this.now = this.finest;
@@ -73,14 +73,14 @@ export class Quality {
     if (this.isHeld) return;
     if (this.rested) this.pictures = this.spent = 0;
     if (this.counted < COUNTED) this.disturb(time);
-    this.drew = !this.rested; // the first of a movement says nothing of how long pictures take
+    this.drew = !this.rested; // the first picture of a motion does not tell the drawing time
     if (!this.rested || this.software) this.now = this.moving;
     this.changed = time;
     this.quiet = 0;
     this.rested = false;
   }
 
-  /** Call in an animation frame where nothing has changed. True if it is time for a picture in full resolution. */
+  /** Call in an animation frame without a change. Returns whether a picture in full resolution is due. */
   rest(time: number): boolean {
     this.begin(time);
     if (++this.quiet < QUIET || time - this.changed < this.patience) return false;
@@ -92,14 +92,14 @@ export class Quality {
     return true;
   }
 
-  /** A picture in full resolution sizes the canvas anew, twice, and takes long where processors draw. It does no harm unless a
-   * change has to wait for it: then changes keep coming, and there is none before they have paused for longer. */
+  /** Adapts the waiting time. A picture in full resolution resizes the canvas twice, and is slow in software. It delays
+   * changes that arrive meanwhile; if changes keep arriving, the next one waits for a longer pause. */
   private disturb(time: number): void {
-    this.patience = Math.min(Math.max(2 * this.patience, time - this.full), MOST_PATIENT);
+    this.patience = Math.min(Math.max(2 * this.patience, time - this.full), MAX_WAIT);
     this.counted = COUNTED;
   }
 
-  /** How long a picture takes is the time to the next animation frame, or to one that is later. */
+  /** Measures the time of a picture until the next animation frame, or until a later one. */
   private begin(time: number): void {
     if (this.drew) this.measure(time - this.tick);
     this.tick = time;
@@ -107,7 +107,7 @@ export class Quality {
     if (this.counted < COUNTED && ++this.counted === COUNTED) this.patience = STILL;
   }
 
-  /** The next picture is as coarse as pictures may become. */
+  /** Draws the next picture in the lowest resolution. */
   setLeast(): void {
     this.now = this.least();
     this.changed = performance.now();
@@ -115,7 +115,7 @@ export class Quality {
     this.rested = false;
   }
 
-  /** The next picture is in full resolution. */
+  /** Draws the next picture in full resolution. */
   setFull(): void {
     this.now = this.finest;
   }

@@ -2,48 +2,48 @@ import { ForceArrows } from "./arrows";
 import { find, leaveRoomAbove, make } from "./element";
 import { lengthText } from "./lengths";
 import { runCommand, type RunMessage } from "./messages";
-import { Pulling } from "./pulling";
+import { PerturbationTool } from "./perturbation";
 import type { Shown } from "./shown";
 import type { Stage } from "./stage";
 
-const What = { pause: 1, goOn: 2, step: 3, reset: 4 } as const;
+const Action = { pause: 1, goOn: 2, step: 3, reset: 4 } as const;
 
-/** A simulation that runs in the program: its time, contacts and forces, and buttons to steer it. */
+/** A simulation in the program: its time, contacts and forces, and buttons to control it. */
 export class Run {
   readonly arrows: ForceArrows;
-  readonly pulling: Pulling;
+  readonly perturbation: PerturbationTool;
   private message: RunMessage | null = null;
   private motionIsShown = false;
   private readonly root = find("run");
   private readonly playButton = make("button", { className: "play", onclick: () => this.toggle() });
-  private readonly pullButton = make("button", {
-    textContent: "pull",
-    title: "drag a body, and a spring pulls it to the pointer",
+  private readonly perturbButton = make("button", {
+    textContent: "perturb",
+    title: "drag a body: a spring moves it to the pointer",
     ariaPressed: "false",
-    onclick: () => this.setPulls(!this.pulling.on),
+    onclick: () => this.setPerturbing(!this.perturbation.on),
   });
   private readonly contactsBox = make("input", { type: "checkbox", checked: true, onchange: () => this.draw() });
   private readonly time = make("output", { className: "run-time" });
   private readonly factor = make("output", { className: "run-factor", title: "simulated seconds per second" });
   private readonly scale = make("output", { className: "run-scale" });
-  private readonly steering: HTMLElement[]; // what only a simulation has that people can steer
+  private readonly steering: HTMLElement[]; // shown only for simulations that users can control
 
-  /** `send` is null on a saved page: then nothing can be steered. */
+  /** `send` is null on a saved page, which has no controls. */
   constructor(
     private readonly stage: Stage,
     frames: ReadonlyMap<number, Shown>,
     private readonly send: ((command: Uint8Array<ArrayBuffer>) => void) | null,
   ) {
-    this.pulling = new Pulling(stage, frames, (command) => send?.(command));
+    this.perturbation = new PerturbationTool(stage, frames, (command) => send?.(command));
     this.arrows = new ForceArrows(stage, () => this.showScale());
     stage.scene.add(this.arrows.group);
     leaveRoomAbove(this.root);
-    const ask = (what: number) => (): void => send?.(runCommand(what));
+    const request = (action: number) => (): void => send?.(runCommand(action));
     const buttons = [
       this.playButton,
-      make("button", { textContent: "step", title: "one step of the program's", onclick: ask(What.step) }),
-      make("button", { textContent: "reset", title: "to where it was when it was first shown", onclick: ask(What.reset) }),
-      this.pullButton,
+      make("button", { textContent: "step", title: "one step of the simulation", onclick: request(Action.step) }),
+      make("button", { textContent: "reset", title: "to the state in which it was first shown", onclick: request(Action.reset) }),
+      this.perturbButton,
     ];
     this.steering = [...(send ? buttons : []), this.time, this.factor];
     this.root.append(
@@ -70,7 +70,7 @@ export class Run {
     this.draw();
   }
 
-  /** While a motion is shown, what runs is not. */
+  /** Hides the simulation while a motion is shown. */
   setMotion(shown: boolean): void {
     this.motionIsShown = shown;
     this.draw();
@@ -82,12 +82,12 @@ export class Run {
   }
 
   toggle(): void {
-    if (this.isShown && this.message?.steered) this.send?.(runCommand(this.isPaused ? What.goOn : What.pause));
+    if (this.isShown && this.message?.steered) this.send?.(runCommand(this.isPaused ? Action.goOn : Action.pause));
   }
 
-  private setPulls(on: boolean): void {
-    this.pulling.on = on;
-    this.pullButton.ariaPressed = String(on);
+  private setPerturbing(on: boolean): void {
+    this.perturbation.on = on;
+    this.perturbButton.ariaPressed = String(on);
   }
 
   private draw(): void {
@@ -96,8 +96,8 @@ export class Run {
     document.body.classList.toggle("has-run", this.isShown);
     if (!message || this.motionIsShown) {
       this.arrows.group.visible = false;
-      this.pulling.show([]);
-      if (!message) this.setPulls(false);
+      this.perturbation.show([]);
+      if (!message) this.setPerturbing(false);
       return this.stage.redraw();
     }
     for (const element of this.steering) element.hidden = message.steered === 0;
@@ -109,7 +109,7 @@ export class Run {
     this.arrows.group.visible = this.contactsBox.checked;
     this.arrows.show(message.contacts);
     this.showScale();
-    this.pulling.show(message.pull);
+    this.perturbation.show(message.perturbation);
     this.stage.redraw();
   }
 

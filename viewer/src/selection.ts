@@ -22,7 +22,7 @@ interface Placement {
 
 const wxyz = (q: THREE.Quaternion): number[] => (q.w < 0 ? [-q.w, -q.x, -q.y, -q.z] : [q.w, q.x, q.y, q.z]);
 
-/** The frame that was clicked: its card, a tint, and handles to move it. */
+/** The selected frame: its card, a tint, and handles to move it. */
 export class Selection {
   private id: number | null = null;
   private handles: Handles = null;
@@ -39,7 +39,7 @@ export class Selection {
     private readonly joints: JointPanel,
     private readonly send: ((command: Uint8Array<ArrayBuffer>) => void) | null,
     private readonly onSelect: (id: number | null) => void,
-    private readonly noteOf: (id: number) => string,
+    private readonly warningOf: (id: number) => string,
   ) {
     this.controls = new TransformControls(stage.camera, stage.canvas);
     this.controls.size = 0.8;
@@ -74,7 +74,7 @@ export class Selection {
     this.select(null);
   }
 
-  /** Call when frames have changed; those that move only need `follow`. */
+  /** Call when frames have changed; after mere motion, `follow` is enough. */
   refresh(): void {
     if (this.id !== null && !this.frames.has(this.id)) this.id = null;
     if (this.id === null) this.handles = null;
@@ -103,7 +103,7 @@ export class Selection {
     this.showPoses();
   }
 
-  /** The frame as an entry of a `.g` file, where it is now. */
+  /** Returns the frame as an entry of a `.g` file, with its present pose. */
   asText(): string {
     const shown = this.shown();
     if (!shown) return "";
@@ -133,7 +133,7 @@ export class Selection {
     };
   }
 
-  /** Tints the shape (what has handles keeps its color), and draws the axes of the frame over everything. */
+  /** Tints the shape (a shape with handles keeps its color), and draws the frame's axes over everything. */
   private highlight(): void {
     for (const material of this.tinted) material.emissive.setHex(0);
     this.tinted = [];
@@ -162,7 +162,7 @@ export class Selection {
       button.ariaPressed = String(this.handles === mode);
       return button;
     };
-    const note = this.noteOf(shown.message.id);
+    const warning = this.warningOf(shown.message.id);
     const copy = make("button", { textContent: "copy as .g", onclick: () => this.copy(copy) });
     this.card.replaceChildren(
       make(
@@ -179,7 +179,7 @@ export class Selection {
           : row("in", make("button", { className: "link", textContent: above, onclick: () => this.select(parent) }))),
         ...row("world", make("code", { id: "pose-world" })),
         ...(above === undefined ? [] : row("in parent", make("code", { id: "pose-parent" }))),
-        ...(note === "" ? [] : row("note", make("span", { className: "note", textContent: note }))),
+        ...(warning === "" ? [] : row("warning", make("span", { className: "warning", textContent: warning }))),
         ...(details === ""
           ? []
           : row(
@@ -230,7 +230,7 @@ export class Selection {
     setTimeout(() => (button.textContent = "copy as .g"), 1500);
   }
 
-  /** At most one command per picture. */
+  /** Sends at most one command per picture. */
   private sendMove(): void {
     if (!this.moved || this.id === null || !this.send) return;
     this.moved = false;

@@ -6,19 +6,19 @@ import type { ShapeMessage } from "./messages";
 import type { Pictures, TexturedTriangles } from "./pictures";
 import { PrimitiveMesh, type Primitives } from "./primitives";
 
-/** A mesh as the server sent it: without triangles it is a point cloud. */
+/** A mesh from the server; without triangles it is a point cloud. */
 export interface MeshData {
   geometry: THREE.BufferGeometry;
-  levels: Levels | null; // of triangles that show no pictures
+  levels: Levels | null; // of triangles without images
   isPoints: boolean;
   hasColors: boolean;
   textured: TexturedTriangles[];
 }
 
-/** Of x, y and z. */
+/** Colors of x, y and z. */
 export const AXIS_COLORS = [0xd64545, 0x3f9c4b, 0x3b6fd6] as const;
 
-/** How surfaces reflect. */
+/** Reflection of surfaces. */
 export const SURFACE = { roughness: 0.55, metalness: 0.05 } as const;
 
 const LARGEST_CREASED = 60000; // triangles
@@ -51,7 +51,7 @@ export function makeMeshData(positions: Float32Array, indices: Uint32Array, plac
 
 const coversAll = (textured: TexturedTriangles[], triangles: number): boolean => textured.length === 1 && textured[0]![1] === triangles;
 
-/** Material 0 is for what shows colors, the others are for pictures. */
+/** Material 0 shows colors, the others show images. */
 function addGroups(geometry: THREE.BufferGeometry, textured: TexturedTriangles[], triangles: number): void {
   if (textured.length === 0) return;
   let at = 0;
@@ -63,7 +63,7 @@ function addGroups(geometry: THREE.BufferGeometry, textured: TexturedTriangles[]
   if (at < triangles) geometry.addGroup(3 * at, 3 * (triangles - at), 0);
 }
 
-/** The materials of a mesh: one, or several for its groups. */
+/** Returns the materials of a mesh: one, or one per group. */
 export function materialsOf({ material }: THREE.Mesh): THREE.Material[] {
   return Array.isArray(material) ? material : [material];
 }
@@ -89,7 +89,7 @@ function makePrimitive({ type, size }: ShapeMessage, primitives: Primitives, mat
   return primitives.get(type, size, 0) ? new PrimitiveMesh(primitives, type, size, material) : null;
 }
 
-/** What a frame shows, in the frame's own coordinates; null if there is nothing to see (yet). */
+/** Creates the shape of a frame, in the frame's coordinates; null if nothing is visible (yet). */
 export function makeShape(shape: ShapeMessage, meshes: Map<number, MeshData>, pictures: Pictures, primitives: Primitives): THREE.Object3D | null {
   if (shape.type === "marker" || shape.type === "camera") return marker(shape.size[0] ?? 0.1);
   const [red = 0.8, green = 0.8, blue = 0.8, alpha = 1] = shape.color;

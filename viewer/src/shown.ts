@@ -6,14 +6,14 @@ import { Pictures, type TexturedTriangles } from "./pictures";
 import { PrimitiveMesh, Primitives } from "./primitives";
 import { makeMeshData, makeShape, materialsOf, type MeshData, SURFACE } from "./shapes";
 
-/** A frame: `anchor` has its pose; `object` is the shape on it, if there is something to see. */
+/** A frame: `anchor` has its pose; `object` is its visible shape, if any. */
 export interface Shown {
   message: FrameMessage;
   anchor: THREE.Group;
   object: THREE.Object3D | null;
 }
 
-/** Frees what the graphics card holds of an object; `kept` is a geometry that others use too. */
+/** Frees an object's resources of the graphics card; `kept` is a shared geometry. */
 function release(object: THREE.Object3D, kept: THREE.BufferGeometry | undefined): void {
   object.traverse((part) => {
     if (part instanceof PrimitiveMesh) return part.material.dispose();
@@ -23,7 +23,7 @@ function release(object: THREE.Object3D, kept: THREE.BufferGeometry | undefined)
   });
 }
 
-/** The frames of the scene as three.js objects, kept as the server's messages say. */
+/** The frames of the scene as three.js objects, updated by the server's messages. */
 export class ShownScene {
   private readonly shown = new Map<number, Shown>();
   readonly frames: ReadonlyMap<number, Shown> = this.shown;
@@ -31,15 +31,15 @@ export class ShownScene {
   private readonly primitives = new Primitives();
   private readonly poses = new Map<number, Float32Array>();
 
-  /** While a motion is shown, poses that arrive wait. */
+  /** While a motion is shown, arriving poses wait. */
   held = false;
 
   private readonly instances = new Instances(new THREE.MeshStandardMaterial(SURFACE));
 
   readonly pictures: Pictures;
 
-  /** Frames are added to `parent`, and what is drawn for several of them at once to `scene`. `changed` is called when pictures
-   * that come later change what is seen. */
+  /** Frames are added to `parent`, and objects shared by several frames to `scene`. `changed` is called when images
+   * that arrive later change the picture. */
   constructor(private readonly parent: THREE.Group, scene: THREE.Scene, changed: () => void) {
     scene.add(this.instances.group);
     this.pictures = new Pictures(changed);
@@ -71,7 +71,7 @@ export class ShownScene {
     this.dropUnusedMeshes();
   }
 
-  /** Reads poses, meshes and pictures; false for other messages. */
+  /** Reads poses, meshes and images; returns false for other messages. */
   readBinary(data: ArrayBuffer): boolean {
     const view = new DataView(data);
     const kind = view.getUint32(0, true);
@@ -82,12 +82,12 @@ export class ShownScene {
     return true;
   }
 
-  /** Puts all frames where the last message said. */
+  /** Sets all frames to the poses of the last message. */
   placeAll(): void {
     for (const id of this.shown.keys()) this.place(id);
   }
 
-  /** Call before a picture: shapes are drawn as finely as they are large on it, meshes only if it is to be drawn quickly. */
+  /** Call before a picture: chooses levels of detail by size on the screen; meshes are simplified only if `quickly`. */
   prepare(pixelsPerMeter: (at: THREE.Vector3) => number, quickly: boolean): void {
     const until = deadline();
     for (const { object } of this.shown.values()) {
@@ -102,7 +102,7 @@ export class ShownScene {
     for (let i = 0; i < count; ++i) {
       const at = 8 + 32 * i;
       const id = view.getUint32(at, true);
-      let pose = this.poses.get(id); // thousands of them come many times a second: none is made anew
+      let pose = this.poses.get(id); // thousands arrive many times a second: objects are reused
       if (!pose) this.poses.set(id, (pose = new Float32Array(7)));
       for (let k = 0; k < 7; ++k) pose[k] = view.getFloat32(at + 4 + 4 * k, true);
       if (!this.held) this.place(id);
@@ -146,7 +146,7 @@ export class ShownScene {
     for (const { object } of this.shown.values()) if (object instanceof PrimitiveMesh) yield object;
   }
 
-  /** The server keeps no other meshes than those in use, and counts on the same here. */
+  /** Drops unused meshes; the server assumes that the page does. */
   private dropUnusedMeshes(): void {
     const used = new Set([...this.shown.values()].map((shown) => shown.message.shape?.mesh));
     for (const [number, mesh] of this.meshes) {

@@ -1,12 +1,12 @@
 import * as THREE from "three";
-import { replaceIn, lookOnceForHardShadows } from "./chunks";
+import { replaceIn, checkHardShadowsOnce } from "./chunks";
 import { isSeen } from "./display";
 import { Floor } from "./floor";
 import { Labels } from "./labels";
 import { Lights } from "./lights";
-import type { CameraMessage, LookMessage } from "./messages";
+import type { CameraMessage, AppearanceMessage } from "./messages";
 import { drawsInSoftware, Quality } from "./quality";
-import { FreeTurning } from "./turning";
+import { FreeRotation } from "./rotation";
 import { type Camera, Viewpoint } from "./viewpoint";
 
 /** A point on a shape. */
@@ -18,10 +18,10 @@ export interface Hit {
 
 const SHADOW_PERIOD = 3; // pictures
 const FOG_FROM = 9,
-  FOG_TO = 28; // m, in usual scenes
+  FOG_TO = 28; // m, for usual scenes
 const SMALL = 0.15,
-  LARGE = 8; // m: radii of scenes that the first view does not suit
-/** Towards (0, 0, 0.9). */
+  LARGE = 8; // m: the default view suits scenes with radii in between
+/** Directions towards (0, 0, 0.9). */
 const FIRST_VIEW: CameraMessage = {
   kind: "camera",
   pose: [1.5, 2.6, 1.8, -0.15442, 0.20751, 0.77494, -0.57667],
@@ -35,12 +35,13 @@ const FIRST_VIEW: CameraMessage = {
 const FIRST_DIRECTION = new THREE.Vector3(1.5, 2.6, 0.9);
 const LEFT = 0,
   RIGHT = 2; // buttons
-const STILL = 5; // pixels: a pointer that moves less has clicked
+const STILL = 5; // pixels: a shorter pointer motion is a click
 
 const colorOf = (rgb: number[]): THREE.Color =>
   new THREE.Color().setRGB(rgb[0]!, rgb[1]!, rgb[2]!, THREE.SRGBColorSpace);
 
-/** Colors are shown as they are given; only what is brighter than 0.8 bends towards white, which keeps shades in it. */
+/** Shows colors unchanged, except that values above 0.8 bend towards white, which keeps their shades distinguishable.
+ * */
 function bentAtWhite(): THREE.ToneMapping {
   replaceIn(
     "tonemapping_pars_fragment",
@@ -53,7 +54,7 @@ function bentAtWhite(): THREE.ToneMapping {
   return THREE.CustomToneMapping;
 }
 
-/** Canvas, camera, lights and floor: everything but the scene itself. Draws only when something has changed. */
+/** Canvas, camera, lights and floor: everything but the scene itself. Draws only after changes. */
 export class Stage {
   readonly scene = new THREE.Scene();
   readonly frames = new THREE.Group();
@@ -61,20 +62,20 @@ export class Stage {
   readonly viewpoint: Viewpoint;
   private readonly labels: Labels;
   private readonly floor = new Floor();
-  private ground: THREE.Color | null = null; // behind everything, if the program says so
+  private ground: THREE.Color | null = null; // background color, if the program sets one
   private readonly lights = new Lights();
   private readonly ticks: ((seconds: number) => void)[] = [];
   private readonly moves: (() => void)[] = [];
   private readonly preparations: (() => void)[] = [];
-  private readonly squareWatchers: ((square: number) => void)[] = [];
+  private readonly squareListeners: ((square: number) => void)[] = [];
   private readonly timer = new THREE.Timer();
   private readonly quality: Quality;
   private dirty = true; // the next picture differs from the last
   private shadowsAreOld = true;
   private picture = 0;
-  private ball = new THREE.Sphere(new THREE.Vector3(), 1); // around all that is seen
-  private isPlaced = false; // the camera, by the program or a person
-  private square = 0; // m, of the floor
+  private ball = new THREE.Sphere(new THREE.Vector3(), 1); // around everything visible
+  private isPlaced = false; // the program or a user has set the camera
+  private square = 0; // m, size of the floor's squares
 
   constructor(readonly canvas: HTMLCanvasElement) {
     const software = drawsInSoftware();
@@ -84,7 +85,7 @@ export class Stage {
     this.renderer.shadowMap.autoUpdate = false;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
     this.renderer.toneMapping = bentAtWhite();
-    lookOnceForHardShadows();
+    checkHardShadowsOnce();
     this.labels = new Labels(canvas);
     this.viewpoint = new Viewpoint(
       canvas,
@@ -94,7 +95,7 @@ export class Stage {
         this.moves.forEach((move) => move());
       },
     );
-    new FreeTurning(canvas, this.viewpoint);
+    new FreeRotation(canvas, this.viewpoint);
     this.scene.add(this.lights.group);
     this.scene.add(this.frames, this.floor.group);
     this.viewpoint.set(FIRST_VIEW);
@@ -115,17 +116,17 @@ export class Stage {
     });
   }
 
-  /** Called before every picture with the time since the one before. */
+  /** Registers a listener before every picture; its argument is the time since the previous one. */
   onTick(tick: (seconds: number) => void): void {
     this.ticks.push(tick);
   }
 
-  /** Called before a picture that differs from the last. */
+  /** Registers a listener before pictures that differ from the last. */
   onDraw(prepare: () => void): void {
     this.preparations.push(prepare);
   }
 
-  /** Called when a person has moved the camera. */
+  /** Registers a listener of camera motions by users. */
   onMove(move: () => void): void {
     this.moves.push(move);
   }
@@ -134,7 +135,7 @@ export class Stage {
     return this.viewpoint.camera;
   }
 
-  /** Called when the canvas is clicked, or touched, without a drag. */
+  /** Registers a listener of clicks and taps on the canvas without a drag. */
   onClick(click: (event: PointerEvent) => void, button = LEFT): void {
     let down: PointerEvent | null = null;
     this.canvas.addEventListener("pointerdown", (event) => {
@@ -146,20 +147,20 @@ export class Stage {
     });
   }
 
-  /** As the program says. */
+  /** Sets the program's camera. */
   setCamera(camera: CameraMessage): void {
     this.isPlaced = true;
     this.viewpoint.set(camera);
     this.redraw();
   }
 
-  /** Looks at all that is there from a direction. */
+  /** Views the whole scene from a direction. */
   lookAlong(direction: THREE.Vector3): void {
     this.viewpoint.lookAlong(direction, this.extent());
     this.redraw();
   }
 
-  /** A ball around all that is seen. */
+  /** Returns a ball around everything visible. */
   private extent(): THREE.Sphere {
     this.frames.updateMatrixWorld();
     const box = new THREE.Box3();
@@ -170,12 +171,12 @@ export class Stage {
     return box.getBoundingSphere(new THREE.Sphere());
   }
 
-  /** The camera is where it is meant to be: what comes does not move it. */
+  /** Marks the camera as set: new frames do not move it. */
   keepCamera(): void {
     this.isPlaced = true;
   }
 
-  /** Call when frames have come or gone: what is there is seen and casts shadows, however large or far away it is. */
+  /** Call when frames have been added or removed: adapts camera and shadows to the whole scene. */
   fitScene(): void {
     this.ball = this.extent();
     const { center, radius } = this.ball;
@@ -184,7 +185,7 @@ export class Stage {
     this.redraw();
   }
 
-  /** Range of sight, fog and the floor's squares follow from where the camera is and how far the scene reaches. */
+  /** Adapts the range of sight, fog and the floor's squares to the camera and the size of the scene. */
   private fitView(): void {
     const reach = this.camera.position.distanceTo(this.ball.center) + this.ball.radius;
     this.viewpoint.fitRange(reach);
@@ -195,12 +196,12 @@ export class Stage {
     if (square === this.square) return;
     this.square = square;
     this.floor.setSquare(square);
-    for (const tell of this.squareWatchers) tell(square);
+    for (const listener of this.squareListeners) listener(square);
   }
 
-  /** Called when the floor has other squares; their size in m. */
-  onSquare(tell: (square: number) => void): void {
-    this.squareWatchers.push(tell);
+  /** Registers a listener of the floor's square size, in m. */
+  onSquare(listener: (square: number) => void): void {
+    this.squareListeners.push(listener);
   }
 
   home(): void {
@@ -208,38 +209,38 @@ export class Stage {
     this.redraw();
   }
 
-  /** Draws now, in full resolution. */
+  /** Draws immediately, in full resolution. */
   drawFully(): void {
     this.quality.setFull();
     this.redraw();
     this.draw();
   }
 
-  /** All pictures are in full resolution, as for a video; or as usual again. */
+  /** Draws all pictures in full resolution, as for a video; or resumes the usual choice. */
   holdResolution(on: boolean): void {
     this.quality.hold(on);
     this.redraw();
     this.draw();
   }
 
-  /** Draws now, as on a machine that is slow while things move. */
+  /** Draws immediately, like a slow machine during a motion. */
   drawHurriedly(): void {
     this.quality.setLeast();
     this.redraw();
     this.draw();
   }
 
-  /** Call when anything but the camera has changed. */
+  /** Call after any change except of the camera. */
   redraw(): void {
     this.dirty = this.shadowsAreOld = true;
   }
 
-  /** True if what is on the screen is up to date. */
+  /** Returns whether the screen is up to date. */
   get idle(): boolean {
     return !this.dirty && this.quality.isFull;
   }
 
-  /** What is to be seen at a place of the canvas. */
+  /** Returns the visible point at a place of the canvas. */
   pick(event: MouseEvent): Hit | null {
     const at = new THREE.Vector2(
       (2 * event.offsetX) / this.canvas.clientWidth - 1,
@@ -262,14 +263,14 @@ export class Stage {
     return null;
   }
 
-  /** Colors are rgb in 0..1; [] is the page's own, and a floor of any other length than 3 is none. */
-  setLook(look: LookMessage): void {
-    const { background, floor } = look;
+  /** Sets the appearance. Colors are rgb in 0..1; [] is the page's default, and a floor of length 1 is none. */
+  setAppearance(appearance: AppearanceMessage): void {
+    const { background, floor } = appearance;
     this.ground = background.length === 3 ? colorOf(background) : null;
     this.floor.setColor(floor.length === 3 ? colorOf(floor) : null);
     this.floor.group.visible = floor.length === 0 || floor.length === 3;
-    this.lights.setLook(look.lights, look.flat !== 0, look.shadows !== 0);
-    this.renderer.toneMapping = look.flat !== 0 ? THREE.NoToneMapping : THREE.CustomToneMapping;
+    this.lights.setAppearance(appearance.lights, appearance.flat !== 0, appearance.shadows !== 0);
+    this.renderer.toneMapping = appearance.flat !== 0 ? THREE.NoToneMapping : THREE.CustomToneMapping;
     this.paper();
   }
 
@@ -289,29 +290,29 @@ export class Stage {
     this.redraw();
   }
 
-  /** In every picture, but not on slow machines while things move. */
+  /** Updates shadows in every picture, except on slow machines during motions. */
   private updateShadows(): void {
     if (!this.shadowsAreOld || (!this.quality.isFull && ++this.picture % SHADOW_PERIOD !== 0)) return;
     this.renderer.shadowMap.needsUpdate = true;
     this.shadowsAreOld = false;
   }
 
-  /** Pixels drawn per pixel of the page, across and down. */
+  /** Drawn pixels per pixel of the page and direction. */
   get resolution(): number {
     return this.quality.ratio;
   }
 
-  /** True while things move on a slow machine: what is drawn may be coarse. */
+  /** True while the scene moves on a slow machine: pictures may be coarse. */
   get hurries(): boolean {
     return this.quality.hurries;
   }
 
-  /** Pixels that a meter has at a place. */
+  /** Returns the pixels per meter at a place. */
   pixelsPerMeter(at: THREE.Vector3): number {
     return this.viewpoint.pixelsPerMeter(at, this.canvas.clientHeight * this.renderer.getPixelRatio());
   }
 
-  /** A double click, or one with the right button, turns about the point that was hit from there on. */
+  /** A double click, or a click with the right button, makes the hit point the center of rotation. */
   private focus(event: MouseEvent): void {
     const hit = this.pick(event);
     if (!hit) return;
@@ -319,7 +320,7 @@ export class Stage {
     this.redraw();
   }
 
-  /** Draws if something has changed. */
+  /** Draws if anything has changed. */
   draw(): void {
     if (!this.dirty) return;
     this.dirty = false;

@@ -17,7 +17,7 @@ const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 /** Plays a motion: a bar with a time slider, speed, curves of the joints, and all slices at once. */
 export class Timeline {
   private motion: Motion | null = null;
-  private moment = 0; // slice, and how far to the next
+  private moment = 0; // slice, plus the fraction to the next
   private playing = false;
   private speed = 1;
   private loop = false;
@@ -103,7 +103,7 @@ export class Timeline {
     return this.motion;
   }
 
-  /** Slices before the path have negative numbers. */
+  /** Numbers slices before the path negatively. */
   get slice(): number {
     return this.moment - (this.motion?.message.prefix ?? 0);
   }
@@ -112,7 +112,7 @@ export class Timeline {
     return this.marked.count;
   }
 
-  /** Pairs of shapes that violate a constraint in this slice, and how many of these touch or overlap. */
+  /** Pairs of shapes that violate a constraint in this slice, and the number of them in contact. */
   get pairCount(): { all: number; touching: number } {
     return this.touching.count;
   }
@@ -151,7 +151,7 @@ export class Timeline {
     this.moved();
   }
 
-  /** True if the key was for the motion: arrows step through the slices. */
+  /** Handles the arrow keys, which step through slices; returns whether the key was for the motion. */
   takeKey(key: string): boolean {
     if (!this.motion || (key !== "ArrowLeft" && key !== "ArrowRight")) return false;
     this.step(key === "ArrowLeft" ? -1 : 1);

@@ -1,7 +1,7 @@
 import { make } from "./element";
 import type { Shown } from "./shown";
 
-/** The frames as a tree with a box each that hides a frame and all below it; a click on a name selects it. */
+/** The frames as a tree. A checkbox per frame hides it with all below; a click on its name selects it. */
 export class SceneTree {
   private readonly collapsed = new Set<string>();
   private frames: ReadonlyMap<number, Shown> = new Map();
@@ -23,7 +23,7 @@ export class SceneTree {
     this.fill();
   }
 
-  /** These frames are obstacles that are ignored. */
+  /** Sets the frames of ignored obstacles. */
   mark(ignored: ReadonlySet<number>): void {
     this.ignored = ignored;
     for (const button of this.element.querySelectorAll<HTMLElement>(".frame")) this.markIf(button);
@@ -50,18 +50,18 @@ export class SceneTree {
       const parent = this.frames.has(message.parent) ? message.parent : -1;
       children.set(parent, [...(children.get(parent) ?? []), id]);
     }
-    const wanted = this.search.value.trim().toLowerCase();
-    const found = wanted === "" ? null : this.matches(wanted);
+    const query = this.search.value.trim().toLowerCase();
+    const found = query === "" ? null : this.matches(query);
     const branch = (parent: number): HTMLElement[] =>
       (children.get(parent) ?? [])
         .filter((id) => !found || found.has(id))
         .map((id) => this.item(id, branch(id), found !== null));
     this.element.replaceChildren(...branch(-1));
-    if (this.element.childElementCount === 0) this.element.textContent = wanted ? "no such frame" : "no frames";
+    if (this.element.childElementCount === 0) this.element.textContent = query ? "no such frame" : "no frames";
     this.select(this.selected);
   }
 
-  /** The frames whose name contains the text, and all above them. */
+  /** Returns the frames whose names contain the text, and all above them. */
   private matches(text: string): Set<number> {
     const found = new Set<number>();
     for (const [id, { message }] of this.frames) {
@@ -83,7 +83,7 @@ export class SceneTree {
     frame.dataset.id = String(id);
     this.markIf(frame);
     frame.addEventListener("click", (event) => {
-      event.preventDefault(); // does not fold the branch
+      event.preventDefault(); // keeps the branch unfolded
       this.onSelect(id);
     });
     if (below.length === 0) return make("div", { className: "leaf" }, box, frame);

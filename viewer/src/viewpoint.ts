@@ -6,34 +6,35 @@ export type Camera = THREE.PerspectiveCamera | THREE.OrthographicCamera;
 
 const OWN_FOCAL = 0.5 / Math.tan(THREE.MathUtils.degToRad(20)); // in heights of the picture
 const NEAR = 0.01,
-  FAR = 200; // m, of usual scenes
+  FAR = 200; // m, for usual scenes
 const NEAR_OF_REACH = 0.002,
   NEAR_OF_DISTANCE = 0.02,
-  FAR_OF_REACH = 4; // of scenes that are large or looked at closely
-const DISTANCE = 1.5; // m: of what a page turns about, if it is told nothing
+  FAR_OF_REACH = 4; // for large scenes and close views
+const DISTANCE = 1.5; // m: default distance of the center of rotation
 
-/** The camera's axes are x to the right, y down, z forward, and those of three.js x to the right, y up, z backward. */
+/** Converts between the camera's axes (x right, y down, z forward) and those of three.js (x right, y up, z backward).
+ * */
 const FLIP = new THREE.Quaternion(1, 0, 0, 0);
 
 const fromWxyz = ([w = 1, x = 0, y = 0, z = 0]: number[]): THREE.Quaternion =>
   new THREE.Quaternion(x, y, z, w).normalize();
 
-/** Where the scene is looked at from, in perspective or orthographic, upright or rolled; and how people change that. */
+/** The camera, perspective or orthographic, upright or rolled, and its control by users. */
 export class Viewpoint {
   readonly controls: OrbitControls;
   private readonly perspective = new THREE.PerspectiveCamera(40, 1, NEAR, FAR);
   private readonly orthographic = new THREE.OrthographicCamera(-1, 1, 1, -1, NEAR, FAR);
   private roll = 0; // rad, about the line of sight
   private focal = OWN_FOCAL;
-  private height = 0; // m that an orthographic picture is high; 0: perspective
-  private aspect = 0; // width over height of the picture that is to fit; 0: none
+  private height = 0; // height of an orthographic picture, m; 0: perspective
+  private aspect = 0; // width over height of the picture that must fit; 0: none
   private pageAspect = 1;
   private reach = 0; // m
   private first: CameraMessage | null = null;
-  private given = { near: 0, far: 0 }; // by the program, m; 0: not
-  private readonly watchers: ((camera: Camera) => void)[] = [];
+  private given = { near: 0, far: 0 }; // range set by the program, m; 0: none
+  private readonly listeners: ((camera: Camera) => void)[] = [];
 
-  /** `changed`: the picture is another one. `moved`: a person has moved the camera. */
+  /** `changed`: the picture differs. `moved`: a user has moved the camera. */
   constructor(
     canvas: HTMLCanvasElement,
     changed: () => void,
@@ -43,7 +44,7 @@ export class Viewpoint {
     this.controls = new OrbitControls(this.perspective, canvas);
     const update = this.controls.update.bind(this.controls);
     this.controls.update = (passed) => {
-      const different = update(passed); // upright
+      const different = update(passed); // computed with the upright camera
       this.camera.rotateZ(this.roll);
       return different;
     };
@@ -59,12 +60,12 @@ export class Viewpoint {
     return this.controls.target;
   }
 
-  /** Called with every camera that takes another one's place. */
-  onCamera(watcher: (camera: Camera) => void): void {
-    this.watchers.push(watcher);
+  /** Registers a listener of camera replacements. */
+  onCamera(listener: (camera: Camera) => void): void {
+    this.listeners.push(listener);
   }
 
-  /** As the program says; `home` comes back to it. */
+  /** Sets the program's camera; `home` returns to it. */
   set(given: CameraMessage): void {
     const { pose, distance, focal, ortho, aspect, near, far } = given;
     this.first = given;
@@ -84,8 +85,8 @@ export class Viewpoint {
     this.fit(this.pageAspect);
   }
 
-  /** Turns about the target by a rotation in the camera's own axes, whatever is up then. */
-  turnFreely(rotation: THREE.Quaternion): void {
+  /** Rotates about the target in the camera's own axes, without an upright direction. */
+  rotateFreely(rotation: THREE.Quaternion): void {
     const { position, quaternion } = this.camera;
     const distance = position.distanceTo(this.target),
       turned = quaternion.clone().multiply(rotation);
@@ -93,7 +94,7 @@ export class Viewpoint {
     this.rollTo(turned);
   }
 
-  /** Another focal length, with what is at the target as large as before. Orthographic pictures have none. */
+  /** Changes the focal length while objects at the target keep their size. Not for orthographic pictures. */
   widen(factor: number): void {
     if (this.height > 0) return;
     this.focal *= factor;
@@ -103,27 +104,27 @@ export class Viewpoint {
     this.moved();
   }
 
-  /** Tells that a person has moved the camera. */
-  tell(): void {
+  /** Reports that a user has moved the camera. */
+  notify(): void {
     this.moved();
   }
 
-  /** The camera looks at the target already; it turns about the line of sight until it has that rotation. */
+  /** Rolls the camera, which is already directed to the target, about the line of sight to that rotation. */
   private rollTo(rotation: THREE.Quaternion): void {
     this.roll = 0;
     this.controls.update();
-    const turn = this.camera.quaternion.clone().invert().multiply(rotation);
-    this.roll = 2 * Math.atan2(turn.z, turn.w);
+    const relative = this.camera.quaternion.clone().invert().multiply(rotation);
+    this.roll = 2 * Math.atan2(relative.z, relative.w);
     this.controls.update();
   }
 
-  /** What is seen lies in between, m along the line of sight; 0: so that all of the scene is seen. */
+  /** Sets the visible range, m along the line of sight; 0: the whole scene. */
   private setRange(near: number, far: number): void {
     this.given = { near, far };
     this.fitRange(this.reach);
   }
 
-  /** How far away what is farthest is, m. Call before a picture. */
+  /** Adapts the range to the farthest visible point, m. Call before a picture. */
   fitRange(reach: number): void {
     this.reach = reach;
     const distance = this.camera.position.distanceTo(this.target);
@@ -134,7 +135,7 @@ export class Viewpoint {
     this.camera.updateProjectionMatrix();
   }
 
-  /** Upright, from a place. */
+  /** Sets an upright camera at a position. */
   lookFrom(position: THREE.Vector3, target: THREE.Vector3): void {
     this.roll = 0;
     this.camera.position.copy(position);
@@ -142,19 +143,19 @@ export class Viewpoint {
     this.controls.update();
   }
 
-  /** m, from the camera to what it turns about. */
+  /** Distance from the camera to the center of rotation, m. */
   get distance(): number {
     return this.camera.position.distanceTo(this.target);
   }
 
-  /** The view that `home` comes back to is from a direction, at all of a ball. */
+  /** Sets the view of `home`: from a direction, with a whole ball in the picture. */
   start(direction: THREE.Vector3, ball: THREE.Sphere): void {
     this.aim(direction, ball);
     const { pose, distance } = this.describe();
     if (this.first) this.first = { ...this.first, pose, distance };
   }
 
-  /** A person looks from a direction, at all of a ball. */
+  /** Moves a user's view to a direction, with a whole ball in the picture. */
   lookAlong(direction: THREE.Vector3, ball: THREE.Sphere): void {
     this.aim(direction, ball);
     this.moved();
@@ -172,7 +173,7 @@ export class Viewpoint {
     this.lookFrom(center.clone().addScaledVector(direction.clone().normalize(), distance), center);
   }
 
-  /** Turns about the target, by angles to the right and upwards (rad), and goes nearer by a factor. */
+  /** Rotates about the target, by angles to the right and upwards (rad), and approaches it by a factor. */
   turn(right: number, up: number, nearer: number): void {
     const { position } = this.camera;
     const away = position.clone().sub(this.target);
@@ -187,7 +188,7 @@ export class Viewpoint {
     this.moved();
   }
 
-  /** Turns to a point, and about it from now on. */
+  /** Turns to a point, and makes it the center of rotation. */
   focus(point: THREE.Vector3): void {
     this.target.copy(point);
     this.controls.update();
@@ -199,7 +200,7 @@ export class Viewpoint {
     this.moved();
   }
 
-  /** Call when the page has another shape: width over height. */
+  /** Call when the page's aspect ratio (width over height) has changed. */
   fit(pageAspect: number): void {
     this.pageAspect = pageAspect;
     this.perspective.fov = THREE.MathUtils.radToDeg(2 * Math.atan(this.halfHeight()));
@@ -209,13 +210,13 @@ export class Viewpoint {
     this.camera.updateProjectionMatrix();
   }
 
-  /** Pixels of the page that a meter has at a place, if the page is `height` pixels high. */
+  /** Returns the pixels per meter at a place, for a page of `height` pixels. */
   pixelsPerMeter(at: THREE.Vector3, height: number): number {
     if (this.height > 0) return (height * this.orthographic.zoom) / (this.orthographic.top - this.orthographic.bottom);
     return height / (2 * this.halfHeight() * Math.max(this.camera.position.distanceTo(at), 1e-3));
   }
 
-  /** What the program is told of it. */
+  /** Returns the camera's description for the program. */
   describe(): { pose: number[]; distance: number; focal: number; ortho: number } {
     const { x, y, z, w } = this.camera.quaternion.clone().multiply(FLIP);
     return {
@@ -226,12 +227,12 @@ export class Viewpoint {
     };
   }
 
-  /** Half the height of what is seen a meter away, m. */
+  /** Half the visible height at a distance of one meter, m. */
   private halfHeight(): number {
     return (0.5 / this.focal) * this.spread();
   }
 
-  /** How much more is to be seen from top to bottom so that the picture fits from side to side. */
+  /** Returns the factor by which the visible height grows so that the picture's width fits. */
   private spread(): number {
     return Math.max(1, this.aspect / this.pageAspect);
   }
@@ -239,6 +240,6 @@ export class Viewpoint {
   private use(camera: Camera): void {
     if (this.camera === camera) return;
     this.controls.object = camera;
-    for (const watcher of this.watchers) watcher(camera);
+    for (const listener of this.listeners) listener(camera);
   }
 }

@@ -21,13 +21,13 @@ VectorXd limitsOf(const std::optional<Numbers>& given, const PyConfig& config) {
 
 void makeDiffIk(DiffIk* self, const PyConfig& config, const std::optional<Numbers>& velocity,
                 const std::optional<Numbers>& acceleration, double posture, double damping, bool collisions,
-                double margin, double collision_gain, double range) {
+                double margin, double collision_gain, double influence_distance) {
   DiffIkOptions options;
   options.velocity = limitsOf(velocity, config);
   options.acceleration = limitsOf(acceleration, config);
   options.posture = posture, options.damping = damping;
   options.collisions = collisions, options.margin = margin;
-  options.collision_gain = collision_gain, options.range = range;
+  options.collision_gain = collision_gain, options.influence_distance = influence_distance;
   new (self) DiffIk(config, options);
 }
 
@@ -35,15 +35,15 @@ void makeDiffIk(DiffIk* self, const PyConfig& config, const std::optional<Number
 
 void bindDiffIk(nb::module_& m) {
   nb::enum_<DiffIkStatus>(m, "DiffIkStatus", "How a step of DiffIk ended.")
-      .value("solved", DiffIkStatus::solved, "All limits and distances are kept.")
-      .value("constraints_relaxed", DiffIkStatus::constraints_relaxed,
-             "Some could not be, or an equality; the message says which.");
-  nb::class_<DiffIk>(m, "DiffIk",
-                     "Differential inverse kinematics: joint velocities, step by step, that bring features to their "
-                     "targets within limits of position, velocity and acceleration, without collisions.")
+      .value("solved", DiffIkStatus::solved, "All limits, distances and equalities hold.")
+      .value("constraints_relaxed", DiffIkStatus::constraints_relaxed, "Some could not hold; the message names them.");
+  nb::class_<DiffIk>(
+      m, "DiffIk",
+      "Differential inverse kinematics: computes joint velocities, step by step, that bring features to their "
+      "targets within limits of position, velocity and acceleration, without collisions.")
       .def("__init__", makeDiffIk, "config"_a, "velocity"_a = nb::none(), "acceleration"_a = nb::none(), nb::kw_only(),
            "posture"_a = 1e-4, "damping"_a = 1e-9, "collisions"_a = true, "margin"_a = .01, "collision_gain"_a = .5,
-           "range"_a = .1, docs::diff_ik::make)
+           "influence_distance"_a = .1, docs::diff_ik::make)
       .def(
           "addTask",
           [](DiffIk& ik, const FeatureArgument& feature, const FrameNames& frames, double weight, double gain,
@@ -67,15 +67,15 @@ void bindDiffIk(nb::module_& m) {
       .def(
           "step", [](DiffIk& ik, double dt, bool apply) { return toNumpy(ik.step(dt, apply)); }, "dt"_a,
           "apply"_a = true, docs::diff_ik::step)
-      .def("reset", &DiffIk::reset, "The velocity that accelerations start from becomes zero.")
+      .def("reset", &DiffIk::reset, "Sets the velocity to zero that the next acceleration starts from.")
       .def_prop_ro(
           "velocity", [](const DiffIk& ik) { return toNumpy(ik.velocity()); },
           "dq/dt of the last step, shape (n,), rad/s or m/s.")
       .def_prop_ro("status", &DiffIk::status, "How the last step ended, a DiffIkStatus.")
       .def_prop_ro(
           "message", [](const DiffIk& ik) { return inPython(ik.message()); },
-          "\"\" if all limits and distances are kept; else which gave way, and by how much.")
-      .def_prop_ro("active", &DiffIk::active, "The limits and pairs that hold the last step back, in words.")
+          "\"\" if all limits, distances and equalities hold; else the relaxed ones, and by how much.")
+      .def_prop_ro("active", &DiffIk::active, "Names of the limits and pairs that restrict the last step.")
       .def("__repr__", [](const DiffIk& ik) {
         const std::string message = inPython(ik.message());
         return "<DiffIk" + (message.empty() ? "" : " " + message) + ">";

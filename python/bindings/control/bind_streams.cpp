@@ -13,7 +13,7 @@ namespace kinegraph::python {
 
 namespace {
 
-/// What is called for a pose, under the interpreter lock.
+/// Returns a function of time that computes a pose, with the interpreter lock.
 TargetSource sourceOf(nb::handle given) {
   if (nb::isinstance<TargetFile>(given)) return nb::cast<const TargetFile&>(given);
   if (!nb::hasattr(given, "__call__"))
@@ -56,12 +56,12 @@ void bindStreams(nb::module_& m) {
       .def(
           "__init__", [](TargetFile* self, const PathText& path) { new (self) TargetFile(path.text); }, "path"_a,
           docs::streams::read)
-      .def_prop_ro("duration", &TargetFile::duration, "Time of the last row, s.")
+      .def_prop_ro("duration", &TargetFile::duration, "Time of the last line, s.")
       .def(
           "__call__", [](const TargetFile& targets, double t) { return toNumpy(targets(t)); }, "t"_a,
           docs::streams::pose);
-  nb::class_<Gamepad>(m, "Gamepad",
-                      "The sticks of a gamepad as velocities of a position, through Linux' joystick interface.")
+  nb::class_<Gamepad>(
+      m, "Gamepad", "Reads the sticks of a gamepad as velocity of a position, through the joystick interface of Linux.")
       .def(
           "__init__",
           [](Gamepad* self, const PathText& device, double speed, const std::array<int, 3>& axes) {
@@ -70,7 +70,7 @@ void bindStreams(nb::module_& m) {
           "device"_a = "/dev/input/js0", "speed"_a = .2, "axes"_a = std::array<int, 3>{0, 1, 4}, docs::streams::open)
       .def(
           "velocity", [](Gamepad& gamepad) { return toNumpy(VectorXd(gamepad.velocity())); }, docs::streams::velocity)
-      .def("close", &Gamepad::close, "Closes the device; the sticks stay where they were.");
+      .def("close", &Gamepad::close, "Closes the device; the velocity keeps its last value.");
   m.def("servo", servoFromPython, "ik"_a, "config"_a, "target"_a, "source"_a = nb::none(), nb::kw_only(), "seconds"_a,
         "dt"_a = .005, "show"_a = nb::none(), "realtime"_a = true, docs::streams::servo,
         nb::sig("def servo(ik: DiffIk, config: Config, target: str, source: "

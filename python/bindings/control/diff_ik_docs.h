@@ -4,60 +4,61 @@
 namespace kinegraph::python::docs::diff_ik {
 
 inline constexpr char make[] =
-    R"(For a scene, which it moves and looks at anew in each step; its posture is the one to stay near.
+    R"(Creates a controller of a scene. Each step reads and moves this scene; its current q is the posture.
 
 Args:
-    config: The scene. It is shared: targets and obstacles may move cancellation steps.
-    velocity: Limits of |dq/dt|, one number or shape (n,), rad/s or m/s; None: the model's, as C.getVelocityLimits.
+    config: The scene. It is shared: targets and obstacles may move between steps.
+    velocity: Limits of |dq/dt|, one number or shape (n,), rad/s or m/s; None: those of C.getVelocityLimits.
     acceleration: Limits of |d2q/dt2|, one number or shape (n,), rad/s^2 or m/s^2; None: none.
-    posture: Cost per rad or m from the posture, beside the weights of tasks.
-    damping: Cost of the square of a step.
-    collisions: Keeps the collidable pairs apart that joints move.
+    posture: Cost per rad or m of distance from the posture, beside the weights of tasks.
+    damping: Cost of the squared step.
+    collisions: True keeps collidable pairs apart whose distance depends on joints.
     margin: Least distance of these pairs, m.
     collision_gain: Share of the distance beyond the margin that one step may use up, in (0, 1].
-    range: Pairs farther apart than this are not looked at, m.
+    influence_distance: Pairs farther apart than this have no constraint, m.
 Raises:
-    ArgumentError: A limit or option that is not positive, or limits of another size.)";
+    ArgumentError: A limit or option is not positive, or the limits have another size.)";
 
-inline constexpr char addTask[] = R"(A feature that is to become zero, or its target.
+inline constexpr char addTask[] = R"(Adds a feature that shall become zero, or its target.
 
 Args:
     feature: A symbol of FS, or a function of frames, as for C.eval.
-    frames: Name of the feature's frame, or names of its frames.
-    weight: Multiplies its rows, beside other tasks and the posture.
-    gain: Share of the error that one step takes away, in (0, 1].
-    target: What it is to become, one number or one per row; None: zero.
-    priority: Tasks of a higher priority number have what those of lower ones leave open; the posture comes last.
+    frames: Name of the frame of the feature, or names of its frames.
+    weight: Multiplies the components of the feature, beside other tasks and the posture.
+    gain: Share of the error that one step removes, in (0, 1].
+    target: Target of the feature, one number or one per component; None: zero.
+    priority: Tasks with a higher number only use directions that lower numbers leave free; the posture comes last.
 Returns:
-    Number of the task, for setTarget.
+    Index of the task, for setTarget.
 Raises:
     ArgumentError: The frames do not fit the feature, it needs several configurations, or gain is out of range.
-    FrameNotFound: A frame that is not in the scene.)";
+    FrameNotFound: A frame is not in the scene.)";
 
-inline constexpr char addEquality[] = R"(A feature that must become zero, or its target, before all tasks.
+inline constexpr char addEquality[] = R"(Adds a feature that must become zero, or its target, before all tasks.
 
-Limits and distances are kept all the same: where they forbid it, it gives way as little as possible, and message says so.
+Limits and distances still hold. If they forbid the equality, it is relaxed as little as possible, and message reports
+it.
 
 Args:
     feature: A symbol of FS, or a function of frames, as for C.eval.
-    frames: Name of the feature's frame, or names of its frames.
-    gain: Share of the error that one step takes away, in (0, 1].
-    target: What it is to become, one number or one per row; None: zero.
+    frames: Name of the frame of the feature, or names of its frames.
+    gain: Share of the error that one step removes, in (0, 1].
+    target: Target of the feature, one number or one per component; None: zero.
 Returns:
-    Number of the task, for setTarget.
+    Index of the task, for setTarget.
 Raises:
     ArgumentError: The frames do not fit the feature, it needs several configurations, or gain is out of range.
-    FrameNotFound: A frame that is not in the scene.)";
+    FrameNotFound: A frame is not in the scene.)";
 
-inline constexpr char setTarget[] = R"(Changes what the feature of a task is to become.
+inline constexpr char setTarget[] = R"(Sets the target of a task or equality.
 
 Args:
-    task: Its number, from addTask.
-    target: One number, or one per row.
+    task: Index of the task, from addTask.
+    target: One number, or one per component.
 Raises:
     ArgumentError: There is no such task, or the target has another size.)";
 
-inline constexpr char setPosture[] = R"(Changes the posture to stay near.
+inline constexpr char setPosture[] = R"(Sets the configuration that the nullspace of the tasks moves to.
 
 Args:
     q: Shape (n,), rad or m.
@@ -66,12 +67,12 @@ Raises:
 
 inline constexpr char step[] = R"(Computes the velocity for the next dt seconds, and moves the scene by it.
 
-Limits and contradictions raise no error: from beyond a limit it goes back as fast as velocities allow, and distances that
-cannot be kept give way as little as possible; then status is constraints_relaxed, and message says which.
+Limits never raise an error: from beyond a limit the joint returns as fast as velocities allow. Distances that cannot
+hold are relaxed as little as possible; status is then constraints_relaxed, and message names them.
 
 Args:
     dt: Length of the step, s.
-    apply: False leaves the scene as it is.
+    apply: False does not move the scene.
 Returns:
     dq/dt, shape (n,), rad/s or m/s.
 Raises:

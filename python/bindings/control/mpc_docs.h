@@ -4,66 +4,78 @@
 namespace kinegraph::python::docs::mpc {
 
 inline constexpr char make[] =
-    R"(For a motion problem, of which it takes a copy. Slice t lies (t + 1) tau after a call, and its objectives stay where
-they are in the horizon: one at the last slice is a terminal one.
+    R"(Copies a motion problem. Slice t lies (t + 1) tau after a call, and objectives keep their slices: an objective at the
+last slice is a terminal one.
 
 Args:
-    komo: The problem, of order 1 or 2. Its path is where the first call starts.
-    evaluations: Most of them in a call, at least 2: one step.
-    microseconds: After which a call makes no further step; 0: any time.
-    first_evaluations: Most of them in the first call, which knows nothing and has no other budget.
-    tolerance: A step with no larger entry ends a call, rad or m.
-    violation: Violation of a scaled constraint that counts as none.
-    penalty: First weight of the squares of constraints.
-    receding: False: the end stays where it is in time; past slices are given, mode switches come nearer.
+    komo: The problem, of order 1 or 2. Its path is the initial guess of the first call.
+    evaluations: Budget of a call, at least 2: one step.
+    microseconds: A call makes no further step after this time; 0: no limit.
+    first_evaluations: Budget of the first call, which has no initial guess and no limit of time.
+    tolerance: A step without larger entries ends a call, rad or m.
+    violation: Largest accepted violation of a scaled constraint.
+    penalty: Initial weight of the squares of constraints.
+    receding: False fixes the end of the horizon in time: past slices are constant, mode switches come nearer.
 Raises:
-    ArgumentError: An option that makes no sense, a problem of order 0, addFreeMotion, or mode switches that cannot recede.)";
+    ArgumentError: An option is invalid, the order is 0, the problem has addFreeMotion, or a receding horizon has mode
+        switches.)";
 
-inline constexpr char setPoses[] = R"(Where a frame will be that no joint moves, with what hangs below it.
+inline constexpr char setPoses[] =
+    R"(Sets the predicted poses of a frame that no joint moves, and of the frames below it.
 
 Args:
     frame: Its name.
-    poses: A row per slice, or one for all: shape (T, 7), x y z in m and qw qx qy qz, or (T, 3), position alone.
+    poses: One row per slice, or one for all: shape (T, 7), x y z in m and qw qx qy qz, or (T, 3), position only.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: Joints move the frame or hang below it, or the shape does not fit.)";
+    ArgumentError: Joints move the frame or are below it, or poses has another shape.)";
 
 inline constexpr char updateRootObjects[] =
-    R"(Puts all frames that no joint moves, in all slices, to where they are in a scene.
+    R"(Sets all frames that no joint moves, in all slices, to their poses in a scene.
 
 Args:
-    config: With the frames and joints of the scene that the problem was made from.
+    config: Scene with the frames and joints of the problem.
 Raises:
-    ArgumentError: It has other frames or joints.)";
+    ArgumentError: The scene has other frames or joints.)";
 
-inline constexpr char setTarget[] = R"(Changes the target of an objective.
+inline constexpr char setTarget[] = R"(Sets the target of an objective.
 
 Args:
-    objective: Its number, in the order in which objectives were added, from 0.
-    targets: A row per slice of the objective, or one for all, of the feature's numbers.
+    objective: Its index, in the order of addObjective, from 0.
+    targets: One row of feature components per slice of the objective, or one row for all.
 Raises:
-    ArgumentError: There is no such objective, the shape does not fit, or the feature is an orientation by a quaternion.)";
+    ArgumentError: There is no such objective, targets has another shape, or the feature is an orientation by a
+        quaternion.)";
 
-inline constexpr char step[] = R"(Finds the motion from the measured state on.
+inline constexpr char step[] = R"(Computes the motion from the measured state.
 
-Path and multipliers of the last call are moved on by dt. Not converging is a status: the motion that was found so far
-stands, and the result says how good it is.
+The call shifts path and multipliers of the last call by dt. Not converging is a status: the motion so far stays valid,
+and the result describes its quality.
 
 Args:
-    q: Measured, shape (n,), rad or m.
+    q: Measured configuration, shape (n,), rad or m.
     velocity: Measured dq/dt, shape (n,), rad/s or m/s.
-    dt: Since the last call, s; None: one slice. The first call counts none.
+    dt: Time since the last call, s; None: one slice. The first call ignores it.
 Returns:
     A MpcResult.
 Raises:
-    ArgumentError: Numbers that do not fit or are not finite; nothing has changed then.)";
+    ArgumentError: An array has another size or entries that are not finite; nothing changes then.)";
 
 inline constexpr char at[] =
-    R"(The motion that the last call found, a cubic cancellation slices. After its end it rests there.
+    R"(Evaluates the motion of the last call: cubic between slices, at rest after the end.
 
 Args:
-    time: After the last call, s.
+    time: Time after the last call, s.
 Returns:
     q and dq/dt, shape (n,) each.)";
+
+inline constexpr char horizon[] = R"(Samples the motion of the last call, from the time of that call to its end.
+
+Args:
+    rate: Samples per second, Hz.
+Returns:
+    Times (T,) in s, q (T, n) and dq/dt (T, n).
+Raises:
+    ArgumentError: rate is not positive.)";
 
 }  // namespace kinegraph::python::docs::mpc

@@ -4,10 +4,10 @@
 namespace kinegraph::python::docs::streams {
 
 inline constexpr char target_file[] =
-    R"(Poses at times, from a text file: rows of t x y z, or t x y z qw qx qy qz, in s and m.
+    R"(A sequence of timed poses from a text file: lines of t x y z, or t x y z qw qx qy qz, in s and m.
 
-Numbers are separated by commas; empty lines, lines that begin with # and a header are left out. Between rows positions
-go straight and rotations turn evenly; before the first and after the last row the pose stays.)";
+Commas separate the numbers. Empty lines, lines that begin with # and a header are ignored. Between lines, positions are
+interpolated linearly and rotations spherically; before the first and after the last line the pose is constant.)";
 
 inline constexpr char read[] = R"(Reads the file.
 
@@ -15,9 +15,9 @@ Args:
     path: The file.
 Raises:
     FileError: It cannot be read.
-    ParseError: A row is not as expected; says where.)";
+    ParseError: A line has another format; the message has its place.)";
 
-inline constexpr char pose[] = R"(The pose at a time.
+inline constexpr char pose[] = R"(Returns the pose at a time.
 
 Args:
     t: Time, s.
@@ -28,31 +28,31 @@ inline constexpr char open[] = R"(Opens the device.
 
 Args:
     device: Its file.
-    speed: Of the position where a stick is at its end, m/s.
-    axes: Which axes of the gamepad move x, y and z; y and z against the sticks, which count downwards.
+    speed: Speed of the position for a stick at its end, m/s.
+    axes: Axes of the gamepad that move x, y and z; y and z have the opposite sign, because sticks count downwards.
 Raises:
     FileError: It cannot be opened.)";
 
-inline constexpr char velocity[] = R"(Takes in what has happened since.
+inline constexpr char velocity[] = R"(Reads all events since the last call.
 
 Returns:
-    Where the sticks push, m/s, shape (3,).)";
+    Velocity of the position, m/s, shape (3,).)";
 
 inline constexpr char servo[] =
-    R"(Steps a DiffIk while its target moves: with a file, a gamepad, a function, or the handle in the browser.
+    R"(Steps a DiffIk while its target moves: by a file, a gamepad, a function, or the handle in the browser.
 
 Args:
-    ik: With a task at the target.
+    ik: A DiffIk with a task at the target.
     config: Its scene.
     target: Name of the frame that moves.
-    source: A TargetFile or a function of the time in s, that gives a position or a pose; a Gamepad; or None: the frame
-        stays where people put it in the browser.
-    seconds: How long.
+    source: A TargetFile, or a function of the time in s that returns a position or a pose; a Gamepad; or None: people
+        move the frame in the browser.
+    seconds: Duration, s.
     dt: Length of a step, s.
-    show: Shows the scene thirty times a second; None: without a source, as people drag it there.
-    realtime: Waits so that steps come as time goes on; else as fast as they can.
+    show: True shows the scene thirty times a second; None: only without a source.
+    realtime: True waits, so that steps follow the clock; False steps as fast as possible.
 Raises:
-    ArgumentError: seconds or dt is not positive, or the source gives no pose.
+    ArgumentError: seconds or dt is not positive, or the source returns no pose.
     FrameNotFound: There is no such frame.)";
 
 }  // namespace kinegraph::python::docs::streams

@@ -1,36 +1,33 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 
-#include <chrono>
-
 #include "bindings.h"
 #include "ik/ik_docs.h"
 #include "ik/ik_objects.h"
 #include "ik/ik_targets.h"
 #include "kinegraph/common/errors.h"
+#include "kinegraph/common/stopwatch.h"
 #include "kinegraph/common/text.h"
 
 namespace kinegraph::python {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-/// Checks for Ctrl-C and shows the progress of a search that runs without the interpreter lock.
-class Watch {
+/// Draws a progress bar while a search runs without the interpreter lock.
+class ProgressBar {
  public:
-  Watch(std::size_t total, int verbose) : total_(total), verbose_(verbose), start_(Clock::now()) {}
+  ProgressBar(std::size_t total, int verbose) : total_(total), verbose_(verbose) {}
 
-  bool operator()(int done) {
-    if (check_.checkIfDue() && verbose_ > 0 && total_ > 1 && seconds() > .5) draw(done);
-    return false;
+  /// Called often; draws and checks for Ctrl-C now and then.
+  void operator()(const Progress& progress) {
+    if (check_.checkIfDue() && verbose_ > 0 && total_ > 1 && seconds() > .5) draw(progress.done);
   }
 
   void finish() {
     if (drawn_) draw(int(total_));
   }
 
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  double seconds() const { return stopwatch_.seconds(); }
 
  private:
   void draw(int done) {
@@ -41,7 +38,7 @@ class Watch {
 
   std::size_t total_;
   int verbose_;
-  Clock::time_point start_;
+  Stopwatch stopwatch_;
   CheckInterrupts check_;
   bool drawn_ = false;
 };
@@ -55,16 +52,16 @@ nb::object solve(PyConfig& config, nb::handle targets, const std::optional<IkOpt
     throw ValueError(cat("solveIk: apply needs a single problem; the targets define ", problems.problems.size()));
   if (options.collisions) warnOfContacts(config);
   const IkSolver solver(config, problems.problems[0], options);
-  Watch watch(problems.problems.size(), verbose);
+  ProgressBar bar(problems.problems.size(), verbose);
   IkResults results;
   {
     const nb::gil_scoped_release unlock;
-    results = solver.solve(std::move(problems.problems), threads, std::ref(watch));
-    watch.finish();
+    results = solver.solve(std::move(problems.problems), threads, std::ref(bar));
+    bar.finish();
   }
   if (verbose > 0)
     nb::print(
-        cat("solveIk: ", problems.is_batch ? resultsText(results) : resultText(results[0]), " ", watch.seconds(), " s")
+        cat("solveIk: ", problems.is_batch ? resultsText(results) : resultText(results[0]), " ", bar.seconds(), " s")
             .c_str());
   if (problems.is_batch) return nb::cast(std::move(results));
   if (apply && results[0].feasible()) config.setJointState(results[0].q);

@@ -51,19 +51,6 @@ std::optional<Plan> nextPlan(PyPlanSearch& self) {
   return actionWords(self.ground(), *plan);
 }
 
-const char* statusName(const PyPlanSearch& self) {
-  switch (self.search->status()) {
-    case PlanSearch::Status::found:
-      return "found";
-    case PlanSearch::Status::exhausted:
-      return "exhausted";
-    case PlanSearch::Status::limit:
-      return "limit";
-    default:
-      return "cancelled";
-  }
-}
-
 std::vector<Words> states(const PyPlanSearch& self, const Plan& plan) {
   std::vector<Words> out;
   for (const std::vector<Literal>& state : statesAlong(self.ground(), actionNumbers(self.ground(), plan)))
@@ -85,8 +72,9 @@ void makeSearch(PyPlanSearch* self, const LogicProblem& problem, long most) {
 }
 
 void bindDomain(nb::module_& m) {
-  nb::class_<LogicDomain>(m, "Domain", "Actions and rules in logic, and the words that they are made of.")
-      .def(nb::init<>(), "Without actions.")
+  nb::class_<LogicDomain> domain(m, "Domain", "Actions and rules in logic, with their predicates and constants.");
+  bindDomainCopies(domain);
+  domain.def(nb::init<>(), "Makes a domain without actions.")
       .def_static(
           "fromFol", [](const PathText& file) { return readFolFile(file.text); }, "file"_a, docs::logic::fromFol)
       .def_static(
@@ -147,8 +135,13 @@ void bindProblem(nb::module_& m) {
 void bindLogic(nb::module_& m) {
   bindDomain(m);
   bindProblem(m);
-  nb::class_<PyPlanSearch>(m, "PlanSearch", "Plans of a problem in logic, the shortest first.")
-      .def("__init__", makeSearch, "problem"_a, "maxExpansions"_a = 2000000, docs::logic::search)
+  nb::class_<PyPlanSearch> search(m, "PlanSearch", "Enumerates the plans of a problem in logic, the shortest first.");
+  nb::enum_<PlanSearch::Status>(m, "PlanSearchStatus", "How the last search for a plan ended.")
+      .value("found", PlanSearch::Status::found)
+      .value("exhausted", PlanSearch::Status::exhausted)
+      .value("limit", PlanSearch::Status::limit)
+      .value("cancelled", PlanSearch::Status::cancelled);
+  search.def("__init__", makeSearch, "problem"_a, "max_expansions"_a = 2000000, docs::logic::search)
       .def("next", nextPlan, docs::logic::next)
       .def("forbid", forbid, "action"_a, "facts"_a = "", docs::logic::forbid)
       .def(
@@ -156,7 +149,9 @@ void bindLogic(nb::module_& m) {
           [](PyPlanSearch& s, const Plan& plan) { s.search->forbidBeginning(actionNumbers(s.ground(), plan)); },
           "actions"_a, docs::logic::forbidBeginning)
       .def("states", states, "actions"_a, docs::logic::states)
-      .def_prop_ro("status", statusName, "How the last next() ended: found, exhausted, limit or cancelled.")
+      .def_prop_ro(
+          "status", [](const PyPlanSearch& s) { return s.search->status(); },
+          "How the last next() ended, a PlanSearchStatus.")
       .def_prop_ro(
           "expansions", [](const PyPlanSearch& s) { return s.search->expansions(); }, "States expanded so far.")
       .def_prop_ro(

@@ -1,25 +1,25 @@
 #pragma once
 
-/// The manual of what bind_logic.cpp binds.
+/// Docstrings of bind_logic.cpp.
 namespace kinegraph::python::docs::logic {
 
-// What several of them say.
+// Shared parts.
 #define KINEGRAPH_OF_FILE               \
   "Args:\n"                             \
-  "    file: Its name.\n"               \
+  "    file: Name of the file.\n"       \
   "Returns:\n"                          \
   "    The domain.\n"                   \
   "Raises:\n"                           \
   "    FileError: It cannot be read.\n" \
-  "    ParseError: It is wrong; the message begins with file:line:column."
+  "    ParseError: The file is invalid; the message begins with file:line:column."
 #define KINEGRAPH_OF_TEXT              \
   "Args:\n"                            \
   "    text: The text.\n"              \
-  "    name: What messages call it.\n" \
+  "    name: Its name in messages.\n"  \
   "Returns:\n"                         \
   "    The domain.\n"                  \
   "Raises:\n"                          \
-  "    ParseError: It is wrong; the message begins with name:line:column."
+  "    ParseError: The text is invalid; the message begins with name:line:column."
 
 inline constexpr char fromFol[] = R"(Reads a domain from a .fol file.
 
@@ -38,31 +38,31 @@ inline constexpr char fromPddlText[] =
 
 )" KINEGRAPH_OF_TEXT;
 
-inline constexpr char toPddl[] = R"(The domain in PDDL.
+inline constexpr char toPddl[] = R"(Writes the domain in PDDL.
 
 Returns:
     The text.
 Raises:
-    ArgumentError: It has rules that fire by themselves, or ANY.)";
+    ArgumentError: The domain has automatic rules, or ANY.)";
 
-inline constexpr char addAction[] = R"(Adds an action. Words that are not known yet become symbols.
+inline constexpr char addAction[] = R"(Adds an action. Unknown words become symbols.
 
 Args:
     name: Its name.
     variables: Names of its variables; a plan has their values in this order.
-    pre: Literals that must hold, (on Place Obj) (busy Hand)! for example.
-    eff: What it makes true or, with !, false, in this order.
+    pre: Literals that must hold, as (on Place Obj) (busy Hand)!.
+    eff: Literals that the action makes true or, with !, false, in this order.
 Raises:
-    ParseError: The literals are wrong, or no literal that has to hold has a variable.)";
+    ParseError: A literal is invalid, or no positive literal of the precondition has a variable.)";
 
-inline constexpr char problem[] = R"(A problem of a domain.
+inline constexpr char problem[] = R"(Makes a problem of a domain.
 
 Args:
     domain: The domain.
-    start: Literals that hold at the start, besides those of the domain, (on table cup) for example.
-    goal: Literals that shall hold, or with ! not hold.
+    start: Initial facts in addition to those of the domain, as (on table cup).
+    goal: Literals that shall hold or, with !, not hold.
 Raises:
-    ParseError: The literals are wrong.)";
+    ParseError: A literal is invalid.)";
 
 inline constexpr char problemFromPddl[] = R"(Reads a problem from a PDDL file.
 
@@ -73,64 +73,64 @@ Returns:
     The problem.
 Raises:
     FileError: It cannot be read.
-    ParseError: It is wrong; the message begins with file:line:column.)";
+    ParseError: The file is invalid; the message begins with file:line:column.)";
 
-inline constexpr char problemToPddl[] = R"(The problem in PDDL.
+inline constexpr char problemToPddl[] = R"(Writes the problem in PDDL.
 
 Returns:
     The text.
 Raises:
-    ArgumentError: It has ANY.)";
+    ArgumentError: The problem has ANY.)";
 
-inline constexpr char search[] = R"(Searches the plans of a problem, the shortest first.
+inline constexpr char search[] = R"(Prepares the enumeration of the plans of a problem, the shortest first.
 
 Args:
     problem: The problem.
-    maxExpansions: Effort: how many states are expanded in all, at most.
+    max_expansions: Maximum number of states that are expanded.
 Raises:
-    ParseError: A word of the goal is nowhere else, or a predicate has different numbers of arguments.
+    ParseError: A word of the goal is unknown, or a predicate has inconsistent numbers of arguments.
     ArgumentError: There are too many actions.)";
 
-inline constexpr char next[] = R"(The next plan.
+inline constexpr char next[] = R"(Returns the next plan.
 
 Returns:
-    A list of actions, each a list of words: its name and the values of its variables. None where there is no further
-    one (status 'exhausted': this is proved), or where effort ended (status 'limit').
+    A list of actions, each a list of words: its name and the values of its variables. None if there is no further plan
+    (PlanSearchStatus.exhausted, a proof), or if the search reached its limit (PlanSearchStatus.limit).
 Raises:
     KeyboardInterrupt: Ctrl-C was pressed.)";
 
 inline constexpr char forbid[] =
-    R"(Makes an action impossible in all states where some facts hold, in plans from now on.
+    R"(Forbids an action in all states in which some facts hold, in further plans.
 
 Args:
     action: Its words.
-    facts: Literals, (on table cup) for example; none: it is never possible.
+    facts: Literals, as (on table cup); none: the action is always forbidden.
 Raises:
-    ArgumentError: There is no such action, or a fact that can never hold.)";
+    ArgumentError: The action is unknown, or a fact can never hold.)";
 
-inline constexpr char forbidBeginning[] = R"(No further plan begins with these actions.
+inline constexpr char forbidBeginning[] = R"(Excludes further plans that begin with these actions.
 
 Args:
     actions: A list of actions, each a list of words.
 Raises:
-    ArgumentError: There is no such action.)";
+    ArgumentError: An action is unknown.)";
 
-inline constexpr char states[] = R"(The states that a sequence of actions goes through, the start first.
+inline constexpr char states[] = R"(Returns the states along a sequence of actions, the initial state first.
 
 Args:
     actions: A list of actions, each a list of words.
 Returns:
     A list of states, each a list of literals.
 Raises:
-    ArgumentError: There is no such action, or it is not possible then.)";
+    ArgumentError: An action is unknown, or its precondition does not hold.)";
 
 inline constexpr char sceneFacts[] =
-    R"(What a scene says in logic: the words of frames with `logical: { ... }`, objects, and what is on what.
+    R"(Returns the facts of a scene: labels of frames with `logical: { ... }`, objects, and their places.
 
 Args:
     C: The scene.
 Returns:
-    Literals, (on table cup) for example.)";
+    Literals, as (on table cup).)";
 
 #undef KINEGRAPH_OF_FILE
 #undef KINEGRAPH_OF_TEXT

@@ -17,7 +17,7 @@ struct PathResult : SolverResult {
   Eigen::Index rows = 0;
 };
 
-/// The finder, and the scene that it reads.
+/// The finder, with a reference to the scene that it reads.
 struct PyPathFinder : PathFinder {
   nb::object scene;
 };
@@ -27,18 +27,18 @@ const OptionClass<PathFinderOptions>& finderOptionClass() {
   return options;
 }
 
-PyPathFinder& setOptions(PyPathFinder& finder, nb::kwargs given) {
+PyPathFinder& setOptions(PyPathFinder& finder, nb::kwargs values) {
   PathFinderOptions options = finder.options();
-  finderOptionClass().setFields(options, given);
+  finderOptionClass().setFields(options, values);
   finder.setOptions(options);
   return finder;
 }
 
 /// One joint vector, flat or the only row of a nested list.
-VectorXd oneState(const Numbers& given, const char* what) {
-  if (given.rank == 1 || (given.rank == 2 && given.rows == 1)) return given.values;
+VectorXd oneState(const Numbers& state, const char* what) {
+  if (state.rank == 1 || (state.rank == 2 && state.rows == 1)) return state.values;
   throw ValueError(cat("setStartGoal: ", what,
-                       given.rank == 2 ? cat(" has ", given.rows, " rows") : " is no joint vector",
+                       state.rank == 2 ? cat(" has ", state.rows, " rows") : " is no joint vector",
                        "; expected one joint vector, (n,) or (1, n)"));
 }
 
@@ -50,7 +50,7 @@ PyPathFinder& setStartGoal(PyPathFinder& finder, const Numbers& start, const Num
 PyPathFinder& setProblem(PyPathFinder& finder, nb::object scene, const std::optional<Numbers>& start,
                          const std::optional<Numbers>& goal) {
   if (start.has_value() != goal.has_value())
-    throw ValueError(cat("setProblem: only ", start ? "q0" : "qT", " is given; expected both q0 and qT, or none"));
+    throw ValueError(cat("setProblem: only ", start ? "q0" : "qT", " was passed; expected both q0 and qT, or none"));
   finder.setProblem(nb::cast<const PyConfig&>(scene));
   finder.scene = scene;
   return start ? setStartGoal(finder, *start, *goal) : finder;
@@ -66,7 +66,7 @@ PyPathFinder& setPairs(PyPathFinder& finder, const std::vector<std::string>& nam
 }
 
 int viewFinder(PyPathFinder& finder, bool pause, const std::optional<std::string>& message, bool) {
-  if (finder.path().rows() == 0) throw ValueError("PathFinder.view: there is no path; call solve before");
+  if (finder.path().rows() == 0) throw ValueError("PathFinder.view: there is no path; call solve first");
   const double seconds = std::max(1., .05 * double(finder.path().rows()));
   return nb::cast<int>(finder.scene.attr("view_path")(toNumpy(finder.path()), seconds, pause, message));
 }
@@ -76,17 +76,13 @@ PathResult solve(PyPathFinder& finder, int verbose) {
   const std::uint64_t seed = defaults().seed;
   {
     const nb::gil_scoped_release unlock;
-    CheckInterrupts check;
-    static_cast<SolverResult&>(result) = finder.solve(seed, [&] {
-      check();
-      return false;
-    });
+    static_cast<SolverResult&>(result) = finder.solve(seed, CheckInterrupts());
     result.rows = finder.path().rows();
   }
   verbose = std::max(verbose, finder.options().verbose);
   if (verbose > 0)
-    nb::print(cat("RRT_PathFinder: ", result.feasible ? cat("path of ", finder.path().rows(), " postures, ") : "",
-                  inPython(result.message), ", ", result.evals, " draws, ", result.time, " s")
+    nb::print(cat("RRT_PathFinder: ", result.feasible ? cat("path of ", finder.path().rows(), " configurations, ") : "",
+                  inPython(result.message), ", ", result.evals, " samples, ", result.time, " s")
                   .c_str());
   if (verbose > 1 && result.feasible) viewFinder(finder, true, result.message, true);
   return result;
@@ -96,7 +92,7 @@ PathResult solve(PyPathFinder& finder, int verbose) {
 
 void bindPathFinder(nb::module_& m) {
   using Finder = PyPathFinder;
-  nb::class_<PathResult, SolverResult>(m, "PathReturn", "How the search of a path ended.")
+  nb::class_<PathResult, SolverResult>(m, "PathReturn", "The outcome of a path search.")
       .def_prop_ro(
           "x",
           [](const PathResult& r) {
@@ -108,7 +104,7 @@ void bindPathFinder(nb::module_& m) {
           "The path, shape (K, n), rad or m; (0, 0) if there is none.")
       .def_prop_ro(
           "feasible", [](const PathResult& r) { return r.feasible; },
-          "There is a path, and it is free at all times: no pair overlaps by more than collisionTolerance.")
+          "There is a path; it is continuously collision-free: no pair penetrates by more than collisionTolerance.")
       .def("__getstate__",
            [](const PathResult& r) {
              const SolverResult base = r;

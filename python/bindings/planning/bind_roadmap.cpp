@@ -21,22 +21,18 @@ namespace {
 
 namespace lines = docs::path_lines;
 
-/// A map, and the scene that it is of, as it was given.
+/// A roadmap with a copy of its scene.
 struct PyRoadmap : Roadmap {
   PyRoadmap(std::shared_ptr<const Config> scene, double margin, std::uint64_t seed)
       : Roadmap(*scene, margin, seed), config(std::move(scene)) {}
   std::shared_ptr<const Config> config;
 };
 
-/// Runs without the interpreter lock, and looks for Ctrl-C.
+/// Runs without the interpreter lock; Ctrl-C interrupts.
 template <class Work>
 auto watched(const Work& work) {
   const nb::gil_scoped_release unlock;
-  CheckInterrupts check;
-  return work([&] {
-    check();
-    return false;
-  });
+  return work(CheckInterrupts());
 }
 
 RoadmapPath findPath(PyRoadmap& map, const Numbers& start, const Numbers& goal) {
@@ -62,20 +58,22 @@ void setMapState(PyRoadmap& map, const nb::tuple& state) {
 }  // namespace
 
 void bindRoadmap(nb::module_& m) {
-  nb::class_<RoadmapPath>(m, "RoadmapPath", "What a Roadmap answers.")
-      .def_prop_ro("feasible", &RoadmapPath::feasible, "True if there is a path. It is free at all times.")
+  nb::class_<RoadmapPath>(m, "RoadmapPath", "The answer of Roadmap.findPath.")
+      .def_prop_ro("feasible", &RoadmapPath::feasible, "True if there is a path; it is continuously collision-free.")
       .def_prop_ro(
-          "path", [](const RoadmapPath& a) { return toNumpy(a.path); }, "Postures, shape (K, n), rad or m.")
+          "path", [](const RoadmapPath& a) { return toNumpy(a.path); }, "Configurations, shape (K, n), rad or m.")
       .def_prop_ro(
           "message", [](const RoadmapPath& a) { return inPython(a.message); },
-          "\"\" if there is a path; else why there is none.")
-      .def_ro("checked", &RoadmapPath::checked, "Postures and motions that had to be looked at.")
+          "\"\" if there is a path, else why there is none.")
+      .def_ro("evaluations", &RoadmapPath::evaluations, "Number of collision checks of this query.")
       .def("__bool__", &RoadmapPath::feasible)
       .def("__repr__",
            [](const RoadmapPath& a) {
-             return cat("<RoadmapPath ", a.feasible() ? cat(a.path.rows(), " postures") : inPython(a.message), ">");
+             return cat("<RoadmapPath ", a.feasible() ? cat(a.path.rows(), " configurations") : inPython(a.message),
+                        ">");
            })
-      .def("__getstate__", [](const RoadmapPath& a) { return nb::make_tuple(toNumpy(a.path), a.message, a.checked); })
+      .def("__getstate__",
+           [](const RoadmapPath& a) { return nb::make_tuple(toNumpy(a.path), a.message, a.evaluations); })
       .def(
           "__setstate__",
           [](RoadmapPath& a, const nb::tuple& state) {
@@ -120,13 +118,13 @@ void bindRoadmap(nb::module_& m) {
           "config"_a, "frames"_a = nb::none(),
           cat(docs::roadmap::picture, lines::frames, lines::returnsPicture, lines::raises).c_str())
       .def("__len__", &Roadmap::size)
-      .def_prop_ro("motions", &Roadmap::motions, "How many motions between postures it has.")
-      .def_prop_ro("margin", &Roadmap::margin, "m, that all collidable pairs keep.")
+      .def_prop_ro("edges", &Roadmap::edges, "Number of edges.")
+      .def_prop_ro("margin", &Roadmap::margin, "Distance that all collidable pairs keep, m.")
       .def_prop_ro(
           "configurations", [](const PyRoadmap& map) { return toNumpy(map.configurations()); },
           "Shape (N, n), rad or m.")
       .def("__repr__", [](const PyRoadmap& map) {
-        return cat("<Roadmap of ", map.size(), " postures and ", map.motions(), " motions>");
+        return cat("<Roadmap of ", map.size(), " configurations and ", map.edges(), " edges>");
       });
 }
 

@@ -3,37 +3,37 @@
 namespace kinegraph::python::docs::path_finder {
 
 inline constexpr char type[] =
-    R"(Finds a path cancellation two joint vectors, free of collisions at all times, as older scripts ask for it.
+    R"(Finds a continuously collision-free path between two joint vectors; the interface of the reference package.
 
     rrt = ry.RRT_PathFinder().setProblem(C)
     rrt.setStartGoal(q0, qT)
     ret = rrt.solve()
     if ret.feasible: C.view_path(ret.x)
 
-planMotion does more: many goals, constraints, times.)";
+planMotion does more: several goals, constraints, time parameterization.)";
 
-inline constexpr char make[] = R"(Without a problem.)";
+inline constexpr char make[] = R"(Creates a path finder without a problem.)";
 
 inline constexpr char setOptions[] = R"(Sets options by name.
 
 Args:
-    options: verbose, stepsize (rad or m cancellation postures of the path), maxIters (effort), collisionTolerance (m, how deep
-        pairs may overlap); subsamples, p_connect and useBroadCollisions of older scripts have no effect.
+    options: verbose, stepsize (rad or m, between configurations of the path), maxIters (budget), collisionTolerance
+        (m, allowed penetration of pairs). subsamples, p_connect and useBroadCollisions have no effect.
 Returns:
     This path finder.
 Raises:
     ArgumentError: There is no such option, or it cannot have this value.)";
 
-inline constexpr char setProblem[] = R"(Sets the scene, which is read when solve is called, and not changed.
+inline constexpr char setProblem[] = R"(Sets the scene. solve reads it and does not change it.
 
 Args:
     Configuration: The scene.
-    q0: The start, as in setStartGoal, if given.
-    qT: The goal, as in setStartGoal, if given.
+    q0: The start, as in setStartGoal.
+    qT: The goal, as in setStartGoal.
 Returns:
     This path finder.
 Raises:
-    ArgumentError: Of q0 and qT only one is given, or one is not a joint vector.)";
+    ArgumentError: Only one of q0 and qT is passed, or one is not a joint vector.)";
 
 inline constexpr char setStartGoal[] = R"(Sets the two ends of the path.
 
@@ -43,12 +43,12 @@ Args:
 Returns:
     This path finder.
 Raises:
-    ArgumentError: One of them is no joint vector, or several.)";
+    ArgumentError: One of them is not a single joint vector.)";
 
-inline constexpr char setExplicitCollisionPairs[] = R"(Lets only these pairs of frames collide.
+inline constexpr char setExplicitCollisionPairs[] = R"(Restricts collisions to these pairs of frames.
 
 Args:
-    collisionPairs: Names of frames, two by two: a1 b1 a2 b2 ...; none: the pairs of the scene again.
+    collisionPairs: Names of frames, two per pair: a1 b1 a2 b2 ... An empty list restores the pairs of the scene.
 Returns:
     This path finder.
 Raises:
@@ -56,21 +56,21 @@ Raises:
     ArgumentError: The number of names is odd.)";
 
 inline constexpr char solve[] =
-    R"(Searches a path. The same seed (rnd_seed) gives the same path. Ctrl-C ends the search.
+    R"(Searches a path. Equal seeds (rnd_seed) give equal paths. Ctrl-C ends the search.
 
 Args:
-    verbose: 0: silent; 1: prints a line; 2 and more: shows the path, too, and waits.
+    verbose: 0: silent; 1: prints a line; 2 and more: also shows the path and waits.
 Returns:
-    The outcome: x is the path, shape (K, n), start and goal included, postures at most stepsize apart; feasible, whether
-    there is one. Where there is none, x is empty and message says why, as "the start collides: ...". evals is the number of
-    random postures.
+    The outcome. x is the path, shape (K, n), start and goal included, configurations at most stepsize apart; feasible
+    is True if there is one. Otherwise x is empty and message says why, as "the start collides: ...". evals is the
+    number of samples.
 Raises:
-    ArgumentError: There is no problem, or start and goal do not fit it; a joint has no limits.)";
+    ArgumentError: There is no problem, start and goal do not fit it, or a joint has no limits.)";
 
-inline constexpr char getResampledPath[] = R"(Postures of the path, evenly in its index.
+inline constexpr char getResampledPath[] = R"(Returns configurations of the path, evenly spaced in its index.
 
 Args:
-    T: How many.
+    T: Number of configurations.
 Returns:
     Shape (T, n), rad or m.
 Raises:
@@ -81,7 +81,7 @@ inline constexpr char view[] = R"(Shows the path in the browser, with a time sli
 Args:
     pause: Waits for a key.
     message: A text in the corner.
-    play: Plays it; else it can be played there.
+    play: Plays the path at once.
 Returns:
     The key, or 0.
 Raises:

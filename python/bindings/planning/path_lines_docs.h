@@ -1,10 +1,10 @@
 #pragma once
 
-/// Parts of the texts of all calls that draw the lines along which frames go.
+/// Parts of the docstrings of all calls that draw traces of frames.
 namespace kinegraph::python::docs::path_lines {
 
 inline constexpr char frames[] =
-    R"(    frames: A frame's name, or several; None: one at the end of each chain.
+    R"(    frames: A frame's name, or several; None: one frame on each link without children.
 )";
 
 inline constexpr char returnsPicture[] = R"(Returns:

@@ -1,14 +1,15 @@
 #pragma once
 
+/// The docstrings of bind_plan.cpp. plan_arguments.cpp adds the entries of options.
 namespace kinegraph::python::docs::plan {
 
 inline constexpr char constraint[] =
-    R"(A condition on postures, for planMotion: scale * (feature - target) is zero, or not positive.
+    R"(A constraint on configurations, for planMotion: scale * (feature - target) is zero, or not positive.
 
     upright = ry.MotionConstraint(ry.FS.vectorZ, ["glass"], target=[0, 0, 1]))";
 
 inline constexpr char makeConstraint[] =
-    R"(Names the feature and its frames; they are looked up when a motion is planned.
+    R"(Names the feature and its frames, which are looked up when a motion is planned.
 
 Args:
     feature: A symbol of FS, or a function of frames.
@@ -17,78 +18,62 @@ Args:
     scale: A number, one per row, or a matrix.
     target: A number, or one per row.
 Raises:
-    ArgumentError: The type is neither eq nor ineq; told by planMotion.
-    FrameNotFound: A frame is not in the scene; told by planMotion.)";
+    ArgumentError: The type is neither eq nor ineq; raised by planMotion.
+    FrameNotFound: A frame is not in the scene; raised by planMotion.)";
 
-inline constexpr char planMotion[] = R"(A motion to a goal, free of collisions at all times, and when it is where.
+inline constexpr char planMotion[] = R"(Plans a collision-free, time-parameterized motion to a goal.
 
     plan = ry.planMotion(C, {"gripper": [.4, .2, .9]}, margin=.01)
     if plan.feasible: C.view_path(plan.path, plan.duration)
     else: print(plan.message)
 
-The straight motion is tried first, then trees grow from both ends; what is found is shortened, pulled taut, verified at all
-times, and timed. The scene is not changed. The same arguments give the same bits at any number of threads, unless time_limit ends it.
-Ctrl-C ends it.
+The planner tries the straight motion first, then RRT-Connect. It shortens and tightens the path, verifies every edge
+continuously, and computes the fastest motion within the limits. The scene is not changed. Equal arguments give equal
+bits at any number of threads, unless time_limit ends a stage. Ctrl-C ends the call.
 
 Args:
-    config: The scene; obstacles are what collides there, and what is attached to the robot moves with it.
-    goal: A joint vector (n,), several (N, n) of which one is to be reached, a dict of targets as for solveIk, the name of a
-        joint state (C.getStateNames), or a MotionConstraint or several that are to hold.
-    start: A joint vector (n,), rad or m; None: the present q.
-    fields: Options by name; and velocity, acceleration, jerk: limits, a number or one per joint (rad or m, s), by default
-        the model's velocities (1 where it says none), reached in a quarter of a second, and no limit of the jerk;
-        constraints: MotionConstraints that hold all along;
-        start_velocity: dq/dt with which the motion begins, shape (n,), rad/s or m/s, by default at rest;
-        start_acceleration: d2q/dt2 likewise, with limits of the jerk; by default none;
-        moving: what moves by itself meanwhile, a dict of frame -> (times, values): times of shape (K,), s from the begin of
-        the motion; values of shape (K, 7), poses of the frame in the world, or (K, d), positions of its joint, which is no
-        part of q. Between them it goes straight, before and after them it stands still. The motion keeps clear of it at
-        all times, waits where it has to, and can stay where it ends.
+    config: The scene. Its collidable pairs count, and objects attached to the robot move with it.
+    goal: A joint vector (n,); several (N, n), one of which is reached; a dict of targets as for solveIk; the name of
+        a joint state (C.getStateNames); or one or several MotionConstraints.
+    start: A joint vector (n,), rad or m. None: the present q.
 )";
 
 inline constexpr char planMotionRest[] = R"(Returns:
-    A MotionPlan. Where there is no motion, its message says why.
+    A MotionPlan. If there is no motion, its message says why.
 Raises:
-    ArgumentError: The goal or an option makes no sense; a joint without limits would have to be drawn.
+    ArgumentError: The goal or an option is invalid, or a joint without limits would have to be sampled.
     FrameNotFound: A frame is not in the scene.
-    NotFound: The scene knows no joint state of that name.)";
+    NotFound: The scene has no joint state of that name.)";
 
 inline constexpr char planMotions[] =
-    R"(Motions that get better while one waits: the first is that of planMotion, each further one takes less time than the one
-before, or with optimize="length" is shorter.
+    R"(Plans a sequence of improving motions. The first is that of planMotion; each further one takes less time than
+the one before, or with optimize="length" is shorter.
 
-    for plan in ry.planMotions(C, goal, margin=.01, improve=200000):
+    for plan in ry.planMotions(C, goal, margin=.01, improvement_evaluations=200000):
         print(plan.duration)
 
-Further ways are searched, always with other random numbers, where a shorter one can be. The same arguments give the same
-motions at any number of threads, unless time_limit ends it. Ctrl-C ends it.
+Further searches use other random numbers, and sample only the part of the space that can contain a shorter path.
+Equal arguments give equal motions at any number of threads, unless time_limit, counted from the first motion, ends
+the sequence. Ctrl-C ends it.
 
 Args:
-    config: As for planMotion.
-    goal: As for planMotion.
-    start: A joint vector (n,), rad or m; None: the present q.
-    fields: As for planMotion, without moving, start_velocity and start_acceleration. improve: evaluations that are spent on better motions, 1000000
-        by default; time_limit: s, from the first motion on.
-Returns:
-    An iterator of MotionPlans. Where there is no motion, it gives one that says why.
+    config: The scene, as for planMotion.
+    goal: The goal, as for planMotion.
+    start: A joint vector (n,), rad or m. None: the present q.
+)";
+
+inline constexpr char planMotionsRest[] = R"(Returns:
+    An iterator of MotionPlans. If there is no motion, it yields one plan whose message says why.
 Raises:
-    ArgumentError: The goal or an option makes no sense; a joint without limits would have to be drawn.
-    FrameNotFound: A frame is not in the scene; told with the first motion.
-    NotFound: The scene knows no joint state of that name; told with the first motion.)";
+    ArgumentError: The goal or an option is invalid, or a joint without limits would have to be sampled.
+    FrameNotFound: A frame is not in the scene; raised with the first motion.
+    NotFound: The scene has no joint state of that name; raised with the first motion.)";
 
-inline constexpr char type[] = R"(What planMotion found. It can be copied and pickled, as to send it from one process to
-another; its scene as it was then goes along.)";
+inline constexpr char type[] =
+    R"(The motion that planMotion found, a Trajectory, or the reason why there is none. It can be
+copied and pickled, for example to send it to another process; a copy of its scene is included.)";
 
-inline constexpr char at[] = R"(Where the motion is at a time, and how it moves.
-
-Args:
-    t: s, held within 0 and duration.
-Returns:
-    q (n,), rad or m, its velocity and its acceleration.
-Raises:
-    ArgumentError: There is no motion.)";
-
-inline constexpr char obstaclesAt[] = R"(Where the obstacles are that move while the robot does.
+inline constexpr char obstaclesAt[] = R"(Returns the values of the dynamic obstacles at a time.
 
 Args:
     t: s.
@@ -96,48 +81,50 @@ Returns:
     A dict of frame -> its pose in the world (7,), x y z qw qx qy qz, or the positions of its joint (d,).)";
 
 inline constexpr char replan[] =
-    R"(A motion that goes on from where this one is at a time, and as fast as it is there, so that a robot which is on its way
-need not stop. The time of the new motion begins at 0 then.
+    R"(Plans a motion that continues this one from a time on, with its velocity at that time, so that a moving robot
+need not stop. Time 0 of the new motion is `at` of this one.
 
-    bend = plan.replan(C, at=1.2, goal=[.4, .2, .9])
+    next_plan = plan.replan(C, at=1.2, goal=[.4, .2, .9])
 
-Where the rest of this motion leads to the goal and is still free, it stays. With limits of the jerk, the new motion has the
-acceleration of this one at first, too, but among moving obstacles.
+If the rest of this motion leads to the goal and is still collision-free, it stays. With jerk limits, the new motion
+also continues the acceleration of this one. Options that are None stay as in this motion, with the times of its
+dynamic obstacles shifted to the new one; obstacle_trajectories={} drops the obstacles.
 
 Args:
     config: The scene, which may have changed.
-    at: When, s, held within 0 and duration.
-    goal: As for planMotion; None: where this motion ends.
-    fields: Options that differ from those of this motion. Times of moving obstacles count from the begin of the new motion;
-        those of this motion are taken over such that they do.
-Returns:
-    A MotionPlan. Where there is no motion, its message says why, as that it cannot come to rest in time.
+    at: Time of this motion, s; clamped to 0 and duration.
+    goal: The goal, as for planMotion. None: the end of this motion.
+)";
+
+inline constexpr char replanRest[] =
+    R"(Returns:
+    A MotionPlan. If there is no motion, its message says why, for example that the robot cannot stop in time.
 Raises:
-    ArgumentError: There is no motion to go on from; the goal or an option makes no sense.
+    ArgumentError: There is no motion to continue, or the goal or an option is invalid.
     FrameNotFound: A frame is not in the scene.)";
 
 inline constexpr char clearance[] =
-    R"(The least distance of a collidable pair along the path, to 0.1 mm. Moving obstacles do not count.
+    R"(Computes the least distance of a collidable pair along the path, to 0.1 mm. Dynamic obstacles do not count.
 
 Args:
-    most: What counts as far, m.
+    max_distance: Largest distance that is computed, m.
 Returns:
-    m; most where all pairs are farther apart at all times.
+    m; max_distance if no pair is closer.
 Raises:
     ArgumentError: There is no motion.)";
 
 inline constexpr char picture[] =
-    R"(A copy of the scene with lines in it along which frames went: "start tree" (blue) and "goal tree" (orange), "first way"
-(gray), and the "path" (green) that came of it. Where there is none, the obstacle that most motions ended at is red.
+    R"(Returns a copy of the scene with the traces of frames as lines: "start tree" (blue) and "goal tree" (orange),
+"raw path" (gray), and "path" (green). If there is no motion, the most frequent obstacle is red.
 
 Args:
-    config: The scene that was planned in.
+    config: The scene of the plan.
 )";
 
 inline constexpr char view[] = R"(Shows the picture, and plays the motion in it.
 
 Args:
-    config: The scene that was planned in.
+    config: The scene of the plan.
 )";
 
 inline constexpr char viewRest[] = R"(    pause: Waits for a key.
@@ -145,28 +132,29 @@ Returns:
     The key that was pressed, 0 if none.
 )";
 
-inline constexpr char shortcut[] = R"(A shorter path cancellation the same ends, free at all times.
+inline constexpr char shortcut[] = R"(Shortens a path between the same ends. The result is continuously
+collision-free.
 
 Args:
     config: The scene.
-    path: Postures, shape (K, n), rad or m, whose straight motions are free.
+    path: Configurations, shape (K, n), rad or m, connected by collision-free straight edges.
     margin: Distance that all collidable pairs keep, m.
-    seed: Of the places that are joined.
+    seed: Seed of the random shortcuts.
 Returns:
     The path, shape (L, n).
 Raises:
-    ArgumentError: The path has another shape, or is not free; the message says where.)";
+    ArgumentError: The path has another width, or is in collision; the message says between which rows.)";
 
-inline constexpr char smooth[] = R"(The same path with rounded corners, as far as that is free at all times.
+inline constexpr char smooth[] = R"(Rounds the corners of a path as far as that is continuously collision-free.
 
 Args:
     config: The scene.
-    path: Postures, shape (K, n), rad or m, whose straight motions are free.
+    path: Configurations, shape (K, n), rad or m, connected by collision-free straight edges.
     margin: Distance that all collidable pairs keep, m.
-    blend: By how much corners may be missed, in every dof, rad or m.
+    blend: Largest deviation from the path in every dof, rad or m.
 Returns:
-    Postures along it, shape (L, n).
+    Configurations along the smoothed path, shape (L, n).
 Raises:
-    ArgumentError: The path has another shape, or is not free; the message says where.)";
+    ArgumentError: The path has another width, or is in collision; the message says between which rows.)";
 
 }  // namespace kinegraph::python::docs::plan

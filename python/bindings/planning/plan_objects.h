@@ -5,21 +5,30 @@
 
 namespace kinegraph::python {
 
-/// A plan, and the scene that it was made in, as it was then.
+/// A plan with a copy of its scene at the time of the call.
 struct PyMotionPlan : MotionPlan {
+  PyMotionPlan() = default;
+  PyMotionPlan(MotionPlan plan, std::shared_ptr<const Config> config)
+      : MotionPlan(std::move(plan)), config(std::move(config)) {}
+
   std::shared_ptr<const Config> config;
 };
 
-/// The plans, and their scene.
+using MotionPlanClass = nb::class_<PyMotionPlan, Trajectory>;
+
+/// The sequence of plans with a copy of its scene.
 struct PyMotionPlans {
   std::shared_ptr<const Config> config;
   MotionPlans plans;
 };
 
-/// Options of planMotion by name.
+/// The options of planMotion by name.
 const OptionClass<PlanOptions>& planOptionClass();
 
-/// copy.copy and pickle.
-void bindPlanCopies(nb::class_<MotionConstraint>& constraint, nb::class_<PyMotionPlan>& plan);
+/// Reads a MotionConstraint or a list of them.
+std::vector<MotionConstraint> planConstraintsOf(nb::handle value);
+
+/// Binds copying and pickling.
+void bindPlanCopies(nb::class_<MotionConstraint>& constraint, MotionPlanClass& plan);
 
 }  // namespace kinegraph::python

@@ -19,7 +19,7 @@ void setConstraintState(MotionConstraint& c, const nb::tuple& state) {
                             nb::cast<Numbers>(state[4]).values};
 }
 
-/// As planMotion takes them.
+/// The options as keyword arguments of planMotion.
 nb::dict optionFields(const PlanOptions& options) {
   nb::dict fields = planOptionClass().dict(options);
   const auto add = [&](const char* name, const VectorXd& values) {
@@ -33,71 +33,71 @@ nb::dict optionFields(const PlanOptions& options) {
   nb::list constraints;
   for (const MotionConstraint& constraint : options.constraints) constraints.append(constraint);
   fields["constraints"] = constraints;
-  nb::dict moving;
+  nb::dict obstacles;
   for (const ObstacleTrajectory& obstacle : options.obstacle_trajectories)
-    moving[obstacle.frame.c_str()] = nb::make_tuple(toNumpy(obstacle.times), toNumpy(obstacle.values));
-  fields["obstacle_trajectories"] = moving;
+    obstacles[obstacle.frame.c_str()] = nb::make_tuple(toNumpy(obstacle.times), toNumpy(obstacle.values));
+  fields["obstacle_trajectories"] = obstacles;
   return fields;
 }
 
-nb::tuple treeState(const MotionTree& tree, int dofs) {
+nb::tuple treeState(const SearchTree& tree, int dofs) {
   const NewArray q = newArray(std::size_t(tree.size()), std::size_t(dofs)), radius = newArray(std::size_t(tree.size()));
   std::vector<int> parents;
-  std::vector<bool> sure;
+  std::vector<bool> verified;
   for (int i = 0; i < tree.size(); ++i) {
     std::copy_n(tree.q(i).data(), dofs, q.data + std::ptrdiff_t(i) * dofs);
     radius.data[i] = tree.node(i).radius;
     parents.push_back(tree.node(i).parent);
-    sure.push_back(tree.node(i).is_sure);
+    verified.push_back(tree.node(i).is_verified);
   }
-  return nb::make_tuple(q.array, radius.array, parents, sure);
+  return nb::make_tuple(q.array, radius.array, parents, verified);
 }
 
-/// Roots come first, as in every tree; who is whose child, and how sure, follows.
-MotionTree treeFrom(nb::handle state, const JointSpace& space) {
+/// Rebuilds a tree: first its roots, then the other nodes with their parents.
+SearchTree treeFrom(nb::handle state, const JointSpace& space) {
   const MatrixXd q = matrixFrom(state[0]);
   const VectorXd radius = nb::cast<Numbers>(state[1]).values;
   const auto parents = nb::cast<std::vector<int>>(state[2]);
-  const auto sure = nb::cast<std::vector<bool>>(state[3]);
+  const auto verified = nb::cast<std::vector<bool>>(state[3]);
   const std::size_t count = parents.size();
   if (q.cols() != space.dofs() || std::size_t(q.rows()) != count || std::size_t(radius.size()) != count ||
-      sure.size() != count)
-    throw ValueError("MotionPlan: a tree with numbers of another count");
+      verified.size() != count)
+    throw ValueError("MotionPlan: the arrays of a tree differ in length");
   std::vector<VectorXd> roots;
   while (roots.size() < count && parents[roots.size()] < 0)
     roots.push_back(q.row(Eigen::Index(roots.size())).transpose());
-  MotionTree tree(space, roots);
+  SearchTree tree(space.dofs(), roots);
   for (std::size_t i = roots.size(); i < count; ++i) {
-    if (parents[i] < 0 || parents[i] >= int(i)) throw ValueError("MotionPlan: a tree with a child before its parent");
-    tree.add(q.row(Eigen::Index(i)).transpose(), parents[i], sure[i]);
+    if (parents[i] < 0 || parents[i] >= int(i)) throw ValueError("MotionPlan: a node of a tree precedes its parent");
+    tree.add(q.row(Eigen::Index(i)).transpose(), parents[i], verified[i]);
   }
   for (std::size_t i = 0; i < count; ++i) tree.node(int(i)).radius = radius[Eigen::Index(i)];
   return tree;
 }
 
 nb::tuple planState(const PyMotionPlan& p) {
-  nb::list stages, attempts, trees, obstacles;
+  nb::list stages, searches, trees, obstacles;
   for (const PlanStage& s : p.stages) stages.append(nb::make_tuple(s.name, s.seconds, s.evaluations, s.note));
-  for (const SearchReport& a : p.attempts)
-    attempts.append(nb::make_tuple(a.samples, a.evaluations, a.start_nodes, a.goal_nodes));
-  for (const MotionTree& tree : p.trees) trees.append(treeState(tree, p.space->dofs()));
+  for (const SearchReport& a : p.searches)
+    searches.append(nb::make_tuple(a.samples, a.evaluations, a.start_nodes, a.goal_nodes));
+  for (const SearchTree& tree : p.trees) trees.append(treeState(tree, p.space->dofs()));
   for (const MetObstacle& o : p.obstacles) obstacles.append(nb::make_tuple(o.frame, o.name, o.share, o.by));
-  const nb::object timed = p.timed.scaling().phases().empty() ? nb::none() : nb::cast(p.timed);
+  const nb::object timed = p.timed_path.scaling().phases().empty() ? nb::none() : nb::cast(p.timed_path);
   return nb::make_tuple(PyConfig{Config(*p.config), nullptr}, optionFields(p.options), int(p.status), p.message,
-                        p.warnings, toNumpy(p.path), toNumpy(p.raw_path), timed, p.length, p.goal, stages, attempts,
+                        p.warnings, toNumpy(p.path), toNumpy(p.raw_path), timed, p.length, p.goal, stages, searches,
                         trees, obstacles, p.margin, p.verified_margin);
 }
 
-/// The scene without what moves, and the joints of its robot.
+/// Sets the static scene and the joint space.
 void setScene(PyMotionPlan& plan) {
-  Config still(*plan.config);
+  Config static_scene(*plan.config);
   if (!plan.options.obstacle_trajectories.empty()) {
     plan.dynamic_scene =
         std::make_shared<const DynamicScene>(*plan.config, plan.options.obstacle_trajectories, "MotionPlan");
-    still = plan.dynamic_scene->standing();
+    static_scene = plan.dynamic_scene->staticScene();
   }
-  plan.scene = std::make_shared<const State>(still.state());
-  plan.space = std::make_shared<const JointSpace>(*still.model());
+  plan.scene = std::make_shared<const State>(static_scene.state());
+  plan.space = std::make_shared<const JointSpace>(*static_scene.model());
 }
 
 PyMotionPlan planFrom(const nb::tuple& t) {
@@ -110,14 +110,14 @@ PyMotionPlan planFrom(const nb::tuple& t) {
   plan.warnings = nb::cast<std::vector<std::string>>(t[4]);
   plan.path = matrixFrom(t[5]);
   plan.raw_path = matrixFrom(t[6]);
-  if (!nb::handle(t[7]).is_none()) plan.timed = nb::cast<const TimedPath&>(t[7]);
+  if (!nb::handle(t[7]).is_none()) plan.timed_path = nb::cast<const TimedPath&>(t[7]);
   plan.length = nb::cast<double>(t[8]);
   plan.goal = nb::cast<int>(t[9]);
   for (nb::handle s : nb::cast<nb::list>(t[10]))
     plan.stages.push_back(
         {nb::cast<std::string>(s[0]), nb::cast<double>(s[1]), nb::cast<long>(s[2]), nb::cast<std::string>(s[3])});
   for (nb::handle a : nb::cast<nb::list>(t[11]))
-    plan.attempts.push_back({nb::cast<long>(a[0]), nb::cast<long>(a[1]), nb::cast<int>(a[2]), nb::cast<int>(a[3])});
+    plan.searches.push_back({nb::cast<long>(a[0]), nb::cast<long>(a[1]), nb::cast<int>(a[2]), nb::cast<int>(a[3])});
   for (nb::handle tree : nb::cast<nb::list>(t[12])) plan.trees.push_back(treeFrom(tree, *plan.space));
   for (nb::handle o : nb::cast<nb::list>(t[13]))
     plan.obstacles.push_back({nb::cast<int>(o[0]), nb::cast<std::string>(o[1]), nb::cast<double>(o[2]),
@@ -129,7 +129,7 @@ PyMotionPlan planFrom(const nb::tuple& t) {
 
 }  // namespace
 
-void bindPlanCopies(nb::class_<MotionConstraint>& constraint, nb::class_<PyMotionPlan>& plan) {
+void bindPlanCopies(nb::class_<MotionConstraint>& constraint, MotionPlanClass& plan) {
   constraint.def("__getstate__", constraintState).def("__setstate__", setConstraintState, "state"_a);
   plan.def("__getstate__", planState)
       .def(

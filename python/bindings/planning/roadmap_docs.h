@@ -2,52 +2,53 @@
 
 namespace kinegraph::python::docs::roadmap {
 
-inline constexpr char type[] = R"(Postures and motions cancellation them that are kept from query to query.
+inline constexpr char type[] = R"(A graph of configurations and edges that is kept from query to query (lazy PRM).
 
     map = ry.Roadmap(C, margin=.01).grow(500)
     answer = map.findPath(q0, q1)
     map.save("arm.roadmap")
 
-Motions are looked at when a query first wants to use them, at all times of them, and it is remembered what came out.
-Paths are the shortest of the map, then shortened. The same calls give the same bits.)";
+An edge is checked continuously when a query first uses it, and the result is kept. Paths are the shortest ones of the
+graph, then shortened by shortcuts. Equal calls give equal bits.)";
 
-inline constexpr char make[] = R"(A map without postures.
+inline constexpr char make[] = R"(Creates a roadmap without configurations.
 
 Args:
     config: The scene, as it is now.
     margin: Distance that all collidable pairs keep, m.
-    seed: Of the random postures.
+    seed: Seed of the samples.
 Raises:
     ArgumentError: A joint has no limits, or the margin is negative.)";
 
-inline constexpr char grow[] = R"(Adds free random postures, each with motions to the nearest ones.
+inline constexpr char grow[] = R"(Adds collision-free random configurations, each with edges to the nearest ones.
 
 Args:
-    configurations: How many.
+    configurations: Number of configurations.
 Returns:
-    This map.
+    This roadmap.
 Raises:
     ArgumentError: The number is negative.)";
 
-inline constexpr char findPath[] = R"(A path in the map; start and goal become postures of it.
+inline constexpr char findPath[] = R"(Finds a path; start and goal become configurations of the roadmap.
 
 Args:
     start: A joint vector, shape (n,), rad or m.
     goal: A joint vector, shape (n,), rad or m.
 Returns:
-    A RoadmapPath: path, shape (K, n), free at all times; where there is none, its message says why.
+    A RoadmapPath: path, shape (K, n), continuously collision-free. If there is none, its message says why.
 Raises:
     ArgumentError: A joint vector has another length.)";
 
 inline constexpr char setScene[] =
-    R"(Takes another scene with the same joints, as after obstacles have moved. Postures stay.
+    R"(Replaces the scene by another one with the same joints, for example after obstacles have moved. Drops the
+results of edge checks; the configurations stay.
 
 Args:
     config: The scene, as it is now.
 Raises:
     ArgumentError: It has other joints.)";
 
-inline constexpr char save[] = R"(Writes the map into a file.
+inline constexpr char save[] = R"(Writes the roadmap to a file.
 
 Args:
     path: The file.
@@ -55,16 +56,16 @@ Raises:
     FileError: It cannot be written.)";
 
 inline constexpr char load[] =
-    R"(Reads a map in place of this one. What is known of motions is taken over if the scene is the same.
+    R"(Replaces this roadmap by a saved one. Results of edge checks are kept only if the scene is the same.
 
 Args:
     path: A file that save has written.
 Raises:
-    FileError: The file is not there, or damaged.
-    ArgumentError: It is a map of other joints.)";
+    FileError: The file is missing or damaged.
+    ArgumentError: It is a roadmap of other joints.)";
 
 inline constexpr char picture[] =
-    R"(A copy of the scene with lines in it along which frames go on the map's motions: "roadmap".
+    R"(Returns a copy of the scene with the traces of frames along the edges as lines: "roadmap".
 
 Args:
     config: The scene.

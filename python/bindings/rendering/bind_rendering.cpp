@@ -36,7 +36,7 @@ namespace {
 
 constexpr int kNoFrame = 0xffffff;  // in segmentation images
 
-/// What Python calls a CameraView: the cameras of one configuration.
+/// The Python object of a CameraView: the cameras of one configuration.
 struct PyCameraView {
   nb::object config;
   ViewCamera camera{[] {
@@ -78,8 +78,8 @@ IdArray segmentationIds(PyCameraView& view, bool visuals_only) {
   return toImage<IdArray>(segment(view, camera, visuals_only), {std::size_t(camera.height), std::size_t(camera.width)});
 }
 
-/// The first six bits of an id give the two top bits of r, g and b, so that near ids look different; the next 18 the
-/// rest.
+/// Encodes ids as colors. The lowest six bits of an id give the two top bits of r, g and b, so that close ids look
+/// different; the next 18 bits give the rest.
 ByteArray segmentationImage(PyCameraView& view, bool visuals_only) {
   const Camera camera = view.camera.now();
   std::vector<std::uint8_t> colors;
@@ -97,7 +97,7 @@ using DepthArray = nb::ndarray<const float, nb::ndim<2>, nb::c_contig, nb::devic
 
 Array depthImage2PointCloud(const DepthArray& depth, const Numbers& fxycxy) {
   if (fxycxy.values.size() != 4)
-    throw ValueError(cat("depthImage2PointCloud: fxycxy has ", fxycxy.values.size(), " numbers; expected 4"));
+    throw ValueError(cat("depthImage2PointCloud: fxycxy has ", fxycxy.values.size(), " entries; expected 4"));
   const std::size_t height = depth.shape(0), width = depth.shape(1);
   return toImage<Array>(depthToPoints(depth.data(), int(height), int(width), Vector4d(fxycxy.values)),
                         {height, width, 3});
@@ -106,20 +106,19 @@ Array depthImage2PointCloud(const DepthArray& depth, const Numbers& fxycxy) {
 }  // namespace
 
 void bindRendering(nb::module_& m) {
-  nb::class_<Camera>(m, "CameraViewSensor", "A camera as CameraView.setCamera found it.")
+  nb::class_<Camera>(m, "CameraViewSensor", "A camera of CameraView.setCamera.")
       .def_ro("width", &Camera::width, "Width of the image in pixels.")
       .def_ro("height", &Camera::height, "Height of the image in pixels.")
       .def_ro("focalLength", &Camera::focal_length, "Focal length in image heights.")
       .def_prop_ro(
-          "zRange", [](const Camera& c) { return std::pair(c.near, c.far); },
-          "Nearest and farthest depth that is seen, m.")
+          "zRange", [](const Camera& c) { return std::pair(c.near, c.far); }, "Nearest and farthest visible depth, m.")
       .def_prop_ro(
           "pose", [](const Camera& c) { return toNumpy(VectorXd(c.pose.numbers())); },
           "World pose when the camera was set, shape (7,): x y z (m) qw qx qy qz.");
 
   nb::class_<PyCameraView>(
       m, "CameraView",
-      "Images from cameras in a configuration; they need neither display nor browser. A camera looks along the z\n"
+      "Renders images from cameras in a configuration, without display or browser. A camera looks along the z\n"
       "axis of its frame, x to the right and y down.")
       .def(
           "__init__",

@@ -11,7 +11,7 @@
 
 namespace kinegraph::python {
 
-/// A numpy array that owns these values, of which its class says the type.
+/// Returns a numpy array that owns these values; `ImageArray` defines its dtype.
 template <class ImageArray, class T>
 ImageArray toImage(std::vector<T> values, std::initializer_list<std::size_t> shape) {
   auto kept = std::make_unique<std::vector<T>>(std::move(values));

@@ -1,9 +1,9 @@
 #pragma once
 
-/// The manual of what bind_rendering.cpp binds.
+/// Docstrings for bind_rendering.cpp.
 namespace kinegraph::python::docs::rendering {
 
-inline constexpr char make[] = R"(Sees the scene as it is whenever an image is computed.
+inline constexpr char make[] = R"(Creates cameras for a scene; images show its state at each call.
 
 Args:
     config: The scene.
@@ -12,11 +12,11 @@ Args:
 Raises:
     TypeError: config is no Config.)";
 
-inline constexpr char setCamera[] = R"(Looks from a frame and follows it.
+inline constexpr char setCamera[] = R"(Attaches the camera to a frame.
 
-The frame's attributes say what the camera is like: `width`, `height` (pixels; 640, 480), `focalLength` (in image
-heights; 2.414) or `heightAngle` (degrees), `orthoAbsHeight` (m, for an orthographic camera), `zRange` ([nearest,
-farthest] depth in m; [.1, 10]).
+The frame's attributes define the camera: `width`, `height` (pixels; 640, 480), `focalLength` (in image heights; 2.414)
+or `heightAngle` (degrees), `orthoAbsHeight` (m, for an orthographic camera), `zRange` ([nearest, farthest] depth in m;
+[.1, 10]).
 
 Args:
     cameraFrameName: The frame: its name, id or Frame.
@@ -24,43 +24,43 @@ Returns:
     The camera, with these attributes.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: An attribute that no camera can have.)";
+    ArgumentError: A camera attribute is invalid.)";
 
-inline constexpr char computeImageAndDepth[] = R"(The image and its depth, drawn without a display.
+inline constexpr char computeImageAndDepth[] = R"(Renders the image and its depth, without a display.
 
 Args:
-    config: Another scene to look at; None: the one that the view was made for.
+    config: Another scene; None: the scene of the constructor.
     simulateDepthNoise: Adds the errors of a stereo camera (parameters DepthNoise/...).
-    visualsOnly: Leaves out markers and transparent shapes. Without it both show in the image, but transparent ones
-        not in the depth.
+    visualsOnly: Omits markers and transparent shapes. Otherwise both appear in the image, but transparent ones not in
+        the depth.
 Returns:
     The image, shape (height, width, 3), 0..255, and the depth along the camera's z axis, shape (height, width), m; -1
-    where nothing is within zRange.
+    for the background and outside zRange.
 Raises:
-    Error: Drawing needs EGL, which is not there.)";
+    Error: Rendering needs EGL, which is missing.)";
 
-inline constexpr char computeSegmentationID[] = R"(Which frame each pixel shows.
-
-Args:
-    visualsOnly: Leaves out markers and transparent shapes.
-Returns:
-    Ids of frames, shape (height, width); -1 for the floor and where nothing is.)";
-
-inline constexpr char computeSegmentationImage[] = R"(Which frame each pixel shows, as colors.
+inline constexpr char computeSegmentationID[] = R"(Renders the frame of each pixel.
 
 Args:
-    visualsOnly: Leaves out markers and transparent shapes.
+    visualsOnly: Omits markers and transparent shapes.
 Returns:
-    Shape (height, width, 3), 0..255; white for the floor and where nothing is.)";
+    Ids of frames, shape (height, width); -1 for the floor and the background.)";
 
-inline constexpr char depthImage2PointCloud[] = R"(The points that a depth image shows.
+inline constexpr char computeSegmentationImage[] = R"(Renders the frame of each pixel as colors.
+
+Args:
+    visualsOnly: Omits markers and transparent shapes.
+Returns:
+    Shape (height, width, 3), 0..255; white for the floor and the background.)";
+
+inline constexpr char depthImage2PointCloud[] = R"(Converts a depth image to points.
 
 Args:
     depth: Shape (height, width), m, along the camera's z axis.
-    fxycxy: fx, fy, cx, cy in pixels, as getFxycxy() gives them.
+    fxycxy: fx, fy, cx, cy in pixels, as from getFxycxy().
 Returns:
-    Shape (height, width, 3), in the camera's frame, m; zeros where the depth is negative.
+    Shape (height, width, 3), in the camera's frame, m; zeros for negative depths.
 Raises:
-    ArgumentError: fxycxy are not four numbers.)";
+    ArgumentError: fxycxy does not have 4 entries.)";
 
 }  // namespace kinegraph::python::docs::rendering

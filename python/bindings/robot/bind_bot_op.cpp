@@ -8,10 +8,11 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "kinegraph/api/bot_stage.h"
-#include "kinegraph/common/interrupt_watch.h"
+#include "kinegraph/common/interrupt_monitor.h"
 #include "kinegraph/robot/bot_op.h"
 #include "kinegraph/robot/kinematic_driver.h"
 #include "kinegraph/robot/simulated_driver.h"
+#include "kinegraph/trajectories/spline_trajectory.h"
 #include "parameters.h"
 #include "rendering/images.h"
 #include "robot/robot_docs.h"
@@ -34,11 +35,12 @@ BotOpOptions optionsOf(PyConfig& config, bool realtime) {
   };
   options.watched = [stage] { return stage->isWatched(); };
   options.cancellation = checkInterrupt;
-  if (options.realtime) options.interrupted = [watch = std::make_shared<InterruptWatch>()] { return watch->takeNew(); };
+  if (options.realtime)
+    options.interrupted = [watch = std::make_shared<InterruptMonitor>()] { return watch->wasInterrupted(); };
   return options;
 }
 
-/// The robot in a copy of the scene, as parameter botsim/engine says.
+/// The robot in a copy of the scene, with the engine of parameter botsim/engine.
 std::shared_ptr<RobotDriver> simulatedDriver(const PyConfig& config) {
   const auto engine = parameter<std::string>("botsim/engine", "physx", "'physx' or 'kinematic'");
   if (engine == "kinematic") return std::make_shared<KinematicDriver>(config);
@@ -55,8 +57,8 @@ void makeBot(PyBotOp* self, PyConfig& config, bool use_real_robot, bool, std::sh
   }
   if (use_real_robot && !driver)
     throw ValueError(
-        "BotOp: useRealRobot needs a driver of the robot: BotOp(C, True, driver=...); kinegraph.robots has some, and "
-        "subclasses of RobotDriver are others");
+        "BotOp: useRealRobot needs a driver: BotOp(C, True, driver=...); kinegraph.robots has drivers, and subclasses "
+        "of RobotDriver are drivers, too");
   const bool is_there = driver && !driver->world();
   BotOpOptions options = optionsOf(config, realtime || (is_there && use_real_robot));
   if (!driver) driver = simulatedDriver(config);
@@ -68,7 +70,7 @@ void makeBot(PyBotOp* self, PyConfig& config, bool use_real_robot, bool, std::sh
   new (self) PyBotOp(std::move(bot));
 }
 
-/// A call of BotOp without arguments that are arrays, made without the interpreter lock.
+/// Calls a method without array arguments, without the interpreter lock.
 template <class Result, class... Args>
 auto call(Result (BotOp::*method)(Args...)) {
   return [method](PyBotOp& self, Args... args) -> Result {
@@ -96,18 +98,22 @@ Array vectorOf(PyBotOp& self) {
 }
 
 void bindState(nb::class_<PyBotOp>& bot) {
-  bot.def("get_t", call(&BotOp::get_t), "Control time, s. See there: asked again at the same time, it goes on.")
-      .def("get_q", vectorOf<&BotOp::get_q>, "Joint values of the robot, (n,) rad or m.")
-      .def("get_qDot", vectorOf<&BotOp::get_qDot>, "Joint velocities of the robot, (n,) rad/s or m/s.")
-      .def("get_qHome", vectorOf<&BotOp::get_qHome>, "Joint values that the configuration had at first, (n,) rad or m.")
-      .def("get_tauExternal", vectorOf<&BotOp::get_tauExternal>, docs::operation::get_tauExternal)
-      .def("getTimeToEnd", call(&BotOp::getTimeToEnd), docs::operation::getTimeToEnd)
+  bot.def("get_t", call(&BotOp::get_t),
+          "Returns the control time, s. A repeated query at the same time advances it by one period.")
+      .def("get_q", vectorOf<&BotOp::get_q>, "Returns the robot's joint values, (n,) rad or m.")
+      .def("get_qDot", vectorOf<&BotOp::get_qDot>, "Returns the robot's joint velocities, (n,) rad/s or m/s.")
+      .def("get_qHome", vectorOf<&BotOp::get_qHome>,
+           "Returns the initial joint values of the configuration, (n,) rad or m.")
+      .def("get_tauExternal", vectorOf<&BotOp::get_tauExternal>, docs::robot::get_tauExternal)
+      .def("getTimeToEnd", call(&BotOp::getTimeToEnd), docs::robot::getTimeToEnd)
       .def(
-          "getKeyPressed", [](const PyBotOp& b) { return b->getKeyPressed(); }, "The key of the last sync, or 0.")
+          "getKeyPressed", [](const PyBotOp& b) { return b->getKeyPressed(); },
+          "Returns the key of the last sync, or 0.")
       .def(
-          "getInfo", [](const PyBotOp& b) { return RobotInfo(b->getInfo()); }, "What robot it is, with its limits.")
-      .def("getFault", call(&BotOp::getFault), "Why it was stopped; empty if it was not.")
-      .def("getMode", call(&BotOp::getMode), "How the robot is moved at present.");
+          "getInfo", [](const PyBotOp& b) { return RobotInfo(b->getInfo()); },
+          "Returns the RobotInfo of the robot, with its limits.")
+      .def("getFault", call(&BotOp::getFault), "Returns the cause of the fault; empty without one.")
+      .def("getMode", call(&BotOp::getMode), "Returns the present control mode.");
 }
 
 void bindMotions(nb::class_<PyBotOp>& bot) {
@@ -117,7 +123,7 @@ void bindMotions(nb::class_<PyBotOp>& bot) {
            const nb::gil_scoped_release unlock;
            b->moveTo(q.values, cost, overwrite);
          },
-         "q_target"_a, "timeCost"_a = 1., "overwrite"_a = false, docs::operation::moveTo)
+         "q_target"_a, "timeCost"_a = 1., "overwrite"_a = false, docs::robot::moveTo)
       .def(
           "move",
           [](PyBotOp& b, const Numbers& path, const Numbers& times, bool overwrite, double cut) {
@@ -125,7 +131,7 @@ void bindMotions(nb::class_<PyBotOp>& bot) {
             const nb::gil_scoped_release unlock;
             b->move(points, times.values, overwrite, cut);
           },
-          "path"_a, "times"_a, "overwrite"_a = false, "overwriteCtrlTime"_a = -1., docs::operation::move)
+          "path"_a, "times"_a, "overwrite"_a = false, "overwriteCtrlTime"_a = -1., docs::robot::move)
       .def(
           "moveAutoTimed",
           [](PyBotOp& b, const Numbers& path, double velocity, double acceleration) {
@@ -133,16 +139,29 @@ void bindMotions(nb::class_<PyBotOp>& bot) {
             const nb::gil_scoped_release unlock;
             b->moveAutoTimed(points, velocity, acceleration);
           },
-          "path"_a, "maxVel"_a = 1., "maxAcc"_a = 1., docs::operation::moveAutoTimed)
+          "path"_a, "maxVel"_a = 1., "maxAcc"_a = 1., docs::robot::moveAutoTimed)
       .def(
           "follow",
-          [](PyBotOp& b, const BSpline& motion) {
+          [](PyBotOp& b, const Trajectory& motion, double tolerance, double velocity_tolerance, bool overwrite,
+             double start_time) {
             const nb::gil_scoped_release unlock;
-            b->follow(motion);
+            b->follow(motion, {tolerance, velocity_tolerance, overwrite, start_time});
           },
-          "motion"_a, docs::operation::follow)
-      .def("hold", call(&BotOp::hold), "Comes to rest at once and stays, stiff. Makes a compliant robot stiff again.")
-      .def("floating", call(&BotOp::floating), "damping"_a = 0., docs::operation::floating)
+          "motion"_a, nb::kw_only(), "tolerance"_a = FollowOptions().tolerance,
+          "velocity_tolerance"_a = FollowOptions().velocity_tolerance, "overwrite"_a = false,
+          "start_time"_a = FollowOptions().start_time, docs::robot::follow)
+      .def(
+          "follow",
+          [](PyBotOp& b, const BSpline& motion, double tolerance, double velocity_tolerance, bool overwrite,
+             double start_time) {
+            const nb::gil_scoped_release unlock;
+            b->follow(SplineTrajectory(motion), {tolerance, velocity_tolerance, overwrite, start_time});
+          },
+          "motion"_a, nb::kw_only(), "tolerance"_a = FollowOptions().tolerance,
+          "velocity_tolerance"_a = FollowOptions().velocity_tolerance, "overwrite"_a = false,
+          "start_time"_a = FollowOptions().start_time, docs::robot::follow)
+      .def("hold", call(&BotOp::hold), "Stops at once and stays, at full stiffness.")
+      .def("floating", call(&BotOp::floating), "damping"_a = 0., docs::robot::floating)
       .def(
           "setCompliance",
           [](PyBotOp& b, const Numbers& J, double compliance) {
@@ -150,39 +169,38 @@ void bindMotions(nb::class_<PyBotOp>& bot) {
             const nb::gil_scoped_release unlock;
             b->setCompliance(rows, compliance);
           },
-          "J"_a, "compliance"_a = .5, docs::operation::setCompliance)
-      .def("stepObservation", call(&BotOp::stepObservation), "What the robot does and shall do now.")
+          "J"_a, "compliance"_a = .5, docs::robot::setCompliance)
+      .def("stepObservation", call(&BotOp::stepObservation), "Returns the present state and reference of the robot.")
       .def(
           "stepAction",
-          [](PyBotOp& b, const Numbers& delta, const StepObservation& observation, double lambda, double most,
-             double xi) {
+          [](PyBotOp& b, const Numbers& delta, const StepObservation& observation, double lambda,
+             double max_acceleration, double xi) {
             const nb::gil_scoped_release unlock;
-            b->stepAction(delta.values, observation, lambda, most, xi);
+            b->stepAction(delta.values, observation, lambda, max_acceleration, xi);
           },
-          "delta"_a, "obs"_a, "lmbda"_a, "maxAccel"_a = 5., "xi"_a = 1., docs::operation::stepAction)
+          "delta"_a, "obs"_a, "lmbda"_a, "maxAccel"_a = 5., "xi"_a = 1., docs::robot::stepAction)
       .def(
           "home",
           [](PyBotOp& b, PyConfig& c) {
             const nb::gil_scoped_release unlock;
             b->home(c);
           },
-          "C"_a, docs::operation::home)
+          "C"_a, docs::robot::home)
       .def(
           "stop",
           [](PyBotOp& b, PyConfig& c) {
             const nb::gil_scoped_release unlock;
             b->stop(c);
           },
-          "C"_a, docs::operation::stop)
-      .def("recover", call(&BotOp::recover), "Goes on after a fault: clears it, and holds the robot where it is.")
+          "C"_a, docs::robot::stop)
+      .def("recover", call(&BotOp::recover), "Clears a fault, and holds the robot at its present q.")
       .def(
           "setLimits",
           [](PyBotOp& b, const Numbers& velocity, const Numbers& acceleration, const Numbers& effort) {
             const nb::gil_scoped_release unlock;
             b->setLimits(velocity.values, acceleration.values, effort.values);
           },
-          "velocity"_a = nb::list(), "acceleration"_a = nb::list(), "effort"_a = nb::list(),
-          docs::operation::setLimits);
+          "velocity"_a = nb::list(), "acceleration"_a = nb::list(), "effort"_a = nb::list(), docs::robot::setLimits);
 }
 
 void bindTime(nb::class_<PyBotOp>& bot) {
@@ -192,7 +210,7 @@ void bindTime(nb::class_<PyBotOp>& bot) {
            const nb::gil_scoped_release unlock;
            return b->sync(c, seconds, message);
          },
-         "C"_a, "waitTime"_a = .1, "viewMsg"_a = "", docs::operation::sync)
+         "C"_a, "waitTime"_a = .1, "viewMsg"_a = "", docs::robot::sync)
       .def(
           "wait",
           [](PyBotOp& b, PyConfig& c, bool key, bool end, bool gripper, double period) {
@@ -200,23 +218,22 @@ void bindTime(nb::class_<PyBotOp>& bot) {
             return b->wait(c, key, end, gripper, period);
           },
           "C"_a, "forKeyPressed"_a = true, "forTimeToEnd"_a = true, "forGripper"_a = false, "syncFrequency"_a = .05,
-          docs::operation::wait);
+          docs::robot::wait);
 }
 
 void bindGrippers(nb::class_<PyBotOp>& bot) {
-  bot.def("gripperMove", call(&BotOp::gripperMove), "id"_a, "width"_a = .075, "speed"_a = .2,
-          docs::operation::gripperMove)
+  bot.def("gripperMove", call(&BotOp::gripperMove), "id"_a, "width"_a = .075, "speed"_a = .2, docs::robot::gripperMove)
       .def("gripperClose", call(&BotOp::gripperClose), "id"_a, "force"_a = 10., "width"_a = .05, "speed"_a = .1,
-           docs::operation::gripperClose)
+           docs::robot::gripperClose)
       .def(
           "gripperCloseGrasp",
           [](PyBotOp& b, int id, const std::string& object, double force, double width, double speed) {
             const nb::gil_scoped_release unlock;
             b->gripperCloseGrasp(id, object, force, width, speed);
           },
-          "id"_a, "objName"_a, "force"_a = 10., "width"_a = .05, "speed"_a = .1, docs::operation::gripperCloseGrasp)
-      .def("getGripperPos", call(&BotOp::getGripperPos), "id"_a, docs::operation::getGripperPos)
-      .def("gripperDone", call(&BotOp::gripperDone), "id"_a, docs::operation::gripperDone);
+          "id"_a, "objName"_a, "force"_a = 10., "width"_a = .05, "speed"_a = .1, docs::robot::gripperCloseGrasp)
+      .def("getGripperPos", call(&BotOp::getGripperPos), "id"_a, docs::robot::getGripperPos)
+      .def("gripperDone", call(&BotOp::gripperDone), "id"_a, docs::robot::gripperDone);
 }
 
 void bindWorld(nb::class_<PyBotOp>& bot) {
@@ -226,28 +243,28 @@ void bindWorld(nb::class_<PyBotOp>& bot) {
            const nb::gil_scoped_release unlock;
            b->attach(from, to);
          },
-         "from_"_a, "to"_a, docs::operation::attach)
+         "from_"_a, "to"_a, docs::robot::attach)
       .def(
           "detach",
           [](PyBotOp& b, const std::string& from, const std::string& to) {
             const nb::gil_scoped_release unlock;
             b->detach(from, to);
           },
-          "from_"_a, "to"_a, docs::operation::detach)
+          "from_"_a, "to"_a, docs::robot::detach)
       .def(
           "setFramePose",
           [](PyBotOp& b, const std::string& frame, const Numbers& pose) {
-            const Pose where = Pose::fromNumbers(pose.values);
+            const Pose X = Pose::fromNumbers(pose.values);
             const nb::gil_scoped_release unlock;
-            b->setFramePose(frame, where);
+            b->setFramePose(frame, X);
           },
-          "frame"_a, "pose"_a, docs::operation::setFramePose)
+          "frame"_a, "pose"_a, docs::robot::setFramePose)
       .def(
           "getWorld", [](PyBotOp& b) { return PyConfig{call(&BotOp::getWorld)(b)}; },
-          "A copy of the simulated world as it is now: a Config.")
+          "Returns a copy of the simulated world in its present state, a Config.")
       .def(
           "getContacts", [](PyBotOp& b) { return contactDicts(call(&BotOp::getContacts)(b)); },
-          docs::operation::getContacts);
+          docs::robot::getContacts);
 }
 
 void bindCameras(nb::class_<PyBotOp>& bot) {
@@ -258,30 +275,30 @@ void bindCameras(nb::class_<PyBotOp>& bot) {
   bot.def(
          "getImageAndDepth",
          [image](PyBotOp& b, const std::string& camera) -> nb::typed<nb::tuple, ByteArray, FloatArray> {
-           CameraImage seen = image(b, camera);
-           return nb::make_tuple(rgbOf(seen), depthOf(seen));
+           CameraImage rendered = image(b, camera);
+           return nb::make_tuple(rgbOf(rendered), depthOf(rendered));
          },
-         "sensorName"_a, docs::operation::getImageAndDepth)
+         "sensorName"_a, docs::robot::getImageAndDepth)
       .def(
           "getImage",
           [image](PyBotOp& b, const std::string& camera) {
-            CameraImage seen = image(b, camera);
-            return rgbOf(seen);
+            CameraImage rendered = image(b, camera);
+            return rgbOf(rendered);
           },
-          "sensorName"_a, docs::operation::getImage)
+          "sensorName"_a, docs::robot::getImage)
       .def(
           "getImageDepthPcl",
           [](PyBotOp& b, const std::string& camera, bool global) -> nb::typed<nb::tuple, ByteArray, FloatArray, Array> {
-            std::pair<CameraImage, std::vector<double>> seen;
+            std::pair<CameraImage, std::vector<double>> rendered;
             {
               const nb::gil_scoped_release unlock;
-              seen = b->getImageDepthPcl(camera, global);
+              rendered = b->getImageDepthPcl(camera, global);
             }
-            const auto height = std::size_t(seen.first.height), width = std::size_t(seen.first.width);
-            return nb::make_tuple(rgbOf(seen.first), depthOf(seen.first),
-                                  toImage<Array>(std::move(seen.second), {height, width, 3}));
+            const auto height = std::size_t(rendered.first.height), width = std::size_t(rendered.first.width);
+            return nb::make_tuple(rgbOf(rendered.first), depthOf(rendered.first),
+                                  toImage<Array>(std::move(rendered.second), {height, width, 3}));
           },
-          "sensorName"_a, "globalCoordinates"_a = false, docs::operation::getImageDepthPcl)
+          "sensorName"_a, "globalCoordinates"_a = false, docs::robot::getImageDepthPcl)
       .def(
           "getCameraFxycxy",
           [](PyBotOp& b, const std::string& camera) {
@@ -292,66 +309,68 @@ void bindCameras(nb::class_<PyBotOp>& bot) {
             }
             return toNumpy(numbers);
           },
-          "sensorName"_a, docs::operation::getCameraFxycxy);
+          "sensorName"_a, docs::robot::getCameraFxycxy);
 }
 
 void bindRecords(nb::module_& m, nb::class_<PyBotOp>& bot) {
-  nb::class_<CommandLog>(m, "CommandLog", docs::operation::CommandLog)
+  nb::class_<CommandLog>(m, "CommandLog", docs::robot::CommandLog)
       .def(nb::init<>(), "An empty log.")
-      .def_ro("period", &CommandLog::period, "Period of control, s.")
-      .def_ro("ticks", &CommandLog::ticks, "How many periods it is long.")
+      .def_ro("period", &CommandLog::period, "Control period, s.")
+      .def_ro("ticks", &CommandLog::ticks, "Number of control periods.")
       .def("__len__", [](const CommandLog& log) { return log.entries.size(); })
-      .def("text", &CommandLog::text, "The log as text: a command a line, with numbers that read back as they are.")
+      .def("text", &CommandLog::text, "Returns the log as text: one command per line, with all digits of its numbers.")
       .def(
           "save", [](const CommandLog& log, const PathText& path) { log.save(path.text); }, "path"_a,
-          docs::operation::saveLog)
+          docs::robot::saveLog)
       .def_static(
-          "load", [](const PathText& path) { return CommandLog::load(path.text); }, "path"_a, docs::operation::loadLog)
+          "load", [](const PathText& path) { return CommandLog::load(path.text); }, "path"_a, docs::robot::loadLog)
       .def_static(
           "fromText", [](const std::string& text) { return CommandLog::fromText(text); }, "text"_a,
-          docs::operation::logFromText)
+          docs::robot::logFromText)
       .def(
           "__eq__", [](const CommandLog& a, const CommandLog& b) { return a.text() == b.text(); }, nb::is_operator());
-  bot.def("getLog", call(&BotOp::getLog), "All that the robot was told so far: a CommandLog.")
+  bot.def("getLog", call(&BotOp::getLog), "Returns all commands so far, a CommandLog.")
       .def(
           "replay",
           [](PyBotOp& b, const CommandLog& log) {
             const nb::gil_scoped_release unlock;
             b->replay(log);
           },
-          "log"_a, docs::operation::replay)
+          "log"_a, docs::robot::replay)
       .def(
           "recordTo",
           [](PyBotOp& b, const PathText& path) {
             const nb::gil_scoped_release unlock;
             b->recordTo(path.text);
           },
-          "path"_a, docs::operation::recordTo)
-      .def("close", &PyBotOp::close, "Ends it: the driver is disconnected. What is called later is an error.");
+          "path"_a, docs::robot::recordTo)
+      .def("close", &PyBotOp::close, "Disconnects the driver. Later calls raise an error.");
 }
 
 }  // namespace
 
-void bindOperation(nb::module_& m) {
+void bindRobot(nb::module_& m) {
   bindRobotDriver(m);
-  nb::enum_<LoopMode>(m, "LoopMode", "How a robot is moved.")
-      .value("follow", LoopMode::follow, "Along a motion, and at rest at its end.")
-      .value("hold", LoopMode::hold, "At rest.")
-      .value("floating", LoopMode::floating, "Without stiffness.")
-      .value("fault", LoopMode::fault, "Stopped by a guard or by an error of the robot.");
-  nb::class_<StepObservation>(m, "StepObservation", "What a robot does and shall do at one time.")
+  nb::enum_<LoopMode>(m, "LoopMode", "The control mode of a robot.")
+      .value("follow", LoopMode::follow, "Follows its reference motion, and rests at the end.")
+      .value("hold", LoopMode::hold, "Rests.")
+      .value("floating", LoopMode::floating, "Has no stiffness.")
+      .value("fault", LoopMode::fault, "Was stopped by a safety limit or by an error of the robot.");
+  nb::class_<StepObservation>(m, "StepObservation", "State and reference of a robot at one time.")
       .def_ro("ctrlTime", &StepObservation::ctrl_time, "s.")
       .def_prop_ro(
-          "qpos", [](const StepObservation& o) { return toNumpy(o.qpos); }, "Joint values as read, (n,) rad or m.")
+          "qpos", [](const StepObservation& o) { return toNumpy(o.qpos); }, "Joint values, (n,) rad or m.")
       .def_prop_ro(
-          "qvel", [](const StepObservation& o) { return toNumpy(o.qvel); }, "Joint velocities as read, (n,).")
+          "qvel", [](const StepObservation& o) { return toNumpy(o.qvel); }, "Joint velocities, (n,).")
       .def_prop_ro(
-          "qref", [](const StepObservation& o) { return toNumpy(o.qref); }, "Where it shall be, (n,) rad or m.")
+          "qref", [](const StepObservation& o) { return toNumpy(o.qref); },
+          "Reference of the joint values, (n,) rad or m.")
       .def_prop_ro(
-          "qvel_ref", [](const StepObservation& o) { return toNumpy(o.qvel_ref); }, "How fast it shall be, (n,).");
-  nb::class_<PyBotOp> bot(m, "BotOp", nb::is_weak_referenceable(), docs::operation::BotOp);
+          "qvel_ref", [](const StepObservation& o) { return toNumpy(o.qvel_ref); },
+          "Reference of the joint velocities, (n,).");
+  nb::class_<PyBotOp> bot(m, "BotOp", nb::is_weak_referenceable(), docs::robot::BotOp);
   bot.def("__init__", makeBot, "C"_a, "useRealRobot"_a = false, "auto_launch"_a = true, "driver"_a.none() = nb::none(),
-          "realtime"_a = false, docs::operation::BotOp_make);
+          "realtime"_a = false, docs::robot::BotOp_make);
   bindState(bot);
   bindMotions(bot);
   bindTime(bot);

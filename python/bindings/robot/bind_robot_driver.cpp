@@ -16,8 +16,8 @@ namespace kinegraph::python {
 
 namespace {
 
-/// What a driver that is written in Python throws stops the robot, as an error of a driver in C++ does. Who ends the
-/// program (Ctrl-C) is passed on.
+/// Translates an exception of a driver in Python into a RobotFault, which stops the robot. An interrupt of the program
+/// (Ctrl-C) passes.
 template <class Call>
 auto fromPython(const char* name, const Call& call) {
   try {
@@ -29,11 +29,11 @@ auto fromPython(const char* name, const Call& call) {
                          nb::cast<std::string>(nb::str(error.type().attr("__name__"))), ": ",
                          nb::cast<std::string>(nb::str(error.value()))));
   } catch (const nb::cast_error&) {
-    throw RobotFault(cat("the driver's ", name, "() returned something else than it should"));
+    throw RobotFault(cat("the driver's ", name, "() returned an object of a wrong type"));
   } catch (const Error&) {
     throw;
-  } catch (const std::runtime_error&) {  // of nanobind
-    throw RobotFault(cat("the driver has no ", name, "(); subclasses of RobotDriver write it"));
+  } catch (const std::runtime_error&) {  // by nanobind, for a method without override
+    throw RobotFault(cat("the driver has no ", name, "(); subclasses of RobotDriver define it"));
   }
 }
 
@@ -90,30 +90,30 @@ VectorXd orInfinite(const Numbers& given, std::size_t n, double otherwise) {
 
 void bindGrippers(nb::module_& m) {
   nb::class_<GripperInfo>(m, "GripperInfo",
-                          "What a gripper of a robot is. Widths are of the opening between its fingers.")
+                          "Name and limits of a gripper. Widths are of the opening between its fingers.")
       .def(nb::init<std::string, double, double, double, double>(), "name"_a, "min_width"_a = 0., "max_width"_a = .08,
-           "max_speed"_a = .2, "max_force"_a = 70., docs::operation::GripperInfo)
-      .def_rw("name", &GripperInfo::name, "Its name.")
-      .def_rw("min_width", &GripperInfo::min_width, "m.")
-      .def_rw("max_width", &GripperInfo::max_width, "m.")
-      .def_rw("max_speed", &GripperInfo::max_speed, "m/s of the width.")
-      .def_rw("max_force", &GripperInfo::max_force, "N.");
-  nb::class_<GripperState>(m, "GripperState", "A gripper as it is.")
-      .def(nb::init<double, bool>(), "width"_a = 0., "is_done"_a = true, docs::operation::GripperState)
-      .def_rw("width", &GripperState::width, "m.")
-      .def_rw("is_done", &GripperState::is_done, "It has reached the width it was told, or something holds it up.");
-  nb::class_<GripperCommand>(m, "GripperCommand", "What a gripper shall do.")
-      .def_ro("gripper", &GripperCommand::gripper, "Which one, from 0.")
-      .def_ro("grasp", &GripperCommand::grasp,
-              "Close until something is between the fingers, and hold it with `force`.")
-      .def_ro("width", &GripperCommand::width, "Where to go, or how wide that is which is grasped, m.")
-      .def_ro("speed", &GripperCommand::speed, "m/s of the width.")
-      .def_ro("force", &GripperCommand::force, "N, at most.")
-      .def_ro("object", &GripperCommand::object, "The name of what is grasped, if that is known.");
+           "max_speed"_a = .2, "max_force"_a = 70., docs::robot::GripperInfo)
+      .def_rw("name", &GripperInfo::name, "Name of the gripper.")
+      .def_rw("min_width", &GripperInfo::min_width, "Smallest width, m.")
+      .def_rw("max_width", &GripperInfo::max_width, "Largest width, m.")
+      .def_rw("max_speed", &GripperInfo::max_speed, "Largest speed of the width, m/s.")
+      .def_rw("max_force", &GripperInfo::max_force, "Largest force, N.");
+  nb::class_<GripperState>(m, "GripperState", "The state of a gripper.")
+      .def(nb::init<double, bool>(), "width"_a = 0., "is_done"_a = true, docs::robot::GripperState)
+      .def_rw("width", &GripperState::width, "Width of the opening, m.")
+      .def_rw("is_done", &GripperState::is_done, "It has reached its target width, or an object stops it.");
+  nb::class_<GripperCommand>(m, "GripperCommand", "A command to a gripper.")
+      .def_ro("gripper", &GripperCommand::gripper, "Number of the gripper, from 0.")
+      .def_ro("grasp", &GripperCommand::grasp, "Close until an object stops the fingers, and hold it with `force`.")
+      .def_ro("width", &GripperCommand::width, "Target width, or the width of the grasped object, m.")
+      .def_ro("speed", &GripperCommand::speed, "Speed of the width, m/s.")
+      .def_ro("force", &GripperCommand::force, "Largest force, N.")
+      .def_ro("object", &GripperCommand::object, "Frame of the grasped object, if it is known.");
 }
 
 void bindInfo(nb::module_& m) {
-  nb::class_<RobotInfo> info(m, "RobotInfo", "What a robot is. Limits are per joint, infinite where there is none.");
+  nb::class_<RobotInfo> info(
+      m, "RobotInfo", "Name, joints, limits and grippers of a robot. Limits are per joint, infinite if there is none.");
   info.def(
           "__init__",
           [](RobotInfo* self, std::string name, std::vector<std::string> joints, const Numbers& lower,
@@ -136,24 +136,24 @@ void bindInfo(nb::module_& m) {
           },
           "name"_a, "joints"_a, "lower"_a = nb::list(), "upper"_a = nb::list(), "velocity"_a = nb::list(),
           "acceleration"_a = nb::list(), "effort"_a = nb::list(), "rate"_a = 100., "compliant"_a = false,
-          "grippers"_a = nb::list(), docs::operation::RobotInfo)
+          "grippers"_a = nb::list(), docs::robot::RobotInfo)
       .def_static(
           "of", [](const PyConfig& config, std::string name) { return RobotInfo::of(config, std::move(name)); },
-          "config"_a, "name"_a, docs::operation::RobotInfo_of)
-      .def_rw("name", &RobotInfo::name, "Its name, for messages.")
+          "config"_a, "name"_a, docs::robot::RobotInfo_of)
+      .def_rw("name", &RobotInfo::name, "Name of the robot, for messages.")
       .def_rw("joints", &RobotInfo::joints, "One name per entry of q.")
-      .def_rw("rate", &RobotInfo::rate, "Commands per second that it wants, Hz.")
-      .def_rw("compliant", &RobotInfo::compliant, "Can it be less stiff than fully?")
-      .def_rw("grippers", &RobotInfo::grippers, "Its grippers.");
-  vectorField(info, "lower", &RobotInfo::lower, "(n,) rad or m.");
-  vectorField(info, "upper", &RobotInfo::upper, "(n,) rad or m.");
-  vectorField(info, "velocity", &RobotInfo::velocity, "(n,) rad/s or m/s.");
-  vectorField(info, "acceleration", &RobotInfo::acceleration, "(n,) rad/s^2 or m/s^2.");
-  vectorField(info, "effort", &RobotInfo::effort, "(n,) N m or N.");
+      .def_rw("rate", &RobotInfo::rate, "Preferred rate of commands, Hz.")
+      .def_rw("compliant", &RobotInfo::compliant, "True if it supports a reduced stiffness.")
+      .def_rw("grippers", &RobotInfo::grippers, "List of GripperInfo.");
+  vectorField(info, "lower", &RobotInfo::lower, "(n,) lower limits of q, rad or m.");
+  vectorField(info, "upper", &RobotInfo::upper, "(n,) upper limits of q, rad or m.");
+  vectorField(info, "velocity", &RobotInfo::velocity, "(n,) velocity limits, rad/s or m/s.");
+  vectorField(info, "acceleration", &RobotInfo::acceleration, "(n,) acceleration limits, rad/s^2 or m/s^2.");
+  vectorField(info, "effort", &RobotInfo::effort, "(n,) effort limits, N m or N.");
 }
 
-void bindReadings(nb::module_& m) {
-  nb::class_<RobotState> state(m, "RobotState", "A robot as it is.");
+void bindStates(nb::module_& m) {
+  nb::class_<RobotState> state(m, "RobotState", "The state of a robot.");
   state
       .def(
           "__init__",
@@ -163,25 +163,26 @@ void bindReadings(nb::module_& m) {
                 time, q.values, velocity.values, effort.values, external.values, std::move(grippers), std::move(error)};
           },
           "time"_a, "q"_a, "velocity"_a, "effort"_a = nb::list(), "external_effort"_a = nb::list(),
-          "grippers"_a = nb::list(), "error"_a = "", docs::operation::RobotState)
-      .def_rw("time", &RobotState::time, "Of the robot's clock, s.")
-      .def_rw("grippers", &RobotState::grippers, "A GripperState for each of its grippers.")
-      .def_rw("error", &RobotState::error, "What the robot says is wrong; empty if nothing is.");
-  vectorField(state, "q", &RobotState::q, "(n,) rad or m.");
-  vectorField(state, "velocity", &RobotState::velocity, "(n,) rad/s or m/s.");
-  vectorField(state, "effort", &RobotState::effort, "(n,) of its motors, N m or N; empty if unknown.");
+          "grippers"_a = nb::list(), "error"_a = "", docs::robot::RobotState)
+      .def_rw("time", &RobotState::time, "Robot's clock, s.")
+      .def_rw("grippers", &RobotState::grippers, "List of GripperState.")
+      .def_rw("error", &RobotState::error, "Error that the robot reports; empty without one.");
+  vectorField(state, "q", &RobotState::q, "(n,) joint values, rad or m.");
+  vectorField(state, "velocity", &RobotState::velocity, "(n,) joint velocities, rad/s or m/s.");
+  vectorField(state, "effort", &RobotState::effort, "(n,) efforts of the motors, N m or N; empty if unknown.");
   vectorField(state, "external_effort", &RobotState::external_effort,
-              "(n,) by what it touches, N m or N; empty if unknown.");
+              "(n,) efforts by contacts, N m or N; empty if unknown.");
 
-  nb::class_<RobotCommand> command(m, "RobotCommand", "Where a robot shall be at the end of a period.");
-  command.def_ro("period", &RobotCommand::period, "s from now.")
-      .def_ro("damping", &RobotCommand::damping, "Share of the robot's damping where the stiffness is not full.")
-      .def("isStiff", &RobotCommand::isStiff, "True if its stiffness is full.");
-  vectorField(command, "q", &RobotCommand::q, "(n,) at its end, rad or m.");
-  vectorField(command, "velocity", &RobotCommand::velocity, "(n,) at its end, rad/s or m/s.");
-  vectorField(command, "acceleration", &RobotCommand::acceleration, "(n,) wanted at its end.");
+  nb::class_<RobotCommand> command(m, "RobotCommand", "The target of a robot at the end of a control period.");
+  command.def_ro("period", &RobotCommand::period, "Length of the control period, s.")
+      .def_ro("damping", &RobotCommand::damping, "Factor on the robot's damping, if the stiffness is not full.")
+      .def("isStiff", &RobotCommand::isStiff, "Tells whether the stiffness is full.");
+  vectorField(command, "q", &RobotCommand::q, "(n,) joint values, rad or m.");
+  vectorField(command, "velocity", &RobotCommand::velocity, "(n,) joint velocities, rad/s or m/s.");
+  vectorField(command, "acceleration", &RobotCommand::acceleration,
+              "(n,) accelerations of the reference, rad/s^2 or m/s^2.");
   matrixField(command, "stiffness", &RobotCommand::stiffness,
-              "(n, n) share of the robot's stiffness: identity is full, 0 is none; empty: full.");
+              "(n, n) factor on the robot's stiffness: identity is full, 0 is none; empty: full.");
 }
 
 }  // namespace
@@ -189,40 +190,40 @@ void bindReadings(nb::module_& m) {
 void bindRobotDriver(nb::module_& m) {
   bindGrippers(m);
   bindInfo(m);
-  bindReadings(m);
-  nb::class_<RobotDriver, PyRobotDriver>(m, "RobotDriver", docs::operation::RobotDriver)
-      .def(nb::init<>(), "For subclasses.")
-      .def("info", &RobotDriver::info, "What robot it is: a RobotInfo, the same at all times after connect().")
-      .def("connect", &RobotDriver::connect, "Called once, before all else.")
-      .def("disconnect", &RobotDriver::disconnect, "Called once, at the end.")
-      .def("read", &RobotDriver::read, "The robot as it is: a RobotState.")
-      .def("write", &RobotDriver::write, "command"_a, docs::operation::write)
-      .def("stop", &RobotDriver::stop, "reason"_a, docs::operation::stopRobot)
-      .def("recover", &RobotDriver::recover, "Clears errors, so that it can be moved again.")
-      .def("moveGripper", &RobotDriver::moveGripper, "command"_a, docs::operation::moveGripper)
-      .def("step", &RobotDriver::step, "period"_a, docs::operation::step);
-  nb::class_<KinematicDriver, RobotDriver>(m, "KinematicDriver", docs::operation::KinematicDriver)
+  bindStates(m);
+  nb::class_<RobotDriver, PyRobotDriver>(m, "RobotDriver", docs::robot::RobotDriver)
+      .def(nb::init<>(), "For subclasses, which call it in their __init__.")
+      .def("info", &RobotDriver::info, "Returns the RobotInfo, which is constant after connect().")
+      .def("connect", &RobotDriver::connect, "Connects to the robot. Called once, first.")
+      .def("disconnect", &RobotDriver::disconnect, "Disconnects. Called once, last.")
+      .def("read", &RobotDriver::read, "Returns the RobotState.")
+      .def("write", &RobotDriver::write, "command"_a, docs::robot::write)
+      .def("stop", &RobotDriver::stop, "reason"_a, docs::robot::stopRobot)
+      .def("recover", &RobotDriver::recover, "Clears errors, so that the robot can move again.")
+      .def("moveGripper", &RobotDriver::moveGripper, "command"_a, docs::robot::moveGripper)
+      .def("step", &RobotDriver::step, "period"_a, docs::robot::step);
+  nb::class_<KinematicDriver, RobotDriver>(m, "KinematicDriver", docs::robot::KinematicDriver)
       .def(
           "__init__", [](KinematicDriver* self, const PyConfig& config) { new (self) KinematicDriver(config); },
-          "config"_a, docs::operation::KinematicDriver_make);
-  nb::class_<SimulatedDriver, RobotDriver>(m, "SimulatedDriver", docs::operation::SimulatedDriver)
+          "config"_a, docs::robot::KinematicDriver_make);
+  nb::class_<SimulatedDriver, RobotDriver>(m, "SimulatedDriver", docs::robot::SimulatedDriver)
       .def(
           "__init__",
           [](SimulatedDriver* self, const PyConfig& config, const SimulationOptions& options) {
             new (self) SimulatedDriver(config, options);
           },
-          "config"_a, "options"_a = SimulationOptions(), docs::operation::SimulatedDriver_make);
-  nb::class_<RecordedDriver, RobotDriver>(m, "RecordedDriver", docs::operation::RecordedDriver)
+          "config"_a, "options"_a = SimulationOptions(), docs::robot::SimulatedDriver_make);
+  nb::class_<RecordedDriver, RobotDriver>(m, "RecordedDriver", docs::robot::RecordedDriver)
       .def(
           "__init__",
           [](RecordedDriver* self, RobotInfo info, std::vector<RobotState> states, const Numbers& start) {
             new (self) RecordedDriver(std::move(info), std::move(states), start.values);
           },
-          "info"_a, "states"_a = nb::list(), "start"_a = nb::list(), docs::operation::RecordedDriver_make)
-      .def("commands", &RecordedDriver::commands, "All RobotCommands so far.")
-      .def("gripperCommands", &RecordedDriver::gripperCommands, "All GripperCommands so far.")
-      .def("stops", &RecordedDriver::stops, "The reasons for which it was stopped.")
-      .def("recoveries", &RecordedDriver::recoveries, "How often it was told to recover.");
+          "info"_a, "states"_a = nb::list(), "start"_a = nb::list(), docs::robot::RecordedDriver_make)
+      .def("commands", &RecordedDriver::commands, "Returns all RobotCommands so far.")
+      .def("gripperCommands", &RecordedDriver::gripperCommands, "Returns all GripperCommands so far.")
+      .def("stops", &RecordedDriver::stops, "Returns the reasons of all stops.")
+      .def("recoveries", &RecordedDriver::recoveries, "Returns the number of recover calls.");
 }
 
 }  // namespace kinegraph::python

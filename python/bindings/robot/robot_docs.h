@@ -1,164 +1,182 @@
 #pragma once
 
-/// The manual of what bind_bot_op.cpp and bind_robot_driver.cpp bind.
-namespace kinegraph::python::docs::operation {
+/// The docstrings of bind_bot_op.cpp and bind_robot_driver.cpp.
+namespace kinegraph::python::docs::robot {
 
 inline constexpr char BotOp[] =
-    R"(Moves a robot, simulated or there, along motions; opens and closes its grippers; shows how it goes.
+    R"(Moves a simulated or real robot along motions, operates its grippers, and shows both.
 
-Time is virtual unless a robot is there or `realtime` is set: it goes on in calls that wait (sync, wait, home, stop) by exactly
-what they say, as fast as it can be computed, or as fast as time on the wall while a browser shows the configuration. Who asks
-the same question (get_t, getTimeToEnd, gripperDone, ...) again at the same time is answered one period later, so that
-loops that ask until a motion is over come to an end. The same script gives the same motion, to the bit.
+Time is virtual unless the robot is real or `realtime` is set. It advances in calls that wait (sync, wait, home, stop),
+by exactly their duration, as fast as the computation allows, or at the pace of the wall clock while a browser shows the
+configuration. A repeated query (get_t, getTimeToEnd, gripperDone, ...) at the same time advances the clock by one
+control period, so that polling loops terminate. The same script gives the same motion, to the bit.
 
-Ctrl-C holds the robot, then raises. Motions beyond limits of the robot are errors that say which limit, and what would do.)";
+Ctrl-C holds the robot, then raises. A motion beyond a limit of the robot raises an error that names the limit and a
+remedy.)";
 
-inline constexpr char BotOp_make[] = R"(A robot, simulated in a copy of a configuration, or behind a driver.
+inline constexpr char BotOp_make[] =
+    R"(Simulates a robot in a copy of a configuration, or moves a robot through a driver.
 
-Parameters that params_add sets: botsim/tau, the period of control, s (.01); botsim/hyperSpeed, seconds of control per second
-while somebody watches or with realtime, not positive: as fast as it can (1); botsim/realtime (False); botsim/engine, 'physx' (our
-dynamic engine) or 'kinematic'; bot/blockRealRobot, True: always simulated (False).
+Parameters of params_add: botsim/tau, the control period in s (.01); botsim/hyperSpeed, control time per wall-clock time
+while a browser shows the configuration or with realtime, no limit if it is not positive (1); botsim/realtime (False);
+botsim/engine, 'physx' (our dynamic engine) or 'kinematic'; bot/blockRealRobot, True to simulate always (False).
 
 Args:
-    C: The scene; not changed, and not looked at later. Its joints are those of the robot.
-    useRealRobot: The robot behind the driver is there: time is real.
-    auto_launch: Without meaning; scripts pass it.
+    C: The scene; copied. Its joints are those of the robot.
+    useRealRobot: The driver moves a real robot, in real time.
+    auto_launch: Ignored; scripts of the reference package pass it.
     driver: A RobotDriver; None for a simulated robot.
-    realtime: A thread moves the robot by the clock on the wall.
+    realtime: A thread moves the robot in wall-clock time.
 Raises:
-    ArgumentError: useRealRobot without a driver; a driver whose joints are not those of C.
+    ArgumentError: useRealRobot is set without a driver, or the driver's joints are not those of C.
     RobotFault: The robot reports an error.)";
 
 inline constexpr char get_tauExternal[] =
-    R"(Forces at the joints by what the robot touches, (n,) N m or N: the mean since the last call. NaN if it does not know.)";
+    R"(Returns the joint forces by contacts, (n,) N m or N: the mean since the last call. NaN if the robot does not
+measure them.)";
 
-inline constexpr char getTimeToEnd[] = R"(Seconds until the motion ends; 0 or less: it has, or there is none.)";
+inline constexpr char getTimeToEnd[] =
+    R"(Returns the time until the motion ends, s; 0 or less if it has ended, or if there is none.)";
 
-inline constexpr char moveTo[] = R"(Goes to joint values and rests there. Does not wait.
+inline constexpr char moveTo[] = R"(Moves to joint values and rests there. Does not wait.
 
-It takes T = (sqrt(6 c d + v^2) - v) / c for a distance d, with velocity v towards it and the cost of time c; at least .1 s, and as
-long as limits of velocity and acceleration ask for.
+The motion takes T = (sqrt(6 c d + v^2) - v) / c for a distance d, a velocity v towards the target, and the time cost c;
+at least .1 s, and longer if limits of velocity and acceleration require it.
 
 Args:
     q_target: (n,) rad or m.
-    timeCost: c: the larger, the faster.
-    overwrite: Instead of what it does now, from where the robot is if something holds it back; else after that.
+    timeCost: c; a larger one gives a faster motion.
+    overwrite: True replaces the present motion, from the robot's q if the robot is blocked; False appends to it.
 Raises:
-    ArgumentError: Another number of joints, or joint values beyond limits.
-    RobotFault: The robot was stopped, or is not where the motion begins.)";
+    ArgumentError: The number of joints is wrong, or a joint value is beyond its limits.
+    RobotFault: The robot was stopped, or is not at the start of the motion.)";
 
-inline constexpr char move[] = R"(Goes along a smooth path, and rests at its end. Does not wait.
+inline constexpr char move[] = R"(Moves along a smooth path and rests at its end. Does not wait.
 
-The motion is a spline of degree 3 with these control points: it comes near to inner ones and ends at the last.
+The motion is a spline of degree 3 with these control points: it comes near the inner points and ends at the last. To
+execute a plan exactly, use follow(plan).
 
 Args:
     path: (K, n) joint values, rad or m, or (n,) for one point.
-    times: (K,) in s after the end of what it does now; or one time, that of the last point, which the others share evenly.
-    overwrite: Instead of what it does now, smoothly; times then count from overwriteCtrlTime.
-    overwriteCtrlTime: Control time, s, until which it goes on with what it does; negative: now. From a time that is over, the motion
-        is taken up where it would be now.
+    times: (K,) in s after the end of the present motion; or the time of the last point, which the others share evenly.
+    overwrite: True replaces the present motion smoothly; times then count from overwriteCtrlTime.
+    overwriteCtrlTime: Control time (s) at which the new motion takes over; negative: now. If it has passed, the new
+        motion starts at the point that it would have reached by now.
 Raises:
-    ArgumentError: Sizes that do not fit, times that fall, or a motion beyond a limit of position, velocity, acceleration or
-        effort; the message says of which joint, when, and how much longer it would have to take.
-    RobotFault: The robot was stopped, or is not where the motion begins.)";
+    ArgumentError: Sizes do not match, times decrease, or the motion exceeds a limit of position, velocity, acceleration
+        or effort; the message names the joint, the time, and the factor on the duration that would do.
+    RobotFault: The robot was stopped, or is not at the start of the motion.)";
 
 inline constexpr char moveAutoTimed[] =
-    R"(Goes along a smooth path as fast as limits allow, and rests at its end. Does not wait.
+    R"(Moves along a smooth path as fast as limits allow, and rests at its end. Does not wait.
 
 Args:
-    path: (K, n) joint values, as for move; the times cancellation points are equal.
-    maxVel: No joint is faster, rad/s or m/s, nor than its own limit.
-    maxAcc: No joint accelerates more, rad/s^2 or m/s^2, nor than its own limit.
+    path: (K, n) joint values, as for move; the times between points are equal.
+    maxVel: Velocity limit of all joints, rad/s or m/s, in addition to their own.
+    maxAcc: Acceleration limit of all joints, rad/s^2 or m/s^2, in addition to their own.
 Raises:
-    ArgumentError: Sizes that do not fit, or joint values beyond limits.
-    RobotFault: The robot was stopped, or is not where the motion begins.)";
+    ArgumentError: Sizes do not match, or joint values are beyond limits.
+    RobotFault: The robot was stopped, or is not at the start of the motion.)";
 
-inline constexpr char follow[] = R"(Follows any spline, in control time, from where the robot is.
+inline constexpr char follow[] = R"(Executes a trajectory exactly. Does not wait.
+
+The reference of each control period is motion.eval(t), with velocity and acceleration; nothing is resampled, so that a
+verified plan keeps its margin. The trajectory starts at the end of the present motion, or replaces it with overwrite,
+and the robot rests at the end. A trajectory that ends with a velocity is followed by a stopping segment. The trajectory
+is evaluated in this call.
 
 Args:
-    motion: A BSpline of degree 3 or less.
+    motion: A Trajectory, such as a TimedPath or a motion plan, or a BSpline.
+    tolerance: Largest distance of a joint from the trajectory's start, rad or m.
+    velocity_tolerance: Largest difference from the trajectory's velocity at its start, rad/s or m/s.
+    overwrite: True replaces the present motion instead of following it.
+    start_time: Control time of the start with overwrite, s; negative: now.
 Raises:
-    ArgumentError: It has another number of joints, or breaks a limit.
-    RobotFault: The robot was stopped, or is not where the motion is now.)";
+    ArgumentError: The robot is not at the trajectory's start, or the trajectory has another number of dofs, or exceeds
+        a limit of position, velocity, acceleration or effort.
+    RobotFault: The robot was stopped.)";
 
-inline constexpr char floating[] = R"(Lets go: who pushes the robot moves it. hold() or a motion ends that.
+inline constexpr char floating[] =
+    R"(Sets the stiffness to zero, so that a hand can move the robot. hold() or a motion ends it.
 
 Args:
-    damping: Share of the robot's damping that stays, 0 to 1.
+    damping: Share of the robot's damping that remains, 0 to 1.
 Raises:
     ArgumentError: damping is out of range.
-    RobotFault: The robot is always stiff.)";
+    RobotFault: The robot has a fixed stiffness.)";
 
-inline constexpr char setCompliance[] = R"(Gives way in some directions, until hold() or another compliance.
+inline constexpr char setCompliance[] =
+    R"(Makes the robot compliant in some directions, until hold() or another compliance.
 
 Args:
-    J: (k, n) rows of a Jacobian, independent of each other: the directions.
-    compliance: 0 (stiff) to 1 (gives way fully).
+    J: (k, n) linearly independent rows of a Jacobian: the directions.
+    compliance: 0 (stiff) to 1 (no stiffness).
 Raises:
-    ArgumentError: Rows that depend on each other, or another number of columns.
-    RobotFault: The robot is always stiff.)";
+    ArgumentError: The rows are linearly dependent, or have another number of columns.
+    RobotFault: The robot has a fixed stiffness.)";
 
 inline constexpr char stepAction[] =
-    R"(Accelerates constantly for a moment: one step of a policy. Accelerations and velocities beyond limits are cut off.
+    R"(Accelerates constantly for a short time: one step of a policy. Accelerations and velocities are clipped to their
+limits.
 
-From the observation's time and reference on it accelerates with a = (delta - 2 xi lmbda qvel) / lmbda^2 for lmbda seconds, and
-then comes to rest in as many, unless another step follows.
+From the observation's time and reference, the robot accelerates by a = (delta - 2 xi lmbda qvel) / lmbda^2 for lmbda
+seconds, and comes to rest in the next lmbda seconds unless another step follows.
 
 Args:
-    delta: (n,) where to go, relative to where it shall be now, rad or m.
-    obs: What stepObservation gave.
+    delta: (n,) target relative to the present reference, rad or m.
+    obs: Result of stepObservation.
     lmbda: Time scale, s.
-    maxAccel: The largest entry of a; a is scaled down to it.
+    maxAccel: Largest entry of a; a is scaled down to it.
     xi: Damping ratio.
 Raises:
-    ArgumentError: Sizes that do not fit, or numbers that are not positive.
+    ArgumentError: Sizes do not match, or numbers are not positive.
     RobotFault: The robot was stopped.)";
 
-inline constexpr char home[] = R"(Goes to qHome, and waits until it is there.
+inline constexpr char home[] = R"(Moves to qHome, and waits for the end of the motion.
 
 Args:
-    C: Is brought to where robot and world are.
+    C: Set to the state of robot and world.
 Raises:
     RobotFault: The robot was stopped.)";
 
-inline constexpr char stop[] = R"(Comes to rest at once, and waits for it.
+inline constexpr char stop[] = R"(Stops at once, and waits until the robot rests.
 
 Args:
-    C: Is brought to where robot and world are.
+    C: Set to the state of robot and world.
 Raises:
-    RobotFault: The robot was stopped by a guard.)";
+    RobotFault: The robot is in fault.)";
 
-inline constexpr char setLimits[] = R"(Sets limits in place of the robot's own.
+inline constexpr char setLimits[] = R"(Replaces limits of the robot.
 
 Args:
-    velocity: (n,) or a number for all joints, rad/s or m/s; as they are if empty.
+    velocity: (n,) or a number for all joints, rad/s or m/s; empty to keep them.
     acceleration: The same, rad/s^2 or m/s^2.
     effort: The same, N m or N.
 Raises:
-    ArgumentError: Another number of joints, or a limit that is not positive.)";
+    ArgumentError: The number of joints is wrong, or a limit is not positive.)";
 
-inline constexpr char sync[] = R"(Lets time go on, and brings a configuration to where robot and world are.
+inline constexpr char sync[] = R"(Advances time, and sets a configuration to the state of robot and world.
 
-Shows it if its viewer is open (C.view()). Where time is real, a key ends the waiting.
+Shows the configuration if its viewer is open (C.view()). In real time, a key ends the wait.
 
 Args:
-    C: Is changed: joint values, grippers, and things, by name.
+    C: Changed: joint values, grippers, and objects, by name.
     waitTime: s.
-    viewMsg: Shown with control time.
+    viewMsg: Shown with the control time.
 Returns:
-    The key pressed in the viewer since the last time, or 0.
+    The key pressed in the viewer since the last call, or 0.
 Raises:
     ArgumentError: waitTime is negative.
-    RobotFault: The robot was stopped; C is where it is all the same.)";
+    RobotFault: The robot was stopped; C is set to its state nevertheless.)";
 
-inline constexpr char wait[] = R"(Syncs until something happens.
+inline constexpr char wait[] = R"(Syncs until an event occurs.
 
 Args:
     C: As for sync.
-    forKeyPressed: Until a key is pressed in the viewer. For this alone it does not wait if nobody watches.
-    forTimeToEnd: Until the motion is over.
+    forKeyPressed: Until a key is pressed in the viewer. Without a viewer, it does not wait for keys alone.
+    forTimeToEnd: Until the motion ends.
     forGripper: Until all grippers are done.
-    syncFrequency: s cancellation two syncs.
+    syncFrequency: Time between two syncs, s.
 Returns:
     The key; ord('g') for grippers; else 0.
 Raises:
@@ -167,279 +185,283 @@ Raises:
 inline constexpr char gripperMove[] = R"(Opens or closes a gripper. Does not wait.
 
 Args:
-    id: Which one: 0, 1, ... or ArgWord._left, ArgWord._right.
-    width: Of the opening, m; as near as the gripper can.
-    speed: Of the width, m/s, at most the gripper's.
+    id: Number of the gripper: 0, 1, ... or ArgWord._left, ArgWord._right.
+    width: Target width of the opening, m; clipped to the gripper's range.
+    speed: Speed of the width, m/s, at most the gripper's.
 Raises:
-    ArgumentError: There is no such gripper, or a number makes no sense.)";
+    ArgumentError: There is no such gripper, or a number is invalid.)";
 
 inline constexpr char gripperClose[] =
-    R"(Closes a gripper until something is cancellation its fingers, and holds that. Does not wait.
+    R"(Closes a gripper until an object stops its fingers, and holds the object. Does not wait.
 
 Args:
-    id: Which one.
+    id: Number of the gripper.
     force: N, at most the gripper's.
-    width: Of the thing, m, for grippers that want to know.
-    speed: Of the width, m/s.
+    width: Width of the object, m, for grippers that use it.
+    speed: Speed of the width, m/s.
 Raises:
-    ArgumentError: There is no such gripper, or a number makes no sense.)";
+    ArgumentError: There is no such gripper, or a number is invalid.)";
 
-inline constexpr char gripperCloseGrasp[] = R"(Closes a gripper on a thing of which the name is known. Does not wait.
+inline constexpr char gripperCloseGrasp[] = R"(Closes a gripper on a named object. Does not wait.
 
 Args:
-    id: Which one.
-    objName: The frame of the thing. Where nothing but the robot moves (KinematicDriver), it moves with the gripper from then on.
+    id: Number of the gripper.
+    objName: Frame of the object. With a KinematicDriver, it moves with the gripper from then on.
     force: N, at most the gripper's.
-    width: Of the thing, m.
-    speed: Of the width, m/s.
+    width: Width of the object, m.
+    speed: Speed of the width, m/s.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: There is no such gripper, or a number makes no sense.)";
+    ArgumentError: There is no such gripper, or a number is invalid.)";
 
-inline constexpr char getGripperPos[] = R"(How far a gripper is open.
+inline constexpr char getGripperPos[] = R"(Returns the width of a gripper's opening.
 
 Args:
-    id: Which one.
+    id: Number of the gripper.
 Returns:
-    The width of its opening, m.
+    The width, m.
 Raises:
     ArgumentError: There is no such gripper.)";
 
-inline constexpr char gripperDone[] = R"(Whether a gripper has done what it was told.
+inline constexpr char gripperDone[] = R"(Tells whether a gripper has finished its last command.
 
 Args:
-    id: Which one.
+    id: Number of the gripper.
 Returns:
-    True if it is as wide as it was told, or something holds its fingers up.
+    True if the gripper has reached its target width, or an object stops its fingers.
 Raises:
     ArgumentError: There is no such gripper.)";
 
-inline constexpr char attach[] = R"(Fixes a thing to another one in the simulated world, where it is.
+inline constexpr char attach[] = R"(Attaches an object to a frame of the simulated world, at its present pose.
 
 Args:
     from_: A frame, such as the gripper.
-    to: The thing.
+    to: The object.
 Raises:
     FrameNotFound: There is no such frame.
     RobotFault: The robot is not simulated.)";
 
-inline constexpr char detach[] = R"(Frees a thing in the simulated world.
+inline constexpr char detach[] = R"(Detaches an object in the simulated world.
 
 Args:
-    from_: What it was fixed to.
-    to: The thing.
+    from_: The frame that it is attached to.
+    to: The object.
 Raises:
     FrameNotFound: There is no such frame.
     RobotFault: The robot is not simulated.)";
 
-inline constexpr char getContacts[] = R"(What touches in the simulated world now, as Simulation.getContacts says it.
+inline constexpr char getContacts[] =
+    R"(Returns the present contacts in the simulated world, as Simulation.getContacts does.
 
 Returns:
-    A dict for each point: `frames` (two names, "ground" for the plane z = 0), `position` (m), `normal` (from the first
-    to the second), `distance` (m, negative where they overlap), `force` (N, that the first exerts on the second); world.
-    Nothing in a world without forces, and of a robot that is there.)";
+    A dict per contact point, in world coordinates: `frames` (two names, "ground" for the plane z = 0), `position` (m),
+        `normal` (from
+    the first to the second), `distance` (m, negative for an overlap), `force` (N, of the first on the second). Empty
+    in a world without forces, and for a real robot.)";
 
-inline constexpr char setFramePose[] = R"(Puts a thing of the simulated world somewhere.
+inline constexpr char setFramePose[] = R"(Sets the pose of an object in the simulated world.
 
 Args:
-    frame: Its name.
+    frame: Name of the object.
     pose: (7,) x y z in m, qw qx qy qz.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: It is no pose.
+    ArgumentError: The pose is invalid.
     RobotFault: The robot is not simulated.)";
 
-inline constexpr char getImageAndDepth[] = R"(What a camera of the simulated world sees.
+inline constexpr char getImageAndDepth[] = R"(Renders the view of a camera in the simulated world.
 
 Args:
-    sensorName: A frame; its attributes say which camera it is.
+    sensorName: Frame of the camera; its attributes describe the camera.
 Returns:
-    Colors (height, width, 3), 0..255, and depth (height, width) in m, -1 where nothing is.
+    Colors (height, width, 3), 0..255, and depth (height, width) in m, -1 without a surface.
 Raises:
     FrameNotFound: There is no such frame.
-    FileError: Nothing can be drawn on this machine.)";
+    FileError: This machine cannot render.)";
 
-inline constexpr char getImage[] = R"(The colors that a camera of the simulated world sees.
+inline constexpr char getImage[] = R"(Renders the colors of a camera's view in the simulated world.
 
 Args:
-    sensorName: A frame; its attributes say which camera it is.
+    sensorName: Frame of the camera; its attributes describe the camera.
 Returns:
     (height, width, 3), 0..255.
 Raises:
     FrameNotFound: There is no such frame.)";
 
-inline constexpr char getImageDepthPcl[] = R"(What a camera of the simulated world sees, also as points.
+inline constexpr char getImageDepthPcl[] =
+    R"(Renders the view of a camera in the simulated world, and computes its point cloud.
 
 Args:
-    sensorName: A frame; its attributes say which camera it is.
-    globalCoordinates: Points in the axes of the world, not of the camera.
+    sensorName: Frame of the camera; its attributes describe the camera.
+    globalCoordinates: True gives points in world coordinates, False in those of the camera.
 Returns:
     Colors (height, width, 3), depth (height, width) in m, points (height, width, 3) in m.
 Raises:
     FrameNotFound: There is no such frame.)";
 
-inline constexpr char getCameraFxycxy[] = R"(Which camera it is.
+inline constexpr char getCameraFxycxy[] = R"(Returns the intrinsic parameters of a camera.
 
 Args:
-    sensorName: A frame; its attributes say which camera it is.
+    sensorName: Frame of the camera.
 Returns:
     fx, fy, cx, cy in pixels, shape (4,).
 Raises:
     FrameNotFound: There is no such frame.)";
 
 inline constexpr char CommandLog[] =
-    R"(All that a robot was told, and when. From the same start the same log gives the same motion, to the bit.)";
+    R"(All commands to a robot with their control periods. From the same start, the same log gives the same motion, to
+the bit.)";
 
 inline constexpr char saveLog[] = R"(Writes the log into a file.
 
 Args:
-    path: Of the file.
+    path: Path of the file.
 Raises:
-    FileError: It cannot be written.)";
+    FileError: The file cannot be written.)";
 
 inline constexpr char loadLog[] = R"(Reads a log from a file.
 
 Args:
-    path: Of the file.
+    path: Path of the file.
 Returns:
     The log.
 Raises:
-    FileError: It cannot be read.
-    ParseError: It is no log; the message says where.)";
+    FileError: The file cannot be read.
+    ParseError: The file is not a log; the message names the line.)";
 
-inline constexpr char logFromText[] = R"(Reads a log from what text() gave.
+inline constexpr char logFromText[] = R"(Reads a log from a result of text().
 
 Args:
     text: The text.
 Returns:
     The log.
 Raises:
-    ParseError: It is no log; the message says where.)";
+    ParseError: The text is not a log; the message names the line.)";
 
-inline constexpr char replay[] = R"(Does again what a log says, in virtual time, on a BotOp that is new.
+inline constexpr char replay[] = R"(Executes the commands of a log, in virtual time, on a new BotOp.
 
 Args:
-    log: What getLog() gave.
+    log: Result of getLog().
 Raises:
-    ArgumentError: The robot was moved before, or the log has another period.
-    FrameNotFound: The scene is not that of the log.)";
+    ArgumentError: The robot has moved before, or the log has another period.
+    FrameNotFound: The scene lacks a frame of the log.)";
 
 inline constexpr char recordTo[] =
-    R"(Writes a row per period into a file from now on: time, q, velocity, and both as they shall be.
+    R"(Writes a line per control period into a file from now on: time, q, velocity, and the references of both.
 
 Args:
-    path: Of the file; empty: none.
+    path: Path of the file; empty ends it.
 Raises:
-    FileError: It cannot be written.)";
+    FileError: The file cannot be written.)";
 
 inline constexpr char RobotDriver[] =
-    R"(What stands cancellation BotOp and a robot. Subclasses drive robots of your own.
+    R"(The interface of BotOp to a robot. Subclasses drive your own robots.
 
-Write info, read, write and stop; where there is something to do, also connect, disconnect, recover, moveGripper, and for
-simulated robots step. Calls come from one thread at a time. What they raise stops the robot, and is told as a RobotFault.)";
+A subclass defines info, read, write and stop, and if needed connect, disconnect, recover, moveGripper, and, for
+simulated robots, step. Calls come from one thread at a time. An exception stops the robot, and BotOp raises it as a
+RobotFault.)";
 
 inline constexpr char write[] = R"(Moves the robot.
 
 Args:
-    command: Where it shall be a period from now, within its limits.)";
+    command: Target at the end of the control period, within the robot's limits.)";
 
 inline constexpr char stopRobot[] =
-    R"(Something is wrong: come to rest. Called once; then nothing is written until recover().
+    R"(Brings the robot to rest after a fault. Called once; write is not called again until recover().
 
 Args:
-    reason: What is wrong.)";
+    reason: Cause of the fault.)";
 
 inline constexpr char moveGripper[] = R"(Moves a gripper.
 
 Args:
-    command: What it shall do.
+    command: A GripperCommand.
 Raises:
     RobotFault: The robot has no grippers.)";
 
-inline constexpr char step[] =
-    R"(Simulated time goes on. The time of a robot that is there goes on by itself: it does nothing.
+inline constexpr char step[] = R"(Advances a simulation. Drivers of real robots do nothing.
 
 Args:
     period: s.)";
 
-inline constexpr char GripperInfo[] = R"(A gripper.
+inline constexpr char GripperInfo[] = R"(Describes a gripper.
 
 Args:
-    name: Of the gripper.
-    min_width, max_width: Of the opening, m.
-    max_speed: Of the width, m/s.
-    max_force: N.)";
+    name: Name of the gripper.
+    min_width, max_width: Range of the opening, m.
+    max_speed: Largest speed of the width, m/s.
+    max_force: Largest force, N.)";
 
-inline constexpr char GripperState[] = R"(A gripper as it is.
-
-Args:
-    width: Of the opening, m.
-    is_done: It has reached the width it was told, or something holds it up.)";
-
-inline constexpr char RobotInfo[] = R"(What a robot is. Limits that are left out are infinite.
+inline constexpr char GripperState[] = R"(Sets the state of a gripper.
 
 Args:
-    name: For messages.
+    width: Width of the opening, m.
+    is_done: The gripper has reached its target width, or an object stops it.)";
+
+inline constexpr char RobotInfo[] = R"(Describes a robot. Limits that are left out are infinite.
+
+Args:
+    name: Name of the robot, for messages.
     joints: One name per entry of q, in the order of Config.getJointNames.
     lower, upper: (n,) limits of q, rad or m.
-    velocity, acceleration: (n,) largest ones.
-    effort: (n,) N m or N.
-    rate: Commands per second that it wants, Hz.
-    compliant: Can it be less stiff than fully?
-    grippers: A GripperInfo for each.
+    velocity, acceleration: (n,) limits, rad/s and rad/s^2, or with m.
+    effort: (n,) limits, N m or N.
+    rate: Preferred rate of commands, Hz.
+    compliant: The robot supports a reduced stiffness.
+    grippers: A list of GripperInfo.
 Raises:
-    ArgumentError: Sizes that do not fit, or limits that are not positive.)";
+    ArgumentError: Sizes do not match, or limits are not positive.)";
 
-inline constexpr char RobotInfo_of[] = R"(The joints of a scene with their limits; none on accelerations, no grippers.
+inline constexpr char RobotInfo_of[] =
+    R"(Describes the joints of a scene with their limits; accelerations are not limited.
 
 Args:
     config: The scene.
-    name: Of the robot.
+    name: Name of the robot.
 Returns:
-    The info.)";
+    The info, without grippers.)";
 
-inline constexpr char RobotState[] = R"(A robot as it is.
+inline constexpr char RobotState[] = R"(Sets the state of a robot.
 
 Args:
-    time: Of the robot's clock, s. If it stands still, the robot is stopped.
+    time: Robot's clock, s. If it stands still, the robot is stopped.
     q: (n,) rad or m.
     velocity: (n,) rad/s or m/s.
-    effort: (n,) of its motors, N m or N; empty if unknown.
-    external_effort: (n,) by what it touches; empty if unknown.
-    grippers: A GripperState for each gripper.
-    error: What the robot says is wrong; empty if nothing is.
+    effort: (n,) of the motors, N m or N; empty if unknown.
+    external_effort: (n,) by contacts, N m or N; empty if unknown.
+    grippers: A list of GripperState.
+    error: Error that the robot reports; empty without one.
 Raises:
-    ArgumentError: What should be numbers is none.)";
+    ArgumentError: An argument is not a number.)";
 
 inline constexpr char KinematicDriver[] =
-    R"(A robot that is exactly where it is told to be, in a world where nothing else moves: no forces, no contacts.)";
+    R"(A robot that follows its commands exactly, in a world without forces and contacts.)";
 
-inline constexpr char KinematicDriver_make[] = R"(A world of its own, as a scene is now.
+inline constexpr char KinematicDriver_make[] = R"(Copies a scene as the world.
 
 Args:
     config: The scene.)";
 
 inline constexpr char SimulatedDriver[] =
-    R"(A robot in a simulated world with masses, contacts and friction: what a gripper holds, it holds by force.)";
+    R"(A robot in a simulated world with masses, contacts and friction. A gripper holds objects by force.)";
 
-inline constexpr char SimulatedDriver_make[] = R"(A world of its own, as a scene is now.
+inline constexpr char SimulatedDriver_make[] = R"(Copies a scene as the world.
 
 Args:
     config: The scene.
-    options: Of the simulation.
+    options: A SimulationOptions.
 Raises:
-    ArgumentError: The scene cannot be simulated; the message says why.)";
+    ArgumentError: The scene cannot be simulated; the message gives the cause.)";
 
-inline constexpr char RecordedDriver[] =
-    R"(A robot of which everything is known beforehand: what it will say. It notes what it is told. For tests.)";
+inline constexpr char RecordedDriver[] = R"(A robot that returns given states and records its commands, for tests.)";
 
-inline constexpr char RecordedDriver_make[] = R"(A robot that says these things.
+inline constexpr char RecordedDriver_make[] = R"(Takes the states that read() returns.
 
 Args:
-    info: What robot it is.
-    states: What read() gives, one after the other; then the last one for ever. If empty, the robot is where it was told to be.
-    start: (n,) where it is at first, without states.
+    info: A RobotInfo.
+    states: States in order; the last one repeats. If empty, the robot follows its commands exactly.
+    start: (n,) first q, without states.
 Raises:
-    ArgumentError: Neither states nor a start.)";
+    ArgumentError: There are neither states nor a start.)";
 
-}  // namespace kinegraph::python::docs::operation
+}  // namespace kinegraph::python::docs::robot

@@ -8,7 +8,7 @@
 
 namespace kinegraph::python {
 
-/// What Python calls a BotOp. Its thread may wait for the interpreter, which therefore is not held while it ends.
+/// The BotOp of Python. It ends without the interpreter lock, because its thread may wait for that lock.
 class PyBotOp {
  public:
   explicit PyBotOp(std::unique_ptr<BotOp> bot) : bot_(std::move(bot)) { open().insert(this); }
@@ -23,14 +23,14 @@ class PyBotOp {
     bot_.reset();
   }
 
-  /// Those that there are; they are closed before the interpreter ends. Needs the interpreter lock.
+  /// All open ones, which are closed before the interpreter ends. Needs the interpreter lock.
   static std::set<PyBotOp*>& open() {
     static std::set<PyBotOp*> bots;
     return bots;
   }
 
   BotOp& operator*() const {
-    if (!bot_) throw RobotFault("BotOp: it has been closed");
+    if (!bot_) throw RobotFault("BotOp: the robot has been closed");
     return *bot_;
   }
   BotOp* operator->() const { return &**this; }

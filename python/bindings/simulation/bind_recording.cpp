@@ -15,7 +15,7 @@ namespace kinegraph::python {
 
 namespace {
 
-/// A recording, and what shows it.
+/// A recording with its own viewer.
 struct PyRecording : Recording {
   std::shared_ptr<PyViewer> viewer = {};
 };
@@ -61,7 +61,7 @@ void bindRecording(nb::module_& m, nb::class_<PySimulation>& simulation) {
             return made.array;
           },
           "Poses of the free frames after each step, (T, F, 7).")
-      .def_ro("isCut", &PyRecording::is_cut, "The scene's structure changed: the recording ends before that.")
+      .def_ro("isCut", &PyRecording::is_cut, "A change of the scene's structure ended the recording.")
       .def(
           "save", [](const PyRecording& r, const PathText& path) { r.save(path.text); }, "path"_a,
           docs::simulation::save)
@@ -93,7 +93,7 @@ void bindRecording(nb::module_& m, nb::class_<PySimulation>& simulation) {
           [](PyRecording& r) {
             if (r.viewer) r.viewer->endPage();
           },
-          "Ends the viewer.")
+          "Closes the viewer.")
       .def("__repr__", [](const PyRecording& r) {
         return cat("<SimulationRecording of ", r.times.size(), " steps, ", r.calls.size(), " calls>");
       });

@@ -28,7 +28,7 @@ void warn(PySimulation& s) {
   for (const std::string& warning : s.simulation.takeWarnings()) emitWarning(warning);
 }
 
-/// The defaults, with what scripts of the reference set by `params_add`.
+/// Returns the default options, overridden by `params_add` of reference scripts.
 SimulationOptions startOptions() {
   const nb::object set = nb::module_::import_("kinegraph.compatibility.parameters").attr("params_get")();
   SimulationOptions options;
@@ -43,14 +43,14 @@ void makeSimulation(PySimulation* self, nb::object config, SimulationEngine engi
   Simulation made(nb::cast<PyConfig&>(config), engine, chosen);
   new (self) PySimulation{std::move(config), std::move(made)};
   warn(*self);
-  showAsTold(*self, verbose);
+  applyVerbosity(*self, verbose);
 }
 
-constexpr double kLong = .1;  ///< s of simulated time: from here on Ctrl-C is looked for
+constexpr double kLong = .1;  ///< s of simulated time: longer steps check for Ctrl-C
 
 void stepSimulation(PySimulation& s, const Numbers& u, double tau, ControlMode mode) {
-  const std::shared_ptr<SimulationWatcher> watcher = s.simulation.watcher();
-  while (watcher && !watcher->mayStep(s.simulation)) watcher->rest();
+  const std::shared_ptr<SimulationObserver> observer = s.simulation.observer();
+  while (observer && !observer->mayStep(s.simulation)) observer->rest();
   s.simulation.update();
   warn(s);
   {
@@ -61,19 +61,19 @@ void stepSimulation(PySimulation& s, const Numbers& u, double tau, ControlMode m
     s.simulation.advance(u.values, tau, mode, cancellation);
   }
   s.simulation.publish();
-  if (watcher) watcher->hasStepped(s.simulation);
+  if (observer) observer->afterStep(s.simulation);
 }
 
 void multiStep(PySimulation& s, double tau_step, double tau_sim) {
   s.simulation.update();
   CheckInterrupts check;
   const auto go = [&] { s.simulation.multi_step(tau_step, tau_sim, [&] { check(); }); };
-  if (s.simulation.watcher()) return go();
+  if (s.simulation.observer()) return go();
   const nb::gil_scoped_release unlock;
   go();
 }
 
-/// Velocities as scripts have them: (F, 2, 3).
+/// Returns velocities with shape (F, 2, 3).
 Array velocityArray(const MatrixXd& velocities) {
   const NewArray made = newArray(std::size_t(velocities.rows()), 2, 3);
   for (long i = 0; i < velocities.rows(); ++i) {
@@ -84,7 +84,7 @@ Array velocityArray(const MatrixXd& velocities) {
 
 MatrixXd velocityMatrix(const Numbers& given, const char* what) {
   if (given.values.size() % 6 != 0)
-    throw ValueError(cat(what, " has ", given.values.size(), " numbers; expected shape (F, 2, 3)"));
+    throw ValueError(cat(what, " has ", given.values.size(), " entries; expected shape (F, 2, 3)"));
   return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor>>(given.values.data(),
                                                                                      given.values.size() / 6, 6);
 }
@@ -96,7 +96,7 @@ void pushConfig(PySimulation& s, const Numbers& frames, const Numbers& joints) {
   warn(s);
 }
 
-/// Scripts of 2024 give what C.getFrameState() gave.
+/// Also accepts C.getFrameState(), as scripts of 2024 do.
 void setState(PySimulation& s, nb::handle state, nb::handle q, const Numbers& frames, const Numbers& joints) {
   if (nb::isinstance<SimulationState>(state)) return s.simulation.setState(nb::cast<const SimulationState&>(state));
   s.config.attr("setFrameState")(state);
@@ -111,30 +111,30 @@ std::string name(const PySimulation& s, const FrameArgument& frame) {
 }
 
 Vector3d vector3(const Numbers& given, const char* what) {
-  if (given.values.size() != 3) throw ValueError(cat(what, " has ", given.values.size(), " numbers; expected 3"));
+  if (given.values.size() != 3) throw ValueError(cat(what, " has ", given.values.size(), " entries; expected 3"));
   return given.values;
 }
 
 nb::object getPerturbation(const PySimulation& s) {
-  const std::optional<Perturbation> pull = s.simulation.getPerturbation();
-  if (!pull) return nb::none();
+  const std::optional<Perturbation> perturbation = s.simulation.getPerturbation();
+  if (!perturbation) return nb::none();
   nb::dict found;
-  found["position"] = toNumpy(VectorXd(pull->position));
-  found["target"] = toNumpy(VectorXd(pull->target));
-  found["force"] = toNumpy(VectorXd(pull->force));
+  found["position"] = toNumpy(VectorXd(perturbation->position));
+  found["target"] = toNumpy(VectorXd(perturbation->target));
+  found["force"] = toNumpy(VectorXd(perturbation->force));
   return found;
 }
 
 void bindState(nb::module_& m) {
   using State = SimulationState;
   nb::class_<State>(m, "SimulationState", docs::simulation::state)
-      .def_rw("time", &State::time, "s.")
+      .def_rw("time", &State::time, "Time, s.")
       .def_prop_rw(
           "q", [](const State& s) { return toNumpy(s.q); }, [](State& s, const Numbers& q) { s.q = q.values; },
           "Joint state, (n,).")
       .def_prop_rw(
           "qDot", [](const State& s) { return toNumpy(s.qDot); }, [](State& s, const Numbers& q) { s.qDot = q.values; },
-          "Its velocity, (n,).")
+          "Joint velocities, (n,).")
       .def_prop_rw(
           "freePos", [](const State& s) { return toNumpy(s.freePos); },
           [](State& s, const Numbers& p) { s.freePos = p.matrix(); },
@@ -142,7 +142,7 @@ void bindState(nb::module_& m) {
       .def_prop_rw(
           "freeVel", [](const State& s) { return velocityArray(s.freeVel); },
           [](State& s, const Numbers& v) { s.freeVel = velocityMatrix(v, "freeVel"); },
-          "Their velocities, (F, 2, 3): linear (m/s) and angular (rad/s), world.")
+          "Velocities of the free frames, (F, 2, 3): linear (m/s) and angular (rad/s), world.")
       .def(
           "__eq__",
           [](const State& a, nb::handle b) { return nb::isinstance<State>(b) && a == nb::cast<const State&>(b); },
@@ -196,28 +196,28 @@ void bindMeasuring(nb::class_<PySimulation>& simulation) {
           },
           "frame"_a, docs::simulation::getAcceleration)
       .def(
-          "perturb",
+          "applyForce",
           [](S& s, const FrameArgument& frame, const Numbers& force, const Numbers& torque, const Numbers& point) {
             std::optional<Vector3d> at;
-            if (point.values.size() > 0) at = vector3(point, "Simulation.perturb: point");
-            s.simulation.perturb(
-                name(s, frame), vector3(force, "Simulation.perturb: force"),
-                torque.values.size() ? vector3(torque, "Simulation.perturb: torque") : Vector3d::Zero(), at);
+            if (point.values.size() > 0) at = vector3(point, "Simulation.applyForce: point");
+            s.simulation.applyForce(
+                name(s, frame), vector3(force, "Simulation.applyForce: force"),
+                torque.values.size() ? vector3(torque, "Simulation.applyForce: torque") : Vector3d::Zero(), at);
           },
-          "frame"_a, "force"_a, "torque"_a = nb::list(), "point"_a = nb::list(), docs::simulation::perturb)
+          "frame"_a, "force"_a, "torque"_a = nb::list(), "point"_a = nb::list(), docs::simulation::applyForce)
       .def(
-          "pull",
+          "perturb",
           [](S& s, const FrameArgument& frame, const Numbers& point, const Numbers& target) {
-            s.simulation.pull(name(s, frame), vector3(point, "Simulation.pull: point"),
-                              vector3(target, "Simulation.pull: target"));
+            s.simulation.perturb(name(s, frame), vector3(point, "Simulation.perturb: point"),
+                                 vector3(target, "Simulation.perturb: target"));
           },
-          "frame"_a, "point"_a, "target"_a, docs::simulation::pull)
+          "frame"_a, "point"_a, "target"_a, docs::simulation::perturb)
       .def(
           "endPerturbation", [](S& s) { s.simulation.endPerturbation(); }, docs::simulation::endPerturbation)
       .def("getPerturbation", getPerturbation, nb::sig("def getPerturbation(self) -> dict | None"),
            docs::simulation::getPerturbation)
       .def(
-          "clearPerturbations", [](S& s) { s.simulation.clearPerturbations(); }, docs::simulation::clearPerturbations);
+          "clearForces", [](S& s) { s.simulation.clearForces(); }, docs::simulation::clearForces);
 }
 
 void bindGrippers(nb::class_<PySimulation>& simulation) {
@@ -290,7 +290,7 @@ void bindCameras(nb::class_<PySimulation>& simulation) {
           "depthData2pointCloud",
           [](const nb::ndarray<const float, nb::ndim<2>, nb::c_contig, nb::device::cpu>& depth, const Numbers& fxycxy) {
             if (fxycxy.values.size() != 4)
-              throw ValueError(cat("depthData2pointCloud: fxycxy has ", fxycxy.values.size(), " numbers; expected 4"));
+              throw ValueError(cat("depthData2pointCloud: fxycxy has ", fxycxy.values.size(), " entries; expected 4"));
             const std::size_t height = depth.shape(0), width = depth.shape(1);
             return toImage<Array>(depthToPoints(depth.data(), int(height), int(width), Vector4d(fxycxy.values)),
                                   {height, width, 3});
@@ -331,18 +331,19 @@ SimulationOptions optionsFrom(nb::handle given) {
 
 void bindSimulation(nb::module_& m) {
   using S = PySimulation;
-  nb::enum_<SimulationEngine>(m, "SimulationEngine", nb::is_arithmetic(), "What steps a Simulation.")
-      .value("physx", SimulationEngine::physx, "Rigid bodies with contacts: MuJoCo, under the name that scripts know.")
+  nb::enum_<SimulationEngine>(m, "SimulationEngine", nb::is_arithmetic(), "The engine of a Simulation.")
+      .value("physx", SimulationEngine::physx,
+             "Rigid bodies with contacts: MuJoCo, under the name in reference scripts.")
       .value("bullet", SimulationEngine::bullet, "Refused.")
-      .value("kinematic", SimulationEngine::kinematic, "Joints follow their references exactly, nothing else moves.");
-  nb::enum_<ControlMode>(m, "ControlMode", nb::is_arithmetic(), "How commands of Simulation and BotOp are meant.")
+      .value("kinematic", SimulationEngine::kinematic, "Joints follow their references exactly; nothing else moves.");
+  nb::enum_<ControlMode>(m, "ControlMode", nb::is_arithmetic(), "The meaning of commands of Simulation and BotOp.")
       .value("none", ControlMode::none, "No vector: motors keep their targets.")
       .value("position", ControlMode::position, "q at the end of the step.")
       .value("velocity", ControlMode::velocity, "dq/dt.")
-      .value("acceleration", ControlMode::acceleration, "Of the reference.")
+      .value("acceleration", ControlMode::acceleration, "Acceleration of the reference.")
       .value("positionVelocity", ControlMode::positionVelocity, "q and dq/dt at the end of the step, (2n,).")
       .value("spline", ControlMode::spline, "No vector: along the spline.")
-      .value("torque", ControlMode::torque, "N m or N.");
+      .value("torque", ControlMode::torque, "Joint torques, N m or N.");
   nb::class_<SimulationOptions> options(m, "SimulationOptions",
                                         "Settings of a Simulation; every field can be given by name.");
   simulationOptions().bind(options, "SimulationOptions", startOptions);
@@ -366,7 +367,7 @@ void bindSimulation(nb::module_& m) {
           "get_qDot", [](const S& s) { return toNumpy(s.simulation.get_qDot()); }, "Velocity of the joint state, (n,).")
       .def(
           "get_qRef", [](const S& s) { return toNumpy(s.simulation.getReference()); },
-          "The joint state that the motors want, (n,).")
+          "The joint state that the motors track, (n,).")
       .def(
           "resetTime", [](S& s, double time) { s.simulation.resetTime(time); }, "time"_a = 0.,
           docs::simulation::resetTime)
@@ -387,10 +388,11 @@ void bindSimulation(nb::module_& m) {
       .def("pushConfigToSim", pushConfig, "frameVelocities"_a = nb::list(), "jointVelocities"_a = nb::list(),
            docs::simulation::pushConfigToSim)
       .def(
-          "setVerbose", [](S& s, int verbose) { showAsTold(s, verbose); }, "verbose"_a, docs::simulation::setVerbose)
+          "setVerbose", [](S& s, int verbose) { applyVerbosity(s, verbose); }, "verbose"_a,
+          docs::simulation::setVerbose)
       .def("__repr__", [](const S& s) {
         return cat("<Simulation at ", s.simulation.get_t(), " s: ", s.simulation.config().getFrameDimension(),
-                   " frames, of which ", s.simulation.getFreeFrames().size(), " are free>");
+                   " frames, ", s.simulation.getFreeFrames().size(), " of them free>");
       });
   simulation.def_prop_ro(
       "options", [](const S& s) { return s.simulation.options(); }, "A copy of its settings.");

@@ -23,7 +23,7 @@ std::vector<int> environmentList(const Batch& batch, const Numbers& given) {
   return all;
 }
 
-/// One number for all, or one for each.
+/// Expands one number to all environments, or checks one per environment.
 VectorXd forEach(const Batch& batch, const Numbers& given) {
   return given.rank == 0 ? VectorXd::Constant(batch.size(), given.values[0]) : given.values;
 }
@@ -35,7 +35,7 @@ void stepBatch(Batch& batch, const Numbers& u, double tau, ControlMode mode, int
   batch.step(rows, tau, mode, repeat, [&] { check(); });
 }
 
-/// Rows of F blocks of `width` numbers: (n, F, width).
+/// Reshapes rows of F blocks of `width` numbers to (n, F, width).
 Array blocks(const MatrixXd& rows, long width) {
   const NewArray made = newArray(std::size_t(rows.rows()), std::size_t(rows.cols() / width), std::size_t(width));
   for (long i = 0; i < rows.rows(); ++i) {
@@ -48,7 +48,7 @@ MatrixXd posesOf(const Batch& batch, const Numbers& given, std::size_t rows) {
   const std::size_t columns = 7 * batch.freeFrames().size();
   if (given.values.size() == 0) return {};
   if (std::size_t(given.values.size()) != rows * columns)
-    throw ValueError(cat("SimulationBatch.place: freePos has ", given.values.size(), " numbers; expected (", rows, ", ",
+    throw ValueError(cat("SimulationBatch.place: freePos has ", given.values.size(), " entries; expected (", rows, ", ",
                          columns / 7, ", 7)"));
   return Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
       given.values.data(), long(rows), long(columns));
@@ -81,13 +81,13 @@ void bindSimulationBatch(nb::module_& m) {
       .def(
           "q", [](const Batch& b) { return toNumpy(b.q()); }, "Joint states, (N, n).")
       .def(
-          "qDot", [](const Batch& b) { return toNumpy(b.qDot()); }, "Their velocities, (N, n).")
+          "qDot", [](const Batch& b) { return toNumpy(b.qDot()); }, "Joint velocities, (N, n).")
       .def(
           "freePos", [](const Batch& b) { return blocks(b.freePoses(), 7); },
           "World poses of the free frames, (N, F, 7): x y z (m) qw qx qy qz.")
       .def(
           "freeVel", [](const Batch& b) { return blocks(b.freeVelocities(), 6); },
-          "Their velocities, (N, F, 6): linear (m/s) and angular (rad/s), world.")
+          "Velocities of the free frames, (N, F, 6): linear (m/s) and angular (rad/s), world.")
       .def("freeFrames", &Batch::freeFrames, "Names of the free frames.")
       .def("getState", &Batch::getState, "environment"_a, docs::simulation_batch::getState)
       .def("setState", &Batch::setState, "environment"_a, "state"_a, docs::simulation_batch::setState)

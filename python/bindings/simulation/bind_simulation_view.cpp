@@ -16,7 +16,7 @@ namespace kinegraph::python {
 
 namespace {
 
-/// Does not hold the interpreter up while it waits.
+/// Releases the interpreter lock while it waits.
 struct PySimulationView final : SimulationView {
   using SimulationView::SimulationView;
   void rest() override {
@@ -35,7 +35,7 @@ const std::shared_ptr<PyViewer>& viewerOf(PySimulation& s) {
   return config.viewer;
 }
 
-/// The view of the page that C has, begun if need be; null where pages are not wanted.
+/// Returns the view on the page of C, created if necessary; null if pages are disabled.
 std::shared_ptr<SimulationView> liveView(PySimulation& s) {
   const std::shared_ptr<PyViewer>& viewer = viewerOf(s);
   if (!openPage(*viewer)) return nullptr;
@@ -51,11 +51,12 @@ int viewSimulation(PySimulation& s, bool pause, const std::optional<std::string>
 }
 
 int run(PySimulation& s, const std::optional<double>& seconds, double tau, double speed) {
-  const auto watcher = std::dynamic_pointer_cast<SimulationView>(s.simulation.watcher());
-  const bool can_end = watcher && viewerOf(s)->isOpen() && viewerOf(s)->waits();
+  const auto observer = std::dynamic_pointer_cast<SimulationView>(s.simulation.observer());
+  const bool can_end = observer && viewerOf(s)->isOpen() && viewerOf(s)->waits();
   if (!seconds && !can_end)
     throw ValueError(
-        "Simulation.run: nobody can end it by a key: say for how many seconds, or show it by view() before");
+        "Simulation.run: seconds is None, but no page is open on which a key could end the run; "
+        "pass seconds, or call view() first");
   const nb::gil_scoped_release unlock;
   CheckInterrupts check;
   return s.simulation.run(seconds.value_or(std::numeric_limits<double>::infinity()), tau, speed, [&] { check(); });
@@ -63,12 +64,12 @@ int run(PySimulation& s, const std::optional<double>& seconds, double tau, doubl
 
 }  // namespace
 
-void showAsTold(PySimulation& s, const std::optional<int>& verbose) {
+void applyVerbosity(PySimulation& s, const std::optional<int>& verbose) {
   const std::shared_ptr<PyViewer>& viewer = configOf(s).viewer;
   if (verbose ? *verbose >= 2 : viewer && viewer->isOpen()) {
     viewSimulation(s, false, std::nullopt);
   } else {
-    s.simulation.setWatcher(nullptr);
+    s.simulation.setObserver(nullptr);
   }
 }
 
@@ -77,7 +78,7 @@ void bindSimulationView(nb::class_<PySimulation>& simulation) {
       .def(
           "view_close",
           [](PySimulation& s) {
-            s.simulation.setWatcher(nullptr);
+            s.simulation.setObserver(nullptr);
             if (configOf(s).viewer) configOf(s).viewer->endPage();
           },
           docs::simulation::view_close)

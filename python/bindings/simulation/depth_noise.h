@@ -4,7 +4,7 @@
 
 namespace kinegraph::python {
 
-/// The noise of depth images that the parameters `DepthNoise/...` ask for. Throws ValueError for one that cannot be.
+/// Returns the noise of depth images from the parameters `DepthNoise/...`. Throws ValueError for invalid ones.
 DepthNoise depthNoise();
 
 }  // namespace kinegraph::python

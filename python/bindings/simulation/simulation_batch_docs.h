@@ -1,99 +1,99 @@
 #pragma once
 
-/// The manual of what bind_simulation_batch.cpp binds.
+/// Docstrings for bind_simulation_batch.cpp.
 namespace kinegraph::python::docs::simulation_batch {
 
-inline constexpr char type[] = R"(N simulations of one scene, stepped by threads.
+inline constexpr char type[] = R"(Steps N simulations of one scene in parallel threads.
 
-An environment does the same as a Simulation that gets the same calls, bit for bit, at any number of threads. The Config that it
-is made of does not change.)";
+An environment behaves like a Simulation with the same calls, bit for bit, for any number of threads. The Config is
+copied and does not change.)";
 
-inline constexpr char make[] = R"(N environments, each as C is.
+inline constexpr char make[] = R"(Creates N environments with the state of C.
 
 Args:
-    C: The scene; it stays as it is.
-    n: How many environments.
-    threads: How many threads step them.
-    engine: As for Simulation.
+    C: The scene. Not modified.
+    n: Number of environments.
+    threads: Number of threads.
+    engine: See Simulation.
     options: SimulationOptions, or a dict of some of their fields.
 Raises:
     ArgumentError: Less than one environment or thread, or a scene that cannot be simulated.
     TypeError: C is no Config.)";
 
-inline constexpr char step[] = R"(All environments go on by tau seconds, `repeat` times.
+inline constexpr char step[] = R"(Advances all environments by `repeat` steps of tau seconds.
 
 Args:
     u: (N, n), a row for each environment; (N, 2n) for positionVelocity; none for none and spline.
     tau: s, > 0.
-    u_mode: How u is meant.
-    repeat: Steps with the same u.
+    u_mode: Meaning of u.
+    repeat: Number of steps with the same u.
 Raises:
-    ArgumentError: u does not fit; nothing has changed then.
-    Error: Numbers of an environment leave all bounds; it stays as it was before, and all others have stepped.
-    KeyboardInterrupt: Ctrl-C; some environments have stepped, others not.)";
+    ArgumentError: u has a wrong shape; nothing has changed.
+    Error: An environment diverges; it keeps its previous state, and all others have stepped.
+    KeyboardInterrupt: Ctrl-C; some environments have stepped, others have not.)";
 
-inline constexpr char getState[] = R"(All that decides what an environment will do.
+inline constexpr char getState[] = R"(Returns the complete state of an environment.
 
 Args:
     environment: 0 to N - 1.
 Returns:
-    A SimulationState, as of Simulation.getState.
+    A SimulationState, see Simulation.getState.
 Raises:
     ArgumentError: There is no such environment.)";
 
 inline constexpr char setState[] =
-    R"(Brings an environment to a state of any environment of the same scene, or of a Simulation of it.
+    R"(Sets the state of an environment, from any environment or Simulation of the same scene.
 
 Args:
     environment: 0 to N - 1.
     state: A SimulationState.
 Raises:
-    ArgumentError: There is no such environment, or the state is of another scene.)";
+    ArgumentError: There is no such environment, or the state belongs to another scene.)";
 
-inline constexpr char reset[] = R"(Brings environments back to how the Config was.
+inline constexpr char reset[] = R"(Resets environments to the initial Config.
 
 Args:
-    environments: Their numbers; all if empty.
+    environments: Their indices; all if empty.
 Raises:
     ArgumentError: There is no such environment.)";
 
-inline constexpr char place[] = R"(Puts joints and free frames somewhere else, at rest. Motors want to stay there.
+inline constexpr char place[] = R"(Sets joints and free frames, at rest. Motors hold the new joint values.
 
 Args:
-    environments: Their numbers; all if empty.
-    q: (K, n), a joint state for each of them.
-    freePos: (K, F, 7), poses of the free frames; if empty they stay where they are.
+    environments: Their indices; all if empty.
+    q: (K, n), one joint state per environment.
+    freePos: (K, F, 7), poses of the free frames; if empty, they do not change.
 Raises:
-    ArgumentError: There is no such environment, or shapes do not fit.)";
+    ArgumentError: There is no such environment, or a shape is wrong.)";
 
 inline constexpr char closeGrippers[] = R"(Moves the fingers of all environments, in the steps that follow.
 
 Args:
     gripperFrameName: A frame of the link that carries the fingers.
-    widths: m cancellation the fingers, one number or (N,).
-    speed: m/s of each finger.
-    force: N of each finger.
+    widths: Distance between the fingers, m, one number or (N,).
+    speed: Speed of each finger, m/s.
+    force: Force of each finger, N.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: It has no gripper, or numbers make no sense.)";
+    ArgumentError: There is no gripper, or a number is out of range.)";
 
 inline constexpr char setMasses[] =
-    R"(Gives the body of a frame another mass in each environment; its inertia grows with it.
+    R"(Sets the mass of a frame's body per environment; its inertia scales with the mass.
 
 Args:
     frame: Its name.
     masses: kg, > 0, one number or (N,).
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: It cannot move, or numbers make no sense.)";
+    ArgumentError: The body cannot move, or a number is out of range.)";
 
-inline constexpr char setFrictions[] = R"(Gives the shape of a frame another friction in each environment.
+inline constexpr char setFrictions[] = R"(Sets the friction of a frame's shape per environment.
 
 Args:
     frame: Its name; it must have the attribute `friction`.
-    frictions: >= 0, one number or (N,). Between two shapes the mean counts.
+    frictions: >= 0, one number or (N,). A contact uses the mean of both shapes.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: It has no shape or no such attribute, or numbers make no sense.)";
+    ArgumentError: It has no shape or no such attribute, or a number is out of range.)";
 
 }  // namespace kinegraph::python::docs::simulation_batch

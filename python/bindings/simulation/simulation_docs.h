@@ -1,147 +1,150 @@
 #pragma once
 
-/// The manual of what bind_simulation.cpp binds.
+/// Docstrings for bind_simulation.cpp.
 namespace kinegraph::python::docs::simulation {
 
-inline constexpr char type[] = R"(A configuration in time: joints with motors, things that fall, contacts, grippers.
+inline constexpr char type[] = R"(Simulates a configuration: joints with motors, free bodies, contacts, grippers.
 
-It works directly on C, whose joints and free frames follow each step. What moves: joints, by their motors; frames without
-parent, or with a rigid joint, that have a mass, freely; nothing else. Shapes that are transparent (alpha < 1) take no part,
-unless their frame says `simulate: true`. The same calls give the same numbers, bit for bit, and no display is needed.
-docs/simulation.md tells all.)";
+It works directly on C: its joints and free frames are updated after every step. Joints move by their motors. Frames
+without parent, or with a rigid joint, move freely if they have a mass. Everything else is fixed. Transparent shapes
+(alpha < 1) do not collide, unless their frame says `simulate: true`. The same calls give the same numbers, bit for bit,
+and no display is needed. See docs/simulation.md.)";
 
-inline constexpr char make[] = R"(A simulation of C as it is.
+inline constexpr char make[] = R"(Creates a simulation that starts at the present state of C.
 
 Args:
     C: The scene; every step changes it.
     engine: physx (rigid bodies with contacts) or kinematic (joints follow their references, nothing else moves).
-    verbose: 2 or more: the page shows it live, see view(), and opens; less: it does not; None: it does if C.view() has opened
-        it before.
+    verbose: 2 or more: the page opens and shows the simulation live, see view(); less: no page; None: live if C.view()
+        has opened the page before.
     options: SimulationOptions, or a dict of some of their fields.
 Raises:
-    ArgumentError: Something that cannot be simulated, such as a negative mass; the engine bullet; a bad option.
-    FileError: MuJoCo is not there.
+    ArgumentError: The scene cannot be simulated, for instance with a negative mass; the engine bullet; an invalid
+        option.
+    FileError: MuJoCo is missing.
     TypeError: C is no Config.)";
 
-inline constexpr char state[] = R"(A simulation at one time: all that decides what will happen.
+inline constexpr char state[] = R"(The complete state of a simulation.
 
-Fields may be changed before setState restores it. What a field does not show (targets of motors and grippers, what is
-attached, how solvers start) is in it, too. It can be pickled and compared.)";
+Fields may be changed before setState restores it. It also contains what no field shows: targets of motors and grippers,
+attachments, and the solvers' warm start. It can be pickled and compared.)";
 
-inline constexpr char step[] = R"(Goes on by tau seconds.
+inline constexpr char step[] = R"(Advances the simulation by tau seconds.
 
 Args:
-    u_control: (n,), a number for each entry of the joint state; (2n,) for positionVelocity; none for none and spline.
-    tau: s, > 0. It is divided into inner steps of options.inner_step or less.
-    u_mode: How u_control is meant.
+    u_control: (n,), one entry per entry of the joint state; (2n,) for positionVelocity; none for none and spline.
+    tau: s, > 0. Divided into inner steps of at most options.inner_step.
+    u_mode: Meaning of u_control.
 Raises:
-    ArgumentError: u_control does not fit, or has numbers that are not finite; nothing has changed then.
-    Error: Numbers leave all bounds; the state is as before the call.
-    KeyboardInterrupt: Ctrl-C during a long step; the state is as before it.)";
+    ArgumentError: u_control has a wrong size or is not finite; nothing has changed.
+    Error: The simulation diverges; the state before the call is restored.
+    KeyboardInterrupt: Ctrl-C during a long step; the state before it is restored.)";
 
-inline constexpr char resetTime[] = R"(Sets the time, and makes the spline one that stays at the present q.
+inline constexpr char resetTime[] = R"(Sets the time, and replaces the spline by the present q.
 
 Args:
-    time: s.
+    time: New time, s.
 Raises:
     ArgumentError: time is not finite.)";
 
-inline constexpr char getFreeFrames[] = R"(The frames that move freely.
+inline constexpr char getFreeFrames[] = R"(Returns the frames that move freely.
 
 Returns:
-    Frames, in the order of freePos and of get_frameVelocities.)";
+    The frames, in the order of freePos and of get_frameVelocities.)";
 
-inline constexpr char get_frameVelocities[] = R"(Velocities of the free frames.
+inline constexpr char get_frameVelocities[] = R"(Returns the velocities of the free frames.
 
 Returns:
     (F, 2, 3): linear (m/s) and angular (rad/s), world.)";
 
-inline constexpr char getState[] = R"(All that decides what will happen.
+inline constexpr char getState[] = R"(Returns the complete state.
 
 Returns:
-    A SimulationState; setState with it makes what follows the same again, bit for bit.)";
+    A SimulationState. After setState with it, the simulation repeats bit for bit.)";
 
 inline constexpr char setState[] =
-    R"(Goes back to a state, of this simulation or of another of the same scene. C follows.
+    R"(Restores a state of this simulation, or of another one of the same scene, and updates C.
 
 Args:
-    state: Of getState; fields that were changed count. Or poses of all frames, as C.getFrameState() has them: what follows then
-        starts from there, at time and with targets as they are.
-    jointState: (n,), with poses of frames; else q is what they say.
-    frameVelocities: (F, 2, 3) of the free frames, with poses of frames; else they rest.
+    state: From getState; changed fields are respected. Or poses of all frames as from C.getFrameState(): the simulation
+        continues from there, with unchanged time and targets.
+    jointState: (n,), with poses of frames; by default, q follows from the poses.
+    frameVelocities: (F, 2, 3) of the free frames, with poses of frames; by default at rest.
     jointVelocities: (n,), likewise.
 Raises:
-    ArgumentError: It is of another scene, or has numbers that make no sense.)";
+    ArgumentError: The state belongs to another scene, or a number is out of range.)";
 
-inline constexpr char pushConfigToSim[] = R"(Puts everything to where it is in C now, and lets motors hold it there.
+inline constexpr char pushConfigToSim[] = R"(Sets poses and joints to those of C; motors hold them.
 
 Args:
-    frameVelocities: (F, 2, 3) of the free frames, linear and angular; else they rest.
-    jointVelocities: (n,); else joints rest.
+    frameVelocities: (F, 2, 3) of the free frames, linear and angular; by default at rest.
+    jointVelocities: (n,); by default at rest.
 Raises:
     ArgumentError: Wrong shapes.)";
 
-inline constexpr char setVerbose[] = R"(As in the constructor.
+inline constexpr char setVerbose[] = R"(Opens or closes the live page, as in the constructor.
 
 Args:
-    verbose: 2 or more: the page shows it live, and opens; less: it does not.)";
+    verbose: 2 or more: the page opens and shows the simulation live; less: no page.)";
 
 inline constexpr char view[] = R"(Shows the simulation live on C's page, from now on with each step.
 
-The page shows time, real-time factor, contacts and their forces, and has buttons to pause, to take one step, and to reset the
-simulation to where it was at the first call of this. A body that is dragged there (button `pull`) is drawn to the mouse by a
-spring; sliders and handles put things elsewhere. All that takes place in the next step; who touches nothing changes nothing.
-A paused simulation waits within `step`, until it goes on, or 5 s after the last page was closed.
+The page shows time, real-time factor, contacts and their forces. Buttons pause the simulation, advance it by one step,
+and reset it to its state at the first call of view(). With the button `perturb`, a spring moves a dragged body to the
+mouse; sliders and handles set joints and poses. All requests take effect in the next step; without requests, the
+simulation is unaffected. A paused simulation waits within `step` until it is resumed, or until 5 s after the last page
+was closed.
 
 Args:
-    pause: Waits for a key.
-    message: Shown in the corner.
+    pause: Whether to wait for a key.
+    message: Text in the corner of the page.
 Returns:
     The code of the key that was pressed since the last call, or 0.
 Raises:
     KeyboardInterrupt: Ctrl-C while waiting.)";
 
-inline constexpr char view_close[] = R"(Shows it no longer, and ends the page.)";
+inline constexpr char view_close[] = R"(Ends the live view, and closes the page.)";
 
 inline constexpr char run[] =
-    R"(Lets the simulation run along its spline: step([], tau, ControlMode.spline) again and again.
+    R"(Runs the simulation along its spline: repeats step([], tau, ControlMode.spline).
 
-As fast as it can be computed or, while a browser shows it, as fast as the clock on the wall.
+It runs in real time while a browser shows it, otherwise as fast as possible.
 
 Args:
-    seconds: Simulated time; None: until somebody presses q or Escape on the page.
-    tau: s of each step.
-    speed: Times real time, while a browser shows it; <= 0: as fast as possible.
+    seconds: Simulated duration, s; None: until a user presses q or Escape on the page.
+    tau: Duration of each step, s.
+    speed: Factor of real time while a browser shows it; <= 0: unlimited.
 Returns:
     The code of the key that was pressed on the page, or 0; q and Escape end it.
 Raises:
-    ArgumentError: Times that are not positive; no seconds where nobody can press a key.
-    Error: Numbers leave all bounds.
+    ArgumentError: A time is not positive; or seconds is None and no page is open.
+    Error: The simulation diverges.
     KeyboardInterrupt: Ctrl-C.)";
 
-inline constexpr char viewRecording[] = R"(Plays the run on a page of its own, with a time slider.
+inline constexpr char viewRecording[] = R"(Plays the run on its own page, with a time slider.
 
 Args:
-    pause: Waits for a key at the end.
-    message: Shown in the corner.
+    pause: Whether to wait for a key at the end.
+    message: Text in the corner of the page.
 Returns:
     The code of the key that was pressed, or 0.
 Raises:
-    ArgumentError: It has no steps.
+    ArgumentError: The recording has no steps.
     KeyboardInterrupt: Ctrl-C while waiting.)";
 
-inline constexpr char saveHtml[] = R"(Saves a page that plays the run, with a time slider, and needs no program.
+inline constexpr char saveHtml[] = R"(Saves a self-contained HTML page that plays the run, with a time slider.
 
 Args:
-    path: Of the HTML file.
+    path: Path of the HTML file.
 Raises:
-    ArgumentError: It has no steps.
+    ArgumentError: The recording has no steps.
     FileError: The file cannot be written.)";
 
-inline constexpr char pull[] = R"(Pulls a point to a place, as a hand would: by a damped spring, until endPerturbation.
+inline constexpr char perturb[] =
+    R"(Moves a point of a link to a target by a damped spring, until endPerturbation.
 
-The force is m (w^2 (target - p) - 2 w dp/dt): p is the point, m the mass of the frame's link with all that hangs on its joints,
-w = 10 rad/s. One point at a time.
+The force is m (w^2 (target - p) - 2 w dp/dt): p is the point, m the mass of the frame's link and all links below it,
+and w = 10 rad/s. At most one perturbation is active.
 
 Args:
     frame: A frame of the link, or its name.
@@ -149,188 +152,191 @@ Args:
     target: (3,), m, world.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: It is fixed to the world, or a number is not finite.)";
+    ArgumentError: The frame is fixed to the world, or a number is not finite.)";
 
-inline constexpr char endPerturbation[] = R"(Lets go of what is pulled.)";
+inline constexpr char endPerturbation[] = R"(Ends the perturbation.)";
 
-inline constexpr char getPerturbation[] = R"(What is pulled, by pull() or on the page.
+inline constexpr char getPerturbation[] = R"(Returns the active perturbation, from perturb() or from the page.
 
 Returns:
-    position, target (m) and force (N) of the last inner step, each (3,), world; None if nothing is.)";
+    position, target (m) and force (N) of the last inner step, each (3,), world; None without a perturbation.)";
 
 inline constexpr char setSplineRef[] =
-    R"(A motion for mode spline: a cubic B-spline through the present reference and these points.
+    R"(Sets the trajectory of mode spline: a cubic B-spline from the present reference through these control points.
 
 Args:
     path: (K, n) control points, or (n,) for one.
-    times: (K,) in s, or one number: the time of all, in equal parts.
-    append: After the present spline, at rest in cancellation; else from now on, smoothly.
+    times: (K,) in s, or one number: the total duration, divided equally.
+    append: Whether to append it after the present spline, with rest in between; otherwise it blends smoothly from now
+        on.
 Raises:
-    ArgumentError: Shapes do not fit, or times are not positive and rising.)";
+    ArgumentError: A shape is wrong, or times are not positive and increasing.)";
 
-inline constexpr char getTimeToSplineEnd[] = R"(How long the spline still goes on.
+inline constexpr char getTimeToSplineEnd[] = R"(Returns the remaining time of the spline.
 
 Returns:
-    s; negative after its end, 0 without one.)";
+    The time in s; negative after the end, 0 without a spline.)";
 
-inline constexpr char resetSplineRef[] = R"(Makes the spline one that stays at the present q.
-
-Args:
-    ctrl_time: When it is said to have ended, s; negative: now.)";
-
-inline constexpr char multi_step[] = R"(Several steps in mode spline: round(tau_step / tau_sim) of them.
+inline constexpr char resetSplineRef[] = R"(Replaces the spline by the present q.
 
 Args:
-    tau_step: s in all.
-    tau_sim: s each.
+    ctrl_time: End time of the new spline, s; negative: now.)";
+
+inline constexpr char multi_step[] = R"(Runs round(tau_step / tau_sim) steps in mode spline.
+
+Args:
+    tau_step: Total duration, s.
+    tau_sim: Duration of each step, s.
 Raises:
-    ArgumentError: Times that are not positive.
-    Error: Numbers leave all bounds.
+    ArgumentError: A time is not positive.
+    Error: The simulation diverges.
     KeyboardInterrupt: Ctrl-C.)";
 
-inline constexpr char moveGripper[] = R"(Moves fingers to a width, in the steps that follow; each with at most 20 N.
+inline constexpr char moveGripper[] = R"(Moves fingers to a width during the following steps, each with at most 20 N.
 
 Args:
     gripperFrameName: A frame of the link that carries the fingers, such as "l_gripper".
-    width: m cancellation the fingers.
-    speed: m/s of each finger.
+    width: Distance between the fingers, m.
+    speed: Speed of each finger, m/s.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: It has no gripper, or a number makes no sense.)";
+    ArgumentError: There is no gripper, or a number is out of range.)";
 
 inline constexpr char closeGripper[] =
-    R"(Closes fingers with a force, until something is in cancellation, in the steps that follow.
+    R"(Closes fingers during the following steps, until an object blocks them.
 
 Args:
     gripperFrameName: A frame of the link that carries the fingers.
-    width: m cancellation the fingers if nothing is.
-    speed: m/s of each finger.
-    force: N of each finger.
+    width: Final distance between the fingers without an object, m.
+    speed: Speed of each finger, m/s.
+    force: Force of each finger, N.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: It has no gripper, or a number makes no sense.)";
+    ArgumentError: There is no gripper, or a number is out of range.)";
 
-inline constexpr char gripperIsDone[] = R"(Whether fingers have arrived, to .1 mm, or something stops them.
+inline constexpr char gripperIsDone[] = R"(Returns whether fingers are at their target within .1 mm, or are blocked.
 
 Args:
-    gripperFrameName: As for moveGripper.
+    gripperFrameName: See moveGripper.
 Returns:
     True or False.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: It has no gripper.)";
+    ArgumentError: There is no gripper.)";
 
-inline constexpr char getGripperWidth[] = R"(How far fingers are apart.
+inline constexpr char getGripperWidth[] = R"(Returns the distance between the fingers.
 
 Args:
-    gripperFrameName: As for moveGripper.
+    gripperFrameName: See moveGripper.
 Returns:
-    m cancellation the fingers: twice the joint's value.
+    The distance in m: twice the joint's value.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: It has no gripper.)";
+    ArgumentError: There is no gripper.)";
 
-inline constexpr char attach[] = R"(Holds the link of a frame to that of another, as they are.
+inline constexpr char attach[] = R"(Fixes the link of a frame to that of another at their present relative pose.
 
 Args:
-    frm: Frame that holds.
-    to: Frame that is held.
+    frm: Frame of the holding link.
+    to: Frame of the held link.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: They are one link, or 32 things are attached already.)";
+    ArgumentError: Both are the same link, or 32 links are attached already.)";
 
-inline constexpr char detach[] = R"(Ends what attach began.
+inline constexpr char detach[] = R"(Ends an attachment.
 
 Args:
-    frm: Frame that holds.
-    to: Frame that is held.
+    frm: Frame of the holding link.
+    to: Frame of the held link.
 Raises:
     FrameNotFound: There is no such frame.
     ArgumentError: They are not attached.)";
 
-inline constexpr char getContacts[] = R"(What touches, at the beginning of the last inner step.
+inline constexpr char getContacts[] = R"(Returns the contacts at the beginning of the last inner step.
 
 Returns:
-    A dict for each point: `frames` (two names, "ground" for the plane z = 0), `position` (m), `normal` (from the first
-    to the second), `distance` (m, negative where they overlap), `force` (N, that the first exerts on the second); world.)";
+    A dict per contact point, in world coordinates: `frames` (two names, "ground" for the plane z = 0), `position` (m),
+        `normal`
+    (from the first to the second), `distance` (m, negative if they overlap), `force` (N, exerted by the first on the
+    second).)";
 
-inline constexpr char getJointTorques[] = R"(What motors exerted in the last inner step.
+inline constexpr char getJointTorques[] = R"(Returns the torques of the motors in the last inner step.
 
 Returns:
-    (n,) in N m or N, what compensates gravity within the robot not counted.)";
+    (n,) in N m or N, without the gravity compensation within the robot.)";
 
 inline constexpr char getExternalTorques[] =
-    R"(What acts on joints besides motors: contacts, limits, what is attached, perturbations.
+    R"(Returns the external joint torques: of contacts, limits, attachments, forces and perturbations.
 
 Returns:
     (n,) in N m or N.)";
 
-inline constexpr char addForceTorqueSensor[] = R"(Puts a sensor where a frame is fixed to its link, or to its joint.
+inline constexpr char addForceTorqueSensor[] = R"(Adds a force-torque sensor between a frame and its link or joint.
 
 Args:
-    frame: What is below it pulls at it.
+    frame: The sensor measures the force of everything below this frame.
 Raises:
     FrameNotFound: There is no such frame.)";
 
-inline constexpr char getForceTorque[] = R"(What a sensor measured in the last inner step.
+inline constexpr char getForceTorque[] = R"(Returns the measurement of a force-torque sensor in the last inner step.
 
 Args:
-    frame: Of addForceTorqueSensor.
+    frame: The frame of addForceTorqueSensor.
 Returns:
-    (6,): force (N) and torque (N m) that what is above the frame exerts on it, in its axes.
+    (6,): force (N) and torque (N m) exerted on the frame by its link, in the frame's axes.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: It has no sensor.)";
+    ArgumentError: The frame has no sensor.)";
 
-inline constexpr char addAccelerometer[] = R"(Puts an accelerometer on a frame.
+inline constexpr char addAccelerometer[] = R"(Adds an accelerometer at a frame.
 
 Args:
     frame: The frame.
 Raises:
     FrameNotFound: There is no such frame.)";
 
-inline constexpr char getAcceleration[] = R"(What an accelerometer measured in the last inner step.
+inline constexpr char getAcceleration[] = R"(Returns the measurement of an accelerometer in the last inner step.
 
 Args:
-    frame: Of addAccelerometer.
+    frame: The frame of addAccelerometer.
 Returns:
     (3,) in m/s^2, in the frame's axes: at rest 9.81 upwards.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: It has no sensor.)";
+    ArgumentError: The frame has no sensor.)";
 
-inline constexpr char perturb[] =
-    R"(Lets a force and a torque act on the link of a frame until clearPerturbations; several add up.
+inline constexpr char applyForce[] =
+    R"(Applies a constant force and torque to the link of a frame until clearForces. Several calls add up.
 
 Args:
     frame: The frame.
     force: (3,) in N, world.
     torque: (3,) in N m, world.
-    point: (3,) where the force acts, world, m; else at the frame.
+    point: (3,), point of action, world, m; by default the frame's origin.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: The frame cannot move, or numbers make no sense.)";
+    ArgumentError: The frame cannot move, or a number is not finite.)";
 
-inline constexpr char clearPerturbations[] = R"(Ends all of perturb.)";
+inline constexpr char clearForces[] = R"(Removes all forces of applyForce.)";
 
 inline constexpr char addSensor[] = R"(Adds a camera and selects it.
 
 Args:
-    sensorName: Its name.
-    frameAttached: The frame that it looks from, whose attributes say what it is like (see CameraView.setCamera); else the frame
-        of that name.
+    sensorName: Name of the camera.
+    frameAttached: The camera's frame, with camera attributes (see CameraView.setCamera); by default the frame of that
+        name.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: Attributes that no camera can have.)";
+    ArgumentError: The camera attributes are invalid.)";
 
-inline constexpr char selectSensor[] = R"(Chooses the camera of getImageAndDepth.
+inline constexpr char selectSensor[] = R"(Selects the camera of getImageAndDepth.
 
 Args:
-    sensorName: Of addSensor.
+    sensorName: Name from addSensor.
 Raises:
     NotFound: There is no such camera.)";
 
-inline constexpr char setCamera[] = R"(Looks from a frame and follows it.
+inline constexpr char setCamera[] = R"(Attaches the camera to a frame.
 
 Args:
     sensorName: The frame: its name, id or Frame.
@@ -338,69 +344,70 @@ Returns:
     The camera.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: Attributes that no camera can have.)";
+    ArgumentError: The camera attributes are invalid.)";
 
-inline constexpr char getImageAndDepth[] = R"(What the selected camera sees; without one, one that overlooks the scene.
+inline constexpr char getImageAndDepth[] =
+    R"(Renders the image and depth of the selected camera, by default of one that overlooks the scene.
 
 Returns:
     The image, shape (height, width, 3), 0..255, and the depth along the camera's z axis, shape (height, width), m; -1
-    where nothing is.
+    for the background.
 Raises:
-    Error: Drawing needs EGL, which is not there.)";
+    Error: Rendering needs EGL, which is missing.)";
 
 inline constexpr char setSimulateDepthNoise[] =
-    R"(Lets depth have the errors of a stereo camera (parameters DepthNoise/...), the same at the same time.
+    R"(Adds the errors of a stereo camera to depth images (parameters DepthNoise/...), reproducible at equal times.
 
 Args:
     _setSimulateDepthNoise: True or False.)";
 
-inline constexpr char depthData2pointCloud[] = R"(Points of a depth image in the camera's frame.
+inline constexpr char depthData2pointCloud[] = R"(Converts a depth image to points in the camera's frame.
 
 Args:
     depth: (height, width), float32, m.
     fxycxy: fx, fy, cx, cy in pixels.
 Returns:
-    (height, width, 3); zeros where the depth is negative.
+    (height, width, 3); zeros for negative depths.
 Raises:
-    ArgumentError: fxycxy does not have 4 numbers.)";
+    ArgumentError: fxycxy does not have 4 entries.)";
 
 inline constexpr char recording[] =
-    R"(A run of a simulation: the scene, where it started, all calls, and where everything was after each step.)";
+    R"(A recorded run of a simulation: the scene, the start state, all calls, and the poses after each step.)";
 
-inline constexpr char save[] = R"(Writes the recording into a file.
+inline constexpr char save[] = R"(Writes the recording to a file.
 
 Args:
     path: The file.
 Raises:
-    FileError: It cannot be written.)";
+    FileError: The file cannot be written.)";
 
-inline constexpr char load[] = R"(Reads the file of a recording.
+inline constexpr char load[] = R"(Reads a recording from a file.
 
 Args:
     path: The file.
 Returns:
     A SimulationRecording.
 Raises:
-    FileError: It cannot be read.
-    ArgumentError: It is no recording.)";
+    FileError: The file cannot be read.
+    ArgumentError: The file is not a recording.)";
 
-inline constexpr char makeConfig[] = R"(The scene as it was at the start.
+inline constexpr char makeConfig[] = R"(Returns the scene at the start of the run.
 
 Returns:
     A Config.)";
 
-inline constexpr char replay[] = R"(Does it all again, bit for bit.
+inline constexpr char replay[] = R"(Repeats the run, bit for bit.
 
 Args:
-    C: Of makeConfig.
+    C: Scene from makeConfig.
 Returns:
     The Simulation at the end.
 Raises:
-    Error: It ends otherwise than it did; it may be of another version or machine.)";
+    Error: The final state differs from the recorded one; the recording may come from another version or machine.)";
 
-inline constexpr char startRecording[] = R"(From now on everything that is asked of the simulation is kept.)";
+inline constexpr char startRecording[] = R"(Starts to record all calls.)";
 
-inline constexpr char stopRecording[] = R"(Ends what startRecording began.
+inline constexpr char stopRecording[] = R"(Ends the recording and returns it.
 
 Returns:
     A SimulationRecording.

@@ -7,7 +7,7 @@
 
 namespace kinegraph::python {
 
-/// What Python calls a Simulation; it keeps the Config's object, and so its viewer, alive.
+/// The Python object of a Simulation; it keeps the Config's object, and so its viewer, alive.
 struct PySimulation {
   nb::object config;
   Simulation simulation;
@@ -18,10 +18,10 @@ void bindRecording(nb::module_& m, nb::class_<PySimulation>& simulation);
 void bindSimulationView(nb::class_<PySimulation>& simulation);
 void bindSimulationBatch(nb::module_& m);
 
-/// Shows it live as `verbose` says: 2 or more: yes, and a page opens; less: no; None: if the page of its Config is open.
-void showAsTold(PySimulation& s, const std::optional<int>& verbose);
+/// Opens or closes the live view: 2 or more opens a page; less closes it; None: live if the Config's page is open.
+void applyVerbosity(PySimulation& s, const std::optional<int>& verbose);
 
-/// Options as a user gives them: SimulationOptions, a dict of fields, or None.
+/// Converts a user's options: SimulationOptions, a dict of fields, or None.
 SimulationOptions optionsFrom(nb::handle given);
 
 }  // namespace kinegraph::python

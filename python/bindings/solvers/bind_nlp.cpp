@@ -24,18 +24,18 @@ namespace kinegraph::python {
 
 namespace {
 
-/// x as given, or where its size does not fit a point drawn within the bounds.
+/// Returns x, or a random point within the bounds if x has another size.
 VectorXd pointOrSample(Nlp& nlp, const Numbers& x) {
   return x.values.size() == nlp.dimension() ? x.values : nlp.uniformPoint(defaults().random);
 }
 
 void checkSize(const Nlp& nlp, const Numbers& x) {
   if (x.values.size() != nlp.dimension()) {
-    throw ValueError(cat("x has ", x.values.size(), " numbers; the problem has ", nlp.dimension(), " variables"));
+    throw ValueError(cat("x has ", x.values.size(), " entries; the problem has ", nlp.dimension(), " variables"));
   }
 }
 
-/// (phi, J): J dense, but (row, column, value) triplets for a motion problem.
+/// Returns (phi, J), with J dense, or (row, column, value) triplets for a motion problem.
 nb::typed<nb::tuple, Array, Array> evaluate(Nlp& nlp, const Numbers& x) {
   checkSize(nlp, x);
   VectorXd phi(Eigen::Index(nlp.types().size()));
@@ -56,7 +56,7 @@ nb::typed<nb::tuple, Array, Array> evaluate(Nlp& nlp, const Numbers& x) {
   return nb::make_tuple(toNumpy(phi), array.array);
 }
 
-/// (2, n), where a variable without bounds has lower 0 and upper -1.
+/// Returns bounds of shape (2, n); variables without bounds have lower 0 and upper -1.
 Array bounds(const Nlp& nlp) {
   MatrixXd both(2, nlp.dimension());
   for (int i = 0; i < nlp.dimension(); ++i) {
@@ -77,7 +77,7 @@ bool check(Nlp& nlp, const Numbers& given, double tolerance, const std::vector<s
   const VectorXd x = pointOrSample(nlp, given);
   if (!names.empty() && names.size() != nlp.types().size()) {
     throw ValueError(
-        cat("checkJacobian: there are ", names.size(), " names; the problem has ", nlp.types().size(), " residuals"));
+        cat("checkJacobian: got ", names.size(), " names; the problem has ", nlp.types().size(), " residuals"));
   }
   std::vector<JacobianCheck> worst;
   double largest = 0.;
@@ -119,17 +119,15 @@ Array costHessian(Nlp& nlp, const Numbers& x) {
   return nlp.addCostHessian(x.values, H) ? toNumpy(H) : toNumpy(MatrixXd(0, 0));
 }
 
-/// Of a motion problem.
+/// Pickles a motion problem.
 nb::object reduce(const Nlp& nlp) {
   const std::shared_ptr<PyKomo> komo = std::static_pointer_cast<PyKomo>(komoOf(nlp));
-  if (!komo)
-    throw nb::type_error(
-        "this NLP cannot be pickled; those of a KOMO can, and problems can be made anew where they are needed");
+  if (!komo) throw nb::type_error("this NLP cannot be pickled; expected one of a KOMO");
   return nb::make_tuple(nb::module_::import_("operator").attr("methodcaller")("nlp"), nb::make_tuple(komo));
 }
 
 void bindObjectiveTypes(nb::module_& m) {
-  nb::enum_<ObjectiveType>(m, "OT", nb::is_arithmetic(), "What a residual means: cost or constraint.")
+  nb::enum_<ObjectiveType>(m, "OT", nb::is_arithmetic(), "The type of a residual: cost or constraint.")
       .value("f", ObjectiveType::f, "cost: phi")
       .value("sos", ObjectiveType::sos, "cost: phi^2")
       .value("ineq", ObjectiveType::ineq, "constraint: phi <= 0")
@@ -153,7 +151,7 @@ void bindProblemClass(nb::module_& m) {
       .def("getFHessian", costHessian, "x"_a, docs::nlp::getFHessian)
       .def(
           "getInitializationSample", [](Nlp& nlp) { return toNumpy(nlp.initialPoint(defaults().random)); },
-          "A point to start from, shape (n,).")
+          "Samples an initial point, shape (n,).")
       .def(
           "getUniformSample", [](Nlp& nlp) { return toNumpy(nlp.uniformPoint(defaults().random)); },
           "A random point, uniform within the bounds, shape (n,).")
@@ -193,9 +191,10 @@ void bindProblemClass(nb::module_& m) {
 }
 
 void bindFactory(nb::module_& m) {
-  nb::class_<PyNlpFactory, Nlp>(m, "NLP_Factory",
-                                "A problem whose residuals a Python function computes. It is an NLP once all is set.")
-      .def(nb::init<>(), "A problem of nothing yet.")
+  nb::class_<PyNlpFactory, Nlp>(
+      m, "NLP_Factory",
+      "A problem whose residuals a Python function computes. It is an NLP once all setters were called.")
+      .def(nb::init<>(), "Creates an empty problem.")
       .def("setDimension", &PyNlpFactory::setDimension, "dim"_a, docs::nlp::setDimension)
       .def("setTypes", &PyNlpFactory::setTypes, "featureTypes"_a, docs::nlp::setTypes)
       .def(
@@ -219,8 +218,8 @@ void bindNlp(nb::module_& m) {
       [](const std::string& name, int dimension, std::uint64_t seed) {
         return makeTestProblem(name, {dimension, seed});
       },
-      "name"_a, "dimension"_a = -1, "seed"_a = 0, "A problem by name, to try solvers on.");
-  m.def("testProblemNames", testProblemNames, "The names that makeTestProblem knows.");
+      "name"_a, "dimension"_a = -1, "seed"_a = 0, "Creates a test problem for solvers by name.");
+  m.def("testProblemNames", testProblemNames, "Returns the names of all test problems.");
 }
 
 }  // namespace kinegraph::python

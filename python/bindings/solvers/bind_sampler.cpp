@@ -24,7 +24,7 @@ struct PySampler {
   explicit PySampler(std::shared_ptr<Nlp> problem) : sampler(std::move(problem)) {}
 };
 
-/// Names of older packages that change nothing are ignored.
+/// Options of the package robotic without effect are ignored.
 const OptionClass<SamplerOptions>& samplerOptions() {
   using Class = OptionClass<SamplerOptions>;
   static const Class options(samplerOptionTable(),
@@ -37,33 +37,33 @@ const OptionClass<SamplerOptions>& samplerOptions() {
   return options;
 }
 
-PySampler& setOptions(PySampler& self, nb::kwargs given) {
+PySampler& setSamplerOptions(PySampler& self, nb::kwargs given) {
   samplerOptions().setFields(self.sampler.options, given);
   return self;
 }
 
 SolverResult sample(PySampler& self) {
   return runInterruptibly("NLP_Sampler", *self.sampler.problem(), self.sampler.options.verbose,
-                          [&](const EvaluationHook& hook) { return self.sampler.sample(self.rng, hook); });
+                          [&](const EvaluationCallback& callback) { return self.sampler.sample(self.rng, callback); });
 }
 
 }  // namespace
 
 void bindSampler(nb::module_& m) {
   const std::string set_options_doc =
-      "Sets options by name; all others stay as they are.\n\nArgs:\n    options: Fields by name.\n" +
+      "Sets options by name; all others keep their values.\n\nArgs:\n    options: Fields by name.\n" +
       samplerOptions().docs("        ") +
-      "Returns:\n    The sampler itself.\nRaises:\n    ArgumentError: There is no such option, or it cannot have this "
-      "value.";
+      "Returns:\n    The sampler itself.\nRaises:\n    ArgumentError: There is no such option, or the "
+      "value is invalid.";
   nb::class_<PySampler>(m, "NLP_Sampler",
-                        "Draws points that satisfy the constraints of a problem. A call of sample() goes from a seed "
-                        "downhill to the constraints,\n"
+                        "Samples points that satisfy the constraints of a problem. A call of sample() descends from a "
+                        "seed to the constraints,\n"
                         "and then makes interior steps within them.")
       .def(nb::init<std::shared_ptr<Nlp>>(), "problem"_a, docs::sampler::make)
-      .def("setOptions", setOptions, "options"_a, nb::rv_policy::none, set_options_doc.c_str())
+      .def("setOptions", setSamplerOptions, "options"_a, nb::rv_policy::none, set_options_doc.c_str())
       .def(
           "getOptions", [](const PySampler& s) { return Attributes(samplerOptions().dict(s.sampler.options)); },
-          "All options as a dict.")
+          "Returns all options as a dict.")
       .def(
           "setSeed", [](PySampler& s, std::uint64_t seed) -> PySampler& { return s.rng = Rng(seed), s; }, "seed"_a,
           nb::rv_policy::none, docs::sampler::setSeed)

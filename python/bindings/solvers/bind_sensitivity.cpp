@@ -12,10 +12,10 @@ namespace kinegraph::python {
 
 namespace {
 
-/// What is asked for, and which columns belong to each parameter.
+/// A sensitivity, with the columns of each parameter.
 struct PySensitivity {
   Sensitivity of;
-  std::vector<int> first;  ///< per parameter, and the end
+  std::vector<int> first;  ///< first column of each parameter, and the end
 };
 
 std::vector<int> readIndices(nb::handle given) {
@@ -29,14 +29,14 @@ std::shared_ptr<NlpParameter> readPair(const Nlp& nlp, nb::handle first, nb::han
     if (!nb::isinstance<nb::str>(second)) {
       if (name == "residual") return residualTargets(nlp, readIndices(second));
       if (name == "lower" || name == "upper") return boundsOf(nlp, readIndices(second), name == "upper");
-      throw ValueError(cat("sensitivity: numbers belong to 'residual', 'lower' or 'upper', not to '", name, "'"));
+      throw ValueError(cat("sensitivity: indices belong to 'residual', 'lower' or 'upper', not to '", name, "'"));
     }
     return parameterOf(nlp, name, nb::cast<std::string>(second));
   }
   return parameterOf(nlp, nb::cast<int>(first), nb::cast<std::string>(second));
 }
 
-/// A number, a name, a Frame, or a tuple of one of them and a word.
+/// Reads a parameter: a number, a name, a Frame, or a tuple of one of them and a keyword.
 std::shared_ptr<NlpParameter> readParameter(const Nlp& nlp, nb::handle given) {
   const auto named = [](nb::handle of) {
     return nb::isinstance<Frame>(of) ? nb::object(nb::str(nb::cast<Frame>(of).getName().c_str())) : nb::borrow(of);
@@ -47,7 +47,7 @@ std::shared_ptr<NlpParameter> readParameter(const Nlp& nlp, nb::handle given) {
   if (nb::isinstance<nb::int_>(one)) return parameterOf(nlp, nb::cast<int>(one));
   throw ValueError(
       cat("sensitivity: a parameter is of type ", nb::cast<std::string>(nb::str(given.type().attr("__name__"))),
-          "; expected the number or name of an objective, a frame, or one of them with a word in a tuple"));
+          "; expected the number or name of an objective, a frame, or a tuple of one of them and a keyword"));
 }
 
 std::vector<int> columnsOf(const NlpParameters& parameters) {
@@ -57,11 +57,11 @@ std::vector<int> columnsOf(const NlpParameters& parameters) {
 }
 
 PySensitivity ofResult(const SolverResult& result, nb::args given, bool hold_weak) {
-  if (!result.problem) return {Sensitivity(result, {}), {}};  // which says so
+  if (!result.problem) return {Sensitivity(result, {}), {}};  // throws
   NlpParameters parameters;
   for (nb::handle one : given) parameters.push_back(readParameter(*result.problem, one));
   if (parameters.empty())
-    throw ValueError("sensitivity: by what? Expected objectives, frames, or others of the list in help()");
+    throw ValueError("sensitivity: got no parameters; expected objectives, frames, or others of the list in help()");
   std::vector<int> first = columnsOf(parameters);
   const nb::gil_scoped_release unlock;
   return {Sensitivity(result, std::move(parameters), {hold_weak}), std::move(first)};
@@ -113,14 +113,16 @@ std::vector<std::string> textsInPython(const std::vector<std::string>& texts) {
 void bindSensitivity(nb::module_& m, nb::class_<SolverResult>& result) {
   nb::class_<PySensitivity>(
       m, "Sensitivity",
-      "How a solution x moves with p, numbers that its problem depends on: dx/dp, and gradients through it.")
+      "The derivatives dx/dp of a solution x with respect to parameters p of its problem, and gradients through it.")
       .def_prop_ro(
-          "x", [](const PySensitivity& s) { return toNumpy(s.of.x()); }, "The solution, to rounding, shape (n,).")
+          "x", [](const PySensitivity& s) { return toNumpy(s.of.x()); },
+          "The solution, refined to rounding errors, shape (n,).")
       .def_prop_ro(
-          "dual", [](const PySensitivity& s) { return toNumpy(s.of.dual()); }, "A multiplier per residual, shape (d,).")
+          "dual", [](const PySensitivity& s) { return toNumpy(s.of.dual()); },
+          "One multiplier per residual, shape (d,).")
       .def_prop_ro(
           "jacobian", [](PySensitivity& s) { return toNumpy(jacobianOf(s)); },
-          "dx/dp, shape (n, p). Found when first asked for.")
+          "dx/dp, shape (n, p). Computed at the first access.")
       .def("gradient", gradientOf, "v"_a, docs::sensitivity::gradient)
       .def("__len__", [](const PySensitivity& s) { return s.first.size() - 1; })
       .def("__getitem__", blockOf, "index"_a, docs::sensitivity::block)
@@ -132,31 +134,30 @@ void bindSensitivity(nb::module_& m, nb::class_<SolverResult>& result) {
           },
           "index"_a, docs::sensitivity::columns)
       .def_prop_ro(
-          "names", [](const PySensitivity& s) { return textsInPython(s.of.names()); },
-          "What each of the p numbers is, in words.")
+          "names", [](const PySensitivity& s) { return textsInPython(s.of.names()); }, "Names of the p parameters.")
       .def_prop_ro(
           "active", [](const PySensitivity& s) { return textsInPython(s.of.active()); },
-          "The inequalities and bounds that press, in words.")
+          "Names of the active inequalities and bounds.")
       .def_prop_ro(
           "weak", [](PySensitivity& s) { return textsInPython(s.of.weak()); },
-          "Those that touch without pressing: the solution has a kink there, and dx/dp is that of one side.")
+          "Names of the weakly active ones, at which the solution is not differentiable and dx/dp is one-sided.")
       .def_prop_ro(
           "withoutEffect", [](PySensitivity& s) { return textsInPython(s.of.withoutEffect()); },
-          "Of `names`, those that neither costs nor active constraints depend on: dx/dp is zero.")
+          "Names of parameters that neither costs nor active constraints depend on, so that dx/dp is zero.")
       .def_prop_ro(
           "freeDirections", [](const PySensitivity& s) { return s.of.freeDirections(); },
-          "About how many directions costs and constraints leave free; dx/dp has no part in them.")
+          "Estimated number of directions that costs and constraints leave free; dx/dp is orthogonal to them.")
       .def_prop_ro(
           "isRegular", [](PySensitivity& s) { return s.of.isRegular(); },
-          "Is dx/dp the derivative of the solution, with nothing to be said?")
+          "Whether dx/dp is the unique derivative of the solution, so that `message` is empty.")
       .def_prop_ro(
           "message", [](PySensitivity& s) { return inPython(s.of.message()); },
-          "What is to be said: kinks, free directions, saddles; \"\" if nothing.")
+          "The reason why dx/dp is not unique: weakly active constraints, free directions, saddles; else \"\".")
       .def_prop_ro(
-          "evals", [](const PySensitivity& s) { return s.of.evals(); }, "Evaluations that it took to find x exactly.")
+          "evals", [](const PySensitivity& s) { return s.of.evals(); }, "Number of evaluations of the refinement.")
       .def("__repr__", [](PySensitivity& s) {
         const std::string message = s.of.message();
-        return cat("<Sensitivity of ", s.of.x().size(), " variables by ", s.of.size(), " numbers",
+        return cat("<Sensitivity of ", s.of.x().size(), " variables, ", s.of.size(), " parameters",
                    message.empty() ? "" : cat(": ", inPython(message)), ">");
       });
   result.def(

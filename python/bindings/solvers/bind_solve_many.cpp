@@ -3,12 +3,12 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
-#include <chrono>
 #include <deque>
 
 #include "bindings.h"
 #include "defaults.h"
 #include "kinegraph/common/errors.h"
+#include "kinegraph/common/stopwatch.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/trajectory_optimization/multi_start.h"
 #include "komo/py_komo.h"
@@ -21,17 +21,22 @@ namespace kinegraph::python {
 
 namespace {
 
-/// Looks for Ctrl-C and draws a bar, on the calling thread, while others solve.
-class Watch {
+/// Draws a progress bar and checks for Ctrl-C, on the calling thread, while problems are solved.
+class SolveManyMonitor {
  public:
-  Watch(const char* what, std::size_t total, int verbose) : what_(what), total_(int(total)), verbose_(verbose) {}
+  SolveManyMonitor(const char* what, std::size_t total, int verbose)
+      : what_(what), total_(int(total)), verbose_(verbose) {}
 
-  bool operator()(int ended) {
-    if (verbose_ > 0 && seconds() > .5) callUser([&] { draw(ended); });
-    return here_.pressedCtrlC();
+  ProgressCallback progress() {
+    return [this](const Progress& progress) {
+      if (verbose_ > 0 && stopwatch_.seconds() > .5) callUser([&] { draw(progress.done); });
+    };
+  }
+  CancellationToken cancellation() {
+    return [this] { return here_.pressedCtrlC(); };
   }
 
-  /// With the interpreter lock. Says that Ctrl-C ended those that did not come to their end, and in a line how it went.
+  /// Marks the results that Ctrl-C interrupted and prints a summary. Needs the interpreter lock.
   void finish(SolveManyResult& all) {
     int done = 0, feasible = 0;
     for (SolverResult& result : all.results) {
@@ -42,28 +47,25 @@ class Watch {
     if (drawn_) draw(here_.wasPressed() ? done : total_);
     if (here_.wasPressed() && all.best().x.size() == 0) throwKeyboardInterrupt();
     if (verbose_ < 1) return;
-    nb::print(cat(what_, ": ", feasible, " of ", done, " are feasible, in ", seconds(), " s; the best: ", all.chosen,
-                  ", ", inPython(all.best().str()))
+    nb::print(cat(what_, ": ", feasible, " of ", done, " are feasible, in ", stopwatch_.seconds(),
+                  " s; the best: ", all.chosen, ", ", inPython(all.best().str()))
                   .c_str());
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
   void draw(int ended) {
     drawn_ = true;
-    nb::module_::import_("kinegraph.progress").attr("drawProgress")(what_, ended, total_, seconds());
+    nb::module_::import_("kinegraph.progress").attr("drawProgress")(what_, ended, total_, stopwatch_.seconds());
   }
 
   const char* what_;
   int total_, verbose_;
   bool drawn_ = false;
-  SolvingHere here_;
-  Clock::time_point start_ = Clock::now();
+  SolveScope here_;
+  Stopwatch stopwatch_;
 };
 
-/// A number of starts: the present path and random ones; or an array of paths (K, T, n).
+/// Returns start points: the current path and random ones for a number, or those of an array of paths (K, T, n).
 std::vector<VectorXd> readStarts(PyKomo& komo, nb::handle given, std::uint64_t seed) {
   if (nb::isinstance<nb::int_>(given)) return sampleStarts(komo, nb::cast<int>(given), seed, CheckInterrupts());
   const int T = komo.slices(), n = komo.dofs();
@@ -88,14 +90,14 @@ SolveManyResult solveKomoFromMany(const std::shared_ptr<PyKomo>& komo, nb::handl
                                   std::uint64_t seed, int verbose, const SolverOptions* options) {
   if (komo->slices() == 0) throw Error("KOMO: there is no problem yet; call setConfig and setTiming first");
   const std::vector<VectorXd> points = readStarts(*komo, starts, seed);
-  Watch watch("solveFromMany", points.size(), verbose);
+  SolveManyMonitor monitor("solveFromMany", points.size(), verbose);
   const SolverOptions chosen = options ? *options : startingOptions();
   SolveManyResult all;
   {
     const nb::gil_scoped_release unlock;
-    all = solveFromMany(komo, points, chosen, {best, threads}, std::ref(watch));
+    all = solveFromMany(komo, points, chosen, {best, threads}, monitor.progress(), monitor.cancellation());
   }
-  watch.finish(all);
+  monitor.finish(all);
   return all;
 }
 
@@ -124,22 +126,22 @@ SolveManyResult solveEach(nb::iterable problems, int threads, bool best, int ver
     }
     addExternalMethods(*solvers.back());
   }
-  // two problems of one KOMO would move the same path
+  // two problems of one KOMO would overwrite the same path
   for (std::size_t i = 0; i < solvers.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       const auto komo = solvers[i]->problem() ? komoOf(*solvers[i]->problem()) : nullptr;
       if (!komo || !solvers[j]->problem() || komoOf(*solvers[j]->problem()) != komo) continue;
       throw ValueError(
-          cat("solveAll: problems ", j, " and ", i, " are of the same KOMO; copy.copy(komo) makes another one"));
+          cat("solveAll: problems ", j, " and ", i, " belong to the same KOMO; copy.copy(komo) makes another one"));
     }
   }
-  Watch watch("solveAll", solvers.size(), verbose);
+  SolveManyMonitor monitor("solveAll", solvers.size(), verbose);
   SolveManyResult all;
   {
     const nb::gil_scoped_release unlock;
-    all = solveAll(solvers, {best, threads}, defaults().seed, std::ref(watch));
+    all = solveAll(solvers, {best, threads}, defaults().seed, monitor.progress(), monitor.cancellation());
   }
-  watch.finish(all);
+  monitor.finish(all);
   return all;
 }
 
@@ -153,15 +155,16 @@ SolverResult resultAt(const SolveManyResult& all, Py_ssize_t i) {
 
 void bindSolveMany(nb::module_& m) {
   nb::class_<SolveManyResult>(m, "SolverReturns",
-                              "How several problems, or one problem from several starts, were solved.")
+                              "The results of several problems, or of one problem from several starts.")
       .def_ro("results", &SolveManyResult::results,
-              "A SolverReturn each; done is False where an earlier one sufficed, or Ctrl-C came before.")
+              "One SolverReturn per problem; its done is False if an earlier one sufficed or after Ctrl-C.")
       .def_ro("chosen", &SolveManyResult::chosen,
-              "Index of the best: feasible ones before infeasible ones, then by cost, or by violation.")
+              "Index of the best: feasible before infeasible, then by cost, or by violation.")
       .def_prop_ro(
-          "best", [](const SolveManyResult& r) { return r.best(); }, "The SolverReturn of the best.")
+          "best", [](const SolveManyResult& r) { return r.best(); }, "The best SolverReturn.")
       .def_prop_ro(
-          "feasible", [](const SolveManyResult& r) { return r.best().feasible; }, "True if the best is feasible.")
+          "feasible", [](const SolveManyResult& r) { return r.best().feasible; },
+          "Whether the best result is feasible.")
       .def("__bool__", [](const SolveManyResult& r) { return r.best().feasible; })
       .def("__len__", [](const SolveManyResult& r) { return r.results.size(); })
       .def("__getitem__", resultAt, "index"_a)

@@ -79,13 +79,13 @@ std::string messageOf(const SolverResult& r) {
   return inPython(text);
 }
 
-/// What lies between slices: None, or whether that is free, and where not.
+/// Returns None, or the validity and message of the check between slices.
 nb::object verdictState(const SolverResult& r) {
   const std::optional<bool> free = freeOf(r);
-  return free ? nb::object(nb::make_tuple(*free, r.motion->get().message)) : nb::none();
+  return free ? nb::object(nb::make_tuple(*free, r.validity->get().message)) : nb::none();
 }
 
-/// All but the problem.
+/// Returns the state for pickling: everything except the problem.
 nb::tuple resultState(const SolverResult& r) {
   const nb::object verdict = verdictState(r);
   return nb::make_tuple(toNumpy(r.x), toNumpy(r.dual), r.evals, r.time, r.feasible, r.done, r.f, r.sos, r.ineq, r.eq,
@@ -105,7 +105,7 @@ SolverResult resultFrom(nb::tuple state) {
   r.status = SolverStatus(nb::cast<int>(state[11]));
   r.message = nb::cast<std::string>(state[12]);
   if (const nb::object verdict = state[13]; !verdict.is_none())
-    r.motion =
+    r.validity =
         std::make_shared<LazyValidity>(ValidityReport{nb::cast<bool>(verdict[0]), nb::cast<std::string>(verdict[1])});
   r.totalEvals = nb::cast<int>(state[14]);
   return r;
@@ -140,41 +140,41 @@ Array errorTrace(const NlpSolver& solver) {
 }
 
 void bindResult(nb::module_& m) {
-  nb::enum_<SolverStatus>(m, "SolverStatus", "Why a solver stopped.")
+  nb::enum_<SolverStatus>(m, "SolverStatus", "The reason why a solver stopped.")
       .value("converged", SolverStatus::converged)
       .value("infeasible", SolverStatus::infeasible)
       .value("stalled", SolverStatus::stalled)
       .value("limit", SolverStatus::limit)
       .value("cancelled", SolverStatus::cancelled);
 
-  nb::class_<SolverResult> result(m, "SolverReturn", "How a solve ended.");
-  result.def(nb::init<>(), "Nothing was solved yet.")
+  nb::class_<SolverResult> result(m, "SolverReturn", "The result of a solve.");
+  result.def(nb::init<>(), "Creates an empty result.")
       .def(nb::init<const SolverResult&>(), "other"_a, docs::solvers::copy)
       .def_prop_ro(
           "x", [](const SolverResult& r) { return toNumpy(r.x); }, "The solution, shape (n,).")
       .def_prop_ro(
-          "dual", [](const SolverResult& r) { return toNumpy(r.dual); }, "A multiplier per residual, shape (d,).")
+          "dual", [](const SolverResult& r) { return toNumpy(r.dual); }, "One multiplier per residual, shape (d,).")
       .def_ro("evals", &SolverResult::evals, "Number of evaluations of this solve.")
       .def_ro("totalEvals", &SolverResult::totalEvals,
               "Number of evaluations of all solves of the solver so far, this one included.")
-      .def_ro("time", &SolverResult::time, "Seconds.")
+      .def_ro("time", &SolverResult::time, "Duration of the solve, s.")
       .def_ro("feasible", &SolverResult::feasible,
-              "No (scaled) constraint is violated by more than 1e-3, or ten tolerances.")
-      .def_ro("done", &SolverResult::done, "The solver has run.")
+              "Whether no (scaled) constraint is violated by more than 1e-3, or ten tolerances.")
+      .def_ro("done", &SolverResult::done, "Whether the solver has run.")
       .def_ro("f", &SolverResult::f, "Sum of f residuals.")
       .def_ro("sos", &SolverResult::sos, "Sum of squares.")
       .def_ro("ineq", &SolverResult::ineq, "Sum of violations of inequalities.")
       .def_ro("eq", &SolverResult::eq, "Sum of violations of equalities.")
       .def_ro("violation", &SolverResult::violation, "Violation of the worst constraint.")
-      .def_ro("status", &SolverResult::status, "Why it stopped.")
-      .def_prop_ro(
-          "message", messageOf,
-          "Why it stopped, in a line; where the constraints hold but the motion is not free, which shapes meet,\n"
-          "when, and how deep.")
-      .def_prop_ro(
-          "free", freeOf,
-          "Is the motion free of collisions at all times, straight from slice to slice? None where there are no\n"
-          "constraints on collisions of all shapes, or slices are waypoints, one per phase. Found when first asked.")
+      .def_ro("status", &SolverResult::status, "The reason why the solver stopped.")
+      .def_prop_ro("message", messageOf,
+                   "The reason why the solver stopped, in one line. If the constraints hold but the motion is not "
+                   "collision-free\n"
+                   "between slices, also the shapes, time and depth of the deepest collision.")
+      .def_prop_ro("free", freeOf,
+                   "Whether the motion is continuously collision-free, straight from slice to slice. None without "
+                   "constraints on\n"
+                   "collisions of all shapes, or if slices are waypoints, one per phase. Computed at the first access.")
       .def(
           "dict",
           [](const SolverResult& r) {
@@ -206,7 +206,7 @@ void bindResult(nb::module_& m) {
   bindSensitivity(m, result);
 }
 
-/// What setTracing records.
+/// Binds the records of setTracing.
 void bindTraces(nb::class_<NlpSolver>& solver) {
   solver
       .def(
@@ -232,18 +232,18 @@ void bindTraces(nb::class_<NlpSolver>& solver) {
               rows.push_back(VectorXd::Constant(1, best = std::min(best, e.f + e.sos + e.ineq + e.eq)));
             return stack(rows);
           },
-          "The least sum of all errors so far, shape (evaluations, 1).")
+          "The least sum of all errors up to each evaluation, shape (evaluations, 1).")
       .def("getTrace_errs", errorTrace, "The sums of f, sos, ineq and eq of each evaluation, shape (evaluations, 4).");
 }
 
 void bindSolver(nb::module_& m) {
   constexpr auto chain = nb::rv_policy::none;
   const std::string set_options_doc =
-      "Sets options by name; all others stay as they are.\n\nArgs:\n    options: Fields of NLP_SolverOptions.\n" +
+      "Sets options by name; all others keep their values.\n\nArgs:\n    options: Fields of NLP_SolverOptions.\n" +
       solverOptions().docs("        ") +
-      "Returns:\n    The solver itself.\nRaises:\n    ArgumentError: There is no such option, or it cannot have this "
-      "value.";
-  nb::class_<NlpSolver> solver(m, "NLP_Solver", "Solves an NLP. A second solve() goes on from where the first ended.");
+      "Returns:\n    The solver itself.\nRaises:\n    ArgumentError: There is no such option, or the "
+      "value is invalid.";
+  nb::class_<NlpSolver> solver(m, "NLP_Solver", "Solves an NLP. Another solve() continues from the last solution.");
   solver
       .def(
           "__init__",
@@ -251,7 +251,7 @@ void bindSolver(nb::module_& m) {
             new (self) NlpSolver();
             self->options = startingOptions();
           },
-          "A solver without a problem.")
+          "Creates a solver without a problem.")
       .def(
           "__init__",
           [](NlpSolver* self, std::shared_ptr<Nlp> problem, int verbose) {
@@ -284,7 +284,7 @@ void bindSolver(nb::module_& m) {
           docs::solvers::setTracing)
       .def(
           "clearTracing", [](NlpSolver& s) -> NlpSolver& { return s.clearTracing(), s; }, chain,
-          "Forgets what was recorded. Returns the solver itself.")
+          "Clears all records. Returns the solver itself.")
       .def("solve", solve, "resampleInitialization"_a = -1, "verbose"_a = -100, docs::solvers::solve)
       .def("getProblem", &NlpSolver::problem, "The problem.")
       .def(
@@ -292,10 +292,10 @@ void bindSolver(nb::module_& m) {
           "The options; changes take effect.")
       .def_prop_rw(
           "x", [](const NlpSolver& s) { return toNumpy(s.x); }, [](NlpSolver& s, const Numbers& x) { s.x = x.values; },
-          "The point reached, shape (n,).")
+          "The current point, shape (n,).")
       .def_prop_rw(
           "dual", [](const NlpSolver& s) { return toNumpy(s.dual); },
-          [](NlpSolver& s, const Numbers& d) { s.dual = d.values; }, "A multiplier per residual, shape (d,).")
+          [](NlpSolver& s, const Numbers& d) { s.dual = d.values; }, "One multiplier per residual, shape (d,).")
       .def("reportLagrangeGradients", gradients, "featureNames"_a = std::vector<std::string>(),
            docs::solvers::reportLagrangeGradients);
   bindTraces(solver);
@@ -311,7 +311,7 @@ void bindSolvers(nb::module_& m) {
         defaults().seed = seed;
         defaults().random = Rng(seed);
       },
-      "seed"_a, "Seed of everything random from here on.");
+      "seed"_a, "Sets the seed of all random numbers.");
 
   bindResult(m);
   bindSolver(m);

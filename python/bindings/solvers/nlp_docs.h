@@ -3,7 +3,7 @@
 /// The manual of what bind_nlp.cpp binds.
 namespace kinegraph::python::docs::nlp {
 
-inline constexpr char evaluate[] = R"(The residuals and their Jacobian.
+inline constexpr char evaluate[] = R"(Evaluates the residuals and their Jacobian.
 
 Args:
     x: Variables, shape (n,).
@@ -13,7 +13,7 @@ Raises:
     ArgumentError: x has another size.)";
 
 inline constexpr char eval_scalar[] =
-    R"(The value, gradient and Hessian of sum f + sum sos^2, for problems without constraints.
+    R"(Evaluates sum f + sum sos^2 with gradient and Hessian, for problems without constraints.
 
 Args:
     x: Variables, shape (n,).
@@ -22,12 +22,12 @@ Returns:
 Raises:
     ArgumentError: x has another size.)";
 
-inline constexpr char getFHessian[] = R"(The Hessian of sum f.
+inline constexpr char getFHessian[] = R"(Evaluates the Hessian of sum f.
 
 Args:
     x: Variables, shape (n,).
 Returns:
-    Shape (n, n); (0, 0) if the problem has none to offer.
+    Shape (n, n); (0, 0) if the problem does not know it.
 Raises:
     ArgumentError: x has another size.)";
 
@@ -35,9 +35,9 @@ inline constexpr char checkJacobian[] =
     R"(Compares the Jacobian with central differences, and prints the ten worst entries.
 
 Args:
-    x: Variables, shape (n,); where the size does not fit, a sample is taken.
-    tolerance: Largest difference that is no failure.
-    featureNames: A name per residual.
+    x: Variables, shape (n,); another size selects a random point.
+    tolerance: Largest accepted difference.
+    featureNames: One name per residual.
 Returns:
     True if no difference is larger.
 Raises:
@@ -46,23 +46,23 @@ Raises:
 inline constexpr char checkHessian[] = R"(Compares getFHessian with central differences, and prints the worst entry.
 
 Args:
-    x: Variables, shape (n,); where the size does not fit, a sample is taken.
-    tolerance: Largest difference that is no failure.
+    x: Variables, shape (n,); another size selects a random point.
+    tolerance: Largest accepted difference.
 Returns:
     True if no difference is larger.
 Raises:
     ArgumentError: The Hessian has another size.)";
 
 inline constexpr char aug_lag[] =
-    R"(This problem with its constraints as costs. A weight below 0 leaves them as they are.
+    R"(Returns this problem with costs instead of its constraints. A weight below 0 keeps the constraints.
 
 Args:
-    muSquaredPenalty: Costs are this weight times phi^2 (of inequalities, where they are violated).
-    muLogBarrier: Costs of inequalities are -log(-phi) times this weight.
+    muSquaredPenalty: Weight of the costs phi^2 (for inequalities: of violations only).
+    muLogBarrier: Weight of the costs -log(-phi) of inequalities.
 Returns:
-    The other problem.)";
+    The new problem.)";
 
-inline constexpr char summarizeErrors[] = R"(Sums of residuals by type.
+inline constexpr char summarizeErrors[] = R"(Sums residuals by type.
 
 Args:
     phi: Residuals, shape (d,).
@@ -72,30 +72,30 @@ Raises:
     ArgumentError: phi has another size.)";
 
 inline constexpr char explain[] =
-    R"(Says which constraints contradict each other around a point, by how much, and what helps.
+    R"(Explains which constraints contradict each other around a point, by how much, and which relaxation helps.
 
 Args:
     x: Variables, shape (n,).
-    tolerance: Largest violation that counts as none.
+    tolerance: Largest accepted violation.
 Returns:
     A few lines.
 Raises:
     ArgumentError: x has another size.)";
 
-inline constexpr char conflicts[] = R"(What explain says.
+inline constexpr char conflicts[] = R"(Returns the content of explain as data.
 
 Args:
     x: Variables, shape (n,).
-    tolerance: Largest violation that counts as none.
+    tolerance: Largest accepted violation.
 Returns:
-    A dict per constraint, as of SolverReturn.conflicts.
+    One dict per constraint, as SolverReturn.conflicts.
 Raises:
     ArgumentError: x has another size.)";
 
-inline constexpr char report[] = R"(A line about the problem.
+inline constexpr char report[] = R"(Describes the problem in a line.
 
 Args:
-    verbose: How much it says.
+    verbose: Amount of detail.
 Returns:
     The line.)";
 
@@ -106,22 +106,22 @@ Args:
 Raises:
     ArgumentError: A negative number.)";
 
-inline constexpr char setTypes[] = R"(Sets what the residuals are.
+inline constexpr char setTypes[] = R"(Sets the types of the residuals.
 
 Args:
-    featureTypes: The OT of each residual, d of them.
+    featureTypes: One OT per residual.
 Raises:
-    TypeError: They are not of OT.)";
+    TypeError: A type is not an OT.)";
 
 inline constexpr char setBounds[] = R"(Sets bounds of the variables.
 
 Args:
     lower: Shape (n,).
-    upper: Shape (n,); where it is below lower there is no bound.
+    upper: Shape (n,); a value below lower means no bound.
 Raises:
-    ArgumentError: Another size.)";
+    ArgumentError: The bounds have another size.)";
 
-inline constexpr char setEvalCallback[] = R"(Sets the function.
+inline constexpr char setEvalCallback[] = R"(Sets the function that computes residuals and Jacobian.
 
 Args:
     fct: function(x) -> (phi, J), with phi of shape (d,) and J of shape (d, n).)";

@@ -8,7 +8,7 @@
 
 namespace kinegraph::python {
 
-/// A problem that a user describes step by step, with a function x -> (phi, J).
+/// A problem that a user defines step by step, with a function x -> (phi, J).
 class PyNlpFactory final : public Nlp {
  public:
   void setDimension(int n);
@@ -25,14 +25,14 @@ class PyNlpFactory final : public Nlp {
   MatrixXd J_;
 };
 
-/// A problem that is a Python object with `dimension`, `types` (or `featureTypes`), `bounds` and `evaluate(x) -> (phi,
-/// J)`, and where it has them `getFHessian(x)`, `getInitializationSample()`, `report(verbose)`.
+/// Wraps a Python object with `dimension`, `types` (or `featureTypes`), `bounds` and `evaluate(x) -> (phi, J)`, and
+/// optionally `getFHessian(x)`, `getInitializationSample()` and `report(verbose)`.
 std::shared_ptr<Nlp> fromPythonProblem(nb::object problem);
 
-/// NLP_Sampler.
+/// Binds NLP_Sampler.
 void bindSampler(nb::module_& m);
 
-/// Several problems at once: solveAll, and KOMO.solveFromMany.
+/// Binds solveAll and KOMO.solveFromMany.
 void bindSolveMany(nb::module_& m);
 
 }  // namespace kinegraph::python

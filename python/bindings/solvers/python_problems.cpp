@@ -16,7 +16,7 @@ namespace {
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// Reads what a user's function returned: (phi, J), J dense or triplets.
+/// Reads the result of a function of the user: (phi, J), with J dense or as triplets.
 void readEvaluation(nb::handle returned, int rows, int dimension, VectorXd& phi, MatrixXd& J) {
   const nb::tuple pair = nb::cast<nb::tuple>(nb::module_::import_("builtins").attr("tuple")(returned));
   if (pair.size() != 2)
@@ -39,17 +39,17 @@ void readEvaluation(nb::handle returned, int rows, int dimension, VectorXd& phi,
   for (Eigen::Index i = 0; i < jacobian.values.size(); i += 3) {
     const double row = jacobian.values[i], column = jacobian.values[i + 1];
     if (!(row >= 0. && row < rows && column >= 0. && column < dimension))
-      throw ValueError("a Jacobian triplet lies outside of the matrix");
+      throw ValueError("a triplet of the Jacobian is outside of the matrix");
     J(Eigen::Index(row), Eigen::Index(column)) += jacobian.values[i + 2];
   }
 }
 
-/// Calls a function of the user's. Where Ctrl-C ended it there is no value.
+/// Calls a function of the user. Throws EvaluationCancelled if Ctrl-C ended it.
 void callForValue(const std::function<void()>& call) {
   if (!callUser(call)) throw EvaluationCancelled();
 }
 
-/// Calls function(x) for phi and J.
+/// Evaluates phi and J by function(x).
 void evaluateFunction(const nb::object& function, const VectorXd& x, int rows, VectorXd& phi, MatrixXd& dense,
                       Jacobian* J) {
   const int n = int(x.size());
@@ -57,7 +57,7 @@ void evaluateFunction(const nb::object& function, const VectorXd& x, int rows, V
   if (J) Eigen::Map<Rows>(J->values.data(), rows, n) = dense;
 }
 
-/// Where the upper bound is below the lower one there is none.
+/// Removes bounds whose upper value is below the lower one.
 void openBounds(VectorXd& lower, VectorXd& upper) {
   for (Eigen::Index i = 0; i < lower.size(); ++i) {
     if (lower[i] <= upper[i]) continue;
@@ -141,8 +141,8 @@ class PythonProblem final : public Nlp {
     std::string text;
     callUser([&] {
       if (!nb::hasattr(problem_, "report")) return;
-      const nb::object said = problem_.attr("report")(verbose);
-      if (!said.is_none()) text = nb::cast<std::string>(nb::str(said));
+      const nb::object answer = problem_.attr("report")(verbose);
+      if (!answer.is_none()) text = nb::cast<std::string>(nb::str(answer));
     });
     return text.empty() ? Nlp::report(verbose) : text;
   }
@@ -164,8 +164,8 @@ void PyNlpFactory::setBounds(const VectorXd& lower, const VectorXd& upper) {
   const Eigen::Index n = lower_.size() > 0 ? lower_.size() : lower.size();
   if (lower.size() == 0 && upper.size() == 0) return setDimension(int(n));
   if (lower.size() != n || upper.size() != n) {
-    throw ValueError(cat("NLP_Factory: there are ", lower.size(), " lower and ", upper.size(),
-                         " upper bounds; expected ", n, " each"));
+    throw ValueError(
+        cat("NLP_Factory: got ", lower.size(), " lower and ", upper.size(), " upper bounds; expected ", n, " of each"));
   }
   lower_ = lower;
   upper_ = upper;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "defaults.h"
+#include "kinegraph/common/cancellation_interval.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/solvers/methods/penalty_methods.h"
@@ -15,10 +16,8 @@ namespace kinegraph::python {
 
 namespace {
 
-constexpr std::chrono::milliseconds kWatch{20};
-
-/// Evaluates for a Python program: (phi, J), J dense. False in place of it: stop.
-nb::object evaluateFor(Nlp& nlp, const EvaluationHook& hook, const VectorXd& x, int& evals) {
+/// Evaluates for an external solver: (phi, J) with a dense J, or False if the solver shall end.
+nb::object evaluateFor(Nlp& nlp, const EvaluationCallback& callback, const VectorXd& x, int& evals) {
   VectorXd phi(Eigen::Index(nlp.types().size()));
   Jacobian J = nlp.makeJacobian();
   try {
@@ -27,14 +26,14 @@ nb::object evaluateFor(Nlp& nlp, const EvaluationHook& hook, const VectorXd& x, 
     return nb::bool_(false);
   }
   ++evals;
-  if (hook && !hook(x, phi)) return nb::bool_(false);
+  if (callback && !callback(x, phi)) return nb::bool_(false);
   if (const std::string what = describeNotFinite(nlp, phi, &J); !what.empty() && evals == 1)
     throw ValueError(cat("at the start, ", what));
   return nb::make_tuple(toNumpy(phi), toNumpy(J.toDense()));
 }
 
 SolverResult solveOutside(const char* name, Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
-                          const EvaluationHook& hook) {
+                          const EvaluationCallback& callback) {
   const nb::gil_scoped_acquire lock;
   SolverResult out;
   nb::dict problem;
@@ -42,7 +41,8 @@ SolverResult solveOutside(const char* name, Nlp& nlp, const VectorXd& x0, const 
   problem["lower"] = toNumpy(nlp.lower());
   problem["upper"] = toNumpy(nlp.upper());
   problem["x0"] = toNumpy(VectorXd(x0.cwiseMax(nlp.lower()).cwiseMin(nlp.upper())));
-  problem["evaluate"] = nb::cpp_function([&](const Numbers& x) { return evaluateFor(nlp, hook, x.values, out.evals); });
+  problem["evaluate"] =
+      nb::cpp_function([&](const Numbers& x) { return evaluateFor(nlp, callback, x.values, out.evals); });
   problem["tolerance"] = options.stopTolerance;
   problem["constraint_tolerance"] = options.constraintTolerance();
   problem["max_evals"] = options.stopEvals;
@@ -51,7 +51,7 @@ SolverResult solveOutside(const char* name, Nlp& nlp, const VectorXd& x0, const 
   try {
     answer = nb::module_::import_("kinegraph.external_solvers").attr(name)(problem);
   } catch (nb::python_error& error) {
-    SolvingHere* const here = SolvingHere::current();
+    SolveScope* const here = SolveScope::current();
     if (!here || !here->isPressedBy(error)) throw;
     throw EvaluationCancelled();
   }
@@ -69,7 +69,7 @@ SolverResult solveOutside(const char* name, Nlp& nlp, const VectorXd& x0, const 
   return out;
 }
 
-/// Whether Ctrl-C was pressed shortly before, too: who does that wants to leave the loop around the solves.
+/// Whether Ctrl-C was pressed twice within a second, which also ends loops around solves.
 bool isSecondPress() {
   using Clock = std::chrono::steady_clock;
   static Clock::time_point last{};  // signals reach the main thread only, which holds the interpreter lock here
@@ -79,16 +79,16 @@ bool isSecondPress() {
 
 }  // namespace
 
-SolvingHere*& SolvingHere::current() {
-  thread_local SolvingHere* current = nullptr;
+SolveScope*& SolveScope::current() {
+  thread_local SolveScope* current = nullptr;
   return current;
 }
 
-SolvingHere::SolvingHere() : before_(std::exchange(current(), this)) {}
+SolveScope::SolveScope() : before_(std::exchange(current(), this)) {}
 
-SolvingHere::~SolvingHere() { current() = before_; }
+SolveScope::~SolveScope() { current() = before_; }
 
-bool SolvingHere::pressedCtrlC() {
+bool SolveScope::pressedCtrlC() {
   if (pressed_) return true;
   const nb::gil_scoped_acquire lock;
   if (PyErr_CheckSignals() == 0) return false;
@@ -97,15 +97,15 @@ bool SolvingHere::pressedCtrlC() {
   return pressed_ = true;
 }
 
-bool SolvingHere::isPressedBy(const nb::python_error& error) {
+bool SolveScope::isPressedBy(const nb::python_error& error) {
   return pressed_ = pressed_ || (error.matches(PyExc_KeyboardInterrupt) && !isSecondPress());
 }
 
 bool callUser(const std::function<void()>& call) {
   const nb::gil_scoped_acquire lock;
   struct InUserCode {
-    SolvingHere* solving = std::exchange(SolvingHere::current(), nullptr);
-    ~InUserCode() { SolvingHere::current() = solving; }
+    SolveScope* solving = std::exchange(SolveScope::current(), nullptr);
+    ~InUserCode() { SolveScope::current() = solving; }
   } here;
   try {
     call();
@@ -122,11 +122,11 @@ Interruption::~Interruption() {
 }
 
 bool Interruption::operator()(const VectorXd&, const VectorXd& phi) {
-  if (++evals_ < next_look_) return !here_.wasPressed();
+  if (++evals_ < next_check_) return !here_.wasPressed();
   const auto now = Clock::now();
-  next_look_ = evals_ + (now - looked_ < std::chrono::milliseconds(1) ? kSeldom : 1);
-  looked_ = now;
-  if (now - asked_ < kWatch) return !here_.wasPressed();
+  next_check_ = evals_ + (now - checked_ < std::chrono::milliseconds(1) ? kSkippedEvals : 1);
+  checked_ = now;
+  if (now - asked_ < kCancellationInterval) return !here_.wasPressed();
   asked_ = now;
   if (here_.pressedCtrlC()) return false;
   const double seconds = std::chrono::duration<double>(now - start_).count();
@@ -148,15 +148,15 @@ void throwKeyboardInterrupt() {
 }
 
 SolverResult runInterruptibly(const char* what, const Nlp& nlp, int verbose,
-                              const std::function<SolverResult(const EvaluationHook&)>& run) {
-  SolvingHere here;
+                              const std::function<SolverResult(const EvaluationCallback&)>& run) {
+  SolveScope here;
   const nb::gil_scoped_release unlock;
   Interruption interruption(here, what, nlp, verbose);
   try {
     SolverResult result = run(std::ref(interruption));
     if (here.wasPressed()) markInterrupted(result);
     return result;
-  } catch (const EvaluationCancelled&) {  // before there was anything to give
+  } catch (const EvaluationCancelled&) {  // before the first value
     throwKeyboardInterrupt();
   }
   return {};
@@ -172,7 +172,7 @@ SolverResult solveInterruptibly(NlpSolver& solver, bool resample) {
   if (!solver.problem()) throw Error("NLP_Solver: there is no problem to solve; call setProblem first");
   Rng rng(defaults().seed);
   return runInterruptibly("NLP_Solver", *solver.problem(), solver.options.verbose,
-                          [&](const EvaluationHook& hook) { return solver.solve(resample, rng, hook); });
+                          [&](const EvaluationCallback& callback) { return solver.solve(resample, rng, callback); });
 }
 
 Explanation explainInterruptibly(Nlp& nlp, const VectorXd& x, double tolerance) {
@@ -185,16 +185,16 @@ void addExternalMethods(NlpSolver& solver) {
       solver.options.method != OptMethod::slackGN_Ipopt)
     return;
   for (const auto& [method, name] : {std::pair{OptMethod::Ipopt, "ipopt"}, std::pair{OptMethod::NLopt, "nlopt"}}) {
-    solver.addMethod(
-        method, [name = name](Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
-          return solveOutside(name, nlp, x0, options, hook);
-        });
+    solver.addMethod(method, [name = name](Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                                           const EvaluationCallback& callback) {
+      return solveOutside(name, nlp, x0, options, callback);
+    });
   }
   solver.addMethod(OptMethod::slackGN_Ipopt,
-                   [](Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
-                     const SolverResult first = solveSlack(nlp, x0, options, hook);
+                   [](Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationCallback& callback) {
+                     const SolverResult first = solveSlack(nlp, x0, options, callback);
                      if (first.status == SolverStatus::cancelled) return first;
-                     SolverResult second = solveOutside("ipopt", nlp, first.x, options, hook);
+                     SolverResult second = solveOutside("ipopt", nlp, first.x, options, callback);
                      second.evals += first.evals;
                      return second;
                    });

@@ -9,73 +9,73 @@
 
 namespace kinegraph::python {
 
-/// A solver runs on this thread, and wants to know of Ctrl-C. What was pressed before does not count.
-class SolvingHere {
+/// Marks that a solver runs on this thread and observes Ctrl-C from now on.
+class SolveScope {
  public:
-  SolvingHere();
-  ~SolvingHere();
-  SolvingHere(const SolvingHere&) = delete;
-  SolvingHere& operator=(const SolvingHere&) = delete;
+  SolveScope();
+  ~SolveScope();
+  SolveScope(const SolveScope&) = delete;
+  SolveScope& operator=(const SolveScope&) = delete;
 
-  /// Is this exception what Ctrl-C raises, or was it pressed already?
+  /// Whether this exception is the one of Ctrl-C, or Ctrl-C was pressed before.
   bool isPressedBy(const nb::python_error& error);
 
-  /// Ctrl-C was pressed: it reached a user's function, or the interpreter has it since. Takes the interpreter lock.
+  /// Whether Ctrl-C was pressed, in a function of the user or later. Takes the interpreter lock.
   bool pressedCtrlC();
 
-  bool wasPressed() const { return pressed_; }  ///< as far as it is known
+  bool wasPressed() const { return pressed_; }  ///< without asking the interpreter
 
-  /// The innermost one of this thread; null where none runs, or a user's function does.
-  static SolvingHere*& current();
+  /// Returns the innermost scope of this thread; null outside of solvers and in functions of the user.
+  static SolveScope*& current();
 
  private:
-  SolvingHere* before_;
+  SolveScope* before_;
   bool pressed_ = false;
 };
 
-/// Calls a user's function with the interpreter lock. False where Ctrl-C ended it, or came meanwhile, while a solver
-/// runs: what the function gave is then no value, and the solver is to end.
+/// Calls a function of the user with the interpreter lock. False if Ctrl-C was pressed while a solver runs: the value
+/// of the function is then invalid, and the solver shall end.
 bool callUser(const std::function<void()>& call);
 
-/// Asks for Ctrl-C while a solver runs without the interpreter lock, every 20 ms. It then ends the solver, which gives
-/// the best so far.
+/// An evaluation callback that checks for Ctrl-C every 20 ms while a solver runs without the interpreter lock. The
+/// solver then ends with the best point so far.
 class Interruption {
  public:
-  Interruption(SolvingHere& here, const char* what, const Nlp& nlp, int verbose)
+  Interruption(SolveScope& here, const char* what, const Nlp& nlp, int verbose)
       : here_(here), what_(what), nlp_(nlp), verbose_(verbose) {}
   ~Interruption();
-  bool operator()(const VectorXd&, const VectorXd&);  ///< false: stop
+  bool operator()(const VectorXd&, const VectorXd&);  ///< false: the solver shall end
 
  private:
   using Clock = std::chrono::steady_clock;
-  static constexpr int kSeldom = 4;  ///< reading the clock takes a tenth of a small evaluation
+  static constexpr int kSkippedEvals = 4;  ///< reading the clock takes a tenth of a small evaluation
   void draw(const VectorXd& phi, double seconds);
 
-  SolvingHere& here_;
+  SolveScope& here_;
   const char* what_;
   const Nlp& nlp_;
-  int verbose_, evals_ = 0, next_look_ = kSeldom;
-  double drawn_at_ = 0.;  ///< seconds after the start; 0: not yet
-  Clock::time_point start_ = Clock::now(), asked_ = start_, looked_ = start_;
+  int verbose_, evals_ = 0, next_check_ = kSkippedEvals;
+  double drawn_at_ = 0.;  ///< seconds after the start; 0: never
+  Clock::time_point start_ = Clock::now(), asked_ = start_, checked_ = start_;
 };
 
-/// Says that Ctrl-C ended it.
+/// Marks a result that Ctrl-C interrupted.
 void markInterrupted(SolverResult& result);
 
 [[noreturn]] void throwKeyboardInterrupt();
 
-/// Runs what solves, without the interpreter lock. Ctrl-C ends it with status cancelled. From verbose 1 on, a terminal
-/// shows a line of how far it is, if it takes long; `what` is its first word.
+/// Runs a solve without the interpreter lock. Ctrl-C ends it with status cancelled. If `verbose` is at least 1, a
+/// terminal shows the progress of long solves in a line that starts with `what`.
 SolverResult runInterruptibly(const char* what, const Nlp& nlp, int verbose,
-                              const std::function<SolverResult(const EvaluationHook&)>& run);
+                              const std::function<SolverResult(const EvaluationCallback&)>& run);
 
-/// The same for a solver.
+/// Runs NlpSolver::solve as `runInterruptibly` does.
 SolverResult solveInterruptibly(NlpSolver& solver, bool resample);
 
-/// Why constraints do not hold at x, found without the interpreter lock. Ctrl-C is a KeyboardInterrupt.
+/// Explains violated constraints at x, without the interpreter lock. Ctrl-C raises KeyboardInterrupt.
 Explanation explainInterruptibly(Nlp& nlp, const VectorXd& x, double tolerance);
 
-/// Solvers of other packages: OptMethod.Ipopt and NLopt, by kinegraph.external_solvers.
+/// Adds the solvers of other packages, OptMethod.Ipopt and NLopt, from kinegraph.external_solvers.
 void addExternalMethods(NlpSolver& solver);
 
 }  // namespace kinegraph::python

@@ -24,7 +24,7 @@ using LgpPlan = std::vector<TaskAction>;
 
 std::shared_ptr<PyKomo> asPython(const std::shared_ptr<Komo>& komo) { return std::static_pointer_cast<PyKomo>(komo); }
 
-/// What a Python class gave.
+/// The value that a method of a Python class returned.
 template <class T>
 T returnedBy(const char* call, const nb::object& given, const char* expected) {
   try {
@@ -47,7 +47,7 @@ void warnOfProblem(Komo& komo) {
   for (const std::string& warning : komo.takeWarnings()) emitWarning(warning);
 }
 
-/// An abstraction that Python knows: what a Python class has in place of a method is called, and problems are KOMOs.
+/// An abstraction for Python: overrides in Python are called, and problems are KOMOs.
 template <class Base>
 struct PyAbstraction final : Base {
   NB_TRAMPOLINE(Base);
@@ -98,7 +98,7 @@ struct PyAbstraction final : Base {
     return returnedBy<std::shared_ptr<PyKomo>>(call, own(sameScene(C), K), "a KOMO");
   }
 
-  /// Calls what a Python class has in place of a method, with the interpreter lock. False if it has none.
+  /// Calls the override of a Python class with the interpreter lock. False if there is none.
   template <class Call>
   bool callOwn(const char* name, const Call& call) {
     const nb::detail::ticket ticket(this->nb_trampoline, name, nb::detail::str_hash(name), false);
@@ -127,7 +127,7 @@ constexpr char kAddAll[] = "def add_all(self, komo: KOMO, plan: list[list[str]],
 constexpr char kForbid[] = "def forbidBeginning(self, plan: list[list[str]]) -> None";
 #undef KINEGRAPH_LGP_ADD
 
-// What Python asks of a class is that class' own, whatever a subclass has in its place: that is how super() calls it.
+// Bound methods call the class itself, not an override, as super() needs it.
 void bindAbstraction(nb::module_& m) {
   nb::class_<Abstraction, PyAbstraction<Abstraction>>(m, "LGP_TAMP_Abstraction", nb::dynamic_attr(),
                                                       docs::lgp::abstraction)
@@ -138,7 +138,7 @@ void bindAbstraction(nb::module_& m) {
           "explicitCollisions", explicitPairs,
           [](Abstraction& tamp, std::vector<std::string> pairs) { tamp.explicitCollisions = std::move(pairs); },
           nb::for_getter(nb::sig("def explicitCollisions(self, /) -> tuple[str, ...]")),
-          "Names of frames, two by two, that do not overlap in any slice. To change them, assign a list.")
+          "Pairs of names of frames that overlap in no slice. To change them, assign a list.")
       .def(
           "getNewActionSequence", [](Abstraction& tamp) { return tamp.Abstraction::getNewActionSequence(); },
           docs::lgp::getNewActionSequence)
@@ -184,7 +184,7 @@ void bindDefault(nb::module_& m) {
           "domain", [](const DefaultAbstraction& tamp) { return tamp.domain(); }, "Its actions and rules, a Domain.")
       .def_prop_ro(
           "search", [](const DefaultAbstraction& tamp) { return PyPlanSearch{tamp.search()}; },
-          "The PlanSearch that plans come from.")
+          "The PlanSearch that enumerates the plans.")
       .def(
           "getNewActionSequence",
           [](DefaultAbstraction& tamp) {
@@ -218,7 +218,7 @@ void bindDefault(nb::module_& m) {
       .def("is_last", &DefaultAbstraction::is_last, "time"_a, docs::lgp::is_last);
 }
 
-/// `results`, where given, makes of a SolverReturn what is returned in its place.
+/// `results`, unless None, converts a SolverReturn to the returned object.
 struct PyLgpTool : LgpTool {
   PyLgpTool(const PyConfig& C, std::shared_ptr<Abstraction> tamp, LgpOptions options, nb::object results)
       : LgpTool(C, std::move(tamp), std::move(options)), results(std::move(results)) {}
@@ -230,7 +230,7 @@ struct PyLgpTool : LgpTool {
     return results.is_none() ? own : results(own);
   }
 
-  /// What scripts have set by params_add and rnd_seed by now.
+  /// Reads the current settings of params_add and rnd_seed.
   void readDefaults() {
     options.solver = startingOptions();
     options.solver.verbose = 0;
@@ -243,7 +243,7 @@ void makeTool(PyLgpTool* self, const PyConfig& C, std::shared_ptr<Abstraction> t
   LgpOptions options;
   options.threads = threads;
   options.cancellation = asksForInterrupts();
-  options.tells = [](const std::string& line) {
+  options.print = [](const std::string& line) {
     const nb::gil_scoped_acquire lock;
     nb::print(inPython(line).c_str());
   };
@@ -285,12 +285,12 @@ void bindToolResults(nb::class_<PyLgpTool>& tool) {
       .def_prop_ro(
           "tamp", [](const PyLgpTool& lgp) { return lgp.tamp; }, "The abstraction.")
       .def_prop_ro(
-          "status", [](const PyLgpTool& lgp) { return lgp.status; },
-          "How the last solve ended: 'not started', 'solved', 'proved impossible' or 'not found'.")
+          "status", [](const PyLgpTool& lgp) { return lgp.status; }, "How the last solve ended, an LgpStatus.")
       .def_prop_ro(
-          "message", [](const PyLgpTool& lgp) { return inPython(lgp.message); }, "Why there is no plan.")
-      .def_prop_ro("solves", &LgpTool::solves, "How many waypoint problems were solved so far; each start counts.")
-      .def_prop_ro("evaluations", &LgpTool::evaluations, "How many evaluations that took.")
+          "message", [](const PyLgpTool& lgp) { return inPython(lgp.message); },
+          "\"\" if solved; else the reason for which there is no plan.")
+      .def_prop_ro("solves", &LgpTool::solves, "The number of waypoint problems solved so far; each guess counts.")
+      .def_prop_ro("evaluations", &LgpTool::evaluations, "The evaluations spent by them.")
       .def_prop_ro(
           "paths",
           [](const PyLgpTool& lgp) {
@@ -298,16 +298,22 @@ void bindToolResults(nb::class_<PyLgpTool>& tool) {
             for (const MatrixXd& path : lgp.paths) list.append(toNumpy(path));
             return list;
           },
-          "Of solvePiecewiseMotions: the motion of each action, shape (30, n), rad or m.")
+          "The motion of each action by solvePiecewiseMotions, shape (30, n), rad or m.")
       .def_prop_ro(
           "motion", [](const PyLgpTool& lgp) { return asPython(lgp.motion); },
-          nb::sig("def motion(self, /) -> KOMO | None"), "Of solveFullMotion: the problem at its solution.")
+          nb::sig("def motion(self, /) -> KOMO | None"), "The problem of solveFullMotion at its solution.")
       .def_prop_ro(
           "path", [](const PyLgpTool& lgp) { return toNumpy(lgp.path); },
-          "Of solveFullMotion: shape (T, n), rad or m; without rows before it.");
+          "The path of solveFullMotion, shape (T, n), rad or m; without rows before it.");
 }
 
 void bindTool(nb::module_& m) {
+  nb::enum_<LgpStatus> status(m, "LgpStatus", "How LGP_Tool.solve ended.");
+  for (int i = 0; i <= int(LgpStatus::no_plan_found); ++i) {
+    static std::vector<std::string> names(std::size_t(LgpStatus::no_plan_found) + 1);
+    names[std::size_t(i)] = lgpStatusName(LgpStatus(i));
+    status.value(names[std::size_t(i)].c_str(), LgpStatus(i));
+  }
   nb::class_<PyLgpTool> tool(m, "LGP_Tool", nb::dynamic_attr(), docs::lgp::tool);
   tool.def("__init__", makeTool, "C"_a, "tamp"_a, "translator"_a = nb::none(), nb::kw_only(), "threads"_a = 1,
            "results"_a = nb::none(),

@@ -189,14 +189,14 @@ void bindConditions(nb::class_<M>& helper) {
 
 void bindManipulation(nb::module_& m) {
   nb::class_<M> helper(m, "ManipulationHelper", nb::dynamic_attr(),
-                       "Problems of manipulation in a few calls; KOMO_ManipulationHelper solves and shows them, too.");
+                       "Builds manipulation problems in a few calls; KOMO_ManipulationHelper also solves and shows them.");
   helper.def(nb::init<>(), "Without a problem; call one of the setups.")
       .def_prop_rw(
           "komo", &M::pyKomo, [](M& self, std::shared_ptr<PyKomo> komo) { self.komo = std::move(komo); },
           nb::for_setter(nb::arg("komo").none()), "The KOMO; None before a setup.")
       .def_prop_ro(
           "x", [](const M& m) { return toNumpy(m.komo ? m.komo->path().variables() : VectorXd()); },
-          "The variables of the problem at its present path, those of stable frames first, shape (d,).");
+          "The variables of the problem at its current path, those of stable frames first, shape (d,).");
   bindSetups(helper);
   bindGrasps(helper);
   bindMotions(helper);

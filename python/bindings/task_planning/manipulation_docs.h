@@ -1,16 +1,16 @@
 #pragma once
 
-/// The manual of what bind_manipulation.cpp binds.
+/// Docstrings of bind_manipulation.cpp.
 namespace kinegraph::python::docs::manipulation {
 
-// What several of them say.
+// Shared parts.
 #define KINEGRAPH_LIMITS                                 \
   "    accumulated_collisions: Nothing overlaps.\n"      \
   "    joint_limits: Joints stay within their limits.\n" \
   "    quaternion_norms: Quaternions have norm one.\n"
 #define KINEGRAPH_GRASP                                                                                      \
-  "    time: In phases; the axes are aligned from 0.2 before it on, and the palm keeps off from 0.3 before " \
-  "it on.\n"                                                                                                 \
+  "    time: In phases; axes are aligned from 0.2 before it on, and the palm does not collide from 0.3 "    \
+  "before it on.\n"                                                                                          \
   "    gripper: Name of the gripper frame.\n"
 #define KINEGRAPH_PALM "    palm: Name of the frame that does not touch the object; empty: none.\n"
 #define KINEGRAPH_HAND                         \
@@ -51,19 +51,20 @@ Args:
     ArgumentError: K or steps_per_phase is not positive.)";
 
 inline constexpr char setup_pick_and_place_waypoints[] =
-    R"(Sets up two waypoints: at 1 the gripper takes the object, in a pose that is found, and at 2 it still has it.
+    R"(Sets up two waypoints: at 1 the gripper takes the object, in a pose that the solver finds, and at 2 it still
+holds it.
 
 Args:
     C: The scene.
-    gripper: Name of the frame that takes.
-    obj: Name of the object. The frame '<obj>_grasp' is where it will be in the gripper.
+    gripper: Name of the gripper frame.
+    obj: Name of the object. The frame '<obj>_grasp' is its pose in the gripper.
     homing_scale: Weight of the distance from home; 0: none.
     velocity_scale: Weight of the distance from one to the next.
 )" KINEGRAPH_LIMITS R"(Raises:
     FrameNotFound: A name that is not in the scene.)";
 
 inline constexpr char setup_point_to_point_motion[] =
-    R"(Sets up a motion of 50 slices to given joints. It starts on the way there.
+    R"(Sets up a motion of 50 slices to given joints, initialized by interpolation.
 
 Args:
     C: The scene, at the start.
@@ -74,31 +75,31 @@ Args:
     ArgumentError: q1 has another length.)";
 
 inline constexpr char add_stable_frame[] =
-    R"(Adds a frame whose pose relative to another one is found, the same at all times.
+    R"(Adds a frame whose pose relative to its parent is a variable shared by all slices.
 
 Args:
-    jointType: Of JT: which motions relative to the parent are open.
-    parent: Name of the frame above.
-    name: Of the new frame.
-    initFrame: Name of the frame where it starts; None: at the parent.
-    markerSize: Does nothing; the frames of a path are shown as markers.
+    jointType: A JT, the dofs relative to the parent.
+    parent: Name of the parent.
+    name: Name of the new frame.
+    initFrame: Name of the frame at whose pose it starts; None: the parent.
+    markerSize: Ignored; the frames of a path are shown as markers.
 Raises:
     FrameNotFound: A name that is not in the scene.
     ArgumentError: The new name exists.)";
 
 inline constexpr char add_place_frame[] =
-    R"(Adds a frame on top of another where an object would stand upright. It slides and turns there, within the edges, and is
-the same at all times.
+    R"(Adds a frame on top of another one for an upright object. It slides and rotates within the edges; all slices
+share it.
 
 Args:
-    parent: Name of what the object stands on.
+    parent: Name of the frame that the object stands on.
     obj: Name of the object.
-    name: Of the new frame.
+    name: Name of the new frame.
 Raises:
     FrameNotFound: A name that is not in the scene.
     ArgumentError: The new name exists.)";
 
-inline constexpr char snap_switch[] = R"(Puts an object at a frame from a time on.
+inline constexpr char snap_switch[] = R"(Attaches an object to a frame from a time on.
 
 Args:
     time: In phases.
@@ -107,61 +108,62 @@ Args:
 Raises:
     FrameNotFound: A name that is not in the scene.)";
 
-inline constexpr char grasp_top_box[] = R"(The gripper is at the center of an object, and their axes are aligned.
+inline constexpr char grasp_top_box[] = R"(Puts the gripper at the center of an object, with aligned axes.
 
 Args:
     time: In phases; the axes are aligned from 0.2 before it on.
     gripper: Name of the gripper frame.
     obj: Name of the object.
-    grasp_direction: One of xz, yz, xy, zy, yx, zx: the object's axes that the fingers close along and the hand comes from.
+    grasp_direction: One of xz, yz, xy, zy, yx, zx: the axes of the object along which the
+        fingers close and the hand approaches.
 Raises:
     FrameNotFound: A name that is not in the scene.
     ArgumentError: Another direction.)";
 
-inline constexpr char grasp_box[] = R"(The fingers close along an axis of a box, and hold it inside of its sides.
+inline constexpr char grasp_box[] = R"(Closes the fingers along an axis of a box, inside of its sides.
 
 Args:
 )" KINEGRAPH_GRASP R"(    obj: Name of the box; for cylinders and capsules, the box around them counts.
 )" KINEGRAPH_PALM R"(    grasp_direction: x, y or z, of the object.
-    margin: How far inside of the sides the gripper is, m.
+    margin: Distance of the gripper from the sides, m.
 Raises:
     FrameNotFound: A name that is not in the scene.
     ArgumentError: Another direction, or an object of another shape.)";
 
-inline constexpr char grasp_cylinder[] = R"(The fingers close across a cylinder or capsule.
+inline constexpr char grasp_cylinder[] = R"(Closes the fingers across a cylinder or capsule.
 
 Args:
 )" KINEGRAPH_GRASP R"(    obj: Name of the cylinder.
-)" KINEGRAPH_PALM R"(    margin: How far inside of the ends the gripper is, m.
+)" KINEGRAPH_PALM R"(    margin: Distance of the gripper from the ends, m.
 Raises:
     FrameNotFound: A name that is not in the scene.
     ArgumentError: An object of another shape.)";
 
-inline constexpr char place_box[] = R"(A box stands on a table.
+inline constexpr char place_box[] = R"(Places a box on a table.
 
 Args:
     time: In phases.
     obj: Name of the box; for cylinders and capsules, the box around them counts.
     table: Name of the box that it stands on.
     palm: Name of the frame that does not touch the table; empty: none.
-    place_direction: x, y, z, xNeg, yNeg or zNeg: the object's axis that is up.
-    margin: How far inside of the table's edges the object's center is, m.
+    place_direction: x, y, z, xNeg, yNeg or zNeg: the axis of the object that points up.
+    margin: Distance of the center of the object from the edges of the table, m.
 Raises:
     FrameNotFound: A name that is not in the scene.
     ArgumentError: Another direction, or a frame of another shape.)";
 
-inline constexpr char straight_push[] = R"(The gripper pushes an object along a line.
+inline constexpr char straight_push[] = R"(Pushes an object along a line.
 
 Args:
     time_interval: [from, to] in phases.
     obj: Name of the object.
     gripper: Name of the gripper frame.
     table: Name of the frame that it slides over.
-    scale: Weight of how the gripper touches.
-    helper: Name of the frame that is added, whose y axis is the line; empty: one is made up.
+    scale: Weight of the contact constraints.
+    helper: Name of the added frame whose y axis is the line; empty: a default name.
 )" KINEGRAPH_TIMES_RAISE;
 
-inline constexpr char pull[] = R"(The gripper presses on an object from above and slides it over a table.
+inline constexpr char pull[] = R"(Presses on an object from above and slides it over a table.
 
 Args:
     times: [from, to] in phases.
@@ -171,44 +173,44 @@ Args:
 )" KINEGRAPH_TIMES_RAISE;
 
 inline constexpr char retract[] =
-    R"(The hand leaves along its z axis, straight and without turning, from where it is in the path at times[0].
+    R"(Moves the hand away along its z axis, straight and without rotation, from its pose in the path at times[0].
 
 Args:
-)" KINEGRAPH_HAND R"(    dist: How far it is at the end at least, m.
+)" KINEGRAPH_HAND R"(    dist: Minimum distance at the end, m.
 )" KINEGRAPH_TIMES_RAISE;
 
 inline constexpr char approach[] =
-    R"(The hand comes along its z axis, straight and without turning, to where it is in the path at times[1]. To be called
-after the path was initialized, as setup_point_to_point_motion does.
+    R"(Moves the hand along its z axis, straight and without rotation, to its pose in the path at times[1]. Call it
+after the path was initialized, as by setup_point_to_point_motion.
 
 Args:
-)" KINEGRAPH_HAND R"(    dist: How far it is at the beginning at least, m.
+)" KINEGRAPH_HAND R"(    dist: Minimum distance at the beginning, m.
 )" KINEGRAPH_TIMES_RAISE;
 
-inline constexpr char retractPush[] = R"(The hand leaves what it pushed, back and up.
+inline constexpr char retractPush[] = R"(Moves the hand back and up from a pushed object.
 
 Args:
-)" KINEGRAPH_HAND R"(    dist: How far back and up it is at the end at least, m.
+)" KINEGRAPH_HAND R"(    dist: Minimum distance back and up at the end, m.
 )" KINEGRAPH_TIMES_RAISE;
 
-inline constexpr char approachPush[] = R"(The hand comes to what it will push, from behind and above.
+inline constexpr char approachPush[] = R"(Moves the hand to an object before a push, from behind and above.
 
 Args:
-)" KINEGRAPH_HAND R"(    dist: How far behind and above it is at the beginning at least, m.
+)" KINEGRAPH_HAND R"(    dist: Minimum distance behind and above at the beginning, m.
 )" KINEGRAPH_TIMES_RAISE;
 
-inline constexpr char no_collisions[] = R"(Frames keep apart, two by two.
+inline constexpr char no_collisions[] = R"(Keeps pairs of frames apart.
 
 Args:
     time_interval: [], [at] or [from, to] in phases.
-    objs: Their names, two by two.
-    margin: The least distance, m.
+    objs: Pairs of names.
+    margin: Minimum distance, m.
     scale: Weight.
 Raises:
     FrameNotFound: A name that is not in the scene.
     ArgumentError: An odd number of names.)";
 
-inline constexpr char freeze_joint[] = R"(Joints do not move.
+inline constexpr char freeze_joint[] = R"(Fixes joints.
 
 Args:
     time_interval: [], [at] or [from, to] in phases.
@@ -216,7 +218,7 @@ Args:
 Raises:
     FrameNotFound: A name that is not in the scene.)";
 
-inline constexpr char freeze_relativePose[] = R"(A frame does not move relative to another.
+inline constexpr char freeze_relativePose[] = R"(Fixes the pose of a frame relative to another one.
 
 Args:
     time_interval: [], [at] or [from, to] in phases.
@@ -225,7 +227,7 @@ Args:
 Raises:
     FrameNotFound: A name that is not in the scene.)";
 
-inline constexpr char target_position[] = R"(A frame is at a place.
+inline constexpr char target_position[] = R"(Puts a frame at a position.
 
 Args:
     time: In phases.
@@ -234,18 +236,18 @@ Args:
 Raises:
     FrameNotFound: A name that is not in the scene.)";
 
-inline constexpr char target_relative_xy_position[] = R"(A frame has given coordinates x and y in another.
+inline constexpr char target_relative_xy_position[] = R"(Puts a frame at coordinates x and y of another frame.
 
 Args:
     time: In phases.
     obj: Name of the frame.
     relativeTo: Name of the other.
-    pos: Shape (2,) or (3,), of which two count, m.
+    pos: Shape (2,) or (3,), m; a third number is ignored.
 Raises:
     FrameNotFound: A name that is not in the scene.
     ArgumentError: Another number of coordinates.)";
 
-inline constexpr char target_x_orientation[] = R"(The x axis of a frame points somewhere.
+inline constexpr char target_x_orientation[] = R"(Points the x axis of a frame in a direction.
 
 Args:
     time: In phases.
@@ -254,7 +256,7 @@ Args:
 Raises:
     FrameNotFound: A name that is not in the scene.)";
 
-inline constexpr char bias[] = R"(The joints stay near given ones, at a cost.
+inline constexpr char bias[] = R"(Adds a cost for the distance from given joints.
 
 Args:
     time: In phases.

@@ -16,13 +16,13 @@ namespace {
 
 using MaybeNumbers = std::optional<Numbers>;
 
-/// One limit for all dofs, or one per dof; none if there is none.
-VectorXd perDof(const char* name, const MaybeNumbers& given, Eigen::Index dofs) {
-  if (!given) return {};
-  if (given->rank == 0) return VectorXd::Constant(dofs, given->values[0]);
-  if (given->rank != 1)
-    throw ValueError(cat("retime: ", name, " has rank ", given->rank, "; expected one number or one per dof"));
-  return given->values;
+/// Expands a limit for all dofs to one per dof; empty for None.
+VectorXd perDof(const char* name, const MaybeNumbers& limit, Eigen::Index dofs) {
+  if (!limit) return {};
+  if (limit->rank == 0) return VectorXd::Constant(dofs, limit->values[0]);
+  if (limit->rank != 1)
+    throw ValueError(cat("retime: ", name, " has rank ", limit->rank, "; expected one number or one per dof"));
+  return limit->values;
 }
 
 MatrixXd points(const Numbers& path) {
@@ -30,7 +30,7 @@ MatrixXd points(const Numbers& path) {
   return path.matrix();
 }
 
-/// What both calls take beside the limits.
+/// The arguments of both overloads besides the limits.
 struct Request {
   std::string corners;
   double tolerance;
@@ -48,9 +48,9 @@ struct Request {
     if (end_velocity) options.end_velocity = end_velocity->values;
     if (start_acceleration) options.start_acceleration = start_acceleration->values;
     if (!is_free.is_none())
-      options.is_free = [asked = is_free.ptr()](const MatrixXd& blend, double deviation) {
+      options.is_free = [function = is_free.ptr()](const MatrixXd& blend, double deviation) {
         const nb::gil_scoped_acquire lock;
-        return bool(nb::bool_(nb::handle(asked)(toNumpy(blend), deviation)));
+        return bool(nb::bool_(nb::handle(function)(toNumpy(blend), deviation)));
       };
     return options;
   }
@@ -73,19 +73,9 @@ TimedPath ofRobot(const PyConfig& config, const Numbers& path, const MaybeNumber
                             perDof("jerk", jerk, q.cols())},
                            torque};
   const RetimeOptions options = request.options();
-  const Config scene(config);  // as it is now
+  const Config scene(config);  // a copy, because the caller may change it
   const nb::gil_scoped_release unlock;
   return retime(scene, q, limits, options);
-}
-
-nb::typed<nb::tuple, Array, Array, Array> stateAt(const TimedPath& timed, const Numbers& t) {
-  const std::size_t n = std::size_t(timed.path.cols()), count = std::size_t(t.values.size());
-  if (t.rank > 1) throw ValueError(cat("retime: at(t) has t of rank ", t.rank, "; expected a number or shape (M,)"));
-  const auto make = [&] { return t.rank == 0 ? newArray(n) : newArray(count, n); };
-  NewArray q = make(), velocity = make(), acceleration = make();
-  for (std::size_t i = 0; i < count; ++i)
-    timed.at(t.values[Eigen::Index(i)], q.data + i * n, velocity.data + i * n, acceleration.data + i * n);
-  return nb::typed<nb::tuple, Array, Array, Array>(nb::make_tuple(q.array, velocity.array, acceleration.array));
 }
 
 nb::tuple timedState(const TimedPath& t) {
@@ -104,16 +94,17 @@ nb::tuple timedState(const TimedPath& t) {
                         phases.array, pieces, t.scaling().duration());
 }
 
-/// The phases of a time law on a curve of so many pieces.
-std::vector<ScalingPhase> phasesFrom(const VectorXd& numbers, const std::vector<int>& pieces, int of_curve) {
+/// Restores the phases of a time scaling on a curve of so many pieces.
+std::vector<ScalingPhase> phasesFrom(const VectorXd& numbers, const std::vector<int>& pieces, int curve_pieces) {
   if (std::size_t(numbers.size()) != 7 * pieces.size())
-    throw ValueError(
-        cat("TimedPath: ", numbers.size(), " numbers for ", pieces.size(), " phases; expected 7 for each"));
+    throw ValueError(cat("TimedPath: the state has ", numbers.size(), " numbers for ", pieces.size(),
+                         " phases; expected 7 per phase"));
   std::vector<ScalingPhase> phases;
   const double* from = numbers.data();
   for (const int piece : pieces) {
-    if (piece < 0 || piece >= of_curve)
-      throw ValueError(cat("TimedPath: a phase on piece ", piece, " of a curve of ", of_curve, " pieces"));
+    if (piece < 0 || piece >= curve_pieces)
+      throw ValueError(
+          cat("TimedPath: the state has a phase on piece ", piece, " of a curve of ", curve_pieces, " pieces"));
     phases.push_back({from[0], {from[1], from[2], from[3], from[4]}, from[5], from[6], piece});
     from += 7;
   }
@@ -130,32 +121,31 @@ void setTimedState(TimedPath& t, const nb::tuple& state) {
   std::vector<ScalingPhase> scaling =
       phasesFrom(nb::cast<Numbers>(state[5]).values, nb::cast<std::vector<int>>(state[6]), int(curve.begin.size()));
   const auto status = RetimeStatus(nb::cast<int>(state[0]));
-  if (status == RetimeStatus::timed && scaling.empty()) throw ValueError("TimedPath: a motion without phases");
+  if (status == RetimeStatus::timed && scaling.empty())
+    throw ValueError("TimedPath: the state has a motion without phases");
   new (&t) TimedPath(TimedPath::fromParts(status, nb::cast<std::string>(state[1]), nb::cast<Numbers>(state[2]).matrix(),
                                           nb::cast<Numbers>(state[3]).values, PathCurve::fromParts(curve),
                                           {std::move(scaling), nb::cast<double>(state[7])}));
 }
 
 void bindTimedPath(nb::module_& m) {
-  nb::enum_<RetimeStatus>(m, "RetimeStatus", "How retime ended.")
+  nb::enum_<RetimeStatus>(m, "RetimeStatus", "Result of retime.")
       .value("timed", RetimeStatus::timed, "There is a motion.")
       .value("start_too_fast", RetimeStatus::start_too_fast,
-             "The start velocity is above the limits, or cannot be braked.")
-      .value("end_too_fast", RetimeStatus::end_too_fast, "The end velocity is above the limits, or cannot be reached.")
-      .value("cannot_move", RetimeStatus::cannot_move, "A torque limit holds for no speed somewhere.");
-  nb::class_<TimedPath>(m, "TimedPath", "A path, and when a motion is where on it.")
+             "The start velocity exceeds the limits, or is too high to brake.")
+      .value("end_too_fast", RetimeStatus::end_too_fast, "The end velocity exceeds the limits, or is unreachable.")
+      .value("cannot_move", RetimeStatus::cannot_move, "A torque limit holds for no speed at some point.");
+  nb::class_<TimedPath, Trajectory>(m, "TimedPath", "A path with its time parameterization; a Trajectory.")
       .def_prop_ro("feasible", &TimedPath::feasible, "True if there is a motion.")
-      .def_ro("status", &TimedPath::status, "How it ended, a RetimeStatus.")
+      .def_ro("status", &TimedPath::status, "A RetimeStatus.")
       .def_prop_ro(
           "message", [](const TimedPath& t) { return inPython(t.message); },
-          "\"\" if there is a motion; else what is too fast, and what would do.")
+          "\"\" if there is a motion; else the cause, with a value that would do.")
       .def_prop_ro(
-          "path", [](const TimedPath& t) { return toNumpy(t.path); }, "The points, shape (K, n), as given.")
+          "path", [](const TimedPath& t) { return toNumpy(t.path); }, "The points of the path, shape (K, n).")
       .def_prop_ro(
           "times", [](const TimedPath& t) { return toNumpy(t.times); },
-          "When the motion is at each point, or nearest to it in a blend, shape (K,), s; empty without a motion.")
-      .def_prop_ro("duration", &TimedPath::duration, "How long the motion takes, s.")
-      .def("at", stateAt, "t"_a, docs::retime::at)
+          "Times of the points, or of the nearest points of their blends, shape (K,), s; empty without a motion.")
       .def("__bool__", &TimedPath::feasible)
       .def("__getstate__", timedState)
       .def("__setstate__", setTimedState)

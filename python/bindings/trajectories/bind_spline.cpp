@@ -4,7 +4,9 @@
 #include "bindings.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/trajectories/b_spline.h"
+#include "kinegraph/trajectories/spline_trajectory.h"
 #include "trajectories/spline_docs.h"
+#include "trajectories/trajectory_docs.h"
 
 namespace kinegraph::python {
 
@@ -12,10 +14,10 @@ namespace {
 
 using Parts = nb::typed<nb::tuple, int, Array, Array>;
 
-/// Points, a row each. Of a flat list each number is a point, unless it is for one time only.
-MatrixXd points(const Numbers& given, std::size_t count) {
-  if (given.rank == 2 || (given.rank == 1 && count == 1)) return given.matrix();
-  return given.values;
+/// Points as rows. Each number of a flat list is a point, unless there is only one time.
+MatrixXd points(const Numbers& numbers, std::size_t count) {
+  if (numbers.rank == 2 || (numbers.rank == 1 && count == 1)) return numbers.matrix();
+  return numbers.values;
 }
 
 }  // namespace
@@ -29,27 +31,28 @@ void bindSpline(nb::module_& m) {
           "degree"_a, "times"_a, kChain, docs::spline::setKnots)
       .def(
           "setCtrlPoints",
-          [](BSpline& s, const Numbers& given, bool start, bool end, const Numbers& v0, const Numbers& v1) -> BSpline& {
-            return s.setCtrlPoints(points(given, 0), start, end, v0.values, v1.values);
-          },
+          [](BSpline& s, const Numbers& points_argument, bool start, bool end, const Numbers& v0, const Numbers& v1)
+              -> BSpline& { return s.setCtrlPoints(points(points_argument, 0), start, end, v0.values, v1.values); },
           "points"_a, "addStartDuplicates"_a = true, "addEndDuplicates"_a = true, "setStartVel"_a = nb::list(),
           "setEndVel"_a = nb::list(), kChain, docs::spline::setCtrlPoints)
       .def(
           "set",
-          [](BSpline& s, int degree, const Numbers& given, const Numbers& times, const Numbers& v0, const Numbers& v1)
-              -> BSpline& { return s.set(degree, points(given, 0), times.values, v0.values, v1.values); },
+          [](BSpline& s, int degree, const Numbers& points_argument, const Numbers& times, const Numbers& v0,
+             const Numbers& v1) -> BSpline& {
+            return s.set(degree, points(points_argument, 0), times.values, v0.values, v1.values);
+          },
           "degree"_a, "points"_a, "times"_a, "setStartVel"_a = nb::list(), "setEndVel"_a = nb::list(), kChain,
           docs::spline::set)
       .def(
           "append",
-          [](BSpline& s, const Numbers& given, const Numbers& times, bool inside) -> BSpline& {
-            return s.append(points(given, std::size_t(times.values.size())), times.values, inside);
+          [](BSpline& s, const Numbers& points_argument, const Numbers& times, bool inside) -> BSpline& {
+            return s.append(points(points_argument, std::size_t(times.values.size())), times.values, inside);
           },
           "points"_a, "times_rel"_a, "inside"_a = false, kChain, docs::spline::append)
       .def(
           "overwriteSmooth",
-          [](BSpline& s, const Numbers& given, const Numbers& times, double cut) -> BSpline& {
-            return s.overwriteSmooth(points(given, std::size_t(times.values.size())), times.values, cut);
+          [](BSpline& s, const Numbers& points_argument, const Numbers& times, double cut) -> BSpline& {
+            return s.overwriteSmooth(points(points_argument, std::size_t(times.values.size())), times.values, cut);
           },
           "points"_a, "times_rel"_a, "time_cut"_a, kChain, docs::spline::overwriteSmooth)
       .def(
@@ -83,6 +86,13 @@ void bindSpline(nb::module_& m) {
         new (&s) BSpline(BSpline::fromParts(nb::cast<int>(parts[0]), nb::cast<Numbers>(parts[1]).values,
                                             ctrl_points.values.size() ? ctrl_points.matrix() : MatrixXd()));
       });
+  nb::class_<SplineTrajectory, Trajectory>(m, "SplineTrajectory", docs::trajectory::SplineTrajectory)
+      .def(nb::init<BSpline>(), "spline"_a, docs::trajectory::SplineTrajectory_make)
+      .def_prop_ro(
+          "spline", [](const SplineTrajectory& t) { return BSpline(t.spline()); }, "A copy of the spline.")
+      .def("__getstate__", [](const SplineTrajectory& t) { return nb::make_tuple(BSpline(t.spline())); })
+      .def("__setstate__",
+           [](SplineTrajectory& t, const nb::tuple& parts) { new (&t) SplineTrajectory(nb::cast<BSpline>(parts[0])); });
 }
 
 }  // namespace kinegraph::python

@@ -1,36 +1,37 @@
 #pragma once
 
-/// The manual of what bind_spline.cpp binds.
+/// The docstrings of BSpline in bind_spline.cpp.
 namespace kinegraph::python::docs::spline {
 
-inline constexpr char type[] = R"(A motion x(t) of d numbers as a B-spline. Setters return the spline itself.
+inline constexpr char type[] = R"(A motion x(t) of d dofs as a B-spline. Setters return the spline itself.
 
-Points stand at times (s). A spline of degree 2 or more comes near inner points and does not pass through them; the first and
-the last are repeated floor(degree / 2) times (duplicates), so that it starts and ends at them, at rest or with a given
-velocity. Before it starts it is at the first point, from its end on at the last one, with zero derivatives.)";
+Points have times (s). A spline of degree 2 or more comes near the inner points, but does not pass through them. The
+first and the last point are repeated floor(degree / 2) times (duplicates): the spline starts and ends at them, at rest
+or with a given velocity. Before its start it stays at the first point, from its end on at the last one, with zero
+derivatives.)";
 
-inline constexpr char make[] = R"(An empty spline; call set.)";
+inline constexpr char make[] = R"(Creates an empty spline; call set.)";
 
-inline constexpr char setKnots[] = R"(Takes the times of the points to come, and forgets the control points.
+inline constexpr char setKnots[] = R"(Sets the knots for points at given times, and removes the control points.
 
-The first and the last time are knots degree + 1 times. Between them, knots of an odd degree are the inner times, those of an
-even one the midpoints of neighbors.
+The first and the last time are knots degree + 1 times. Between them, the knots of an odd degree are the inner times,
+those of an even degree the midpoints of neighbors.
 
 Args:
     degree: 0 (steps) to 9; 2 or 3 is smooth.
-    times: (n,) in s, not falling.
+    times: (n,) in s, not decreasing.
 Returns:
     The spline itself.
 Raises:
-    ArgumentError: Less than two times, times that fall or are all the same, or another degree.)";
+    ArgumentError: There are fewer than two times, times decrease or are all equal, or the degree is out of range.)";
 
-inline constexpr char setCtrlPoints[] = R"(Takes the points, after setKnots.
+inline constexpr char setCtrlPoints[] = R"(Sets the points, after setKnots.
 
 Args:
-    points: (n, d), or (n,) of a spline of one number.
-    addStartDuplicates: Repeat the first point; else its duplicates are among the points.
-    addEndDuplicates: The same for the last one.
-    setStartVel: (d,), velocity at the start: moves the duplicates there, which are then no duplicates. None if empty.
+    points: (n, d), or (n,) for a spline of one dof.
+    addStartDuplicates: True repeats the first point; False if its duplicates are among the points.
+    addEndDuplicates: The same for the last point.
+    setStartVel: (d,), velocity at the start, by moving the duplicates there; empty: none.
     setEndVel: (d,), velocity at the end.
 Returns:
     The spline itself.
@@ -38,43 +39,44 @@ Raises:
     ArgumentError: There are no knots, or sizes do not match them.)";
 
 inline constexpr char set[] =
-    R"(Takes points and their times: setKnots and setCtrlPoints in one. On an error nothing changes.
+    R"(Sets points and their times: setKnots and setCtrlPoints in one. An error changes nothing.
 
 Args:
     degree: 0 to 9.
-    points: (n, d), or (n,) of a spline of one number.
-    times: (n,) in s, not falling.
-    setStartVel: (d,), velocity at the start. None if empty.
+    points: (n, d), or (n,) for a spline of one dof.
+    times: (n,) in s, not decreasing.
+    setStartVel: (d,), velocity at the start; empty: at rest.
     setEndVel: (d,), velocity at the end.
 Returns:
     The spline itself.
 Raises:
-    ArgumentError: Sizes do not match, times fall, numbers are not finite.)";
+    ArgumentError: Sizes do not match, times decrease, or numbers are not finite.)";
 
-inline constexpr char append[] = R"(Goes on to more points after the present end. On an error nothing changes.
+inline constexpr char append[] = R"(Appends points after the present end. An error changes nothing.
 
 Args:
     points: (k, d); one point may be (d,).
-    times_rel: (k,) in s, after the end of what is there.
-    inside: False: the motion passes through what was its end; at rest if it ended at rest, else with its velocity. True: that
-        point becomes an inner one, which the motion only comes near.
+    times_rel: (k,) in s, after the present end.
+    inside: False: the spline passes through its previous end, at rest if it ended at rest, else with its velocity.
+        True: the previous end becomes an inner point, which the spline only comes near.
 Returns:
     The spline itself.
 Raises:
-    ArgumentError: The spline is empty, sizes do not match, times fall or are negative.)";
+    ArgumentError: The spline is empty, sizes do not match, or times decrease or are negative.)";
 
-inline constexpr char overwriteSmooth[] = R"(Forgets all but position and velocity at a time, and goes on from there.
+inline constexpr char overwriteSmooth[] =
+    R"(Replaces the spline by one that starts with its position and velocity at a time.
 
 Args:
     points: (k, d); one point may be (d,).
     times_rel: (k,) in s, after time_cut.
-    time_cut: When the new motion starts, s.
+    time_cut: Start of the new spline, s.
 Returns:
     The spline itself.
 Raises:
-    ArgumentError: The spline is empty, sizes do not match, times fall.)";
+    ArgumentError: The spline is empty, sizes do not match, or times decrease.)";
 
-inline constexpr char eval[] = R"(The motion at times, or a derivative of it.
+inline constexpr char eval[] = R"(Evaluates the motion at several times, or a derivative of it.
 
 Args:
     sampleTimes: (m,) in s, or one time.
@@ -82,30 +84,30 @@ Args:
 Returns:
     (m, d).
 Raises:
-    ArgumentError: The spline is empty, the derivative negative, or a time is not a number.)";
+    ArgumentError: The spline is empty, the derivative is negative, or a time is NaN.)";
 
-inline constexpr char eval3[] = R"(Position, velocity and acceleration at a time.
+inline constexpr char eval3[] = R"(Evaluates position, velocity and acceleration at a time.
 
 Args:
     time: s.
 Returns:
     (3, d).
 Raises:
-    ArgumentError: The spline is empty, or t is not a number.)";
+    ArgumentError: The spline is empty, or time is NaN.)";
 
-inline constexpr char getBmatrix[] = R"(The matrix B of x = B c, c the control points.
+inline constexpr char getBmatrix[] = R"(Returns the matrix B of x = B c with the control points c.
 
 Args:
     sampleTimes: (m,) in s.
-    startDuplicates: Add the columns of the first point's duplicates to its own.
+    startDuplicates: True adds the columns of the first point's duplicates to its own column.
     endDuplicates: The same for the last point. With both, B multiplies the n points without duplicates.
 Returns:
     (m, number of control points), or fewer columns.
 Raises:
-    ArgumentError: There are no knots, or a time is not a number.)";
+    ArgumentError: There are no knots, or a time is NaN.)";
 
-inline constexpr char getKnots[] = R"(The knots, in s: (count,), as many as control points and degree + 1.)";
+inline constexpr char getKnots[] = R"(Returns the knots, (count,) in s: one per control point, and degree + 1 more.)";
 
-inline constexpr char getCtrlPoints[] = R"(The control points, duplicates included: (count, d).)";
+inline constexpr char getCtrlPoints[] = R"(Returns the control points with duplicates, (count, d).)";
 
 }  // namespace kinegraph::python::docs::spline

@@ -15,36 +15,36 @@ namespace kinegraph::python {
 
 namespace {
 
-/// A picture of what the viewer shows, with a text on it.
+/// Renders the viewer's scene, with a text on it.
 CameraImage picture(PyViewer& viewer, const std::string& text) {
-  if (!viewer.scene) throw ValueError("this viewer shows nothing yet; call view() first");
+  if (!viewer.scene) throw ValueError("this viewer has no scene yet; call view() first");
   const Camera camera = cameraNow(viewer);
-  const Look look = lookOfParameters();
-  RendererOptions options{.supersampling = 2, .slices = 48, .shadows = look.shadows, .floor = look.has_floor};
-  if (look.background) options.background = *look.background;
-  if (look.floor) options.floor_color = *look.floor;
-  options.lights = look.lights;
-  options.flat_colors = look.flat_colors;
-  options.wireframe = look.wireframe;
+  const Appearance appearance = appearanceFromParameters();
+  RendererOptions options{
+      .supersampling = 2, .slices = 48, .shadows = appearance.shadows, .floor = appearance.has_floor};
+  if (appearance.background) options.background = *appearance.background;
+  if (appearance.floor) options.floor_color = *appearance.floor;
+  options.lights = appearance.lights;
+  options.flat_colors = appearance.flat_colors;
+  options.wireframe = appearance.wireframe;
   if (!viewer.renderer || !(options == viewer.renderer_options)) viewer.renderer.emplace(options);
   viewer.renderer_options = options;
   const nb::gil_scoped_release unlock;
   CameraImage image = viewer.renderer->render(*viewer.scene, camera, viewer.visuals_only);
   for (const auto& [id, quad] : viewer.quads) drawQuad(image.rgb, image.width, quad);
-  if (look.text && !viewer.visuals_only && !text.empty()) {
-    constexpr int kAround = 48;  // pixels, of width and height, that the text may not have
+  if (appearance.text && !viewer.visuals_only && !text.empty()) {
+    constexpr int kAround = 48;  // pixels of width and height that the text does not use
     const int width = std::max(image.width - kAround, 1), height = std::max(image.height - kAround, 1);
     drawLetters(image.rgb, image.width, viewer.renderer->write(text, width, height));
   }
   return image;
 }
 
-/// Turns the camera to a point, and moves it to where `height` m fit into the picture there.
+/// Turns the camera to a point, and moves it such that `height` m fit into the picture there.
 void focus(PyViewer& viewer, const Numbers& at, double height) {
-  if (at.values.size() != 3)
-    throw ValueError(cat("focus: the position has ", at.values.size(), " numbers; expected 3"));
+  if (at.values.size() != 3) throw ValueError(cat("focus: position_3d has ", at.values.size(), " entries; expected 3"));
   if (!(height > 0. && std::isfinite(height)))
-    throw ValueError(cat("focus: heightAbs is ", height, "; expected m, more than 0"));
+    throw ValueError(cat("focus: heightAbs is ", height, " m; expected a positive number"));
   Camera camera = cameraNow(viewer);
   const Vector3d point(at.values), back = camera.pose.p - point;
   if (back.norm() < 1e-9) throw ValueError("focus: the camera is at that position");
@@ -56,7 +56,7 @@ void focus(PyViewer& viewer, const Numbers& at, double height) {
   viewer.aim(page);
 }
 
-/// Pages look from there as well.
+/// Sets the camera of pictures and pages.
 void placeCamera(PyViewer& viewer, const Camera& camera) {
   viewer.camera.place(camera);
   viewer.camera_is_set = true;
@@ -71,14 +71,14 @@ void setViewCamera(PyViewer& viewer, nb::handle frame) {
   else if (viewer.scene)
     given = Frame(viewer.scene, viewer.scene->get(nb::cast<std::string>(frame), "setCamera"));
   else
-    throw ValueError("this viewer shows nothing yet; give the frame itself, or call view() first");
+    throw ValueError("this viewer has no scene yet; pass a Frame instead of its name, or call view() first");
   placeCamera(viewer, cameraOf(*given));
   viewer.camera.follow(*given);
 }
 
 void setCameraTarget(PyViewer& viewer, const Numbers& position, const Numbers& target) {
   if (position.values.size() != 3 || target.values.size() != 3) {
-    throw ValueError("setCamera: position and target are 3 numbers each");
+    throw ValueError("setCamera: position and target need 3 entries each");
   }
   const Vector3d from(position.values), to(target.values);
   Camera camera = cameraNow(viewer);
@@ -88,9 +88,10 @@ void setCameraTarget(PyViewer& viewer, const Numbers& position, const Numbers& t
   viewer.aim({.pose = camera.pose, .distance = (to - from).norm(), .ortho_height = camera.ortho_height, .aspect = 1.});
 }
 
-/// Moves the camera to where all that is shown fills the picture. The middle of that; where there is nothing, 0.
+/// Moves the camera such that the visible scene fills the picture. Returns the scene's center; 0 without a visible
+/// shape.
 Array fit(PyViewer& viewer) {
-  if (!viewer.scene) throw ValueError("this viewer shows nothing yet; call view() first");
+  if (!viewer.scene) throw ValueError("this viewer has no scene yet; call view() first");
   const Config config(viewer.scene);
   placeCamera(viewer, fitted(cameraNow(viewer), config));
   const std::optional<ShownBall> ball = shownBall(config);

@@ -25,7 +25,7 @@ const std::shared_ptr<PyViewer>& viewerOf(PyConfig& config) {
   return config.viewer;
 }
 
-/// The viewer of a configuration, which shows it from now on.
+/// Returns the viewer of a configuration, and shows the configuration there.
 const std::shared_ptr<PyViewer>& showIn(PyConfig& config) {
   viewerOf(config)->scene = config.scene();
   return config.viewer;
@@ -34,12 +34,12 @@ const std::shared_ptr<PyViewer>& showIn(PyConfig& config) {
 void select(PyViewer& viewer, int frame) {
   const int count = viewer.scene ? int(viewer.scene->frames().size()) : 0;
   if (frame < 0 || frame >= count) {
-    throw ValueError(cat("select: no frame has the ID ", frame, "; the viewer shows ", count, ", from 0 on"));
+    throw ValueError(cat("select: no frame has the ID ", frame, "; expected 0 to ", count - 1));
   }
   viewer.select(frame);
 }
 
-/// In pieces, between which people can stop it.
+/// Waits in short intervals, between which Ctrl-C is checked.
 bool waitForClient(PyViewer& viewer, double seconds) {
   constexpr double kPiece = .1;  // s
   for (double left = seconds;; left -= kPiece) {
@@ -49,7 +49,7 @@ bool waitForClient(PyViewer& viewer, double seconds) {
   }
 }
 
-/// The page with what is shown inside, whether a server runs or not.
+/// Returns the self-contained HTML page, whether a server runs or not.
 std::string pageOf(PyViewer& viewer) {
   return viewer.isOpen() || !viewer.scene ? viewer.recording() : recordedScene(Config(*viewer.scene));
 }
@@ -84,9 +84,9 @@ void animateSpline(PyConfig& config, int points) {
 int viewPath(PyConfig& config, const Numbers& path, double seconds, bool pause,
              const std::optional<std::string>& message) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
-  if (seconds <= 0.) throw ValueError(cat("view_path: seconds is ", seconds, "; expected more than 0"));
+  if (seconds <= 0.) throw ValueError(cat("view_path: seconds is ", seconds, "; expected a positive number"));
   const MatrixXd states = path.matrix();
-  if (states.rows() == 0) throw ValueError("view_path: the path has no joint states");
+  if (states.rows() == 0) throw ValueError("view_path: the path has no rows");
   ShownMotion motion = motionAlong(config, states, seconds);
   motion.start = ShownMotion::Start::play;
   if (!openPage(*viewer)) return pause ? kEscape : 0;
@@ -97,7 +97,7 @@ int viewPath(PyConfig& config, const Numbers& path, double seconds, bool pause,
 void watch(PyConfig& config, const PathText& file) {
   const std::string& path = file.text;
   const std::shared_ptr<PyViewer> viewer = showIn(config);
-  viewer->setTitle(cat("ConfigView <", path, ">"));  // before there is a page
+  viewer->setTitle(cat("ConfigView <", path, ">"));  // before the page opens
   if (!openPage(*viewer)) {
     config.clear();
     config.addFile(path);
@@ -114,15 +114,15 @@ void watch(PyConfig& config, const PathText& file) {
       interrupted);
 }
 
-/// The page in the browser.
+/// Binds the page in the browser.
 void bindPage(nb::class_<PyViewer>& viewer) {
-  viewer.def_prop_ro("url", &PyViewer::url, "The page's address; starts the viewer if it does not run.")
+  viewer.def_prop_ro("url", &PyViewer::url, "The page's address; starts the viewer if necessary.")
       .def("isOpen", &PyViewer::isOpen, "True while the viewer runs.")
       .def("serveAt", &PyViewer::serveAt, "host"_a, "port"_a = kFirstPort, docs::viewer::serveAt)
       .def(
           "isPatient", [](PyViewer&) { return isPatient(); },
-          "True at a terminal and over ssh: what waits for people then waits until a first browser has come.")
-      .def("clients", &PyViewer::clients, "Number of browsers that are connected.")
+          "True at a terminal and over ssh: calls with pause then wait for the first browser.")
+      .def("clients", &PyViewer::clients, "Number of connected browsers.")
       .def(
           "waitForClient",
           [](PyViewer& v, double seconds) {
@@ -136,7 +136,7 @@ void bindPage(nb::class_<PyViewer>& viewer) {
       .def("takeKey", &PyViewer::takeKey, "The code of the key pressed since the last call, or 0.")
       .def("hasEdits", &PyViewer::hasEdits, docs::viewer::hasEdits)
       .def("select", select, "frame"_a, docs::viewer::select)
-      .def("asHtml", pageOf, "A web page with the scene, or the motion, that is shown. It opens without this program.")
+      .def("asHtml", pageOf, "Returns a self-contained web page of the shown scene or motion.")
       .def(
           "saveHtml",
           [](PyViewer& v, const PathText& path) {
@@ -147,11 +147,11 @@ void bindPage(nb::class_<PyViewer>& viewer) {
       .def(
           "_repr_html_",
           [](PyViewer& v) { return nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(pageOf(v)); },
-          "What notebooks show: the scene as it is now.")
-      .def("close", &PyViewer::endPage, "Ends the viewer.");
+          "Shows the present scene in notebooks.")
+      .def("close", &PyViewer::endPage, "Closes the viewer.");
 }
 
-/// What a Config shows.
+/// Binds the views of a Config.
 void bindViews(nb::class_<PyConfig>& config) {
   config
       .def("view", viewConfig, "pause"_a = false, "message"_a = nb::none(), "offscreen"_a = false, nb::kw_only(),
@@ -161,13 +161,13 @@ void bindViews(nb::class_<PyConfig>& config) {
           [](PyConfig& c) {
             if (c.viewer) c.viewer->endPage();
           },
-          "Ends the viewer; the next view() starts another.")
-      .def("viewer", viewerOf, "The viewer of this scene.")
+          "Closes the viewer; the next view() starts a new one.")
+      .def("viewer", viewerOf, "Returns the viewer of this scene.")
       .def(
           "set_viewer", [](PyConfig& c, std::shared_ptr<PyViewer> v) { c.viewer = std::move(v); }, "viewer"_a,
           docs::viewer::set_viewer)
       .def("animate", animate,
-           "Plays every joint through its limits, in the browser. A key there ends it; q stays as it is.")
+           "Moves every joint through its limits in the browser, until a key is pressed there. Does not change q.")
       .def("animateSpline", animateSpline, "T"_a = 3, docs::viewer::animateSpline)
       .def("view_path", viewPath, "path"_a, "seconds"_a = 3., "pause"_a = false, "message"_a = nb::none(),
            docs::viewer::view_path)
@@ -178,7 +178,7 @@ void bindViews(nb::class_<PyConfig>& config) {
 
 void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
   nb::class_<PyViewer> viewer(m, "ConfigurationViewer",
-                              "Shows a configuration in the browser, and makes pictures of it.");
+                              "Shows a configuration in the browser, and renders pictures of it.");
   bindPage(viewer);
   bindPictures(viewer);
   bindViewerInput(m, viewer);

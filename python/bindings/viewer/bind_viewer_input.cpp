@@ -16,14 +16,13 @@ namespace kinegraph::python {
 
 namespace {
 
-/// Rows and columns, or rows, columns and rgb.
+/// Images: rows and columns, or rows, columns and rgb.
 template <class T>
 using Image = nb::ndarray<const T, nb::c_contig, nb::device::cpu>;
 
 constexpr int kNoFrame = 0xffffff;  // as in segmentation images
 
-/// The picture as a quad of rgb bytes; numbers are cut off below 0 and above 255, and shown as gray if there is one per
-/// pixel.
+/// Converts an image to a quad of rgb bytes: clips numbers to 0..255, and shows one number per pixel as gray.
 template <class T>
 Quad quadOf(const Image<T>& image, const char* who) {
   const bool gray = image.ndim() == 2;
@@ -31,9 +30,9 @@ Quad quadOf(const Image<T>& image, const char* who) {
     std::string shape;
     for (std::size_t i = 0; i < image.ndim(); ++i) shape += cat(i ? ", " : "", image.shape(i));
     throw ValueError(
-        cat(who, ": the picture has shape (", shape, "); expected (height, width, 3), or (height, width) for gray"));
+        cat(who, ": the image has shape (", shape, "); expected (height, width, 3), or (height, width) for gray"));
   }
-  if (image.size() == 0) throw ValueError(cat(who, ": the picture has no pixels"));
+  if (image.size() == 0) throw ValueError(cat(who, ": the image has no pixels"));
   Quad quad;
   quad.rows = int(image.shape(0));
   quad.columns = int(image.shape(1));
@@ -47,10 +46,10 @@ Quad quadOf(const Image<T>& image, const char* who) {
 }
 
 int setQuad(PyViewer& viewer, int id, const Image<std::uint8_t>& rgb, double x, double y, double height) {
-  if (id < -1) throw ValueError(cat("setQuad: id is ", id, "; expected -1 for another picture, or the id of one"));
+  if (id < -1) throw ValueError(cat("setQuad: id is ", id, "; expected -1 for a new image, or an existing id"));
   if (!(std::isfinite(x) && std::isfinite(y) && std::isfinite(height) && height > 0.)) {
-    throw ValueError(cat("setQuad: x, y, h are ", x, ", ", y, ", ", height,
-                         "; expected parts of the window's height, h more than 0"));
+    throw ValueError(
+        cat("setQuad: x, y, h are ", x, ", ", y, ", ", height, "; expected fractions of the window's height, h > 0"));
   }
   Quad quad = quadOf(rgb, "setQuad");
   quad.id = id >= 0 ? id : viewer.quads.empty() ? 0 : viewer.quads.rbegin()->first + 1;
@@ -68,7 +67,8 @@ int viewPage(PyViewer& viewer, bool pause, const std::optional<std::string>& tex
   return viewer.wait(pause, text, interrupted);
 }
 
-/// Six numbers: where the pointer is on a surface, and the surface's normal; empty until it has been on one.
+/// Returns the point under the pointer and the surface normal there, 6 numbers; empty until the pointer was on a
+/// surface.
 Array eventCursor(PyViewer& viewer) {
   const std::optional<Cursor> cursor = viewer.server().cursor();
   if (!cursor) return toNumpy(VectorXd(0));
@@ -82,7 +82,7 @@ int eventCursorObject(PyViewer& viewer) {
   return cursor && cursor->frame >= 0 ? cursor->frame : kNoFrame;
 }
 
-/// A page of its own with one picture.
+/// A page that shows one image.
 struct ImageViewer : PyViewer {
   ImageViewer() : PyViewer({.title = "ImageViewer"}) {}
 };
@@ -90,7 +90,7 @@ struct ImageViewer : PyViewer {
 template <class T>
 int viewImage(ImageViewer& viewer, const Image<T>& image, bool wait, double zoom) {
   if (!(zoom > 0. && zoom <= 100.))
-    throw ValueError(cat("ImageViewer: zoom is ", zoom, "; expected more than 0 and at most 100"));
+    throw ValueError(cat("ImageViewer: zoom is ", zoom, "; expected a number in (0, 100]"));
   Quad quad = quadOf(image, "ImageViewer");
   quad.zoom = zoom;
   if (!openPage(viewer)) return wait ? kEscape : 0;
@@ -112,19 +112,19 @@ void bindViewerInput(nb::module_& m, nb::class_<PyViewer>& viewer) {
           "getEvents", [](PyViewer& v) { return v.server().takeEvents(); }, docs::viewer_input::getEvents)
       .def("getEventCursor", eventCursor, docs::viewer_input::getEventCursor)
       .def("getEventCursorObject", eventCursorObject,
-           "The id of the frame that the pointer is on; 16777215 over the floor and the background.")
+           "Returns the id of the frame under the pointer; 16777215 over the floor and the background.")
       .def(
           "raiseWindow", [](PyViewer& v) { openBrowser(v.url()); },
           "Opens a page in the browser, if there is a display.")
       .def(
           "getGLFWWindow", [](PyViewer&) { return 0; }, "0: there is no such window.");
 
-  nb::class_<ImageViewer>(m, "ImageViewer", "Shows pictures in the browser.")
-      .def(nb::init<>(), "Shows nothing yet.")
+  nb::class_<ImageViewer>(m, "ImageViewer", "Shows images in the browser.")
+      .def(nb::init<>(), "Creates a viewer without an image.")
       .def("view", viewImage<std::uint8_t>, "img"_a, "wait"_a = false, "zoom"_a = 1., docs::viewer_input::viewImage)
       .def("viewFloat", viewImage<float>, "img"_a, "wait"_a = false, "zoom"_a = 1., docs::viewer_input::viewFloat)
       .def_prop_ro("url", &ImageViewer::url, "The page's address.")
-      .def("close", &ImageViewer::close, "Ends the viewer.");
+      .def("close", &ImageViewer::close, "Closes the viewer.");
 }
 
 }  // namespace kinegraph::python

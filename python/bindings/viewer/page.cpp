@@ -11,7 +11,7 @@ namespace {
 
 bool flag(const char* name, bool otherwise) {
   const nb::object value = parameter(name, nb::object(nb::bool_(otherwise)), "");
-  if (!PyLong_Check(value.ptr())) {  // True and False are numbers as well
+  if (!PyLong_Check(value.ptr())) {  // True and False are numbers, too
     throw ValueError(
         cat("parameter ", name, " is ", nb::cast<std::string>(nb::repr(value)), "; expected True or False"));
   }
@@ -20,7 +20,7 @@ bool flag(const char* name, bool otherwise) {
 
 std::vector<double> numbers(const char* name) { return parameter(name, std::vector<double>(), "a list of numbers"); }
 
-/// The camera is first where a frame `camera_init` says, if there is one. True if it has just been put there.
+/// Sets the initial camera to a frame `camera_init`, if there is one. Returns whether it has just been set.
 bool startCamera(PyViewer& viewer) {
   FrameData* init = viewer.scene && !viewer.camera_is_set ? viewer.scene->find("camera_init") : nullptr;
   if (!init) return false;
@@ -29,7 +29,7 @@ bool startCamera(PyViewer& viewer) {
   return true;
 }
 
-/// Tells pages where to look from, if that has changed.
+/// Sets the camera of the pages, if it has changed.
 void aimPage(PyViewer& viewer, bool is_new) {
   const bool started = startCamera(viewer);
   const Camera camera = cameraNow(viewer);
@@ -62,23 +62,23 @@ void PyViewer::endPage() {
   quads.clear();
 }
 
-Look lookOfParameters() {
-  Look look;
+Appearance appearanceFromParameters() {
+  Appearance appearance;
   const std::vector<double> background = numbers("Render/backgroundColor"), floor = numbers("Render/floorColor");
   const std::vector<double> lights = numbers("Render/lights");
-  if (background.size() == 3) look.background = Vector3d(background.data());
-  if (floor.size() == 3) look.floor = Vector3d(floor.data());
-  look.has_floor = floor.empty() || floor.size() == 3;
-  look.shadows = flag("Render/renderShadow", true);
-  look.text = flag("Render/renderText", true);
-  look.flat_colors = flag("Render/flatColors", false);
-  look.wireframe = flag("Render/renderPolygonLines", false);
+  if (background.size() == 3) appearance.background = Vector3d(background.data());
+  if (floor.size() == 3) appearance.floor = Vector3d(floor.data());
+  appearance.has_floor = floor.empty() || floor.size() == 3;
+  appearance.shadows = flag("Render/renderShadow", true);
+  appearance.text = flag("Render/renderText", true);
+  appearance.flat_colors = flag("Render/flatColors", false);
+  appearance.wireframe = flag("Render/renderPolygonLines", false);
   if (lights.size() % 3 != 0) {
     throw ValueError(
-        cat("parameter Render/lights has ", lights.size(), " numbers; expected 3 for each light: where it is, m"));
+        cat("parameter Render/lights has ", lights.size(), " numbers; expected the 3 coordinates (m) of each light"));
   }
-  for (std::size_t i = 0; i < lights.size(); i += 3) look.lights.emplace_back(&lights[i]);
-  return look;
+  for (std::size_t i = 0; i < lights.size(); i += 3) appearance.lights.emplace_back(&lights[i]);
+  return appearance;
 }
 
 PageCamera pageCameraOf(const Camera& camera) {
@@ -114,10 +114,10 @@ Camera cameraNow(PyViewer& viewer) {
 bool openPage(PyViewer& viewer) {
   if (flag("disableGui", false)) return false;
   viewer.setWaits(!flag("noInteractivity", false));
-  Look look = lookOfParameters();
-  look.visuals_only = viewer.visuals_only;
+  Appearance appearance = appearanceFromParameters();
+  appearance.visuals_only = viewer.visuals_only;
   const bool is_new = !viewer.isOpen();
-  viewer.server().setLook(look);
+  viewer.server().setAppearance(appearance);
   if (viewer.scene) aimPage(viewer, is_new);
   if (is_new) {
     for (const auto& [id, quad] : viewer.quads) viewer.server().setQuad(quad);
@@ -127,7 +127,7 @@ bool openPage(PyViewer& viewer) {
 }
 
 bool show(PyViewer& viewer, const std::optional<std::string>& message, bool offscreen) {
-  if (message) viewer.noteMessage(*message);
+  if (message) viewer.storeMessage(*message);
   return !offscreen && openPage(viewer);
 }
 

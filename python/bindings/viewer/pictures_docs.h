@@ -1,82 +1,82 @@
 #pragma once
 
-/// The manual of what bind_pictures.cpp binds.
+/// Docstrings for bind_pictures.cpp.
 namespace kinegraph::python::docs::pictures {
 
-inline constexpr char getRgb[] = R"(A picture of the scene, with the message, drawn without a browser.
+inline constexpr char getRgb[] = R"(Renders the scene with the message, without a browser.
 
 Args:
     nonThreaded: Not used; older scripts pass it.
 Returns:
     Shape (height, width, 3), 0..255.
 Raises:
-    ArgumentError: The viewer shows nothing yet.)";
+    ArgumentError: The viewer has no scene yet.)";
 
 inline constexpr char fit[] =
-    R"(Moves the camera along its line of sight to where all that pictures show fills the image.
+    R"(Moves the camera along its line of sight such that the visible scene fills the image.
 
 Returns:
-    The middle of what is shown, shape (3,), m; zeros if there is nothing to see.
+    The center of the visible scene, shape (3,), m; zeros for an empty scene.
 Raises:
-    ArgumentError: The viewer shows nothing yet.)";
+    ArgumentError: The viewer has no scene yet.)";
 
-inline constexpr char getDepth[] = R"(The depth of the picture, along the camera's z axis.
+inline constexpr char getDepth[] = R"(Renders the depth along the camera's z axis.
 
 Args:
     nonThreaded: Not used; older scripts pass it.
 Returns:
-    Shape (height, width), m; -1 where nothing is.
+    Shape (height, width), m; -1 for the background.
 Raises:
-    ArgumentError: The viewer shows nothing yet.)";
+    ArgumentError: The viewer has no scene yet.)";
 
-inline constexpr char savePng[] = R"(Saves a picture. Folders are made.
+inline constexpr char savePng[] = R"(Saves a picture, and creates missing folders.
 
 Args:
-    saveVideoPath: The file, if it ends in .png; else what stands before a number of six digits and .png.
-    count: The number; -1: it counts up from 0.
+    saveVideoPath: The file, if it ends in .png; else the prefix of a six-digit number and .png.
+    count: The number; -1: counts up from 0.
 Returns:
     The file's name.
 Raises:
-    ArgumentError: The viewer shows nothing yet.
+    ArgumentError: The viewer has no scene yet.
     OSError: The file cannot be written.)";
 
-inline constexpr char setCamera[] = R"(Looks from a camera frame and follows it, as CameraView.setCamera does.
+inline constexpr char setCamera[] = R"(Attaches the camera to a frame, like CameraView.setCamera.
 
 Args:
-    camFrame: The Frame, or its name; None: looks from where viewers start.
+    camFrame: The Frame, or its name; None: the initial camera of viewers.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: A name is given before the viewer shows anything.)";
+    ArgumentError: A name is passed before the viewer has a scene.)";
 
-inline constexpr char setCameraAt[] = R"(Looks from one point at another.
+inline constexpr char setCameraAt[] = R"(Places the camera at one point, directed to another.
 
 Args:
-    position: Where to look from, shape (3,), m.
-    target: Where to look at, shape (3,), m.
+    position: Position of the camera, shape (3,), m.
+    target: Point in the center of the picture, shape (3,), m.
 Raises:
-    ArgumentError: Not three numbers each.)";
+    ArgumentError: Not three entries each.)";
 
-inline constexpr char setCameraPose[] = R"(Moves the camera.
+inline constexpr char setCameraPose[] = R"(Sets the camera's pose.
 
 Args:
     pose_7d: Its pose, shape (7,): x y z (m) qw qx qy qz; x to the right of the image, y down, z forward.
 Raises:
     ArgumentError: Not a pose.)";
 
-inline constexpr char focus[] = R"(Turns the camera to a point, and moves it to where a height fits into the window.
+inline constexpr char focus[] = R"(Turns the camera to a point, and moves it such that a height fits into the window.
 
 Args:
     position_3d: The point, shape (3,), m.
     heightAbs: The height at the point, m.
 Raises:
-    ArgumentError: Not three numbers, a height that is not positive, or a camera that is at the point.)";
+    ArgumentError: Not three entries, a height that is not positive, or a camera at the point.)";
 
 inline constexpr char setWindow[] = R"(Sets the title of the page and the size of pictures.
 
 Args:
     title: The title.
-    width: Of pictures, pixels.
-    height: Of pictures, pixels.
+    width: Width of pictures, pixels.
+    height: Height of pictures, pixels.
 Raises:
     ArgumentError: A size that is not positive.)";
 

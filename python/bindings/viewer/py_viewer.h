@@ -10,12 +10,12 @@
 
 namespace kinegraph::python {
 
-/// A camera that stays where it is, or that follows a frame.
+/// A fixed camera, or one that follows a frame.
 class ViewCamera {
  public:
   explicit ViewCamera(const Camera& camera) : camera_(camera) {}
 
-  /// Takes the camera that the frame describes, at the frame's pose from now on.
+  /// Follows a frame, with the camera of its attributes.
   void follow(const Frame& frame) {
     camera_ = cameraOf(frame);
     frame_ = frame;
@@ -40,57 +40,57 @@ class ViewCamera {
   std::optional<Frame> frame_;
 };
 
-/// What Python calls a viewer: the page in the browser, and pictures of the same scene that need no browser.
+/// The Python object of a viewer: the page in the browser, and pictures of the same scene without a browser.
 struct PyViewer : ConfigViewer {
   using ConfigViewer::ConfigViewer;
 
-  std::shared_ptr<SceneTree> scene;        ///< what is shown
+  std::shared_ptr<SceneTree> scene;        ///< the shown scene
   ViewCamera camera{defaultViewCamera()};  ///< of pictures
   bool camera_is_set = false;
-  std::optional<PageCamera> page_camera;  ///< where pages were told to look from
+  std::optional<PageCamera> page_camera;  ///< last camera sent to the pages
   bool visuals_only = false;
-  int saved = 0;                           ///< pictures
-  std::map<int, Quad> quads;               ///< pictures on top of the scene
-  std::optional<CameraRenderer> renderer;  ///< made for the first picture
-  RendererOptions renderer_options;        ///< what it was made with
+  int saved = 0;                           ///< number of saved pictures
+  std::map<int, Quad> quads;               ///< images on top of the scene
+  std::optional<CameraRenderer> renderer;  ///< created with the first picture
+  RendererOptions renderer_options;        ///< options of the renderer
 
-  /// Pages look from there, those that are opened later as well.
+  /// Sets the camera of all pages, including later ones.
   void aim(const PageCamera& from);
 
-  /// Ends the page; the next one begins as the first did.
+  /// Closes the page; the next one starts with the initial camera.
   void endPage();
 };
 
-constexpr int kEscape = 27;  ///< the key that views return at once where parameter `disableGui` is set
+constexpr int kEscape = 27;  ///< returned at once by views if the parameter `disableGui` is set
 
-/// Starts the page, if it does not run, below the cell in a notebook, with the look that parameters `Render/...` and
-/// visualsOnly say. It looks from a frame `camera_init` when it is first shown, always from a frame `camera_track`, and
-/// from where calls of the viewer said. False, and no page, where parameter `disableGui` is set.
+/// Opens the page, in a notebook below the cell, with the appearance of the parameters `Render/...` and visualsOnly.
+/// Its camera is at a frame `camera_init` when it is first shown, always at a frame `camera_track`, and as calls of the
+/// viewer set it. Returns false, without a page, if the parameter `disableGui` is set.
 bool openPage(PyViewer& viewer);
 
-/// Remembers the message, and opens the page; false, and no page, if `offscreen` or where openPage opens none.
+/// Stores the message, and opens the page. Returns false, without a page, if `offscreen` is set or openPage opens none.
 bool show(PyViewer& viewer, const std::optional<std::string>& message, bool offscreen);
 
-/// Where the viewer looks from: as it was told, or where a person has turned the page to since.
+/// Returns the viewer's camera: as set, or as a user has moved the page's since.
 Camera cameraNow(PyViewer& viewer);
 
-/// What pages are told of a camera.
+/// Converts a camera for pages.
 PageCamera pageCameraOf(const Camera& camera);
 
-/// How parameters `Render/...` say that pages and pictures look.
-Look lookOfParameters();
+/// Returns the appearance of pages and pictures in the parameters `Render/...`.
+Appearance appearanceFromParameters();
 
-/// True if people can stop the waiting: never, but Ctrl-C throws.
+/// Checks for Ctrl-C, which throws; otherwise returns false.
 bool interrupted();
 
-/// What people do on the page, and pictures on top of it.
+/// Binds user input on the page, and images on top of it.
 void bindViewerInput(nb::module_& m, nb::class_<PyViewer>& viewer);
 
-/// The picture calls of a viewer.
+/// Binds the picture calls of a viewer.
 void bindPictures(nb::class_<PyViewer>& viewer);
 
-/// Saves a picture as PNG: as `path` if that ends in .png, else as path + number of six digits + .png. `text` is on it,
-/// or the viewer's message. Returns the file.
+/// Saves a picture as PNG: to `path` if it ends in .png, else to path + six-digit number + .png. It shows `text`, or
+/// the viewer's message. Returns the file.
 std::string savePicture(PyViewer& viewer, const std::string& path, int count,
                         const std::optional<std::string>& text = std::nullopt);
 

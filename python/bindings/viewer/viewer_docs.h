@@ -1,14 +1,14 @@
 #pragma once
 
-/// The manual of what bind_viewer.cpp binds.
+/// Docstrings for bind_viewer.cpp.
 namespace kinegraph::python::docs::viewer {
 
 inline constexpr char waitForClient[] = R"(Waits until a browser is connected.
 
 Args:
-    seconds: How long at most, s.
+    seconds: Longest waiting time, s.
 Returns:
-    False if no browser came in time.)";
+    False if no browser connected in time.)";
 
 inline constexpr char setMessage[] = R"(Shows a text in the corner.
 
@@ -26,7 +26,7 @@ Args:
     text: The title.)";
 
 inline constexpr char hasEdits[] =
-    R"(True if people have moved joints or frames in the browser since the last view(), which takes that over.)";
+    R"(Returns whether users moved joints or frames in the browser since the last view(), which applies such changes.)";
 
 inline constexpr char select[] = R"(Shows the card of a frame, with handles to move it.
 
@@ -35,7 +35,7 @@ Args:
 Raises:
     ArgumentError: No frame has this ID.)";
 
-inline constexpr char saveHtml[] = R"(Saves asHtml() as a file, to be opened in any browser, or sent to somebody.
+inline constexpr char saveHtml[] = R"(Saves asHtml() as a file for any browser.
 
 Args:
     path: Path of the file, .html.
@@ -43,28 +43,28 @@ Raises:
     OSError: The file cannot be written.)";
 
 inline constexpr char view[] =
-    R"(Shows the scene in the browser, in a notebook below the cell. The first call opens a browser if there is a display,
-and prints the page's address. With KINEGRAPH_HEADLESS=1 nothing opens, nothing is printed and nothing waits.
+    R"(Shows the scene in the browser, in a notebook below the cell. The first call prints the page's address, and opens
+a browser if there is a display. With KINEGRAPH_HEADLESS=1 it opens nothing, prints nothing and does not wait.
 
 Args:
-    pause: Waits for a key in the browser, or Enter on the terminal.
+    pause: Whether to wait for a key in the browser, or Enter on the terminal.
     message: Text in the corner of the page.
-    offscreen: Opens nothing; viewer().getRgb() and the other pictures do without a browser.
-    host: Address that the page is served at, "127.0.0.1" by default; "0.0.0.0" for browsers on other machines too,
-        which then need the token in the address that is printed.
-    port: First port that is tried; 7000 by default, 0 for any free one.
+    offscreen: Opens no browser; viewer().getRgb() and the other pictures need none.
+    host: Address of the page, "127.0.0.1" by default; "0.0.0.0" also for browsers on other machines, which then need
+        the token in the printed address.
+    port: First port tried; 7000 by default, 0 for any free one.
 Returns:
     The code of the key pressed since the last call (ord("a"), 13 Enter, 27 Escape ...), or 0.
 Raises:
-    ArgumentError: The host is no IP address, or the port is none.)";
+    ArgumentError: The host is not an IP address, or the port is invalid.)";
 
-inline constexpr char serveAt[] = R"(Serves the page at another address from now on; one that is open elsewhere ends.
+inline constexpr char serveAt[] = R"(Sets the address of the page; a page at another address is closed.
 
 Args:
-    host: IP address: "127.0.0.1" for this machine, "0.0.0.0" for browsers on other machines too.
-    port: First port that is tried; 0 for any free one.
+    host: IP address: "127.0.0.1" for this machine, "0.0.0.0" also for other machines.
+    port: First port tried; 0 for any free one.
 Raises:
-    ArgumentError: The host is no IP address, or the port is none.
+    ArgumentError: The host is not an IP address, or the port is invalid.
     Error: This machine does not have the address, or no port is free.)";
 
 inline constexpr char set_viewer[] = R"(Shows this scene in the viewer of another one.
@@ -73,19 +73,19 @@ Args:
     viewer: The other viewer.)";
 
 inline constexpr char animateSpline[] =
-    R"(Plays a smooth motion through random joint vectors within the limits and back, in T + 1 s. A key ends it; q stays as
-it is.
+    R"(Plays a smooth motion through random joint vectors within the limits and back, in T + 1 s, until a key is
+pressed. Does not change q.
 
 Args:
-    T: How many joint vectors.)";
+    T: Number of joint vectors.)";
 
 inline constexpr char view_path[] =
-    R"(Shows a motion with a time slider, and waits until it has been played once; q stays as it is.
+    R"(Shows a motion with a time slider, and waits until it has been played once. Does not change q.
 
 Args:
     path: Joint vectors, shape (T, n), rad or m.
-    seconds: How long it plays, s.
-    pause: Then waits for a key.
+    seconds: Duration, s.
+    pause: Whether to wait for a key afterwards.
     message: Text in the corner of the page.
 Returns:
     The code of the key that was pressed, or 0.
@@ -93,8 +93,9 @@ Raises:
     ArgumentError: The path is empty or has another shape, or seconds is not positive.)";
 
 inline constexpr char watchFile[] =
-    R"(Loads a scene file and shows it, and again whenever it, or a file that it includes, changes. It ends with q in the
-browser, Enter on the terminal, or Ctrl-C. A mistake in the file is shown there and printed; the last scene stays.
+    R"(Loads a scene file, shows it, and reloads it whenever it or an included file changes. It ends with q in the
+browser, Enter on the terminal, or Ctrl-C. An error in the file is shown in the browser and printed; the last valid
+scene stays.
 
 Args:
     filename: Path of the scene file.

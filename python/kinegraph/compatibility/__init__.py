@@ -1,8 +1,9 @@
-"""Names of earlier years, and of scripts written for `robotic`, for what the package calls otherwise.
+"""Names of earlier years, and of scripts written for `robotic`, for functions with other names in this package.
 
-All of them are here, above the rest, which does not know them: functions (`parameters`, `skeleton_problems`), methods
-that are added to the classes (`methods`, by `scenes`, `views`, `problems` and `bot_op`), and members of enums (`OPT_METHODS`).
-The names are there under `import kinegraph` as well as under `import robotic`. What is not there says what to call instead (`absent`).
+All of them are defined here; the rest of the package does not use them: functions (`parameters`, `skeleton_problems`),
+methods added to the classes (`methods`, by `scenes`, `views`, `problems` and `bot_op`), and members of enums
+(`OPT_METHODS`). They are available under `import kinegraph` and under `import robotic`. Absent names have an error that
+suggests a replacement (`absent`).
 """
 
 from .absent import addAbsentNames as addAbsentNames

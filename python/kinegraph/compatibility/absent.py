@@ -1,4 +1,4 @@
-"""What scripts of earlier years call and Kinegraph does not have: asked for, it says what to call instead."""
+"""Names of earlier years that Kinegraph lacks: access raises an error that suggests a replacement."""
 
 from __future__ import annotations
 
@@ -74,17 +74,17 @@ ABSENT: dict[type, dict[str, str]] = {
 
 
 class Absent:
-    """An attribute that is not there, and says so in words: `hasattr` is False for it."""
+    """An absent attribute: access raises an error with advice, and `hasattr` is False."""
 
     def __init__(self, name: str, advice: str) -> None:
-        self.message = f"{name}: Kinegraph does not have it; instead: {advice}"
+        self.message = f"{name}: not part of Kinegraph; instead: {advice}"
 
     def __get__(self, instance: object, owner: type) -> NoReturn:
         raise AttributeError(self.message)
 
 
 def addAbsentNames() -> None:
-    """Gives the classes an answer to names that they do not have."""
+    """Adds the absent names to the classes."""
     for owner, names in ABSENT.items():
         for name, advice in names.items():
             if not hasattr(owner, name):

@@ -13,13 +13,13 @@ _hold = BotOp.hold
 
 
 def hold(self: BotOp, floating: bool = False, damping: bool = True) -> None:
-    """Comes to rest at once and stays, stiff; or lets go. Makes a compliant robot stiff again.
+    """Stops at once and holds the position stiffly, also with a robot in compliant mode; or lets the robot float.
 
     Args:
-        floating: Let go instead, as floating().
-        damping: If floating: with all of the robot's damping, else with none.
+        floating: Let the robot float, like floating().
+        damping: With floating: use the robot's full damping; otherwise none.
     Raises:
-        RobotFault: floating, and the robot is always stiff.
+        RobotFault: floating is set, but the robot is always stiff.
     """
     if floating:
         self.floating(1.0 if damping else 0.0)
@@ -28,23 +28,23 @@ def hold(self: BotOp, floating: bool = False, damping: bool = True) -> None:
 
 
 def gripperOpen(self: BotOp, id: int, width: float = 0.075, speed: float = 0.2) -> None:
-    """Opens a gripper, as gripperMove.
+    """Opens a gripper, like gripperMove.
 
     Args:
-        id: Which one: 0, 1, ... or ArgWord._left, ArgWord._right.
-        width: Of the opening, m.
-        speed: Of the width, m/s.
+        id: Index of the gripper: 0, 1, ... or ArgWord._left, ArgWord._right.
+        width: Width of the opening, m.
+        speed: Speed of the opening, m/s.
     Raises:
-        ArgumentError: There is no such gripper, or a number makes no sense.
+        ArgumentError: There is no such gripper, or a number is out of range.
     """
     self.gripperMove(id, width, speed)
 
 
 def getCameraFxypxy(self: BotOp, sensorName: str) -> NDArray[Any]:
-    """fx, fy, cx, cy of a camera in pixels, as getCameraFxycxy.
+    """Returns fx, fy, cx, cy of a camera in pixels, like getCameraFxycxy.
 
     Args:
-        sensorName: A frame; its attributes say which camera it is.
+        sensorName: A frame with camera attributes.
     Returns:
         Shape (4,).
     Raises:
@@ -54,23 +54,23 @@ def getCameraFxypxy(self: BotOp, sensorName: str) -> NDArray[Any]:
 
 
 def cheat_setFramePose(self: BotOp, name: str, pose: ArrayLike) -> None:
-    """Puts a thing of the simulated world somewhere, as setFramePose.
+    """Sets the pose of a frame in the simulated world, like setFramePose.
 
     Args:
-        name: Its name.
+        name: Name of the frame.
         pose: (7,) x y z in m, qw qx qy qz.
     Raises:
         FrameNotFound: There is no such frame.
-        ArgumentError: It is no pose.
+        ArgumentError: The pose is invalid.
     """
     self.setFramePose(name, pose)
 
 
 def setControllerWriteData(self: BotOp, _n: int) -> None:
-    """Writes a row per period into the file z.control.dat from now on, as recordTo.
+    """Starts to write a row per period to the file z.control.dat, like recordTo.
 
     Args:
-        _n: 0 writes none from now on.
+        _n: 0 ends the recording.
     Raises:
         FileError: The file cannot be written.
     """
@@ -78,15 +78,15 @@ def setControllerWriteData(self: BotOp, _n: int) -> None:
 
 
 def sound(self: BotOp, noteRelToC: int = 0, a: float = 0.5, decay: float = 0.0007) -> None:
-    """Nothing: there is no sound, as there is none in the reference without an audio device.
+    """Does nothing: there is no sound, like in the reference without an audio device.
 
     Args:
-        noteRelToC, a, decay: Without meaning.
+        noteRelToC, a, decay: Not used.
     """
 
 
 def launch_camera(self: BotOp, sensor: str) -> None:
-    """Looks whether there is such a camera; they need no launching.
+    """Checks that a camera exists; cameras need not be launched.
 
     Args:
         sensor: A frame.
@@ -99,14 +99,14 @@ def launch_camera(self: BotOp, sensor: str) -> None:
 def _refused(name: str) -> Any:
     def launch(self: BotOp, *arguments: Any) -> None:
         raise NotFound(
-            f"BotOp.{name}: give a driver of the hardware to BotOp(C, True, driver=...); see kinegraph.robots"
+            f"BotOp.{name}: pass a driver of the hardware to BotOp(C, True, driver=...); see kinegraph.robots"
         )
 
     launch.__name__ = name
-    launch.__doc__ = """Refused: drivers of hardware are given to BotOp(C, True, driver=...).
+    launch.__doc__ = """Always raises NotFound: pass drivers of hardware to BotOp(C, True, driver=...).
 
     Args:
-        arguments: Without meaning.
+        arguments: Not used.
     Raises:
         NotFound: Always.
     """

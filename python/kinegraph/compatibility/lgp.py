@@ -1,4 +1,4 @@
-"""What scripts of earlier years call the abstraction of LGP_Tool, and what they hand it."""
+"""Earlier names for the abstraction of LGP_Tool and its argument."""
 
 from .._core import default_LGP_TAMP_Abstraction
 
@@ -6,4 +6,4 @@ default_TAMP_Provider = default_LGP_TAMP_Abstraction
 
 
 class default_Logic2KOMO_Translator:
-    """What an action asks is said by default_LGP_TAMP_Abstraction."""
+    """A placeholder: default_LGP_TAMP_Abstraction defines the constraints of actions."""

@@ -1,4 +1,4 @@
-"""Methods by their earlier names, each in terms of those of today."""
+"""Adds methods under their earlier names, which call the present ones."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ METHODS: dict[type, Sequence[Callable[..., Any]]] = {
 
 
 def addEarlierMethods() -> None:
-    """Gives the classes their methods of earlier years. Help shows the signature, as of the others."""
+    """Adds the methods to the classes, with their signatures for help()."""
     for owner, methods in METHODS.items():
         for method in methods:
             name = method.__name__
-            signature = str(inspect.signature(method)).replace("'", "")  # annotations are kept as text
+            signature = str(inspect.signature(method)).replace("'", "")  # annotations are stored as text
             method.__doc__ = f"{name}{signature}\n\n{inspect.getdoc(method)}"
             method.__qualname__ = f"{owner.__name__}.{name}"
             setattr(owner, name, method)

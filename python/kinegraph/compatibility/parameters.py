@@ -1,4 +1,4 @@
-"""Defaults that scripts set by name, kept as the reference's global parameters were: `params_add({'opt/damping': .1})`."""
+"""Defaults that scripts set by name, like the reference's global parameters: `params_add({'opt/damping': .1})`."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from .._core import NLP_SolverOptions, parseText
 from ..errors import ArgumentError, FileError
 
 _values: dict[str, Any] = {}
-solver_options: dict[str, Any] = {}  # fields of NLP_SolverOptions that scripts have set; solvers start with them
+solver_options: dict[str, Any] = {}  # fields of NLP_SolverOptions set by scripts; the defaults of solvers
 
 
 def params_add(values: dict[str, Any] | None = None, **more: Any) -> None:
@@ -21,9 +21,9 @@ def params_add(values: dict[str, Any] | None = None, **more: Any) -> None:
 
     Args:
         values: A dict from names to values.
-        more: The same by keyword.
+        more: Parameters by keyword.
     Raises:
-        ArgumentError: NLP_SolverOptions has no such field, or it cannot have this value; or values is no dict.
+        ArgumentError: NLP_SolverOptions has no such field, or the value is invalid; or values is not a dict.
     """
     if not isinstance(values, (Mapping, NoneType)):
         raise ArgumentError(f"params_add: values is {values!r}; expected a dict from names to values")
@@ -42,7 +42,7 @@ def params_file(filename: str) -> None:
         filename: Path of the file.
     Raises:
         FileError: There is no such file, or it cannot be read.
-        ParseError: A mistake in the file.
+        ParseError: The file is invalid.
     """
     try:
         text = Path(filename).read_text()
@@ -52,12 +52,12 @@ def params_file(filename: str) -> None:
 
 
 def params_get() -> dict[str, Any]:
-    """A copy of all parameters that have been set."""
+    """Returns a copy of all parameters that have been set."""
     return dict(_values)
 
 
 def params_clear() -> None:
-    """Forgets all parameters."""
+    """Removes all parameters."""
     _values.clear()
     solver_options.clear()
 

@@ -12,10 +12,10 @@ from .._core import JT, KOMO, NLP, OT, Config, Frame, NLP_Factory, NLP_Solver, S
 
 
 def setModel(self: KOMO, config: Config, enableCollisions: bool = False) -> None:
-    """Takes the scene, as setConfig.
+    """Sets the scene, like setConfig.
 
     Args:
-        config, enableCollisions: As of setConfig.
+        config, enableCollisions: See setConfig.
     """
     self.setConfig(config, enableCollisions)
 
@@ -29,50 +29,51 @@ def add_qControlObjective(
     deltaFromSlice: int = 0,
     deltaToSlice: int = 0,
 ) -> None:
-    """Adds the sum of squares of a time derivative of all dofs as cost, as addControlObjective.
+    """Adds the sum of squares of a time derivative of all dofs as cost, like addControlObjective.
 
     Args:
-        times, order, scale, target, deltaFromSlice, deltaToSlice: As of addControlObjective; times None: all slices.
+        times, order, scale, target, deltaFromSlice, deltaToSlice: See addControlObjective; times None: all slices.
     Raises:
-        ArgumentError: The order is higher than that of the KOMO, or a size does not fit.
+        ArgumentError: The order exceeds that of the KOMO, or a size is wrong.
     """
     self.addControlObjective([] if times is None else times, order, scale, target, deltaFromSlice, deltaToSlice)
 
 
 def getPath_qOrg(self: KOMO) -> NDArray[np.float64]:
-    """The joint vectors of all slices, shape (T, n), rad or m, as getPath."""
+    """Returns the joint vectors of all slices, shape (T, n), rad or m, like getPath."""
     return self.getPath()
 
 
 def getReport(self: KOMO, *args: Any, **kwargs: Any) -> dict[str, Any]:
-    """What report returns by default.
+    """Returns the default result of report.
 
     Args:
         args, kwargs: Not used.
     Returns:
-        A dict from the names of objectives to what they add to costs and violations.
+        A dict from the names of objectives to their costs and violations.
     """
     return self.report()
 
 
 def getFeatureTypes(self: NLP) -> list[OT]:
-    """The OT of each residual, as getTypes."""
+    """Returns the OT of each residual, like getTypes."""
     return self.getTypes()
 
 
 def setFeatureTypes(self: NLP_Factory, featureTypes: Sequence[OT]) -> None:
-    """Says what the residuals mean, as setTypes.
+    """Sets the types of the residuals, like setTypes.
 
     Args:
         featureTypes: The OT of each residual.
     Raises:
-        TypeError: Something else than OT.
+        TypeError: A type is not an OT.
     """
     self.setTypes(featureTypes)
 
 
 def getTrace_costs(self: NLP_Solver) -> NDArray[np.float64]:
-    """Sums of f, sos, ineq, eq of each evaluation, shape (evaluations, 4), as getTrace_errs; setTracing(True) first."""
+    """Returns the sums of f, sos, ineq, eq per evaluation, shape (evaluations, 4), like getTrace_errs; setTracing(True)
+    first."""
     return self.getTrace_errs()
 
 
@@ -85,16 +86,16 @@ def addStableFrame(
     initName: str | Frame | None = None,
     initFrame: Frame | None = None,
 ) -> Frame:
-    """Adds a frame with a joint to all slices, as addFrameDof.
+    """Adds a frame with a joint to all slices, like addFrameDof.
 
     Args:
-        name, parent, jointType: Of the frame.
-        stable: The joint does not move: its values are the same in all slices.
-        initName, initFrame: Where it is at first: the name of a frame, or a frame.
+        name, parent, jointType: Name, parent and joint type of the frame.
+        stable: Whether the joint has the same values in all slices.
+        initName, initFrame: Initial pose: the name of a frame, or a frame.
     Returns:
         A copy of the frame.
     Raises:
-        FrameNotFound: A name that is not in the scene.
+        FrameNotFound: A name is not in the scene.
     """
     if isinstance(initName, Frame):
         initName, initFrame = None, initName
@@ -102,28 +103,29 @@ def addStableFrame(
 
 
 def reportProblem(self: KOMO) -> None:
-    """Prints what the problem consists of: its size and its objectives."""
+    """Prints the problem's size and objectives."""
     print(self.nlp().report(2))
     for name in self.info_objectiveNames():
         print(f"  {name}")
 
 
 def enableAccumulatedCollisions(self: Skeleton, enable: bool = True) -> None:
-    """Sets whether the motion is kept free of all collisions, as useBroadCollisions.
+    """Sets whether the motion avoids all collisions, like useBroadCollisions.
 
     Args:
-        enable: False: only the pairs of addExplicitCollisions are kept apart.
+        enable: False: only the pairs of addExplicitCollisions avoid collisions.
     """
     self.useBroadCollisions(enable)
 
 
 def getLog_x(self: NLP_Solver) -> NDArray[np.float64]:
-    """The variables of each evaluation, shape (evaluations, n), as getTrace_x; setTracing(True) first."""
+    """Returns the variables of each evaluation, shape (evaluations, n), like getTrace_x; setTracing(True) first."""
     return self.getTrace_x()
 
 
 def getLog_costs(self: NLP_Solver) -> NDArray[np.float64]:
-    """Sums of f, sos, ineq, eq of each evaluation, shape (evaluations, 4), as getTrace_errs; setTracing(True) first."""
+    """Returns the sums of f, sos, ineq, eq per evaluation, shape (evaluations, 4), like getTrace_errs; setTracing(True)
+    first."""
     return self.getTrace_errs()
 
 

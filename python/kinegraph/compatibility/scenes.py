@@ -12,7 +12,7 @@ from ..errors import ArgumentError
 
 
 def frame(self: Config, frameID: str | int) -> Frame:
-    """A frame, as getFrame.
+    """Returns a frame, like getFrame.
 
     Args:
         frameID: Its name or id.
@@ -25,7 +25,7 @@ def frame(self: Config, frameID: str | int) -> Frame:
 
 
 def frames(self: Config) -> list[Frame]:
-    """All frames, in order, as getFrames."""
+    """Returns all frames, in order, like getFrames."""
     return self.getFrames()
 
 
@@ -37,35 +37,35 @@ def evalFeature(
     target: ArrayLike | None = None,
     order: int = -1,
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """The value and the Jacobian of a feature, as eval.
+    """Returns the value and the Jacobian of a feature, like eval.
 
     Args:
-        featureSymbol, frames, scale, target, order: As of eval.
+        featureSymbol, frames, scale, target, order: See eval.
     Returns:
         y, shape (d,), and J, shape (d, n).
     Raises:
-        FrameNotFound: A name that is not in the scene.
-        ArgumentError: Another number of frames than the feature takes, or sizes that do not fit.
+        FrameNotFound: A name is not in the scene.
+        ArgumentError: The number of frames or a size is wrong.
     """
     return self.eval(featureSymbol, list(frames) if isinstance(frames, tuple) else frames, scale, target, order)
 
 
 def getDofIDs(self: Config) -> list[int]:
-    """Ids of the frames with active joints, as getJointIDs."""
+    """Returns the ids of the frames with active joints, like getJointIDs."""
     return self.getJointIDs()
 
 
 def getCollisionsTotalPenetration(self: Config) -> float:
-    """Sum of all penetration depths (m), as coll_totalViolation."""
+    """Returns the sum of all penetration depths (m), like coll_totalViolation."""
     return self.coll_totalViolation()
 
 
 def computeCollisions(self: Config) -> None:
-    """Does nothing: collisions are always those of the present q."""
+    """Does nothing: collisions always refer to the present q."""
 
 
 def setJointStateSlice(self: Config, q: ArrayLike, t: int) -> None:
-    """A scene is a single moment and has no time slices: this always raises an error that says what has them.
+    """Always raises an error: a scene has no time slices; the message names the class that has them.
 
     Args:
         q, t: Not used.
@@ -73,22 +73,22 @@ def setJointStateSlice(self: Config, q: ArrayLike, t: int) -> None:
         ArgumentError: Always.
     """
     raise ArgumentError(
-        "setJointStateSlice: a Config is a single moment and has no time slices; those of a motion belong to its KOMO, "
-        "where KOMO.initWithPath and KOMO.initWithConstant set them"
+        "setJointStateSlice: a Config has no time slices; those of a motion belong to its KOMO, "
+        "and KOMO.initWithPath and KOMO.initWithConstant set them"
     )
 
 
 def getForceArrays(self: Config) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
-    """Pairs of frames that exchange forces, and their forces; a scene has none.
+    """Returns the pairs of frames with force exchanges, and their forces; a scene has none.
 
     Returns:
-        Ids, shape (0, 2), and for each pair point of attack, force and torque, shape (0, 3, 3).
+        Ids, shape (0, 2), and per pair the point of attack, force and torque, shape (0, 3, 3).
     """
     return np.zeros((0, 2), np.int32), np.zeros((0, 3, 3))
 
 
 def komo_IK(self: Config, *args: Any, **kwargs: Any) -> KOMO:
-    """A KOMO of one slice with a cost on leaving the present posture.
+    """Creates a KOMO of one slice with a cost on the distance from the present configuration.
 
     Args:
         args, kwargs: Not used.
@@ -101,7 +101,7 @@ def komo_IK(self: Config, *args: Any, **kwargs: Any) -> KOMO:
 def komo_path(
     self: Config, phases: float, stepsPerPhase: int = 20, timePerPhase: float = 5.0, *args: Any, **kwargs: Any
 ) -> KOMO:
-    """A KOMO of a path with a cost on accelerations.
+    """Creates a KOMO of a path with a cost on accelerations.
 
     Args:
         phases: Number of phases.
@@ -124,12 +124,12 @@ def _pathProblem(config: Config, phases: float, slices: int, duration: float, or
 
 
 def getCollisionFree(self: Config) -> bool:
-    """True if no pair of shapes that may collide overlaps; getCollisions lists those that do."""
+    """Returns whether no collision pair overlaps; getCollisions lists overlapping pairs."""
     return not self.getCollisions()
 
 
 def getTotalPenetration(self: Config) -> float:
-    """Sum of all penetration depths (m), as coll_totalViolation."""
+    """Returns the sum of all penetration depths (m), like coll_totalViolation."""
     return self.coll_totalViolation()
 
 
@@ -144,19 +144,19 @@ def addObject(
     pos: ArrayLike = (),
     quat: ArrayLike = (),
 ) -> Frame:
-    """Adds a frame with a shape, as addFrame, setShape and the other setters do one by one.
+    """Adds a frame with a shape, like addFrame, setShape and the other setters.
 
     Args:
-        name, parent: Of the frame; no parent if empty.
-        shape, size: As of setShape, m.
+        name, parent: Names of the frame and its parent; empty: no parent.
+        shape, size: See setShape, m.
         color: (3,) or (4,), in [0, 1].
-        radius: Of rounded shapes, m: becomes the last entry of size if positive.
-        pos, quat: Relative to the parent, (3,) in m and (4,) w x y z.
+        radius: Radius of rounded shapes, m; if positive, it becomes the last entry of size.
+        pos, quat: Pose relative to the parent, (3,) in m and (4,) w x y z.
     Returns:
         The frame.
     Raises:
         FrameNotFound: There is no such parent.
-        ArgumentError: Sizes, a color or a pose of another shape.
+        ArgumentError: A size, a color or a pose has a wrong shape.
     """
     frame = self.addFrame(name, parent)
     if shape != ST.none:
@@ -172,48 +172,48 @@ def addObject(
 
 
 def info(self: Frame) -> dict[str, Any]:
-    """What the frame is now, as the attributes of a .g file; the same as asDict.
+    """Returns the frame's attributes as in a .g file, like asDict.
 
     Raises:
-        FrameDeleted: The frame is not there any more.
+        FrameDeleted: The frame has been deleted.
     """
     return self.asDict()
 
 
 def addAttributes(self: Frame, attributes: dict[str, Any]) -> Frame:
-    """Sets attributes, as setAttributes.
+    """Sets attributes, like setAttributes.
 
     Args:
-        attributes: By name.
+        attributes: Values by name.
     Returns:
         The frame itself.
     Raises:
-        FrameDeleted: The frame is not there any more.
+        FrameDeleted: The frame has been deleted.
     """
     return self.setAttributes(attributes)
 
 
 def addAttribute(self: Frame, key: str, value: Any) -> Frame:
-    """Sets an attribute, as setAttribute.
+    """Sets an attribute, like setAttribute.
 
     Args:
-        key: Its name.
-        value: A number, a text, a truth value, or a list of such.
+        key: Name of the attribute.
+        value: A number, a string, a truth value, or a list of such values.
     Returns:
         The frame itself.
     Raises:
-        FrameDeleted: The frame is not there any more.
+        FrameDeleted: The frame has been deleted.
     """
     return self.setAttribute(key, value)
 
 
 def getType(self: Frame) -> ST:
-    """The type of its shape, as getShapeType.
+    """Returns the type of the frame's shape, like getShapeType.
 
     Returns:
-        The type; ST.none where it has no shape.
+        The type; ST.none without a shape.
     Raises:
-        FrameDeleted: The frame is not there any more.
+        FrameDeleted: The frame has been deleted.
     """
     return self.getShapeType()
 

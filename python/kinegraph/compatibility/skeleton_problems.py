@@ -1,4 +1,4 @@
-"""Motion problems to try solvers on, of inverse kinematics and of skeletons; `get()` returns the NLP."""
+"""Benchmark problems of inverse kinematics and of skeletons; `get()` returns the NLP."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from ..model_paths import raiPath
 
 
 class ArgWord(enum.IntEnum):
-    """What a problem is asked for: an arm, or how fine a motion is."""
+    """Arguments of benchmarks: an arm, or the resolution of a motion."""
 
     _left = 0
     _right = 1
@@ -33,14 +33,14 @@ class _Benchmark:
 
 
 class OptBenchmark_InvKin_Endeff(_Benchmark):
-    """The pose of a frame `gripper` in line with one `box`, from a step of 1 s."""
+    """Moves a frame `gripper` to the pose of a frame `box` in one step of 1 s."""
 
     def __init__(self, file: str, unconstrained: bool) -> None:
         """Loads the scene.
 
         Args:
             file: A scene with both frames.
-            unconstrained: The features are costs; else they are constraints.
+            unconstrained: Whether the features are costs; otherwise constraints.
         """
         C = Config()
         C.addFile(file)
@@ -58,7 +58,7 @@ class _SkeletonBenchmark(_Benchmark):
     def __init__(self, sequenceOrPath: ArgWord) -> None:
         word = ArgWord(sequenceOrPath)
         if word not in (ArgWord._sequence, ArgWord._path):
-            raise ArgumentError(f"{type(self).__name__}: the word is {word!r}; expected _sequence or _path")
+            raise ArgumentError(f"{type(self).__name__}: sequenceOrPath is {word!r}; expected _sequence or _path")
         skeleton = Skeleton()
         skeleton.add([part for entry in self._entries for part in entry])
         C = Config()
@@ -76,37 +76,37 @@ class _SkeletonBenchmark(_Benchmark):
         self._komo = komo
 
 
-def _carry(arm: str, thing: str, place: str, start: float, end: float, down: float, up: float) -> list:
-    """An arm takes a thing at `start`, going down from `down` to `up`, and lets it go at `end` on a place."""
+def _carry(arm: str, obj: str, place: str, start: float, end: float, down: float, up: float) -> list:
+    """An arm grasps an object at `start`, descending from `down` to `up`, and releases it at `end` on a place."""
     return [
-        ([start], SY.touch, [arm, thing]),
-        ([start, end], SY.stable, [arm, thing]),
+        ([start], SY.touch, [arm, obj]),
+        ([start, end], SY.stable, [arm, obj]),
         ([down, up], SY.downUp, [arm]),
-        ([end], SY.touch, [place, thing]),
+        ([end], SY.touch, [place, obj]),
         ([end - 0.1, end + 0.1], SY.downUp, [arm]),
     ]
 
 
-def _standing(times: list[float], below: str, thing: str) -> list:
-    """Forces from below balance a thing."""
-    return [(times, SY.forceBalance, [thing]), (times, SY.contact, [below, thing])]
+def _standing(times: list[float], below: str, obj: str) -> list:
+    """Forces from below balance an object."""
+    return [(times, SY.forceBalance, [obj]), (times, SY.contact, [below, obj])]
 
 
 class OptBench_Skeleton_Pick(_SkeletonBenchmark):
-    """One of two arms takes a cube from a table.
+    """One of two arms picks a cube from a table.
 
     Args:
-        sequenceOrPath: `_sequence`, a slice per phase, or `_path`, 30 per phase.
+        sequenceOrPath: `_sequence`, one slice per phase, or `_path`, 30 per phase.
     """
 
     _entries: ClassVar[list] = [([1.0], SY.touch, ["R_endeff", "box3"]), ([1.0], SY.stable, ["R_endeff", "box3"])]
 
 
 class OptBench_Skeleton_Handover(_SkeletonBenchmark):
-    """One arm takes a stick, hands it over to the other, and that one touches a ball with it.
+    """One arm hands a stick over to the other, which touches a ball with it.
 
     Args:
-        sequenceOrPath: `_sequence`, a slice per phase, or `_path`, 30 per phase.
+        sequenceOrPath: `_sequence`, one slice per phase, or `_path`, 30 per phase.
     """
 
     _entries: ClassVar[list] = [
@@ -119,10 +119,10 @@ class OptBench_Skeleton_Handover(_SkeletonBenchmark):
 
 
 class OptBench_Skeleton_StackAndBalance(_SkeletonBenchmark):
-    """Two arms stack a plank on a cube and two cubes on the plank; forces between them balance what stands.
+    """Two arms stack a plank on a cube and two cubes on the plank; forces between the objects balance the stack.
 
     Args:
-        sequenceOrPath: `_sequence`, a slice per phase, or `_path`, 30 per phase.
+        sequenceOrPath: `_sequence`, one slice per phase, or `_path`, 30 per phase.
     """
 
     _entries: ClassVar[list] = [

@@ -1,4 +1,4 @@
-"""Methods of what is shown, and of cameras, by their earlier names."""
+"""Methods of viewers and cameras by their earlier names."""
 
 from __future__ import annotations
 
@@ -12,25 +12,25 @@ from ..errors import ArgumentError
 
 
 def get_viewer(self: Config) -> ConfigurationViewer:
-    """The viewer of this scene, as viewer."""
+    """Returns the viewer of this scene, like viewer."""
     return self.viewer()
 
 
 def view_getRgb(self: Config) -> NDArray[np.uint8]:
-    """A picture, shape (height, width, 3), 0..255, as viewer().getRgb."""
+    """Renders a picture, shape (height, width, 3), 0..255, like viewer().getRgb."""
     return self.viewer().getRgb()
 
 
 def view_getDepth(self: Config) -> NDArray[np.float32]:
-    """The depth of a picture, shape (height, width), m, as viewer().getDepth."""
+    """Renders the depth, shape (height, width), m, like viewer().getDepth."""
     return self.viewer().getDepth()
 
 
 def view_savePng(self: Config, pathPrefix: str = "z.vid/") -> str:
-    """Saves a picture, as viewer().savePng.
+    """Saves a picture, like viewer().savePng.
 
     Args:
-        pathPrefix: The file, if it ends in .png; else what stands before a number of six digits and .png.
+        pathPrefix: The file, if it ends in .png; else the prefix of a six-digit number and .png.
     Returns:
         The file's name.
     Raises:
@@ -40,31 +40,31 @@ def view_savePng(self: Config, pathPrefix: str = "z.vid/") -> str:
 
 
 def view_focalLength(self: Config) -> float:
-    """Focal length of the view in image heights, the first number of viewer().getCamera_focalLength."""
+    """Returns the view's focal length in image heights, the first entry of viewer().getCamera_focalLength."""
     return float(self.viewer().getCamera_focalLength()[0])
 
 
 def view_fxycxy(self: Config) -> NDArray[np.float64]:
-    """fx, fy, cx, cy of the view in pixels, shape (4,), as viewer().getCamera_fxycxy."""
+    """Returns fx, fy, cx, cy of the view in pixels, shape (4,), like viewer().getCamera_fxycxy."""
     return self.viewer().getCamera_fxycxy()
 
 
 def view_pose(self: Config) -> NDArray[np.float64]:
-    """Where the view is: x y z (m) qw qx qy qz, shape (7,), as viewer().getCamera_pose."""
+    """Returns the view's pose: x y z (m) qw qx qy qz, shape (7,), like viewer().getCamera_pose."""
     return self.viewer().getCamera_pose()
 
 
 def view_raise(self: Config) -> None:
-    """Brings the page to the front, as viewer().raiseWindow."""
+    """Brings the page to the front, like viewer().raiseWindow."""
     self.viewer().raiseWindow()
 
 
 def view_focus(self: Config, frameName: str, absHeight: float = 1.0) -> None:
-    """Turns the view to a frame, as viewer().focus to its position.
+    """Turns the view to a frame, like viewer().focus to its position.
 
     Args:
         frameName: Name of the frame.
-        absHeight: What fits into the height of the window there, m.
+        absHeight: Height at the frame that fits into the window, m.
     Raises:
         FrameNotFound: There is no such frame.
         ArgumentError: absHeight is not positive.
@@ -73,18 +73,18 @@ def view_focus(self: Config, frameName: str, absHeight: float = 1.0) -> None:
 
 
 def view_recopyMeshes(self: Config) -> None:
-    """Shows the scene as it is now, as view, which does it by itself."""
+    """Shows the present scene, like view, which updates meshes itself."""
     self.view()
 
 
 def view_setCamera(self: Config, *where: Any) -> None:
-    """Looks from a camera frame, from a pose, or from a position at a target.
+    """Sets the camera to a frame, to a pose, or to a position directed to a target.
 
     Args:
-        where: A frame or its name; (7,): x y z in m, qw qx qy qz, the camera's z forward; or two of (3,): where the
-            camera is and where it looks, m.
+        where: A frame or its name; (7,): x y z in m, qw qx qy qz, the camera's z forward; or two arrays (3,), m: the
+            camera's position and its target.
     Raises:
-        ArgumentError: It is none of these.
+        ArgumentError: The arguments have another form.
     """
     viewer = self.viewer()
     if len(where) == 1 and isinstance(where[0], (str, Frame)):
@@ -101,7 +101,7 @@ def view_setCamera(self: Config, *where: Any) -> None:
 
 
 def getFxyCxy(self: CameraView) -> NDArray[np.float64]:
-    """fx, fy, cx, cy in pixels, shape (4,), as getFxycxy."""
+    """Returns fx, fy, cx, cy in pixels, shape (4,), like getFxycxy."""
     return self.getFxycxy()
 
 

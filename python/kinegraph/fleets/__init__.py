@@ -1,4 +1,4 @@
-"""The same function for many items: on threads, on processes, or on a cluster."""
+"""Applies a function to many items: on threads, on processes, or on a cluster."""
 
 from .mapping import imap, map
 from .reading import readResults

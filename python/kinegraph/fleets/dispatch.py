@@ -1,4 +1,4 @@
-"""Items go to workers in batches, and results come back in order."""
+"""Sends batches of items to workers, and returns their results in order."""
 
 from __future__ import annotations
 
@@ -14,21 +14,19 @@ from .packing import Packed, SceneCache, pack
 from .results import ItemFailure
 from .worker import Answer, Batch
 
-BATCH_SECONDS = 0.1  # that a batch is meant to take, at least: far longer than it takes to hand it over
-BATCH_SECONDS_PER_WORKER = 0.002  # and for each worker, so that many of them do not keep the one who hands over busy
-BATCH_BYTES = 16 << 20  # that it has at most, if its items are alike
-GROWTH = 8  # times the items of the batch before, at most
-IN_FLIGHT = 3  # batches that a worker has at most: one that it computes, the others so that it need not wait
-WINDOW = 100  # batches per worker, at most, that are done or under way behind one that is not done
-KILLS = 3  # workers that an item may kill
-FRUITLESS = (
-    50  # workers that may die one after another without an answer or an item that is given up: then it is not the items
-)
+BATCH_SECONDS = 0.1  # shortest intended duration of a batch: far longer than its transfer
+BATCH_SECONDS_PER_WORKER = 0.002  # added per worker, so that many workers do not saturate the dispatcher
+BATCH_BYTES = 16 << 20  # largest intended size of a batch
+GROWTH = 8  # largest factor between the sizes of successive batches
+IN_FLIGHT = 3  # largest number of batches per worker: one in computation, the others queued
+WINDOW = 100  # largest number of batches per worker that are finished or in progress behind an unfinished one
+KILLS = 3  # number of workers that an item may kill
+FRUITLESS = 50  # successive deaths of workers without any result, after which the items are not to blame
 
 
 @dataclass
 class _Job:
-    """A batch and how many workers died while they computed it."""
+    """A batch, and the number of workers that died while computing it."""
 
     first: int
     packed: Packed
@@ -36,19 +34,19 @@ class _Job:
 
 
 class Dispatcher:
-    """Reads items as workers can take them, and keeps no more than a window of results.
+    """Reads items when workers are ready, and stores at most a window of results.
 
-    A batch whose worker died is computed again by another one, in halves, so that an item that kills workers ends up alone: after
-    three workers it is given up. The batches that waited for the same worker are not blamed. A batch that is computed again has its
-    worker for itself: the answer of the one before it may be lost with the worker, which would then be blamed on that one.
+    If a worker dies, another one computes its batch again, in halves, so that an item that kills workers is finally
+    alone. After three workers the item counts as a failure. Batches that waited for the same worker are not blamed. A
+    repeated batch has its worker for itself: otherwise the lost answer of a previous batch could be blamed on that one.
     """
 
     def __init__(self, engine: Engine, items: Iterator[Any], first: int, total: int | None):
         """Args:
-        engine: Who computes.
-        items: What is left to compute.
-        first: The number of the first of them.
-        total: How many items there are, the ones before `first` included; None if nobody knows.
+        engine: Engine of the workers.
+        items: Remaining items.
+        first: Index of the first remaining item.
+        total: Number of all items, including those before `first`; None if unknown.
         """
         self._engine = engine
         self._items = items
@@ -65,7 +63,7 @@ class Dispatcher:
         self._fruitless = 0
 
     def results(self) -> Iterator[list[Any]]:
-        """Yields the results of the next items, as many as are there: at least every tenth of a second, also none."""
+        """Yields the available results of the next items, possibly none, at least every tenth of a second."""
         while self._send():
             for worker, answer in self._engine.receive(0.1):
                 if isinstance(answer, WorkerDied):
@@ -74,15 +72,15 @@ class Dispatcher:
                     self._take(self._sent[worker].popleft(), answer)
             yield self._inOrder()
 
-    def later(self) -> dict[int, Any]:
-        """The results that are there behind items that are not done, by number."""
+    def pending(self) -> dict[int, Any]:
+        """Returns available results behind unfinished items, by index."""
         return {first + i: result for first, results in self._done.items() for i, result in enumerate(results)}
 
     def _send(self) -> bool:
-        """Gives workers what they can take. Returns whether anything is under way."""
+        """Sends batches to ready workers. Returns whether any batch is in progress."""
         while (worker := self._freeWorker()) is not None:
             if self._again and self._again[0].kills and self._sent[worker]:
-                break  # until a worker has nothing else
+                break  # until a worker is idle
             if (job := self._job()) is None:
                 break
             known = self._scenes[worker]
@@ -93,12 +91,12 @@ class Dispatcher:
         return any(self._sent)
 
     def _freeWorker(self) -> int | None:
-        """The one with the fewest batches, of those that can take a further one."""
+        """Returns the ready worker with the fewest batches."""
         free = [i for i, sent in enumerate(self._sent) if len(sent) < IN_FLIGHT and not (sent and sent[0].kills)]
         return min(free, key=lambda i: len(self._sent[i]), default=None)
 
     def _job(self) -> _Job | None:
-        """What to compute next; None if there is nothing, or the window is full."""
+        """Returns the next job; None if there is none, or the window is full."""
         if self._again:
             return self._again.popleft()
         if len(self._done) + sum(map(len, self._sent)) >= WINDOW * len(self._sent):
@@ -113,14 +111,14 @@ class Dispatcher:
         return _Job(first, packed)
 
     def _size(self) -> int:
-        """How many items the next batch has."""
+        """Returns the size of the next batch."""
         if self._item_seconds is None:
             return 1
         batch_seconds = max(BATCH_SECONDS, BATCH_SECONDS_PER_WORKER * len(self._sent))
         wanted = min(
             batch_seconds / max(self._item_seconds, 1e-9), BATCH_BYTES / self._item_bytes, GROWTH * self._batch_items
         )
-        if self._total is not None:  # so that all workers end at about the same time
+        if self._total is not None:  # so that all workers finish at about the same time
             wanted = min(wanted, (self._total - self._read) / (2 * len(self._sent)))
         self._batch_items = max(1, int(wanted))
         return self._batch_items
@@ -132,7 +130,7 @@ class Dispatcher:
         self._item_seconds = seconds if self._item_seconds is None else 0.7 * self._item_seconds + 0.3 * seconds
 
     def _lost(self, worker: int, how: WorkerDied) -> None:
-        """A worker died: its first batch is suspicious, the others only waited."""
+        """Handles the death of a worker: its first batch is suspicious, the others only waited."""
         suspect, *others = self._sent[worker] or [None]
         self._sent[worker].clear()
         self._scenes[worker].clear()
@@ -141,10 +139,10 @@ class Dispatcher:
             return
         self._fruitless += 1
         if self._fruitless > FRUITLESS:
-            raise Error(f"map: {FRUITLESS} workers ended before they answered anything, the last one {how}")
+            raise Error(f"map: {FRUITLESS} workers died without any result, the last one: {how}")
         kills, count = suspect.kills + 1, len(suspect.packed)
         if count == 1 and kills >= KILLS:
-            self._done[suspect.first] = [ItemFailure(suspect.first, f"{kills} workers died of it: {how}")]
+            self._done[suspect.first] = [ItemFailure(suspect.first, f"{kills} workers died while computing it: {how}")]
             self._fruitless = 0
             return
         middle = (count + 1) // 2

@@ -1,4 +1,4 @@
-"""Where workers live. An engine starts workers, hands them batches one after another, and says what came back."""
+"""Engines run workers: they start them, send them batches, and return their answers."""
 
 from __future__ import annotations
 
@@ -18,27 +18,27 @@ from .worker import Answer, Batch, Worker
 
 
 class WorkerDied(Exception):
-    """A worker is gone. Its text says how."""
+    """A worker died. The message tells how."""
 
 
 class Engine(Protocol):
-    """Workers with numbers from 0. Each computes its batches in the order in which they were sent."""
+    """Workers with indices from 0. Each computes its batches in the order of sending."""
 
     workers: int
 
     def send(self, worker: int, batch: Batch) -> None:
-        """Hands a batch to a worker and does not wait."""
+        """Sends a batch to a worker without waiting."""
 
     def receive(self, seconds: float) -> list[tuple[int, Answer | WorkerDied]]:
-        """Waits until there is an answer, at most for `seconds`. A worker that died has lost all batches that it did not answer;
-        another one is in its place, which knows no scenes."""
+        """Waits for answers, at most `seconds`. A worker that died has lost its unanswered batches; a new one without
+        scenes replaces it."""
 
     def stop(self) -> None:
-        """Ends all workers, without waiting for what they compute, as far as that can be done."""
+        """Ends all workers, if possible without waiting for their computations."""
 
 
 class ThreadEngine:
-    """Threads of this process. Functions of Kinegraph run at the same time in them; those in Python take turns."""
+    """Threads of this process. Functions of Kinegraph run in parallel; Python code shares the interpreter lock."""
 
     def __init__(self, workers: int, function: Packed, seed: int):
         self.workers = workers
@@ -68,16 +68,16 @@ class ThreadEngine:
 
 
 class _Process:
-    """A worker in a process. It is a program of its own and does not run the caller's script again."""
+    """A worker process: a separate program, which does not run the caller's script again."""
 
     def __init__(self, function: Packed, seed: int):
         self.connection, far = Pipe()
-        paths = [os.path.abspath(path) for path in sys.path]  # "" is the folder that Python was started in
+        paths = [os.path.abspath(path) for path in sys.path]  # "" is Python's start folder
         self.process = subprocess.Popen(
             [sys.executable, "-m", "kinegraph.fleets.worker", str(far.fileno())],
             env={**os.environ, "PYTHONPATH": os.pathsep.join(paths)},
             pass_fds=[far.fileno()],
-            start_new_session=True,  # Ctrl-C is for the caller
+            start_new_session=True,  # Ctrl-C reaches the caller only
             stdin=subprocess.DEVNULL,
         )
         far.close()
@@ -86,11 +86,11 @@ class _Process:
         self.sender.send(pickle.dumps((function, seed)))
 
     def end(self) -> str:
-        """Ends it, if it runs, and says how it ended."""
+        """Ends the process, if it runs, and returns how it ended."""
         self.sender.stop()
         if self.process.poll() is None:
             try:
-                self.process.wait(0.2)  # its connection closes a moment before it is gone
+                self.process.wait(0.2)  # its connection closes a moment before its end
             except subprocess.TimeoutExpired:
                 self.process.kill()
         code = self.process.wait()
@@ -99,7 +99,7 @@ class _Process:
 
 
 class _Sender:
-    """Writes to a worker from a thread, so that a worker whose pipe is full keeps nobody waiting."""
+    """Writes to a worker from a thread, so that a full pipe does not block the caller."""
 
     def __init__(self, connection: Connection):
         self._connection = connection
@@ -111,7 +111,7 @@ class _Sender:
         try:
             while (message := self._messages.get()) is not None:
                 self._connection.send_bytes(message)
-        except OSError:  # the worker died, which its answers tell
+        except OSError:  # the worker died, which the receiver notices
             pass
 
     def send(self, message: bytes) -> None:

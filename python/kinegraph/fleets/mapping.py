@@ -1,4 +1,4 @@
-"""`map` and `imap`."""
+"""The functions `map` and `imap`."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from ..errors import ArgumentError, Error, KinegraphWarning
 from ..progress import drawRate
 from .results import ItemFailure, MapResults
 
-if TYPE_CHECKING:  # what computes is imported when it is needed
+if TYPE_CHECKING:  # engines are imported on use
     from .engines import Engine
     from .packing import Packed
 
-GIVE_UP = 100  # items in a row, from the first on, that fail: then the function is wrong, not the items; all, if there are fewer
+GIVE_UP = 100  # consecutive failures from the first item on (or all items) after which the function is to blame
 
 
 def map(
@@ -36,37 +36,41 @@ def map(
     errors: str = "collect",
     progress: bool = True,
 ) -> MapResults:
-    """Applies a function to many items, several at a time, and gives the results in order.
+    """Applies a function to many items in parallel, and returns the results in order.
 
-    The results are the same to the bit with every engine and number of workers: each item is computed by a copy of the function
-    that nothing else has used, with copies of the scenes that it refers to. So what the function changes is gone afterwards; only
-    what it returns comes back. What is random takes its numbers from `seed`, a parameter that the function may have.
+    The results are the same to the bit for every engine and number of workers: each item is computed by a fresh copy of
+    the function, with copies of the scenes that it refers to. Changes that the function makes are lost; only its result
+    is returned. Random numbers come from `seed`, an optional parameter of the function.
 
-    Items go out in batches of about 0.1 s, of more with more than 50 workers. A worker that dies (out of memory, killed) loses nothing: its items are computed again. An
-    item that kills three workers is a failure. A scene travels once to each worker. Items are read as they are needed, and with
-    `out` results are not kept, so that ten million items need no more memory than a thousand.
+    Items are sent in batches of about 0.1 s, longer with more than 50 workers. If a worker dies (out of memory,
+    killed), its items are computed again. An item that kills three workers is a failure. A scene is sent once to each
+    worker. Items are read when needed, and with `out` results are not stored in memory, so that ten million items need
+    no more memory than a thousand.
 
-    On a terminal, a bar says how far it is. Ctrl-C ends it and gives what is finished; a second one raises.
+    A terminal shows a progress bar. Ctrl-C ends the map and returns the finished results; a second one raises.
 
     Args:
-        function: Called with an item, or with `(item, seed=...)` if it has a parameter `seed`: a whole number >= 0 of 63 bits.
+        function: Called with an item, or with `(item, seed=...)` if it has a parameter `seed`: an integer >= 0 of 63
+            bits.
         items: A list, an array (its rows), a generator ...
-        engine: "threads": of this process; for functions that spend their time in Kinegraph, which runs beside other threads.
-            "processes": of this machine; for functions in Python, too. "ray": a Ray cluster, or one that is started on this machine
-            (extra `ray`).
-        workers: How many; as many as there are processors by default, with Ray as many as the cluster has.
-        seed: Of the items' seeds.
-        out: A folder for results as Parquet files (extra `fleets`), instead of keeping them: a dict is a row, a pyarrow table several. If
-            the folder has results of the same run, the first items are not computed again.
-        errors: "collect": an item that raises is a failure, a warning tells, and the others go on. "raise": the first ends the map.
-        progress: Whether to draw the bar.
+        engine: "threads": of this process; for functions that spend their time in Kinegraph, which runs in parallel
+            threads. "processes": of this machine; also for functions in Python. "ray": an existing Ray cluster, or a
+            local one that is started (extra `ray`).
+        workers: Number of workers; by default the number of processors, with Ray that of the cluster.
+        seed: Seed of the items' seeds.
+        out: A folder for results as Parquet files (extra `fleets`), instead of memory: a dict is a row, a pyarrow table
+            several rows. If the folder has results of the same run, the run continues after them.
+        errors: "collect": an item that raises is a failure, with a warning, and the others continue. "raise": the first
+            failure ends the map.
+        progress: Whether to draw the progress bar.
     Returns:
-        The results, and what failed.
+        The results and failures.
     Raises:
-        ArgumentError: An argument makes no sense, the function or an item cannot be sent, or the folder holds another run.
+        ArgumentError: An argument is invalid, the function or an item cannot be sent, or the folder belongs to another
+            run.
         NotFound: A package is not installed.
         FileError: The folder is in use, or incomplete.
-        Exception: What the function raised, with `errors="raise"`, or if all items failed, or all of the first 100.
+        Exception: The function's exception, with `errors="raise"`, or if all items or all of the first 100 failed.
     """
     from .dispatch import Dispatcher
     from .writing import ResultFolder
@@ -98,7 +102,7 @@ def map(
             else:
                 results.complete = True
             if not folder:
-                results.addLater(dispatcher.later())
+                results.addPending(dispatcher.pending())
     finally:
         if folder:
             folder.close()
@@ -120,20 +124,20 @@ def imap(
     workers: int | None = None,
     seed: int = 0,
 ) -> Iterator[Any]:
-    """As `map`, and yields the results one after another, in order; it keeps none.
+    """Like `map`, but yields the results in order without storing them.
 
     Args:
-        function: As for `map`.
-        items: As for `map`; read as they are needed, some ahead.
-        engine: As for `map`.
-        workers: As for `map`.
-        seed: As for `map`.
+        function: See `map`.
+        items: See `map`; read when needed, some in advance.
+        engine: See `map`.
+        workers: See `map`.
+        seed: See `map`.
     Returns:
-        An iterator over what the function gives for each item. Its workers end with it (`close()`).
+        An iterator over the results. Its workers end with it (`close()`).
     Raises:
-        ArgumentError: An argument makes no sense, or the function or an item cannot be sent.
+        ArgumentError: An argument is invalid, or the function or an item cannot be sent.
         NotFound: The package of the engine is not installed.
-        Exception: What the function raised for the next item.
+        Exception: The function's exception for the next item.
     """
     from .dispatch import Dispatcher
 
@@ -147,10 +151,10 @@ def imap(
 
 @contextmanager
 def _workers(function: Callable[..., Any], engine: str, workers: int | None, seed: int) -> Iterator[Engine]:
-    """Workers of an engine, which end with the block."""
+    """Starts the workers of an engine, and ends them with the block."""
     _checkChoice("engine", engine, ("threads", "processes", "ray"))
     if not callable(function):
-        raise ArgumentError(f"map: function is {function!r}; expected something that can be called with an item")
+        raise ArgumentError(f"map: function is {function!r}; expected a callable")
     if workers is not None and (not isinstance(workers, int) or workers < 1):
         raise ArgumentError(f"map: workers is {workers!r}; expected a whole number >= 1")
     from .packing import pack
@@ -176,7 +180,7 @@ def _start(engine: str, workers: int | None, function: Packed, seed: int) -> Eng
 
 @contextmanager
 def _interruptible() -> Iterator[threading.Event]:
-    """An event that the first Ctrl-C sets; a second one raises, as usual."""
+    """Yields an event that the first Ctrl-C sets; a second one raises, as usual."""
     pressed = threading.Event()
     if threading.current_thread() is not threading.main_thread():
         yield pressed
@@ -195,7 +199,7 @@ def _interruptible() -> Iterator[threading.Event]:
 
 
 def _checkFailure(value: Any, errors: str, results: MapResults, first: int) -> None:
-    """Raises where a failure ends the map."""
+    """Raises if a failure ends the map."""
     if not isinstance(value, ItemFailure):
         return
     all_failed = len(results.failures) == results.finished - first == GIVE_UP - 1
@@ -204,7 +208,7 @@ def _checkFailure(value: Any, errors: str, results: MapResults, first: int) -> N
 
 
 def _error(failure: ItemFailure) -> BaseException:
-    """A failure as what to raise."""
+    """Converts a failure to an exception."""
     error = failure.error if isinstance(failure.error, Exception) else Error(failure.message)
     error.add_note(
         f"by item {failure.index} of a map" + (f"; in the worker:\n{failure.traceback}" if failure.traceback else "")
@@ -222,5 +226,5 @@ def _name(function: Callable[..., Any]) -> str:
 
 
 def _describe(function: Callable[..., Any], seed: int, total: int | None) -> dict[str, Any]:
-    """What a run is, as far as it can be known again."""
+    """Describes a run, so that a continuation can be recognized."""
     return {"function": _name(function), "seed": int(seed), "items": total}

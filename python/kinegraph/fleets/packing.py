@@ -1,4 +1,4 @@
-"""Functions and items as bytes. Scenes in them become the hash of their content, so that each one travels once."""
+"""Pickles functions and items. Scenes are replaced by the hash of their content, so that each one is sent once."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ from typing import Any
 from .._core import Config
 from ..errors import ArgumentError
 
-SCENES_KEPT = 16  # scenes that a worker remembers beside those of its present batch
+CACHED_SCENES = 16  # scenes that a worker caches besides those of its present batch
 
 
 @dataclass(frozen=True)
 class Packed:
-    """An object, or several one after another, as bytes.
+    """One or several pickled objects.
 
     Attributes:
-        data: Pickles, in which scenes are hashes.
-        ends: Where each one ends in `data`.
-        scenes: The content of each scene, by its hash.
+        data: Pickles, with hashes for scenes.
+        ends: End of each object in `data`.
+        scenes: Content of the scenes, by hash.
     """
 
     data: bytes
@@ -36,36 +36,36 @@ class Packed:
         return len(self.ends)
 
     def part(self, begin: int, end: int) -> Packed:
-        """The objects from `begin` to before `end`."""
+        """Returns the objects from `begin` to before `end`."""
         start = self.ends[begin - 1] if begin else 0
         ends = [at - start for at in self.ends[begin:end]]
         return Packed(self.data[start : start + ends[-1]], ends, self.scenes)
 
 
 class SceneCache(OrderedDict[str, Any]):
-    """What a worker knows of scenes, the one used last at the end.
+    """The scenes that a worker knows, the last used one at the end.
 
-    The worker keeps scenes in it, and who sends keeps one beside each worker: both see the same batches in the same order, and so
-    know the same scenes.
+    A worker stores its scenes in one, and the sender has a copy per worker: both see the same batches in the same
+    order, and so contain the same scenes.
     """
 
     def use(self, scenes: dict[str, Any]) -> None:
-        """Takes in the scenes of a batch, and forgets the oldest that are too many."""
+        """Adds the scenes of a batch, and removes the oldest beyond the capacity."""
         for key, value in scenes.items():
             self.setdefault(key, value)
             self.move_to_end(key)
-        while len(self) > max(SCENES_KEPT, len(scenes)):
+        while len(self) > max(CACHED_SCENES, len(scenes)):
             self.popitem(last=False)
 
 
 def pack(objects: Iterable[Any], what: Callable[[int], str]) -> Packed:
-    """Packs objects one after another, each on its own: what two of them share is made twice.
+    """Pickles objects separately: shared parts are duplicated.
 
     Args:
-        objects: What to pack.
-        what: The name of the i-th object, for messages.
+        objects: Objects to pickle.
+        what: Name of the i-th object, for messages.
     Raises:
-        ArgumentError: An object cannot be pickled; the message says what in it.
+        ArgumentError: An object cannot be pickled; the message names the part.
     """
     import cloudpickle
 
@@ -82,7 +82,7 @@ def pack(objects: Iterable[Any], what: Callable[[int], str]) -> Packed:
             if type(obj).__name__ in (
                 "nb_func",
                 "nb_method",
-            ):  # a function in C++, which pickle does not know by itself
+            ):  # a C++ function, which pickle does not support by itself
                 return getattr, (_owner(obj), obj.__name__)
             if type(obj).__name__ == "nb_bound_method":
                 return getattr, (obj.__self__, obj.__name__)
@@ -97,7 +97,7 @@ def pack(objects: Iterable[Any], what: Callable[[int], str]) -> Packed:
             pickler.dump(obj)
         except Exception as error:
             raise ArgumentError(
-                f"{what(i)} cannot be sent to workers: {error}. They work on copies: give them numbers, arrays, scenes "
+                f"{what(i)} cannot be sent to workers: {error}. Workers use copies: pass numbers, arrays, scenes "
                 "and names, and open files, viewers and connections in the function itself"
             ) from error
         pickler.clear_memo()
@@ -106,7 +106,7 @@ def pack(objects: Iterable[Any], what: Callable[[int], str]) -> Packed:
 
 
 def _owner(function: Any) -> Any:
-    """The module or class that a function in C++ belongs to."""
+    """Returns the module or class of a C++ function."""
     owner = importlib.import_module(function.__module__)
     for name in function.__qualname__.split(".")[:-1]:
         owner = getattr(owner, name)
@@ -114,7 +114,7 @@ def _owner(function: Any) -> Any:
 
 
 class Unpacker(pickle.Unpickler):
-    """Reads packed objects, one by one. Every one gets scenes of its own."""
+    """Reads pickled objects one by one. Each object gets its own copies of scenes."""
 
     def __init__(self, data: bytes, scenes: dict[str, Config]):
         super().__init__(io.BytesIO(data))
@@ -125,14 +125,15 @@ class Unpacker(pickle.Unpickler):
 
 
 def loadScene(content: bytes) -> Config:
-    """Makes a scene from its content, compiled, so that its copies need not be."""
+    """Creates a compiled scene from its content, so that its copies are compiled, too."""
     config: Config = pickle.loads(content)
     config.getJointState()
     return config
 
 
 def itemSeed(seed: int, index: int) -> int:
-    """The seed of an item: 63 well mixed bits of the map's seed and the item's number (Steele et al. 2014, SplitMix64)."""
+    """Returns the seed of an item: 63 mixed bits of the map's seed and the item's index (Steele et al. 2014,
+    SplitMix64)."""
     mask = (1 << 64) - 1
     z = ((seed & mask) * 0xD1342543DE82EF95 + (index + 1) * 0x9E3779B97F4A7C15) & mask
     z = ((z ^ (z >> 30)) * 0xBF58476D1CE4E5B9) & mask

@@ -1,4 +1,4 @@
-"""Workers on a Ray cluster, or on a local one that is started for them."""
+"""Workers on a Ray cluster, or on a local one started for them."""
 
 from __future__ import annotations
 
@@ -25,7 +25,8 @@ def _ray() -> Any:
 
 @contextmanager
 def _environment(name: str, value: str) -> Iterator[None]:
-    """Sets a variable that is not set: what Ray starts reads it. Its workers have niceness 15 otherwise, and wait for all else."""
+    """Sets an unset variable for the processes of Ray. By default its workers have niceness 15, behind all other
+    processes."""
     if name in os.environ:
         yield
         return
@@ -37,8 +38,8 @@ def _environment(name: str, value: str) -> Iterator[None]:
 
 
 class RayEngine:
-    """Actors of Ray. What is connected already is used (`ray.init(address=...)`); otherwise Ray is started on this machine, and
-    ends with the map."""
+    """Actors of Ray. An existing connection is used (`ray.init(address=...)`); otherwise Ray is started on this
+    machine, and ended with the map."""
 
     def __init__(self, workers: int | None, function: Packed, seed: int):
         self._ray = _ray()
@@ -50,24 +51,24 @@ class RayEngine:
         self._setup = self._ray.put(pickle.dumps((function, seed)))  # once per machine
         self._class = self._ray.remote(num_cpus=1, max_restarts=0)(_RayWorker)
         self._actors = [self._class.remote(self._setup) for _ in range(self.workers)]
-        self._asked: list[deque[Any]] = [deque() for _ in range(self.workers)]
+        self._requested: list[deque[Any]] = [deque() for _ in range(self.workers)]
 
     def send(self, worker: int, batch: Batch) -> None:
-        self._asked[worker].append(self._actors[worker].run.remote(pickle.dumps(batch)))
+        self._requested[worker].append(self._actors[worker].run.remote(pickle.dumps(batch)))
 
     def receive(self, seconds: float) -> list[tuple[int, Answer | WorkerDied]]:
-        first = {asked[0]: number for number, asked in enumerate(self._asked) if asked}
+        first = {requested[0]: number for number, requested in enumerate(self._requested) if requested}
         ready, _ = self._ray.wait(list(first), num_returns=1, timeout=seconds)
         return [self._answer(first[reference]) for reference in ready]
 
     def _answer(self, number: int) -> tuple[int, Answer | WorkerDied]:
         try:
-            answer: Answer = pickle.loads(self._ray.get(self._asked[number].popleft()))
+            answer: Answer = pickle.loads(self._ray.get(self._requested[number].popleft()))
             return number, answer
         except self._ray.exceptions.RayActorError:
-            self._asked[number].clear()
+            self._requested[number].clear()
             self._actors[number] = self._class.remote(self._setup)
-            return number, WorkerDied("killed, or its machine is gone")
+            return number, WorkerDied("killed, or its machine is unreachable")
 
     def stop(self) -> None:
         for actor in self._actors:

@@ -1,4 +1,4 @@
-"""Results that were written to a folder."""
+"""Reads results from a folder."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ from .results import ItemFailure
 
 
 def readResults(folder: str | os.PathLike[str]) -> Iterator[Any]:
-    """Reads what `map(..., out=folder)` has written, one file in memory at a time.
+    """Reads the results of `map(..., out=folder)`, with one file in memory at a time.
 
     Args:
-        folder: The folder. A run that still writes to it is no hindrance: what is there by now is read.
+        folder: The folder. While a run still writes to it, the present results are read.
     Returns:
-        An iterator over the items, in order: what the function gave: a dict, a value, a table; numpy arrays for arrays; an `ItemFailure` where
-        it failed.
+        An iterator over the items, in order, with the function's results: a dict, a value, a table; numpy arrays for
+        arrays; an `ItemFailure` for failed items.
     Raises:
-        FileError: The folder is not there, or a file is missing.
+        FileError: The folder or a file is missing.
         NotFound: The package pyarrow (extra `fleets`) is not installed.
     """
     arrow = pyarrow()
@@ -61,7 +61,7 @@ def _value(cell: Any) -> Any:
 
 
 def pyarrow() -> Any:
-    """The package pyarrow."""
+    """Imports the package pyarrow."""
     try:
         import pyarrow
         import pyarrow.parquet
@@ -71,7 +71,7 @@ def pyarrow() -> Any:
 
 
 def parts(folder: Path) -> list[tuple[int, int, Path]]:
-    """The files of a folder, in order: the numbers of the first item and of the one behind the last, and the file."""
+    """Returns the files of a folder in order: index of the first item, index after the last, and path."""
     found = []
     for file in sorted(folder.glob("part-*.parquet")):
         numbers = re.fullmatch(r"part-(\d+)-(\d+)\.parquet", file.name)

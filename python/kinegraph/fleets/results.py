@@ -1,4 +1,4 @@
-"""What a map gives back."""
+"""Results of a map."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ class ItemFailure:
     """An item without a result.
 
     Attributes:
-        index: The item's number.
-        message: What went wrong, in one line.
-        traceback: Where, as Python prints it; "" if the worker died.
-        error: The exception, if there was one and it could be sent.
+        index: Index of the item.
+        message: The error in one line.
+        traceback: The traceback as printed by Python; "" if the worker died.
+        error: The exception, if there was one that can be pickled.
     """
 
     index: int
@@ -28,15 +28,15 @@ class ItemFailure:
 class MapResults(Sequence[Any]):
     """The results of `map`, in the order of the items.
 
-    `results[i]` is what the function gave for item i; None where it failed or was not reached.
+    `results[i]` is the function's result for item i; None if it failed or was not reached.
 
     Attributes:
-        failures: An `ItemFailure` for each item that has no result, by its number.
-        finished: How many items are done, those that failed included.
-        complete: Whether all are; False after Ctrl-C.
-        seconds: How long it took, s.
-        folder: Where the results are, if they were written; `readResults(folder)` reads them, and they are not kept in memory:
-            the sequence is empty then.
+        failures: An `ItemFailure` for each failed item, by its index.
+        finished: Number of finished items, including failed ones.
+        complete: Whether all items are finished; False after Ctrl-C.
+        seconds: Duration, s.
+        folder: Folder of the results, if they were written; `readResults(folder)` reads them. They are not kept in
+            memory: the sequence is empty then.
     """
 
     def __init__(self, folder: Path | None = None):
@@ -60,11 +60,11 @@ class MapResults(Sequence[Any]):
         if self.folder is None:
             self._values.append(value)
 
-    def addLater(self, values: dict[int, Any]) -> None:
-        """Adds results that lie behind items which were not finished.
+    def addPending(self, values: dict[int, Any]) -> None:
+        """Adds results behind unfinished items.
 
         Args:
-            values: Results by the number of their item.
+            values: Results by the index of their item.
         """
         for index in sorted(values):
             self._values += [None] * (index - len(self._values))
@@ -87,8 +87,8 @@ class MapResults(Sequence[Any]):
         rate = self.finished / self.seconds if self.seconds > 0 else 0.0
         text = f"{self.finished} items in {self.seconds:.3g} s ({rate:.3g}/s)"
         if not self.complete:
-            text += ", ended before the last"
+            text += ", ended early"
         if self.failures:
             first = next(iter(self.failures.values()))
-            text += f", {len(self.failures)} failed; the first: item {first.index}: {first.message}"
+            text += f", {len(self.failures)} failed, first item {first.index}: {first.message}"
         return f"<MapResults {text}{f', in {self.folder}' if self.folder else ''}>"

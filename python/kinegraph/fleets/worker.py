@@ -1,4 +1,4 @@
-"""What a worker does with a batch of items. As a program, it is a worker in a process of its own."""
+"""Computes batches of items. As a program, it is a worker process."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ class Batch:
     """Items for one worker.
 
     Attributes:
-        first: The number of the first item.
-        data: The items, packed.
-        ends: Where each one ends in `data`.
-        scenes: The scenes in them: their content, or None for those that the worker knows.
+        first: Index of the first item.
+        data: The pickled items.
+        ends: End of each item in `data`.
+        scenes: Content of their scenes, or None for scenes that the worker knows.
     """
 
     first: int
@@ -38,12 +38,12 @@ class Batch:
 
 @dataclass(frozen=True)
 class Answer:
-    """What became of a batch.
+    """The results of a batch.
 
     Attributes:
-        first: The number of the first item.
-        results: For each item its result, or an `ItemFailure`.
-        seconds: How long the items took, s.
+        first: Index of the first item.
+        results: Result of each item, or an `ItemFailure`.
+        seconds: Duration of the items, s.
     """
 
     first: int
@@ -52,8 +52,8 @@ class Answer:
 
 
 class Worker:
-    """Applies a function to batches. Every item gets a function and scenes that no item has used before, so that its result
-    does not depend on who computed what before."""
+    """Applies a function to batches. Every item gets fresh copies of the function and the scenes, so that its result
+    does not depend on previous items of this worker."""
 
     def __init__(self, function: Packed, seed: int):
         self._function = function.data
@@ -63,7 +63,7 @@ class Worker:
         self._takes_seed: bool | None = None
 
     def run(self, batch: Batch) -> Answer:
-        """Computes the items of a batch; an item that raises gives an `ItemFailure`."""
+        """Computes the items of a batch; an exception becomes an `ItemFailure`."""
         start = time.perf_counter()
         self._scenes.use({key: self._known(key, content) for key, content in batch.scenes.items()})
         results = []
@@ -87,7 +87,7 @@ class Worker:
 
 
 def takesSeed(function: Callable[..., Any]) -> bool:
-    """Whether a function has a parameter `seed` beside the first, which is the item."""
+    """Returns whether a function has a parameter `seed` after the first one, the item."""
     try:
         return "seed" in list(inspect.signature(function).parameters)[1:]
     except (TypeError, ValueError):  # some functions in C have no signature
@@ -95,13 +95,13 @@ def takesSeed(function: Callable[..., Any]) -> bool:
 
 
 def describeError(error: BaseException) -> str:
-    """The type and the first line of an error."""
+    """Returns the type and the first line of an error."""
     text = str(error).split("\n", 1)[0]
     return f"{type(error).__name__}: {text}" if text else type(error).__name__
 
 
 def packAnswer(answer: Answer) -> bytes:
-    """An answer as bytes; what cannot be sent is a failure of its item."""
+    """Pickles an answer; a result that cannot be pickled becomes a failure of its item."""
     import cloudpickle
 
     def sendable(index: int, result: Any) -> Any:
@@ -109,12 +109,12 @@ def packAnswer(answer: Answer) -> bytes:
             cloudpickle.loads(cloudpickle.dumps(result))
             return result
         except Exception as error:
-            if isinstance(result, ItemFailure):  # its exception cannot be sent, its text can
+            if isinstance(result, ItemFailure):  # its exception cannot be sent, but its text can
                 return ItemFailure(result.index, result.message, result.traceback)
-            return ItemFailure(index, f"its result cannot be sent back: {describeError(error)}")
+            return ItemFailure(index, f"the result cannot be sent back: {describeError(error)}")
 
     if not any(isinstance(result, ItemFailure) for result in answer.results):
-        with contextlib.suppress(Exception):  # where one of them cannot be sent, each is looked at
+        with contextlib.suppress(Exception):  # if one of them cannot be sent, each is checked
             whole: bytes = cloudpickle.dumps(answer)
             return whole
     results = [sendable(answer.first + i, result) for i, result in enumerate(answer.results)]
@@ -123,7 +123,7 @@ def packAnswer(answer: Answer) -> bytes:
 
 
 def _serve(connection: Connection) -> None:
-    """Answers batches until nobody asks any more."""
+    """Answers batches until the connection closes."""
     try:
         sys.path[:] = pickle.loads(connection.recv_bytes())
         worker = Worker(*pickle.loads(connection.recv_bytes()))

@@ -1,4 +1,4 @@
-"""Results in a folder of Parquet files, written as they come, so that a run that was ended goes on."""
+"""Writes results to a folder of Parquet files as they arrive, so that an interrupted run can continue."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ from ..errors import ArgumentError, FileError
 from .reading import parts, pyarrow
 from .results import ItemFailure
 
-PART_SECONDS = 10.0  # of work that is lost at most when the machine fails
-PART_ROWS = 1_000_000  # that a file has at most, about
+PART_SECONDS = 10.0  # s of work at most lost if the machine fails
+PART_ROWS = 1_000_000  # approximate largest number of rows of a file
 
 
 class ResultFolder:
-    """A folder to which one run writes results, in the order of the items.
+    """A folder for the results of one run, in the order of the items.
 
-    A file `part-FIRST-END.parquet` holds those of the items from FIRST to before END. It appears whole or not at all. Its columns
-    are `item`, `error` (a text where the item failed), and what the function gave: the keys of a dict, the columns of a table
-    (several rows for an item), `value` for a number, a text or an array, `pickle` for all else.
+    A file `part-FIRST-END.parquet` holds the results of the items from FIRST to before END. Files appear atomically.
+    Their columns are `item`, `error` (a text for failed items), and the function's result: the keys of a dict, the
+    columns of a table (several rows per item), `value` for a number, a text or an array, `pickle` for everything else.
     """
 
     def __init__(self, folder: Path, run: dict[str, Any]):
         """Args:
-        folder: Made, if it is missing.
-        run: What this run is; one that goes on must be the same.
+        folder: Created if it is missing.
+        run: Description of the run; a continuation must have the same.
         """
         self._arrow = pyarrow()
         self.folder = folder
@@ -41,7 +41,7 @@ class ResultFolder:
             fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
         except OSError:
             self._lock.close()
-            raise FileError(f"another run writes to the folder '{folder}'") from None
+            raise FileError(f"the folder '{folder}' is in use by another run") from None
         try:
             self._check(run)
             self.finished = parts(folder)[-1][1] if parts(folder) else 0
@@ -59,26 +59,27 @@ class ResultFolder:
         file = self.folder / "_run.json"
         if not file.exists():
             if any(self.folder.glob("part-*.parquet")):
-                raise FileError(f"'{self.folder}' has results and no _run.json that says what they are of")
+                raise FileError(f"'{self.folder}' has results, but no _run.json that describes their run")
             _writeWhole(file, json.dumps(run).encode())
             return
         before = json.loads(file.read_text())
         for key, value in run.items():
             if before.get(key) != value:
                 raise ArgumentError(
-                    f"the folder '{self.folder}' holds results of another run: {key} was {before.get(key)!r} and is {value!r}; "
-                    "take another folder, or remove this one"
+                    f"the folder '{self.folder}' has results of another run: "
+                    f"{key} was {before.get(key)!r} and is {value!r}; "
+                    "use another folder, or remove this one"
                 )
 
     def add(self, value: Any) -> None:
-        """Takes in the result of the next item."""
+        """Adds the result of the next item."""
         arrow, index, rows = self._arrow, self.finished, 1
         if isinstance(value, arrow.RecordBatch):
             value = arrow.Table.from_batches([value])
         if isinstance(value, arrow.Table):
             rows = value.num_rows
             table = value.add_column(0, "item", arrow.array(np.full(rows, index)))
-            self._takeRows()
+            self._addRows()
             self._tables.append(table)
             self._has_tables = True
         else:
@@ -89,11 +90,11 @@ class ResultFolder:
             self.write()
 
     def write(self) -> None:
-        """Writes what came since the last time."""
+        """Writes the results since the last call."""
         self._written = time.monotonic()
         if self._first == self.finished:
             return
-        self._takeRows()
+        self._addRows()
         table = self._arrow.concat_tables(self._tables, promote_options="permissive")
         if "error" not in table.column_names:
             table = table.append_column("error", self._arrow.nulls(table.num_rows, self._arrow.string()))
@@ -104,7 +105,7 @@ class ResultFolder:
         _writeWhole(self.folder / f"part-{self._first:012}-{self.finished:012}.parquet", sink.getvalue())
         self._first, self._tables, self._row_count = self.finished, [], 0
 
-    def _takeRows(self) -> None:
+    def _addRows(self) -> None:
         if self._rows:
             names = dict.fromkeys(name for row in self._rows for name in row)
             columns = {name: self._column(name) for name in names}
@@ -118,7 +119,7 @@ class ResultFolder:
             raise ArgumentError(f"the results '{name}' do not fit into one column: {error}") from error
 
     def close(self) -> None:
-        """Writes what is left."""
+        """Writes the remaining results."""
         try:
             self.write()
         finally:
@@ -126,13 +127,13 @@ class ResultFolder:
 
 
 def _columns(value: Any) -> dict[str, Any]:
-    """A result as a row."""
+    """Converts a result to a row."""
     if isinstance(value, ItemFailure):
         return {"error": value.message}
     if isinstance(value, dict) and all(isinstance(key, str) for key in value):
         taken = {"item", "error"} & value.keys()
         if taken:
-            raise ArgumentError(f"the result has the key '{min(taken)}', which the files need for themselves")
+            raise ArgumentError(f"the result has the key '{min(taken)}', which is reserved")
         return {key: _cell(part) for key, part in value.items()}
     if isinstance(value, (bool, int, float, str, np.ndarray, np.generic)):
         return {"value": _cell(value)}
@@ -144,7 +145,7 @@ def _cell(value: Any) -> Any:
 
 
 def _writeWhole(file: Path, content: Any) -> None:
-    """Writes a file that is there as a whole or not at all, also if the machine stops."""
+    """Writes a file atomically, even if the machine stops."""
     unfinished = file.with_name(f".{file.name}.unfinished")
     with unfinished.open("wb") as out:
         out.write(content)

@@ -1,7 +1,7 @@
-"""Drivers of robots that are there, for BotOp(C, True, driver=...).
+"""Drivers of real robots, for BotOp(C, True, driver=...).
 
-They were tried against stand-ins that speak the same calls, and *not* on hardware: stand beside the emergency stop.
-What they need from the vendors' packages is imported when they connect.
+The drivers are tested against stand-ins for the vendors' packages, and *not* on hardware: keep the emergency stop at hand.
+They import the vendors' packages when they connect.
 """
 
 from .franka import FrankaDriver

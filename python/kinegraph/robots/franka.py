@@ -19,19 +19,19 @@ from .._core import (
     RobotState,
 )
 
-STIFFNESS = np.array([600.0, 600.0, 600.0, 600.0, 250.0, 150.0, 50.0])  # N m/rad, panda-python's own
+STIFFNESS = np.array([600.0, 600.0, 600.0, 600.0, 250.0, 150.0, 50.0])  # N m/rad, defaults of panda-python
 DAMPING = np.array([50.0, 50.0, 50.0, 20.0, 20.0, 20.0, 10.0])  # N m s/rad
-ACCELERATION = np.array([15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0])  # rad/s^2, of Franka's manual
+ACCELERATION = np.array([15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0])  # rad/s^2, from Franka's manual
 
 
 class _Hand:
-    """The hand, whose calls wait until they are done: a thread of its own makes them."""
+    """The hand. Its calls block, so that a thread makes them."""
 
     def __init__(self, hand: Any) -> None:
         self._hand = hand
         self._commands: queue.SimpleQueue[GripperCommand | None] = queue.SimpleQueue()
         self._lock = threading.Lock()
-        self._open = 0  # commands that are not done
+        self._open = 0  # number of unfinished commands
         self._error = ""
         self._width = float(hand.read_once().width)
         self._thread = threading.Thread(target=self._run, daemon=True)
@@ -73,17 +73,17 @@ class _Hand:
 class FrankaDriver(RobotDriver):
     """A Panda or FR3 with its hand. Untried on hardware.
 
-    The loop of 1 kHz runs in panda-python's thread; this driver leaves it setpoints. Of a compliance (setCompliance) it
-    takes what each joint gives way by itself: that controller has a stiffness per joint.
+    The loop of 1 kHz runs in panda-python's thread; this driver passes it setpoints. Its controller has one stiffness per
+    joint, so that setCompliance uses the diagonal of the compliance only.
     """
 
     def __init__(self, config: Config, host: str, hand: bool = True):
-        """An arm at an address; nothing is connected yet.
+        """Stores the address of an arm; connect() connects to it.
 
         Args:
-            config: The scene whose q are the arm's seven joints.
+            config: A scene whose q has the arm's seven joints.
             host: Address of the arm.
-            hand: It has Franka's hand.
+            hand: True if the arm has Franka's hand.
         """
         super().__init__()
         info = RobotInfo.of(config, "Franka")
@@ -98,11 +98,11 @@ class FrankaDriver(RobotDriver):
         self._share = np.ones(7)
 
     def info(self) -> RobotInfo:
-        """The joints of the scene with their limits, and the hand."""
+        """Returns the joints of the scene with their limits, and the hand."""
         return self._info
 
     def connect(self) -> None:
-        """Connects to the arm and its hand, and holds the arm where it is."""
+        """Connects to the arm and its hand, and holds the arm."""
         import panda_py
         from panda_py import libfranka
 
@@ -121,7 +121,7 @@ class FrankaDriver(RobotDriver):
         self._panda.start_controller(self._controller)
 
     def disconnect(self) -> None:
-        """Stops the controller, and leaves."""
+        """Stops the controller, and disconnects."""
         if self._hand is not None:
             self._hand.close()
         if self._panda is not None:
@@ -129,7 +129,7 @@ class FrankaDriver(RobotDriver):
         self._panda = self._controller = self._hand = None
 
     def read(self) -> RobotState:
-        """Where arm and hand are, what they feel, and what is wrong."""
+        """Returns the state of arm and hand: positions, torques, and errors."""
         arm = self._panda.get_state()
         error = str(arm.current_errors) if arm.current_errors else ""
         grippers = []
@@ -140,10 +140,10 @@ class FrankaDriver(RobotDriver):
         return RobotState(time, arm.q, arm.dq, arm.tau_J, arm.tau_ext_hat_filtered, grippers, error)
 
     def write(self, command: RobotCommand) -> None:
-        """Leaves a setpoint.
+        """Passes a setpoint to the controller.
 
         Args:
-            command: Where to be.
+            command: The target.
         """
         share = np.ones(7) if command.isStiff() else np.clip(np.diag(command.stiffness), 0.0, 1.0)
         if not np.array_equal(share, self._share):
@@ -154,28 +154,28 @@ class FrankaDriver(RobotDriver):
         self._controller.set_control(command.q, command.velocity)
 
     def stop(self, reason: str) -> None:
-        """Comes to rest: the arm's own brakes hold it.
+        """Stops the controller; the arm's brakes hold it.
 
         Args:
-            reason: Why.
+            reason: Cause of the stop.
         """
         self._panda.stop_controller()
 
     def recover(self) -> None:
-        """Clears errors, and holds the arm where it is."""
+        """Clears errors, and holds the arm."""
         self._panda.recover()
         if self._hand is not None:
             self._hand.clear()
         self._start()
 
     def moveGripper(self, command: GripperCommand) -> None:
-        """Moves the hand, without waiting for it.
+        """Moves the hand. Does not wait.
 
         Args:
-            command: What it shall do.
+            command: A GripperCommand.
         Raises:
             RuntimeError: There is no hand.
         """
         if self._hand is None:
-            raise RuntimeError("there is no hand")
+            raise RuntimeError("FrankaDriver: the arm has no hand")
         self._hand.command(command)

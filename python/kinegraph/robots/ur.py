@@ -10,21 +10,21 @@ from .._core import Config, RobotCommand, RobotDriver, RobotInfo, RobotState
 class UrDriver(RobotDriver):
     """An arm of Universal Robots with six joints. Untried on hardware.
 
-    It is moved by servoj. Its limits are those of the scene's joints; a UR's controller has limits of its own, and stops
+    servoj moves the arm. Its limits are those of the scene's joints; a UR's controller has its own limits, and stops the arm
     beyond them.
     """
 
     def __init__(
         self, config: Config, host: str, lookahead: float = 0.05, gain: float = 600.0, deceleration: float = 10.0
     ):
-        """An arm at an address; nothing is connected yet.
+        """Stores the address of an arm; connect() connects to it.
 
         Args:
-            config: The scene whose q are the arm's joints, base first.
+            config: A scene whose q has the arm's joints, base first.
             host: Address of the controller.
-            lookahead: How much servoj smooths, .03 to .2 s.
-            gain: How stiffly servoj follows, 100 to 2000.
-            deceleration: Of stops, rad/s^2.
+            lookahead: Smoothing time of servoj, .03 to .2 s.
+            gain: Gain of servoj, 100 to 2000.
+            deceleration: Deceleration of stops, rad/s^2.
         """
         super().__init__()
         self._info = RobotInfo.of(config, "UR")
@@ -33,11 +33,11 @@ class UrDriver(RobotDriver):
         self._receive: Any = None
 
     def info(self) -> RobotInfo:
-        """The joints of the scene with their limits."""
+        """Returns the joints of the scene with their limits."""
         return self._info
 
     def connect(self) -> None:
-        """Connects to the controller, and starts the program there that takes commands."""
+        """Connects to the controller, and starts its program for commands."""
         from rtde_control import RTDEControlInterface
         from rtde_receive import RTDEReceiveInterface
 
@@ -45,7 +45,7 @@ class UrDriver(RobotDriver):
         self._control = RTDEControlInterface(self._host)
 
     def disconnect(self) -> None:
-        """Comes to rest, and leaves."""
+        """Stops the arm, and disconnects."""
         if self._control is not None:
             self._control.servoStop(self._deceleration)
             self._control.disconnect()
@@ -60,38 +60,38 @@ class UrDriver(RobotDriver):
             return "emergency stop"
         if self._receive.isProtectiveStopped():
             return "protective stop"
-        return "" if self._control.isProgramRunning() else "the program on the controller does not run"
+        return "" if self._control.isProgramRunning() else "the program on the controller is not running"
 
     def read(self) -> RobotState:
-        """Where it is, and what is wrong."""
+        """Returns the state of the arm and its errors."""
         receive = self._receive
         return RobotState(receive.getTimestamp(), receive.getActualQ(), receive.getActualQd(), error=self._error())
 
     def write(self, command: RobotCommand) -> None:
-        """Goes on by a period.
+        """Moves the arm for one control period.
 
         Args:
-            command: Where to be.
+            command: The target.
         Raises:
-            RuntimeError: The controller does not take it.
+            RuntimeError: The controller rejects the command.
         """
         q = [float(x) for x in command.q]
         if not self._control.servoJ(q, 0.0, 0.0, command.period, self._lookahead, self._gain):
-            raise RuntimeError(self._error() or "servoj was refused")
+            raise RuntimeError(self._error() or "the controller rejected servoj")
 
     def stop(self, reason: str) -> None:
-        """Comes to rest.
+        """Brings the arm to rest.
 
         Args:
-            reason: Why.
+            reason: Cause of the stop.
         """
         self._control.servoStop(self._deceleration)
 
     def recover(self) -> None:
-        """Starts the program on the controller again, after a stop was released there.
+        """Restarts the program on the controller, after a release of the stop there.
 
         Raises:
-            RuntimeError: It does not start.
+            RuntimeError: The program does not start.
         """
         if not self._receive.isConnected():
             self._receive.reconnect()

@@ -1,4 +1,4 @@
-// What a BotOp does with the rooms above it: pictures, and a viewer.
+// The parts of BotOp that need the upper rooms: pictures and a viewer.
 #include "kinegraph/api/bot_cameras.h"
 
 #include "kinegraph/api/bot_stage.h"
@@ -10,7 +10,7 @@ namespace kinegraph {
 namespace {
 
 std::shared_ptr<RobotDriver> simulated(const Config& config, bool use_real_robot) {
-  if (use_real_robot) throw ValueError("BotOp: a real robot takes a driver; see RobotDriver");
+  if (use_real_robot) throw ValueError("BotOp: a real robot needs a driver; see RobotDriver");
   return std::make_shared<SimulatedDriver>(config);
 }
 
@@ -27,7 +27,7 @@ BotOpOptions shownOnPages(const Config& config) {
 }  // namespace
 
 Camera BotCameras::camera(const BotOp& bot, const std::string& frame) {
-  if (!copy_.findFrame(frame)) copy_ = bot.getWorld();  // it may be newer than the copy
+  if (!copy_.findFrame(frame)) copy_ = bot.getWorld();  // the frame may be newer than the copy
   bot.update(copy_);
   return cameraOf(copy_.getFrame(frame));
 }

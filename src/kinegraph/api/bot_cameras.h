@@ -5,12 +5,12 @@
 
 namespace kinegraph {
 
-/// Pictures of the world of a BotOp: of a copy of it, so that the robot goes on while they are drawn.
+/// Renders the world of a BotOp from a copy, so that the robot is not delayed.
 class BotCameras {
  public:
   explicit BotCameras(const BotOp& bot) : copy_(bot.getWorld()) {}
 
-  /// A camera of the world as it is now.
+  /// Returns a camera of the present world.
   Camera camera(const BotOp& bot, const std::string& frame);
   CameraImage image(const Camera& camera) { return renderer_.render(copy_, camera); }
 

@@ -5,8 +5,8 @@
 namespace kinegraph {
 
 std::vector<ShownRun::Contact> shownContacts(const std::vector<Contact>& contacts) {
-  constexpr std::size_t kMost = 500;
-  std::vector<ShownRun::Contact> shown(std::min(contacts.size(), kMost));
+  constexpr std::size_t kMaxContacts = 500;
+  std::vector<ShownRun::Contact> shown(std::min(contacts.size(), kMaxContacts));
   for (std::size_t i = 0; i < shown.size(); ++i) {
     const Contact& contact = contacts[i];
     shown[i] = {contact.position, contact.force.z() < 0. ? Vector3d(-contact.force) : contact.force};
@@ -23,7 +23,7 @@ int BotStage::show(const BotOp& bot, Config& config, const std::shared_ptr<Confi
                    const std::string& message) {
   viewer_ = viewer;
   if (!viewer || !viewer->isOpen()) return 0;
-  const int key = viewer->view(config, false, message, stop_);
+  const int key = viewer->view(config, false, message, cancellation_);
   ShownRun run;
   run.is_steered = false;
   run.contacts = shownContacts(bot.getContacts());

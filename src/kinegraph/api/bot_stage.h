@@ -9,25 +9,26 @@
 
 namespace kinegraph {
 
-/// What a page shows of these contacts; not more than it can draw.
+/// Converts contacts for the page, at most as many as it can draw.
 std::vector<ShownRun::Contact> shownContacts(const std::vector<Contact>& contacts);
 
-/// Where people see what a BotOp moves: the page of the configuration that was synced last, if it is open.
+/// Shows the robot of a BotOp on the page of the last synced configuration, if the page is open.
 class BotStage {
  public:
-  /// At first, the page of the configuration that the BotOp is made from. `stop` is asked while the page is drawn.
-  BotStage(std::weak_ptr<ConfigViewer> viewer, ConfigViewer::Stop stop)
-      : viewer_(std::move(viewer)), stop_(std::move(stop)) {}
-  ~BotStage();  ///< contacts are shown no longer
+  /// Starts with the page of the configuration that the BotOp was made from. `cancellation` is checked while the page is
+  /// updated.
+  BotStage(std::weak_ptr<ConfigViewer> viewer, CancellationToken cancellation)
+      : viewer_(std::move(viewer)), cancellation_(std::move(cancellation)) {}
+  ~BotStage();  ///< removes the contacts from the page
   BotStage(const BotStage&) = delete;
 
-  /// Shows a configuration on its page, with what touches in the simulated world. Returns the key pressed, or 0.
+  /// Shows a configuration on its page, with the contacts of the simulated world. Returns the key pressed, or 0.
   int show(const BotOp& bot, Config& config, const std::shared_ptr<ConfigViewer>& viewer, const std::string& message);
   bool isWatched() const;
 
  private:
   std::weak_ptr<ConfigViewer> viewer_;
-  ConfigViewer::Stop stop_;
+  CancellationToken cancellation_;
 };
 
 }  // namespace kinegraph

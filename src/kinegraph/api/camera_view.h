@@ -7,24 +7,24 @@
 
 namespace kinegraph {
 
-/// Images from cameras in a scene; they need neither display nor browser. It sees the scene as it is whenever an image
-/// is computed, and keeps it alive.
+/// Renders images from cameras in a scene, without display or browser. It uses the scene's state at each call, and
+/// keeps the scene alive.
 class CameraView {
  public:
   explicit CameraView(const Config& config, const RendererOptions& options = {});
 
-  /// Looks from a frame and follows it; its attributes say which camera it is, see cameraOf. Throws FrameNotFound, and
-  /// ValueError for attributes that make no sense.
+  /// Attaches the camera to a frame, whose attributes define it, see cameraOf. Throws FrameNotFound, and ValueError for
+  /// invalid attributes.
   CameraView& setCamera(const std::string& frame);
 
-  /// Looks from where `camera` is.
+  /// Sets a fixed camera.
   CameraView& setCamera(const Camera& camera);
 
-  Camera camera() const;                                       ///< where it is now
+  Camera camera() const;                                       ///< with its present pose
   Vector4d getFxycxy() const { return camera().fxycxy(); }     ///< fx, fy, cx, cy in pixels
   CameraImage computeImageAndDepth(bool visuals_only = true);  ///< see CameraRenderer::render
 
-  /// The id of the frame that each pixel shows (height x width); -1 for the floor and where nothing is.
+  /// Returns the id of the frame in each pixel (height x width); -1 for the floor and the background.
   std::vector<std::int32_t> computeSegmentationID(bool visuals_only = true);
 
  private:

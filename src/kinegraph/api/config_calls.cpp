@@ -1,4 +1,4 @@
-// What a Config does with the rooms above the scene.
+// The methods of Config that need the rooms above the scene.
 #include <iostream>
 
 #include "kinegraph/features/eval.h"

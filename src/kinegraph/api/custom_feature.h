@@ -15,7 +15,7 @@ class FrameView {
   FrameView(const State& state, int frame) : state_(&state), frame_(frame) {}
 
   const std::string& getName() const { return state_->model().frame_name[std::size_t(frame_)]; }
-  const VectorXd& getJointState() const { return state_->q(); }  ///< q of the configuration (n,)
+  const VectorXd& getJointState() const { return state_->q(); }  ///< joint values (n,)
   Vector3d getPosition() const { return state_->position(frame_); }
   Quaterniond getQuaternion() const { return Quaterniond(getRotationMatrix()); }
   Matrix3d getRotationMatrix() const { return state_->pose(frame_).R; }

@@ -1,4 +1,4 @@
-// What a Komo does with the rooms above it.
+// The methods of Komo that need the upper rooms.
 #include "kinegraph/api/komo_motion.h"
 #include "kinegraph/api/solve_all.h"
 #include "kinegraph/common/text.h"
@@ -9,7 +9,7 @@ namespace kinegraph {
 
 namespace {
 
-/// The Komo of a caller who keeps it alive.
+/// Wraps a Komo that the caller keeps alive.
 std::shared_ptr<Komo> borrowed(Komo& komo) { return {std::shared_ptr<void>(), &komo}; }
 
 int show(Komo& komo, const ShownMotion& motion, bool pause, const std::string& message) {
@@ -63,7 +63,7 @@ SolveManyResult solveAll(std::span<Komo> problems, const SolveManyOptions& optio
   for (Komo& komo : problems) {
     NlpSolver& solver = solvers.emplace_back(komo.nlp(), 0);
     solver.options.verbose = 0;
-    solver.keeps_memory = false;  // for the next one
+    solver.keeps_memory = false;  // for the next call
     solver.setInitialization(komo.path().variables());
     pointers.push_back(&solver);
   }

@@ -15,7 +15,7 @@ bool isCollision(const FeatureSource& feature) {
   return feature == FeatureSymbol::accumulatedCollisions || feature == FeatureSymbol::pairCollisions;
 }
 
-/// Is it about how near the shapes of two frames are?
+/// Returns whether a feature measures the distance of two frames' shapes.
 bool isOfPair(const FeatureSource& feature) {
   using S = FeatureSymbol;
   constexpr S kPairs[] = {S::distance,         S::pairCollision_negScalar, S::pairCollision_vector,
@@ -23,10 +23,10 @@ bool isOfPair(const FeatureSource& feature) {
   return std::any_of(std::begin(kPairs), std::end(kPairs), [&](S symbol) { return feature == symbol; });
 }
 
-/// Those among the pairs of an objective about collisions that are nearer than it allows.
+/// Returns the pairs of a collision objective that are closer than it allows.
 std::vector<NearLine> nearPairs(const Objective& objective, const Config& config) {
-  constexpr double kTouch = 1e-4;  // m: deeper than what counts as none
-  constexpr std::size_t kMost = 100;
+  constexpr double kMinPenetration = 1e-4;  // m: smaller penetrations count as zero
+  constexpr std::size_t kMaxLines = 100;
   const bool aims_apart = objective.feature == FeatureSymbol::pairCollisions && objective.target.size() == 1;
   const double margin = std::max(objective.margin, aims_apart ? -objective.target[0] : 0.);
   const State& state = config.state();
@@ -35,15 +35,15 @@ std::vector<NearLine> nearPairs(const Objective& objective, const Config& config
     return std::find(objective.frames.begin(), objective.frames.end(), name) != objective.frames.end();
   };
   std::vector<NearLine> lines;
-  for (const auto& [a, b, distance] : config.getCollisions(margin - kTouch)) {
-    if (!state.model().movesApart(a, b) || lines.size() == kMost) continue;
+  for (const auto& [a, b, distance] : config.getCollisions(margin - kMinPenetration)) {
+    if (!state.model().movesApart(a, b) || lines.size() == kMaxLines) continue;
     if (objective.frames.empty() || concerns(a) || concerns(b)) lines.push_back(nearLine(state, a, b));
   }
   return lines;
 }
 
-/// How much of the constraints is violated in a slice, and what this is about: the frames that the objectives name, or
-/// where they touch, if it is about that.
+/// Marks the constraint violations of a slice and their causes: the frames of the objectives, or the touching pairs of
+/// collision objectives.
 void markViolations(const Komo& komo, const Config& config, const MatrixXd& errors, int t, ShownMotion& motion) {
   constexpr double kTolerance = 1e-3;
   double& violation = motion.violations.emplace_back(0.);

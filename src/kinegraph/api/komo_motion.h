@@ -5,8 +5,8 @@
 
 namespace kinegraph {
 
-/// The path as a motion of the scene as it is before it, with the slices of the prefix; texts tell the objectives that
-/// are violated in a slice, and frames that this is about are marked; of pairs of shapes, where they touch.
+/// Returns the path as a motion, including the slices of the prefix. Texts name the objectives that a slice violates;
+/// the frames concerned are marked, and touching pairs are shown as lines.
 ShownMotion motionOf(const Komo& komo);
 
 }  // namespace kinegraph

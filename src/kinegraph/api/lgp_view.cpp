@@ -1,4 +1,4 @@
-// What an LgpTool does with the viewer.
+// Shows the waypoints of an LgpTool in the viewer.
 #include "kinegraph/task_planning/lgp/lgp_tool.h"
 #include "kinegraph/viewer/config_viewer.h"
 

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The file that this function lies in: the shared library, or the program if the library is part of it.
+/// Returns the file with this function: the shared library, or the program if it is linked statically.
 fs::path ownBinary() {
   Dl_info info;
   std::error_code error;
@@ -25,8 +25,8 @@ fs::path ownBinary() {
   return fs::canonical(info.dli_fname, error);
 }
 
-/// PREFIX/share/kinegraph/models, where PREFIX is the nearest folder around the binary that has it. A build folder has
-/// it, too.
+/// Returns PREFIX/share/kinegraph/models, where PREFIX is the nearest folder above the binary that contains it. Build
+/// folders do, too.
 fs::path shippedModels() {
   std::error_code error;
   for (fs::path above = ownBinary().parent_path(); !above.empty(); above = above.parent_path()) {
@@ -39,7 +39,7 @@ fs::path shippedModels() {
 
 std::vector<fs::path> modelFolders(const std::string& shipped) {
   std::vector<fs::path> folders;
-  if (const char* given = std::getenv("RAI_PATH"); given && *given) folders.emplace_back(given);
+  if (const char* rai_path = std::getenv("RAI_PATH"); rai_path && *rai_path) folders.emplace_back(rai_path);
   if (const fs::path beside = shippedModels(); !beside.empty()) folders.push_back(beside);
   if (!shipped.empty()) folders.emplace_back(shipped);
   return folders;
@@ -60,8 +60,8 @@ std::vector<std::string> sceneFiles(const fs::path& folder) {
 std::string modelPath(const std::string& path, const std::string& shipped) {
   const std::vector<fs::path> folders = modelFolders(shipped);
   if (folders.empty()) {
-    throw FileError(cat("modelPath: there is no folder share/kinegraph/models around '", ownBinary().string(),
-                        "'; set RAI_PATH to the folder of the models"));
+    throw FileError(cat("modelPath: there is no folder share/kinegraph/models above '", ownBinary().string(),
+                        "'; set RAI_PATH to the models' folder"));
   }
   std::error_code error;
   for (const fs::path& folder : folders) {
@@ -70,7 +70,7 @@ std::string modelPath(const std::string& path, const std::string& shipped) {
   const std::vector<std::string> known = sceneFiles(folders.back());
   const std::string hint = similarHint(path, known);
   throw FileError(cat("modelPath: there is no model '", path, "' in ", folders.front().string(),
-                      hint.empty() ? cat("; there are: ", join(known)) : hint));
+                      hint.empty() ? cat("; models: ", join(known)) : hint));
 }
 
 std::string raiPath(const std::string& path) {

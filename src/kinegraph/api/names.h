@@ -12,7 +12,7 @@ namespace kinegraph {
 
 class PathFinder;
 
-// The names that Python scripts know. With `namespace ry = kinegraph;` a line of Python is nearly a line of C++.
+// The names of Python scripts. With `namespace ry = kinegraph;` a line of Python is nearly a line of C++.
 
 using FS = FeatureSymbol;
 using OT = ObjectiveType;
@@ -33,10 +33,10 @@ using NLP_SolverOptions = SolverOptions;
 using SolverReturn = SolverResult;
 using SolverReturns = SolveManyResult;
 
-/// Numbers of a BotOp's grippers.
+/// Indices of a BotOp's grippers.
 inline constexpr int _left = 0, _right = 1;
 
-/// The same as modelPath; the older spellings '../rai-robotModels/...' and 'rai-robotModels/...' mean the same file.
+/// Same as modelPath; also accepts the older spellings '../rai-robotModels/...' and 'rai-robotModels/...'.
 std::string raiPath(const std::string& path);
 
 }  // namespace kinegraph

@@ -1,4 +1,4 @@
-// What plans and paths do with the viewer.
+// Shows plans and paths in the viewer.
 #include <algorithm>
 
 #include "kinegraph/common/errors.h"
@@ -10,7 +10,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kSecondsPerPosture = .05, kBriefest = 1.;  // of a path without times
+constexpr double kSecondsPerWaypoint = .05, kMinSeconds = 1.;  // playback of a path without times
 
 }  // namespace
 
@@ -23,7 +23,7 @@ int MotionPlan::view(const Config& config, const std::vector<std::string>& frame
 int PathFinder::view(bool pause, const std::string& message) const {
   if (path_.rows() == 0) throw ValueError("PathFinder.view: there is no path; call solve before");
   Config shown(config_->scene());
-  return shown.viewPath(path_, std::max(kBriefest, kSecondsPerPosture * double(path_.rows())), pause, message);
+  return shown.viewPath(path_, std::max(kMinSeconds, kSecondsPerWaypoint * double(path_.rows())), pause, message);
 }
 
 }  // namespace kinegraph

@@ -12,15 +12,15 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kRate = 50.;  ///< slices per s
-constexpr int kMost = 1500;    ///< slices
+constexpr double kRate = 50.;     ///< slices per s
+constexpr int kMaxSlices = 1500;  ///< slices
 
-/// How long after the start each step ended, s.
+/// Returns the time from the start to the end of each step, s.
 std::vector<double> elapsed(const Recording& recording) {
   std::vector<double> ends;
   double before = recording.start.time, sum = 0.;
   for (const double time : recording.times) {
-    if (time > before) sum += time - before;  // else it was set back
+    if (time > before) sum += time - before;  // else the time was set back
     ends.push_back(sum);
     before = time;
   }
@@ -30,10 +30,10 @@ std::vector<double> elapsed(const Recording& recording) {
 }  // namespace
 
 ShownMotion recordedMotion(const Recording& recording) {
-  if (recording.times.empty()) throw ValueError("Recording: it has no steps to show");
+  if (recording.times.empty()) throw ValueError("Recording: it has no steps");
   const std::vector<double> ends = elapsed(recording);
   const double seconds = ends.back();
-  const int slices = std::clamp(int(std::ceil(seconds * kRate - 1e-6)) + 1, 2, kMost);
+  const int slices = std::clamp(int(std::ceil(seconds * kRate - 1e-6)) + 1, 2, kMaxSlices);
   ShownMotion motion;
   motion.seconds = seconds;
   motion.start = ShownMotion::Start::play;

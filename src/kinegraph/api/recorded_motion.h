@@ -5,8 +5,8 @@
 
 namespace kinegraph {
 
-/// A recorded run as the page plays it, evenly in time: 50 slices per second, or fewer so that there are 1500 at most. Where time was
-/// set back meanwhile, it goes on. Throws ValueError for a recording without steps.
+/// Converts a recorded run to a motion with equal time steps: 50 slices per second, at most 1500. If the simulation's
+/// time was set back, the motion's time continues. Throws ValueError for a recording without steps.
 ShownMotion recordedMotion(const Recording& recording);
 
 }  // namespace kinegraph

@@ -13,21 +13,21 @@ namespace {
 
 constexpr double kNoEffortLimit = std::numeric_limits<double>::infinity();
 
-/// The dofs whose efforts are limited.
-std::vector<int> driven(const VectorXd& efforts) {
+/// Returns the dofs with effort limits.
+std::vector<int> actuatedDofs(const VectorXd& efforts) {
   std::vector<int> dofs;
   for (int j = 0; j < efforts.size(); ++j)
     if (efforts[j] < kNoEffortLimit) dofs.push_back(j);
   return dofs;
 }
 
-/// Rows of inverse dynamics along a curve: M q' s'' + (M q'' + C(q, q') q') s'^2 + gravity.
+/// Returns the torque constraints along a curve: M q' s'' + (M q'' + C(q, q') q') s'^2 + gravity.
 ConstraintSource torqueRows(const Config& config, const PathCurve& curve) {
   const VectorXd efforts = getEffortLimits(config);
-  const std::vector<int> dofs = driven(efforts);
+  const std::vector<int> dofs = actuatedDofs(efforts);
   if (dofs.empty())
     throw ValueError(
-        "retime: torque is asked for, and no joint of the scene has an effort limit (the second number of "
+        "retime: torque needs effort limits, but no joint of the scene has one (the second number of "
         "ctrl_limits)");
   ConstraintSource rows;
   rows.unit = " N m";
@@ -42,12 +42,13 @@ ConstraintSource torqueRows(const Config& config, const PathCurve& curve) {
     VectorXd q(n), first(n), second(n);
     curve.eval(piece, s, 0, q.data()), curve.eval(piece, s, 1, first.data()), curve.eval(piece, s, 2, second.data());
     robot->setJointState(q);
-    const VectorXd rest = VectorXd::Zero(n), held = robot->inverseDynamics(rest, rest);
-    const VectorXd a = robot->inverseDynamics(rest, first) - held, b = robot->inverseDynamics(first, second) - held;
+    const VectorXd rest = VectorXd::Zero(n), gravity = robot->inverseDynamics(rest, rest);
+    const VectorXd a = robot->inverseDynamics(rest, first) - gravity,
+                   b = robot->inverseDynamics(first, second) - gravity;
     ScalingConstraints at{VectorXd(dofs.size()), VectorXd(dofs.size()), VectorXd(dofs.size())};
     for (std::size_t r = 0; r < dofs.size(); ++r) {
       const Eigen::Index row = Eigen::Index(r);
-      at.a[row] = a[dofs[r]], at.b[row] = b[dofs[r]], at.c[row] = held[dofs[r]];
+      at.a[row] = a[dofs[r]], at.b[row] = b[dofs[r]], at.c[row] = gravity[dofs[r]];
     }
     return at;
   };
@@ -65,14 +66,14 @@ TimedPath retime(const Config& config, const MatrixXd& path, const RobotLimits& 
   if (motion.velocity.size() == 0) motion.velocity = getVelocityLimits(config);
   if (motion.acceleration.size() == 0) {
     if (!limits.torque)
-      throw ValueError("retime: acceleration is not given; expected a number per dof or one for all, or torque");
+      throw ValueError("retime: acceleration is missing; expected a number per dof or one for all, or torque");
     motion.acceleration = VectorXd::Constant(n, kNoEffortLimit);
   }
   if (!limits.torque) return retime(path, motion, options);
   motion.validate(n);
   const PathCurve curve = curveOf(path, motion, options);
   RetimeOptions with_torque = options;
-  with_torque.rows = torqueRows(config, curve);
+  with_torque.constraints = torqueRows(config, curve);
   return retime(path, curve, motion, with_torque);
 }
 

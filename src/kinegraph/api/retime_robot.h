@@ -5,14 +5,15 @@
 
 namespace kinegraph {
 
-/// What limits a robot's motions, beyond what is given.
+/// Limits of a robot's motions.
 struct RobotLimits {
-  MotionLimits motion;  ///< velocity empty: the model's (getVelocityLimits); acceleration empty: none, with torque only
-  bool torque = false;  ///< keeps the model's torques and forces (getEffortLimits), by its masses and gravity
+  MotionLimits
+      motion;  ///< velocity empty: the model's (getVelocityLimits); acceleration empty: unlimited, with torque only
+  bool torque = false;  ///< respects the model's effort limits (getEffortLimits), by its masses and gravity
 };
 
 /// The fastest motion of a robot along a path in its dofs q, rows of `path` (K, n): see `retime` (trajectories/retime.h).
-/// With `torque`, the generalized forces of inverse dynamics hold at the ends of all intervals (`options.rows` is not
+/// With `torque`, the generalized forces of inverse dynamics hold at the ends of all intervals (`options.constraints` is not
 /// used then). Throws ValueError if the path has another number of dofs, or the model does not have the limits asked for.
 TimedPath retime(const Config& config, const MatrixXd& path, const RobotLimits& limits,
                  const RetimeOptions& options = {});

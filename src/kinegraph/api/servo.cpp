@@ -15,12 +15,12 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using Seconds = std::chrono::duration<double>;
 
-constexpr double kPicture = 1. / 30.;  // s from one to the next
-constexpr Seconds kCheckPeriod(.02);   // between two looks at whether the call shall end
+constexpr double kFramePeriod = 1. / 30.;  // s
+constexpr Seconds kCheckPeriod(.02);       // between two checks for the end of the call
 
 void place(Frame& frame, const VectorXd& pose) {
   if (pose.size() != 3 && pose.size() != 7)
-    throw ValueError(cat("servo: the source gives ", pose.size(), " numbers; expected x y z, or x y z qw qx qy qz"));
+    throw ValueError(cat("servo: the source returned ", pose.size(), " numbers; expected x y z, or x y z qw qx qy qz"));
   if (pose.size() == 7) {
     frame.setPose(Pose::fromNumbers(pose));
   } else {
@@ -35,9 +35,9 @@ void waitUntil(Clock::time_point end, const CancellationToken& cancellation) {
   }
 }
 
-/// `move` brings the target to where it is at a time.
-void driveBy(DiffIk& ik, Config& config, const std::function<void(double t)>& move, bool shows,
-             const ServoOptions& options) {
+/// Steps the controller while `move` sets the target for each time.
+void runServo(DiffIk& ik, Config& config, const std::function<void(double t)>& move, bool shows,
+              const ServoOptions& options) {
   if (!(options.seconds > 0.) || !(options.dt > 0.))
     throw ValueError(cat("servo: seconds is ", options.seconds, ", dt is ", options.dt, "; expected numbers > 0"));
   const auto begun = Clock::now();
@@ -46,7 +46,7 @@ void driveBy(DiffIk& ik, Config& config, const std::function<void(double t)>& mo
   for (double i = 1.; i <= steps; ++i) {
     const double t = i * options.dt;
     if (move) move(t);
-    if (shows && t - shown_at >= kPicture) {
+    if (shows && t - shown_at >= kFramePeriod) {
       if (options.view) {
         options.view(config);
       } else {
@@ -66,19 +66,19 @@ void driveBy(DiffIk& ik, Config& config, const std::function<void(double t)>& mo
 void servo(DiffIk& ik, Config& config, const std::string& target, const TargetSource& source,
            const ServoOptions& options) {
   Frame frame = config.getFrame(target);
-  driveBy(
+  runServo(
       ik, config, [&](double t) { place(frame, source(t)); }, options.show.value_or(false), options);
 }
 
 void servo(DiffIk& ik, Config& config, const std::string& target, Gamepad& gamepad, const ServoOptions& options) {
   Frame frame = config.getFrame(target);
   const auto push = [&](double) { frame.setPosition(frame.getPosition() + options.dt * gamepad.velocity()); };
-  driveBy(ik, config, push, options.show.value_or(false), options);
+  runServo(ik, config, push, options.show.value_or(false), options);
 }
 
 void servo(DiffIk& ik, Config& config, const std::string& target, const ServoOptions& options) {
   config.getFrame(target);
-  driveBy(ik, config, nullptr, options.show.value_or(true), options);
+  runServo(ik, config, nullptr, options.show.value_or(true), options);
 }
 
 }  // namespace kinegraph

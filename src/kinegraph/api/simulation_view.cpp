@@ -16,10 +16,10 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr double kRest = .02;     ///< s
-constexpr Seconds kPatience(5.);  ///< without a browser; then a paused simulation goes on
-constexpr Seconds kMeasure(.25);  ///< of which the real-time factor is told
-constexpr Seconds kLate(.05);     ///< what is later is not caught up with
+constexpr double kRest = .02;      ///< s
+constexpr Seconds kPatience(5.);   ///< without a browser; then a paused simulation continues
+constexpr Seconds kMeasure(.25);   ///< averaging window of the real-time factor
+constexpr Seconds kMaxDelay(.05);  ///< larger delays are not caught up
 constexpr int kEscapeKey = 27;
 
 bool endsRun(int key) { return key == kEscapeKey || key == 'q'; }
@@ -38,11 +38,11 @@ SimulationView::~SimulationView() {
 
 std::shared_ptr<SimulationView> SimulationView::of(const Simulation& simulation,
                                                    const std::shared_ptr<ConfigViewer>& viewer) {
-  const auto view = std::dynamic_pointer_cast<SimulationView>(simulation.watcher());
+  const auto view = std::dynamic_pointer_cast<SimulationView>(simulation.observer());
   return view && view->viewer_ == viewer ? view : nullptr;
 }
 
-bool SimulationView::somebodyWatches() {
+bool SimulationView::isWatched() {
   const Clock::time_point now = Clock::now();
   if (viewer_->clients() > 0) last_seen_ = now;
   return now - last_seen_ < kPatience;
@@ -50,17 +50,17 @@ bool SimulationView::somebodyWatches() {
 
 bool SimulationView::mayStep(Simulation& simulation) {
   if (!viewer_->isOpen()) return true;
-  const RunRequests asked = viewer_->server().takeRunRequests();
+  const RunRequests requests = viewer_->server().takeRunRequests();
   bool changed = takeEdits(simulation);
-  if (asked.reset) {
+  if (requests.reset) {
     simulation.setState(start_);
     changed = true;
   }
-  changed = pull(simulation, asked.pull) || changed;
-  const bool holds = asked.paused && viewer_->waits() && somebodyWatches(), waits = holds && asked.steps == 0;
-  if (asked.paused && !holds) viewer_->server().endRunRequests();
-  if (std::exchange(is_paused_, holds) != holds) {
-    measured_ = {};  // the time in between does not count
+  changed = perturb(simulation, requests.perturbation) || changed;
+  const bool pauses = requests.paused && viewer_->waits() && isWatched(), waits = pauses && requests.steps == 0;
+  if (requests.paused && !pauses) viewer_->server().endRunRequests();
+  if (std::exchange(is_paused_, pauses) != pauses) {
+    measured_ = {};  // the pause is not part of the measurement
     changed = true;
   }
   if (waits && changed) show(simulation);
@@ -72,10 +72,10 @@ void SimulationView::rest() {
   check_();
 }
 
-void SimulationView::hasStepped(Simulation& simulation) {
+void SimulationView::afterStep(Simulation& simulation) {
   if (!viewer_->isOpen()) return;
   const std::uint64_t structure = simulation.config().scene()->structureRevision();
-  if (std::exchange(structure_, structure) != structure) start_ = simulation.getState();  // of the scene as it is now
+  if (std::exchange(structure_, structure) != structure) start_ = simulation.getState();  // of the changed scene
   measureSpeed(simulation.get_t());
   show(simulation);
 }
@@ -90,7 +90,7 @@ void SimulationView::measureSpeed(double time) {
   measured_time_ = time;
 }
 
-/// What people have moved on the page is there, and goes on as fast as it was.
+/// Applies users' edits to the simulation, which keeps its velocities.
 bool SimulationView::takeEdits(Simulation& simulation) {
   Config config(simulation.config().scene());
   if (!viewer_->takeEdits(config)) return false;
@@ -100,19 +100,19 @@ bool SimulationView::takeEdits(Simulation& simulation) {
   return true;
 }
 
-bool SimulationView::pull(Simulation& simulation, const std::optional<RunRequests::Pull>& asked) {
-  if (asked == pulled_) return false;
-  pulled_ = asked;
-  if (!asked) {
+bool SimulationView::perturb(Simulation& simulation, const std::optional<RunRequests::Perturbation>& request) {
+  if (request == perturbation_) return false;
+  perturbation_ = request;
+  if (!request) {
     simulation.endPerturbation();
     return true;
   }
   const Config& config = simulation.config();
-  if (asked->structure != viewer_->structure() || asked->frame < 0 || asked->frame >= config.getFrameDimension())
+  if (request->structure != viewer_->structure() || request->frame < 0 || request->frame >= config.getFrameDimension())
     return false;
   try {
-    simulation.pull(config.getFrame(asked->frame).getName(), asked->point, asked->target);
-  } catch (const ValueError&) {  // it is fixed to the world
+    simulation.perturb(config.getFrame(request->frame).getName(), request->point, request->target);
+  } catch (const ValueError&) {  // the frame is fixed to the world
     return false;
   }
   return true;
@@ -125,7 +125,8 @@ void SimulationView::show(const Simulation& simulation) {
   run.factor = factor_;
   run.is_paused = is_paused_;
   run.contacts = shownContacts(simulation.getContacts());
-  if (const auto pull = simulation.getPerturbation()) run.pull = {pull->position, pull->target, pull->force.norm()};
+  if (const auto spring = simulation.getPerturbation())
+    run.perturbation = {spring->position, spring->target, spring->force.norm()};
   viewer_->server().showRun(run);
 }
 
@@ -150,10 +151,10 @@ int SimulationView::run(Simulation& simulation, double seconds, double tau, doub
   return last;
 }
 
-/// Waits until the clock on the wall has gone on by tau / speed since the last call.
+/// Waits until tau / speed of real time has passed since the last call.
 void SimulationView::keepPace(double tau, double speed) {
   const Clock::time_point now = Clock::now();
-  if (now - due_ > kLate + Seconds(tau / speed)) due_ = now;  // the first time, or after a pause
+  if (now - due_ > kMaxDelay + Seconds(tau / speed)) due_ = now;  // at the first call, or after a pause
   due_ += std::chrono::duration_cast<Clock::duration>(Seconds(tau / speed));
   while (Clock::now() < due_) {
     std::this_thread::sleep_until(
@@ -164,7 +165,7 @@ void SimulationView::keepPace(double tau, double speed) {
 
 int Simulation::view(bool pause, const std::string& message) {
   const std::optional<std::string> text = message.empty() ? std::nullopt : std::optional(message);
-  impl_->config.viewer();  // makes the one of its scene
+  impl_->config.viewer();  // creates the viewer of its scene
   const std::shared_ptr<ConfigViewer>& viewer = impl_->config.scene()->viewer;
   std::shared_ptr<SimulationView> view = SimulationView::of(*this, viewer);
   if (!view) view = SimulationView::begin(*this, viewer, [] {});
@@ -173,8 +174,8 @@ int Simulation::view(bool pause, const std::string& message) {
 
 int Simulation::run(double seconds, double tau, double speed, const CancellationToken& cancellation) {
   if (!(seconds >= 0.) || !(tau > 0.))
-    throw ValueError(cat("Simulation.run: seconds ", seconds, ", tau ", tau, "; expected 0 or more, and more than 0"));
-  if (const auto view = std::dynamic_pointer_cast<SimulationView>(impl_->watcher))
+    throw ValueError(cat("Simulation.run: seconds ", seconds, ", tau ", tau, "; expected seconds >= 0 and tau > 0"));
+  if (const auto view = std::dynamic_pointer_cast<SimulationView>(impl_->observer))
     return view->run(*this, seconds, tau, speed);
   if (seconds > 0.) multi_step(seconds, tau, cancellation);
   return 0;

@@ -11,55 +11,55 @@
 
 namespace kinegraph {
 
-/// Shows a simulation live on a page, and does there what people ask for: see Simulation::view.
-class SimulationView : public SimulationWatcher {
+/// Shows a simulation live on a page and serves the users' requests: see Simulation::view.
+class SimulationView : public SimulationObserver {
  public:
-  using Check = std::function<void()>;  ///< asked while waiting; throws to stop
+  using Check = std::function<void()>;  ///< called while waiting; throws to stop
 
-  /// `reset` on the page means where the simulation is now.
+  /// The button `reset` on the page returns to the simulation's state at this call.
   SimulationView(const Simulation& simulation, std::shared_ptr<ConfigViewer> viewer, Check check);
   ~SimulationView() override;
 
-  /// The one that watches a simulation in a viewer, or null.
+  /// Returns the view of a simulation in a viewer, or null.
   static std::shared_ptr<SimulationView> of(const Simulation& simulation, const std::shared_ptr<ConfigViewer>& viewer);
 
-  /// Makes one that watches from now on.
+  /// Creates a view and attaches it to the simulation.
   template <class View = SimulationView>
   static std::shared_ptr<SimulationView> begin(Simulation& simulation, const std::shared_ptr<ConfigViewer>& viewer,
                                                const Check& check) {
     simulation.update();
     auto view = std::make_shared<View>(simulation, viewer, check);
     viewer->server().endRunRequests();
-    simulation.setWatcher(view);
+    simulation.setObserver(view);
     return view;
   }
 
   bool mayStep(Simulation& simulation) override;
   void rest() override;
-  void hasStepped(Simulation& simulation) override;
+  void afterStep(Simulation& simulation) override;
 
-  /// As the calls of Simulation. `message` is shown in the corner.
+  /// Implement the calls of Simulation. `message` appears in the corner.
   int view(Simulation& simulation, bool pause, const std::optional<std::string>& message);
   int run(Simulation& simulation, double seconds, double tau, double speed);
 
-  /// The scene as it is now, with time, contacts and what is pulled.
+  /// Shows the present scene, with time, contacts and perturbation.
   void show(const Simulation& simulation);
 
  private:
   using Clock = std::chrono::steady_clock;
 
   bool takeEdits(Simulation& simulation);
-  bool pull(Simulation& simulation, const std::optional<RunRequests::Pull>& asked);
-  bool somebodyWatches();
+  bool perturb(Simulation& simulation, const std::optional<RunRequests::Perturbation>& request);
+  bool isWatched();
   void measureSpeed(double time);
   void keepPace(double tau, double speed);
 
   std::shared_ptr<ConfigViewer> viewer_;
   Check check_;
   SimulationState start_;
-  std::uint64_t structure_;  ///< of the scene, as in `start_`
+  std::uint64_t structure_;  ///< of the scene in `start_`
   bool is_paused_ = false;
-  std::optional<RunRequests::Pull> pulled_;  ///< by somebody on the page
+  std::optional<RunRequests::Perturbation> perturbation_;  ///< by a user on the page
   Clock::time_point last_seen_ = Clock::now(), due_{}, measured_{};
   double measured_time_ = 0., factor_ = 0.;
 };

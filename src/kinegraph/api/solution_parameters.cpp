@@ -14,7 +14,7 @@ namespace kinegraph {
 
 namespace {
 
-/// Is one of these; empty stands for the first.
+/// Returns whether a name is in a list; an empty one stands for the first entry.
 bool isOneOf(const std::string& what, std::initializer_list<const char*> words) {
   return what.empty() || std::ranges::find(words, what) != words.end();
 }
@@ -57,7 +57,7 @@ std::shared_ptr<NlpParameter> parameterOf(const Nlp& nlp, const std::string& nam
 std::shared_ptr<NlpParameter> parameterOf(const Nlp& nlp, int number, const std::string& what) {
   if (komoOf(nlp)) return ofObjective(nlp, number, what);
   if (!isOneOf(what, {"target"}))
-    throw NameError(cat("an answer of solveIk moves with its targets, not with a '", what, "'"));
+    throw NameError(cat("a solution of solveIk depends on its targets, not on a '", what, "'"));
   return ikTarget(nlp, number);
 }
 
@@ -71,7 +71,7 @@ MatrixXd ikGradients(const std::vector<IkResult>& results, const MatrixXd& v, in
   const auto count = Eigen::Index(results.size());
   if (v.rows() != count || (count > 0 && v.cols() != results[0].q.size()))
     throw ValueError(cat("the gradients have shape (", v.rows(), ", ", v.cols(), "); expected (", count, ", ",
-                         count > 0 ? results[0].q.size() : 0, ") as the answers"));
+                         count > 0 ? results[0].q.size() : 0, ") like the solutions"));
   const auto first = std::ranges::find_if(results, &IkResult::feasible);
   if (first == results.end()) return MatrixXd(count, 0);
   int size = 0;

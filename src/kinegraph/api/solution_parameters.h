@@ -10,19 +10,19 @@
 
 namespace kinegraph {
 
-/// A parameter of a problem, in words. Of a KOMO: an objective by its name, with `what` "target" (the default) or
-/// "scale"; a frame, with "position" (the default) or "pose"; "start". Of an answer of solveIk: the name of a target's
-/// frame or feature. Throws NameError with names that are near.
+/// Returns a parameter by name. Of a KOMO: an objective, with `what` "target" (the default) or "scale"; a frame, with
+/// "position" (the default) or "pose"; or "start". Of a solution of solveIk: the frame or feature of a target. Throws
+/// NameError with similar names.
 std::shared_ptr<NlpParameter> parameterOf(const Nlp& nlp, const std::string& name, const std::string& what = "");
 
-/// The same for the number of an objective or target.
+/// Returns the parameter of an objective or target by its index.
 std::shared_ptr<NlpParameter> parameterOf(const Nlp& nlp, int number, const std::string& what = "");
 
-/// Per answer of solveIk, (dq/dp)^T v for all numbers p of its targets, a row each; `v` has a row per answer. Rows of
-/// problems without an answer are nan. The same bits for any number of threads.
+/// Returns (dq/dp)^T v for each solution of solveIk, one row each, over all numbers p of its targets; `v` has one row
+/// per solution. Rows of unsolved problems are nan. The result does not depend on the number of threads, bit for bit.
 MatrixXd ikGradients(const std::vector<IkResult>& results, const MatrixXd& v, int threads = 1);
 
-/// A parameter for each target of an answer of solveIk.
+/// Returns one parameter per target of a solution of solveIk.
 NlpParameters ikTargets(const Nlp& nlp);
 
 }  // namespace kinegraph

@@ -7,8 +7,9 @@
 
 namespace kinegraph {
 
-/// Solves independent motion problems, each from its present path, and leaves each path at its result; `chosen` is the
-/// best of them. Neither depends on the number of threads. Throws ValueError without problems or threads.
+/// Solves independent motion problems, each from its present path, and stores each result in its problem; `chosen` is
+/// the best. The result does not depend on the number of threads. Throws ValueError without problems or threads.
+
 SolveManyResult solveAll(std::span<Komo> problems, const SolveManyOptions& options = {});
 
 }  // namespace kinegraph

@@ -18,17 +18,17 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr double kSlipped = .02;                                  ///< m: by which what is held may move in the hand
-constexpr double kOff = .03;                                      ///< m: by which what stands somewhere may be off
-const double kUpright = std::cos(10. * std::numbers::pi / 180.);  ///< what tilts more has fallen
-constexpr double kEmpty = 2e-3;                                   ///< m: a gripper that is as narrow holds nothing
-constexpr double kTouch = 5e-3;                                   ///< m: what is nearer than that stands there
-constexpr double kTimeout = 3., kLook = .05;                      ///< s for a gripper, and from look to look
-constexpr double kComesToRest = .3;                               ///< s for things to come to rest
+constexpr double kSlipped = .02;                                  ///< m: tolerance of held objects in the hand
+constexpr double kOff = .03;                                      ///< m: tolerance of standing objects
+const double kUpright = std::cos(10. * std::numbers::pi / 180.);  ///< objects that tilt more have fallen
+constexpr double kEmpty = 2e-3;                                   ///< m: a gripper that is narrower holds nothing
+constexpr double kTouch = 5e-3;                                   ///< m: objects that are closer touch
+constexpr double kTimeout = 3., kQueryInterval = .05;             ///< s for a gripper, and between queries
+constexpr double kComesToRest = .3;                               ///< s until objects are at rest
 constexpr double kGripForce = 40.;                                ///< N
-constexpr double kFar = .05;                                      ///< rad or m: by which a robot may be off a motion
-constexpr double kOpenEnough = .9;                                ///< of the widest opening
-constexpr double kSlowly = 3.;                                    ///< times longer than it came, a robot goes back
+constexpr double kFar = .05;                                      ///< rad or m: tolerance of joints
+constexpr double kOpenEnough = .9;                                ///< share of the widest opening
+constexpr double kReverseSlowdown = 3.;                           ///< factor on the time of a motion for its reversal
 
 Vector3d placeIn(const Config& C, const std::string& hand, const std::string& obj) {
   const Frame frame = C.getFrame(hand);
@@ -40,7 +40,8 @@ bool isClear(Config& C, const VectorXd& q) {
   return C.getCollisions(-kOverlap).empty();
 }
 
-/// The place that an object stands on: the nearest one of those that it touches and whose middle is lower; "" if none.
+/// Returns the place that an object stands on: the nearest of those that it touches and whose center is lower; "" if
+/// none.
 std::string placeBelow(const Config& C, const std::string& obj, const Words& places) {
   const double height = C.getFrame(obj).getPosition().z();
   double nearest = std::numeric_limits<double>::infinity();
@@ -53,7 +54,7 @@ std::string placeBelow(const Config& C, const std::string& obj, const Words& pla
   return nearest <= kTouch ? below : "";
 }
 
-/// One execution: the world as it is seen, and which hand holds what.
+/// One execution: the observed world, and the objects in hands.
 class Run {
  public:
   Run(const TaskPlan& plan, BotOp& bot, Config& seen)
@@ -81,22 +82,22 @@ class Run {
   TaskExecution toTheEnd() {
     begin();
     for (std::size_t i = 0; i < plan_.actions.size(); ++i) {
-      std::string why = look(i, false);
-      if (why.empty()) {
+      std::string failure = deviation(i, false);
+      if (failure.empty()) {
         move(i);
-        why = look(i, true);
+        failure = deviation(i, true);
       }
-      if (why.empty()) why = grip(plan_.actions[i]);
-      if (why.empty()) why = look(i, true);
-      if (why.empty()) continue;
-      back(i);
-      return {false, cat(planText({plan_.actions[i]}), ": ", why), int(i), scene()};
+      if (failure.empty()) failure = grip(plan_.actions[i]);
+      if (failure.empty()) failure = deviation(i, true);
+      if (failure.empty()) continue;
+      backOut(i);
+      return {false, cat(planText({plan_.actions[i]}), ": ", failure), int(i), scene()};
     }
     Config end = scene();
     const Words missed = missedGoals(end);
     const int count = int(plan_.actions.size());
     if (!missed.empty()) return {false, join(missed, ", ") + " does not hold", count, std::move(end)};
-    return {true, cat("all of ", count), count, std::move(end)};
+    return {true, "", count, std::move(end)};
   }
 
  private:
@@ -108,11 +109,12 @@ class Run {
       if (isGuided(action) && !attributeFlag(seen_.getFrame(obj).data(), "noMotor", false))
         throw ValueError(
             cat("execute: a motor moves '", obj,
-                "' in the simulated world; give its frame the attribute noMotor before BotOp(C), so that a "
-                "hand can"));
+                "' in the simulated world; set the attribute noMotor of its frame before BotOp(C), so that a "
+                "hand can move it"));
     }
-    if (!plan_.actions.empty() && late(plan_.path.row(0)).maxCoeff() > kFar)
-      throw ValueError("execute: the robot is not where the plan begins; go there first, or plan from there");
+    if (!plan_.actions.empty() && jointErrors(plan_.path.row(0)).maxCoeff() > kFar)
+      throw ValueError(
+          "execute: the robot is not where the plan begins; move it there first, or plan from its configuration");
     bot_.hold();
     for (const auto& [hand, number] : grippers_) {
       const bool holds = std::ranges::any_of(held_, [&](const auto& pair) { return pair.second == hand; });
@@ -137,8 +139,8 @@ class Run {
 
   const GripperInfo& infoOf(int number) const { return bot_.getInfo().grippers[std::size_t(number)]; }
 
-  /// By how much each joint of the robot is not at q; doors are no part of it.
-  VectorXd late(const VectorXd& q) { return (bot_.get_q() - q).cwiseAbs()(driven_); }
+  /// The deviation of each joint of the robot from q, without doors.
+  VectorXd jointErrors(const VectorXd& q) { return (bot_.get_q() - q).cwiseAbs()(driven_); }
 
   MatrixXd pathOf(std::size_t i) const {
     return plan_.path.middleRows(plan_.segments[i].begin, plan_.segments[i].size());
@@ -147,7 +149,7 @@ class Run {
     return plan_.times.segment(plan_.segments[i].begin, plan_.segments[i].size());
   }
 
-  /// The motion of an action.
+  /// Executes the motion of an action.
   void move(std::size_t i) {
     const MatrixXd path = pathOf(i);
     const VectorXd times = timesOf(i);
@@ -159,9 +161,9 @@ class Run {
     bot_.sync(seen_, kComesToRest);
   }
 
-  /// After a failure: opens hands that have lost what they held, and goes out of what is in the way, along the motion by
-  /// which the robot came.
-  void back(std::size_t i) {
+  /// After a failure: opens hands that have lost their objects, and reverses the motion until the robot is
+  /// collision-free.
+  void backOut(std::size_t i) {
     const std::map<std::string, std::string> held = held_, handles = handles_;
     for (const auto& [obj, hand] : held) {
       if (touches(hand, obj)) continue;
@@ -173,28 +175,28 @@ class Run {
     const VectorXd times = timesOf(i), q = bot_.get_q();
     for (const auto& [door, dof] : doors_) path.col(dof).setConstant(q[dof]);
     const Eigen::Index last = path.rows() - 1;
-    if (isGuided(plan_.actions[i]) || late(path.row(last)).maxCoeff() > kFar) return;
+    if (isGuided(plan_.actions[i]) || jointErrors(path.row(last)).maxCoeff() > kFar) return;
     Config C = scene();
     Eigen::Index free = last;
     while (free >= 0 && !isClear(C, path.row(free))) --free;
     if (free < 0 || free == last) return;
     const Eigen::Index count = last - free;
     bot_.move(path.middleRows(free, count).colwise().reverse(),
-              VectorXd(kSlowly * (times[last] - times.segment(free, count).array()).reverse()));
+              VectorXd(kReverseSlowdown * (times[last] - times.segment(free, count).array()).reverse()));
     bot_.wait(seen_, false);
   }
 
-  /// Takes or releases what the action is about; says what went wrong.
+  /// Closes or opens grippers for an action. Returns the failure, or "".
   std::string grip(const TaskAction& action) {
     const std::string& obj = action[1];
-    std::string why;
+    std::string failure;
     if (isPick(action) || action[0] == "handover") {
-      why = close(action[3], obj);
-      if (action[0] == "handover" && why.empty()) open(action[2], obj);
+      failure = close(action[3], obj);
+      if (action[0] == "handover" && failure.empty()) open(action[2], obj);
       held_[obj] = action[3];
     } else if (isHold(action)) {
       handles_[action[2]] = action[3];
-      why = close(action[3], action[2]);
+      failure = close(action[3], action[2]);
     } else if (isGuided(action)) {
       release(action[2], action[3]);
     } else if (isPlace(action)) {
@@ -202,7 +204,7 @@ class Run {
       held_.erase(obj);
     }
     bot_.sync(seen_, kComesToRest);
-    return why;
+    return failure;
   }
 
   void release(const std::string& handle, const std::string& hand) {
@@ -234,20 +236,20 @@ class Run {
   }
 
   void waitFor(int gripper) {
-    for (int k = 0; k < int(std::lround(kTimeout / kLook)); ++k) {
-      bot_.sync(seen_, kLook);
+    for (int k = 0; k < int(std::lround(kTimeout / kQueryInterval)); ++k) {
+      bot_.sync(seen_, kQueryInterval);
       if (bot_.gripperDone(gripper)) return;
     }
   }
 
-  /// What is not where the plan has it at the beginning or the end of an action's motion.
-  std::string look(std::size_t i, bool at_end) {
+  /// Returns the first deviation from the plan at the beginning or the end of the motion of an action, or "".
+  std::string deviation(std::size_t i, bool at_end) {
     Config planned = plan_.scenes[i];
     const RowRange& rows = plan_.segments[i];
     const VectorXd q = plan_.path.row(at_end ? rows.end - 1 : rows.begin);
     planned.setJointState(q);
     Eigen::Index worst = 0;
-    if (const double most = late(q).maxCoeff(&worst); most > kFar) {
+    if (const double most = jointErrors(q).maxCoeff(&worst); most > kFar) {
       const std::string joint = planned.getJointNames()[std::size_t(driven_[std::size_t(worst)])];
       return cat("the robot is held up: joint '", joint, "' is ", fixed(most, 3), " off");
     }
@@ -256,11 +258,11 @@ class Run {
         return cat("'", door, "' is ", fixed(off, 3), " (m or rad) away from where it should be");
     }
     for (const std::string& obj : objects_)
-      if (std::string why = wrongWith(obj, planned); !why.empty()) return why;
+      if (std::string failure = objectDeviation(obj, planned); !failure.empty()) return failure;
     return "";
   }
 
-  std::string wrongWith(const std::string& obj, const Config& planned) const {
+  std::string objectDeviation(const std::string& obj, const Config& planned) const {
     if (const auto hand = held_.find(obj); hand != held_.end()) {
       const double off = (placeIn(seen_, hand->second, obj) - placeIn(planned, hand->second, obj)).norm();
       return off > kSlipped ? cat("'", obj, "' is not in '", hand->second, "': it is ", fixed(off, 3), " m off") : "";
@@ -272,7 +274,7 @@ class Run {
     return is_level ? "" : cat("'", obj, "' has tilted");
   }
 
-  /// What the goal says of where things are and of doors, and is not so.
+  /// Returns the literals of the goal about places and doors that do not hold.
   Words missedGoals(const Config& C) const {
     Words missed;
     for (const Literal& literal : plan_.goal) {
@@ -293,7 +295,7 @@ class Run {
 
   bool touches(const std::string& hand, const std::string& obj) const { return gapOf(seen_, obj, hand) <= kTouch; }
 
-  /// The world as it is seen, with what is held below the hand, and what stands on something below that.
+  /// The observed world, with held objects attached to hands, and standing objects to their places.
   Config scene() const {
     Config C = seen_;
     for (const auto& [obj, hand] : held_)
@@ -312,21 +314,22 @@ class Run {
   BotOp& bot_;
   Config& seen_;
   const Words hands_, objects_, places_;
-  std::map<std::string, int> grippers_;         ///< their numbers, by the names of hands
-  std::map<std::string, std::string> held_;     ///< objects, and by which hand
-  std::map<std::string, std::string> handles_;  ///< that are held, and by which hand
-  std::map<std::string, Eigen::Index> doors_;   ///< where they are in q
-  std::vector<Eigen::Index> driven_;            ///< the rest of q
+  std::map<std::string, int> grippers_;         ///< indices by the names of hands
+  std::map<std::string, std::string> held_;     ///< by object: the hand that holds it
+  std::map<std::string, std::string> handles_;  ///< by handle: the hand that holds it
+  std::map<std::string, Eigen::Index> doors_;   ///< indices of doors in q
+  std::vector<Eigen::Index> driven_;            ///< indices of the other joints
 };
 
 }  // namespace
 
 std::string TaskExecution::str() const {
-  return cat(feasible ? "reached the goal" : "stopped", " after ", done, " actions: ", message);
+  return cat(feasible ? "reached the goal" : "stopped", " after ", done, done == 1 ? " action" : " actions",
+             feasible ? "" : ": ", message);
 }
 
 TaskExecution execute(const TaskPlan& plan, BotOp& bot, Config& seen) {
-  plan.requireMotion("execute");
+  plan.requireScenes("execute");
   return Run(plan, bot, seen).toTheEnd();
 }
 

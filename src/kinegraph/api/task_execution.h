@@ -7,20 +7,21 @@
 
 namespace kinegraph {
 
-/// How far a robot came with a plan.
+/// The result of an execution.
 struct TaskExecution {
-  bool feasible = false;  ///< all actions were carried out, and what the goal says stands where it says
-  std::string message;    ///< why it stopped
-  int done = 0;           ///< the number of actions that were carried out
-  Config C;  ///< the scene as it is then: what is held hangs below the hand, what stands on something below that
+  bool feasible = false;  ///< all actions were executed, and the goal holds
+  std::string message;    ///< "" if feasible, else the reason for which the robot stopped
+  int done = 0;           ///< the number of executed actions
+  Config C;               ///< the final scene: held objects are attached to hands, standing objects to their places
 
   std::string str() const;
 };
 
-/// Moves a robot along a plan, action by action: grippers take and release, and after each motion it is looked at whether
-/// what is held is in the hand, and whether all else is where the plan has it. The world of `bot` is the scene of the plan;
-/// what is moved needs a mass there. `seen` is a copy of that world (BotOp::getWorld), in which it goes on. Throws
-/// ValueError where there is no motion or the robot cannot begin it, RobotFault if it was stopped.
+/// Executes a plan on a robot, action by action. Grippers close and open. Before and after each motion, the world is
+/// compared with the plan: held objects have to be in the hand, all others at their places. The world of `bot` is the
+/// scene of the plan; objects that actions move need a mass there. `seen` is a copy of that world (BotOp::getWorld),
+/// and is kept up to date. Throws ValueError if there is no motion or the robot cannot begin it, RobotFault if the
+/// robot was stopped.
 TaskExecution execute(const TaskPlan& plan, BotOp& bot, Config& seen);
 
 }  // namespace kinegraph

@@ -1,4 +1,4 @@
-// What a plan of a task looks like: its motion, and where the search failed.
+// Shows plans of tasks in the viewer: the motion, or the waypoint at which the search failed.
 #include <algorithm>
 #include <cmath>
 
@@ -10,12 +10,11 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kMoved = 1e-3;  ///< m or of a quaternion: what moved less than that is no ghost
+constexpr double kMoved = 1e-3;  ///< m, or component of a quaternion: frames that moved less get no red copy
 const std::vector<double> kRed = {.9, .2, .2, .4};
 
-}  // namespace
-
-void showTask(Config& C, Config& scene, const VectorXd& q) {
+/// Sets q in `scene`, that of an action with held objects attached, and moves the frames of C to the same poses.
+void followScene(Config& C, Config& scene, const VectorXd& q) {
   scene.setJointState(q);
   C.setJointState(q);
   for (Frame& frame : C.getFrames())
@@ -23,21 +22,28 @@ void showTask(Config& C, Config& scene, const VectorXd& q) {
       frame.setPose(scene.getFrame(frame.getName()).getPose());
 }
 
-void TaskPlan::play(Config& C, bool pause) const {
-  requireMotion("play");
-  for (std::size_t i = 0; i < actions.size(); ++i) {
-    const std::string text = planText({actions[i]});
-    if (pause) C.view(true, text);
-    Config scene = scenes[i];
-    for (Eigen::Index row = segments[i].begin; row < segments[i].end; ++row) {
-      showTask(C, scene, path.row(row));
-      C.view(false, text);
+}  // namespace
+
+void playTask(const TaskPlan& plan, Config& C, bool pause, const ShowScene& show) {
+  plan.requireScenes("play");
+  for (std::size_t i = 0; i < plan.actions.size(); ++i) {
+    const std::string text = planText({plan.actions[i]});
+    if (pause) show(true, text);
+    Config scene = plan.scenes[i];
+    for (Eigen::Index row = plan.segments[i].begin; row < plan.segments[i].end; ++row) {
+      followScene(C, scene, plan.path.row(row));
+      show(false, text);
     }
   }
 }
 
+void TaskPlan::play(Config& C, bool pause) const {
+  playTask(*this, C, pause, [&](bool wait, const std::string& text) { return C.view(wait, text); });
+}
+
 std::vector<MatrixXd> TaskPlan::frames(const Config& C, double rate) const {
-  requireMotion("frames");
+  requireScenes("frames");
+  if (!(rate > 0.)) throw ValueError(cat("TaskPlan.frames: rate is ", rate, " Hz; expected a positive number"));
   Config shown = C;
   std::vector<Config> there = scenes;
   std::vector<MatrixXd> poses;
@@ -46,7 +52,7 @@ std::vector<MatrixXd> TaskPlan::frames(const Config& C, double rate) const {
   for (long k = 0; k <= last; ++k) {
     const double t = k == last ? duration() : duration() * double(k) / double(last);
     while (part < segments.size() && t > times[segments[part].end - 1]) ++part;
-    if (part < segments.size()) showTask(shown, there[part], at(t));
+    if (part < segments.size()) followScene(shown, there[part], eval(t).q);
     poses.push_back(shown.getFrameState());
   }
   return poses;
@@ -55,17 +61,18 @@ std::vector<MatrixXd> TaskPlan::frames(const Config& C, double rate) const {
 Config TaskPlan::failedConfiguration(const Config& C) const {
   const TaskBranch* farthest = nullptr;
   for (const TaskBranch& branch : tree)
-    if (branch.ghost && (!farthest || branch.actions.size() > farthest->actions.size())) farthest = &branch;
-  if (!farthest) throw ValueError(cat("view: no branch failed at a waypoint; ", message));
+    if (branch.failed_configuration && (!farthest || branch.actions.size() > farthest->actions.size()))
+      farthest = &branch;
+  if (!farthest) throw ValueError(cat("TaskPlan.failedConfiguration: no branch failed at a waypoint; ", summary()));
   Config scene = C;
   for (const Frame& frame : C.getFrames()) {
-    const Frame there = farthest->ghost->getFrame(frame.getName());
+    const Frame there = farthest->failed_configuration->getFrame(frame.getName());
     const Pose is = frame.getPose(), was = there.getPose();
     const double moved =
         std::max((is.p - was.p).cwiseAbs().maxCoeff(), (is.q.coeffs() - was.q.coeffs()).cwiseAbs().maxCoeff());
     const ShapeType type = frame.getShapeType();
     if (!(moved > kMoved) || type == ShapeType::none || type == ShapeType::marker) continue;
-    Frame copy = scene.addFrame(cat("ghost of ", frame.getName())).setPose(was);
+    Frame copy = scene.addFrame(cat("failed ", frame.getName())).setPose(was);
     copy.setGeometry(*frame.data().shape->geometry).setColor(kRed).setContact(0);
   }
   return scene;

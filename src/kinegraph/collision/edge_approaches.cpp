@@ -6,9 +6,9 @@
 namespace kinegraph {
 
 void EdgeEngine::findApproaches(const double* from, const double* to, double most, std::vector<MotionContact>& found) {
-  ask();
+  beginCheck();
   found.clear();
-  const int pieces = setMotion(from, to);
+  const int pieces = setEdge(from, to);
   for (int piece = 0; piece < pieces; ++piece) {
     placePiece(double(piece) / pieces, piece + 1 == pieces ? 1. : double(piece + 1) / pieces);
     findCandidates(most, most);
@@ -16,15 +16,15 @@ void EdgeEngine::findApproaches(const double* from, const double* to, double mos
   }
 }
 
-/// The distance where it is below `most`, else kFar: it is no nearer than was asked for.
+/// The distance if it is below `most`, else kFar.
 double EdgeEngine::distanceBelow(double most, const Candidate& candidate, Normal& normal, const Moment& at) {
   if (candidate.pair.convex && normal.stamp == stamp_ && gap(candidate, normal, at) >= most) return kFar;
-  if (judge(candidate, normal, at, most) == Verdict::apart) return kFar;
+  if (separate(candidate, normal, at, most) == Verdict::apart) return kFar;
   const double distance = measure(candidate, normal, at);
   return distance < most ? distance : kFar;
 }
 
-/// Those of a pair among the samples, and where a parabola through three of them has its least value.
+/// Adds the local minima of a pair among the samples, refined by a parabola through three of them.
 void EdgeEngine::addApproaches(const Candidate& candidate, double most, std::vector<MotionContact>& found) {
   Normal& normal = normalOf(candidate);
   const double width = piece_times_[1] - piece_times_[0];
@@ -36,7 +36,8 @@ void EdgeEngine::addApproaches(const Candidate& candidate, double most, std::vec
   for (int i = 0; i < kLanes; ++i) {
     double time = piece_times_[std::size_t(i)], least = distance[i];
     const double before = i > 0 ? distance[i - 1] : kFar, after = i + 1 < kLanes ? distance[i + 1] : kFar;
-    if (i == 0 || time == 1. || !(least < before) || least > after) continue;  // the piece before ends at its first
+    if (i == 0 || time == 1. || !(least < before) || least > after)
+      continue;  // the last piece ended at the first sample
     if (std::isfinite(before) && std::isfinite(after)) {
       const double lowest = time + .5 * width * (before - after) / (before - 2. * least + after);
       const double there = measure(candidate, normal, momentAt(lowest, 0));

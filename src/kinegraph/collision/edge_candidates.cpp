@@ -1,4 +1,4 @@
-// Which pairs may be near: the broad phase of EdgeEngine.
+// The broad phase of EdgeEngine.
 
 #include <algorithm>
 
@@ -6,8 +6,8 @@
 
 namespace kinegraph {
 
-/// Pairs of groups that may be within the margin; those that may come nearer than `most` in a sample. Ends with a pair
-/// that inner balls show to be nearer than `near` in one, and returns it.
+/// Collects the pairs of groups within the margin whose bodies may be closer than `most` in a sample. Returns early
+/// with a pair whose inner balls are closer than `near` in a sample.
 const EdgeEngine::Candidate* EdgeEngine::findCandidates(double margin, double most, double near) {
   candidates_.clear();
   const std::vector<std::int64_t>* near_fixed = nullptr;
@@ -32,7 +32,7 @@ const EdgeEngine::Candidate* EdgeEngine::findCandidates(double margin, double mo
   return nullptr;
 }
 
-/// Returns whether inner balls show that it is nearer than `near` in a sample.
+/// Returns true if the inner balls of the pair are closer than `near` in a sample.
 bool EdgeEngine::addPair(const LinkBodies::Pair& pair, int index, double most, double near) {
   const auto [least, top] = samples_.distanceBounds(pair.a, pair.b, most);
   Candidate candidate = {pair, index, least, least.head(samples_.count()).minCoeff()};
@@ -41,7 +41,7 @@ bool EdgeEngine::addPair(const LinkBodies::Pair& pair, int index, double most, d
   return is_near;
 }
 
-/// Where many bodies are fixed to the world: those that a group that moves comes near to.
+/// For many static bodies: adds those close to moving groups.
 bool EdgeEngine::addNearFixed(double margin, double most, double near) {
   for (int g = 0; g < bodies_.moving; ++g) {
     const PlacedSamples::Sphere& sphere = samples_.sphere(g);

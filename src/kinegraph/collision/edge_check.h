@@ -12,70 +12,68 @@ namespace kinegraph {
 
 class EdgeEngine;
 
-/// Answers the questions that a planner asks of one scene, thousands of times: is this q free, is this edge? An edge is
-/// the straight motion q(s) = (1 - s) from + s to, 0 <= s <= 1. Free means that all pairs that joints move apart
-/// (Program::movingPairs) keep the margin, on an edge at all of its times and not just at samples; MotionChecker, which
-/// gives the *first* contact, does not differ by more than the tolerance. Limits of joints are not looked at (see
-/// withinLimits).
+/// Checks configurations and edges of one scene for collisions. An edge is the straight motion q(s) = (1 - s) from + s
+/// to, 0 <= s <= 1. It is free if all pairs that joints move apart (KinematicModel::movingPairs) keep the margin,
+/// continuously and not only at samples. MotionChecker, which computes the *first* contact, agrees up to the tolerance.
+/// Joint limits are not checked (see withinLimits).
 ///
-/// Each thread has its own; a copy has the same settings and remembers nothing. Answers do not depend on what was asked
-/// before, only `lastHit` does: what was hit last is looked at first.
+/// Every thread has its own; a copy has the same settings and no history. Results do not depend on earlier checks,
+/// except `lastHit`: the pair of the last collision is checked first.
 class EdgeChecker {
  public:
-  static constexpr int kLanes = 8;  ///< configurations that are looked at side by side
+  static constexpr int kLanes = 8;  ///< configurations that are checked side by side
 
-  /// Any State of the scene will do. Of a pair within margin + tolerance (m, > 0), `isFree` of an edge may say no.
+  /// Takes any State of the scene. `isFree` of an edge may return false for a pair within margin + tolerance (m, > 0).
   explicit EdgeChecker(const State& scene, double margin = 0., double tolerance = 1e-5);
   EdgeChecker(const EdgeChecker& other);
   ~EdgeChecker();
 
-  /// m; the distance that all pairs have to keep. Negative: they may overlap by that much.
+  /// The distance that all pairs have to keep, m. If it is negative, pairs may penetrate by that much.
   double margin() const { return margin_; }
   void setMargin(double margin) { margin_ = margin; }
   void setTolerance(double tolerance);
 
   const State& scene() const { return state_; }
 
-  /// Are all pairs at least `margin` apart at q (dofs numbers)?
+  /// Whether all pairs are at least `margin` apart at q (dofs numbers).
   bool isFree(const double* q);
 
-  /// Of at most kLanes configurations at once, per configuration. Quickest where they follow one another.
+  /// Checks at most kLanes configurations at once, and writes one result each. Fastest for consecutive ones of a path.
   void areFree(std::span<const double* const> Q, bool* free);
 
-  /// Are they all free? Ends at the first pair that is found too near, in any of them.
+  /// Whether all of them are free. Returns at the first pair that is too close in any of them.
   bool areAllFree(std::span<const double* const> Q);
 
-  /// Of an edge, at all times. Ends at the first pair that is found too near, at any time.
+  /// Whether an edge is free, continuously. Returns at the first pair that is too close at any time.
   bool isFree(const double* from, const double* to);
 
-  /// A pair, with time and distance, that the last question was answered no for; of configurations, the time is 0.
+  /// A pair in collision of the last check that failed, with time and distance. The time of a configuration is 0.
   const std::optional<MotionContact>& lastHit() const;
-  /// The same without its distance (NaN), which is computed when it is asked for.
+  /// The same without its distance (NaN), which takes time to compute.
   const std::optional<MotionContact>& lastHitPair() const;
 
-  /// Forgets what was hit last, as if nothing had been asked before.
+  /// Forgets the last collision.
   void forget();
 
-  /// What an edge meets first in time; see MotionChecker. None if it is free.
+  /// The first contact along an edge; see MotionChecker. None if it is free.
   std::optional<MotionContact> firstContact(const double* from, const double* to);
 
-  /// The least distance of all pairs at q, m; `most` if none is nearer than that.
+  /// The least distance of all pairs at q, m; `most` if no pair is closer.
   double clearance(const double* q, double most = std::numeric_limits<double>::infinity());
 
-  /// A lower bound of the least distance of all pairs along an edge, m, or of `most` if none is nearer than that; by no
-  /// more than the tolerance.
+  /// A lower bound of the least distance of all pairs along an edge, m, within the tolerance; `most` if no pair is
+  /// closer.
   double clearance(const double* from, const double* to, double most);
 
-  /// Where pairs come nearer than `most` (m) and nearer than just before and just after, between the ends of an edge.
-  /// Looked for among samples of it (8 for each .35 m that a point moves at most) and near them: what one finds, not a
-  /// proof.
+  /// The local minima of the distances of pairs along an edge that are below `most` (m), the ends excluded. They are
+  /// found from samples (8 per .35 m of displacement) and refined; some may be missed.
   const std::vector<MotionContact>& approaches(const double* from, const double* to, double most);
 
  private:
   State state_;
   double margin_, tolerance_;
   std::unique_ptr<EdgeEngine> engine_;
-  std::unique_ptr<MotionChecker> motions_;  ///< made when it is first asked
+  std::unique_ptr<MotionChecker> motions_;  ///< constructed on first use
   std::vector<MotionContact> approaches_;
 };
 

@@ -6,13 +6,13 @@ std::unique_ptr<EdgeChecker> EdgeCheckers::take(const State& scene, double margi
   std::unique_ptr<EdgeChecker> checker;
   {
     const std::lock_guard lock(mutex_);
-    std::erase_if(kept_, [&](const auto& one) {
+    std::erase_if(free_, [&](const auto& one) {
       return one->scene().sharedModel() != scene.sharedModel() ||
              one->scene().sharedParameters() != scene.sharedParameters();
     });
-    if (!kept_.empty()) {
-      checker = std::move(kept_.back());
-      kept_.pop_back();
+    if (!free_.empty()) {
+      checker = std::move(free_.back());
+      free_.pop_back();
     }
   }
   if (!checker) return std::make_unique<EdgeChecker>(scene, margin, tolerance);
@@ -23,7 +23,7 @@ std::unique_ptr<EdgeChecker> EdgeCheckers::take(const State& scene, double margi
 
 void EdgeCheckers::giveBack(std::unique_ptr<EdgeChecker> checker) {
   const std::lock_guard lock(mutex_);
-  kept_.push_back(std::move(checker));
+  free_.push_back(std::move(checker));
 }
 
 }  // namespace kinegraph

@@ -6,23 +6,23 @@
 
 namespace kinegraph {
 
-/// EdgeCheckers of one scene that are kept between calls, as making one takes as long as a dozen answers. Threads may share
-/// it; a copy keeps none.
+/// A pool of EdgeCheckers of one scene: constructing one takes as long as a dozen checks. Threads may share the pool; a
+/// copy is empty.
 class EdgeCheckers {
  public:
   EdgeCheckers() = default;
   EdgeCheckers(const EdgeCheckers&) {}
   EdgeCheckers& operator=(const EdgeCheckers&) { return *this; }
 
-  /// One of this scene, as EdgeChecker's constructor makes it. Those of other scenes are dropped.
+  /// Takes a checker of this scene out of the pool, or constructs one. Drops those of other scenes.
   std::unique_ptr<EdgeChecker> take(const State& scene, double margin, double tolerance = 1e-5);
 
-  /// To be taken again.
+  /// Returns a checker to the pool.
   void giveBack(std::unique_ptr<EdgeChecker> checker);
 
  private:
   std::mutex mutex_;
-  std::vector<std::unique_ptr<EdgeChecker>> kept_;
+  std::vector<std::unique_ptr<EdgeChecker>> free_;
 };
 
 }  // namespace kinegraph

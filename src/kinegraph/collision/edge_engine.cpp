@@ -7,12 +7,12 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kPiece = .35;  // m: what a motion moves the fastest point in one piece, at most
+constexpr double kPiece = .35;  // m: largest displacement of a point in one piece of an edge
 constexpr int kMostPieces = 4096;
-constexpr int kDeepest = 26;      // times that an interval is halved
-constexpr double kExact = 1e-12;  // m: what a direction that was found elsewhere has to keep beyond the margin
+constexpr int kDeepest = 26;      // halvings of an interval
+constexpr double kExact = 1e-12;  // m, beyond the margin: gap along a direction of an earlier check
 
-/// Is the distance to others like it computed in closed form, at once?
+/// Whether distances to other such bodies have a closed form.
 bool hasClosedForm(const CollisionBody& body) { return body.core() <= CollisionBody::Core::box; }
 
 }  // namespace
@@ -53,7 +53,7 @@ RigidTransform EdgeEngine::poseAt(int body, const Moment& at) {
   return at.state->linkPose(bodies_.link(body)) * bodies_.bodies[std::size_t(body)].X_LB;
 }
 
-/// How far the bodies are apart along the direction; a lower bound of their distance.
+/// The gap of the bodies along the direction, a lower bound of their distance.
 double EdgeEngine::gap(const Candidate& candidate, Normal& normal, const Moment& at) {
   const LinkBodies::Pair& pair = candidate.pair;
   const CollisionBody &a = *bodies_.bodies[std::size_t(pair.a)].shape, &b = *bodies_.bodies[std::size_t(pair.b)].shape;
@@ -65,7 +65,7 @@ double EdgeEngine::gap(const Candidate& candidate, Normal& normal, const Moment&
   return nearest_a - farthest_b - a.radius() - b.radius();
 }
 
-/// The same in all samples, computed anew where the direction has changed.
+/// The gaps in all samples; recomputed if the direction has changed.
 const EdgeEngine::Lane& EdgeEngine::gapsIn(SampleGaps& known, const Candidate& candidate, Normal& normal) {
   if (known.known && known.n == normal.n) return known.gaps;
   const LinkBodies::Pair& pair = candidate.pair;
@@ -73,7 +73,7 @@ const EdgeEngine::Lane& EdgeEngine::gapsIn(SampleGaps& known, const Candidate& c
   return known.gaps;
 }
 
-/// The distance; its normal is kept.
+/// Computes the distance, and keeps its normal.
 double EdgeEngine::measure(const Candidate& candidate, Normal& normal, const Moment& at) {
   const LinkBodies::Pair& pair = candidate.pair;
   const Proximity near = proximity(*bodies_.bodies[std::size_t(pair.a)].shape, poseAt(pair.a, at),
@@ -83,8 +83,8 @@ double EdgeEngine::measure(const Candidate& candidate, Normal& normal, const Mom
   return near.distance;
 }
 
-/// Is the pair at least `margin` apart, as far as that shows at once? If so, a direction is kept that shows it.
-EdgeEngine::Verdict EdgeEngine::judge(const Candidate& candidate, Normal& normal, const Moment& at, double margin) {
+/// Tries to decide whether the pair is at least `margin` apart. Keeps the separating direction if it is.
+EdgeEngine::Verdict EdgeEngine::separate(const Candidate& candidate, Normal& normal, const Moment& at, double margin) {
   const LinkBodies::Pair& pair = candidate.pair;
   const CollisionBody &a = *bodies_.bodies[std::size_t(pair.a)].shape, &b = *bodies_.bodies[std::size_t(pair.b)].shape;
   if (!pair.convex || (hasClosedForm(a) && hasClosedForm(b))) return Verdict::unknown;
@@ -96,9 +96,9 @@ EdgeEngine::Verdict EdgeEngine::judge(const Candidate& candidate, Normal& normal
   return Verdict::apart;
 }
 
-/// Is it nearer than the margin?
+/// Whether the pair is closer than the margin.
 bool EdgeEngine::isNear(const Candidate& candidate, Normal& normal, const Moment& at, double margin) {
-  const Verdict verdict = judge(candidate, normal, at, margin);
+  const Verdict verdict = separate(candidate, normal, at, margin);
   return verdict == Verdict::unknown ? measure(candidate, normal, at) < margin : verdict == Verdict::near;
 }
 
@@ -113,7 +113,7 @@ const std::optional<MotionContact>& EdgeEngine::measuredHit() {
   return last_hit_;
 }
 
-/// Notes what is too near, at joints q; false.
+/// Records a collision at joints q. Returns false.
 bool EdgeEngine::hit(const Candidate& candidate, double time, const double* q, double distance) {
   const int a = bodies_.bodies[std::size_t(candidate.pair.a)].frame,
             b = bodies_.bodies[std::size_t(candidate.pair.b)].frame;
@@ -139,8 +139,8 @@ bool EdgeEngine::areAllFree(const double* const* Q, int count, double margin) {
   return all_free;
 }
 
-/// Calls hit(sample) for pairs that are too near, of each sample once; until it says no. What was hit last comes first,
-/// before it is known which other pairs may be near. Not all: one hit is enough.
+/// Calls hit(sample) once per sample in collision, until it returns false. Checks the pair of the last collision first,
+/// before the broad phase. If not `all`, one collision is enough.
 template <class Hit>
 void EdgeEngine::forHits(const double* const* Q, int count, double margin, bool all, const Hit& hit_sample) {
   last_hit_.reset();
@@ -155,18 +155,18 @@ void EdgeEngine::forHits(const double* const* Q, int count, double margin, bool 
   if (suspect_ >= 0) {
     candidates_.clear();
     if (addPair(bodies_.pairs[std::size_t(suspect_)], suspect_, margin, near)) return hitAtOnce(candidates_.front());
-    if (!candidates_.empty() && !lookAt(candidates_.front(), Q, count, margin, was_hit, hit_sample)) return;
+    if (!candidates_.empty() && !checkPair(candidates_.front(), Q, count, margin, was_hit, hit_sample)) return;
   }
   if (const Candidate* touching = findCandidates(margin, margin, near)) return hitAtOnce(*touching);
   for (const Candidate& candidate : candidates_) {
-    if (!lookAt(candidate, Q, count, margin, was_hit, hit_sample)) return;
+    if (!checkPair(candidate, Q, count, margin, was_hit, hit_sample)) return;
   }
 }
 
-/// One pair in all samples that were not hit.
+/// Checks one pair in all samples without a collision so far.
 template <class Hit>
-bool EdgeEngine::lookAt(const Candidate& candidate, const double* const* Q, int count, double margin, bool* was_hit,
-                        const Hit& hit_sample) {
+bool EdgeEngine::checkPair(const Candidate& candidate, const double* const* Q, int count, double margin, bool* was_hit,
+                           const Hit& hit_sample) {
   Normal& normal = normalOf(candidate);
   SampleGaps gaps;
   for (int i = 0; i < count; ++i) {
@@ -190,7 +190,7 @@ double EdgeEngine::clearance(const double* q, double most) {
   return most;
 }
 
-// --- motions ---------------------------------------------------------------------------------------------------------
+// --- edges -----------------------------------------------------------------------------------------------------------
 
 EdgeEngine::Moment EdgeEngine::sampleAt(int sample) const {
   const double time = piece_times_.empty() ? 0. : piece_times_[std::size_t(sample)];
@@ -214,7 +214,7 @@ EdgeEngine::Moment EdgeEngine::momentAt(double time, int depth) {
   return {time, state.get(), 0};
 }
 
-/// Places the samples over a part of the motion, and the spheres around all between them.
+/// Places the samples over a piece of the edge. The spheres also contain the motion between samples.
 void EdgeEngine::placePiece(double from, double to) {
   piece_times_.resize(kLanes);
   for (int i = 0; i < kLanes; ++i) {
@@ -224,16 +224,16 @@ void EdgeEngine::placePiece(double from, double to) {
   samples_.place(kLanes);
   const double width = (to - from) / (kLanes - 1);
   for (int g = 0; g < bodies_.moving; ++g) {
-    const MotionBounds::Rates& rates = group_rates_[std::size_t(g)];
-    samples_.setStray(g, std::min(.125 * rates.bend * width * width, .5 * rates.speed * width));
+    const DisplacementBound::Rates& rates = group_rates_[std::size_t(g)];
+    samples_.setDeviation(g, std::min(.125 * rates.curvature * width * width, .5 * rates.speed * width));
   }
 }
 
-/// Returns in how many pieces it is looked at.
-int EdgeEngine::setMotion(const double* from, const double* to) {
+/// Returns the number of pieces in which the edge is checked.
+int EdgeEngine::setEdge(const double* from, const double* to) {
   from_ = Eigen::Map<const VectorXd>(from, from_.size());
   to_ = Eigen::Map<const VectorXd>(to, to_.size());
-  bounds_.setMotion(from, to);
+  bounds_.setEdge(from, to);
   double speed = 0.;
   for (int g = 0; g < bodies_.moving; ++g) {
     const LinkBodies::Group& group = bodies_.groups[std::size_t(g)];
@@ -243,18 +243,18 @@ int EdgeEngine::setMotion(const double* from, const double* to) {
   return std::isfinite(speed) ? int(std::clamp(std::ceil(speed / kPiece), 1., double(kMostPieces))) : 1;
 }
 
-/// Of the points of both bodies relative to each other.
-MotionBounds::Rates EdgeEngine::ratesOf(const Candidate& candidate) {
+/// The rates of the points of both bodies relative to each other.
+DisplacementBound::Rates EdgeEngine::ratesOf(const Candidate& candidate) {
   const auto [a, b] = std::pair(candidate.pair.a, candidate.pair.b);
   if (candidate.pair.ancestor == 0) {
-    const MotionBounds::Rates &of_a = ratesInWorld(a), &of_b = ratesInWorld(b);
-    return {of_a.speed + of_b.speed, of_a.bend + of_b.bend, of_a.reach + of_b.reach};
+    const DisplacementBound::Rates &of_a = ratesInWorld(a), &of_b = ratesInWorld(b);
+    return {of_a.speed + of_b.speed, of_a.curvature + of_b.curvature, of_a.reach + of_b.reach};
   }
-  return bounds_.relative(bodies_.link(a), bodies_.bodies[std::size_t(a)].reach, bodies_.link(b),
-                          bodies_.bodies[std::size_t(b)].reach);
+  return bounds_.relativeRates(bodies_.link(a), bodies_.bodies[std::size_t(a)].reach, bodies_.link(b),
+                               bodies_.bodies[std::size_t(b)].reach);
 }
 
-const MotionBounds::Rates& EdgeEngine::ratesInWorld(int body) {
+const DisplacementBound::Rates& EdgeEngine::ratesInWorld(int body) {
   BodyRates& known = body_rates_[std::size_t(body)];
   if (known.stamp != stamp_)
     known = {stamp_, bounds_.ratesOf(bodies_.link(body), bodies_.bodies[std::size_t(body)].reach)};
@@ -262,8 +262,8 @@ const MotionBounds::Rates& EdgeEngine::ratesInWorld(int body) {
 }
 
 bool EdgeEngine::isFree(const double* from, const double* to, double margin) {
-  ask();
-  const int pieces = setMotion(from, to);
+  beginCheck();
+  const int pieces = setEdge(from, to);
   const auto touches = [&] {
     const Candidate* touching = findCandidates(margin, kFar, margin);
     if (!touching) return false;
@@ -271,7 +271,7 @@ bool EdgeEngine::isFree(const double* from, const double* to, double margin) {
     hit(*touching, time, jointsAt(time));
     return true;
   };
-  if (pieces > 1) {  // a look at all of it first
+  if (pieces > 1) {  // coarse check of the whole edge
     placePiece(0., 1.);
     if (touches() || !samplesKeep(margin)) return false;
   }
@@ -282,7 +282,7 @@ bool EdgeEngine::isFree(const double* from, const double* to, double margin) {
   return true;
 }
 
-/// Does no sample show a pair that is too near?
+/// Whether all pairs keep the margin in all samples.
 bool EdgeEngine::samplesKeep(double margin) {
   for (const Candidate& candidate : candidates_) {
     if (candidate.least >= margin) continue;
@@ -306,20 +306,20 @@ bool EdgeEngine::pieceKeeps(double margin) {
   return true;
 }
 
-/// Does a pair keep the margin between all samples?
+/// Whether a pair keeps the margin between all samples.
 bool EdgeEngine::pairKeeps(const Candidate& candidate, double margin, double width) {
-  const MotionBounds::Rates rates = ratesOf(candidate);
-  const double bow = .125 * rates.bend * width * width;
+  const DisplacementBound::Rates rates = ratesOf(candidate);
+  const double bow = .125 * rates.curvature * width * width;
   const auto farBetween = [&](int i) {
     return candidate.bounds[i] + candidate.bounds[i + 1] - rates.speed * width >= 2. * margin;
   };
   int worst = 0;
   candidate.bounds.minCoeff(&worst);
   Normal& normal = normalOf(candidate);
-  if (candidate.least < margin) {  // what is in the way shows here first
+  if (candidate.least < margin) {  // the sample that is most likely in collision
     const Moment at = sampleAt(worst);
-    const bool shown = bow < 1e9 && judge(candidate, normal, at, margin + bow) == Verdict::apart;
-    if (!shown && isNear(candidate, normal, at, margin)) return hit(candidate, at.time, jointsAt(at.time));
+    const bool is_apart = bow < 1e9 && separate(candidate, normal, at, margin + bow) == Verdict::apart;
+    if (!is_apart && isNear(candidate, normal, at, margin)) return hit(candidate, at.time, jointsAt(at.time));
   }
   SampleGaps gaps;
   const auto apartBetween = [&](int i) {
@@ -334,16 +334,16 @@ bool EdgeEngine::pairKeeps(const Candidate& candidate, double margin, double wid
   return true;
 }
 
-bool EdgeEngine::keeps(const Candidate& candidate, Normal& normal, const MotionBounds::Rates& rates, double margin,
+bool EdgeEngine::keeps(const Candidate& candidate, Normal& normal, const DisplacementBound::Rates& rates, double margin,
                        const Moment& a, const Moment& b, int depth) {
-  const double width = b.time - a.time, bow = .125 * rates.bend * width * width;
+  const double width = b.time - a.time, bow = .125 * rates.curvature * width * width;
   const auto apart = [&] {
     return gap(candidate, normal, a) >= margin + bow && gap(candidate, normal, b) >= margin + bow;
   };
   const bool convex = candidate.pair.convex && bow < 1e9;
   if (convex && normal.stamp == stamp_ && apart()) return true;
   for (const Moment* end : {&a, &b}) {
-    if (convex && judge(candidate, normal, *end, margin + bow) == Verdict::apart && apart()) return true;
+    if (convex && separate(candidate, normal, *end, margin + bow) == Verdict::apart && apart()) return true;
   }
   double distances[2];
   for (const bool second : {false, true}) {
@@ -362,15 +362,15 @@ bool EdgeEngine::keeps(const Candidate& candidate, Normal& normal, const MotionB
 }
 
 double EdgeEngine::clearance(const double* from, const double* to, double most) {
-  ask();
-  const int pieces = setMotion(from, to);
+  beginCheck();
+  const int pieces = setEdge(from, to);
   double least = most;
   for (int piece = 0; piece < pieces; ++piece) {
     placePiece(double(piece) / pieces, double(piece + 1) / pieces);
     findCandidates(least);
     for (const Candidate& candidate : candidates_) {
       Normal& normal = normalOf(candidate);
-      const MotionBounds::Rates rates = ratesOf(candidate);
+      const DisplacementBound::Rates rates = ratesOf(candidate);
       const double width = piece_times_[1] - piece_times_[0];
       for (int i = 0; i + 1 < kLanes; ++i) {
         if (.5 * (candidate.bounds[i] + candidate.bounds[i + 1] - rates.speed * width) < least - tolerance_)
@@ -381,10 +381,10 @@ double EdgeEngine::clearance(const double* from, const double* to, double most) 
   return least - tolerance_;
 }
 
-/// Brings `least` down to the least distance of a pair between two times, to the tolerance.
-void EdgeEngine::lower(const Candidate& candidate, Normal& normal, const MotionBounds::Rates& rates, const Moment& a,
-                       const Moment& b, int depth, double& least) {
-  const double width = b.time - a.time, bow = .125 * rates.bend * width * width;
+/// Lowers `least` to the least distance of a pair between two times, to the tolerance.
+void EdgeEngine::lower(const Candidate& candidate, Normal& normal, const DisplacementBound::Rates& rates,
+                       const Moment& a, const Moment& b, int depth, double& least) {
+  const double width = b.time - a.time, bow = .125 * rates.curvature * width * width;
   double sum = 0., along = -std::numeric_limits<double>::infinity();
   for (const Moment* end : {&a, &b}) {
     const double distance = measure(candidate, normal, *end);

@@ -6,7 +6,7 @@ namespace kinegraph {
 
 namespace {
 
-/// How far beyond its limits a dof is; negative or 0 within.
+/// The excess of a dof over its limits; negative or 0 within them.
 double beyond(const KinematicModel& model, int dof, double value) {
   return std::max(model.lower[dof] - value, value - model.upper[dof]);
 }

@@ -48,45 +48,39 @@ void MotionChecker::moveTo(double time) {
   if (bodies_) bodies_->place(state_);
 }
 
-void MotionChecker::setMotion(const double* from, const double* to) {
+void MotionChecker::setEdge(const double* from, const double* to) {
   const KinematicModel& model = state_.model();
   from_ = Eigen::Map<const VectorXd>(from, model.dofs);
   change_ = Eigen::Map<const VectorXd>(to, model.dofs) - from_;
-  bounds_.setMotion(from, to);
-}
-
-/// How far a body reaches from the origin of its link.
-double MotionChecker::reachOf(int frame, const CollisionBody& body) const {
-  return (state_.parameters().frame_offset[std::size_t(frame)] * body.boundCenter()).norm() + body.boundRadius();
+  bounds_.setEdge(from, to);
 }
 
 double MotionChecker::relativeSpeed(int pair) const {
   const auto [a, b] = pairs_->pairs[std::size_t(pair)];
   const int frame_a = pairs_->frames[std::size_t(a)], frame_b = pairs_->frames[std::size_t(b)];
   return bounds_
-      .relative(state_.link(frame_a), reachOf(frame_a, *pairs_->bodies[std::size_t(a)]), state_.link(frame_b),
-                reachOf(frame_b, *pairs_->bodies[std::size_t(b)]))
+      .relativeRates(state_.link(frame_a), bodyReach(state_, frame_a, *pairs_->bodies[std::size_t(a)]),
+                     state_.link(frame_b), bodyReach(state_, frame_b, *pairs_->bodies[std::size_t(b)]))
       .speed;
 }
 
-/// A bound of how far any point of a frame's body is moved.
-double MotionChecker::travelOf(int frame) const {
-  const double reach = reachOf(frame, *state_.model().body[std::size_t(frame)]);
+/// Bounds the displacement of the points of a frame's body over the edge.
+double MotionChecker::displacementOf(int frame) const {
+  const double reach = bodyReach(state_, frame, *state_.model().body[std::size_t(frame)]);
   return bounds_.ratesOf(state_.link(frame), reach).speed;
 }
 
-/// Where a body can be at any time of the motion. The steps' bounds must be those of the motion, of which `state_` is
-/// the start.
+/// A box around all places of a body along the edge. `bounds_` is set to the edge, and `state_` is at its start.
 WorldBox MotionChecker::sweptBox(const ContactRules::Body& body) const {
   const auto frame = std::size_t(body.frame);
   const CollisionBody& shape = *state_.model().body[frame];
   const RigidTransform X = state_.pose(body.frame);
   const Vector3d center = X * shape.boundCenter(), half = (X.R.cwiseAbs() * shape.boundHalf()).array() + shape.radius();
   constexpr double kAnywhere = 1e9;  // m
-  return WorldBox{center - half, center + half}.grown(std::min(travelOf(body.frame), kAnywhere));
+  return WorldBox{center - half, center + half}.grown(std::min(displacementOf(body.frame), kAnywhere));
 }
 
-/// The pairs on different links that may come within `margin` of each other, in the order of frames.
+/// Selects the pairs on different links whose swept boxes come within `margin`, in the order of frames.
 void MotionChecker::findPairs(double margin) {
   const KinematicModel& model = state_.model();
   const std::vector<ContactRules::Body>& bodies = model.contacts.bodies;
@@ -143,14 +137,13 @@ std::optional<MotionContact> MotionChecker::first(const double* from, const doub
   return many_ ? firstInPieces(from, to, limits) : firstInOnePiece(from, to, limits);
 }
 
-/// Among many bodies the motion is cut into pieces, in each of which no body moves far, so that few others are in its
-/// way.
+/// Cuts the edge into pieces of small displacement, so that few swept boxes meet.
 std::optional<MotionContact> MotionChecker::firstInPieces(const double* from, const double* to, const Limits& limits) {
   constexpr double kPiece = .25, kMostPieces = 256.;  // m
-  setMotion(from, to);
+  setEdge(from, to);
   double farthest = 0.;
   for (const int i : moving_) {
-    farthest = std::max(farthest, travelOf(state_.model().contacts.bodies[std::size_t(i)].frame));
+    farthest = std::max(farthest, displacementOf(state_.model().contacts.bodies[std::size_t(i)].frame));
   }
   const int pieces = int(std::clamp(std::ceil(farthest / kPiece), 1., kMostPieces));
   const VectorXd start = from_, change = change_;
@@ -168,22 +161,22 @@ std::optional<MotionContact> MotionChecker::firstInPieces(const double* from, co
 
 std::optional<MotionContact> MotionChecker::firstInOnePiece(const double* from, const double* to,
                                                             const Limits& limits) {
-  setMotion(from, to);
+  setEdge(from, to);
   time_ = -1.;
-  if (many_) bodies_.reset();  // those of the last motion
+  if (many_) bodies_.reset();  // of the last edge
   moveTo(0.);
   if (many_) findPairs(limits.margin);
   if (const auto contact = atTheStart(limits)) return contact;
   return due_.empty() ? std::nullopt : advance(limits);
 }
 
-/// Measures all pairs at the start: one that is too near there, if any; else `due_` gets those that can become so, each
-/// with the time until which it cannot.
+/// Measures all pairs at the start. Returns one that is too close there; otherwise fills `due_` with the pairs that may
+/// come too close, and the time until which each cannot.
 std::optional<MotionContact> MotionChecker::atTheStart(const Limits& limits) {
   due_.clear();
   speed_.resize(pairs_->pairs.size());
   for (int pair = 0; pair < bodies_->pairs(); ++pair) {
-    const double speed = speed_[pair] = relativeSpeed(pair);  // 0 where no joint between them moves
+    const double speed = speed_[pair] = relativeSpeed(pair);  // 0 if no joint between them moves
     if (!bodies_->mayBeNear(pair, limits.margin + speed)) continue;
     const double now = spare(pair, limits);
     if (now < 0. || (speed > 0. && (now < limits.tolerance || now / speed == 0.))) return contactOf(pair);
@@ -192,9 +185,9 @@ std::optional<MotionContact> MotionChecker::atTheStart(const Limits& limits) {
   return std::nullopt;
 }
 
-/// Goes from one time at which a pair is due to the next, until one is too near or all are shown to keep apart.
+/// Advances from one due time to the next, until a pair is too close or all pairs keep the margin to the end.
 std::optional<MotionContact> MotionChecker::advance(const Limits& limits) {
-  // By how much the pairs keep the margin at the end; the rest is free where that and what they keep now cover it.
+  // Slack of the pairs at the end: the rest of the edge is free if this slack and the present one cover it.
   std::array<std::byte, 8192> buffer;
   std::pmr::monotonic_buffer_resource memory(buffer.data(), buffer.size());
   std::pmr::vector<double> at_end(speed_.size(), 0., &memory);

@@ -3,7 +3,7 @@
 #include <memory>
 #include <optional>
 
-#include "kinegraph/collision/motion_bounds.h"
+#include "kinegraph/collision/displacement_bound.h"
 #include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/geometry/distance/box_tree.h"
 
@@ -11,32 +11,34 @@ namespace kinegraph {
 
 class EdgeEngine;
 
-/// The first pair that a motion brings too near; or, where limits are looked at, the first dof that leaves them.
+/// The first contact of an edge: a pair that comes too close, or a dof that leaves its limits.
 struct MotionContact {
-  double time = 0.;      ///< s in [0, 1]: until then the motion is free
-  int a = 0, b = 0;      ///< frame ids; of a limit, both are the joint's
-  double distance = 0.;  ///< of the pair at `time`, m; of a limit: what is left to it, m or rad, negative beyond
-  int dof = -1;          ///< of a limit: the entry of q; else -1
+  double time = 0.;      ///< in [0, 1]: until then the edge is free
+  int a = 0, b = 0;      ///< frame ids; for a limit, both are the joint's
+  double distance = 0.;  ///< of the pair at `time`, m; for a limit: the distance to it, m or rad
+  int dof = -1;          ///< for a limit: the entry of q; else -1
 };
 
-/// Checks straight motions q(s) = (1 - s) from + s to, 0 <= s <= 1, at all times and not just at samples of them.
+/// Finds the first contact along an edge q(s) = (1 - s) from + s to, 0 <= s <= 1, continuously.
 ///
-/// Conservative advancement: no point of a body moves, relative to the other one, faster than the sum over the joints
-/// between them of |dq_j| r_j, with r_j a bound of its distance from the axis (1 for a translation). So a pair whose
-/// distance is d need not be looked at again before s + (d - margin) / speed. Of all pairs, the one that is due next is
-/// looked at. Where bodies are many, only pairs are looked at whose boxes, with room for all that the motion may move
-/// them, meet. Whether there is any contact is found in another way before (EdgeEngine), which takes less. Source: Mirtich, Impulse-based dynamic simulation of rigid body systems, 1996, ch. 2; Schwarzer, Saha,
-/// Latombe, Adaptive dynamic collision checking for single and multiple articulated robots, 2005.
+/// Conservative advancement: relative to the other body, no point moves faster than the sum over the joints between
+/// them of |dq_j| r_j, with r_j a bound of its distance from the axis (1 for a translation). A pair at a distance d
+/// therefore keeps the margin until s + (d - margin) / speed. A queue orders the pairs by these times. For many bodies,
+/// only pairs whose swept boxes meet are checked. EdgeEngine, which is faster, first decides whether there is any
+/// contact.
+///
+/// Sources: Mirtich, Impulse-based dynamic simulation of rigid body systems, 1996, ch. 2; Schwarzer, Saha, Latombe,
+/// Adaptive dynamic collision checking for single and multiple articulated robots, 2005.
 class MotionChecker {
  public:
-  /// For the pairs of a scene that count (Program::movingPairs). `scene` is any State of it.
+  /// Checks the pairs KinematicModel::movingPairs. `scene` is any State of the scene.
   explicit MotionChecker(const State& scene);
 
   MotionChecker(const MotionChecker& other) : MotionChecker(other.state_) {}
   ~MotionChecker();
 
-  /// The first pair nearer than `margin` + `tolerance` that could not be shown to keep `margin` (m) apart; none if all
-  /// do for the whole motion. A larger tolerance (m, > 0) takes fewer steps along surfaces that slide past each other.
+  /// Returns the first pair closer than `margin` + `tolerance` (m); none if all pairs keep `margin` along the edge. A
+  /// larger tolerance (> 0) takes fewer steps along surfaces that slide past each other.
   std::optional<MotionContact> firstContact(const double* from, const double* to, double margin, double tolerance);
 
  private:
@@ -46,15 +48,14 @@ class MotionChecker {
     bool operator<(const Due& other) const { return time > other.time || (time == other.time && pair > other.pair); }
   };
 
-  /// How near is too near, m.
+  /// Distances, m.
   struct Limits {
     double margin, tolerance;
   };
 
-  void setMotion(const double* from, const double* to);
+  void setEdge(const double* from, const double* to);
   void moveTo(double time);
-  double reachOf(int frame, const CollisionBody& body) const;
-  double travelOf(int frame) const;
+  double displacementOf(int frame) const;
   double relativeSpeed(int pair) const;
   WorldBox sweptBox(const ContactRules::Body& body) const;
   void findPairs(double margin);
@@ -68,12 +69,12 @@ class MotionChecker {
   MotionContact contactOf(int pair) const;
 
   State state_;
-  std::unique_ptr<EdgeEngine> edges_;  ///< says first whether there is any contact
-  std::optional<BodyPairs> pairs_;  ///< where bodies are many, those of the present motion that it can bring together
+  std::unique_ptr<EdgeEngine> edges_;  ///< decides first whether there is any contact
+  std::optional<BodyPairs> pairs_;     ///< for many bodies: pairs whose swept boxes meet
   std::optional<PlacedBodies> bodies_;
-  bool many_;  ///< bodies: then `pairs_` are chosen for each motion
-  MotionBounds bounds_;
-  std::vector<int> fixed_, moving_;  ///< where bodies are many: their places in the Program's contacts
+  bool many_;  ///< bodies: `pairs_` are selected for each edge
+  DisplacementBound bounds_;
+  std::vector<int> fixed_, moving_;  ///< for many bodies: indices into the contacts of the model
   BoxTree fixed_boxes_;
   VectorXd from_, change_, q_, until_;
   double time_ = 0.;

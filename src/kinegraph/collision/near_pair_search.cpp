@@ -11,7 +11,7 @@ NearPairSearch::NearPairSearch(std::shared_ptr<const KinematicModel> model, cons
     const bool wanted = frames.empty() || std::find(frames.begin(), frames.end(), body.frame) != frames.end();
     bodies_.push_back({model_->body[frame], body.frame, model_->frame_link[frame], wanted, {}});
   }
-  rooms_.resize(bodies_.size());
+  boxes_.resize(bodies_.size());
   left_box_.resize(bodies_.size());
 }
 
@@ -26,8 +26,8 @@ void NearPairSearch::update(std::size_t index, const State& state) {
   body.center = center;
   const Vector3d half = (pose.R.cwiseAbs() * body.shape->boundHalf()).array() + body.shape->radius();
   body.box = {center - half, center + half};
-  if (reach_ >= 0. && rooms_[index].contains(body.box)) return;
-  rooms_[index] = body.box.grown(.01 + .1 * body.shape->boundRadius());
+  if (reach_ >= 0. && boxes_[index].contains(body.box)) return;
+  boxes_[index] = body.box.grown(.01 + .1 * body.shape->boundRadius());
   if (!left_box_[index]) moved_.push_back(int(index));
   left_box_[index] = 1;
 }
@@ -56,9 +56,9 @@ void NearPairSearch::add(int a, int b) {
 void NearPairSearch::findCandidates(double reach) {
   reach_ = reach;
   if (moved_.size() > bodies_.size() / 2 || tree_.spread() > 1.5) {
-    tree_.build(rooms_);
+    tree_.build(boxes_);
   } else {
-    for (const int i : moved_) tree_.move(i, rooms_[std::size_t(i)]);
+    for (const int i : moved_) tree_.move(i, boxes_[std::size_t(i)]);
   }
   moved_.clear();
   std::fill(left_box_.begin(), left_box_.end(), char(0));
@@ -66,7 +66,7 @@ void NearPairSearch::findCandidates(double reach) {
   moving_.clear();
   fixed_known_ = false;
   for (int i = 0; i < int(bodies_.size()); ++i) {
-    tree_.forMeeting(rooms_[std::size_t(i)], reach_, [&](int j) {
+    tree_.forMeeting(boxes_[std::size_t(i)], reach_, [&](int j) {
       if (i < j) add(i, j);
     });
   }
@@ -77,14 +77,14 @@ void NearPairSearch::findCandidatesOfMoved() {
   if (moved_.size() > bodies_.size() / 4 || tree_.spread() > 1.5) return findCandidates(reach_);
   bool fixed_moved = false;
   for (const int i : moved_) {
-    tree_.move(i, rooms_[std::size_t(i)]);
+    tree_.move(i, boxes_[std::size_t(i)]);
     fixed_moved |= bodies_[std::size_t(i)].link == 0;
   }
   const auto forget = [&](const Candidate& c) { return left_box_[std::size_t(c.a)] || left_box_[std::size_t(c.b)]; };
   std::erase_if(moving_, forget);
   if (fixed_moved) std::erase_if(fixed_, forget);
   for (const int i : moved_) {
-    tree_.forMeeting(rooms_[std::size_t(i)], reach_, [&](int j) {
+    tree_.forMeeting(boxes_[std::size_t(i)], reach_, [&](int j) {
       if (j != i && !(left_box_[std::size_t(j)] && j < i)) add(i, j);
     });
   }
@@ -118,7 +118,7 @@ bool NearPairSearch::isNear(Candidate& candidate, double margin) {
   return candidate.distance <= margin;
 }
 
-/// The candidates for a margin, and which of those that rest are near.
+/// Updates the candidates for a margin, and the near pairs among static bodies.
 void NearPairSearch::bringUpToDate(double margin) {
   const double reach = std::max(margin, 0.);
   if (reach > reach_) {

@@ -9,54 +9,54 @@
 
 namespace kinegraph {
 
-/// Finds the near ones among the collidable pairs of many bodies, again and again as they move.
+/// Finds the near pairs among many moving bodies, incrementally.
 ///
-/// Each body has a box with room to move in. Pairs whose boxes meet are candidates; they are looked for again only for
-/// bodies that leave their boxes. How far a body can have moved is summed up, so that a candidate whose distance was
-/// measured is not measured again before its bodies can have met. Neither changes what is found.
+/// Each body has an enlarged box. Pairs whose boxes meet are candidates; the search is repeated only for bodies that
+/// leave their boxes. The displacements of each body are summed, so that a candidate is measured again only when its
+/// bodies may have come within the margin. Neither changes the results.
 class NearPairSearch {
  public:
-  /// Of all collidable pairs, or of those that involve one of the given frames.
+  /// Searches all collidable pairs, or those that involve one of the frames.
   explicit NearPairSearch(std::shared_ptr<const KinematicModel> model, const std::vector<int>& frames = {});
 
-  /// A copy starts anew.
+  /// A copy has no history.
   NearPairSearch(const NearPairSearch& other) : NearPairSearch(other.model_, other.frames_) {}
 
   void place(const State& state);
 
   struct Near {
-    int a, b;  ///< places among the bodies, a < b
+    int a, b;  ///< indices of the bodies, a < b
     double distance;
   };
 
-  /// The pairs that are nearer than `margin`, or that near, by frames. They stay until the next question.
+  /// The pairs at a distance of at most `margin`, ordered by frames; valid until the next call.
   const std::vector<Near>& near(double margin);
 
-  /// Are all pairs that joints move apart at least `margin` apart? Looks no farther than to the first that is nearer,
-  /// and first at the one that was so the last time.
+  /// Whether all pairs that joints move apart are at least `margin` apart. Returns at the first pair that is closer,
+  /// and checks the pair of the last such result first.
   bool apart(double margin);
 
   int frame(int body) const { return bodies_[std::size_t(body)].frame; }
   Proximity proximity(const Near& pair) const;
 
-  /// How many distances were computed so far.
+  /// Number of distances computed so far.
   long measured() const { return measured_; }
 
  private:
   struct Body {
     std::shared_ptr<const CollisionBody> shape;
     int frame, link;
-    bool wanted;  ///< one of the frames that were asked for
+    bool wanted;  ///< one of the searched frames
     RigidTransform pose;
     Vector3d center = Vector3d::Zero();
     WorldBox box = {Vector3d::Zero(), Vector3d::Zero()};
-    double travel = 0.;  ///< no point of it has moved farther, all moves added up
+    double travel = 0.;  ///< bound of the displacement of its points, summed over all calls
   };
 
   struct Candidate {
     int a, b;
     double distance = 0.;  ///< when measured
-    double travel = -1.;   ///< of both bodies then; negative: not measured
+    double travel = -1.;   ///< of both bodies at that time; negative: not measured
   };
 
   void update(std::size_t body, const State& state);
@@ -72,15 +72,15 @@ class NearPairSearch {
   std::vector<RigidTransform> link_pose_;
   std::vector<char> link_moved_, left_box_;
   std::vector<Body> bodies_;
-  std::vector<WorldBox> rooms_;  ///< per body: its box with room to move
+  std::vector<WorldBox> boxes_;  ///< per body: its enlarged box
   BoxTree tree_;
-  std::vector<int> moved_;                 ///< bodies that left their rooms
-  double reach_ = -1.;                     ///< up to which margin the candidates are known
-  std::vector<Candidate> fixed_, moving_;  ///< candidates that both belong to link 0, and the others
+  std::vector<int> moved_;                 ///< bodies that left their boxes
+  double reach_ = -1.;                     ///< margin of the candidates
+  std::vector<Candidate> fixed_, moving_;  ///< candidates of two static bodies, and the others
   double fixed_margin_ = 0.;
   bool fixed_known_ = false;
   std::vector<Near> fixed_near_, near_;
-  std::size_t suspect_ = 0;  ///< the place in moving_ of the pair that was too near the last time
+  std::size_t suspect_ = 0;  ///< index into moving_ of the pair that was too close the last time
   long measured_ = 0;
 };
 

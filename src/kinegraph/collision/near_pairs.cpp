@@ -31,7 +31,7 @@ void PlacedBodies::place(const State& state) {
 }
 
 bool PlacedBodies::coresMayBeNear(int a, int b, double margin) const {
-  if (margin < 0.) return true;  // a center inside of a core is at 0, however deep
+  if (margin < 0.) return true;  // the distance of a center inside of a core is 0
   const CollisionBody &body_a = *pairs_->bodies[a], &body_b = *pairs_->bodies[b];
   return mayBeWithin(body_a, poses_[a], centers_[b], body_b.boundRadius() + margin) &&
          mayBeWithin(body_b, poses_[b], centers_[a], body_a.boundRadius() + margin);

@@ -11,22 +11,22 @@
 
 namespace kinegraph {
 
-/// Pairs of frames with shapes, and each of their bodies once.
+/// Pairs of frames with shapes, with every body once.
 struct BodyPairs {
-  /// Pairs of frame ids; frames without a shape count as points.
+  /// Takes pairs of frame ids; frames without a shape count as points.
   BodyPairs(const KinematicModel& model, const std::vector<std::pair<int, int>>& frame_pairs);
 
   std::vector<int> frames;                                   ///< ids
   std::vector<std::shared_ptr<const CollisionBody>> bodies;  ///< of those frames
-  std::vector<std::pair<int, int>> pairs;                    ///< places in `frames`
-  std::vector<double> reach;                                 ///< per pair: sum of the radii of bounding spheres
+  std::vector<std::pair<int, int>> pairs;                    ///< indices into `frames`
+  std::vector<double> reach;                                 ///< per pair: sum of the radii of the bounding spheres, m
 };
 
-/// The bodies of pairs where a State puts them. Before a pair's exact distance is computed, bounds may show
-/// that it is far: those of the bounding spheres, then those of one's sphere and the other one's core.
+/// The bodies of pairs at their poses in a State. Bounds exclude far pairs before exact distances are computed: those
+/// of the bounding spheres, then those of one body's sphere and the other one's core.
 class PlacedBodies {
  public:
-  /// `pairs` must stay. Memory for the poses comes from `memory`.
+  /// `pairs` must outlive it. Memory for the poses comes from `memory`.
   explicit PlacedBodies(const BodyPairs& pairs, std::pmr::memory_resource* memory = std::pmr::get_default_resource())
       : pairs_(&pairs), poses_(pairs.frames.size(), memory), centers_(pairs.frames.size(), memory) {}
 
@@ -39,15 +39,15 @@ class PlacedBodies {
     return kinegraph::proximity(*pairs_->bodies[a], poses_[a], *pairs_->bodies[b], poses_[b]);
   }
 
-  /// May the pair be nearer than `margin`, or that near? False is certain.
+  /// False only if the pair is certainly farther apart than `margin`.
   bool mayBeNear(int pair, double margin) const {
     const auto [a, b] = pairs_->pairs[pair];
     const double reach = pairs_->reach[pair] + margin;
-    if (reach < 0.) return true;  // a depth that spheres say nothing about
+    if (reach < 0.) return true;  // spheres do not bound penetration depths
     return (centers_[a] - centers_[b]).squaredNorm() <= reach * reach && coresMayBeNear(a, b, margin);
   }
 
-  /// Calls visit(pair) for all that may be.
+  /// Calls visit(pair) for all pairs for which mayBeNear is true.
   template <class Visit>
   void forMaybeNear(double margin, const Visit& visit) const {
     const std::pair<int, int>* pairs = pairs_->pairs.data();
@@ -65,7 +65,7 @@ class PlacedBodies {
  private:
   bool coresMayBeNear(int a, int b, double margin) const;
 
-  /// Without zeros, which would be written for nothing.
+  /// Not initialized, to save time.
   struct Placed : RigidTransform {
     Placed() {}
   };
@@ -78,7 +78,7 @@ class PlacedBodies {
   std::pmr::vector<Center> centers_;  ///< of the bounding spheres
 };
 
-/// Distances of all collidable pairs of a scene, with nearest points.
+/// Distances and witness points of all collidable pairs of a scene.
 class PairDistances {
  public:
   explicit PairDistances(std::shared_ptr<const KinematicModel> model)
@@ -87,7 +87,7 @@ class PairDistances {
 
   const std::shared_ptr<const KinematicModel>& model() const { return model_; }
 
-  /// Calls visit(i, proximity) for pair i of program()->collidable(), in turn.
+  /// Calls visit(i, proximity) for pair i of model()->collidable(), in order.
   template <class Visit>
   void forAll(const State& state, const Visit& visit) {
     bodies_.place(state);
@@ -100,8 +100,8 @@ class PairDistances {
   PlacedBodies bodies_;
 };
 
-/// The collidable pairs of a scene. Those of few bodies are looked at one by one, those of many by a NearPairSearch;
-/// the answers are the same.
+/// The near collidable pairs of a scene. Checks the pairs of few bodies one by one, and those of many by a
+/// NearPairSearch, with equal results.
 class NearPairs {
  public:
   static constexpr std::size_t kFew = 64;  ///< bodies
@@ -109,10 +109,10 @@ class NearPairs {
   explicit NearPairs(std::shared_ptr<const KinematicModel> model);
   NearPairs(const NearPairs& other) : NearPairs(other.model_) {}
 
-  /// `state` must stay while this is asked.
+  /// `state` must outlive the following calls.
   void place(const State& state);
 
-  /// Calls visit(a, b, distance) for the frames of the pairs nearer than `margin`, or that near, by frames.
+  /// Calls visit(a, b, distance) for the pairs of frames at a distance of at most `margin`, ordered by frames.
   template <class Visit>
   void forDistances(double margin, const Visit& visit) {
     if (search_) {
@@ -127,8 +127,8 @@ class NearPairs {
     });
   }
 
-  /// Are all pairs that joints move apart at least `margin` apart? Those that rest relative to each other say nothing
-  /// about q. The pair that was too near the last time is looked at first.
+  /// Whether all pairs that joints move apart are at least `margin` apart. Checks the pair that was too close the last
+  /// time first.
   bool apart(double margin);
 
  private:

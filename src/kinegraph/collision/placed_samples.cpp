@@ -6,7 +6,7 @@ namespace kinegraph {
 
 namespace {
 
-/// A convex core, for the kernel.
+/// The convex core of a body, for the kernel.
 SampleKernel::Convex coreOf(const CollisionBody& body) {
   SampleKernel::Convex core{};
   switch (body.core()) {
@@ -63,7 +63,7 @@ PlacedSamples::PlacedSamples(const State& scene, const LinkBodies& bodies, const
     setWorld(memory_.pose + g * pose_rows * std::size_t(kernel_->width), kernel_->width);
   for (std::size_t i = 0; i < bodies.groups.size(); ++i) {
     const LinkBodies::Group& group = bodies.groups[i];
-    spheres_[i] = {group.center, group.radius};  // as it is for those that are fixed
+    spheres_[i] = {group.center, group.radius};  // final for static groups
   }
   if (bodies.many) return;
   layOutFixed();
@@ -108,7 +108,7 @@ void PlacedSamples::place(int count) {
 bool PlacedSamples::mayBeNear(int group_a, int group_b, double margin) const {
   const Sphere &a = spheres_[std::size_t(group_a)], &b = spheres_[std::size_t(group_b)];
   const double reach = a.radius + b.radius + margin;
-  if (reach < 0.) return true;  // a depth that spheres say nothing about
+  if (reach < 0.) return true;  // spheres do not bound penetration depths
   if ((a.center - b.center).squaredNorm() > reach * reach) return false;
   if (!bodies_->fixed(group_b)) return true;
   const LinkBodies::Body& body = bodies_->bodies[std::size_t(bodies_->groups[std::size_t(group_b)].first)];
@@ -142,7 +142,7 @@ const PlacedSamples::Placed& PlacedSamples::placed(int index) {
   Placed& placed = *placed_[std::size_t(index)];
   if (placed.stamp == stamp_) return placed;
   const int link = bodies_->link(index);
-  if (link != 0 || placed.stamp == 0) {  // what is fixed is where it ever was
+  if (link != 0 || placed.stamp == 0) {  // static bodies are placed once
     kernel_->placeBody(memory_.pose, model_.links * LaneMemory::kPerPose, link * LaneMemory::kPerPose, placed.offset,
                        link == 0 ? kMost / kernel_->width : groups_, placed.rows);
   }

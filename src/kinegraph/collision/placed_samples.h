@@ -17,7 +17,7 @@ class PlacedSamples {
   static constexpr int kMost = 8;  ///< configurations
   using Lane = Eigen::Array<double, kMost, 1>;
 
-  /// `bodies` must stay.
+  /// `bodies` must outlive it.
   PlacedSamples(const State& scene, const LinkBodies& bodies, const SampleKernel& kernel = sampleKernel());
   PlacedSamples(const PlacedSamples&) = delete;
 
@@ -25,10 +25,10 @@ class PlacedSamples {
     std::copy_n(q, model_.variables, Q_.data() + sample * model_.variables);
   }
 
-  /// To be called when the first `count` samples have their joints. Between samples that follow one another, no point of
-  /// a group strays from a straight line by more than its `stray`, m.
+  /// Places the first `count` samples, after setJoints. setDeviation adds the deviation (m) of points of a group from
+  /// straight lines between consecutive samples.
   void place(int count);
-  void setStray(int group, double stray) { spheres_[std::size_t(group)].radius += stray; }
+  void setDeviation(int group, double deviation) { spheres_[std::size_t(group)].radius += deviation; }
 
   int count() const { return count_; }
   /// X_WL of a link.
@@ -43,26 +43,25 @@ class PlacedSamples {
   };
   const Sphere& sphere(int group) const { return spheres_[std::size_t(group)]; }
 
-  /// May any two bodies of these groups come within `margin` (m) of each other, in any sample or between them? False is
-  /// certain.
+  /// False only if no two bodies of these groups come within `margin` (m) of each other, in samples and between them.
   bool mayBeNear(int group_a, int group_b, double margin) const;
 
-  /// The same for a group that moves and all that do not: zero for those of which it is certain. Of few bodies alone.
+  /// The same for a moving group and every static group; zero means false. Only for few bodies.
   const std::vector<std::int64_t>& nearFixed(int group, double margin);
 
   /// X_WB of a body.
   RigidTransform pose(int body, int sample) { return poseIn(placed(body).rows, SampleKernel::kPerBody, 0, sample); }
 
-  /// Bounds of the distance of two bodies in each sample, m. `least`: how far their boxes are apart along the direction
-  /// from one's to the other's middle; -infinity where that says nothing. Those that are `most` or more need not be the
-  /// best. `most`: of a ball within one and the box of the other; infinity where that says nothing.
+  /// Bounds of the distance of two bodies in each sample, m. `least` is the gap of their boxes along the direction
+  /// between their centers; -infinity: unknown. Values of `most` or more may be smaller than that gap. `most` is the
+  /// distance of a ball inside of one and the box of the other; infinity: unknown.
   struct Bounds {
     Lane least, most;
   };
   Bounds distanceBounds(int body_a, int body_b, double most = std::numeric_limits<double>::infinity());
 
-  /// How far two convex bodies are apart along a direction, in each sample, m; a lower bound of their distance. The unit
-  /// vector n, from b to a, is fixed in a link. The farthest corners are looked for from `corners` on.
+  /// The gap of two convex bodies along a direction in each sample, m: a lower bound of their distance. The unit vector
+  /// n, from b to a, is fixed in a link. The search for support corners begins at `corners`.
   Lane gaps(int body_a, int body_b, const Vector3d& n, int link, SupportCorners& corners);
 
  private:
@@ -75,7 +74,7 @@ class PlacedSamples {
   const Placed& placed(int body);
   std::unique_ptr<Placed> unplaced(int body) const;
 
-  /// A pose of one sample, out of rows of lanes.
+  /// Reads the pose of one sample from rows of lanes.
   RigidTransform poseIn(const double* from, int rows, int row, int sample) const {
     const int width = kernel_->width;
     from += (sample / width * rows + row) * width + sample % width;
@@ -96,9 +95,9 @@ class PlacedSamples {
   std::vector<double> Q_;        ///< a row per sample
   std::vector<Sphere> spheres_;  ///< per group
   std::vector<double> fixed_storage_;
-  SampleKernel::FixedBoxes fixed_{};             ///< of groups, in their order
-  std::vector<std::int64_t> near_;               ///< per group that does not move
-  std::vector<std::unique_ptr<Placed>> placed_;  ///< per body; of many bodies those that were asked for
+  SampleKernel::FixedBoxes fixed_{};             ///< of static groups, in their order
+  std::vector<std::int64_t> near_;               ///< per static group
+  std::vector<std::unique_ptr<Placed>> placed_;  ///< per body; for many bodies constructed on demand
   int count_ = 0, groups_ = 0, stamp_ = 0;
 };
 

@@ -61,7 +61,7 @@ void boundSamplePoint(const double* poses, int link_rows, int link_row, const do
   sphere[3] = __builtin_sqrt(-leastOf(-square));
 }
 
-/// May a sphere come within `margin` of boxes that do not move?
+/// Tests whether a sphere may come within `margin` of static boxes.
 void nearBoxes(const SampleKernel::FixedBoxes& boxes, const double* sphere, double margin, std::int64_t* near) {
   const Vector center = {all<Lane>(sphere[0]), all<Lane>(sphere[1]), all<Lane>(sphere[2])};
   const Lane reach = all<Lane>(sphere[3] + margin);
@@ -79,13 +79,13 @@ void nearBoxes(const SampleKernel::FixedBoxes& boxes, const double* sphere, doub
   }
 }
 
-/// How far a box A is from a box B along the direction from B to the middle of A. `top` becomes how far a body in A is from
-/// B at most, if it is less.
+/// The gap of boxes A and B along the direction from B to the center of A. Lowers `top` to an upper bound of the
+/// distance of the body in A from B.
 Lane boxGap(const Lane* rows_a, const SampleKernel::Box& a, const Lane* rows_b, const SampleKernel::Box& b, Lane& top) {
   const Vector apart = load(rows_a + 12) - load(rows_b + 12);
   Lane square{};
   Vector world{};
-  for (int k = 0; k < 3; ++k) {  // from the nearest point of B, in its axes
+  for (int k = 0; k < 3; ++k) {  // from the closest point of B, in its axes
     const Vector axis = load(rows_b + 3 * k);
     const Lane along = dot(axis, apart), half = all<Lane>(b.half[k]),
                away = along - smaller(larger(along, -half), half);
@@ -114,7 +114,7 @@ void sampleBoxGaps(const SampleKernel::Box& a, const SampleKernel::Box& b, int g
   }
 }
 
-/// The least of n p over the core's points p.
+/// The least of n p over the points p of the core.
 Lane leastAlong(SampleKernel::PlacedConvex& body, int group, const Vector& n) {
   const Lane* X = packs(body.rows) + group * SampleKernel::kPerBody;
   const Vector local = {-dot(load(X), n), -dot(load(X + 3), n), -dot(load(X + 6), n)};

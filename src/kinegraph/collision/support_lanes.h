@@ -1,7 +1,7 @@
 #pragma once
 
-// How far convex bodies reach along directions, a direction per lane; local to each source file that includes it, as
-// lane_math.h is.
+// Support functions of convex bodies, one direction per lane. Like lane_math.h, this file is local to each source file
+// that includes it.
 
 #include "kinegraph/collision/sample_kernel.h"
 #include "kinegraph/math/lane_math.h"
@@ -15,8 +15,8 @@ S along(const Vec3<S>& direction, const double* point) {
   return point[0] * direction.x + point[1] * direction.y + point[2] * direction.z;
 }
 
-/// Lanes walk along neighbors to their farthest corners, together: where one stands, all look around. `corner` is where
-/// they begin, and becomes where the last of them ends.
+/// All lanes climb together along neighbors to their farthest corners. The search begins at `corner`, which becomes the
+/// corner of the last lane that ends.
 template <class S>
 S farthestOfNeighbors(const SampleKernel::Convex& body, const Vec3<S>& direction, std::uint32_t& corner) {
   using Mask = decltype(direction.x < direction.x);
@@ -30,7 +30,7 @@ S farthestOfNeighbors(const SampleKernel::Convex& body, const Vec3<S>& direction
       best = higher ? height : best;
       at = higher ? Mask{} + std::int64_t(neighbor) : at;
     }
-    walking &= at != std::int64_t(corner);  // who is higher than all neighbors is there
+    walking &= at != std::int64_t(corner);  // done: higher than all neighbors
     if (!any(walking)) return best;
     for (int i = 0; i < kWidth<S>; ++i) {
       if (walking[i]) corner = std::uint32_t(at[i]);

@@ -4,20 +4,20 @@
 
 namespace kinegraph {
 
-/// What is made of a list of a library's functions, `#define LIST(X) X(first) X(second)`: the members of a struct that has
-/// a pointer to each under its own name, and the calls that fill `functions`, such a struct, from a DynamicLibrary
-/// `library`.
+/// Expand a list of functions of a library, `#define LIST(X) X(first) X(second)`: the first to members of a struct, one
+/// function pointer per function; the second to statements that load the members of such a struct `functions` from a
+/// DynamicLibrary `library`.
 #define KINEGRAPH_LIBRARY_MEMBER(name) decltype(&::name) name;
 #define KINEGRAPH_LIBRARY_LOAD(name) library.load(functions.name, #name);
 
-/// A shared library that is loaded when it is first needed, not when the program starts. It is looked for where the
-/// libraries are that this one is linked with, and stays loaded.
+/// A shared library that is loaded on demand and stays loaded. The search path is that of the linked libraries of this
+/// library.
 class DynamicLibrary {
  public:
-  /// `purpose` is what cannot be done without it. Throws FileError, which names the library, if it cannot be loaded.
+  /// `purpose` names the function that needs the library. Throws FileError with its name if it cannot be loaded.
   DynamicLibrary(std::string name, std::string purpose);
 
-  /// Points `function` to the function of that name. Throws FileError if the library has none.
+  /// Sets `function` to the function of that name. Throws FileError if the library does not have it.
   template <class Function>
   void load(Function*& function, const char* symbol) const {
     function = reinterpret_cast<Function*>(address(symbol));

@@ -6,7 +6,7 @@
 
 namespace kinegraph {
 
-/// A place in a text: line and column count from 1; `file` may be empty for text given as a string.
+/// A position in a text: line and column count from 1; `file` is empty for a text from a string.
 struct SourcePosition {
   std::string file;
   int line = 0;
@@ -15,7 +15,7 @@ struct SourcePosition {
   std::string str() const;  ///< "file:line:column", or "line:column" without a file
 };
 
-/// A mistake of the caller. The message names the thing, the place, what was expected and what is available.
+/// A mistake of the caller. The message names the place, the given and the expected values, and alternatives.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -27,13 +27,13 @@ class ValueError : public Error {
   using Error::Error;
 };
 
-/// A name that is not there: a frame, a feature, a parameter.
+/// An unknown name of a frame, a feature or a parameter.
 class NameError : public Error {
  public:
   using Error::Error;
 };
 
-/// A frame name that is not in the configuration.
+/// An unknown frame name.
 class FrameNotFound : public NameError {
  public:
   using NameError::NameError;
@@ -45,18 +45,18 @@ class FrameDeleted : public Error {
   using Error::Error;
 };
 
-/// A file that is missing or unreadable.
+/// A missing or unreadable file.
 class FileError : public Error {
  public:
   using Error::Error;
 };
 
-/// A text that does not follow its grammar, or a scene text that makes no sense. The message starts with the place.
+/// A text with a syntax error, or an invalid scene. The message starts with the position.
 class ParseError : public Error {
  public:
   ParseError(SourcePosition where, const std::string& message);
   const SourcePosition& where() const { return where_; }
-  const std::string& reason() const { return reason_; }  ///< the message without the place
+  const std::string& reason() const { return reason_; }  ///< the message without the position
 
  private:
   SourcePosition where_;

@@ -35,7 +35,7 @@ std::string expandEnvironment(const std::string& path) {
   return out;
 }
 
-/// Is `folder` the package of that name? Its own name says so, or its package.xml.
+/// Whether `folder` is the package, by its name or its package.xml.
 bool isPackage(const fs::path& folder, const std::string& name) {
   if (folder.filename() == name) return true;
   std::ifstream stream(folder / "package.xml", std::ios::binary);
@@ -44,7 +44,7 @@ bool isPackage(const fs::path& folder, const std::string& name) {
   return text.str().find(cat("<name>", name, "</name>")) != std::string::npos;
 }
 
-/// The file NAME/rest of a package: in a folder around `folder`, or below the folders that the environment names.
+/// Finds the file NAME/rest of a package: in `folder` or above it, or below the folders of the environment.
 std::string findInPackages(const std::string& path, const std::string& folder) {
   const std::size_t slash = std::min(path.find('/'), path.size());
   const std::string name = path.substr(0, slash), rest = path.substr(std::min(slash + 1, path.size()));
@@ -69,8 +69,7 @@ std::string findInPackages(const std::string& path, const std::string& folder) {
   return "";
 }
 
-/// Scenes that were written beside a folder rai-robotModels name models in it: those of RAI_PATH, where there is no such
-/// folder.
+/// Resolves paths of scenes that refer to a folder rai-robotModels: RAI_PATH replaces a missing one.
 std::string inModels(const std::string& path) {
   const std::string models = "rai-robotModels/", folder = environment("RAI_PATH");
   const std::size_t at = path.rfind("/" + models);

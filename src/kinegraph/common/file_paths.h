@@ -4,19 +4,19 @@
 
 namespace kinegraph {
 
-/// An absolute path: `path` with $NAME expanded from the environment, relative to `folder`; file:// in front is
-/// dropped. A path package://NAME/rest (or model://) is looked up in `folder` and all folders above it, then in those
-/// of KINEGRAPH_PACKAGE_PATH, ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; empty if it is in none. Where nothing is at a path
-/// .../rai-robotModels/rest, it is rest in the folder RAI_PATH, if that is there.
+/// Resolves `path` relative to `folder` to an absolute path: expands $NAME from the environment and drops file://.
+/// Searches package://NAME/rest (or model://) in `folder` and all folders above it, then in KINEGRAPH_PACKAGE_PATH,
+/// ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; empty if none has it. A missing path .../rai-robotModels/rest becomes rest
+/// in the folder RAI_PATH, if that exists.
 std::string resolvePath(const std::string& path, const std::string& folder);
 
-/// Why resolvePath found no place for a path in a package, and what helps.
+/// Explains an empty result of resolvePath, with remedies.
 std::string missingPackageMessage(const std::string& path);
 
-/// "; similar names: ..." of the files beside a missing one, or that its folder does not exist.
+/// Returns "; similar names: ..." with files beside a missing one, or reports a missing folder.
 std::string similarFilesHint(const std::string& path);
 
-/// The extension of a file's name with the dot, in lower case: ".urdf".
+/// Returns the extension of a file name with the dot, in lower case: ".urdf".
 std::string lowerExtension(const std::string& path);
 
 }  // namespace kinegraph

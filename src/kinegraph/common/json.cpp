@@ -1,6 +1,6 @@
 #include "kinegraph/common/json.h"
 
-#include <boost/json/src.hpp>  // the library itself, once
+#include <boost/json/src.hpp>  // the implementation of the library
 
 namespace kinegraph {
 

@@ -12,14 +12,14 @@
 
 namespace kinegraph {
 
-// Values of Boost.JSON as browsers and glTF files take them. For implementations only: it is slow to compile.
+// Values of Boost.JSON for browsers and glTF files. Include only in sources: Boost.JSON compiles slowly.
 
-/// Numbers that are not finite are null; whole ones have no exponent.
+/// Converts a number: null if it is not finite; integers have no exponent.
 boost::json::value jsonOf(double number);
 
 inline boost::json::value jsonOf(std::integral auto number) { return std::int64_t(number); }
 
-/// Bytes that are not UTF-8, which readers of JSON refuse, become U+FFFD.
+/// Converts a text; bytes that are not UTF-8 become U+FFFD, since JSON parsers reject them.
 inline boost::json::value jsonOf(std::string_view text) {
   return boost::json::string(validUtf8(text, nullptr, "\xef\xbf\xbd"));
 }

@@ -13,10 +13,10 @@
 
 namespace kinegraph {
 
-/// Which numbers an option takes.
+/// The valid numbers of an option.
 struct OptionRange {
   bool (*contains)(double value);
-  const char* expected;  ///< in words, for messages
+  const char* expected;  ///< description for messages
 
   static constexpr OptionRange any(const char* expected = "a number") {
     return {[](double v) { return !std::isnan(v); }, expected};
@@ -44,8 +44,8 @@ struct OptionRange {
   }
 };
 
-/// The fields of an options struct, a row each: what C++ and Python say, check, print and store of them. Defaults are
-/// those of the struct. `More` are types of fields beside numbers, truth values and texts.
+/// A table of the fields of an options struct, which C++ and Python use to check, document, print and store them. The
+/// struct has the defaults. `More` are types of fields other than numbers, bools and strings.
 template <class Options, class... More>
 class OptionTable {
  public:
@@ -56,7 +56,7 @@ class OptionTable {
     Row(const char* name, Member member, const char* unit, const char* doc, OptionRange range = OptionRange::any())
         : name(name), member(member), unit(unit), doc(doc), range(range) {}
 
-    /// A text that is one of `choices`.
+    /// A string field with the values `choices`.
     Row(const char* name, std::string Options::*member, const char* unit, const char* doc,
         std::vector<std::string> choices)
         : Row(name, Member(member), unit, doc) {
@@ -65,19 +65,19 @@ class OptionTable {
 
     const char* name;
     Member member;
-    const char* unit;   ///< "" where there is none
+    const char* unit;   ///< "" for none
     const char* doc;    ///< a sentence
-    OptionRange range;  ///< of a number
+    OptionRange range;  ///< of numbers
     std::vector<std::string> choices;
   };
 
-  /// `place` is what messages begin with.
+  /// `place` is the start of messages.
   OptionTable(const char* place, std::vector<Row> rows) : place_(place), rows_(std::move(rows)) {}
 
   const char* place() const { return place_; }
   const std::vector<Row>& rows() const { return rows_; }
 
-  /// Throws ValueError with similar names, also among `others`, where there is no such option.
+  /// Returns a field. Throws ValueError for an unknown option, with similar names from the table and `others`.
   const Row& row(const std::string& name, const std::vector<std::string>& others = {}) const {
     std::vector<std::string> names = others;
     for (const Row& row : rows_) {
@@ -87,7 +87,7 @@ class OptionTable {
     throw ValueError(cat(place_, ": there is no option '", name, "'", similarHint(name, names)));
   }
 
-  /// Throws ValueError naming the first field, in the order of the table, that makes no sense.
+  /// Throws ValueError with the first invalid field, in the order of the table.
   void validate(const Options& options) const {
     for (const Row& row : rows_) std::visit([&](auto member) { check(row, options.*member); }, row.member);
   }

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
 #include <system_error>
 #include <thread>
 #include <vector>
+
+#include "kinegraph/common/cancellation_interval.h"
 
 namespace kinegraph {
 
@@ -17,25 +18,23 @@ namespace {
 using Job = std::function<void(int, const CancellationToken&)>;
 using Take = std::function<bool(int)>;
 
-constexpr std::chrono::milliseconds kLook{20};
-
-class JobsAhead {
+class OrderedJobs {
  public:
-  JobsAhead(int count, int threads, const Job& job, const CancellationToken& cancellation)
+  OrderedJobs(int count, int threads, const Job& job, const CancellationToken& cancellation)
       : count_(count), threads_(threads), job_(job), cancellation_(cancellation), ended_(std::size_t(count)) {
     const int workers = std::min(count, threads);
     workers_.reserve(std::size_t(workers));
     try {
       for (int i = 0; i < workers; ++i) workers_.emplace_back([this] { work(); });
-    } catch (const std::system_error&) {  // no more threads
+    } catch (const std::system_error&) {  // the system has no more threads
       if (workers_.empty()) throw;
     }
   }
 
-  ~JobsAhead() {
+  ~OrderedJobs() {
     {
       const std::scoped_lock lock(mutex_);
-      over_ = true;
+      cancelled_ = true;
     }
     changed_.notify_all();
   }
@@ -53,20 +52,20 @@ class JobsAhead {
 
  private:
   struct End {
-    bool is_over = false;
+    bool has_ended = false;
     std::exception_ptr failure;
   };
 
   void work() {
     std::unique_lock lock(mutex_);
     while (true) {
-      changed_.wait(lock, [this] { return over_ || next_ == count_ || next_ < taken_ + threads_; });
-      if (over_ || next_ == count_) return;
+      changed_.wait(lock, [this] { return cancelled_ || next_ == count_ || next_ < taken_ + threads_; });
+      if (cancelled_ || next_ == count_) return;
       const int i = next_++;
       lock.unlock();
       std::exception_ptr failure;
       try {
-        job_(i, [this] { return over_.load(); });
+        job_(i, [this] { return cancelled_.load(); });
       } catch (...) {
         failure = std::current_exception();
       }
@@ -77,9 +76,9 @@ class JobsAhead {
   }
 
   void wait(int job) {
-    cancellation_.check();  // also where no job takes long
+    cancellation_.check();  // also if all jobs are short
     std::unique_lock lock(mutex_);
-    while (!changed_.wait_for(lock, kLook, [&] { return ended_[std::size_t(job)].is_over; })) {
+    while (!changed_.wait_for(lock, kCancellationInterval, [&] { return ended_[std::size_t(job)].has_ended; })) {
       lock.unlock();
       cancellation_.check();
       lock.lock();
@@ -91,24 +90,24 @@ class JobsAhead {
   const CancellationToken& cancellation_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::atomic<bool> over_ = false;
+  std::atomic<bool> cancelled_ = false;
   int next_ = 0, taken_ = 0;
   std::vector<End> ended_;
-  std::vector<std::jthread> workers_;  ///< the last: they are joined before the rest is gone
+  std::vector<std::jthread> workers_;  ///< the last member: joined before the others are destroyed
 };
 
 }  // namespace
 
 void orderedParallelFor(int count, int threads, const Job& job, const Take& take,
                         const CancellationToken& cancellation) {
-  if (threads > 1 && count > 0) return JobsAhead(count, threads, job, cancellation).run(take);
-  const CancellationToken stopped = [&] {
+  if (threads > 1 && count > 0) return OrderedJobs(count, threads, job, cancellation).run(take);
+  const CancellationToken job_cancellation = [&] {
     cancellation.check();
     return false;
   };
   for (int i = 0; i < count; ++i) {
     cancellation.check();
-    job(i, stopped);
+    job(i, job_cancellation);
     if (!take(i)) return;
   }
 }

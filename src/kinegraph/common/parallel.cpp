@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -10,11 +9,11 @@
 #include <thread>
 #include <vector>
 
+#include "kinegraph/common/cancellation_interval.h"
+
 namespace kinegraph {
 
 namespace {
-
-constexpr std::chrono::milliseconds kWatch{20};
 
 class Parts {
  public:
@@ -35,20 +34,20 @@ class Parts {
           ++busy_;
           others.emplace_back([this, worker] { help(worker); });
         }
-      } catch (const std::system_error&) {  // no more threads
+      } catch (const std::system_error&) {  // the system has no more threads
         --busy_;
       }
       takeParts(0);
       waitForOthers();
     }
-    if (stopped_) std::rethrow_exception(stopped_);
+    if (cancelled_) std::rethrow_exception(cancelled_);
     if (failure_) std::rethrow_exception(failure_);
   }
 
  private:
   void takeParts(int worker) {
     for (int i = next_++; i < parts_; i = next_++) {
-      if (worker == 0 && !askBetween()) return;
+      if (worker == 0 && !mayContinue()) return;
       try {
         work_(worker, i * part_, std::min(count_ - i * part_, part_) + i * part_);
       } catch (...) {
@@ -61,14 +60,14 @@ class Parts {
     }
   }
 
-  /// On the calling thread. False: stop.
-  bool askBetween() {
-    if (!cancellation_ || stopped_) return !stopped_;
+  /// Asks the cancellation token, on the calling thread. False if no further part shall begin.
+  bool mayContinue() {
+    if (!cancellation_ || cancelled_) return !cancelled_;
     try {
       cancellation_.check();
       return true;
     } catch (...) {
-      stopped_ = std::current_exception();
+      cancelled_ = std::current_exception();
       next_ = parts_;
       return false;
     }
@@ -82,22 +81,22 @@ class Parts {
 
   void waitForOthers() {
     std::unique_lock lock(mutex_);
-    while (!all_done_.wait_for(lock, kWatch, [this] { return busy_ == 0; })) {
+    while (!all_done_.wait_for(lock, kCancellationInterval, [this] { return busy_ == 0; })) {
       lock.unlock();
-      askBetween();
+      mayContinue();
       lock.lock();
     }
     lock.unlock();
-    askBetween();
+    mayContinue();
   }
 
   const int count_, part_, parts_;
   const std::function<void(int, int, int)>& work_;
   const CancellationToken& cancellation_;
-  std::atomic<int> next_ = 0, busy_ = 0;  ///< part to take next; other threads that still run
+  std::atomic<int> next_ = 0, busy_ = 0;  ///< next part; number of other threads that still run
   std::mutex mutex_;
   std::condition_variable all_done_;
-  std::exception_ptr failure_, stopped_;
+  std::exception_ptr failure_, cancelled_;
   int failed_;
 };
 

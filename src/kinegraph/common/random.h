@@ -4,7 +4,7 @@
 
 namespace kinegraph {
 
-/// Random numbers that are the same on every machine (xoshiro256++, seeded by splitmix64).
+/// A random number generator with equal results on all machines (xoshiro256++, seeded by splitmix64).
 /// Source: Blackman & Vigna, Scrambled Linear Pseudorandom Number Generators, 2021.
 class Rng {
  public:

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -10,14 +9,14 @@
 #include <thread>
 #include <vector>
 
+#include "kinegraph/common/cancellation_interval.h"
+
 namespace kinegraph {
 
 namespace {
 
-constexpr std::chrono::milliseconds kLook{20};
-
-/// Ends work that waits for other work where all is to end.
-struct AllIsOver {};
+/// Ends work that waits for other work after cancelAll.
+struct AllCancelled {};
 
 }  // namespace
 
@@ -26,26 +25,26 @@ struct SpeculativeExecutor::Item {
 
   Work work;
   State state = State::idle;
-  Priority wanted = Priority::surely;
-  std::atomic<bool> is_unwanted = false;
+  Priority priority = Priority::high;
+  std::atomic<bool> is_dropped = false;
   std::exception_ptr failure;
 };
 
-class SpeculativeExecutor::Crew {
+class SpeculativeExecutor::WorkerPool {
  public:
-  Crew(int threads, CancellationToken cancellation) : threads_(threads), cancellation_(std::move(cancellation)) {}
-  ~Crew() { rest(); }
+  WorkerPool(int threads, CancellationToken cancellation) : threads_(threads), cancellation_(std::move(cancellation)) {}
+  ~WorkerPool() { cancelAll(); }
 
-  void begin(const std::shared_ptr<Item>& item, Priority wanted) {
+  void begin(const std::shared_ptr<Item>& item, Priority priority) {
     if (threads_ < 2) return;
     {
       const std::scoped_lock lock(mutex_);
       if (item->state == Item::State::begun) std::erase(queue_, item);
       if (item->state != Item::State::idle && item->state != Item::State::begun) return;
       item->state = Item::State::begun;
-      item->wanted = wanted;
+      item->priority = priority;
       queue_.push_back(item);
-      hire();
+      startWorkers();
     }
     changed_.notify_all();
   }
@@ -54,29 +53,29 @@ class SpeculativeExecutor::Crew {
     std::unique_lock lock(mutex_);
     while (item->state != Item::State::ended) {
       throwInterruption();
-      if (is_over_) throw AllIsOver();
+      if (is_over_) throw AllCancelled();
       if (item->state != Item::State::running) {
         take(item);
         run(item, lock);
-      } else if (const std::shared_ptr<Item> other = next(item->wanted)) {
+      } else if (const std::shared_ptr<Item> other = next(item->priority)) {
         take(other);
         run(other, lock);
       } else {
-        changed_.wait_for(lock, kLook);
-        askInBreak(lock);
+        changed_.wait_for(lock, kCancellationInterval);
+        askUnlocked(lock);
       }
     }
     if (item->failure) std::rethrow_exception(item->failure);
   }
 
-  /// Nobody will ask for it.
+  /// Cancels work whose result will not be requested.
   void drop(const std::shared_ptr<Item>& item) {
-    item->is_unwanted = true;
+    item->is_dropped = true;
     const std::scoped_lock lock(mutex_);
     std::erase(queue_, item);
   }
 
-  void rest() {
+  void cancelAll() {
     {
       const std::scoped_lock lock(mutex_);
       is_over_ = true;
@@ -84,14 +83,14 @@ class SpeculativeExecutor::Crew {
       queue_.clear();
     }
     changed_.notify_all();
-    workers_.clear();  // which waits for them
+    workers_.clear();  // joins them
     is_over_ = false;
     interruption_ = nullptr;
     caller_ = std::this_thread::get_id();
   }
 
  private:
-  void hire() {
+  void startWorkers() {
     if (!workers_.empty()) return;
     try {
       for (int i = 1; i < threads_; ++i) workers_.emplace_back([this] { work(); });
@@ -104,16 +103,16 @@ class SpeculativeExecutor::Crew {
     while (true) {
       changed_.wait(lock, [this] { return is_over_ || !queue_.empty(); });
       if (is_over_) return;
-      const std::shared_ptr<Item> item = next(Priority::maybe);
+      const std::shared_ptr<Item> item = next(Priority::low);
       take(item);
       run(item, lock);
     }
   }
 
-  /// What is wanted most, and at least so much.
+  /// Returns queued work of the highest priority, or null if that is below `least`.
   std::shared_ptr<Item> next(Priority least) const {
-    const auto most = std::ranges::min_element(queue_, {}, &Item::wanted);
-    return most == queue_.end() || (*most)->wanted > least ? nullptr : *most;
+    const auto first = std::ranges::min_element(queue_, {}, &Item::priority);
+    return first == queue_.end() || (*first)->priority > least ? nullptr : *first;
   }
 
   void take(const std::shared_ptr<Item>& item) {
@@ -126,15 +125,15 @@ class SpeculativeExecutor::Crew {
     Work work = std::move(item->work);
     std::exception_ptr failure;
     try {
-      work([this, item] { return item->is_unwanted || is_over_ || !ask(); });
+      work([this, item] { return item->is_dropped || is_over_ || !mayContinue(); });
     } catch (...) {
       failure = std::current_exception();
     }
-    const bool is_stopped = is_over_;  // then it is no result
+    const bool is_stopped = is_over_;  // the result may be partial
     if (is_stopped)
       item->work = std::move(work);
     else
-      work = nullptr;  // with what it holds
+      work = nullptr;  // frees its captures
     lock.lock();
     item->failure = is_stopped ? nullptr : failure;
     item->state = is_stopped ? Item::State::idle : Item::State::ended;
@@ -142,8 +141,8 @@ class SpeculativeExecutor::Crew {
     throwInterruption();
   }
 
-  /// False: the calling thread is to end all.
-  bool ask() {
+  /// Asks the cancellation token if this is the calling thread. False if all work shall end.
+  bool mayContinue() {
     if (!cancellation_ || std::this_thread::get_id() != caller_) return true;
     try {
       cancellation_.check();
@@ -155,9 +154,9 @@ class SpeculativeExecutor::Crew {
     }
   }
 
-  void askInBreak(std::unique_lock<std::mutex>& lock) {
+  void askUnlocked(std::unique_lock<std::mutex>& lock) {
     lock.unlock();
-    ask();
+    mayContinue();
     lock.lock();
     throwInterruption();
   }
@@ -172,36 +171,36 @@ class SpeculativeExecutor::Crew {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::atomic<bool> is_over_ = false;
-  std::exception_ptr interruption_;  ///< of the calling thread, by `cancellation`, until all rest
+  std::exception_ptr interruption_;  ///< from the cancellation token, until `cancelAll`
   std::vector<std::shared_ptr<Item>> queue_;
   std::vector<std::jthread> workers_;
 };
 
 SpeculativeExecutor::SpeculativeExecutor(int threads, CancellationToken cancellation)
-    : crew_(std::make_shared<Crew>(threads, std::move(cancellation))) {}
-SpeculativeExecutor::~SpeculativeExecutor() { rest(); }
+    : pool_(std::make_shared<WorkerPool>(threads, std::move(cancellation))) {}
+SpeculativeExecutor::~SpeculativeExecutor() { cancelAll(); }
 
-void SpeculativeExecutor::rest() { crew_->rest(); }
+void SpeculativeExecutor::cancelAll() { pool_->cancelAll(); }
 
-SpeculativeExecutor::Task::Task(std::shared_ptr<Crew> crew, Work work)
-    : crew_(std::move(crew)), item_(std::make_shared<Item>()) {
+SpeculativeExecutor::Task::Task(std::shared_ptr<WorkerPool> pool, Work work)
+    : pool_(std::move(pool)), item_(std::make_shared<Item>()) {
   item_->work = std::move(work);
 }
 
 SpeculativeExecutor::Task& SpeculativeExecutor::Task::operator=(Task&& other) noexcept {
   if (this == &other) return *this;
-  if (item_) crew_->drop(item_);
-  crew_ = std::move(other.crew_);
+  if (item_) pool_->drop(item_);
+  pool_ = std::move(other.pool_);
   item_ = std::move(other.item_);
   return *this;
 }
 
 SpeculativeExecutor::Task::~Task() {
-  if (item_) crew_->drop(item_);
+  if (item_) pool_->drop(item_);
 }
 
-void SpeculativeExecutor::Task::begin(Priority wanted) const { crew_->begin(item_, wanted); }
+void SpeculativeExecutor::Task::begin(Priority priority) const { pool_->begin(item_, priority); }
 
-void SpeculativeExecutor::Task::finish() const { crew_->finish(item_); }
+void SpeculativeExecutor::Task::finish() const { pool_->finish(item_); }
 
 }  // namespace kinegraph

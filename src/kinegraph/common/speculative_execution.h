@@ -6,89 +6,92 @@
 #include <utility>
 
 #include "kinegraph/common/cancellation.h"
-#include "kinegraph/common/ordered_parallel.h"
 
 namespace kinegraph {
 
-/// How much work is wanted that is done ahead; what is wanted more is done first.
-enum class Priority { surely, likely, maybe };
+/// The priority of speculative work. Work of a higher priority is done first.
+enum class Priority { high, normal, low };
 
-/// Threads that do work before it is asked for. Whoever wants results makes a Later of each, begins those that will be
-/// wanted, or may be, and gets them in an order of its own, so that what comes out does not depend on the number of threads:
-/// what nobody has begun is done on the thread that gets it, and what is not got counts as if it had not been done.
+/// Executes work on a pool of threads before its result is requested.
 ///
-///     SpeculativeExecutor ahead(2);
-///     Later<double> one = ahead.later<double>([](const CancellationToken&) { return slow(1.); });
-///     Later<double> two = ahead.later<double>([](const CancellationToken&) { return slow(2.); });
+/// The caller defers each piece of work, begins those whose results it will or may need, and gets results in an order
+/// of its own. Results therefore do not depend on the number of threads. `get` executes work that was not begun on the
+/// calling thread. Work whose result is not requested has no effect.
+///
+///     SpeculativeExecutor executor(2);
+///     Speculative<double> one = executor.defer<double>([](const CancellationToken&) { return slow(1.); });
+///     Speculative<double> two = executor.defer<double>([](const CancellationToken&) { return slow(2.); });
 ///     one.begin(), two.begin();
 ///     const double sum = one.get() + two.get();
 ///
-/// Who waits for what another thread does helps meanwhile with what is wanted as much. Work may get results that it made
-/// itself. All else is for the calling thread, which is the one that made this, or has called `rest` last.
+/// A thread that waits for work of another thread meanwhile executes work of at least the same priority. Work may get
+/// results that it deferred itself. All other calls belong to the calling thread: the one that constructed the executor
+/// or called `cancelAll` last.
 class SpeculativeExecutor {
  public:
-  /// `threads`: with the calling one. `cancellation`, where given, is asked on the calling thread whenever its work asks whether
-  /// it is stopped, and every 20 ms while it waits; it may throw to end all, from the call that gets a result.
+  /// `threads` includes the calling thread. `cancellation` is asked on the calling thread, whenever work on it asks its
+  /// own token, and every 20 ms while it waits. If it is cancelled or throws, all work ends, and the call of `get`
+  /// throws.
   explicit SpeculativeExecutor(int threads, CancellationToken cancellation = {});
-  ~SpeculativeExecutor();  ///< as `rest`
+  ~SpeculativeExecutor();  ///< as `cancelAll`
   SpeculativeExecutor(const SpeculativeExecutor&) = delete;
   SpeculativeExecutor& operator=(const SpeculativeExecutor&) = delete;
 
-  /// Stops what runs, forgets what was begun, and lets the threads go until something is begun again. What was not got
-  /// can be got still.
-  void rest();
+  /// Cancels running work, empties the queue, and joins the threads; the next `begin` starts them again. Results that
+  /// were not requested yet can still be requested.
+  void cancelAll();
 
   template <class T>
   class Speculative;
+  /// Creates work without beginning it. The work may ask its token whether its result is still needed.
   template <class T>
-  Speculative<T> later(std::function<T(const CancellationToken&)> work) {
-    return Speculative<T>(crew_, std::move(work));
+  Speculative<T> defer(std::function<T(const CancellationToken&)> work) {
+    return Speculative<T>(pool_, std::move(work));
   }
 
  private:
   using Work = std::function<void(const CancellationToken&)>;
-  class Crew;
+  class WorkerPool;
   struct Item;
 
   /// Work without its result.
   class Task {
    public:
     Task() = default;
-    Task(std::shared_ptr<Crew> crew, Work work);
+    Task(std::shared_ptr<WorkerPool> pool, Work work);
     Task(Task&&) noexcept = default;
     Task& operator=(Task&& other) noexcept;
     ~Task();
 
     explicit operator bool() const { return item_ != nullptr; }
-    void begin(Priority wanted) const;
+    void begin(Priority priority) const;
     void finish() const;
 
    private:
-    std::shared_ptr<Crew> crew_;
+    std::shared_ptr<WorkerPool> pool_;
     std::shared_ptr<Item> item_;
   };
 
-  std::shared_ptr<Crew> crew_;
+  std::shared_ptr<WorkerPool> pool_;
 };
 
-/// A result that there will be. When this goes, it is not wanted any more: work that runs is told so.
+/// The future result of deferred work. Its destructor cancels the work.
 template <class T>
 class SpeculativeExecutor::Speculative {
  public:
   Speculative() = default;
-  Speculative(std::shared_ptr<Crew> crew, std::function<T(const CancellationToken&)> work)
+  Speculative(std::shared_ptr<WorkerPool> pool, std::function<T(const CancellationToken&)> work)
       : result_(std::make_shared<std::optional<T>>()),
-        task_(std::move(crew), [result = result_, work = std::move(work)](const CancellationToken& stopped) {
-          result->emplace(work(stopped));
+        task_(std::move(pool), [result = result_, work = std::move(work)](const CancellationToken& cancellation) {
+          result->emplace(work(cancellation));
         }) {}
 
   explicit operator bool() const { return bool(task_); }
 
-  /// May be done from now on. Of results that are wanted alike the one that was begun first is done first. Once more: it is
-  /// wanted as much as that says, and as if it were begun then.
-  void begin(Priority wanted = Priority::surely) const { task_.begin(wanted); }
+  /// Queues the work behind other work of the same priority. Another call changes the priority and queues it anew.
+  void begin(Priority priority = Priority::high) const { task_.begin(priority); }
 
-  /// Does it, or waits for it. Throws what the work throws.
+  /// Executes the work or waits for it. Throws exceptions of the work.
   T& get() const {
     task_.finish();
     return **result_;

@@ -57,10 +57,10 @@ bool isWithinEditDistance(std::string_view a, std::string_view b, double limit) 
   if (std::abs(double(a.size()) - double(b.size())) > limit) return false;
   const auto letters = [](std::string_view word) {
     std::uint32_t set = 0;
-    for (char c : word) set |= 1u << (static_cast<unsigned char>(c) & 31);  // of either case
+    for (char c : word) set |= 1u << (static_cast<unsigned char>(c) & 31);  // ignores case
     return set;
   };
-  const int other_letters = std::popcount(letters(a) ^ letters(b));  // one replacement brings one and takes one away
+  const int other_letters = std::popcount(letters(a) ^ letters(b));  // one replacement changes two of them
   return other_letters <= 2. * limit && editDistance(a, b) <= limit;
 }
 

@@ -8,10 +8,10 @@
 
 namespace kinegraph {
 
-/// Appends a number with six digits, as streams write it.
+/// Appends a number with six digits, in the format of streams.
 void appendNumber(std::string& text, double value);
 
-/// Appends what streams.
+/// Appends a value that streams can write.
 template <class T>
 void appendText(std::string& text, const T& value) {
   if constexpr (std::is_convertible_v<const T&, std::string_view>) {
@@ -29,7 +29,7 @@ void appendText(std::string& text, const T& value) {
   }
 }
 
-/// Concatenates anything that streams.
+/// Concatenates values that streams can write.
 template <class... Args>
 std::string cat(const Args&... args) {
   std::string text;
@@ -37,23 +37,23 @@ std::string cat(const Args&... args) {
   return text;
 }
 
-/// The shortest decimal text that reads back as exactly `value`.
+/// Returns the shortest decimal text that parses to exactly `value`.
 std::string exact(double value);
 
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
 
-/// Number of insertions, deletions, replacements and swaps of neighbors that turn `a` into `b`.
-/// Upper and lower case count as equal up to a small cost, so that `Box` is near `box`.
+/// Returns the number of insertions, deletions, replacements and swaps of neighbors that transform `a` into `b`.
+/// Differences of upper and lower case have a small cost: `Box` is close to `box`.
 double editDistance(std::string_view a, std::string_view b);
 
-/// Is editDistance(a, b) at most `limit`? Words that differ much are told at once.
+/// Whether editDistance(a, b) is at most `limit`. Fast for very different words.
 bool isWithinEditDistance(std::string_view a, std::string_view b, double limit);
 
-/// The candidates nearest to `word`, best first: those that a typing mistake away or that contain it.
+/// Returns the candidates closest to `word`, best first: typing mistakes away, or containing it.
 std::vector<std::string> similarNames(std::string_view word, const std::vector<std::string>& candidates,
                                       std::size_t at_most = 3);
 
-/// "; similar names: a, b", or "" if nothing is near. Appended to error messages.
+/// Returns "; similar names: a, b" for the end of error messages, or "" if no name is close.
 std::string similarHint(std::string_view word, const std::vector<std::string>& candidates);
 
 }  // namespace kinegraph

@@ -4,7 +4,7 @@ namespace kinegraph {
 
 namespace {
 
-/// The bytes of the character that `text` starts with; 0 if there is none.
+/// Returns the number of bytes of the first character of `text`; 0 if it is invalid.
 std::size_t characterLength(std::string_view text) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   const unsigned first = byte(0);
@@ -17,7 +17,7 @@ std::size_t characterLength(std::string_view text) {
   for (std::size_t i = 1; i < length; ++i) {
     if ((byte(i) & 0xC0) != 0x80) return 0;
   }
-  const unsigned second = byte(1);  // overlong forms, surrogates, and what is beyond the last character
+  const unsigned second = byte(1);  // excludes overlong forms, surrogates, and values above U+10FFFF
   if ((first == 0xE0 && second < 0xA0) || (first == 0xED && second > 0x9F)) return 0;
   if ((first == 0xF0 && second < 0x90) || (first == 0xF4 && second > 0x8F)) return 0;
   return length;
@@ -29,7 +29,7 @@ std::string validUtf8(std::string_view text, std::size_t* replaced, std::string_
   std::string valid;
   valid.reserve(text.size());
   std::size_t count = 0;
-  std::size_t begin = 0;  // of characters that are not copied yet
+  std::size_t begin = 0;  // start of the characters that are not copied yet
   for (std::size_t i = 0; i < text.size();) {
     const std::size_t length = characterLength(text.substr(i));
     if (length == 0) {

@@ -15,7 +15,7 @@ namespace kinegraph {
 
 namespace {
 
-/// As the kernel's joystick interface writes them.
+/// An event of the joystick interface of the kernel.
 struct Event {
   std::uint32_t milliseconds;
   std::int16_t value;
@@ -23,8 +23,8 @@ struct Event {
 };
 static_assert(sizeof(Event) == 8);
 
-constexpr int kAxis = 2;      // a bit of the type: a stick, no button
-constexpr double kDead = .1;  // of a stick's range: it rests
+constexpr int kAxis = 2;      // bit of the type of stick events
+constexpr double kDead = .1;  // smaller deflections, relative to the range, count as rest
 constexpr double kEnd = 32767.;
 
 }  // namespace

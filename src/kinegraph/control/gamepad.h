@@ -7,20 +7,21 @@
 
 namespace kinegraph {
 
-/// The sticks of a gamepad as velocities of a position, through Linux' joystick interface.
+/// Reads the sticks of a gamepad as velocity of a position, through the joystick interface of Linux.
 class Gamepad {
  public:
-  /// Opens a device. `speed` is that of the position where a stick is at its end, m/s; `axes` are those of the gamepad that
-  /// move x, y and z; y and z against the sticks, which count downwards. Throws FileError if it cannot be opened.
+  /// Opens a device. `speed` (m/s) is the speed of the position for a stick at its end. `axes` of the gamepad move x, y
+  /// and z; y and z have the opposite sign, because sticks count downwards. Throws FileError if the device cannot be
+  /// opened.
   explicit Gamepad(const std::string& device = "/dev/input/js0", double speed = .2,
                    std::array<int, 3> axes = {0, 1, 4});
   ~Gamepad();
   Gamepad(const Gamepad&) = delete;
 
-  /// Takes in what has happened since the last call. Returns where the sticks push, m/s.
+  /// Reads all events since the last call and returns the velocity, m/s.
   Vector3d velocity();
 
-  void close();  ///< the sticks stay where they were
+  void close();  ///< the velocity keeps its last value
 
  private:
   int file_;

@@ -20,7 +20,7 @@ void HorizonNlp::free() {
   upper_ = problem_->upper();
 }
 
-/// Variables of the past are fixed by bounds, so that the Jacobian of its rows does not matter.
+/// Past residuals keep their Jacobian: it has no effect, since bounds fix all past variables.
 void HorizonNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
   problem_->evaluate(x, phi, J);
   phi += offset_;

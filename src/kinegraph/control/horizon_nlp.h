@@ -7,22 +7,22 @@
 
 namespace kinegraph {
 
-/// A motion problem whose rows and variables of the past do not count any more, and whose targets move: what is added to
-/// its residuals, and the bounds of its variables, may change between solves.
+/// A motion problem with a moving present: past residuals and variables are removed, and offsets of the residuals move
+/// their targets. Offsets and bounds may change between solves.
 class HorizonNlp final : public Nlp {
  public:
   explicit HorizonNlp(std::shared_ptr<Nlp> problem);
 
-  /// Residuals with `past` set are zero from now on.
-  void setPast(int row) { past_[std::size_t(row)] = true; }
+  /// Sets a residual to zero from now on.
+  void setPast(int residual) { past_[std::size_t(residual)] = true; }
 
-  /// Is added to a residual.
-  void setOffset(int row, double offset) { offset_[row] = offset; }
+  /// Sets the number that is added to a residual.
+  void setOffset(int residual, double offset) { offset_[residual] = offset; }
 
-  /// A variable that is given from now on.
+  /// Makes a variable constant from now on.
   void fix(int variable, double value) { lower_[variable] = upper_[variable] = value; }
 
-  /// Nothing is past or fixed any more.
+  /// Undoes all calls of setPast and fix.
   void free();
 
   Jacobian makeJacobian() const override { return problem_->makeJacobian(); }

@@ -1,10 +1,10 @@
 #include "kinegraph/control/mpc.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "kinegraph/common/errors.h"
+#include "kinegraph/common/stopwatch.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian_method.h"
 
@@ -12,14 +12,10 @@ namespace kinegraph {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-constexpr double kSameTime = 1e-6;    // part of a slice that counts as rounding
-constexpr double kFeasible = 1e-3;    // of a scaled constraint
-constexpr int kInVain = 40;           // evaluations without a feasible motion, after which it forgets
-constexpr double kMostPenalty = 1e4;  // times the first one: what a warm start goes on with
-
-double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+constexpr double kSameTime = 1e-6;            // smaller parts of a slice count as rounding
+constexpr double kFeasible = 1e-3;            // largest violation of a scaled constraint
+constexpr int kMaxEvalsWithoutFeasible = 40;  // then multipliers and penalty are forgotten
+constexpr double kLargestPenalty = 1e4;       // of a warm start, in units of the initial penalty
 
 void requireJoints(const char* name, const VectorXd& given, int dofs) {
   if (given.size() != dofs)
@@ -48,17 +44,17 @@ Mpc::Mpc(const Komo& komo, const MpcOptions& given) : options(given), komo_(std:
   separate_ = nlp->separation().problem;
   if (!separate_) separate_ = nlp;
   problem_ = std::make_unique<HorizonNlp>(separate_);
-  rows_ = pathComponents(*separate_);
-  findLaterRows();
+  residuals_ = pathComponents(*separate_);
+  findLaterResiduals();
   Path& path = komo_->path();
   for (int t = -path.grid().order(); t < path.grid().slices(); ++t) {
     parameters_.push_back(std::make_shared<Parameters>(path.state(t).parameters()));
     path.setParameters(t, parameters_.back());
   }
   x_ = path.variables();
-  dual_ = VectorXd::Zero(Eigen::Index(rows_.size()));
+  dual_ = VectorXd::Zero(Eigen::Index(residuals_.size()));
   shifted_x_ = feasible_x_ = x_, shifted_dual_ = dual_;
-  q_ = path.initial().q, velocity_ = VectorXd::Zero(q_.size()), placed_ = q_;
+  q_ = path.initial().q, velocity_ = VectorXd::Zero(q_.size()), measured_ = q_;
   solver_.verbose = 0;
 }
 
@@ -67,27 +63,31 @@ void Mpc::requireProblem() const {
   path.requireBuilt("Mpc");
   if (path.grid().order() == 0)
     throw ValueError(
-        "Mpc: the KOMO has order 0, so that its slices do not know where the motion begins; make it with order 1 or 2");
+        "Mpc: the KOMO has order 0, so that its slices do not depend on the start of the motion; make it with order 1 "
+        "or "
+        "2");
   for (const Objective& objective : komo_->objectives()) {
     if (objective.between_slices)
-      throw ValueError("Mpc: addFreeMotion has no place in a horizon; use accumulatedCollisions with a margin");
+      throw ValueError(
+          "Mpc: the KOMO has addFreeMotion, which Mpc does not support; use accumulatedCollisions with a margin");
   }
   if (options.receding && !path.layout().plain)
     throw ValueError(
-        "Mpc: slices with mode switches, or dofs that they share, cannot recede; with receding=false the switches come "
-        "nearer");
+        "Mpc: the KOMO has mode switches or dofs that slices share, which a receding horizon cannot shift; pass "
+        "receding=false");
 }
 
-void Mpc::findLaterRows() {
-  std::map<std::tuple<int, int, int>, int> places;
-  for (std::size_t i = 0; i < rows_.size(); ++i) places[{rows_[i].objective, rows_[i].slice, rows_[i].row}] = int(i);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const auto found = places.find({rows_[i].objective, rows_[i].slice + 1, rows_[i].row});
-    later_.push_back(found == places.end() ? int(i) : found->second);
+void Mpc::findLaterResiduals() {
+  std::map<std::tuple<int, int, int>, int> indices;
+  for (std::size_t i = 0; i < residuals_.size(); ++i)
+    indices[{residuals_[i].objective, residuals_[i].slice, residuals_[i].row}] = int(i);
+  for (std::size_t i = 0; i < residuals_.size(); ++i) {
+    const auto found = indices.find({residuals_[i].objective, residuals_[i].slice + 1, residuals_[i].row});
+    later_.push_back(found == indices.end() ? int(i) : found->second);
   }
 }
 
-/// The frames that hang below one, fixed to it, as they did when this was first asked.
+/// Returns the frames below one that are fixed to it, with their relative poses at the time of the first call.
 const std::vector<Mpc::Carried>& Mpc::carriedBy(int frame) {
   const auto [place, is_new] = carried_.try_emplace(frame);
   if (!is_new) return place->second;
@@ -101,7 +101,7 @@ const std::vector<Mpc::Carried>& Mpc::carriedBy(int frame) {
     if (!parent) continue;
     if (model.frame_link[std::size_t(below->id)] != 0) {
       carried_.erase(frame);
-      throw ValueError(cat("Mpc: setPoses of '", model.frame_name[std::size_t(frame)],
+      throw ValueError(cat("Mpc: setPoses got '", model.frame_name[std::size_t(frame)],
                            "', which carries the joint of '", below->name,
                            "'; expected a frame without joints below it"));
     }
@@ -115,9 +115,9 @@ void Mpc::setPoses(const std::string& name, const MatrixXd& poses) {
   const int frame = frameId(*path.initial().model, name, "Mpc"), order = path.grid().order(), T = path.grid().slices();
   const int link = path.initial().model->frame_link[std::size_t(frame)];
   if (link != 0)
-    throw ValueError(cat("Mpc: setPoses of '", name, "', which joints move; expected a frame of the world"));
+    throw ValueError(cat("Mpc: setPoses got '", name, "', which joints move; expected a frame that no joint moves"));
   if ((poses.rows() != T && poses.rows() != 1) || (poses.cols() != 7 && poses.cols() != 3) || !poses.allFinite())
-    throw ValueError(cat("Mpc: setPoses of '", name, "' with shape (", poses.rows(), ", ", poses.cols(),
+    throw ValueError(cat("Mpc: setPoses got poses of '", name, "' with shape (", poses.rows(), ", ", poses.cols(),
                          "); expected (", T, ", 7) or (", T, ", 3), or one row for all slices, of finite numbers"));
   for (int t = 0; t < poses.rows() && poses.cols() == 7; ++t)
     unitQuaternion(poses.row(t).tail<4>().transpose(), "Mpc: the quaternion of a pose");
@@ -150,23 +150,23 @@ void Mpc::updateRootObjects(const Config& config) {
 void Mpc::setTarget(int number, const MatrixXd& targets) {
   const ObjectiveList& objectives = komo_->objectives();
   if (number < 0 || number >= int(objectives.size()))
-    throw ValueError(cat("Mpc: there is no objective ", number, "; the KOMO has ", objectives.size()));
+    throw ValueError(cat("Mpc: there is no objective ", number, "; the KOMO has ", objectives.size(), " objectives"));
   const Objective& objective = objectives[std::size_t(number)];
   const int slices = std::max(objective.to - objective.from + 1, 0);
   if (slices == 0) return;
   const Residual residual = residualIn(objective, komo_->path(), komo_->contacts().forces(), objective.from);
   const int rows = residual.feature().rows();
   if (residual.feature().quaternionRow() >= 0)
-    throw ValueError(
-        cat("Mpc: setTarget of ", objective.name(), ", which is an orientation; give its frame poses instead"));
+    throw ValueError(cat("Mpc: setTarget got ", objective.name(),
+                         ", which is an orientation; call setPoses for its target frame instead"));
   if ((targets.rows() != slices && targets.rows() != 1) || targets.cols() != rows || !targets.allFinite())
-    throw ValueError(cat("Mpc: setTarget of objective ", number, " (", objective.name(), ") with shape (",
+    throw ValueError(cat("Mpc: setTarget got targets of objective ", number, " (", objective.name(), ") with shape (",
                          targets.rows(), ", ", targets.cols(), "); expected (", slices, ", ", rows,
                          "), or one row for all slices"));
   const MatrixXd& scale = residual.scale();
   VectorXd change(rows);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const PathComponent& row = rows_[i];
+  for (std::size_t i = 0; i < residuals_.size(); ++i) {
+    const PathComponent& row = residuals_[i];
     if (row.objective != number) continue;
     change = -targets.row(targets.rows() == 1 ? 0 : row.slice - objective.from).transpose();
     if (residual.target().size() == 1) change.array() += residual.target()[0];
@@ -179,7 +179,7 @@ void Mpc::setTarget(int number, const MatrixXd& targets) {
 }
 
 const MpcResult& Mpc::step(const VectorXd& q, const VectorXd& velocity, double dt) {
-  const auto start = Clock::now();
+  const Stopwatch stopwatch;
   const TimeGrid& grid = komo_->path().grid();
   options.validate();
   requireJoints("q", q, komo_->dofs());
@@ -195,20 +195,20 @@ const MpcResult& Mpc::step(const VectorXd& q, const VectorXd& velocity, double d
     shiftPath(shift, feasible_x_);
     shiftMultipliers(shift);
   }
-  if (returns_) x_ = feasible_x_;
-  returns_ = false;
+  if (restores_feasible_) x_ = feasible_x_;
+  restores_feasible_ = false;
   setPresent(q, velocity);
   has_path_ = true;
   search();
-  result_.time = secondsSince(start);
+  result_.time = stopwatch.seconds();
   return result_;
 }
 
-/// The motion goes on from its end as it did before; without costs of accelerations it rests there.
+/// Shifts a path in time. Beyond its end the motion continues with constant velocity, or rests if the order is 1.
 void Mpc::shiftPath(double slices, VectorXd& x) {
   const TimeGrid& grid = komo_->path().grid();
   const int T = grid.slices(), n = komo_->path().dofs();
-  const bool goes_on = grid.order() >= 2 && T >= 2;
+  const bool continues = grid.order() >= 2 && T >= 2;
   for (int t = 0; t < T; ++t) {
     const double at = t + slices;
     const int before = std::min(int(at + kSameTime), T - 1);
@@ -218,7 +218,7 @@ void Mpc::shiftPath(double slices, VectorXd& x) {
     if (part < kSameTime) continue;
     if (before < T - 1)
       shifted += part * (x.segment((before + 1) * n, n) - x.segment(before * n, n));
-    else if (goes_on)
+    else if (continues)
       shifted += part * (x.segment((T - 1) * n, n) - x.segment((T - 2) * n, n));
   }
   x.swap(shifted_x_);
@@ -227,24 +227,24 @@ void Mpc::shiftPath(double slices, VectorXd& x) {
 void Mpc::shiftMultipliers(double slices) {
   const int whole = int(slices + kSameTime);
   const double part = std::max(0., slices - whole) < kSameTime ? 0. : std::min(slices - whole, 1.);
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    int row = int(i);
-    for (int k = 0; k < whole; ++k) row = later_[std::size_t(row)];
-    shifted_dual_[Eigen::Index(i)] = (1. - part) * dual_[row] + part * dual_[later_[std::size_t(row)]];
+  for (std::size_t i = 0; i < residuals_.size(); ++i) {
+    int from = int(i);
+    for (int k = 0; k < whole; ++k) from = later_[std::size_t(from)];
+    shifted_dual_[Eigen::Index(i)] = (1. - part) * dual_[from] + part * dual_[later_[std::size_t(from)]];
   }
   dual_.swap(shifted_dual_);
 }
 
-/// The slices up to now are given: those before the start by their states, others by bounds.
+/// Fixes the slices up to now: slices before the start by their states, others by bounds.
 void Mpc::setPresent(const VectorXd& q, const VectorXd& velocity) {
   Path& path = komo_->path();
   const int order = path.grid().order(), T = path.grid().slices();
   const double tau = path.grid().tau();
-  const int over = options.receding ? 0 : int(std::min(elapsed_ / tau + kSameTime, double(T)));
-  for (std::size_t i = 0; i < rows_.size() && over > past_; ++i)
-    if (rows_[i].slice < over) problem_->setPast(int(i));
+  const int past = options.receding ? 0 : int(std::min(elapsed_ / tau + kSameTime, double(T)));
+  for (std::size_t i = 0; i < residuals_.size() && past > past_; ++i)
+    if (residuals_[i].slice < past) problem_->setPast(int(i));
   const auto fix = [&](int variable, double value) { problem_->fix(variable, x_[variable] = value); };
-  for (int t = past_; t < over; ++t) {  // where they are not measured, as planned
+  for (int t = past_; t < past; ++t) {  // slices that were not measured stay as planned
     if (path.layout().plain) {
       for (int d = 0; d < path.dofs(); ++d) fix(t * path.dofs() + d, x_[t * path.dofs() + d]);
       continue;
@@ -256,53 +256,54 @@ void Mpc::setPresent(const VectorXd& q, const VectorXd& velocity) {
       }
     }
   }
-  past_ = over;
+  past_ = past;
   const double lag = options.receding ? 0. : elapsed_ - past_ * tau;
   for (int back = 0; back < order; ++back) {
     const int t = past_ - 1 - back;
-    placed_ = q - (lag + back * tau) * velocity;
+    measured_ = q - (lag + back * tau) * velocity;
     if (path.layout().plain) {
-      if (t < 0) path.setSlice(t, placed_.data());
-      for (int d = 0; t >= 0 && d < path.dofs(); ++d) fix(t * path.dofs() + d, placed_[d]);
+      if (t < 0) path.setSlice(t, measured_.data());
+      for (int d = 0; t >= 0 && d < path.dofs(); ++d) fix(t * path.dofs() + d, measured_[d]);
       continue;
     }
     if (t < 0) {
-      path.setJoints(t, placed_);
+      path.setJoints(t, measured_);
       continue;
     }
     const std::vector<int> dofs = path.dofsOf(path.initial().joint_frames, t);
     for (std::size_t d = 0; d < dofs.size(); ++d) {
       const int variable = path.layout().column[std::size_t(t + order)][std::size_t(dofs[d])];
-      if (variable >= 0) fix(variable, placed_[Eigen::Index(d)]);
+      if (variable >= 0) fix(variable, measured_[Eigen::Index(d)]);
     }
   }
 }
 
-/// The solver goes on with what it knows. Where that leads to no feasible motion, its multipliers and penalty say little
-/// about the next problem, and could hold it back for long, as can a path of least violation.
+/// Runs the solver with the state of the last call. If that finds no feasible motion for long, the multipliers, the
+/// penalty and the path of least violation say little about the next problem and could delay its solution, so they are
+/// dropped.
 void Mpc::search() {
   std::unique_ptr<Memory::Parts>& parts = memory_.parts;
   if (!parts) parts = std::make_unique<Memory::Parts>(*problem_);
   solver_.stopTolerance = options.tolerance;
   solver_.stopGTolerance = options.violation;
   solver_.stopEvals = result_.was_cold ? options.first_evaluations : options.evaluations;
-  solver_.muInit = std::clamp(parts->penalty, options.penalty, kMostPenalty * options.penalty);
+  solver_.muInit = std::clamp(parts->penalty, options.penalty, kLargestPenalty * options.penalty);
   int evals = 0;
-  auto begun = Clock::now(), before = begun;
-  EvaluationHook hook;
+  const Stopwatch stopwatch;
+  double before = 0.;
+  EvaluationCallback callback;
   if (options.microseconds > 0. && !result_.was_cold) {
-    hook = [&](const VectorXd&, const VectorXd&) {  // no step that would take longer than is left
-      const auto now = Clock::now();
-      const double used = std::chrono::duration<double>(now - begun).count();
-      if (++evals > 1) step_seconds_ = std::chrono::duration<double>(now - before).count();
+    callback = [&](const VectorXd&, const VectorXd&) {  // makes no step that would exceed the budget
+      const double now = stopwatch.seconds();
+      if (++evals > 1) step_seconds_ = now - before;
       before = now;
-      if (evals > 1 && used + step_seconds_ > 1e-6 * options.microseconds)
+      if (evals > 1 && now + step_seconds_ > 1e-6 * options.microseconds)
         solver_.stopEvals = std::min(solver_.stopEvals, evals);
       return true;
     };
   }
   try {
-    parts->function.begin(x_, solver_, hook);
+    parts->function.begin(x_, solver_, callback);
     AugmentedLagrangian method(*problem_, *parts, x_, solver_);
     method.search(dual_);
     result_.status = method.status();
@@ -320,11 +321,12 @@ void Mpc::search() {
   result_.cost = here.cost;
   result_.evals = parts->function.evals();
   result_.feasible = here.violation <= std::max(kFeasible, 10. * options.violation);
-  struggled_ = result_.feasible ? 0 : struggled_ + result_.evals;
+  evals_without_feasible_ = result_.feasible ? 0 : evals_without_feasible_ + result_.evals;
   if (result_.feasible) feasible_x_ = x_;
-  if (struggled_ >= kInVain || (!result_.feasible && result_.status != SolverStatus::limit)) {
+  if (evals_without_feasible_ >= kMaxEvalsWithoutFeasible ||
+      (!result_.feasible && result_.status != SolverStatus::limit)) {
     forget();
-    returns_ = true;
+    restores_feasible_ = true;
   }
   problem_->leaveAt(x_);
 }
@@ -337,7 +339,7 @@ void Mpc::restAt(const VectorXd& q) {
 
 void Mpc::forget() {
   dual_.setZero();
-  struggled_ = 0;
+  evals_without_feasible_ = 0;
   if (memory_.parts) memory_.parts->damping = memory_.parts->penalty = 0.;
 }
 
@@ -350,34 +352,51 @@ void Mpc::reset() {
   has_path_ = false;
 }
 
-MotionPoint Mpc::at(double time) const {
+/// Returns the time of slice t after the last call; all past slices lie at the time of the call.
+double Mpc::sliceTime(int t) const {
+  const double now = options.receding ? 0. : elapsed_;
+  return t < past_ ? 0. : (t + 1) * komo_->path().grid().tau() - now;
+}
+
+VectorXd Mpc::sliceJoints(int t) const {
   const Path& path = komo_->path();
-  const int T = path.grid().slices();
-  const double tau = path.grid().tau(), now = options.receding ? 0. : elapsed_;
-  const auto when = [&](int t) { return t < past_ ? 0. : (t + 1) * tau - now; };
-  const auto where = [&](int t) -> VectorXd {
-    if (t < past_) return q_;
-    if (path.layout().plain) return path.state(t).q();
-    const std::vector<int> dofs = path.dofsOf(path.initial().joint_frames, t);
-    VectorXd q(dofs.size());
-    for (std::size_t d = 0; d < dofs.size(); ++d) q[Eigen::Index(d)] = path.state(t).q()[dofs[d]];
-    return q;
-  };
-  const auto speed = [&](int t) -> VectorXd {
-    if (t < past_) return velocity_;
-    const int next = std::min(t + 1, T - 1);
-    return (where(next) - where(t - 1)) / (when(next) - when(t - 1));
-  };
+  if (t < past_) return q_;
+  if (path.layout().plain) return path.state(t).q();
+  const std::vector<int> dofs = path.dofsOf(path.initial().joint_frames, t);
+  VectorXd q(dofs.size());
+  for (std::size_t d = 0; d < dofs.size(); ++d) q[Eigen::Index(d)] = path.state(t).q()[dofs[d]];
+  return q;
+}
+
+VectorXd Mpc::sliceVelocity(int t) const {
+  if (t < past_) return velocity_;
+  const int next = std::min(t + 1, komo_->path().grid().slices() - 1);
+  return (sliceJoints(next) - sliceJoints(t - 1)) / (sliceTime(next) - sliceTime(t - 1));
+}
+
+MotionPoint Mpc::at(double time) const {
+  const int T = komo_->path().grid().slices();
   if (past_ >= T) return {q_, VectorXd::Zero(q_.size())};
   if (time <= 0.) return {q_, velocity_};
   int t = past_;
-  while (t < T && when(t) < time) ++t;
-  if (t == T) return {where(T - 1), VectorXd::Zero(q_.size())};
-  const double length = when(t) - when(t - 1), s = (time - when(t - 1)) / length;
-  const VectorXd a = where(t - 1), b = where(t), va = length * speed(t - 1), vb = length * speed(t), way = b - a;
-  const VectorXd q = a + s * (va + s * ((3. * way - 2. * va - vb) + s * (va + vb - 2. * way)));
-  const VectorXd velocity = (va + s * (2. * (3. * way - 2. * va - vb) + s * 3. * (va + vb - 2. * way))) / length;
-  return {q, velocity};
+  while (t < T && sliceTime(t) < time) ++t;
+  if (t == T) return {sliceJoints(T - 1), VectorXd::Zero(q_.size())};
+  const double before = sliceTime(t - 1);
+  MotionState state = cubicState(sliceJoints(t - 1), sliceVelocity(t - 1), sliceJoints(t), sliceVelocity(t),
+                                 sliceTime(t) - before, time - before);
+  return {std::move(state.q), std::move(state.velocity)};
+}
+
+HorizonTrajectory Mpc::horizon() const {
+  const int T = komo_->path().grid().slices();
+  std::vector<double> times{0.};
+  std::vector<VectorXd> q{q_}, velocity{past_ >= T ? VectorXd::Zero(q_.size()) : velocity_};
+  for (int t = past_; t < T; ++t) {
+    times.push_back(sliceTime(t));
+    q.push_back(sliceJoints(t));
+    velocity.push_back(sliceVelocity(t));
+  }
+  return {std::move(times), std::move(q), std::move(velocity)};
 }
 
 }  // namespace kinegraph

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kinegraph/control/horizon_nlp.h"
+#include "kinegraph/control/horizon_trajectory.h"
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/komo/path_components.h"
 #include "kinegraph/solvers/interface/options.h"
@@ -15,18 +16,18 @@
 namespace kinegraph {
 
 struct MpcOptions {
-  int evaluations = 50;         ///< most of them in a call, at least 2: one step
-  double microseconds = 0.;     ///< after which a call makes no further step; 0: any time
-  int first_evaluations = 500;  ///< most of them in a cold call, which knows nothing and has no other budget
+  int evaluations = 50;         ///< budget of a call, at least 2: one step
+  double microseconds = 0.;     ///< a call makes no further step after this time; 0: no limit
+  int first_evaluations = 500;  ///< budget of a cold call, which has no initial guess and no limit of time
   double tolerance = 1e-3;      ///< rad or m: a step with no larger entry ends a call
-  double violation = 1e-4;      ///< of a scaled constraint, that counts as none
-  double penalty = 100.;        ///< first weight of the squares of constraints
-  bool receding = true;         ///< false: the horizon's end stays where it is in time, and comes nearer
+  double violation = 1e-4;      ///< largest accepted violation of a scaled constraint
+  double penalty = 100.;        ///< initial weight of the squares of constraints
+  bool receding = true;         ///< false: the end of the horizon is fixed in time
 
   void validate() const;  ///< throws ValueError
 };
 
-/// How a call of Mpc ended, and how good the motion is that it left.
+/// Describes how a call of Mpc ended and the quality of its motion.
 struct MpcResult {
   SolverStatus status = SolverStatus::limit;
   bool feasible = false;  ///< no scaled constraint is violated by more than 1e-3, or ten tolerances
@@ -34,59 +35,63 @@ struct MpcResult {
   double cost = 0.;       ///< sum of the squares
   int evals = 0;
   double time = 0.;       ///< s
-  bool was_cold = false;  ///< it did not go on from the call before
-  std::string message;    ///< why it ended
+  bool was_cold = false;  ///< the call did not start from the result of the call before
+  std::string message;    ///< the reason why the call ended
 };
 
-/// A motion q(t) from the present on.
+/// A point of a motion q(t).
 struct MotionPoint {
   VectorXd q, velocity;  ///< (n,)
 };
 
-/// Receding horizon: a motion problem that is solved again and again while time goes on, each time from what it knew.
+/// Model predictive control: solves a motion problem again and again while time goes on, each time from the last
+/// result.
 ///
 ///     Mpc mpc(komo);
 ///     while (...) {
-///       mpc.setPoses("target", poses);             // where it will be, slice by slice
-///       mpc.step(robot.q(), robot.velocity());     // tau later than the call before
+///       mpc.setPoses("target", poses);          // predicted, one per slice
+///       mpc.step(robot.q(), robot.velocity());  // tau after the call before
 ///       robot.follow(mpc.at(.01));
 ///     }
 ///
-/// Slice t of the problem is (t + 1) tau after the call. A call moves path and multipliers on by the time since the last
-/// one, lets the motion begin at the measured state, and improves it by steps of the augmented Lagrangian, as many as it
-/// may. What it learned stays: multipliers, penalty, damping, memory. Where steps have led to no feasible motion for long,
-/// the next call starts with none of that, from the last motion that was feasible.
+/// Slice t of the problem lies (t + 1) tau after the call. A call shifts the path and the multipliers by the time since
+/// the last call, sets the measured state as start of the motion, and improves the motion by steps of the augmented
+/// Lagrangian until a budget or tolerance is reached. Multipliers, penalty, damping and memory survive from call to
+/// call. If many steps found no feasible motion, the next call starts without these, from the last feasible motion.
 ///
-/// With `receding` false the problem's end stays where it is in time: slices of the past are given, mode switches and the
-/// last slice come nearer.
+/// With `receding` false the end of the problem is fixed in time: the horizon shrinks, past slices are constant, and
+/// mode switches and the last slice come nearer.
 class Mpc {
  public:
-  /// Takes a copy of the problem. Throws ValueError for options that make no sense, a problem of order 0, objectives of
-  /// addFreeMotion, and mode switches in a horizon that recedes.
+  /// Copies the problem. Throws ValueError for invalid options, a problem of order 0, objectives of addFreeMotion, and
+  /// mode switches in a receding horizon.
   explicit Mpc(const Komo& komo, const MpcOptions& options = {});
 
-  /// Where a frame that no joint moves will be, with what hangs below it: T x 7 or T x 3 (position alone), or one row for
-  /// all slices. Throws FrameNotFound, and ValueError for sizes that do not fit and frames that joints move or that carry
-  /// joints.
+  /// Sets the predicted poses of a frame that no joint moves, and of the frames below it: T x 7, T x 3 (position only),
+  /// or one row for all slices. Throws FrameNotFound. Throws ValueError for other sizes, and for frames that joints
+  /// move or that carry joints.
   void setPoses(const std::string& frame, const MatrixXd& poses);
 
-  /// All frames that no joint moves are in all slices where they are in this configuration, which has the frames of the
-  /// given one. Throws ValueError if it has not.
+  /// Sets all frames that no joint moves, in all slices, to their poses in this configuration. Throws ValueError unless
+  /// the configuration has the frames and joints of the problem.
   void updateRootObjects(const Config& config);
 
-  /// The target of an objective, by its number in the order in which objectives were added: a row for each of its slices,
-  /// or one for all. Throws ValueError for sizes that do not fit, and for orientations by quaternions.
+  /// Sets the target of an objective, by its index in the order of addObjective: one row per slice of the objective, or
+  /// one row for all. Throws ValueError for other sizes, and for orientations by quaternions.
   void setTarget(int objective, const MatrixXd& targets);
 
-  /// Finds the motion from the measured q and dq/dt (n,), `dt` s after the last call (not counted in the first one; < 0:
-  /// tau). Throws ValueError for vectors that do not fit or are not finite: nothing has changed then.
+  /// Computes the motion from the measured q and dq/dt (n,), `dt` s after the last call (< 0: tau; ignored in the first
+  /// call). Throws ValueError for vectors of another size or with entries that are not finite, before anything changes.
   const MpcResult& step(const VectorXd& q, const VectorXd& velocity, double dt = -1.);
 
-  /// Forgets what it learned: the next call is cold, and in a horizon that does not recede, at its beginning.
+  /// Forgets all results: the next call is cold and at the beginning of the horizon.
   void reset();
 
-  /// The motion `time` s after the last call: through the slices, with their velocities. After its end it rests there.
+  /// Returns the motion `time` s after the last call: cubic between slices, at rest after the end.
   MotionPoint at(double time) const;
+
+  /// Returns a copy of the motion of the last call as a trajectory from the time of that call on, which equals `at`.
+  HorizonTrajectory horizon() const;
 
   MatrixXd getPath() const { return komo_->getPath(); }  ///< T x n
   const MpcResult& result() const { return result_; }
@@ -97,12 +102,12 @@ class Mpc {
  private:
   struct Carried {
     int frame;
-    Pose pose;  ///< in the frame that is moved
+    Pose pose;  ///< relative to the frame that setPoses moves
   };
   using Memory = AugmentedLagrangianMemory;
 
   void requireProblem() const;
-  void findLaterRows();
+  void findLaterResiduals();
   const std::vector<Carried>& carriedBy(int frame);
   void setPresent(const VectorXd& q, const VectorXd& velocity);
   void shiftPath(double slices, VectorXd& x);
@@ -111,22 +116,27 @@ class Mpc {
   void restAt(const VectorXd& q);
   void forget();
 
+  double sliceTime(int t) const;
+  VectorXd sliceJoints(int t) const;
+  VectorXd sliceVelocity(int t) const;
+
   std::shared_ptr<Komo> komo_;
-  std::shared_ptr<Nlp> separate_;  ///< with a row per pair in place of sums
+  std::shared_ptr<Nlp> separate_;  ///< with one residual per pair instead of sums over pairs
   std::unique_ptr<HorizonNlp> problem_;
-  std::vector<PathComponent> rows_;
-  std::vector<int> later_;  ///< per row: that of its objective a slice later; in the last slice itself
-  std::vector<std::shared_ptr<Parameters>> parameters_;  ///< per slice, those before the start first
+  std::vector<PathComponent> residuals_;
+  std::vector<int> later_;  ///< per residual: the same one in the next slice; in the last slice: itself
+  std::vector<std::shared_ptr<Parameters>> parameters_;  ///< per slice; slices before the start come first
   std::map<int, std::vector<Carried>> carried_;
   Memory memory_;
   SolverOptions solver_;
-  VectorXd x_, shifted_x_, dual_, shifted_dual_, q_, velocity_, placed_;
-  VectorXd feasible_x_;  ///< the last motion that was feasible, up to now
+  VectorXd x_, shifted_x_, dual_, shifted_dual_, q_, velocity_, measured_;
+  VectorXd feasible_x_;  ///< the last feasible motion, shifted to the present
   MpcResult result_;
   double elapsed_ = 0., step_seconds_ = 0.;
-  int past_ = 0;                             ///< slices that are over
-  int struggled_ = 0;                        ///< evaluations since a motion was feasible
-  bool has_path_ = false, returns_ = false;  ///< to the last feasible motion, in the next call
+  int past_ = 0;                    ///< number of past slices
+  int evals_without_feasible_ = 0;  ///< evaluations since the last feasible motion
+  bool has_path_ = false;
+  bool restores_feasible_ = false;  ///< the next call starts from feasible_x_
 };
 
 }  // namespace kinegraph

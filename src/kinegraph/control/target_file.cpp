@@ -26,7 +26,7 @@ bool hasDigit(std::string_view line) {
   return std::ranges::any_of(line, [](unsigned char character) { return std::isdigit(character) != 0; });
 }
 
-/// The numbers of a line between its commas.
+/// Parses the numbers of a line, separated by commas.
 std::vector<double> numbersOf(std::string_view line, const SourcePosition& at) {
   std::vector<double> numbers;
   for (std::size_t begin = 0; begin <= line.size();) {
@@ -38,7 +38,7 @@ std::vector<double> numbersOf(std::string_view line, const SourcePosition& at) {
     const std::size_t column = word.empty() ? begin : std::size_t(word.data() - line.data());
     const SourcePosition here{at.file, at.line, int(column) + 1};
     if (error != std::errc() || stop != digits.data() + digits.size())
-      throw ParseError(here, cat("'", word, "' is no number; ", kExpected));
+      throw ParseError(here, cat("'", word, "' is not a number; ", kExpected));
     if (!std::isfinite(number)) throw ParseError(here, cat("'", word, "' is not finite"));
     numbers.push_back(number);
     begin = end + 1;
@@ -63,37 +63,38 @@ TargetFile TargetFile::fromText(std::string_view text, const std::string& name) 
     const std::string_view line = text.substr(0, end);
     text.remove_prefix(std::min(end + 1, text.size()));
     ++at.line;
-    const std::string_view words = trimmed(line);
-    const bool is_header = targets.rows_.empty() && !hasDigit(words);
-    if (words.empty() || words.front() == '#' || is_header) continue;
+    const std::string_view content = trimmed(line);
+    const bool is_header = targets.entries_.empty() && !hasDigit(content);
+    if (content.empty() || content.front() == '#' || is_header) continue;
 
     const std::vector<double> numbers = numbersOf(line, at);
     const std::size_t count = numbers.size();
-    if (targets.rows_.empty() ? count != 4 && count != 8 : count != std::size_t(targets.rows_[0].pose.size()) + 1)
-      throw ParseError(at, cat(count, " numbers; ",
-                               targets.rows_.empty() ? std::string(kExpected)
-                                                     : cat("the rows before have ", targets.rows_[0].pose.size() + 1)));
-    Row row{numbers[0], Eigen::Map<const VectorXd>(&numbers[1], Eigen::Index(count) - 1)};
-    if (!targets.rows_.empty() && row.time <= targets.rows_.back().time)
-      throw ParseError(at, cat("time ", row.time, " does not come after ", targets.rows_.back().time));
-    if (row.pose.size() == 7) {
-      auto quaternion = row.pose.tail<4>();
+    if (targets.entries_.empty() ? count != 4 && count != 8 : count != std::size_t(targets.entries_[0].pose.size()) + 1)
+      throw ParseError(
+          at, cat(count, " numbers; ",
+                  targets.entries_.empty() ? std::string(kExpected)
+                                           : cat("the lines before have ", targets.entries_[0].pose.size() + 1)));
+    Entry entry{numbers[0], Eigen::Map<const VectorXd>(&numbers[1], Eigen::Index(count) - 1)};
+    if (!targets.entries_.empty() && entry.time <= targets.entries_.back().time)
+      throw ParseError(at, cat("time ", entry.time, " does not come after ", targets.entries_.back().time));
+    if (entry.pose.size() == 7) {
+      auto quaternion = entry.pose.tail<4>();
       const double length = quaternion.stableNorm();
       if (length == 0.) throw ParseError(at, "the quaternion is zero");
       quaternion /= length;
-      if (!targets.rows_.empty() && quaternion.dot(targets.rows_.back().pose.tail<4>()) < 0.) quaternion *= -1.;
+      if (!targets.entries_.empty() && quaternion.dot(targets.entries_.back().pose.tail<4>()) < 0.) quaternion *= -1.;
     }
-    targets.rows_.push_back(std::move(row));
+    targets.entries_.push_back(std::move(entry));
   }
-  if (targets.rows_.empty()) throw ParseError({name, at.line + 1, 1}, cat("no rows; ", kExpected));
+  if (targets.entries_.empty()) throw ParseError({name, at.line + 1, 1}, cat("the text has no poses; ", kExpected));
   return targets;
 }
 
 VectorXd TargetFile::operator()(double t) const {
-  const auto after = std::ranges::upper_bound(rows_, t, {}, &Row::time);
-  if (after == rows_.begin()) return rows_.front().pose;
-  if (after == rows_.end()) return rows_.back().pose;
-  const Row &one = *(after - 1), &other = *after;
+  const auto after = std::ranges::upper_bound(entries_, t, {}, &Entry::time);
+  if (after == entries_.begin()) return entries_.front().pose;
+  if (after == entries_.end()) return entries_.back().pose;
+  const Entry &one = *(after - 1), &other = *after;
   const double s = (t - one.time) / (other.time - one.time);
   VectorXd pose = (1. - s) * one.pose + s * other.pose;
   if (pose.size() == 7) {

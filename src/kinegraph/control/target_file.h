@@ -8,30 +8,31 @@
 
 namespace kinegraph {
 
-/// Poses at times, from a text: rows of t x y z, or t x y z qw qx qy qz, in s and m. Numbers are separated by commas; empty
-/// lines, lines that begin with # and a header are left out. Between rows positions go straight and rotations turn
-/// evenly; before the first and after the last row the pose stays.
+/// A sequence of timed poses from a text: lines of t x y z, or t x y z qw qx qy qz, in s and m. Commas separate the
+/// numbers. Empty lines, lines that begin with # and a header are ignored. Between lines, positions are interpolated
+/// linearly and rotations spherically; before the first and after the last line the pose is constant.
 class TargetFile {
  public:
-  /// Reads a file. Throws FileError if it cannot be read, ParseError with the place of what is not as expected.
+  /// Reads a file. Throws FileError if it cannot be read, ParseError with the place of an unexpected text.
   explicit TargetFile(const std::string& path);
 
-  /// The same of a text; `name` stands in its errors.
+  /// Reads a text; errors contain `name`.
   static TargetFile fromText(std::string_view text, const std::string& name = {});
 
-  double duration() const { return rows_.back().time; }  ///< time of the last row, s
+  double duration() const { return entries_.back().time; }  ///< time of the last line, s
 
-  /// The pose at a time t, s: x y z (3,), or x y z qw qx qy qz (7,).
+  /// Returns the pose at a time t, s: x y z (3,), or x y z qw qx qy qz (7,).
   VectorXd operator()(double t) const;
 
  private:
-  struct Row {
+  struct Entry {
     double time;
     VectorXd pose;
   };
   TargetFile() = default;
 
-  std::vector<Row> rows_;  ///< at least one; times ascend, quaternions have length one and the signs of the short way
+  std::vector<Entry>
+      entries_;  ///< at least one; times ascend, quaternions have length one and signs of the shorter rotation
 };
 
 }  // namespace kinegraph

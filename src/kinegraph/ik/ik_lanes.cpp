@@ -20,21 +20,21 @@ IkLanes::IkLanes(std::shared_ptr<const IkProblem> problem, int width)
       start_(problem_->variables()) {}
 
 void IkLanes::solve(const std::vector<IkTarget>* problems, int count, IkResult* results, std::atomic<int>& done,
-                    const Stop& stop) {
+                    const CancellationToken& cancellation) {
   problems_ = problems;
   results_ = results;
   done_ = &done;
-  stop_ = &stop;
+  cancellation_ = &cancellation;
   count_ = count;
   next_ = 0;
   cancelled_ = false;
   if (!model_.supported()) {
-    for (int i = 0; i < count; ++i, ++done) results[i] = search_.solve(problems[i], stop);
+    for (int i = 0; i < count; ++i, ++done) results[i] = search_.solve(problems[i], cancellation);
     return;
   }
   // All lanes step together. Finished attempts are replaced between the steps.
   for (int run = 0;; ++run) {
-    if (run % 16 == 0 && stop()) cancelled_ = true;
+    if (run % 16 == 0 && cancellation()) cancelled_ = true;
     bool busy = false;
     for (int l = 0; l < kernel_.lanes && !cancelled_; ++l) busy = lanes_[l].open >= 0 || fill(l) || busy;
     if (!busy) break;
@@ -49,7 +49,7 @@ void IkLanes::solve(const std::vector<IkTarget>* problems, int count, IkResult* 
   for (; next_ < count_; ++next_) {  // cancelled before their first attempt
     IkJob job;
     search_.open(job, problems_[next_]);
-    results_[next_] = search_.finish(job, true, stop);
+    results_[next_] = search_.finish(job, true, cancellation);
   }
 }
 
@@ -122,7 +122,7 @@ void IkLanes::assessEnded(int index) {
   for (;;) {
     const auto next = std::ranges::find(open.ended, open.job.attempts, &Ended::attempt);
     if (next == open.ended.end()) return;
-    const bool decided = search_.assess(open.job, next->x, next->approach, *stop_);
+    const bool decided = search_.assess(open.job, next->x, next->approach, *cancellation_);
     if (decided) return close(index, false);
     open.ended.erase(next);
   }
@@ -130,7 +130,7 @@ void IkLanes::assessEnded(int index) {
 
 void IkLanes::close(int index, bool cancelled) {
   Open& open = open_[index];
-  results_[open.problem] = search_.finish(open.job, cancelled, *stop_);
+  results_[open.problem] = search_.finish(open.job, cancelled, *cancellation_);
   if (!cancelled) ++*done_;
   open.problem = -1;
   for (Lane& lane : lanes_) {  // abandons attempts that were started speculatively

@@ -51,7 +51,7 @@ class IkLanes {
 
   /// Writes the result of problems[i] to results[i]; `done` counts solved problems.
   void solve(const std::vector<IkTarget>* problems, int count, IkResult* results, std::atomic<int>& done,
-             const Stop& stop);
+             const CancellationToken& cancellation);
 
  private:
   /// An attempt that has ended and waits until all earlier ones are assessed.
@@ -95,7 +95,7 @@ class IkLanes {
   const std::vector<IkTarget>* problems_ = nullptr;
   IkResult* results_ = nullptr;
   std::atomic<int>* done_ = nullptr;
-  const Stop* stop_ = nullptr;
+  const CancellationToken* cancellation_ = nullptr;
   int count_ = 0, next_ = 0;
   bool cancelled_ = false;
 };

@@ -227,10 +227,11 @@ const IkNlp& requireIk(const Nlp& nlp) {
   return *of_ik;
 }
 
-class IkTargetNumbers final : public MovedParameter {
+class IkTargetNumbers final : public FiniteDifferenceParameter {
  public:
   IkTargetNumbers(const IkNlp& nlp, int target)
-      : MovedParameter(cat("target of ", nlp.problem().tasks[std::size_t(target)].name()), namesOf(nlp, target)),
+      : FiniteDifferenceParameter(cat("target of ", nlp.problem().tasks[std::size_t(target)].name()),
+                                  namesOf(nlp, target)),
         target_(std::size_t(target)),
         original_(nlp.targets()[target_]) {}
 

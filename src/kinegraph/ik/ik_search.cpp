@@ -122,18 +122,18 @@ IkApproach IkSearch::approach() {
 }
 
 /// Moves from an evaluated x that meets the targets to one without collisions.
-IkSearch::Outcome IkSearch::avoidCollisions(const Stop& stop) {
+IkSearch::Outcome IkSearch::avoidCollisions(const CancellationToken& cancellation) {
   iterate_.assumeNoPenetration();
   if (problem_->pairs.empty()) return Outcome::feasible;
   iterate_.evaluateDistances();
   if (iterate_.errors().penetration == 0.) return Outcome::feasible;
   // The worst pair of each attempt is counted, so that a failure can name the pair that collided most often.
   ++job_->blocked[std::ranges::min_element(iterate_.nearPairs(), {}, &IkIterate::NearPair::distance)->pair];
-  return moveApart(problem_->options.steps, stop);
+  return moveApart(problem_->options.steps, cancellation);
 }
 
 /// Steps from an evaluated x, with the distances as constraints, until the iterate is feasible.
-IkSearch::Outcome IkSearch::moveApart(int steps, const Stop& stop) {
+IkSearch::Outcome IkSearch::moveApart(int steps, const CancellationToken& cancellation) {
   double before = 1e300;
   for (int i = 0;; ++i) {
     if (iterate_.feasible()) return Outcome::feasible;
@@ -142,7 +142,7 @@ IkSearch::Outcome IkSearch::moveApart(int steps, const Stop& stop) {
       if (iterate_.errors().sum() > .8 * before) return Outcome::missed;
       before = iterate_.errors().sum();
     }
-    if (stop()) return Outcome::cancelled;
+    if (cancellation()) return Outcome::cancelled;
     iterate_.stepApart(nullptr);
     iterate_.evaluate();
   }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/ik/ik_iterate.h"
 #include "kinegraph/ik/solve_ik.h"
 
@@ -14,15 +15,15 @@ class IkSearch {
   explicit IkSearch(std::shared_ptr<const IkProblem> problem);
 
   /// Solves one problem; `targets` have the problem's frames and kinds.
-  IkResult solve(const std::vector<IkTarget>& targets, const Stop& stop);
+  IkResult solve(const std::vector<IkTarget>& targets, const CancellationToken& cancellation);
 
   // The stages of solve, for callers that compute the approaches themselves: open, assess until it returns true, finish.
   void open(IkJob& job, const std::vector<IkTarget>& targets);
 
   /// Completes attempt number `job.attempts`, whose approach ended at x, and records its result. Returns true if no
   /// further attempt is needed.
-  bool assess(IkJob& job, const VectorXd& x, const IkApproach& approach, const Stop& stop);
-  IkResult finish(IkJob& job, bool cancelled, const Stop& stop);
+  bool assess(IkJob& job, const VectorXd& x, const IkApproach& approach, const CancellationToken& cancellation);
+  IkResult finish(IkJob& job, bool cancelled, const CancellationToken& cancellation);
 
   /// Returns true if an approach should be abandoned at this step. `before` is its memory, large at first.
   static bool stalls(int step, double square, double& before);
@@ -30,11 +31,11 @@ class IkSearch {
  private:
   enum class Outcome { feasible, missed, cancelled };
   IkApproach approach();
-  Outcome avoidCollisions(const Stop& stop);
-  Outcome moveApart(int steps, const Stop& stop);
-  Outcome approachPreferred(const Stop& stop);
+  Outcome avoidCollisions(const CancellationToken& cancellation);
+  Outcome moveApart(int steps, const CancellationToken& cancellation);
+  Outcome approachPreferred(const CancellationToken& cancellation);
   double costOf(const VectorXd& x) const { return (x - problem_->preferred).squaredNorm(); }
-  bool polish(const Stop& stop);
+  bool polish(const CancellationToken& cancellation);
 
   std::shared_ptr<const IkProblem> problem_;
   IkIterate iterate_;

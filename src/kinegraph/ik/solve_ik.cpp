@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <functional>
 #include <optional>
 
 #include "kinegraph/common/errors.h"
@@ -40,14 +39,15 @@ std::string IkResult::str() const {
 }
 
 IkResult solveIk(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options,
-                 const IkWatch& watch) {
-  return std::move(IkSolver(config, targets, options).solve({targets}, 1, watch)[0]);
+                 const CancellationToken& cancellation) {
+  return std::move(IkSolver(config, targets, options).solve({targets}, 1, {}, cancellation)[0]);
 }
 
 std::vector<IkResult> solveIkBatch(const Config& config, const std::vector<std::vector<IkTarget>>& problems,
-                                   const IkOptions& options, int threads, const IkWatch& watch) {
+                                   const IkOptions& options, int threads, const ProgressCallback& progress,
+                                   const CancellationToken& cancellation) {
   if (problems.empty()) return {};
-  return IkSolver(config, problems[0], options).solve(problems, threads, watch);
+  return IkSolver(config, problems[0], options).solve(problems, threads, progress, cancellation);
 }
 
 IkSolver::IkSolver(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options) {
@@ -55,7 +55,7 @@ IkSolver::IkSolver(const Config& config, const std::vector<IkTarget>& targets, c
 }
 
 std::vector<IkResult> IkSolver::solve(std::vector<std::vector<IkTarget>> given, int threads,
-                                      const IkWatch& watch) const {
+                                      const ProgressCallback& progress, const CancellationToken& cancellation) const {
   if (threads < 1) throw ValueError(cat("solveIk: threads is ", threads, "; expected at least 1"));
   const auto request = std::make_shared<const IkRequest>(problem_, std::move(given));
   const std::vector<std::vector<IkTarget>>& problems = request->problems;
@@ -76,18 +76,19 @@ std::vector<IkResult> IkSolver::solve(std::vector<std::vector<IkTarget>> given, 
   };
   std::atomic<int> done = 0;
   std::atomic<bool> stop = false;
-  const std::function<bool()> stopped = [&] { return stop.load(std::memory_order_relaxed); };
-  const std::function<bool()> watching = [&] {  // runs on the calling thread
+  const CancellationToken stopped = [&] { return stop.load(std::memory_order_relaxed); };
+  const CancellationToken asked = [&] {  // on the calling thread
     try {
-      if (watch && watch(done)) stop = true;
+      if (progress) progress({done, count});
+      if (cancellation.isCancelled()) stop = true;
     } catch (...) {
       stop = true;  // also stops the other threads
       throw;
     }
-    return stopped();
+    return stop.load();
   };
   if (threads == 1 || count <= 1) {
-    IkLanes(problem_).solve(problems.data(), count, results.data(), done, watching);
+    IkLanes(problem_).solve(problems.data(), count, results.data(), done, asked);
     return withRequest();
   }
   const int part = std::clamp(count / (4 * threads), 1, kLargestBatch);
@@ -98,9 +99,9 @@ std::vector<IkResult> IkSolver::solve(std::vector<std::vector<IkTarget>> given, 
         std::optional<IkLanes>& search = searches[std::size_t(worker)];
         if (!search) search.emplace(problem_);
         search->solve(&problems[std::size_t(from)], to - from, &results[std::size_t(from)], done,
-                      worker == 0 ? watching : stopped);
+                      worker == 0 ? asked : stopped);
       },
-      [&] { watching(); });  // after a stop the remaining parts end at once, with the status `cancelled`
+      [&] { asked(); });
   return withRequest();
 }
 

@@ -1,10 +1,11 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
+#include "kinegraph/common/progress.h"
 #include "kinegraph/ik/ik_options.h"
 #include "kinegraph/ik/ik_target.h"
 
@@ -38,10 +39,6 @@ struct IkResult {
   std::string str() const;  ///< "solved in 2 attempts, within 1e-8 m and 3e-9 rad", or the status and the message
 };
 
-/// Called regularly by the calling thread with the number of solved problems. If it returns true, the search ends and
-/// returns the best answers so far. It may throw.
-using IkWatch = std::function<bool(int done)>;
-
 /// Finds joint values within their limits that bring frames to their targets without collisions.
 ///
 /// The method takes damped Gauss-Newton steps on positions and rotation vectors from many starting points: first the q
@@ -57,12 +54,15 @@ using IkWatch = std::function<bool(int done)>;
 /// Source: Buss, Introduction to inverse kinematics with Jacobian transpose, pseudoinverse and damped least squares,
 /// 2004.
 IkResult solveIk(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options = {},
-                 const IkWatch& watch = {});
+                 const CancellationToken& cancellation = {});
 
 /// Solves one problem per entry of `problems`. All must have the frames and kinds of the first one's targets; otherwise
-/// throws ValueError. Each result equals that of `solveIk`, for any number of threads.
+/// throws ValueError. Each result equals that of `solveIk`, for any number of threads. The calling
+/// thread regularly calls `progress` with the number of solved problems and asks `cancellation`, which ends the search with
+/// the best answers so far.
 std::vector<IkResult> solveIkBatch(const Config& config, const std::vector<std::vector<IkTarget>>& problems,
-                                   const IkOptions& options = {}, int threads = 1, const IkWatch& watch = {});
+                                   const IkOptions& options = {}, int threads = 1,
+                                   const ProgressCallback& progress = {}, const CancellationToken& cancellation = {});
 
 struct IkProblem;
 
@@ -74,7 +74,7 @@ class IkSolver {
   IkSolver(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options = {});
 
   std::vector<IkResult> solve(std::vector<std::vector<IkTarget>> problems, int threads = 1,
-                              const IkWatch& watch = {}) const;
+                              const ProgressCallback& progress = {}, const CancellationToken& cancellation = {}) const;
 
  private:
   std::shared_ptr<const IkProblem> problem_;

@@ -111,7 +111,7 @@ class KomoNlp final : public Nlp, public InitialGuesses, public LazyConstraints 
     return separation_;
   }
 
-  std::shared_ptr<const LazyValidity> motionValidity(const VectorXd& x) override {
+  std::shared_ptr<const LazyValidity> validity(const VectorXd& x) override {
     if (!constrainsAnyMotion(komo_->path(), problem_.objectives())) return nullptr;
     komo_->path().setVariables(x);
     std::vector<SliceMotion> motions = constrainedMotions(komo_->path(), problem_.objectives());
@@ -141,9 +141,10 @@ class KomoNlp final : public Nlp, public InitialGuesses, public LazyConstraints 
     return refinementOf(lack);
   }
 
-  bool hasRoom() const override { return std::ranges::any_of(problem_.objectives(), hasSpareSamples); }
+  bool hasCapacity() const override { return std::ranges::any_of(problem_.objectives(), hasSpareSamples); }
 
-  Refinement takeUp(const VectorXd& x, bool is_solution, VectorXd& phi, Jacobian& J, std::vector<int>& rows) override {
+  Refinement activate(const VectorXd& x, bool is_solution, VectorXd& phi, Jacobian& J,
+                      std::vector<int>& rows) override {
     requireStructure();
     komo_->path().setVariables(x);
     double lack = 0.;
@@ -159,6 +160,9 @@ class KomoNlp final : public Nlp, public InitialGuesses, public LazyConstraints 
     if (is_solution && lack == 0.) free_at_ = x;
     return refinementOf(lack);
   }
+
+  InitialGuesses* initialGuesses() override { return this; }
+  LazyConstraints* lazyConstraints() override { return this; }
 
   GuessKind guessKind(const VectorXd& x) override {
     requireStructure();

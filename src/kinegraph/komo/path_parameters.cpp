@@ -118,10 +118,10 @@ class ObjectiveScale final : public NlpParameter {
 };
 
 /// The pose of a frame that is fixed to its parent, in all slices in which it is.
-class FramePoseParameter final : public MovedParameter {
+class FramePoseParameter final : public FiniteDifferenceParameter {
  public:
   FramePoseParameter(const Nlp& nlp, const std::string& name, bool with_rotation)
-      : MovedParameter(cat(with_rotation ? "pose of " : "position of ", name), namesOf(name, with_rotation)) {
+      : FiniteDifferenceParameter(cat(with_rotation ? "pose of " : "position of ", name), namesOf(name, with_rotation)) {
     const Path& path = requireKomo(nlp)->path();
     frame_ = frameId(path.state(0).model(), name, "sensitivity");
     std::string joint_of;
@@ -259,9 +259,9 @@ class FramePoseParameter final : public MovedParameter {
 };
 
 /// The slices before the first.
-class MotionStart final : public MovedParameter {
+class MotionStart final : public FiniteDifferenceParameter {
  public:
-  explicit MotionStart(const Nlp& nlp) : MovedParameter("start", namesOf(*requireKomo(nlp))) {
+  explicit MotionStart(const Nlp& nlp) : FiniteDifferenceParameter("start", namesOf(*requireKomo(nlp))) {
     if (requireKomo(nlp)->order() == 0)
       throw ValueError(
           "a problem of order 0 has no slices before the first, so its solution does not depend on a start");

@@ -9,8 +9,8 @@
 
 namespace kinegraph {
 
-/// A predicate of some arguments, `(on table cup)`, or that it does not hold, `(on table cup)!`. Arguments are constants,
-/// or variables of the rule that it is part of.
+/// A predicate with arguments, `(on table cup)`, or its negation, `(on table cup)!`. Arguments are constants or
+/// variables of the rule.
 struct Literal {
   std::string predicate;
   std::vector<std::string> arguments = {};
@@ -27,34 +27,33 @@ struct Literal {
 /// `(a b) (c)!`
 std::string str(const std::vector<Literal>& literals);
 
-/// What matches any constant, where it stands for an argument.
+/// The argument that matches any constant.
 inline constexpr std::string_view kAny = "ANY";
 
-/// The predicate of two arguments that holds if they are the same; it is not written by effects.
+/// The equality predicate; effects must not contain it.
 inline constexpr std::string_view kEqual = "=";
 
-/// What can be done (a decision), or what follows by itself: where the precondition holds, the effects happen, in their
-/// order.
+/// An action (a decision), or a rule that fires automatically. If the precondition holds, the effects apply in order.
 struct LogicRule {
   std::string name;
   std::vector<std::string> variables;
-  std::vector<std::string> types = {};  ///< of the variables, each a predicate of one argument; empty: none has one
+  std::vector<std::string> types = {};  ///< unary predicates, one per variable; empty: untyped
   std::vector<Literal> pre, eff;
   bool is_decision = true;
   SourcePosition where = {};
 };
 
-/// Actions and rules, and the words that they are made of.
+/// Actions and rules, with their predicates and constants.
 struct LogicDomain {
   std::string name = "domain";
-  std::vector<std::string> symbols;  ///< predicates and constants, in the order in which they were declared
+  std::vector<std::string> symbols;  ///< predicates and constants, in the order of declaration
   std::vector<LogicRule> rules;
   std::vector<std::pair<std::string, std::string>> types;  ///< type, supertype; PDDL only
-  std::vector<Literal> start;                              ///< facts that every problem begins with
-  bool distinct_variables = true;  ///< different variables of a rule are different things; not so in PDDL
+  std::vector<Literal> start;                              ///< initial facts of every problem
+  bool distinct_variables = true;                          ///< different variables are different objects; false in PDDL
 };
 
-/// A domain, what there is, what holds at the start, and what shall hold at the end.
+/// A domain, objects, initial facts, and a goal.
 struct LogicProblem {
   std::string name = "problem";
   LogicDomain domain;

@@ -72,7 +72,7 @@ class FolReader {
     }
   }
 
-  /// `{ (p a) (q b)! }`, whose words are declared, or are among `variables`.
+  /// Reads `{ (p a) (q b)! }`. Words have to be declared or among `variables`.
   std::vector<Literal> readBlock(const std::vector<std::string>& variables) {
     scan_.expect('{', "of a list of literals");
     std::vector<Literal> literals;
@@ -129,7 +129,7 @@ class FolReader {
       if (scan_.peek().is('{')) break;
       const Token variable = scan_.expectWord("a variable, or '{' of the precondition");
       if (std::ranges::find(rule.variables, variable.text) != rule.variables.end())
-        throw ParseError(variable.where, cat("variable '", variable.text, "' is there twice"));
+        throw ParseError(variable.where, cat("variable '", variable.text, "' occurs twice"));
       rule.variables.push_back(variable.text);
     }
     rule.pre = readBlock(rule.variables);
@@ -208,7 +208,7 @@ std::string writeFol(const LogicDomain& domain) {
 
 void addAction(LogicDomain& domain, const std::string& name, const std::vector<std::string>& variables,
                std::string_view pre, std::string_view eff) {
-  // Through the reader, so that the same is required of it.
+  // The reader checks the new rule, too.
   LogicDomain alone;
   LogicRule rule{name, variables, {}, readLiterals(pre, "pre"), readLiterals(eff, "eff")};
   for (const auto* list : {&rule.pre, &rule.eff}) {

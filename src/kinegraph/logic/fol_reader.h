@@ -10,33 +10,33 @@ namespace kinegraph {
 
 /// Reads a domain in the language of `.fol` files:
 ///
-///     on  busy  is_gripper                     # words that are used below
+///     on  busy  is_gripper                     # symbols
 ///     START_STATE { (busy left) }
 ///     DecisionRule pick { Obj, From, Hand,
 ///       { (is_gripper Hand) (on From Obj) (busy Hand)! }
 ///       { (on From Obj)! (on Hand Obj) (busy Hand) } }
 ///     Rule chain { A, B, { (on A B) (moves A) } { (moves B) } }
 ///
-/// Commas and line breaks are spaces; `pre:` and `eff:` may stand before the blocks. ANY matches any constant. FOL_World
-/// and REWARD are read and have no effect. Throws ParseError with file:line:column, what was expected and what is near:
-/// for words that are not declared, variables that no positive literal of the precondition binds, and for values,
-/// probabilities and `aggregate`, which are not supported.
+/// Commas and line breaks are spaces; `pre:` and `eff:` may precede the blocks. ANY matches any constant. FOL_World and
+/// REWARD are read and ignored. Throws ParseError with file:line:column, the expectation and similar names: for
+/// undeclared words, for variables that no positive literal of the precondition binds, and for values, probabilities
+/// and `aggregate`, which are not supported.
 LogicDomain readFol(std::string_view text, const std::string& file = {});
 
-/// The same from a file. Throws FileError.
+/// Reads a domain from a file; also throws FileError.
 LogicDomain readFolFile(const std::string& path);
 
 /// Reads a list of literals, as a goal: `(on tray cup) (busy left)!`
 std::vector<Literal> readLiterals(std::string_view text, const std::string& file = {});
 
-/// Adds an action, its precondition and effects as lists of literals; words of them that are no variables are declared.
-/// Throws ParseError as readFol does.
+/// Adds an action, with its precondition and effects as lists of literals. Unknown words become symbols. Throws
+/// ParseError as readFol does.
 ///
 ///     addAction(domain, "show", {"Obj", "Hand"}, "(is_gripper Hand) (on Hand Obj)", "(shown Obj)");
 void addAction(LogicDomain& domain, const std::string& name, const std::vector<std::string>& variables,
                std::string_view pre, std::string_view eff);
 
-/// Writes a domain in that language.
+/// Writes a domain in the same language.
 std::string writeFol(const LogicDomain& domain);
 
 }  // namespace kinegraph

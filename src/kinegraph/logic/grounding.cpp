@@ -11,12 +11,12 @@ namespace kinegraph {
 
 namespace {
 
-using Tuple = std::vector<int>;  ///< numbers of constants
+using Tuple = std::vector<int>;  ///< indices of constants
 
-/// How often facts are held against preconditions at most, per action that is allowed.
+/// Maximum number of matches of facts with preconditions, per allowed action.
 constexpr std::size_t kTriesPerAction = 200;
 
-/// What can hold, found by firing all rules and deleting nothing.
+/// The facts that can hold, found by firing all rules without deletes.
 class Grounder {
  public:
   Grounder(LogicProblem problem, std::size_t most) : most_(most) { out_.problem = std::move(problem); }
@@ -40,9 +40,9 @@ class Grounder {
   }
 
  private:
-  using Binding = std::vector<int>;  ///< per variable, -1: none yet
+  using Binding = std::vector<int>;  ///< per variable, -1: unbound
 
-  /// Every predicate has one number of arguments; words of the goal are known.
+  /// Checks the numbers of arguments of predicates, and the words of the goal.
   void requireWords() {
     const LogicProblem& problem = out_.problem;
     std::map<std::string, std::pair<std::size_t, std::string>> arity;
@@ -129,7 +129,7 @@ class Grounder {
     return true;
   }
 
-  /// Binds the variables of a literal as a fact says; false where it says otherwise.
+  /// Binds the variables of a literal to those of a fact; false if they do not match.
   bool bind(const LogicRule& rule, const Literal& literal, const Tuple& fact, Binding& binding) {
     for (std::size_t i = 0; i < fact.size(); ++i) {
       const std::string& word = literal.arguments[i];
@@ -150,13 +150,13 @@ class Grounder {
     return true;
   }
 
-  /// Calls `found` for all bindings under which the positive literals can hold, in the order of the constants.
+  /// Calls `found` for all bindings with which the positive literals can hold, in the order of the constants.
   void match(const LogicRule& rule, const std::function<void(const Binding&)>& found) {
     std::vector<const Literal*> order;
     for (const Literal& literal : rule.pre) {
       if (!literal.negated && literal.predicate != kEqual) order.push_back(&literal);
     }
-    // What never changes says most of what can be bound.
+    // Facts that never change restrict bindings most.
     std::ranges::stable_sort(order, {}, [&](const Literal* literal) { return changing_.contains(literal->predicate); });
     Binding binding(rule.variables.size(), -1);
     matchFrom(rule, order, 0, binding, found);
@@ -186,7 +186,7 @@ class Grounder {
     return true;
   }
 
-  /// Counts how often a fact is held against a precondition. With k of them, n facts are so n^k times at worst.
+  /// Counts matches of facts with preconditions: n^k in the worst case, for k preconditions and n facts.
   void spend(std::size_t tries, const LogicRule& rule) {
     tries_ += tries;
     if (tries_ <= kTriesPerAction * most_) return;
@@ -232,7 +232,7 @@ class Grounder {
     out_.start = FactSet(out_.facts.size());
   }
 
-  /// Numbers of the facts that match; `holds`: one that matches never changes.
+  /// Indices of the facts that match; `holds`: a matching fact never changes.
   std::vector<int> matching(const std::string& predicate, const Tuple& pattern, bool& holds) const {
     std::vector<int> list;
     const auto facts = reached_.find(predicate);
@@ -244,7 +244,7 @@ class Grounder {
         holds = true;
       }
     };
-    if (std::ranges::find(pattern, -1) == pattern.end()) {  // without ANY there is one at most
+    if (std::ranges::find(pattern, -1) == pattern.end()) {  // without ANY there is at most one
       if (facts->second.contains(pattern)) add(pattern);
       return list;
     }
@@ -303,7 +303,7 @@ class Grounder {
       } else if (!holds) {
         if (facts.empty()) out_.unreachable.push_back(literal);
         if (facts.size() > 1)
-          throw ParseError(literal.where, cat("the goal ", literal.str(), " has ANY; name what is meant"));
+          throw ParseError(literal.where, cat("the goal ", literal.str(), " has ANY; expected a constant"));
         if (!facts.empty()) out_.goal.push_back(facts.front());
       }
     }

@@ -8,7 +8,7 @@
 
 namespace kinegraph {
 
-/// A set of facts, a bit for each.
+/// A set of facts, one bit each.
 class FactSet {
  public:
   FactSet() = default;
@@ -23,49 +23,48 @@ class FactSet {
   std::vector<std::uint64_t> words_;
 };
 
-/// A rule with constants for its variables, in numbers of facts.
+/// A rule with constants for its variables; facts are indices.
 struct GroundRule {
-  int rule = 0;                        ///< of the domain
-  std::vector<std::string> arguments;  ///< for its variables
-  std::vector<int> pre, pre_not;       ///< facts that must hold, and those that must not
+  int rule = 0;                        ///< index in the domain
+  std::vector<std::string> arguments;  ///< of its variables
+  std::vector<int> pre, pre_not;       ///< facts that must hold, and facts that must not
   std::vector<int> adds, deletes;      ///< no fact is in both
 };
 
-/// A problem in numbers: the facts that can ever hold and may change, and what changes them.
+/// A ground problem: the facts that can hold and change, and the rules that change them.
 struct GroundProblem {
   LogicProblem problem;
-  std::vector<Literal> facts;       ///< by number
+  std::vector<Literal> facts;       ///< by index
   std::vector<GroundRule> actions;  ///< in the order of the rules, then of the constants
-  std::vector<GroundRule> rules;    ///< that fire by themselves
-  FactSet start;                    ///< rules have fired
+  std::vector<GroundRule> rules;    ///< that fire automatically
+  FactSet start;                    ///< after the rules have fired
   std::vector<int> goal, goal_not;
-  std::vector<Literal> unreachable;  ///< literals of the goal that nothing can make true
+  std::vector<Literal> unreachable;  ///< literals of the goal that no rule can make true
 
-  /// (pick cup table hand): name, then arguments.
+  /// Returns the words of an action, name and arguments: (pick cup table hand).
   std::vector<std::string> action(int number) const;
 
-  /// The number of a fact, -1 if it can never hold or never changes.
+  /// Returns the index of a fact, -1 if it can never hold or never changes.
   int factNumber(const Literal& literal) const;
 
   bool isApplicable(const GroundRule& rule, const FactSet& state) const;
   bool isGoal(const FactSet& state) const;
 
-  /// The state after an action, where all rules have fired. Throws ValueError if they never end.
+  /// Returns the state after an action and all rules. Throws ValueError if the rules never end.
   FactSet apply(int action, const FactSet& state) const;
   void fireRules(FactSet& state) const;
 
-  /// The literals that hold in a state: those that never change, then those that do.
+  /// Returns the literals that hold in a state: first those that never change.
   std::vector<Literal> literals(const FactSet& state) const;
 };
 
-/// Finds the facts that can be reached when nothing is ever deleted, and all rules that can fire then. Throws ParseError
-/// with the place for predicates of different numbers of arguments and for words in the goal that are nowhere else, and
-/// ValueError if there are more than `most` ground rules, or so many combinations of facts for one that it would not end
-/// in minutes.
+/// Grounds a problem: finds the facts that are reachable without deletes, and all rules that can fire then. Throws
+/// ParseError with the position for predicates with inconsistent numbers of arguments and for unknown words in the
+/// goal. Throws ValueError for more than `most` ground rules, or if the combinations for one rule would take minutes.
 GroundProblem ground(LogicProblem problem, std::size_t most = 2000000);
 
-/// What is odd about a problem before it is searched, each in a line with its place: predicates in preconditions that
-/// nothing can make true, rules that can never fire.
+/// Returns likely mistakes in a problem, a sentence with its position each: predicates in preconditions that nothing
+/// can make true, and rules that can never fire.
 std::vector<std::string> diagnostics(const GroundProblem& ground);
 
 }  // namespace kinegraph

@@ -6,7 +6,7 @@ namespace kinegraph {
 
 namespace {
 
-/// Each once: who needs a node twice would be made cheaper twice by one cut.
+/// Removes duplicates, because a cut would reduce the cost of an operator twice that needs a node twice.
 void pushOnce(std::vector<int>& nodes, int node) {
   if (std::ranges::find(nodes, node) == nodes.end()) nodes.push_back(node);
 }
@@ -53,7 +53,7 @@ void LandmarkCut::require(int action, int fact_not) {
   linked_ = false;
 }
 
-/// Which operators need and add a node; deletes add the negation where somebody needs it.
+/// Lists the operators that need and add each node; deletes add a negation that is needed.
 void LandmarkCut::link() {
   const std::size_t actions = ground_.actions.size();
   needed_by_.assign(std::size_t(nodes_), {});
@@ -73,7 +73,7 @@ void LandmarkCut::link() {
   linked_ = true;
 }
 
-/// The largest-value supporter of each operator; false if the goal cannot be reached.
+/// Finds the supporter with the largest value of each operator; false if the goal is unreachable.
 bool LandmarkCut::explore(const std::vector<int>& begin) {
   value_.assign(std::size_t(nodes_), kNever);
   supporter_.assign(operators_.size(), -1);
@@ -105,7 +105,7 @@ bool LandmarkCut::explore(const std::vector<int>& begin) {
   return value_[std::size_t(goal_)] < kNever;
 }
 
-/// Makes the operators that lead into the zone from which the goal costs nothing cheaper. Returns by how much.
+/// Reduces the cost of the operators that enter the zone with free paths to the goal. Returns the reduction.
 int LandmarkCut::cut(const std::vector<int>& begin) {
   zone_.assign(std::size_t(nodes_), 0);
   before_.assign(std::size_t(nodes_), 0);

@@ -7,8 +7,8 @@
 
 namespace kinegraph {
 
-/// A lower bound of how many actions it takes to the goal, from landmarks: sets of actions one of which is in every plan.
-/// Deletes count only where something must not hold. Source: Helmert, Domshlak, Landmarks, critical paths and
+/// A lower bound on the number of actions to the goal, from landmarks: sets of actions such that each plan contains one
+/// of them. Deletes count only for negated preconditions. Source: Helmert, Domshlak, Landmarks, critical paths and
 /// abstractions: what's the difference anyway?, ICAPS 2009.
 class LandmarkCut {
  public:
@@ -16,7 +16,7 @@ class LandmarkCut {
 
   explicit LandmarkCut(const GroundProblem& ground);
 
-  /// From now on the action needs that the fact does not hold.
+  /// Adds a negated fact to the precondition of an action.
   void require(int action, int fact_not);
 
   int operator()(const FactSet& state);
@@ -33,12 +33,12 @@ class LandmarkCut {
   int cut(const std::vector<int>& begin);
 
   const GroundProblem& ground_;
-  std::vector<int> negation_;  ///< of each fact: the node that says that it does not hold, or -1
+  std::vector<int> negation_;  ///< per fact: the node of its negation, or -1
   int nodes_ = 0, goal_ = 0, always_ = 0;
   bool linked_ = false;
-  std::vector<Operator> operators_;  ///< actions, rules, and one that ends at the goal
+  std::vector<Operator> operators_;  ///< actions, rules, and one that reaches the goal
   std::vector<std::vector<int>> needed_by_, added_by_;
-  // Of one evaluation.
+  // Buffers of one evaluation.
   std::vector<int> value_, cost_, missing_, supporter_;
   std::vector<std::vector<int>> bucket_;
   std::vector<char> zone_, before_;

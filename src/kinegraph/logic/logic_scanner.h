@@ -7,28 +7,28 @@
 
 namespace kinegraph {
 
-/// Cuts a text of the logic languages into words and marks; knows where each is. Comments are skipped.
+/// Splits a text of the logic languages into words and marks with their positions. Comments are skipped.
 class LogicScanner {
  public:
   struct Token {
     enum class Kind { word, number, mark, text, end };
     Kind kind = Kind::end;
-    std::string text;  ///< of a mark: one character
+    std::string text;  ///< a mark has one character
     SourcePosition where = {};
     bool is(char mark) const { return kind == Kind::mark && text[0] == mark; }
     bool isWord() const { return kind == Kind::word; }
     std::string str() const;  ///< "'on'", "the end"
   };
 
-  /// `comment`: what a comment that goes to the end of its line begins with, # or ;
+  /// `comment`: the character that begins a comment, # or ;
   LogicScanner(std::string_view text, std::string file, char comment);
 
   const Token& peek() const { return token_; }
-  Token take();                                               ///< the next one
-  bool takeIf(char mark);                                     ///< takes it, if it is this mark
-  Token expect(char mark, const char* what);                  ///< throws ParseError if it is another one
+  Token take();                                               ///< returns the next token
+  bool takeIf(char mark);                                     ///< takes the next token if it is this mark
+  Token expect(char mark, const char* what);                  ///< throws ParseError for another token
   Token expectWord(const char* what);                         ///< the same
-  [[noreturn]] void fail(const std::string& expected) const;  ///< at the next one
+  [[noreturn]] void fail(const std::string& expected) const;  ///< throws ParseError at the next token
 
  private:
   void advance();

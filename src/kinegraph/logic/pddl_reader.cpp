@@ -13,7 +13,7 @@ using Token = LogicScanner::Token;
 
 constexpr int kDeepest = 50;  ///< lists in lists
 
-/// A word, or a list of these.
+/// A word, or a list of words and lists.
 struct Expression {
   std::string word;  ///< empty: a list
   std::vector<Expression> list;
@@ -129,7 +129,7 @@ class DomainReader {
     }
   }
 
-  /// What stands only behind a '-' is a type, too.
+  /// A word that occurs only behind a '-' is a type, too.
   void addSupertypes() {
     const auto types = domain_.types;
     for (const auto& [type, above] : types) {
@@ -156,7 +156,7 @@ class DomainReader {
     domain_.symbols.push_back(name);
   }
 
-  /// The facts, or preconditions, that say that something is of a type and of those above it.
+  /// Literals that an object has a type and its supertypes.
   void addType(const Typed& thing, std::vector<Literal>& facts) const {
     std::string type = thing.type;
     for (std::size_t above = 0; !type.empty() && type != "object" && above <= domain_.types.size(); ++above) {
@@ -193,7 +193,7 @@ class DomainReader {
     if (pre) readConjunction(*pre, rule, rule.pre, true);
     if (!eff) throw ParseError(part.where, cat("action '", rule.name, "' has no :effect"));
     readConjunction(*eff, rule, rule.eff, false);
-    // PDDL's effects happen at once: what is added is not deleted.
+    // Effects of PDDL are simultaneous: an added fact is not deleted.
     std::ranges::stable_sort(rule.eff, {}, [](const Literal& effect) { return !effect.negated; });
     requireBound(rule);
     domain_.rules.push_back(std::move(rule));
@@ -293,7 +293,7 @@ class DomainReader {
     }
   }
 
-  /// What no positive literal binds can be anything: PDDL's untyped parameters are objects.
+  /// A parameter that no positive literal binds can be any object: untyped parameters of PDDL are objects.
   void requireBound(LogicRule& rule) {
     for (const std::string& variable : rule.variables) {
       const bool bound = std::ranges::any_of(rule.pre, [&](const Literal& literal) {

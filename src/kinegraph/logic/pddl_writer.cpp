@@ -18,14 +18,14 @@ std::string named(const std::string& variable) { return variable[0] == '?' ? var
 std::string written(const Literal& literal, const LogicRule* rule) {
   std::string text = "(" + literal.predicate;
   for (const std::string& word : literal.arguments) {
-    if (word == kAny) throw ValueError(cat("writePddl: ", literal.str(), ": PDDL of this kind has no ANY"));
+    if (word == kAny) throw ValueError(cat("writePddl: ", literal.str(), ": PDDL has no ANY"));
     text += " " + (rule && isVariable(*rule, word) ? named(word) : word);
   }
   text += ")";
   return literal.negated ? "(not " + text + ")" : text;
 }
 
-/// Does the rule's list of parameters say this already?
+/// Whether the list of parameters already implies a literal.
 bool saidByType(const LogicRule& rule, const Literal& literal) {
   for (std::size_t i = 0; i < rule.types.size(); ++i) {
     if (literal == Literal{rule.types[i], {rule.variables[i]}}) return true;
@@ -35,7 +35,7 @@ bool saidByType(const LogicRule& rule, const Literal& literal) {
 
 std::string writeAction(const LogicDomain& domain, const LogicRule& rule) {
   if (!rule.is_decision)
-    throw ValueError(cat("writePddl: rule '", rule.name, "' fires by itself; PDDL of this kind has actions only"));
+    throw ValueError(cat("writePddl: rule '", rule.name, "' fires automatically; PDDL has actions only"));
   std::string text = cat("  (:action ", rule.name, "\n    :parameters (");
   for (std::size_t i = 0; i < rule.variables.size(); ++i) {
     text += (i ? " " : "") + named(rule.variables[i]);
@@ -50,7 +50,7 @@ std::string writeAction(const LogicDomain& domain, const LogicRule& rule) {
       text += cat(" (not (= ", named(rule.variables[k]), " ", named(rule.variables[i]), "))");
   }
   text += ")\n    :effect (and";
-  // Effects that come later win; PDDL's happen at once.
+  // Later effects win; effects of PDDL are simultaneous.
   for (std::size_t i = 0; i < rule.eff.size(); ++i) {
     const bool undone =
         std::any_of(rule.eff.begin() + std::ptrdiff_t(i) + 1, rule.eff.end(), [&](const Literal& later) {
@@ -91,7 +91,7 @@ std::string writeTypes(const LogicDomain& domain) {
   return text + ")\n";
 }
 
-/// Constants that rules name.
+/// Constants in rules.
 std::string writeConstants(const LogicDomain& domain) {
   std::set<std::string> names;
   for (const LogicRule& rule : domain.rules) {

@@ -51,11 +51,11 @@ bool PlanSearch::isForbidden(int action, const FactSet& facts) const {
 
 const std::vector<PlanSearch::Edge>& PlanSearch::edges(int state) {
   if (!states_[std::size_t(state)].expanded) {
-    if (++expansions_ > options_.most_expansions) {
+    if (++expansions_ > options_.max_expansions) {
       status_ = Status::limit;
       throw Stopped();
     }
-    if (expansions_ % kAskEvery == 0 && options_.keep_going && !options_.keep_going()) {
+    if (expansions_ % kAskEvery == 0 && options_.cancellation.isCancelled()) {
       status_ = Status::cancelled;
       throw Stopped();
     }
@@ -72,7 +72,7 @@ const std::vector<PlanSearch::Edge>& PlanSearch::edges(int state) {
   return states_[std::size_t(state)].edges;
 }
 
-/// A* from a state. All that it expands learns a bound of its own distance.
+/// A* from a state. Each expanded state gets a bound on its own distance.
 int PlanSearch::exactDistance(int state) {
   if (bound(state), states_[std::size_t(state)].exact) return states_[std::size_t(state)].bound;
   using Entry = std::tuple<int, int, long, int>;  // g + bound, -g, order, state
@@ -89,7 +89,7 @@ int PlanSearch::exactDistance(int state) {
     if (g > reached[s].first) continue;
     if (states_[std::size_t(s)].exact) {
       const int total = g + states_[std::size_t(s)].bound;
-      if (total > f) {  // what was found meanwhile
+      if (total > f) {  // outdated entry
         open.push({total, minus_g, order++, s});
         continue;
       }
@@ -114,7 +114,7 @@ int PlanSearch::exactDistance(int state) {
       open.push({g + 1 + rest, -(g + 1), order++, edge.to});
     }
   }
-  for (int c : closed) {  // the goal cannot be reached from any of them
+  for (int c : closed) {  // the goal is unreachable from all of them
     states_[std::size_t(c)].bound = kNever;
     states_[std::size_t(c)].exact = true;
   }
@@ -140,7 +140,7 @@ void PlanSearch::forbidBeginning(const std::vector<int>& actions) {
   restart();
 }
 
-/// Distances only grow by what is forbidden: they stay as bounds. Plans that were told are not told again.
+/// Forbidding only increases distances, so they remain bounds. No plan is returned twice.
 void PlanSearch::restart() {
   for (StateInfo& info : states_) {
     info.exact = info.is_goal || (info.exact && info.bound >= kNever);
@@ -159,7 +159,7 @@ void PlanSearch::leave() {
   if (!actions_.empty()) actions_.pop_back();
 }
 
-/// To the next plan of the present length; false if there is none.
+/// Advances to the next plan of the current length; false if there is none.
 bool PlanSearch::advance() {
   while (!path_.empty()) {
     const int state = path_.back().state, used = int(actions_.size());
@@ -183,7 +183,7 @@ bool PlanSearch::advance() {
     }
     path_.push_back({edge.to, 0});
     states_[std::size_t(edge.to)].on_path = true;
-    if (states_[std::size_t(edge.to)].is_goal && int(actions_.size()) == length_ && told_.insert(actions_).second)
+    if (states_[std::size_t(edge.to)].is_goal && int(actions_.size()) == length_ && returned_.insert(actions_).second)
       return true;
   }
   return false;
@@ -202,7 +202,7 @@ std::optional<std::vector<int>> PlanSearch::next() {
       next_length_ = kNever;
       path_ = {{0, 0}};
       states_[0].on_path = true;
-      if (states_[0].is_goal && told_.insert(actions_).second) return actions_;
+      if (states_[0].is_goal && returned_.insert(actions_).second) return actions_;
       if (advance()) return actions_;
     }
     status_ = Status::exhausted;

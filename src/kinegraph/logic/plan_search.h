@@ -1,6 +1,5 @@
 #pragma once
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -8,48 +7,49 @@
 #include <unordered_map>
 #include <vector>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/logic/landmark_cut.h"
 
 namespace kinegraph {
 
-/// Plans of a problem, the shortest first: all sequences of actions that end where the goal holds for the first time and
-/// come to no state twice. Which plan is the next one depends on the problem and on what was forbidden alone.
+/// Enumerates the plans of a problem, the shortest first: all sequences of actions that end in the first state with the
+/// goal and visit no state twice. The order depends only on the problem and on the forbidden actions.
 ///
-/// Distances to the goal are found exactly, by A* with a closed list and landmarks; what a search has found about other
-/// states is kept (Koenig, Likhachev, Adaptive A*, 2005). Plans are then enumerated without dead ends.
+/// Distances to the goal are exact, by A* with a closed list and landmarks. Bounds of other states are reused (Koenig,
+/// Likhachev, Adaptive A*, 2005). The enumeration has no dead ends.
 class PlanSearch {
  public:
   enum class Status {
     found,
-    exhausted,  ///< there is no further plan: this is proved
-    limit,      ///< of effort
+    exhausted,  ///< proved: there is no further plan
+    limit,      ///< max_expansions is reached
     cancelled,
   };
   struct Options {
-    long most_expansions = 2000000;      ///< states that are expanded in all
-    std::function<bool()> keep_going{};  ///< asked now and then; false ends `next` with `cancelled`
+    long max_expansions = 2000000;       ///< total number of expanded states
+    CancellationToken cancellation{};  ///< ends `next` with `cancelled`
   };
 
   explicit PlanSearch(GroundProblem ground);
   PlanSearch(GroundProblem ground, Options options);
 
-  /// The next plan: numbers of actions.
+  /// Returns the next plan, indices of actions.
   std::optional<std::vector<int>> next();
 
-  /// How the last `next` ended.
+  /// The result of the last `next`.
   Status status() const { return status_; }
 
-  /// An action is not possible in states in which all of these facts hold; none: never.
+  /// Forbids an action in states in which all of these facts hold; without facts, always.
   void forbid(int action, const std::vector<int>& facts);
 
-  /// No plan begins like that.
+  /// Forbids plans that begin with these actions.
   void forbidBeginning(const std::vector<int>& actions);
 
   const GroundProblem& problem() const { return ground_; }
   long expansions() const { return expansions_; }
   std::size_t states() const { return states_.size(); }
 
-  /// The least number of actions from the start to the goal, under what is forbidden; LandmarkCut::kNever if none.
+  /// Returns the minimum number of allowed actions from the start to the goal; LandmarkCut::kNever if there is no plan.
   int distance();
 
  private:
@@ -58,7 +58,7 @@ class PlanSearch {
   };
   struct StateInfo {
     FactSet facts;
-    int bound = -1;  ///< the goal is at least that far; -1: not yet known
+    int bound = -1;  ///< lower bound of the distance to the goal; -1: unknown
     bool exact = false, expanded = false, on_path = false, is_goal = false;
     std::vector<Edge> edges;
   };
@@ -66,7 +66,7 @@ class PlanSearch {
     int state;
     std::size_t next;
   };
-  struct Stopped {};  ///< thrown where effort ends
+  struct Stopped {};  ///< thrown at the limit
 
   int stateOf(const FactSet& facts);
   int bound(int state);
@@ -85,7 +85,7 @@ class PlanSearch {
   std::unordered_map<std::uint64_t, std::vector<int>> by_hash_;
   std::unordered_map<int, std::vector<std::vector<int>>> forbidden_;
   std::set<std::vector<int>> beginnings_;
-  std::set<std::vector<int>> told_;  ///< plans since something was forbidden, or before
+  std::set<std::vector<int>> returned_;  ///< all plans so far
   std::vector<Step> path_;
   std::vector<int> actions_;
   int length_ = 0, next_length_ = 0;

@@ -4,10 +4,10 @@
 
 #include "kinegraph/math/banded_matrix.h"
 
-// The factorization L D L^T goes through the columns in panels of four, and takes the products of each panel off all
-// columns that it reaches, four at a time, so that these are read and written once per panel. What is kept of a column
-// is L D, and the inverse of D: one division per column is all that the next one waits for. No sum depends on the width
-// of registers.
+// The factorization L D L^T processes panels of four columns. It subtracts the products of a panel from all later
+// columns in its band, four at a time, to read and write these once per panel. Each column stores L D and the inverse
+// of D, so that it waits for one division of the column before. The order of sums does not depend on the width of
+// registers.
 
 namespace kinegraph {
 
@@ -19,12 +19,12 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
 [[gnu::always_inline]] inline Pack& packAt(double* x) { return *reinterpret_cast<Pack*>(x); }
 [[gnu::always_inline]] inline const Pack& packAt(const double* x) { return *reinterpret_cast<const Pack*>(x); }
 
-/// target[i] -= factor source[i] for i in [begin, end), and for some beyond up to a whole pack.
+/// Computes target[i] -= factor source[i] for i in [begin, end), rounded up to whole packs.
 [[gnu::always_inline]] inline void subtract(double* target, double factor, const double* source, int begin, int end) {
   for (int i = begin; i < end; i += kPack) packAt(target + i) = packAt(target + i) - factor * packAt(source + i);
 }
 
-/// target[i] -= sum_p factors[p] columns[p][i] for i in [begin, end), and for some beyond up to a whole pack.
+/// Computes target[i] -= sum_p factors[p] columns[p][i] for i in [begin, end), rounded up to whole packs.
 [[gnu::always_inline]] inline void subtractProducts(double* target, const std::array<const double*, kPack>& columns,
                                                     const std::array<double, kPack>& factors, int begin, int end) {
   const double *c0 = columns[0], *c1 = columns[1], *c2 = columns[2], *c3 = columns[3];
@@ -35,7 +35,7 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
   }
 }
 
-/// y[i] += factor a[i], and the sum of a[i] x[i], for i in [begin, end) and beyond, where a is zero.
+/// Adds factor a[i] to y[i] and returns the sum of a[i] x[i], for i in [begin, end) and zero padding.
 [[gnu::always_inline]] inline double addColumn(const double* a, double factor, const double* x, double* y, int begin,
                                                int end) {
   Pack sums = {0., 0., 0., 0.};
@@ -46,7 +46,7 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-/// sums[p] += columns[p][i] x[i] for i in [begin, end) and beyond, where columns are zero.
+/// Adds columns[p][i] x[i] to sums[p] for i in [begin, end) and zero padding.
 [[gnu::always_inline]] inline void addProducts(Pack (&sums)[kPack], const std::array<const double*, kPack>& columns,
                                                const double* x, int begin, int end) {
   for (int i = begin; i < end; i += kPack) {
@@ -57,7 +57,7 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
 
 }  // namespace
 
-/// Up to four columns from `begin` on, all of the band or all of the border. Those that are not there repeat the first.
+/// Returns up to four columns from `begin` on, all of the band or all of the border; missing ones repeat the first.
 [[gnu::always_inline]] inline BandedMatrix::Panel BandedMatrix::panelAt(int begin) const {
   const bool in_band = begin < band_;
   Panel panel;
@@ -96,12 +96,12 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
   return true;
 }
 
-/// Takes the products of a factorized panel off the columns that it reaches, from `first` on.
+/// Subtracts the products of a factorized panel from its later columns, from `first` on.
 [[gnu::always_inline]] inline void BandedMatrix::takeProducts(const Panel& panel, int first) {
   double* values = values_.data();
   const int n = size();
   const bool in_band = panel.begin < band_;
-  std::array<double, kPanel> inverse{}, factors;  // zero for columns that are not there
+  std::array<double, kPanel> inverse{}, factors;  // zero for missing columns
   for (int p = 0; p < panel.width; ++p) inverse[p] = inverse_[panel.begin + p];
   for (int j = first; j < panel.end; ++j) {
     double* target = values + (in_band ? offset_[j].band : offset_[j].border);
@@ -128,7 +128,7 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
   return true;
 }
 
-/// y_ = this * x_
+/// Computes y_ = this * x_.
 [[gnu::always_inline]] inline void BandedMatrix::product() {
   const double *values = values_.data(), *x = x_.data();
   double* y = y_.data();
@@ -146,7 +146,7 @@ typedef double Pack __attribute__((vector_size(kPack * sizeof(double)), aligned(
   }
 }
 
-/// x_ <- inverse * x_, panel by panel, so that few operations wait for one another.
+/// Replaces x_ by the solution, panel by panel to shorten chains of dependent operations.
 [[gnu::always_inline]] inline void BandedMatrix::solve() {
   double* x = x_.data();
   const int n = size();

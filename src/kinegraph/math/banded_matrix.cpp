@@ -8,7 +8,7 @@ namespace {
 
 typedef double Pair __attribute__((vector_size(2 * sizeof(double)), aligned(sizeof(double)), may_alias));
 
-/// target[i] += factor source[i] for i in [begin, end)
+/// Computes target[i] += factor source[i] for i in [begin, end).
 inline void add(double* target, double factor, const double* source, int begin, int end) {
   int i = begin;
   for (; i + 2 <= end; i += 2) {

@@ -2,9 +2,9 @@
 
 // Arithmetic for one scalar type S that is double or a pack of doubles (a GCC vector type), one problem per lane.
 //
-// Everything here is local to the source file that includes it: files that are compiled for wider registers must not
-// share inline functions with the rest of the library. Products are not fused with sums in these files (see
-// CMakeLists.txt), so that all widths give the same bits.
+// All definitions are local to the including source file: files that are compiled for wider registers must not share
+// inline functions with the rest of the library. CMakeLists.txt disables fused multiply-add for these files, to get the
+// same bits for all widths.
 
 #include <type_traits>
 #include <utility>
@@ -42,7 +42,7 @@ S magnitude(S a) {
   return a < S{} ? -a : a;
 }
 
-/// Half of a pack; `begin` is its first lane.
+/// Returns half of a pack; `begin` is its first lane.
 template <class Mask, int... Lane>
 [[gnu::always_inline]] inline auto half(Mask mask, int begin, std::integer_sequence<int, Lane...>) {
   constexpr int kCount = sizeof...(Lane);
@@ -50,7 +50,7 @@ template <class Mask, int... Lane>
                     : __builtin_shufflevector(mask, mask, kCount + Lane...);
 }
 
-/// Is a lane of a comparison set?
+/// Whether a lane of a comparison is set.
 inline bool any(bool one) { return one; }
 template <class Mask>
 [[gnu::always_inline]] inline bool any(Mask mask) {
@@ -63,7 +63,7 @@ template <class Mask>
   }
 }
 
-/// The least number of a pack.
+/// Returns the least number of a pack.
 inline double leastOf(double one) { return one; }
 template <class S>
 [[gnu::always_inline]] inline double leastOf(S pack) {
@@ -134,8 +134,8 @@ void store(const Vec3<S>& a, S* to) {
   to[0] = a.x, to[1] = a.y, to[2] = a.z;
 }
 
-/// A vector of one problem, in registers of every machine. The same operations as those of Vec3<double>, entry by
-/// entry. Both parts are of one size, so that what is stored of it is read back at once.
+/// A vector of one problem, in registers of every machine, with the operations of Vec3<double>, entry by entry. Both
+/// parts have equal sizes, for fast loads after stores.
 struct Packed3 {
   using Scalar = double;
   Pack<2> xy;
@@ -153,7 +153,7 @@ inline Packed3 cross(const Packed3& a, const Packed3& b) {
 inline void load(const double* from, Packed3& to) { to = {Pack<2>{from[0], from[1]}, Pack<2>{from[2], 0.}}; }
 inline void store(const Packed3& a, double* to) { to[0] = a.xy[0], to[1] = a.xy[1], to[2] = a.z[0]; }
 
-/// sum_k column k * weights[k]; weights of 0 are frequent, and the same in all lanes.
+/// Returns sum_k column k * weights[k]; weights of 0 are frequent, and equal in all lanes.
 template <class V>
 V combine(const V* columns, const double* weights) {
   V sum{};
@@ -165,12 +165,12 @@ V combine(const V* columns, const double* weights) {
 
 constexpr double kMostAngle = 1e5;  ///< rad
 
-/// Sine and cosine of the angles (rad) in a pack: Taylor series on [-pi/4, pi/4], and quadrants. To 2e-16 within
-/// kMostAngle; beyond it, quadrants would lose digits.
+/// Computes sine and cosine of the angles (rad) in a pack, by quadrants and Taylor series on [-pi/4, pi/4]. The error
+/// is 2e-16 within kMostAngle; larger angles would lose digits.
 template <class S>
 [[gnu::always_inline]] inline void sineAndCosine(S angle, S& sine, S& cosine) {
   using Mask = decltype(angle < angle);
-  constexpr double kRound = 6755399441055744.;  // 1.5 * 2^52: what is added to it is rounded to a whole number
+  constexpr double kRound = 6755399441055744.;  // 1.5 * 2^52: adding it rounds to integers
   const S shifted = angle * (2. / kPi) + kRound;
   const S quarters = shifted - kRound;
   const S r = (angle - quarters * 1.5707963267341256) - quarters * 6.077100506506192e-11;  // pi/2 in two parts
@@ -194,7 +194,7 @@ template <class S>
   cosine = ((quadrant + 1) & 2) != 0 ? -b : b;
 }
 
-/// The same for all angles, slowly beyond kMostAngle.
+/// Computes sine and cosine of all angles; slow beyond kMostAngle.
 template <class S>
 [[gnu::noinline]] void sineAndCosineOfAny(S angle, S& sine, S& cosine) {
   sineAndCosine(angle, sine, cosine);

@@ -1,6 +1,6 @@
 #pragma once
 
-// Between rows of numbers, one per configuration, and packs with a configuration per lane; local as lane_math.h is.
+// Transposition between rows of numbers, one per configuration, and packs with one configuration per lane.
 
 #include <utility>
 
@@ -10,7 +10,7 @@ namespace kinegraph::lanes {
 
 namespace {
 
-/// Exchanges, in each pair of packs `Half` apart, the blocks off the diagonal.
+/// Exchanges the off-diagonal blocks in each pair of packs with distance `Half`.
 template <int Half, class S, int... Lane>
 [[gnu::always_inline]] inline void forceExchangeBlocks(S* packs, std::integer_sequence<int, Lane...>) {
   constexpr int kCount = sizeof...(Lane);
@@ -22,7 +22,7 @@ template <int Half, class S, int... Lane>
   }
 }
 
-/// As many packs as they have lanes: number j of pack i becomes number i of pack j.
+/// Transposes as many packs as they have lanes: number j of pack i becomes number i of pack j.
 template <class S>
 [[gnu::always_inline]] inline void transpose(S* packs) {
   constexpr std::make_integer_sequence<int, kWidth<S>> lanes;
@@ -38,7 +38,7 @@ S loadUnaligned(const double* from) {
   return pack;
 }
 
-/// packs[k] = entry k of `count` rows, which begin `stride` apart; lanes without a row have that of the last one.
+/// Sets packs[k] to entry k of `count` rows with distance `stride`; lanes without a row repeat the last row.
 template <class S>
 void gatherRows(const double* rows, long stride, int count, int size, S* packs) {
   constexpr int kCount = kWidth<S>;
@@ -52,7 +52,7 @@ void gatherRows(const double* rows, long stride, int count, int size, S* packs) 
   }
 }
 
-/// The reverse, for the first `count` lanes.
+/// Copies the first `count` lanes back to rows.
 template <class S>
 void scatterRows(const S* packs, int size, double* rows, long stride, int count) {
   constexpr int kCount = kWidth<S>;
@@ -69,7 +69,7 @@ void scatterRows(const S* packs, int size, double* rows, long stride, int count)
     transpose(square);
     for (int i = 0; i < kCount; ++i) __builtin_memcpy(rows + i * stride + k, &square[i], sizeof(S));
     if (k + kCount == size) return;
-    k = k + 2 * kCount <= size ? k + kCount : size - kCount;  // the last square may overlap the one before
+    k = k + 2 * kCount <= size ? k + kCount : size - kCount;  // the last block may overlap the one before
   }
 }
 

@@ -4,12 +4,12 @@
 
 namespace kinegraph {
 
-/// How many problems the kernels in lanes do side by side, per instruction set: 2 on every machine, 4 with AVX2, 8 with
-/// AVX-512. In ascending order, only what this machine runs. All widths give the same bits.
+/// Returns the numbers of problems that kernels process in parallel lanes, ascending, for the instruction sets of this
+/// machine: 2 always, 4 with AVX2, 8 with AVX-512. All widths give the same bits.
 const std::vector<int>& laneWidths();
 constexpr int kMostLanes = 8;
 
-/// `width` where it is one of laneWidths(), the widest for 0. Throws ValueError for another one.
+/// Returns `width`, or the widest one for 0. Throws ValueError unless it is one of laneWidths().
 int checkedLaneWidth(int width);
 
 }  // namespace kinegraph

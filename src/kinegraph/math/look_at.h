@@ -4,7 +4,7 @@
 
 namespace kinegraph {
 
-/// A camera at `position` that looks at `target` and stands upright: x to the right of the picture, y down, z forward.
+/// Returns the pose of an upright camera at `position` that looks at `target`: x right, y down, z forward.
 Pose lookAt(const Vector3d& position, const Vector3d& target);
 
 }  // namespace kinegraph

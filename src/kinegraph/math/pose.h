@@ -14,10 +14,10 @@ using Eigen::VectorXd;
 using Vector6d = Eigen::Matrix<double, 6, 1>;
 using Vector7d = Eigen::Matrix<double, 7, 1>;
 
-/// Skew matrix of a vector: skew(a) b = a x b.
+/// Returns the skew matrix of a vector: skew(a) b = a x b.
 Matrix3d skew(const Vector3d& a);
 
-/// A rotation and a translation as rotation matrix and position: what the kinematic kernels multiply.
+/// A rigid transform as rotation matrix and position, for the kinematic kernels.
 /// `X_WF * p_FQ` is point Q in W.
 struct RigidTransform {
   Matrix3d R = Matrix3d::Identity();
@@ -28,7 +28,7 @@ struct RigidTransform {
   RigidTransform inverse() const { return {R.transpose(), -(R.transpose() * p)}; }
 };
 
-/// A pose as people write it: position (m) and unit quaternion. As array: x y z qw qx qy qz.
+/// A pose: position (m) and unit quaternion. As array: x y z qw qx qy qz.
 struct Pose {
   Vector3d p = Vector3d::Zero();
   Quaterniond q = Quaterniond::Identity();
@@ -37,7 +37,7 @@ struct Pose {
   Pose(const Vector3d& position, const Quaterniond& rotation) : p(position), q(rotation) {}
   explicit Pose(const RigidTransform& X) : p(X.p), q(X.R) {}
 
-  /// From 7 (x y z qw qx qy qz), 3 (position) or 4 (quaternion w x y z) numbers; the quaternion is normalized.
+  /// Reads 7 (x y z qw qx qy qz), 3 (position) or 4 (quaternion w x y z) numbers, and normalizes the quaternion.
   /// Throws ValueError for another count, non-finite numbers or a zero quaternion.
   static Pose fromNumbers(const VectorXd& numbers);
 
@@ -45,17 +45,16 @@ struct Pose {
   Pose inverse() const { return {-(q.conjugate() * p), q.conjugate()}; }
   RigidTransform transform() const { return {q.toRotationMatrix(), p}; }
   Vector7d numbers() const;
-  Pose canonical()
-      const;  ///< the same pose; of the two quaternions that one whose first entry other than 0 is positive
+  Pose canonical() const;  ///< the same pose, with a quaternion whose first nonzero entry is positive
   bool isIdentity(double tolerance = 0.) const;  ///< position and rotation (either sign) within `tolerance`
 };
 
-/// Unit quaternion from w x y z; throws ValueError for zero or non-finite input. `what` names it in the message.
+/// Returns the unit quaternion of w x y z. Throws ValueError with the name `what` for zero or non-finite input.
 Quaterniond unitQuaternion(const Vector4d& wxyz, const char* what = "quaternion");
 
 inline Vector4d wxyz(const Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
-/// Rotation about a coordinate axis (0 x, 1 y, 2 z) by `angle` rad.
+/// Returns the rotation about a coordinate axis (0 x, 1 y, 2 z) by `angle` rad.
 Matrix3d axisRotation(int axis, double angle);
 
 }  // namespace kinegraph

@@ -11,13 +11,13 @@ namespace kinegraph {
 CallbackNlp::CallbackNlp(int dimension, std::vector<ObjectiveType> types, VectorXd lower, VectorXd upper,
                          Function function)
     : function_(std::move(function)) {
-  if (dimension < 0) throw ValueError(cat("the dimension of an NLP is ", dimension, "; expected a number >= 0"));
+  if (dimension < 0) throw ValueError(cat("NLP: the dimension is ", dimension, "; expected a number >= 0"));
   const double inf = std::numeric_limits<double>::infinity();
   if (lower.size() == 0) lower = VectorXd::Constant(dimension, -inf);
   if (upper.size() == 0) upper = VectorXd::Constant(dimension, inf);
   if (lower.size() != dimension || upper.size() != dimension) {
-    throw ValueError(cat("an NLP of dimension ", dimension, " has as many lower and upper bounds, not ", lower.size(),
-                         " and ", upper.size()));
+    throw ValueError(
+        cat("NLP: got ", lower.size(), " lower and ", upper.size(), " upper bounds; expected ", dimension, " of each"));
   }
   types_ = std::move(types);
   lower_ = std::move(lower);

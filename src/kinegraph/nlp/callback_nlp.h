@@ -6,12 +6,13 @@
 
 namespace kinegraph {
 
-/// A problem whose residuals a user's function computes: (x, phi, J), with J dense. It may throw EvaluationCancelled.
+/// A problem whose residuals are computed by a function of the user, with a dense J. The function may throw
+/// EvaluationCancelled.
 class CallbackNlp final : public Nlp {
  public:
   using Function = std::function<void(const VectorXd& x, VectorXd& phi, MatrixXd& J)>;
 
-  /// `lower`, `upper`: empty for none. Throws ValueError for sizes that do not fit.
+  /// `lower`, `upper`: bounds, shape (n,), or empty for none. Throws ValueError for other sizes.
   CallbackNlp(int dimension, std::vector<ObjectiveType> types, VectorXd lower, VectorXd upper, Function function);
 
   bool mayBeCancelled() const override { return true; }

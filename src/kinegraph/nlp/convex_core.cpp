@@ -12,9 +12,9 @@ using enum ObjectiveType;
 
 constexpr int kCorners = 18;
 constexpr double kRadius = .01, kReach = 1e-4;  // m
-constexpr double kBend = .2;                    // in kReach, where the parabola ends
+constexpr double kParabolaEnd = .2;             // end of the parabola, in units of kReach
 
-/// The corners of an octahedron and the middles of its edges, on the unit sphere up to a factor.
+/// Corners of an octahedron and midpoints of its edges; not normalized.
 constexpr std::array<std::array<int, 3>, kCorners> kDirections = {{{-1, -1, 0},
                                                                    {1, -1, 0},
                                                                    {0, -1, 1},
@@ -34,17 +34,17 @@ constexpr std::array<std::array<int, 3>, kCorners> kDirections = {{{-1, -1, 0},
                                                                    {1, 0, 1},
                                                                    {0, 1, 1}}};
 
-/// How neighbors at a distance l are drawn together: y(l), y'(l) / l and y''(l).
+/// The attraction of neighbors at a distance l: y(l), y'(l) / l and y''(l).
 struct Attraction {
   double value, slope_per_length, curvature;
 };
 
 Attraction attractionAt(double length) {
-  constexpr double kSteep =
-      .5 / (kBend * (1. + kBend) * (1. + kBend));  // the same value and slope on both sides of the bend
+  constexpr double kSteep = .5 / (kParabolaEnd * (1. + kParabolaEnd) *
+                                  (1. + kParabolaEnd));  // makes y and y' continuous at the end of the parabola
   const double s = length / kReach, t = 1. + s, per_square = 1. / (kReach * kReach);
-  if (s < kBend) return {kSteep * s * s, 2. * kSteep * per_square, 2. * kSteep * per_square};
-  return {s / t - kBend / (1. + kBend) + kSteep * kBend * kBend, per_square / (s * t * t),
+  if (s < kParabolaEnd) return {kSteep * s * s, 2. * kSteep * per_square, 2. * kSteep * per_square};
+  return {s / t - kParabolaEnd / (1. + kParabolaEnd) + kSteep * kParabolaEnd * kParabolaEnd, per_square / (s * t * t),
           -2. * per_square / (t * t * t)};
 }
 
@@ -80,34 +80,34 @@ class MinimalConvexCore final : public Nlp {
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override {
     prepareEvaluation(*this, x, phi, J);
     phi.setZero();
-    VectorXd pull = VectorXd::Zero(dimension());
+    VectorXd gradient = VectorXd::Zero(dimension());
     for (const auto& [a, b] : edges_) {
-      const Vector3d way = x.segment<3>(3 * a) - x.segment<3>(3 * b);
-      const Attraction y = attractionAt(way.norm());
+      const Vector3d offset = x.segment<3>(3 * a) - x.segment<3>(3 * b);
+      const Attraction y = attractionAt(offset.norm());
       phi[0] += kSides * y.value;
-      pull.segment<3>(3 * a) += kSides * y.slope_per_length * way;
-      pull.segment<3>(3 * b) -= kSides * y.slope_per_length * way;
+      gradient.segment<3>(3 * a) += kSides * y.slope_per_length * offset;
+      gradient.segment<3>(3 * b) -= kSides * y.slope_per_length * offset;
     }
     for (int i = 0; i < kCorners; ++i) phi[1 + i] = (corners_.col(i) - x.segment<3>(3 * i)).norm() - kRadius;
     if (!J) return;
     double* values = J->values.data();
-    Eigen::Map<VectorXd>(values, dimension()) = pull;
-    Eigen::Map<VectorXd> off(values + dimension(), 3 * kCorners);
+    Eigen::Map<VectorXd>(values, dimension()) = gradient;
+    Eigen::Map<VectorXd> normals(values + dimension(), 3 * kCorners);
     for (int i = 0; i < kCorners; ++i) {
-      const Vector3d way = x.segment<3>(3 * i) - corners_.col(i);
-      const double length = way.norm();
-      off.segment<3>(3 * i) = length > 1e-6 ? Vector3d(way / length) : Vector3d(Vector3d::Zero());
+      const Vector3d offset = x.segment<3>(3 * i) - corners_.col(i);
+      const double length = offset.norm();
+      normals.segment<3>(3 * i) = length > 1e-6 ? Vector3d(offset / length) : Vector3d(Vector3d::Zero());
     }
     Eigen::Map<VectorXd>(values + dimension() + 3 * kCorners, 3 * kCorners).setZero();
   }
 
   bool addCostHessian(const VectorXd& x, MatrixXd& H) override {
     for (const auto& [a, b] : edges_) {
-      const Vector3d way = x.segment<3>(3 * a) - x.segment<3>(3 * b);
-      const double length = way.norm();
+      const Vector3d offset = x.segment<3>(3 * a) - x.segment<3>(3 * b);
+      const double length = offset.norm();
       const Attraction y = attractionAt(length);
       Matrix3d block = y.slope_per_length * Matrix3d::Identity();
-      if (length > 0.) block += (y.curvature - y.slope_per_length) / (length * length) * way * way.transpose();
+      if (length > 0.) block += (y.curvature - y.slope_per_length) / (length * length) * offset * offset.transpose();
       block *= kSides;
       H.block<3, 3>(3 * a, 3 * a) += block;
       H.block<3, 3>(3 * b, 3 * b) += block;
@@ -126,7 +126,7 @@ class MinimalConvexCore final : public Nlp {
   std::string report(int) const override { return "MinimalConvexCore: 18 balls in an ellipsoid"; }
 
  private:
-  static constexpr double kSides = 2.;  ///< triangles that share an edge
+  static constexpr double kSides = 2.;  ///< number of triangles that share an edge
 
   Eigen::Matrix<double, 3, kCorners> corners_;
   std::vector<std::pair<int, int>> edges_;

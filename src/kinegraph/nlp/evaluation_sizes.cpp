@@ -13,7 +13,7 @@ void prepareEvaluation(const Nlp& nlp, const VectorXd& x, VectorXd& phi, const J
         cat("Nlp::evaluate: x has ", x.size(), " entries; the problem has ", nlp.dimension(), " variables"));
   if (J && (J->rows() != int(rows) || J->columns != nlp.dimension()))
     throw ValueError(cat("Nlp::evaluate: J is ", J->rows(), " x ", J->columns, "; expected ", rows, " x ",
-                         nlp.dimension(), ", as makeJacobian() gives it"));
+                         nlp.dimension(), ", the sizes of makeJacobian()"));
 }
 
 }  // namespace kinegraph

@@ -4,8 +4,8 @@
 
 namespace kinegraph {
 
-/// Another problem with its Jacobian by central differences, and no Hessian. For problems whose own is missing or
-/// wrong.
+/// Replaces the Jacobian of a problem by central differences, and offers no Hessian. For problems without correct
+/// derivatives.
 class FiniteDifferenceNlp final : public Nlp {
  public:
   FiniteDifferenceNlp(Nlp& nlp, double step);

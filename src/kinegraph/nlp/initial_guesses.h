@@ -6,22 +6,22 @@
 
 namespace kinegraph {
 
-/// What a point of such a problem is as a way.
+/// Describes a point as an initial guess.
 enum class GuessKind {
-  still,    ///< it leads nowhere
-  blocked,  ///< it leads through something
-  free,
+  stationary,  ///< the point describes no change at all, such as a motion that stays at its start
+  invalid,     ///< the point violates lazy constraints, such as a motion through an obstacle
+  valid,
 };
 
-/// A problem that may be solvable in several ways, of which a local method finds the one that it starts near to.
+/// Offers initial guesses for a problem with several local solutions, of which a local method finds the nearest one.
 class InitialGuesses {
  public:
   virtual ~InitialGuesses() = default;
 
   virtual GuessKind guessKind(const VectorXd& x) = 0;
 
-  /// A start on another way than x, and than those of other numbers; the same one for the same number. None if there is
-  /// none to offer.
+  /// Returns a start in another basin than x and than the guesses of other numbers, or none. The same number gives the
+  /// same guess.
   virtual std::optional<VectorXd> initialGuess(const VectorXd& x, int number) = 0;
 };
 

@@ -6,24 +6,26 @@
 
 namespace kinegraph {
 
-/// A problem that a solver works at, with empty rows: constraints that are to hold at all times of a motion and are not
-/// known yet have room there.
+/// A problem that activates constraints while a solver runs (constraint generation). Inactive residuals reserve space
+/// for them.
 class LazyConstraints {
  public:
   virtual ~LazyConstraints() = default;
 
-  virtual bool hasRoom() const = 0;
+  /// Whether the problem has inactive residuals.
+  virtual bool hasCapacity() const = 0;
 
-  /// Whether it is asked after each step and not just at the end of rounds, so that steps do not leave the way that they
-  /// follow.
-  bool isAskedAtEachStep() const { return at_each_step_; }
-  void askAtEachStep(bool yes) { at_each_step_ = yes; }
+  /// Whether a solver calls `activate` after each step and not only at the end of rounds, so that steps do not leave
+  /// the basin of their initial guess.
+  bool activatesAtEachStep() const { return at_each_step_; }
+  void setActivationAtEachStep(bool at_each_step) { at_each_step_ = at_each_step; }
 
-  /// Takes up constraints that x violates, or soon may. `phi` and `J`, which are those of x, are brought up to date;
-  /// `rows` are those that were empty, of which multipliers say nothing. `is_solution`: nothing else is left to do at
-  /// x, so all are looked for, and only where x violates some. Leaves the problem at x.
-  virtual Refinement takeUp(const VectorXd& x, bool is_solution, VectorXd& phi, Jacobian& J,
-                            std::vector<int>& rows) = 0;
+  /// Activates constraints that x violates or may violate soon, updates their entries of `phi` and `J`, which hold the
+  /// values at x, and sets `activated` to the residuals that were inactive before; these have no multipliers yet. With
+  /// `is_solution`, x fulfills all active constraints: the search is complete, and activates only violated constraints.
+  /// Leaves the problem at x.
+  virtual Refinement activate(const VectorXd& x, bool is_solution, VectorXd& phi, Jacobian& J,
+                              std::vector<int>& activated) = 0;
 
  private:
   bool at_each_step_ = false;

@@ -21,25 +21,25 @@ VectorXd LinearMap::fit(const VectorXd& x) const {
   return factor.solve(M.transpose() * (x - offset));
 }
 
-MappedNlp::MappedNlp(std::shared_ptr<Nlp> behind, std::shared_ptr<const LinearMap> map, const VectorXd& lower,
+MappedNlp::MappedNlp(std::shared_ptr<Nlp> inner, std::shared_ptr<const LinearMap> map, const VectorXd& lower,
                      const VectorXd& upper)
-    : behind_(std::move(behind)), map_(std::move(map)) {
-  if (map_->M.rows() != behind_->dimension() || map_->offset.size() != behind_->dimension())
-    throw ValueError(cat("linear map: it gives ", map_->M.rows(), " variables and an offset of ", map_->offset.size(),
-                         "; the problem has ", behind_->dimension()));
+    : inner_(std::move(inner)), map_(std::move(map)) {
+  if (map_->M.rows() != inner_->dimension() || map_->offset.size() != inner_->dimension())
+    throw ValueError(cat("linear map: the map has ", map_->M.rows(), " rows and an offset of size ", map_->offset.size(),
+                         "; the problem has ", inner_->dimension(), " variables"));
   if (lower.size() != map_->M.cols() || upper.size() != map_->M.cols())
-    throw ValueError(cat("linear map: ", lower.size(), " lower and ", upper.size(), " upper bounds; the map takes ",
-                         map_->M.cols(), " variables"));
-  types_ = behind_->types();
+    throw ValueError(cat("linear map: got ", lower.size(), " lower and ", upper.size(), " upper bounds; expected ",
+                         map_->M.cols(), " of each"));
+  types_ = inner_->types();
   lower_ = lower, upper_ = upper;
   row_.assign(std::size_t(lower.size()), 0.);
   layOut();
 }
 
-/// Columns of each row: those of the c on which its variables depend.
+/// Computes the sparsity pattern: a residual depends on all c that its variables depend on.
 void MappedNlp::layOut() {
-  behind_jacobian_ = behind_->makeJacobian();
-  const Jacobian& from = behind_jacobian_;
+  inner_jacobian_ = inner_->makeJacobian();
+  const Jacobian& from = inner_jacobian_;
   pattern_ = Jacobian();
   pattern_.columns = dimension();
   linear_.clear();
@@ -59,13 +59,13 @@ void MappedNlp::layOut() {
       i = end;
     }
     pattern_.row_start.push_back(int(pattern_.segments.size()));
-    linear_.push_back(behind_->isLinear(row));
+    linear_.push_back(inner_->isLinear(row));
   }
   pattern_.zero_row.assign(std::size_t(from.rows()), 0);
   for (int row = 0; row < from.rows(); ++row)
     if (linear_[std::size_t(row)]) transform(row, from, pattern_);
   curved_.clear();
-  for (const CurvedRows& rows : behind_->curvedRows()) {
+  for (const CurvedRows& rows : inner_->curvedRows()) {
     int first = dimension(), last = -1;
     for (int i = rows.column; i < rows.column + rows.width; ++i) {
       for (Entry entry(map_->M, i); entry; ++entry)
@@ -107,23 +107,23 @@ void MappedNlp::evaluate(const VectorXd& c, VectorXd& phi, Jacobian* J) {
 }
 
 void MappedNlp::evaluateRows(const VectorXd& c, VectorXd& phi, Jacobian* J) {
-  behind_->evaluate(map_->at(c), phi, J ? &behind_jacobian_ : nullptr);
+  inner_->evaluate(map_->at(c), phi, J ? &inner_jacobian_ : nullptr);
   if (!J) return;
   for (int row = 0; row < pattern_.rows(); ++row)
-    if (!linear_[std::size_t(row)]) transform(row, behind_jacobian_, *J);
+    if (!linear_[std::size_t(row)]) transform(row, inner_jacobian_, *J);
 }
 
 bool MappedNlp::addCostHessian(const VectorXd& c, MatrixXd& H) {
-  MatrixXd of_x = MatrixXd::Zero(behind_->dimension(), behind_->dimension());
-  if (!behind_->addCostHessian(map_->at(c), of_x)) return false;
+  MatrixXd of_x = MatrixXd::Zero(inner_->dimension(), inner_->dimension());
+  if (!inner_->addCostHessian(map_->at(c), of_x)) return false;
   H += map_->M.transpose() * of_x * map_->M;
   return true;
 }
 
 void MappedNlp::addCurvature(int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H) {
-  const CurvedRows &of_x = behind_->curvedRows()[std::size_t(k)], &of_c = curved_[std::size_t(k)];
+  const CurvedRows &of_x = inner_->curvedRows()[std::size_t(k)], &of_c = curved_[std::size_t(k)];
   MatrixXd curvature = MatrixXd::Zero(of_x.width, of_x.width), part = MatrixXd::Zero(of_x.width, of_c.width);
-  behind_->addCurvature(k, weights, curvature);
+  inner_->addCurvature(k, weights, curvature);
   for (int i = 0; i < of_x.width; ++i)
     for (Entry entry(map_->M, of_x.column + i); entry; ++entry) part(i, entry.col() - of_c.column) = entry.value();
   const MatrixXd mapped = part.transpose() * curvature.selfadjointView<Eigen::Lower>() * part;
@@ -131,28 +131,29 @@ void MappedNlp::addCurvature(int k, std::span<const double> weights, Eigen::Ref<
 }
 
 Separation MappedNlp::separation() {
-  Separation separation = behind_->separation();
+  Separation separation = inner_->separation();
   if (separation.problem) separation.problem = std::make_shared<MappedNlp>(separation.problem, map_, lower_, upper_);
   return separation;
 }
 
 VectorXd MappedNlp::fitted(const VectorXd& x) const { return map_->fit(x).cwiseMax(lower_).cwiseMin(upper_); }
 
-VectorXd MappedNlp::initialPoint(Rng& rng) { return fitted(behind_->initialPoint(rng)); }
+VectorXd MappedNlp::initialPoint(Rng& rng) { return fitted(inner_->initialPoint(rng)); }
 
-/// That of the variable behind on which it has most influence.
+/// Describes the inner variable with the largest coefficient.
 VariableDescription MappedNlp::describeVariable(int variable) const {
-  int most = -1;
+  int strongest = -1;
   double weight = 0.;
   for (int i = 0; i < map_->M.rows(); ++i) {
     const double here = std::abs(map_->M.coeff(i, variable));
-    if (here > weight) most = i, weight = here;
+    if (here > weight) strongest = i, weight = here;
   }
-  return most < 0 ? Nlp::describeVariable(variable) : behind_->describeVariable(most);
+  return strongest < 0 ? Nlp::describeVariable(variable) : inner_->describeVariable(strongest);
 }
 
 std::string MappedNlp::report(int verbose) const {
-  return cat(dimension(), " variables for ", behind_->dimension(), " of: ", behind_->report(verbose));
+  return cat(dimension(), " variables that determine the ", inner_->dimension(),
+             " variables of: ", inner_->report(verbose));
 }
 
 }  // namespace kinegraph

@@ -143,7 +143,7 @@ double largestViolation(const std::vector<ObjectiveType>& types, const VectorXd&
 
 std::string describeNotFinite(const Nlp& nlp, const VectorXd& phi, const Jacobian* J) {
   const auto finite = [](const double* values,
-                         std::size_t count) {  // products with 0 are not numbers if a value is not finite
+                         std::size_t count) {  // 0 times a value that is not finite is NaN
     return (0. * Eigen::Map<const VectorXd>(values, Eigen::Index(count)).array()).sum() == 0.;
   };
   const auto rowsAreFinite = [&] {
@@ -167,7 +167,7 @@ std::string describeNotFinite(const Nlp& nlp, const VectorXd& phi, const Jacobia
 
 namespace {
 
-void ask(Nlp& nlp, const VectorXd& x, const CancellationToken& cancellation) {
+void checkCancellation(Nlp& nlp, const VectorXd& x, const CancellationToken& cancellation) {
   try {
     cancellation.check();
   } catch (...) {
@@ -186,7 +186,7 @@ void compareWithDifferences(Nlp& nlp, const VectorXd& x, double step, const Canc
   nlp.evaluate(x, phi, &J);
   const MatrixXd analytic = J.toDense();
   for (int i = 0; i < nlp.dimension(); ++i) {
-    ask(nlp, x, cancellation);
+    checkCancellation(nlp, x, cancellation);
     VectorXd moved = x;
     moved[i] = x[i] + step;
     nlp.evaluate(moved, plus, nullptr);
@@ -245,7 +245,7 @@ JacobianCheck checkHessian(Nlp& nlp, const VectorXd& x, double step, const Cance
   JacobianCheck worst;
   if (!hasCostRows(nlp) || !nlp.addCostHessian(x, H)) return worst;
   for (int i = 0; i < x.size(); ++i) {
-    ask(nlp, x, cancellation);
+    checkCancellation(nlp, x, cancellation);
     VectorXd plus = x, minus = x;
     plus[i] += step;
     minus[i] -= step;
@@ -256,7 +256,7 @@ JacobianCheck checkHessian(Nlp& nlp, const VectorXd& x, double step, const Cance
       if (worst.row < 0 || worse(entry, worst)) worst = entry;
     }
   }
-  costGradient(nlp, x);  // leaves the problem where it was
+  costGradient(nlp, x);  // moves the problem back to x
   return worst;
 }
 
@@ -277,7 +277,8 @@ ScalarEvaluation evaluateScalar(Nlp& nlp, const VectorXd& x) {
       J.addRowTo(row, 1., dense);
       out.hessian.selfadjointView<Eigen::Lower>().rankUpdate(dense, 2.);
     } else if (type != ObjectiveType::none) {
-      throw ValueError(cat("evaluateScalar is for problems of f and sos only; ", nlp.rowName(row), " is neither"));
+      throw ValueError(
+          cat("evaluateScalar: ", nlp.rowName(row), " is of type ", objectiveTypeName(type), "; expected f or sos"));
     }
   }
   out.hessian.triangularView<Eigen::StrictlyUpper>() = out.hessian.transpose();

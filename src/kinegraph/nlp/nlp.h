@@ -14,7 +14,7 @@
 
 namespace kinegraph {
 
-/// What a residual phi_i means to the problem. The numbers are those of the Python enum `ry.OT`.
+/// The role of a residual phi_i in the problem. The numbers are those of the Python enum `ry.OT`.
 enum class ObjectiveType : int {
   f = 0,      ///< cost: phi
   sos = 1,    ///< cost: phi^2
@@ -27,28 +27,28 @@ enum class ObjectiveType : int {
 
 std::string objectiveTypeName(ObjectiveType type);
 
-/// A Jacobian whose pattern is fixed while its values change. Each row is a list of segments of consecutive columns:
-/// one segment for a dense row or one of a path, several where far columns are touched as well. Rows that are zero may
-/// share their values, and where the values of a row are may change with them.
+/// A sparse Jacobian with a fixed pattern. Each row is a list of segments of consecutive columns: one segment for a
+/// dense row or a residual of consecutive slices, several if distant columns are involved. Zero rows may share their
+/// values, so the offsets of a row may change with its values.
 struct Jacobian {
   struct Segment {
     int column;  ///< first column
     int width;   ///< number of columns
-    int offset;  ///< of its first value in `values`
+    int offset;  ///< index of its first value in `values`
   };
   int columns = 0;
   std::vector<int> row_start = {0};  ///< row i owns segments row_start[i] .. row_start[i+1]-1
   std::vector<Segment> segments;
   std::vector<double> values;
-  std::vector<char> zero_row;  ///< per row: is it known that all its values are zero?
-  int constant = 0;            ///< values at the beginning that are finite and never change
+  std::vector<char> zero_row;  ///< per row: whether all values are known to be zero
+  int constant = 0;            ///< number of leading values that are finite and never change
 
   int rows() const { return int(row_start.size()) - 1; }
   static Jacobian dense(int rows, int columns);
   void addRow(std::initializer_list<std::pair<int, int>> column_and_width);  ///< appends a row of zeros
   MatrixXd toDense() const;
 
-  /// Makes the first rows those of another one, which has the same pattern there. The values of further rows are lost.
+  /// Copies the rows of another Jacobian with the same pattern to the first rows. The values of further rows are lost.
   void copyRows(const Jacobian& other);
 
   std::span<const Segment> row_segments(int row) const {
@@ -58,48 +58,51 @@ struct Jacobian {
   void addRowTo(int row, double factor, VectorXd& x) const;  ///< x += factor J_row^T
 };
 
-/// Thrown by an evaluation that was given up, as by Ctrl-C in a function of the user's: there is no value. It ends a
-/// solver, which gives the best it saw before.
+/// Thrown by an evaluation without a result, for example after Ctrl-C in a function of the user. It ends the solver,
+/// which returns the best point before.
 struct EvaluationCancelled {};
 
-/// What was found where a problem looked for constraints that are violated.
+/// The outcome of a search for violated lazy constraints.
 enum class Refinement {
-  none,    ///< nothing: all hold
-  little,  ///< x is near to where all hold
-  much,    ///< x is no place to go on from
+  none,    ///< all constraints hold
+  little,  ///< x is close to a point at which all constraints hold
+  much,    ///< x is too far from such a point to continue from it
 };
 
-/// Minimize  sum_f phi_i + sum_sos phi_i^2  subject to  phi_ineq <= 0,  phi_eq = 0,  lower <= x <= upper.
-/// It is all a solver sees.
+class InitialGuesses;
+class LazyConstraints;
+
+/// A nonlinear program: minimize  sum_f phi_i + sum_sos phi_i^2  subject to  phi_ineq <= 0,  phi_eq = 0,  lower <= x <=
+/// upper. Solvers depend on this interface only.
 class Nlp {
  public:
   virtual ~Nlp() = default;
 
   int dimension() const { return int(lower_.size()); }
   const std::vector<ObjectiveType>& types() const { return types_; }  ///< one per entry of phi
-  const VectorXd& lower() const { return lower_; }                    ///< -infinity where there is no bound
-  const VectorXd& upper() const { return upper_; }                    ///< +infinity where there is no bound
+  const VectorXd& lower() const { return lower_; }                    ///< -infinity for no bound
+  const VectorXd& upper() const { return upper_; }                    ///< +infinity for no bound
 
-  /// A Jacobian with this problem's pattern, and the values of rows that are linear; the others are zero.
+  /// Creates a Jacobian with the pattern of the problem. It holds the values of linear rows; other values are zero.
   virtual Jacobian makeJacobian() const { return Jacobian::dense(int(types_.size()), dimension()); }
 
-  /// Is this row of the Jacobian the same at every x? `evaluate` may then leave it as it is.
+  /// Whether a row of the Jacobian is constant; `evaluate` may then leave it unchanged.
   bool isLinear(int row) const { return !linear_.empty() && linear_[std::size_t(row)]; }
 
-  /// Computes phi(x), and its Jacobian where `J` (made by makeJacobian) is given. x has `dimension()` entries,
-  /// phi has one per type. Sets `J->zero_row` where that costs nothing. Requests no memory where it can be avoided.
+  /// Computes phi(x) and, unless `J` is null, its Jacobian. x has `dimension()` entries, phi has one per type, and
+  /// makeJacobian made `J`. Sets `J->zero_row` if that costs nothing. Avoids allocations.
   virtual void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) = 0;
 
-  /// May `evaluate` throw EvaluationCancelled?
+  /// Whether `evaluate` may throw EvaluationCancelled.
   virtual bool mayBeCancelled() const { return false; }
 
-  /// Puts what the problem describes, as a path, at x, as `evaluate` does, but without computing anything.
+  /// Moves the object that the problem describes, such as a path, to x, as `evaluate` does, but computes nothing.
   virtual void leaveAt(const VectorXd&) {}
 
-  /// Adds the Hessian of sum_f phi_i to `H` (n x n). False if the problem has none to offer; it is then taken as zero.
+  /// Adds the Hessian of sum_f phi_i to `H` (n x n). False if the problem does not know it; solvers then take zero.
   virtual bool addCostHessian(const VectorXd& x, MatrixXd& H);
 
-  /// Consecutive rows of which the second derivatives can be told, and the consecutive variables that they depend on.
+  /// Consecutive residuals with known second derivatives, and the consecutive variables that they depend on.
   struct CurvedRows {
     int first, rows;
     int column, width;
@@ -110,46 +113,49 @@ class Nlp {
   /// width), for the k-th of curvedRows.
   virtual void addCurvature(int k, std::span<const double> weights, Eigen::Ref<MatrixXd> H);
 
-  /// The form that is easier to solve, if there is one. It shares the state of this problem.
+  /// Returns a form that is easier to solve, if there is one. It shares the state of this problem.
   virtual Separation separation() { return {}; }
 
-  /// For a motion that is to be free of collisions: is it so at all times, at this x? Null for other problems.
-  virtual std::shared_ptr<const LazyValidity> motionValidity(const VectorXd&) { return nullptr; }
+  /// Returns a check of x beyond the sampled constraints, or null if the problem needs none (see ValidityReport).
+  virtual std::shared_ptr<const LazyValidity> validity(const VectorXd&) { return nullptr; }
 
-  /// For constraints that are to hold at all times of a motion, of which the separate form has some: looks for others
-  /// that x violates, and takes them up. `separation()` is then a new one, and `dual`, if it has the multipliers of the
-  /// one before, gets zeros for rows that it did not have.
+  /// Optional abilities of a problem; null without them.
+  virtual InitialGuesses* initialGuesses() { return nullptr; }
+  virtual LazyConstraints* lazyConstraints() { return nullptr; }
+
+  /// Activates lazy constraints that x violates. `separation()` then returns a new form, and `dual`, which has the
+  /// multipliers of the form before, gets zeros for new residuals.
   virtual Refinement refine(const VectorXd& x, VectorXd& dual) {
     (void)x, (void)dual;
     return Refinement::none;
   }
 
-  /// Where a solver starts if the user gives no point. Default: uniform in the bounds, [-1, 1] where there are none.
+  /// Returns the start of a solver if the user gives none. Default: uniformPoint.
   virtual VectorXd initialPoint(Rng& rng);
 
-  /// Uniform in the bounds, in [-1, 1] where there are none. Where one is missing, it is taken as 1 or -1, at least 2
-  /// apart from the other.
+  /// Samples a point uniformly within the bounds. A missing bound counts as -1 or 1, but at least 2 apart from the
+  /// other.
   VectorXd uniformPoint(Rng& rng) const;
 
-  /// Name of a row of phi in reports: "position-l_gripper [slice 0] z".
+  /// Returns the name of a residual in reports: "position-l_gripper [slice 0] z".
   virtual std::string rowName(int row) const;
 
-  /// The same as data, with its unit. Default: every residual is a group of its own.
+  /// Describes a residual as data, with its unit. Default: every residual is a group of its own.
   virtual RowDescription describeRow(int row) const;
   virtual VariableDescription describeVariable(int variable) const;
 
-  /// What can be said of a residual at the point last evaluated: "box - camera: 3 mm deep". Default: nothing.
+  /// Returns details of a residual at the last evaluated point: "box - camera: 3 mm deep". Default: none.
   virtual std::vector<std::string> detailsOf(int row) const;
 
   virtual std::string report(int verbose) const;
 
-  /// May all residuals be linear (f terms quadratic)? A solver then tries whether one exact step ends it, at the price
-  /// of one evaluation. False where that is known to be in vain.
+  /// Whether all residuals may be linear (f terms quadratic). A solver then tries one exact step, which costs one
+  /// evaluation. False if that is known to fail.
   virtual bool mayBeQuadratic() const { return true; }
 
  protected:
   std::vector<ObjectiveType> types_;
-  std::vector<char> linear_;  ///< empty, or per row what isLinear says
+  std::vector<char> linear_;  ///< empty, or isLinear per residual
   VectorXd lower_, upper_;
 };
 
@@ -159,17 +165,19 @@ struct ErrorSums {
 };
 ErrorSums sumErrors(const std::vector<ObjectiveType>& types, const VectorXd& phi);
 
-/// How much a constraint is violated; 0 for costs.
+/// Returns the violation of a constraint; 0 for costs.
 double violation(ObjectiveType type, double phi);
 
-/// The largest violation of a constraint.
+/// Returns the largest violation of a constraint.
 double largestViolation(const std::vector<ObjectiveType>& types, const VectorXd& phi);
 
-/// Which residual, or row of J (which may be null), has a number that is not finite, in words; empty if none has.
+/// Describes the first residual or row of J (which may be null) with a number that is not finite; empty if there is
+/// none.
 std::string describeNotFinite(const Nlp& nlp, const VectorXd& phi, const Jacobian* J);
 
-/// The largest relative difference of a Jacobian from central differences, and where it is. `cancellation`, where given, is
-/// called before each column; it may throw, and the problem is then left at x without being evaluated there.
+/// The largest relative difference of a Jacobian from central differences, and its place. `cancellation` is asked
+/// before each column. If it is cancelled or throws, the function throws and leaves the problem at x without an
+/// evaluation.
 struct JacobianCheck {
   double error = 0.;  ///< |analytic - numeric| / max(1, |numeric|)
   int row = -1, column = -1;
@@ -178,16 +186,16 @@ struct JacobianCheck {
 JacobianCheck checkJacobian(Nlp& nlp, const VectorXd& x, double step = 1e-5,
                             const CancellationToken& cancellation = {});
 
-/// All entries whose difference is above the tolerance or not a number, the worst first, at most `count`.
+/// Returns up to `count` entries whose difference exceeds the tolerance or is not a number, the worst first.
 std::vector<JacobianCheck> worstJacobianEntries(Nlp& nlp, const VectorXd& x, double tolerance, int count,
                                                 double step = 1e-5, const CancellationToken& cancellation = {});
 
-/// The same for addCostHessian and central differences of the gradient of sum_f phi. Nothing to find (row -1) where
-/// there are no f residuals, or no Hessian is offered.
+/// Compares addCostHessian with central differences of the gradient of sum_f phi. The row is -1 if the problem has no f
+/// residuals or no Hessian.
 JacobianCheck checkHessian(Nlp& nlp, const VectorXd& x, double step = 1e-5, const CancellationToken& cancellation = {});
 
-/// A problem without constraints as one function:  sum_f phi + sum_sos phi^2, its gradient, and 2 J_sos^T J_sos + the
-/// Hessian of the f residuals. Throws ValueError if there are other residuals.
+/// Evaluates a problem without constraints as one function: sum_f phi + sum_sos phi^2, its gradient, and the Hessian
+/// 2 J_sos^T J_sos + that of the f residuals. Throws ValueError if there are residuals of other types.
 struct ScalarEvaluation {
   double value = 0.;
   VectorXd gradient;

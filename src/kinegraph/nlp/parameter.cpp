@@ -16,7 +16,7 @@ std::vector<std::string> rowTargetNames(const Nlp& nlp, const std::vector<int>& 
   std::vector<std::string> names;
   for (const int row : rows) {
     if (row < 0 || row >= int(nlp.types().size()))
-      throw ValueError(cat("there is no residual ", row, "; the problem has ", nlp.types().size()));
+      throw ValueError(cat("there is no residual ", row, "; the problem has ", nlp.types().size(), " residuals"));
     names.push_back(cat("target of ", nlp.rowName(row)));
   }
   return names;
@@ -26,7 +26,7 @@ std::vector<std::string> boundNames(const Nlp& nlp, const std::vector<int>& vari
   std::vector<std::string> names;
   for (const int variable : variables) {
     if (variable < 0 || variable >= nlp.dimension())
-      throw ValueError(cat("there is no variable ", variable, "; the problem has ", nlp.dimension()));
+      throw ValueError(cat("there is no variable ", variable, "; the problem has ", nlp.dimension(), " variables"));
     if (!std::isfinite(upper ? nlp.upper()[variable] : nlp.lower()[variable]))
       throw ValueError(cat("variable ", variable, " has no ", upper ? "upper" : "lower", " bound"));
     names.push_back(cat(upper ? "upper" : "lower", " bound of ", nlp.describeVariable(variable).name));
@@ -76,7 +76,7 @@ std::shared_ptr<NlpParameter> boundsOf(const Nlp& nlp, const std::vector<int>& v
   return std::make_shared<Bounds>(nlp, variables, upper);
 }
 
-void MovedParameter::prepare(const Point& at) {
+void FiniteDifferenceParameter::prepare(const Point& at) {
   if (made_for_ == &at.nlp) return;
   made_for_ = &at.nlp;
   J_ = at.J;
@@ -85,7 +85,7 @@ void MovedParameter::prepare(const Point& at) {
   std::iota(rows_.begin(), rows_.end(), 0);
 }
 
-void MovedParameter::differentiate(const Point& at, int number, VectorXd& phi, VectorXd& gradient) {
+void FiniteDifferenceParameter::differentiate(const Point& at, int number, VectorXd& phi, VectorXd& gradient) {
   prepare(at);
   for (const int side : {0, 1}) {
     gradients_[side].setZero(gradient.size());

@@ -9,30 +9,32 @@
 
 namespace kinegraph {
 
-/// Numbers p that a problem depends on beside its variables, such as the target of an objective: how residuals and
-/// their gradients move with them.
+/// Parameters p of a problem, such as the target of an objective, with the derivatives of residuals and their gradients
+/// with respect to them.
 class NlpParameter {
  public:
   virtual ~NlpParameter() = default;
 
   const std::string& name() const { return name_; }
-  const std::vector<std::string>& names() const { return names_; }  ///< one per number: "target of position of tip, x"
+  const std::vector<std::string>& names() const {
+    return names_;
+  }  ///< one per component: "target of position of tip, x"
   int size() const { return int(names_.size()); }
 
-  /// Where derivatives are asked for: residuals phi, their Jacobian, and a weight per residual.
+  /// A point at which derivatives are computed, with residuals phi, their Jacobian, and one weight per residual.
   struct Point {
-    Nlp& nlp;  ///< the problem, or its separate form
+    Nlp& nlp;  ///< the problem or its separate form
     const VectorXd &x, &phi;
     const Jacobian& J;
     const VectorXd& weights;
-    const std::vector<int>& row_of;  ///< of a separate form: the problem's own rows; else empty
+    const std::vector<int>& row_of;  ///< for a separate form: the residuals of the problem (see Separation); else empty
   };
 
-  /// Adds d phi / dp to `phi` and sum_i weights_i d^2 phi_i / dx dp to `gradient`, for one of the numbers. The problem
-  /// stands at x, before and after.
+  /// Adds d phi / dp to `phi` and sum_i weights_i d^2 phi_i / dx dp to `gradient`, for one component of p. The problem
+  /// is at x before and after the call.
   virtual void differentiate(const Point& at, int number, VectorXd& phi, VectorXd& gradient) = 0;
 
-  /// The bound that one of the numbers is, if it is one.
+  /// The bound of a variable that a component of p is.
   struct Bound {
     int variable;
     bool is_upper;
@@ -52,27 +54,28 @@ class NlpParameter {
 
 using NlpParameters = std::vector<std::shared_ptr<NlpParameter>>;
 
-/// The values that residuals are to have: phi_i - p in place of phi_i. Throws ValueError for rows that are not there.
+/// Returns the targets of residuals as parameters: phi_i - p replaces phi_i. Throws ValueError for invalid indices.
 std::shared_ptr<NlpParameter> residualTargets(const Nlp& nlp, const std::vector<int>& rows);
 
-/// The lower or upper bounds of variables. Throws ValueError for variables that are not there, or have none.
+/// Returns lower or upper bounds of variables as parameters. Throws ValueError for invalid indices and for variables
+/// without such a bound.
 std::shared_ptr<NlpParameter> boundsOf(const Nlp& nlp, const std::vector<int>& variables, bool upper);
 
-/// Numbers that can be moved: their derivatives are central differences, exact to about 1e-9.
-class MovedParameter : public NlpParameter {
+/// Parameters whose derivatives are computed by central differences, with an error of about 1e-9.
+class FiniteDifferenceParameter : public NlpParameter {
  public:
   void differentiate(const Point& at, int number, VectorXd& phi, VectorXd& gradient) final;
 
  protected:
   using NlpParameter::NlpParameter;
 
-  /// Moves one of the numbers from where it was given; the others are there. By zero: back.
+  /// Sets a component to its given value plus `by`; the others keep their given values.
   virtual void move(Nlp& nlp, int number, double by) = 0;
 
-  /// Says which rows may move with the numbers, ascending, where these are not all: false.
+  /// Sets `rows` to the residuals that may depend on the parameters, ascending, and returns true. False: all may.
   virtual bool findRows(Nlp&, std::vector<int>&) { return false; }
 
-  /// At x, where the problem stands; at least those rows.
+  /// Evaluates the problem at its point x; at least the residuals of `findRows`.
   virtual void evaluate(Nlp& nlp, const VectorXd& x, VectorXd& phi, Jacobian& J) { nlp.evaluate(x, phi, &J); }
 
  private:
@@ -80,9 +83,9 @@ class MovedParameter : public NlpParameter {
 
   const Nlp* made_for_ = nullptr;
   std::vector<int> rows_;
-  Jacobian J_;  ///< workspace, of that problem
+  Jacobian J_;  ///< workspace for made_for_
   VectorXd phi_, phi_before_;
-  VectorXd gradients_[2];  ///< apart, so that what does not move leaves zeros
+  VectorXd gradients_[2];  ///< separate, so that constant residuals contribute exactly zero
 };
 
 }  // namespace kinegraph

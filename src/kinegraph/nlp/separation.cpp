@@ -7,7 +7,7 @@ namespace kinegraph {
 VectorXd Separation::joined(const VectorXd& phi, Eigen::Index rows) const {
   VectorXd out = VectorXd::Zero(rows);
   const std::size_t count = row_of.size();
-  for (std::size_t begin = 0, end; begin < count; begin = end) {  // terms of a row follow one another
+  for (std::size_t begin = 0, end; begin < count; begin = end) {  // terms of one residual are consecutive
     const int row = row_of[begin];
     end = begin + 1;
     while (is_term[begin] && end < count && row_of[end] == row) ++end;

@@ -21,7 +21,7 @@ using enum ObjectiveType;
 using Types = std::vector<ObjectiveType>;
 constexpr double kPi = std::numbers::pi;
 
-/// phi and J by one function, and for the costs of type f the Hessian by another.
+/// A problem of two functions: one computes phi and J, the other the Hessian of the costs of type f.
 class FormulaNlp final : public Nlp {
  public:
   using Function = std::function<void(const VectorXd& x, VectorXd& phi, MatrixXd& J)>;
@@ -63,7 +63,7 @@ class FormulaNlp final : public Nlp {
   MatrixXd J_;
 };
 
-void noHessian(const VectorXd&, MatrixXd&) {}  // of linear costs
+void noHessian(const VectorXd&, MatrixXd&) {}  // of linear costs: zero
 
 MatrixXd randomMatrix(int rows, int columns, Rng& rng) {
   MatrixXd M(rows, columns);
@@ -139,7 +139,7 @@ std::shared_ptr<Nlp> ackley(int n, Rng&) {
     const double a = 20. * std::exp(-.2 * length / root), b = std::exp((2. * kPi * x).array().cos().sum() / count);
     phi << 20. + std::numbers::e - a - b;
     J.row(0) = b * 2. * kPi / count * (2. * kPi * x).array().sin();
-    if (length > 0.) J.row(0) += (.2 * a / (root * length) * x).transpose();  // at 0 it has no gradient
+    if (length > 0.) J.row(0) += (.2 * a / (root * length) * x).transpose();  // not differentiable at 0
   });
 }
 
@@ -172,9 +172,9 @@ std::shared_ptr<Nlp> modes(int n, Rng&) {
   return std::make_shared<FormulaNlp>("Modes", n, Types{ineq}, 1.2, [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
     const VectorXd corner = x.unaryExpr([](double value) { return value < 0. ? -1. : 1.; });
     const double to_corner = (x - corner).norm() - .1, to_center = x.norm() - .5;
-    const VectorXd way = to_corner < to_center ? VectorXd(x - corner) : x;
+    const VectorXd offset = to_corner < to_center ? VectorXd(x - corner) : x;
     phi << std::min(to_corner, to_center);
-    if (way.norm() > 0.) J.row(0) = way.normalized();
+    if (offset.norm() > 0.) J.row(0) = offset.normalized();
   });
 }
 
@@ -220,7 +220,7 @@ std::shared_ptr<Nlp> linearProgram(int n, Rng& rng) {
       noHessian);
 }
 
-/// Centers of spheres in a row: x y z x y z ...
+/// The variables are the centers of the spheres: x y z x y z ...
 class SpherePacking final : public Nlp {
  public:
   static constexpr double kRadius = .21, kHeight = 16.;
@@ -248,11 +248,11 @@ class SpherePacking final : public Nlp {
     int row = 0;
     for (int i = 0; i < count_; ++i) {
       for (int j = i + 1; j < count_; ++j, ++row) {
-        const Vector3d way = x.segment<3>(3 * i) - x.segment<3>(3 * j);
-        const double distance = way.norm();
+        const Vector3d offset = x.segment<3>(3 * i) - x.segment<3>(3 * j);
+        const double distance = offset.norm();
         phi[row] = 2. * kRadius - distance;
         if (!J) continue;
-        const Vector3d n = distance > 0. ? Vector3d(way / distance) : Vector3d::UnitX();
+        const Vector3d n = distance > 0. ? Vector3d(offset / distance) : Vector3d::UnitX();
         double* values = J->values.data() + J->row_segments(row)[0].offset;
         for (int k = 0; k < 3; ++k) {
           values[k] = -n[k];
@@ -306,12 +306,12 @@ const std::vector<std::string>& testProblemNames() {
 std::shared_ptr<Nlp> makeTestProblem(const std::string& name, const TestProblemOptions& options) {
   const auto maker = makers().find(name);
   if (maker == makers().end()) {
-    throw NameError(cat("there is no problem '", name, "'", similarHint(name, testProblemNames()), "; there are ",
-                        join(testProblemNames())));
+    throw NameError(cat("makeTestProblem: no problem named '", name, "'", similarHint(name, testProblemNames()),
+                        "; the problems are ", join(testProblemNames())));
   }
   const int n = options.dimension < 0 ? (name == "SpherePacking" ? 50 : 2) : options.dimension;
   if (n < 1 || (name == "Himmelblau" && n != 2) || (name == "Rosenbrock" && n < 2)) {
-    throw ValueError(cat("problem ", name, " with dimension ", n, "; expected ",
+    throw ValueError(cat("makeTestProblem: the dimension of ", name, " is ", n, "; expected ",
                          name == "Himmelblau"   ? "2"
                          : name == "Rosenbrock" ? "at least 2"
                                                 : "at least 1"));

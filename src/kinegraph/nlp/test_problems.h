@@ -8,14 +8,15 @@
 namespace kinegraph {
 
 struct TestProblemOptions {
-  int dimension = -1;      ///< number of variables, or of spheres; < 0: 2, or 50 spheres, or what the problem has
-  std::uint64_t seed = 0;  ///< of those that are drawn by chance: square, Rugged, LinearProgram
+  int dimension = -1;      ///< number of variables, or of spheres; < 0: 2, or 50 spheres, or that of the problem
+  std::uint64_t seed = 0;  ///< of the random problems square, Rugged and LinearProgram
 };
 
-/// A problem by name, to try solvers on. n variables; costs are f where nothing else is said.
+/// Creates a test problem for solvers by name. n is the number of variables. Costs are of type f unless noted
+/// otherwise; the last column has the minimum.
 ///
 ///   square         C (x - x0) as sos, with random x0 and C of condition 100     0 at x0
-///   Rugged         sos, constant around each of 1000 random points: for methods without derivatives
+///   Rugged         sos, constant in the Voronoi cells of 1000 random points; for derivative-free methods
 ///   Rastrigin      10 n + sum x^2 - 10 cos(2 pi x)                              0 at 0
 ///   Rosenbrock     sum (x_i - x_{i-1}^2)^2 + .01 (1 - x_{i-1})^2                0 at 1
 ///   Ackley         20 + e - 20 exp(-.2 |x| / sqrt n) - exp(mean cos(2 pi x))    0 at 0
@@ -26,9 +27,9 @@ struct TestProblemOptions {
 ///   HalfCircle     sum x  with  |x|^2 <= .25, x_0 >= -.2                        -.658258 at (-.2, -.458258)
 ///   LinearProgram  random linear costs and 15 constraints, 0 feasible
 ///   SpherePacking  sum of the heights of spheres of radius .21 in a well of 2 x 2, 16 high, which do not overlap
-///   MinimalConvexCore  of 54 variables, see convex_core.h
+///   MinimalConvexCore  54 variables, see convex_core.h
 ///
-/// Throws NameError for other names, with those that are near; ValueError for a dimension that makes no sense.
+/// Throws NameError with similar names for other names, ValueError for an invalid dimension.
 std::shared_ptr<Nlp> makeTestProblem(const std::string& name, const TestProblemOptions& options = {});
 
 const std::vector<std::string>& testProblemNames();

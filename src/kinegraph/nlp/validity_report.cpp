@@ -5,8 +5,8 @@ namespace kinegraph {
 const ValidityReport& LazyValidity::get(const CancellationToken& cancellation) const {
   const std::lock_guard lock(mutex_);
   if (!known_) {
-    known_ = judge_(cancellation ? cancellation : [] {});
-    judge_ = nullptr;  // and what it holds
+    known_ = check_(cancellation ? cancellation : [] {});
+    check_ = nullptr;  // frees its captures
   }
   return *known_;
 }

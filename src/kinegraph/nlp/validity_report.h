@@ -9,26 +9,27 @@
 
 namespace kinegraph {
 
-/// Is a motion free of collisions at all times, and not just at those that constraints look at?
+/// The result of a check that goes beyond the constraints: whether a solution is valid between the points that the
+/// constraints sample.
 struct ValidityReport {
-  bool free = true;
-  std::string message{};  ///< where it is not: which shapes, when, how deep
+  bool valid = true;
+  std::string message{};  ///< if not valid: the place and size of the violation
 };
 
-/// A verdict that costs something, and so is found when it is first asked for. Threads may ask.
+/// A validity report that is computed when it is requested first. Safe to use from several threads.
 class LazyValidity {
  public:
-  /// Calls the function that it is given from time to time; that may throw, and the next one who asks begins anew.
-  using Judge = std::function<ValidityReport(const CancellationToken& cancellation)>;
+  /// If the check throws, as it may if it is cancelled, the next request starts it anew.
+  using Check = std::function<ValidityReport(const CancellationToken& cancellation)>;
 
-  explicit LazyValidity(Judge judge) : judge_(std::move(judge)) {}
+  explicit LazyValidity(Check check) : check_(std::move(check)) {}
   explicit LazyValidity(ValidityReport known) : known_(std::move(known)) {}
 
   const ValidityReport& get(const CancellationToken& cancellation = {}) const;
 
  private:
   mutable std::mutex mutex_;
-  mutable Judge judge_;
+  mutable Check check_;
   mutable std::optional<ValidityReport> known_;
 };
 

@@ -7,15 +7,15 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kGentle = .5, kMost = .98;  // shares of the jerk's limit
-constexpr double kBelow = .999;              // of the velocity's limit, that is gone to
-constexpr double kHardly = .05;              // of the speed at the start
+constexpr double kGentle = .5, kMost = .98;  // shares of the jerk limit
+constexpr double kBelow = .999;              // of the velocity limit, which is not exceeded
+constexpr double kHardly = .05;              // of the initial speed: a slower end counts as a stop
 
-/// The share of the jerk's limit that a dof takes: as much as keeps its velocity within limits.
+/// The share of the jerk limit with which a dof keeps its velocity limit.
 double shareOf(double velocity, double acceleration, double most_velocity, double most_jerk) {
   if (velocity * acceleration <= 0.) return kGentle;
-  const double room = kBelow * most_velocity - std::abs(velocity);
-  const double needed = room > 0. ? acceleration * acceleration / (2. * most_jerk * room) : kMost;
+  const double slack = kBelow * most_velocity - std::abs(velocity);
+  const double needed = slack > 0. ? acceleration * acceleration / (2. * most_jerk * slack) : kMost;
   return std::clamp(needed, kGentle, kMost);
 }
 

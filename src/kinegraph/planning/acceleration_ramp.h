@@ -5,19 +5,19 @@
 
 namespace kinegraph {
 
-/// Where a robot goes whose accelerations go to zero, each dof's at a constant jerk of its own.
+/// A segment on which all accelerations go to zero, each at its own constant jerk.
 struct AccelerationRamp {
-  PathCurve curve;  ///< its direction and its bend begin as the velocity and the acceleration say; no pieces: see below
-  VectorXd q, velocity;  ///< at its end, where nothing accelerates
+  PathCurve curve;       ///< no pieces if the robot hardly moves at the end
+  VectorXd q, velocity;  ///< at the end, with zero acceleration
 };
 
-/// From a posture with a velocity and an acceleration, within limits of velocity and jerk as far as they can be kept. Going
-/// along the curve at a constant ds/dt, which is |velocity| at its end, has the accelerations of the start at first. Where
-/// it would hardly move at the end, there is no curve.
+/// Computes the ramp from a configuration with a velocity and an acceleration. It keeps the limits of velocity and jerk
+/// as far as possible. Along the curve ds/dt is constant, |velocity| at its end; the motion then begins with
+/// `acceleration`.
 AccelerationRamp rampDown(const VectorXd& q, const VectorXd& velocity, const VectorXd& acceleration,
                           const MotionLimits& limits);
 
-/// The Bernstein coefficients of a piece of a curve.
+/// Returns the Bernstein coefficients of a piece of a curve; the piece lies in their convex hull.
 std::vector<VectorXd> bernsteinOf(const PathCurve& curve, int piece);
 
 }  // namespace kinegraph

@@ -11,9 +11,9 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kBeyondLimit = 1e-5;             // rad, m: rounding of files, which counts as at the limit
-constexpr std::size_t kNamed = 3;                 // pairs and obstacles
-constexpr double kRoom = 2. * Clearance::kGuard;  // m, that an end keeps above the margin around it
+constexpr double kBeyondLimit = 1e-5;              // rad, m: rounding in files counts as at the limit
+constexpr std::size_t kNamed = 3;                  // pairs and obstacles, in messages
+constexpr double kSlack = 2. * Clearance::kGuard;  // m, between the clearance of an endpoint and the margin around it
 
 void requireState(const VectorXd& q, int dofs, const std::string& what, const char* who) {
   if (q.size() != dofs) throw ValueError(cat(who, ": the ", what, " has ", q.size(), " numbers; expected ", dofs));
@@ -36,16 +36,16 @@ std::string formatLength(double length) {
 }
 
 std::string describePairs(const KinematicModel& model, const std::vector<ClearanceCheck::Nearest>& pairs) {
-  std::vector<std::string> words;
+  std::vector<std::string> parts;
   for (std::size_t i = 0; i < std::min(pairs.size(), kNamed); ++i) {
     const ClearanceCheck::Nearest& pair = pairs[i];
-    words.push_back(cat("'", model.frame_name[std::size_t(pair.a)], "' and '", model.frame_name[std::size_t(pair.b)],
+    parts.push_back(cat("'", model.frame_name[std::size_t(pair.a)], "' and '", model.frame_name[std::size_t(pair.b)],
                         "' ",
                         pair.distance < 0. ? cat("overlap by ", formatLength(-pair.distance))
                                            : cat("are ", formatLength(pair.distance), " apart")));
   }
-  if (pairs.size() > kNamed) words.push_back(cat("and ", pairs.size() - kNamed, " more pairs"));
-  return join(words);
+  if (pairs.size() > kNamed) parts.push_back(cat("and ", pairs.size() - kNamed, " more pairs"));
+  return join(parts);
 }
 
 Endpoint checkEndpoint(Steering& steering, const KinematicModel& model, const VectorXd& q, double margin,
@@ -53,16 +53,16 @@ Endpoint checkEndpoint(Steering& steering, const KinematicModel& model, const Ve
   requireState(q, model.dofs, what, who);
   Endpoint end;
   end.q = q;
-  end.verified_margin = margin;
-  const std::string beyond = steering.space().beyondLimits(q, kBeyondLimit);
-  if (!beyond.empty()) {
-    end.problem = cat("the ", what, " is out of limits: ", beyond);
+  end.clearance = margin;
+  const std::string excess = steering.space().beyondLimits(q, kBeyondLimit);
+  if (!excess.empty()) {
+    end.problem = cat("the ", what, " is outside the limits: ", excess);
     return end;
   }
   steering.space().clamp(end.q);
-  end.near = steering.check().nearerThan(end.q, margin + kRoom);
-  if (!end.near.empty()) end.verified_margin = std::min(margin, end.near.front().distance);
-  if (!end.near.empty() && end.near.front().distance < std::min(margin, 0.) + kRoom) {
+  end.near = steering.check().nearerThan(end.q, margin + kSlack);
+  if (!end.near.empty()) end.clearance = std::min(margin, end.near.front().distance);
+  if (!end.near.empty() && end.near.front().distance < std::min(margin, 0.) + kSlack) {
     end.problem = cat("the ", what, " collides: ", describePairs(model, end.near));
   } else if (steering.isConstrained()) {
     const double violation = steering.manifold().violation(end.q);
@@ -77,7 +77,7 @@ Clearance clearanceAround(double margin, const std::vector<const Endpoint*>& end
   clearance.margin = margin;
   for (const Endpoint* end : ends) {
     if (end->near.empty()) continue;
-    const double around = std::max(std::min(margin, end->near.front().distance - kRoom), std::min(margin, 0.));
+    const double around = std::max(std::min(margin, end->near.front().distance - kSlack), std::min(margin, 0.));
     if (around < margin) clearance.tight.push_back({end->q, around});
   }
   return clearance;
@@ -87,13 +87,13 @@ std::vector<MetObstacle> obstaclesMet(const KinematicModel& model, const PairCou
   std::map<int, std::pair<long, MetObstacle>> obstacles;  // by frame
   long all = 0;
   for (const auto& [pair, times] : hits) {
-    // The one that moves less is the obstacle: links are numbered from the world on.
+    // Links are numbered from the world on.
     const auto [a, b] = pair;
-    const bool a_moves_less = model.frame_link[std::size_t(a)] <= model.frame_link[std::size_t(b)];
-    auto& [count, met] = obstacles[a_moves_less ? a : b];
+    const bool a_is_obstacle = model.frame_link[std::size_t(a)] <= model.frame_link[std::size_t(b)];
+    auto& [count, met] = obstacles[a_is_obstacle ? a : b];
     count += times;
     all += times;
-    met.by.push_back(model.frame_name[std::size_t(a_moves_less ? b : a)]);
+    met.by.push_back(model.frame_name[std::size_t(a_is_obstacle ? b : a)]);
   }
   std::vector<MetObstacle> list;
   for (auto& [frame, entry] : obstacles) {
@@ -106,14 +106,14 @@ std::vector<MetObstacle> obstaclesMet(const KinematicModel& model, const PairCou
 }
 
 std::string describeObstacles(const std::vector<MetObstacle>& obstacles) {
-  std::vector<std::string> words;
+  std::vector<std::string> parts;
   for (std::size_t i = 0; i < std::min(obstacles.size(), kNamed); ++i) {
     const MetObstacle& met = obstacles[i];
     std::vector<std::string> by;
     for (std::size_t k = 0; k < std::min(met.by.size(), kNamed); ++k) by.push_back(cat("'", met.by[k], "'"));
-    words.push_back(cat("'", met.name, "' (", std::lround(100. * met.share), " %, by ", join(by), ")"));
+    parts.push_back(cat("'", met.name, "' (", std::lround(100. * met.share), " %, by ", join(by), ")"));
   }
-  return join(words);
+  return join(parts);
 }
 
 }  // namespace kinegraph

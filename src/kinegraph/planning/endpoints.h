@@ -7,37 +7,38 @@
 
 namespace kinegraph {
 
-/// A start or goal of a motion, and what is wrong with it.
+/// A start or goal of a motion, and whether it is valid.
 struct Endpoint {
-  VectorXd q;                   ///< within the limits
-  std::string problem;          ///< "" if a motion can begin or end there; else why not, as "the start collides: ..."
-  double verified_margin = 0.;  ///< least distance of a pair, m; the margin and more count as the margin
-  std::vector<ClearanceCheck::Nearest> near;  ///< pairs nearer than the margin, the deepest first
+  VectorXd q;                                 ///< within the limits
+  std::string problem;                        ///< "" if it is valid, else why not, as "the start collides: ..."
+  double clearance = 0.;                      ///< least distance of a pair, m, at most the margin
+  std::vector<ClearanceCheck::Nearest> near;  ///< pairs closer than the margin, the deepest first
 
   bool isFree() const { return problem.empty(); }
 };
 
-/// Looks at a posture of which `what` is the name, as "start". Within 1e-5 beyond a limit it is moved to the limit;
-/// a wrong length and numbers that are not finite throw ValueError with `who` in front. Pairs may keep less than the
-/// margin, as long as they keep the lesser of it and 0.
+/// Checks a configuration, called `what` in messages, as "start". Moves it to a limit that it exceeds by up to 1e-5.
+/// Pairs may be closer than the margin if they keep the lesser of the margin and 0. Throws ValueError for a wrong
+/// length and for values that are not finite; `who` names the caller.
 Endpoint checkEndpoint(Steering& steering, const KinematicModel& model, const VectorXd& q, double margin,
                        const std::string& what, const char* who);
 
-/// The demands with margins that hold around the ends that keep less.
+/// The clearance to keep: `margin`, and around endpoints that keep less, their own clearance.
 Clearance clearanceAround(double margin, const std::vector<const Endpoint*>& ends);
 
-/// "'hand' and 'table' overlap by 12 mm, ...": of the deepest pairs.
+/// "'hand' and 'table' overlap by 12 mm, ...", for the deepest pairs.
 std::string describePairs(const KinematicModel& model, const std::vector<ClearanceCheck::Nearest>& pairs);
 
-/// A frame that motions ended at.
+/// A frame that edges of the search collided with.
 struct MetObstacle {
   int frame;  ///< id
   std::string name;
-  double share;                 ///< of all motions that were not free
-  std::vector<std::string> by;  ///< frames that ran into it
+  double share;                 ///< of all colliding edges
+  std::vector<std::string> by;  ///< frames that collided with it
 };
 
-/// The obstacles of these pairs, those first that most motions ended at. Of a pair, it is the one that moves less.
+/// Counts the obstacles of colliding pairs, the most frequent first. The obstacle of a pair is the frame closer to the
+/// world.
 std::vector<MetObstacle> obstaclesMet(const KinematicModel& model, const PairCounts& hits);
 
 /// "'wall' (70 %, by 'hand', 'finger'), ..."

@@ -16,10 +16,10 @@ namespace {
 constexpr double kMostCells = 300000.;
 constexpr std::size_t kMostBodies = 4;  // the thickest ones
 constexpr double kRounding = 1e-6;      // m
-constexpr double kDepth = 2e-5;         // of a body's size: by which depths of round bodies may be wrong
+constexpr double kDepth = 2e-5;         // error of depths of round bodies, as a share of their size
 constexpr double kParallel = 1e-9;      // rad
-constexpr long kCellsPerLook = 16;      // at the watch
-constexpr double kThin = 1e-4;          // m: an extent below this is one layer of cells
+constexpr long kPollEvery = 16;         // cells
+constexpr double kThin = 1e-4;          // m: a smaller extent is one layer of cells
 
 struct Extent {
   Vector3d low, high;
@@ -30,7 +30,7 @@ double farthest(const Extent& box, int i, int j) {
                     std::max(std::abs(box.low[j]), std::abs(box.high[j])));
 }
 
-/// Where a step of a joint can bring what is in a box.
+/// Extends a box by the displacements of a step of a joint.
 void moveExtent(Extent& box, const LaneModel::Step& step, const MotionStep& kind, int dof,
                 const KinematicModel& model) {
   if (kind.translates()) {
@@ -50,7 +50,7 @@ void moveExtent(Extent& box, const LaneModel::Step& step, const MotionStep& kind
   }
 }
 
-/// All places of a point of a link, in the world.
+/// A box of all places of a point of a link in the world.
 Extent reachOf(const State& scene, int link, const Vector3d& point) {
   const KinematicModel& model = scene.model();
   Extent box{point, point};
@@ -72,16 +72,16 @@ Extent reachOf(const State& scene, int link, const Vector3d& point) {
   return box;
 }
 
-/// What is inside of a body that moves, at all postures with the same axes in the world, and what that must not come near.
+/// A shape inside of a moving body that has the same axes in the world at all configurations, and its static obstacles.
 struct Core {
   int frame;
   Vector3d center;  ///< in the frame, m
-  double radius;    ///< of the largest ball around it, m
+  double radius;    ///< of the largest ball around it in the body, m
   std::vector<int> obstacles;
-  std::string words = {};
+  std::string description = {};
   std::shared_ptr<const CollisionBody> body = pointBody();
   Matrix3d R = Matrix3d::Identity();  ///< the body's axes
-  double thicker = 0.;                ///< by how much the core is, m
+  double radius_added = 0.;           ///< by which the core is thicker than `body`, m
 };
 
 std::vector<Core> thickestBodies(const State& scene) {
@@ -105,28 +105,28 @@ std::vector<Core> thickestBodies(const State& scene) {
 }
 
 Core ballOf(Core core, const std::string& name) {
-  core.words = cat("a ball of ", formatLength(core.radius), " inside of '", name, "'");
-  core.thicker = core.radius;
+  core.description = cat("a ball of ", formatLength(core.radius), " inside of '", name, "'");
+  core.radius_added = core.radius;
   return core;
 }
 
-/// More than a ball where joints turn the body about one direction of the world alone, or not at all: the body, if it looks
-/// the same then, or the upright cylinder in a box.
+/// The core of a body that joints rotate about one direction of the world only, or not at all: the body if these
+/// rotations do not change it, or the upright cylinder inscribed in a box.
 std::optional<Core> uprightOf(Core core, const State& scene, const std::string& name) {
   const std::shared_ptr<const CollisionBody>& body = scene.model().body[std::size_t(core.frame)];
   if (!body->convex()) return std::nullopt;
   Vector3d axis = Vector3d::Zero();
   bool is_one = true;
   scene.forTwists(core.frame, [&](int, const State::Twist& twist) {
-    const double turn = twist.angular.norm();
-    if (turn == 0.) return;
-    if (axis.isZero(0.)) axis = twist.angular / turn;
-    is_one &= axis.cross(twist.angular).norm() <= kParallel * turn;
+    const double rotation = twist.angular.norm();
+    if (rotation == 0.) return;
+    if (axis.isZero(0.)) axis = twist.angular / rotation;
+    is_one &= axis.cross(twist.angular).norm() <= kParallel * rotation;
   });
   if (!is_one) return std::nullopt;
   core.R = scene.pose(core.frame).R;
   core.body = body;
-  core.words = cat("'", name, "'");
+  core.description = cat("'", name, "'");
   const Vector3d local = core.R.transpose() * axis;
   int along = 0;
   const bool has_axis = local.cwiseAbs().maxCoeff(&along) > 1. - kParallel;
@@ -138,11 +138,11 @@ std::optional<Core> uprightOf(Core core, const State& scene, const std::string& 
   const double radius = std::min(half[(along + 1) % 3], half[(along + 2) % 3]) + body->radius();
   core.body = makeCollisionBody({ShapeType::cylinder, {2. * half[along], radius}, nullptr});
   core.R = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), axis).toRotationMatrix();
-  core.words = cat("an upright cylinder of radius ", formatLength(radius), " inside of '", name, "'");
+  core.description = cat("an upright cylinder of radius ", formatLength(radius), " inside of '", name, "'");
   return core;
 }
 
-/// The places that a core's center can be brought to, as cells.
+/// A grid of the places to which joints can bring the center of a core.
 class PlaceGrid {
  public:
   PlaceGrid(const State& scene, const Core& core, double margin) : scene_(scene), core_(core), margin_(margin) {
@@ -164,7 +164,7 @@ class PlaceGrid {
     if (is_possible_) state_.assign(std::size_t(cells), Cell::unknown);
   }
 
-  /// Is there no path of open cells from the start's cell to one of the goals'? Notes obstacles that close cells.
+  /// Whether no open cells connect the start's cell to one of the goals'. Records the obstacles that close cells.
   bool separates(const VectorXd& start, const std::vector<VectorXd>& goals, const CancellationToken& cancellation) {
     if (!is_possible_) return false;
     std::set<std::size_t> wanted;
@@ -175,7 +175,7 @@ class PlaceGrid {
       const std::size_t cell = front.back();
       front.pop_back();
       if (wanted.count(cell)) return false;
-      if (++visited_ % kCellsPerLook == 0 && cancellation && cancellation()) return false;
+      if (++visited_ % kPollEvery == 0 && cancellation && cancellation()) return false;
       forNeighbors(cell, [&](std::size_t next) {
         if (state_[next] != Cell::unknown) return;
         state_[next] = isClosed(next) ? Cell::closed : Cell::reached;
@@ -220,13 +220,13 @@ class PlaceGrid {
     }
   }
 
-  /// Every point of it is too near to one obstacle.
+  /// Whether a core with its center anywhere in the cell is too close to one obstacle.
   bool isClosed(std::size_t cell) {
     const std::array<int, 3> at = placeOf(cell);
     Vector3d center;
     for (int k = 0; k < 3; ++k) center[k] = low_[k] + (at[std::size_t(k)] + .5) * edge_[k];
     const double size = core_.body->boundRadius();
-    const double near = core_.thicker + margin_ - .5 * edge_.norm() - kRounding - kDepth * size;
+    const double near = core_.radius_added + margin_ - .5 * edge_.norm() - kRounding - kDepth * size;
     if (near + size <= 0.) return false;
     const KinematicModel& model = scene_.model();
     const RigidTransform X_WC{core_.R, center - core_.R * core_.body->boundCenter()};
@@ -271,7 +271,7 @@ std::string proveInfeasible(const State& scene, const VectorXd& start, const std
     for (const int frame : grid.closers()) {
       if (names.size() < 4) names.push_back(cat("'", model.frame_name[std::size_t(frame)], "'"));
     }
-    return cat("there is no way: ", core.words, " does not get past ", join(names),
+    return cat("there is no path: ", core.description, " does not get past ", join(names),
                margin > 0. ? cat(" with a margin of ", formatLength(margin)) : "");
   }
   return "";

@@ -9,15 +9,16 @@
 
 namespace kinegraph {
 
-/// Whether it can be proven that there is no way, in words; "" if not, which says nothing.
+/// Tries to prove that there is no path from the start to a goal. Returns the proof as a sentence, or "" if there is
+/// none, which does not mean that there is a path.
 ///
-/// Of each body that moves, the largest ball around its center that is inside of it has to get from its place at the
-/// start to one of those at the goals. Where joints turn a body about one direction of the world alone, as those of a mobile
-/// base, more of it is known to be there: all of it if it is round about that direction, the upright cylinder inside of a box
-/// if it is not, and all of a convex body that does not turn. A grid covers all places that its joints can bring the center to (interval
-/// arithmetic). A cell is closed if the ball, or what else is there, comes nearer than the margin to one obstacle that never
-/// moves wherever in the cell its center is. Where no path of open cells, corners included, joins the places, there is no way.
-/// The watch may end it.
+/// A path moves the core of every moving body from its place at the start to its place at a goal. The core is the
+/// largest ball around the body's center inside of it. It is larger if joints rotate the body about one direction of
+/// the world only, as on a mobile base: the whole body if it is round about that direction or does not rotate, and the
+/// inscribed upright cylinder of a box. A grid covers all places to which the joints can bring the center (interval
+/// arithmetic). A cell is closed if, for every center in it, the core comes closer than the margin to one static
+/// obstacle. If open cells, connected also at corners, do not connect start and goals, no path exists. The cancellation
+/// token ends the search.
 std::string proveInfeasible(const State& scene, const VectorXd& start, const std::vector<VectorXd>& goals,
                             double margin, const CancellationToken& cancellation = {});
 

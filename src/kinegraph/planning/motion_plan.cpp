@@ -31,10 +31,10 @@ std::string planStatusName(PlanStatus status) {
   return "unknown";
 }
 
-MotionState MotionPlan::at(double t) const {
-  if (!feasible()) throw ValueError(cat("MotionPlan.at: there is no motion; ", message));
-  if (!options.timing) throw ValueError("MotionPlan.at: the path has no times; it was planned without timing");
-  return timed.at(t);
+void MotionPlan::evalTo(double t, double* q, double* velocity, double* acceleration) const {
+  if (!feasible()) throw ValueError(cat("MotionPlan.eval: there is no motion; ", message));
+  if (!options.timing) throw ValueError("MotionPlan.eval: the path has no times; it was planned with timing=False");
+  timed_path.evalTo(t, q, velocity, acceleration);
 }
 
 std::vector<VectorXd> MotionPlan::obstaclesAt(double t) const {
@@ -50,33 +50,34 @@ PlanOptions MotionPlan::optionsAt(double t) const {
   return later;
 }
 
-double MotionPlan::clearance(double most) const {
+double MotionPlan::clearance(double max_distance) const {
   if (!feasible()) throw ValueError(cat("MotionPlan.clearance: there is no motion; ", message));
   EdgeChecker checker(*scene, 0., 1e-4);
-  double least = most;
+  double least = max_distance;
   for (Eigen::Index k = 0; k < path.rows(); ++k) {
     const VectorXd from = path.row(std::max<Eigen::Index>(k - 1, 0)).transpose(), to = path.row(k).transpose();
     least = checker.clearance(from.data(), to.data(), least);
   }
-  return std::max(least, std::min(verified_margin, most));
+  return std::max(least, std::min(verified_margin, max_distance));
 }
 
 std::string MotionPlan::str() const {
   if (!feasible()) return cat(planStatusName(status), ": ", message);
-  return cat("solved: ", path.rows(), " postures, length ", length, options.timing ? cat(", ", duration(), " s") : "");
+  return cat("solved: ", path.rows(), " configurations, length ", length,
+             options.timing ? cat(", ", duration(), " s") : "");
 }
 
 std::string MotionPlan::explain() const {
   std::string text = str();
-  for (const std::string& note : warnings) text += cat("\n  ", note);
+  for (const std::string& warning : warnings) text += cat("\n  ", warning);
   for (const PlanStage& stage : stages) {
     text += cat("\n  ", stage.name, ": ", 1e3 * stage.seconds, " ms, ", stage.evaluations, " evaluations",
                 stage.note.empty() ? "" : cat("; ", stage.note));
   }
-  for (std::size_t i = 0; i < attempts.size(); ++i) {
-    const SearchReport& attempt = attempts[i];
-    text += cat("\n  attempt ", i + 1, ": ", attempt.samples, " postures drawn, trees of ", attempt.start_nodes,
-                " (start) and ", attempt.goal_nodes, " (goals) postures");
+  for (std::size_t i = 0; i < searches.size(); ++i) {
+    const SearchReport& search = searches[i];
+    text += cat("\n  search ", i + 1, ": ", search.samples, " samples, trees of ", search.start_nodes,
+                " nodes (start) and ", search.goal_nodes, " nodes (goals)");
   }
   if (feasible()) text += cat("\n  clearance: ", clearance() < .1 ? formatLength(clearance()) : "100 mm or more");
   return text;

@@ -10,92 +10,95 @@
 #include "kinegraph/planning/plan_options.h"
 #include "kinegraph/planning/search/path_search.h"
 #include "kinegraph/trajectories/retime.h"
+#include "kinegraph/trajectories/trajectory.h"
 
 namespace kinegraph {
 
 enum class PlanStatus {
-  solved,            ///< there is a motion, free at all times
-  invalid_start,     ///< the start collides, or is out of limits
-  invalid_goal,      ///< all goals do
-  goal_unreachable,  ///< no posture was found at which the goal's targets or conditions hold
-  infeasible,        ///< proven: a ball inside of a body does not fit through where it would have to go
-  no_path_found,     ///< none was found within the effort
-  no_timing_found,   ///< ways were found, but no times at which to go along them that keep clear of moving obstacles
-  timeout,           ///< nor within the time limit
-  cancelled,         ///< by the watch
+  solved,            ///< the motion is continuously collision-free
+  invalid_start,     ///< the start is in collision or beyond limits
+  invalid_goal,      ///< so are all goals
+  goal_unreachable,  ///< no configuration satisfies the goal's targets or conditions
+  infeasible,        ///< proved: a part of a body does not fit through any passage to the goal
+  no_path_found,     ///< the search found none within its budget
+  no_timing_found,   ///< paths were found, but no timing that avoids the dynamic obstacles
+  timeout,           ///< the time limit ended the search
+  cancelled,         ///< by the cancellation token
 };
 
 std::string planStatusName(PlanStatus status);
 
-/// What a stage of planMotion took.
+/// Statistics of one stage of planMotion.
 struct PlanStage {
-  std::string name;      ///< "ends", "search", "shorten", "tighten", "verify", "time", "dynamic_obstacles"
+  std::string name;      ///< "endpoints", "search", "shortcut", "rope_shortcut", "verify", "timing", ...
   double seconds = 0.;   ///< wall time
-  long evaluations = 0;  ///< see PlanOptions: looks at up to eight postures side by side, or at a motion at all times
-  std::string note;      ///< what came of it
+  long evaluations = 0;  ///< PlanOptions says what one counts
+  std::string note;      ///< the outcome; may be ""
 };
 
-/// What planMotion found.
-class MotionPlan {
+/// The motion that planMotion found, or the reason why there is none. Without a motion, eval throws ValueError.
+class MotionPlan : public Trajectory {
  public:
   PlanStatus status = PlanStatus::cancelled;
-  std::string message;                ///< "" if solved, else why there is no motion
-  std::vector<std::string> warnings;  ///< what is to be known of the motion, as that the start was in contact
-  MatrixXd path;                      ///< (K, n): its postures, start and goal included; no rows if there is none
-  MatrixXd raw_path;                  ///< the same before it was shortened
-  TimedPath timed;                    ///< when it is where; see at()
-  double length = 0.;                 ///< of the path, Euclidean in q
-  int goal = -1;                      ///< which of several goal postures was reached, in the order given
-  std::vector<PlanStage> stages;
-  std::vector<SearchReport> attempts;  ///< with trees
-  std::vector<MotionTree> trees;       ///< of the last attempt: of the start and of the goals
-  std::vector<MetObstacle> obstacles;  ///< where there is no way: what most motions ended at, the first one most often
-  double margin = 0.;                  ///< m, that the motion keeps but around ends that keep less
-  double verified_margin = 0.;         ///< m, that all of it was verified to keep
+  std::string message;                 ///< "" if solved, else why there is no motion
+  std::vector<std::string> warnings;   ///< caveats of the motion, such as a start in contact
+  MatrixXd path;                       ///< (K, n): configurations from start to goal; no rows without a motion
+  MatrixXd raw_path;                   ///< the path before shortcutting
+  TimedPath timed_path;                ///< the path with its time parameterization
+  double length = 0.;                  ///< of the path, Euclidean in q
+  int goal = -1;                       ///< index of the goal configuration that was reached
+  std::vector<PlanStage> stages;       ///< in the order in which they ran
+  std::vector<SearchReport> searches;  ///< tree searches of the "search" stage
+  std::vector<SearchTree> trees;       ///< of the last search: from the start, from the goals
+  std::vector<MetObstacle> obstacles;  ///< if no path was found: the most frequent obstacles, the first most often
+  double margin = 0.;                  ///< m, kept everywhere but around endpoints that keep less
+  double verified_margin = 0.;         ///< m, verified along the whole motion
 
   bool feasible() const { return status == PlanStatus::solved; }
 
-  /// (K,): when the motion passes the path's postures, or is nearest to them where corners are rounded, s.
-  const VectorXd& times() const { return timed.times; }
-  double duration() const { return feasible() ? timed.duration() : 0.; }
+  /// (K,): times at which the motion passes the configurations of the path, or is nearest to them at rounded corners,
+  /// s.
+  const VectorXd& times() const { return timed_path.times; }
 
-  /// Where the motion is at time t (s), held within 0 and duration(). Throws ValueError if there is no motion.
-  MotionState at(double t) const;
+  int dimension() const override { return space ? space->dofs() : 0; }
+  double duration() const override { return feasible() ? timed_path.duration() : 0.; }
+  void evalTo(double t, double* q, double* velocity, double* acceleration) const override;
 
-  /// Where moving obstacles are at time t (s): values as in ObstacleTrajectory, in the order of options.obstacle_trajectories.
+  /// Values of the dynamic obstacles at time t (s) as in ObstacleTrajectory, in the order of
+  /// options.obstacle_trajectories.
   std::vector<VectorXd> obstaclesAt(double t) const;
 
-  /// A motion that goes on from where this one is at time t (s), and as fast as it is there, to a goal, or to its own one, in
-  /// a scene that may have changed. With limits of the jerk it has the acceleration of that time, too. Its own time begins at
-  /// 0 then. If the rest of the present motion leads to the goal and is free, it stays. No options: optionsAt(t). Throws
-  /// ValueError if there is no motion.
+  /// Plans a motion that continues this one from time t (s), with its velocity at that time, to a goal, in a scene that
+  /// may have changed. No goal: the present one. With jerk limits the motion also continues the acceleration. Time 0 of
+  /// the new motion is t of this one. If the rest of this motion leads to the goal and is collision-free, it stays. No
+  /// options: optionsAt(t). Throws ValueError if there is no motion.
   MotionPlan replan(const Config& config, double t, const std::optional<MotionGoal>& goal = std::nullopt,
                     const std::optional<PlanOptions>& options = std::nullopt,
                     const CancellationToken& cancellation = {}) const;
 
-  /// A copy of the scene that was planned in, and lines in it along which frames went: "start tree" (blue) and "goal tree"
-  /// (orange) of the last attempt, "first way" (gray), and the "path" (green) that came of it. Where there is none, the
-  /// obstacle that most motions ended at is red. Frames are given by names; none: one on each link that no other one hangs
-  /// on. Throws ValueError for a scene with another number of dofs, FrameNotFound for a name.
+  /// Returns a copy of the scene with the traces of frames as lines: "start tree" (blue) and "goal tree" (orange) of
+  /// the last search, "raw path" (gray), and "path" (green). Without a motion, the most frequent obstacle is red. No
+  /// frame names: one frame on each link without children. Throws ValueError for a scene with another number of dofs,
+  /// FrameNotFound for an unknown name.
   Config picture(const Config& config, const std::vector<std::string>& frames = {}) const;
 
-  /// Shows the picture in the browser, and plays the motion in it; as Config::view.
+  /// Shows the picture in the browser and plays the motion in it, as Config::view.
   int view(const Config& config, const std::vector<std::string>& frames = {}, bool pause = false) const;
 
-  /// The options, for a motion that begins at time t (s) of this one: times of moving obstacles count from then.
+  /// The options for a motion that begins at time t (s) of this one: times of dynamic obstacles are shifted by t.
   PlanOptions optionsAt(double t) const;
 
-  /// The least distance of a collidable pair along the path's straight motions, m, if less than `most`, else `most`.
-  /// Computed when asked for, to 1e-4 m. Moving obstacles do not count.
-  double clearance(double most = .1) const;
+  /// Computes the least distance of a collidable pair along the edges of the path, m, to 1e-4 m; `max_distance` if no
+  /// pair is closer. Does not include dynamic obstacles.
+  double clearance(double max_distance = .1) const;
 
-  /// Several lines: how it ended, what each stage took, and how the trees look.
+  /// Several lines: the outcome, the stages, the sizes of the trees, and the clearance.
   std::string explain() const;
-  std::string str() const;  ///< "solved: 5 postures, 2.31 s" or the status and the message
+  std::string str() const;  ///< "solved: 5 configurations, 2.31 s", or the status and the message
 
-  PlanOptions options;                                ///< that it was planned with
-  std::shared_ptr<const DynamicScene> dynamic_scene;  ///< null where nothing moves but the robot
-  std::shared_ptr<const State> scene;                 ///< that it was planned in
+  PlanOptions options;                                ///< of the call
+  std::shared_ptr<const DynamicScene> dynamic_scene;  ///< null without dynamic obstacles
+  std::shared_ptr<const State> scene;                 ///< at the time of the call
   std::shared_ptr<const JointSpace> space;            ///< of its joints
 };
 

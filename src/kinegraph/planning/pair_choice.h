@@ -8,11 +8,11 @@
 
 namespace kinegraph {
 
-/// A copy of a scene in which only these pairs of frames may collide, whatever their contact flags say. Throws
-/// FrameNotFound, and ValueError for frames without a shape; `who` is what asks.
+/// Copies a scene so that only these pairs of frames may collide, whatever their contact flags are. Throws
+/// FrameNotFound, and ValueError for frames without a shape; `who` names the caller.
 Config onlyPairs(const Config& config, const std::vector<std::pair<std::string, std::string>>& pairs, const char* who);
 
-/// A copy of a scene in which these pairs of frames (ids) do not collide.
+/// Copies a scene so that these pairs of frames (ids) do not collide.
 Config withoutPairs(const Config& config, const std::vector<std::pair<int, int>>& pairs);
 
 }  // namespace kinegraph

@@ -13,7 +13,7 @@ namespace kinegraph {
 namespace {
 
 constexpr const char* kPathFinder = "PathFinder";
-constexpr long kEffortPerIteration = 40;  // postures looked at
+constexpr long kEvaluationsPerIteration = 40;
 
 double processorTime() { return double(std::clock()) / CLOCKS_PER_SEC; }
 
@@ -23,20 +23,19 @@ const OptionTable<PathFinderOptions>& pathFinderOptionTable() {
   using O = PathFinderOptions;
   using Range = OptionRange;
   static const OptionTable<O> table(
-      kPathFinder, {{"verbose", &O::verbose, "", "0: silent; 1: solve prints a line; 2 and more: and shows the path."},
-                    {"stepsize", &O::stepsize, "rad or m", "Longest step from one posture of the path to the next.",
-                     Range::positive()},
-                    {"subsamples", &O::subsamples, "",
-                     "Of older scripts, without effect: motions are checked at all times.", Range::notNegative()},
-                    {"maxIters", &O::maxIters, "", "Effort: 40 postures are looked at for each.", Range::atLeastOne()},
-                    {"p_connect",
-                     &O::p_connect,
-                     "",
-                     "Of older scripts, without effect: trees always grow towards each other, too.",
-                     {[](double v) { return v >= 0. && v <= 1.; }, "a number from 0 to 1"}},
-                    {"collisionTolerance", &O::collisionTolerance, "m", "Depth to which each pair may overlap.",
-                     Range::notNegative()},
-                    {"useBroadCollisions", &O::useBroadCollisions, "", "Of older scripts, without effect."}});
+      kPathFinder,
+      {{"verbose", &O::verbose, "", "0: silent; 1: solve prints a line; 2 and more: it also shows the path."},
+       {"stepsize", &O::stepsize, "rad or m", "Longest step between configurations of the path.", Range::positive()},
+       {"subsamples", &O::subsamples, "", "Without effect, for older scripts: edges are checked continuously.",
+        Range::notNegative()},
+       {"maxIters", &O::maxIters, "", "Budget, in units of 40 evaluations.", Range::atLeastOne()},
+       {"p_connect",
+        &O::p_connect,
+        "",
+        "Without effect, for older scripts: extensions always continue towards the other tree.",
+        {[](double v) { return v >= 0. && v <= 1.; }, "a number from 0 to 1"}},
+       {"collisionTolerance", &O::collisionTolerance, "m", "Allowed penetration of each pair.", Range::notNegative()},
+       {"useBroadCollisions", &O::useBroadCollisions, "", "Without effect, for older scripts."}});
   return table;
 }
 
@@ -77,8 +76,8 @@ PathFinder& PathFinder::setExplicitCollisionPairs(std::vector<std::pair<std::str
 }
 
 SolverResult PathFinder::solve(std::uint64_t seed, const CancellationToken& cancellation) {
-  if (!config_) throw ValueError("PathFinder: there is no scene; call setProblem before solve");
-  if (start_.size() == 0) throw ValueError("PathFinder: there are no start and goal; call setStartGoal before solve");
+  if (!config_) throw ValueError("PathFinder.solve: there is no scene; call setProblem first");
+  if (start_.size() == 0) throw ValueError("PathFinder.solve: there are no start and goal; call setStartGoal first");
   const double began = processorTime();
   const State scene =
       pairs_.empty() ? config_->state() : onlyPairs(*config_, pairs_, "setExplicitCollisionPairs").state();
@@ -93,14 +92,14 @@ SolverResult PathFinder::solve(std::uint64_t seed, const CancellationToken& canc
   return result;
 }
 
-/// No rows if there is no path; the result then says why.
+/// Returns no rows if there is no path; the result then says why.
 MatrixXd PathFinder::search(const State& scene, std::uint64_t seed, const CancellationToken& cancellation,
                             SolverResult& result) {
   const JointSpace space(scene.model());
   space.requireRanges(kPathFinder);
   const double margin = -options_.collisionTolerance;
-  PathQuery request{.constraints = {&scene, &space, {.margin = margin}}, .starts = {}, .goals = {}};
-  Steering steering(request.constraints);
+  PathQuery query{.constraints = {&scene, &space, {.margin = margin}}, .starts = {}, .goals = {}};
+  Steering steering(query.constraints);
   result.status = SolverStatus::infeasible;
   std::vector<Endpoint> ends;
   for (const auto& [q, what] : {std::pair(&start_, "start"), std::pair(&goal_, "goal")}) {
@@ -109,31 +108,32 @@ MatrixXd PathFinder::search(const State& scene, std::uint64_t seed, const Cancel
     result.message = ends.back().problem;
     return {};
   }
-  request.constraints.clearance = clearanceAround(margin, {&ends[0], &ends[1]});
-  request.constraints.clearance.guard = Clearance::kGuard;
-  request.starts = {ends[0].q};
-  request.goals = {ends[1].q};
-  request.seed = seed;
-  request.evaluations = kEffortPerIteration * options_.maxIters;
-  request.cancellation = cancellation;
-  const Way way = searchPath(request);
-  for (const SearchReport& attempt : way.attempts) result.evals += int(attempt.samples);
+  query.constraints.clearance = clearanceAround(margin, {&ends[0], &ends[1]});
+  query.constraints.clearance.guard = Clearance::kGuard;
+  query.starts = {ends[0].q};
+  query.goals = {ends[1].q};
+  query.seed = seed;
+  query.max_evaluations = kEvaluationsPerIteration * options_.maxIters;
+  query.cancellation = cancellation;
+  const PathSearchResult found = searchPath(query);
+  for (const SearchReport& search : found.searches) result.evals += int(search.samples);
   result.totalEvals = result.evals;
-  if (way.points.empty()) {
-    result.status = way.was_stopped ? SolverStatus::cancelled : SolverStatus::limit;
-    const std::string met = describeObstacles(obstaclesMet(scene.model(), way.hits));
-    result.message = cat(way.was_stopped ? "stopped" : "no path found", " after ", result.evals, " draws",
-                         met.empty() ? "" : cat("; most motions ended at ", met));
+  if (found.points.empty()) {
+    result.status = found.was_stopped ? SolverStatus::cancelled : SolverStatus::limit;
+    const std::string met = describeObstacles(obstaclesMet(scene.model(), found.hits));
+    result.message = cat(found.was_stopped ? "stopped" : "no path found", " after ", result.evals, " samples",
+                         met.empty() ? "" : cat("; most edges collided with ", met));
     return {};
   }
-  Steering shortening(request.constraints);
-  const std::vector<VectorXd> points = shorten(shortening, way.points, {.seed = seed, .cancellation = cancellation});
-  result.message = cat(way.is_line ? "the straight motion is free" : "found by trees");
+  Steering shortcuts(query.constraints);
+  const std::vector<VectorXd> points =
+      shortcutPath(shortcuts, found.points, {.seed = seed, .cancellation = cancellation});
+  result.message = cat(found.is_line ? "the straight motion is collision-free" : "found by RRT-Connect");
   return resampleBySteps(space, space.unroll(points), options_.stepsize);
 }
 
 MatrixXd PathFinder::get_resampledPath(int T) const {
-  if (path_.rows() == 0) throw ValueError("get_resampledPath: there is no path; call solve before");
+  if (path_.rows() == 0) throw ValueError("PathFinder.get_resampledPath: there is no path; call solve first");
   return resampleByIndex(path_, T);
 }
 

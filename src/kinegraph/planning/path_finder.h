@@ -13,7 +13,7 @@
 
 namespace kinegraph {
 
-/// Settings of a PathFinder, under the names that scripts know.
+/// Settings of a PathFinder, with the names of the reference package.
 struct PathFinderOptions {
   int verbose = 0;
   double stepsize = .1;
@@ -28,14 +28,14 @@ struct PathFinderOptions {
 
 const OptionTable<PathFinderOptions>& pathFinderOptionTable();
 
-/// Finds a path between two joint vectors, free of collisions at all times: trees from both ends, then shortened.
+/// Finds a continuously collision-free path between two joint vectors by RRT-Connect and shortcutting.
 ///
 ///     PathFinder finder;
 ///     finder.setProblem(C).setStartGoal(q0, qT);
 ///     SolverResult result = finder.solve();   // x: the path, K x n, row by row
 ///
-/// Start and goal are looked at first; where they collide, or are beyond limits, the result is not feasible and says
-/// so. The Config must stay; it is read when `solve` is called, and not changed.
+/// `solve` checks start and goal first; if one is in collision or beyond limits, the result is not feasible and its
+/// message says so. The Config must outlive the finder; `solve` reads it and does not change it.
 class PathFinder {
  public:
   PathFinder& setOptions(const PathFinderOptions& options);  ///< throws ValueError
@@ -43,26 +43,26 @@ class PathFinder {
 
   PathFinder& setProblem(const Config& config);
 
-  /// With the start and the goal, as in setStartGoal.
+  /// Also sets the start and the goal, as setStartGoal.
   PathFinder& setProblem(const Config& config, const VectorXd& start, const VectorXd& goal);
 
-  /// One joint vector each, of any length until `solve`.
+  /// Sets one joint vector each; `solve` checks their lengths.
   PathFinder& setStartGoal(const VectorXd& start, const VectorXd& goal);
 
-  /// Only these pairs may collide; without pairs, those of the Config.
+  /// Restricts collisions to these pairs of frames. No pairs: those of the Config.
   PathFinder& setExplicitCollisionPairs(std::vector<std::pair<std::string, std::string>> pairs);
 
-  /// x has the path's postures, at most stepsize apart, start and goal included; it is empty if there is no path. evals
-  /// is the number of postures drawn. The same seed gives the same path. Throws ValueError for what makes no sense.
+  /// Searches a path. x has its configurations, at most stepsize apart, start and goal included; it is empty if there
+  /// is no path. evals is the number of samples. Equal seeds give equal paths. Throws ValueError for invalid arguments.
   SolverResult solve(std::uint64_t seed = 0, const CancellationToken& cancellation = {});
 
-  /// The path that was found, K x n; no rows before there is one.
+  /// The last path, K x n; no rows if there is none.
   const MatrixXd& path() const { return path_; }
 
-  /// T postures along the path, T x n: evenly in its index. Throws ValueError before there is one.
+  /// Returns T configurations along the path, T x n, evenly spaced in its index. Throws ValueError if there is none.
   MatrixXd get_resampledPath(int T) const;
 
-  /// Plays the path in the viewer of the scene; as Config::viewPath. Throws ValueError before there is one.
+  /// Plays the path in the viewer of the scene, as Config::viewPath. Throws ValueError if there is none.
   int view(bool pause = false, const std::string& message = {}) const;
 
   const Config* config() const { return config_; }
@@ -77,10 +77,10 @@ class PathFinder {
   MatrixXd path_;
 };
 
-/// The same path with postures that are at most `step` apart in joint space.
+/// Resamples a path at steps of at most `step` in joint space.
 MatrixXd resampleBySteps(const JointSpace& space, const MatrixXd& path, double step);
 
-/// T postures along a path, evenly in its index.
+/// Resamples a path at T configurations, evenly spaced in its index.
 MatrixXd resampleByIndex(const MatrixXd& path, int T);
 
 }  // namespace kinegraph

@@ -5,13 +5,13 @@
 
 namespace kinegraph {
 
-/// planMotion among obstacles of which options.obstacle_trajectories says how they move.
+/// planMotion among the dynamic obstacles of options.obstacle_trajectories.
 ///
-/// A way is planned among what stands still, and timed such that it meets no moving obstacle (timeAmongObstacles). Where
-/// that takes longer than the way alone, or cannot be, other ways are planned: around where obstacles will be in the
-/// end, around all places where they ever are, and with other random numbers. The one that arrives first counts. Where
-/// there is none, ways by postures to which no obstacle comes are tried: the robot steps aside, and waits there. The
-/// motion is checked at all times once more.
+/// Plans a path among the static obstacles and a timing that avoids the dynamic ones (timeAmongObstacles). If the
+/// timing fails or takes longer than the path alone, plans other paths: around the final places of the obstacles,
+/// around all their places, and with other random numbers. The motion that arrives first counts. If there is none,
+/// tries paths via refuges, configurations that no obstacle ever reaches, where the robot waits. The result is verified
+/// continuously once more.
 MotionPlan planAmongObstacles(const Config& config, const MotionGoal& goal, const PlanOptions& options,
                               const VectorXd& start, const CancellationToken& cancellation, const KnownCurves& known);
 

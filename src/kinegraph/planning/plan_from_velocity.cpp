@@ -13,14 +13,13 @@ namespace kinegraph {
 
 namespace {
 
-constexpr const char* kStarting = "planMotion";
-constexpr double kLineFactors[] = {1., 2., 4.};  // lines on which it goes on, as multiples of what it takes to stop
-constexpr double kALittle = 1. + 1e-6;           // more than what it takes, so that rounding does no harm
-constexpr double kAboveLimits = 1e-9;            // by which what a running motion has may be above limits, as a share
-constexpr int kParts = 16;                       // of what is curved, when it is looked at
-constexpr double kBeyond = 1e-12;                // rad, m: by which rounding may leave the limits of joints
+constexpr double kLineFactors[] = {1., 2., 4.};  // lengths of lines, as multiples of the stopping distance
+constexpr double kRoundingFactor = 1. + 1e-6;    // on the stopping distance
+constexpr double kAboveLimits = 1e-9;            // relative excess of a running motion over its limits, by rounding
+constexpr int kParts = 16;                       // of a curved piece, in collision checks
+constexpr double kBeyond = 1e-12;                // rad, m: excess over joint limits by rounding
 
-/// Places of a curve between which it is straight, or nearly so.
+/// Places of a curve between which it is nearly straight.
 std::vector<double> placesAlong(const PathCurve& curve) {
   std::vector<double> places = {0.};
   for (int piece = 0; piece < curve.pieces(); ++piece) {
@@ -38,7 +37,7 @@ MatrixXd pointsAt(const PathCurve& curve, const std::vector<double>& places) {
   return points;
 }
 
-/// The same curve with marks at all of these places.
+/// Returns the curve with marks at these places.
 PathCurve marked(const PathCurve& curve) {
   PathCurve::Parts parts = curve.parts();
   parts.marks = placesAlong(curve);
@@ -67,8 +66,8 @@ class PlanFromVelocity {
   }
 
   MotionPlan run(const KnownCurves& known) {
-    if (!allowed("velocity", velocity_, limits_.velocity) ||
-        !allowed("acceleration", acceleration_, limits_.acceleration) || !looksAtStart())
+    if (!keepsLimits("velocity", velocity_, limits_.velocity) ||
+        !keepsLimits("acceleration", acceleration_, limits_.acceleration) || !checkStart())
       return std::move(best_);
     for (const KnownCurves::Timed& rest : known.to_goal)
       if (takeWhole(rest)) return std::move(best_);
@@ -83,37 +82,38 @@ class PlanFromVelocity {
   bool isStopped() const { return isCancelled() || seconds() > options_.time_limit; }
   double seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count(); }
 
-  /// Nothing was planned.
+  /// Sets the status and message of a failure.
   void fail() {
     if (isCancelled()) {
       best_.status = PlanStatus::cancelled;
       best_.message = "cancelled before the motion came to rest";
     } else if (isStopped()) {
       best_.status = PlanStatus::timeout;
-      best_.message = cat("time limit of ", options_.time_limit, " s; no way to come to rest was found");
+      best_.message = cat("time limit of ", options_.time_limit, " s; no motion that comes to rest was found");
     } else {
       best_.status = PlanStatus::no_path_found;
-      best_.message = cat("the motion cannot come to rest: ", why_);
+      best_.message = cat("the motion cannot come to rest: ", failure_);
     }
   }
 
-  /// From an end of the first piece on, in the time that is left.
+  /// Plans from rest at the end of the first segment, in the time that is left.
   MotionPlan planOnward(const VectorXd& from) {
     at_rest_.time_limit = options_.timeLeft(seconds());
     return planFromRest(config_, goal_, at_rest_, from, cancellation_);
   }
 
   void tryAll(const KnownCurves& known) {
-    const Lead ramp = easing();
-    for (const double farther : kLineFactors)  // the first one finds straight motions also where there is no time
+    const FirstSegment ramp = accelerationRamp();
+    for (const double farther : kLineFactors)  // the shortest is tried even without time left
       if (farther == kLineFactors[0] || !isStopped()) tryLine(ramp, farther);
     for (const PathCurve& curve : known.to_rest)
-      if (!best_.feasible() && !isStopped()) tryLead({marked(curve), {}, "as before"});
+      if (!best_.feasible() && !isStopped()) tryFirstSegment({marked(curve), {}, "along the present motion"});
     for (const KnownCurves::Timed& stop : known.to_stop)
-      if (!best_.feasible() && !isStopped()) tryLead({marked(stop.curve), stop.scaling, "as before"});
+      if (!best_.feasible() && !isStopped())
+        tryFirstSegment({marked(stop.curve), stop.scaling, "along the present motion"});
   }
 
-  PlanningConstraints demandsAround(const std::vector<const Endpoint*>& ends) {
+  PlanningConstraints constraintsAround(const std::vector<const Endpoint*>& ends) {
     return {.scene = &scene_,
             .space = &space_,
             .clearance = clearanceAround(options_.margin, ends),
@@ -121,39 +121,39 @@ class PlanFromVelocity {
             .constraint_tolerance = options_.constraint_tolerance};
   }
 
-  /// Does what the motion begins with keep the limits?
-  bool allowed(const char* what, const VectorXd& given, const VectorXd& limits) {
-    for (Eigen::Index j = 0; j < given.size(); ++j) {
-      if (std::abs(given[j]) <= limits[j]) continue;
+  /// Whether the initial velocity or acceleration keeps its limits; else sets the status.
+  bool keepsLimits(const char* what, const VectorXd& initial, const VectorXd& limits) {
+    for (Eigen::Index j = 0; j < initial.size(); ++j) {
+      if (std::abs(initial[j]) <= limits[j]) continue;
       best_.status = PlanStatus::invalid_start;
       best_.message =
-          cat("the start ", what, " of ", space_.nameOf(int(j)), " is ", given[j], "; its limit is ", limits[j]);
+          cat("the start ", what, " of ", space_.nameOf(int(j)), " is ", initial[j], "; its limit is ", limits[j]);
       return false;
     }
     return true;
   }
 
-  bool looksAtStart() {
-    Steering steering(demandsAround({}));
-    first_ = checkEndpoint(steering, *config_.model(), start_, options_.margin, "start", kStarting);
-    if (first_.isFree()) return true;
+  bool checkStart() {
+    Steering steering(constraintsAround({}));
+    start_endpoint_ = checkEndpoint(steering, *config_.model(), start_, options_.margin, "start", kPlanMotion);
+    if (start_endpoint_.isFree()) return true;
     best_.status = PlanStatus::invalid_start;
-    best_.message = first_.problem;
+    best_.message = start_endpoint_.problem;
     return false;
   }
 
-  /// Steering with the margins that hold around the start and other ends of the motion.
+  /// Steering with the clearances around the start and other endpoints of the motion.
   Steering steeringTo(const std::vector<VectorXd>& others) {
-    Steering loose(demandsAround({}));
+    Steering loose(constraintsAround({}));
     std::vector<Endpoint> ends;
     for (const VectorXd& q : others)
-      ends.push_back(checkEndpoint(loose, *config_.model(), q, options_.margin, "goal", kStarting));
-    std::vector<const Endpoint*> list = {&first_};
+      ends.push_back(checkEndpoint(loose, *config_.model(), q, options_.margin, "goal", kPlanMotion));
+    std::vector<const Endpoint*> list = {&start_endpoint_};
     for (const Endpoint& end : ends) list.push_back(&end);
-    return Steering(demandsAround(list));
+    return Steering(constraintsAround(list));
   }
 
-  /// Factor on a velocity: the distance that it takes to come to rest, by constant acceleration and jerk.
+  /// The stopping distance as a factor on the velocity, for constant acceleration and jerk.
   double distanceToRest(const VectorXd& velocity) const {
     double acceleration = std::numeric_limits<double>::infinity(), jerk = acceleration;  // as multiples of the velocity
     for (Eigen::Index j = 0; j < velocity.size(); ++j) {
@@ -165,7 +165,7 @@ class PlanFromVelocity {
     double time = 1. / acceleration;
     if (limits_.limitsJerk())
       time = jerk < acceleration * acceleration ? 2. / std::sqrt(jerk) : 1. / acceleration + acceleration / jerk;
-    return .5 * kALittle * time;
+    return .5 * kRoundingFactor * time;
   }
 
   RetimeOptions timing() const {
@@ -175,25 +175,24 @@ class PlanFromVelocity {
     return options;
   }
 
-  /// Where it goes first: a curve, its end, and how.
-  struct Lead {
-    PathCurve curve;      ///< no pieces: there is none, and its end is the start
-    TimeScaling scaling;  ///< that ends at rest; no phases: it is timed with what follows
-    std::string how;
-    VectorXd end = {}, velocity = {};  ///< of easing: there
+  /// The first segment of a motion: an acceleration ramp, a line, or a part of the running motion.
+  struct FirstSegment {
+    PathCurve curve;                   ///< no pieces: the motion begins at `end`
+    TimeScaling scaling;               ///< that ends at rest; no phases: it is timed together with the rest
+    std::string how;                   ///< for messages
+    VectorXd end = {}, velocity = {};  ///< at the end of an acceleration ramp
   };
 
-  /// The curve on which accelerations go to zero.
-  Lead easing() const {
-    Lead lead{{}, {}, "straight", start_, velocity_};
-    if (acceleration_.size() == 0 || acceleration_.isZero(0.)) return lead;
+  FirstSegment accelerationRamp() const {
+    FirstSegment first{{}, {}, "straight", start_, velocity_};
+    if (acceleration_.size() == 0 || acceleration_.isZero(0.)) return first;
     const AccelerationRamp ramp = rampDown(start_, velocity_, acceleration_, limits_);
-    lead.curve = ramp.curve.pieces() > 0 ? marked(ramp.curve) : PathCurve();
-    lead.end = ramp.q, lead.velocity = ramp.velocity;
-    return lead;
+    first.curve = ramp.curve.pieces() > 0 ? marked(ramp.curve) : PathCurve();
+    first.end = ramp.q, first.velocity = ramp.velocity;
+    return first;
   }
 
-  /// The rest of a motion that is known.
+  /// Takes the rest of the running motion, if it is collision-free.
   bool takeWhole(const KnownCurves::Timed& rest) {
     const PathCurve whole = marked(rest.curve);
     const MatrixXd rows = pointsAt(whole, whole.marks());
@@ -210,39 +209,39 @@ class PlanFromVelocity {
     best_.length = pathLength(space_, rows);
     best_.goal = 0;
     best_.margin = options_.margin;
-    best_.verified_margin = std::min(first_.verified_margin, steering.check().marginAt(rows.bottomRows(1).transpose()));
-    best_.stages.push_back({"verify", 0., steering.evaluations(), "the rest of the present motion is free"});
+    best_.verified_margin =
+        std::min(start_endpoint_.clearance, steering.check().marginAt(rows.bottomRows(1).transpose()));
+    best_.stages.push_back({"verify", 0., steering.evaluations(), "the rest of the present motion is collision-free"});
     for (const std::string& name : steering.manifold().sampled())
-      best_.warnings.push_back(
-          cat("the constraint ", name, " was looked at every ", Steering::kSpacing, " along the way"));
-    best_.timed = std::move(timed);
+      best_.warnings.push_back(cat("the constraint ", name, " was checked at samples ", Steering::kSpacing, " apart"));
+    best_.timed_path = std::move(timed);
     return true;
   }
 
-  /// Straight on from where the accelerations are zero, so many times as far as it takes to come to rest.
-  void tryLine(const Lead& ramp, double farther) {
+  /// Tries a straight line from the end of the ramp, `farther` times as long as the stopping distance.
+  void tryLine(const FirstSegment& ramp, double farther) {
     if (ramp.curve.pieces() == 0 && acceleration_.size() > 0 && !acceleration_.isZero(0.)) {
-      why_ = "where its accelerations are zero it hardly moves";
+      failure_ = "the velocity is nearly zero at the end of the acceleration ramp";
       return;
     }
     MatrixXd points(2, start_.size());
     points << ramp.end.transpose(), (ramp.end + farther * distanceToRest(ramp.velocity) * ramp.velocity).transpose();
     const PathCurve line = polyline(points);
-    Lead lead = ramp;
-    lead.curve = ramp.curve.pieces() > 0 ? joined(ramp.curve, line, false) : line;
-    tryLead(lead, &ramp.curve);
+    FirstSegment first = ramp;
+    first.curve = ramp.curve.pieces() > 0 ? joined(ramp.curve, line, false) : line;
+    tryFirstSegment(first, &ramp.curve);
   }
 
-  /// Plans from the end of a lead. Where it ends with a line behind `eased`, the corner may be rounded.
-  void tryLead(const Lead& lead, const PathCurve* ramp = nullptr) {
-    const VectorXd end = lead.curve.eval(lead.curve.length());
-    if (const std::string beyond = ramp ? firstBeyond(lead.curve) : space_.beyondLimits(end, 0.); !beyond.empty()) {
-      why_ = cat("going on ", lead.how, " leaves the limits: ", beyond);
+  /// Plans from the end of a first segment. If it ends with a line behind `ramp`, the corner may be rounded.
+  void tryFirstSegment(const FirstSegment& first, const PathCurve* ramp = nullptr) {
+    const VectorXd end = first.curve.eval(first.curve.length());
+    if (const std::string beyond = ramp ? firstBeyond(first.curve) : space_.beyondLimits(end, 0.); !beyond.empty()) {
+      failure_ = cat("continuing ", first.how, " exceeds the limits: ", beyond);
       return;
     }
     Steering to_end = steeringTo({end});
-    if (!isFree(to_end, lead.curve, kParts)) {
-      why_ = cat("going on ", lead.how, " is not free");
+    if (!isFree(to_end, first.curve, kParts)) {
+      failure_ = cat("continuing ", first.how, " is in collision");
       return;
     }
     MotionPlan plan = planOnward(end);
@@ -251,41 +250,41 @@ class PlanFromVelocity {
       return;
     }
     Steering steering = steeringTo({end, plan.path.bottomRows(1).transpose()});
-    const MatrixXd before = pointsAt(lead.curve, lead.curve.marks());
-    MatrixXd rows(before.rows() + plan.path.rows() - 1, before.cols());
-    rows << before, plan.path.bottomRows(plan.path.rows() - 1);
-    TimedPath timed = lead.scaling.phases().empty()
-                          ? retime(rows, joined(lead.curve, plan.timed.curve()), limits_, timing())
-                          : inTurn(timedBy(lead.scaling, before, lead.curve), plan.timed);
+    const MatrixXd before = pointsAt(first.curve, first.curve.marks());
+    MatrixXd waypoints(before.rows() + plan.path.rows() - 1, before.cols());
+    waypoints << before, plan.path.bottomRows(plan.path.rows() - 1);
+    TimedPath timed = first.scaling.phases().empty()
+                          ? retime(waypoints, joined(first.curve, plan.timed_path.curve()), limits_, timing())
+                          : concatenated(timedBy(first.scaling, before, first.curve), plan.timed_path);
     if (ramp) {
-      TimedPath smoother = retime(rows, rounded(*ramp, rows, steering), limits_, timing());
+      TimedPath smoother = retime(waypoints, rounded(*ramp, waypoints, steering), limits_, timing());
       if (smoother.feasible() && (!timed.feasible() || smoother.duration() < timed.duration()))
         timed = std::move(smoother);
     }
     if (!timed.feasible()) {
-      why_ = timed.message;
+      failure_ = timed.message;
       return;
     }
     if (best_.feasible() && best_.duration() <= timed.duration()) return;
-    MatrixXd first(before.rows() + plan.raw_path.rows() - 1, before.cols());
-    first << before, plan.raw_path.bottomRows(plan.raw_path.rows() - 1);
-    plan.raw_path = std::move(first);
-    plan.length = pathLength(space_, rows);
-    plan.verified_margin = std::min(plan.verified_margin, first_.verified_margin);
-    plan.path = std::move(rows);
-    plan.timed = std::move(timed);
+    MatrixXd raw(before.rows() + plan.raw_path.rows() - 1, before.cols());
+    raw << before, plan.raw_path.bottomRows(plan.raw_path.rows() - 1);
+    plan.raw_path = std::move(raw);
+    plan.length = pathLength(space_, waypoints);
+    plan.verified_margin = std::min(plan.verified_margin, start_endpoint_.clearance);
+    plan.path = std::move(waypoints);
+    plan.timed_path = std::move(timed);
     best_ = std::move(plan);
   }
 
-  /// The lines through these points, the first of which are on an eased curve, with rounded corners.
+  /// Rounds the corners of the path through `rows` behind the ramp.
   PathCurve rounded(const PathCurve& ramp, const MatrixXd& rows, Steering& steering) const {
-    const BlendOptions blends{options_.blend, limits_.limitsJerk(), freeBlends(steering)};
+    const BlendOptions blends{options_.blend, limits_.limitsJerk(), collisionFreeBlends(steering)};
     if (ramp.pieces() == 0) return blendedPolyline(rows, blends);
     const auto before = Eigen::Index(ramp.marks().size()) - 1;
     return joined(ramp, blendedPolyline(rows.bottomRows(rows.rows() - before), blends), false);
   }
 
-  /// What of a curve is beyond the limits of joints, in words; "" if nothing is. A polynomial keeps within its Bernstein
+  /// Describes the first joint limit that a curve exceeds; "" if there is none. A polynomial stays within its Bernstein
   /// coefficients.
   std::string firstBeyond(const PathCurve& curve) const {
     for (int piece = 0; piece < curve.pieces(); ++piece) {
@@ -306,15 +305,15 @@ class PlanFromVelocity {
   const MotionLimits limits_;
   const JointSpace space_;
   const State scene_;
-  Endpoint first_;
+  Endpoint start_endpoint_;
   MotionPlan best_;
-  std::string why_;
+  std::string failure_;
 };
 
-void widen(VectorXd& limits, const VectorXd& given) {
-  for (Eigen::Index j = 0; j < given.size(); ++j)
-    if (std::abs(given[j]) <= limits[j] * (1. + kAboveLimits))
-      limits[j] = std::max(limits[j], std::abs(given[j]) * (1. + 1e-12));
+void widen(VectorXd& limits, const VectorXd& initial) {
+  for (Eigen::Index j = 0; j < initial.size(); ++j)
+    if (std::abs(initial[j]) <= limits[j] * (1. + kAboveLimits))
+      limits[j] = std::max(limits[j], std::abs(initial[j]) * (1. + 1e-12));
 }
 
 }  // namespace

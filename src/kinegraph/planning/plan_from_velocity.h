@@ -6,28 +6,30 @@
 
 namespace kinegraph {
 
-/// What is known of where a robot in motion may go on: curves that begin where it is, in the direction of its velocity.
+/// Known continuations of a running motion: curves that begin at the robot's configuration in the direction of its
+/// velocity.
 struct KnownCurves {
   struct Timed {
     PathCurve curve;
-    TimeScaling scaling;  ///< that goes on as it moves now and keeps the limits; no phases: none
+    TimeScaling scaling;  ///< that continues the motion within the limits; no phases: there is none
   };
-  std::vector<Timed> to_goal;      ///< all the way
-  std::vector<PathCurve> to_rest;  ///< as far as it takes to come to rest, the shortest first
-  std::vector<Timed> to_stop;      ///< to where it would stand still next
+  std::vector<Timed> to_goal;      ///< to the goal
+  std::vector<PathCurve> to_rest;  ///< long enough to come to rest, the shortest first
+  std::vector<Timed> to_stop;      ///< to the next stop of the running motion
 };
 
-/// Limits that a motion keeps which begins with options.start_velocity and start_acceleration: where rounding has made these
-/// larger than the limits, they are the limits.
+/// The limits of a motion that begins with options.start_velocity and start_acceleration: enlarged to these if they
+/// exceed the limits by rounding only.
 MotionLimits limitsFromStart(MotionLimits limits, const PlanOptions& options);
 
-/// planMotion among obstacles that stand still, from options.start_velocity: from rest if that is empty or zero.
+/// planMotion among static obstacles from options.start_velocity; from rest if that is empty or zero.
 ///
-/// A known curve to the goal is taken if it is free. Otherwise the motion first goes straight on, as far as it takes to
-/// come to rest, and farther; a way from the end of that line is planned, and the corner between them is rounded, or
-/// the motion stops there. The fastest of these counts. Known curves to where it is at rest come last.
+/// A known curve to the goal is used if it is collision-free. Otherwise the motion first continues straight, far enough
+/// to come to rest, or farther. A path from the end of that line is planned; the corner between them is rounded, or the
+/// motion stops there. The fastest of these motions counts. Known curves on which the robot comes to rest are tried
+/// last.
 ///
-/// With options.start_acceleration a curve leads to the line, on which each dof's acceleration goes to zero at a constant jerk.
+/// With options.start_acceleration, an acceleration ramp leads to the line.
 MotionPlan planFromVelocity(const Config& config, const MotionGoal& goal, const PlanOptions& options,
                             const VectorXd& start, const CancellationToken& cancellation,
                             const KnownCurves& known = {});

@@ -10,9 +10,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr const char* kGoalsOf = "planMotion";
-constexpr double kSame = .05;  // joint space: postures nearer than this are one goal
-constexpr int kDrawsPerGoal = 4;
+constexpr double kSame = .05;  // closer configurations count as one goal, in joint space
+constexpr int kSamplesPerGoal = 4;
 
 class GoalFinder {
  public:
@@ -24,8 +23,8 @@ class GoalFinder {
     const int kinds =
         !goal.configurations.empty() + !goal.targets.empty() + !goal.conditions.empty() + !goal.state.empty();
     if (kinds != 1)
-      throw ValueError(cat(kGoalsOf, ": the goal ", kinds ? "is of several kinds" : "is empty",
-                           "; expected joint vectors, targets, conditions, or the name of a joint state"));
+      throw ValueError(cat(kPlanMotion, ": the goal ", kinds ? "has several kinds" : "is empty",
+                           "; expected one of joint vectors, targets, conditions, or the name of a joint state"));
     if (!goal.state.empty()) add(config_.getNamedState(goal.state), cat("goal '", goal.state, "'"));
     for (std::size_t i = 0; i < goal.configurations.size(); ++i)
       add(goal.configurations[i], goal.configurations.size() == 1 ? "goal" : cat("goal ", i));
@@ -36,7 +35,7 @@ class GoalFinder {
 
  private:
   void add(const VectorXd& q, const std::string& what) {
-    found_.ends.push_back(checkEndpoint(steering_, *config_.model(), q, options_.margin, what, kGoalsOf));
+    found_.ends.push_back(checkEndpoint(steering_, *config_.model(), q, options_.margin, what, kPlanMotion));
   }
 
   bool isNew(const VectorXd& q) const {
@@ -48,7 +47,7 @@ class GoalFinder {
     return int(found_.ends.size()) >= options_.max_goal_samples || (cancellation_ && cancellation_());
   }
 
-  /// Solutions of inverse kinematics from the start, and from random postures of the joints that move the targets.
+  /// Solves inverse kinematics from the start, and from random values of the joints that move the targets.
   void fromTargets(const std::vector<IkTarget>& targets) {
     Config scene(config_);
     scene.setJointState(start_);
@@ -58,7 +57,7 @@ class GoalFinder {
     const std::vector<int> dofs = IkProblem(scene, targets, ik).dofs;
     Rng rng(options_.seed);
     std::string failure;
-    for (int i = 0; i < kDrawsPerGoal * options_.max_goal_samples && !hasEnough(); ++i) {
+    for (int i = 0; i < kSamplesPerGoal * options_.max_goal_samples && !hasEnough(); ++i) {
       if (i > 0) {
         const VectorXd sampled = steering_.space().sample(rng, start_);
         VectorXd from = start_;
@@ -72,7 +71,7 @@ class GoalFinder {
         add(result.q, "goal");
       } else if (failure.empty()) {
         failure = result.message;
-        if (i == 0) break;  // a hundred attempts failed
+        if (i == 0) break;  // after 100 attempts of solveIk
       }
     }
     if (found_.ends.empty()) {
@@ -81,7 +80,7 @@ class GoalFinder {
     }
   }
 
-  /// Random postures, and the start, brought to where the conditions hold.
+  /// Projects the start and random configurations onto the conditions.
   void fromConditions(std::vector<MotionConstraint> conditions) {
     conditions.insert(conditions.end(), options_.constraints.begin(), options_.constraints.end());
     Manifold manifold(config_.state(), steering_.space(), conditions, options_.constraint_tolerance);
@@ -89,7 +88,7 @@ class GoalFinder {
     double least = std::numeric_limits<double>::infinity();
     std::string missed;
     std::vector<Endpoint> blocked;
-    for (int i = 0; i < 8 * kDrawsPerGoal * options_.max_goal_samples && !hasEnough(); ++i) {
+    for (int i = 0; i < 8 * kSamplesPerGoal * options_.max_goal_samples && !hasEnough(); ++i) {
       VectorXd q = i == 0 ? start_ : steering_.space().sample(rng, start_);
       if (!manifold.project(q)) {
         const double violation = manifold.violation(q);
@@ -108,7 +107,7 @@ class GoalFinder {
       return;
     }
     found_.was_reached = false;
-    found_.message = cat("the goal is out of reach: ", missed, " is missed by ", least, " at least");
+    found_.message = cat("the goal is out of reach: ", "the least violation of ", missed, " is ", least);
   }
 
   const Config& config_;

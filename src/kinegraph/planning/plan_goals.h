@@ -8,14 +8,15 @@
 
 namespace kinegraph {
 
-/// The postures that a goal stands for.
+/// The configurations of a goal.
 struct GoalConfigurations {
-  std::vector<Endpoint> ends;  ///< one at least, in the order in which they were given or found; not all are free
-  bool was_reached = true;     ///< false: the goal is out of reach, and `message` says by how much
+  std::vector<Endpoint> ends;  ///< at least one, as passed or in the order of sampling; some may be in collision
+  bool was_reached = true;     ///< false: the goal is out of reach; `message` says why
   std::string message;
 };
 
-/// Throws ValueError for a goal that makes no sense, FrameNotFound and NameError for names that are not there.
+/// Checks the goal configurations, or samples them for targets and conditions. Throws ValueError for an invalid goal,
+/// FrameNotFound and NameError for unknown names.
 GoalConfigurations goalConfigurations(const Config& config, const MotionGoal& goal, const VectorXd& start,
                                       Steering& steering, const PlanOptions& options,
                                       const CancellationToken& cancellation);

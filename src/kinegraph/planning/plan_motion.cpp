@@ -12,25 +12,25 @@ namespace kinegraph {
 
 namespace {
 
-/// How far along its curve it may come to rest, as multiples of a guess.
+/// Distances along the curve at which the motion may come to rest, as multiples of an estimate.
 constexpr double kCurveFactors[] = {1.05, 1.5, 2.5, 4.};
 
-/// From a start acceleration, or without it where nothing can be timed so, and then a note says it.
-MotionPlan planWith(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
-                    const CancellationToken& cancellation, const KnownCurves& known) {
+/// Plans with the start acceleration. If nothing can be timed so, plans without it and adds a warning.
+MotionPlan planFromState(const Config& config, const MotionGoal& goal, const PlanOptions& options,
+                         const VectorXd& start, const CancellationToken& cancellation, const KnownCurves& known) {
   const auto began = std::chrono::steady_clock::now();
-  const auto plan_by = [&](const PlanOptions& by) {
+  const auto plan_with = [&](const PlanOptions& by) {
     return by.obstacle_trajectories.empty() ? planFromVelocity(config, goal, by, start, cancellation, known)
                                             : planAmongObstacles(config, goal, by, start, cancellation, known);
   };
-  MotionPlan plan = plan_by(options);
+  MotionPlan plan = plan_with(options);
   const bool accelerates = options.start_acceleration.size() > 0 && !options.start_acceleration.isZero(0.);
   if (accelerates && (plan.status == PlanStatus::no_path_found || plan.status == PlanStatus::no_timing_found)) {
-    PlanOptions without = options;
-    without.start_acceleration = {};
+    PlanOptions relaxed = options;
+    relaxed.start_acceleration = {};
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-    without.time_limit = options.timeLeft(seconds);
-    MotionPlan other = plan_by(without);
+    relaxed.time_limit = options.timeLeft(seconds);
+    MotionPlan other = plan_with(relaxed);
     if (other.feasible()) {
       plan = std::move(other);
       plan.warnings.push_back("the motion begins without the start acceleration");
@@ -45,14 +45,15 @@ bool areSame(const MotionLimits& a, const MotionLimits& b) {
          (a.jerk.size() == 0 || a.jerk == b.jerk);
 }
 
-/// Where a motion stands still next, after `time`.
+/// The place s at which a motion stops next, after `time`.
 double nextStop(const TimeScaling& scaling, double time, double length) {
   for (const ScalingPhase& phase : scaling.phases())
     if (phase.time > time && phase.begin.speed < 1e-9) return phase.begin.s;
   return length;
 }
 
-/// Along the curve of a running motion, where it is at `time`, from s on. Its law is of use where it `keeps` the limits.
+/// The rest of the curve of a running motion, from its place s at `time`. Its time scaling counts if it `keeps` the
+/// limits.
 KnownCurves knownCurves(const TimedPath& running, double time, double s, double speed, const MotionLimits& limits,
                         bool keeps, bool has_goal) {
   KnownCurves known;
@@ -79,30 +80,31 @@ KnownCurves knownCurves(const TimedPath& running, double time, double s, double 
 MotionPlan planMotion(const Config& config, const MotionGoal& goal, const PlanOptions& options,
                       const std::optional<VectorXd>& start, const CancellationToken& cancellation) {
   options.validateFor(config.getJointDimension());
-  return planWith(config, goal, options, start.value_or(config.getJointState()), cancellation, {});
+  return planFromState(config, goal, options, start.value_or(config.getJointState()), cancellation, {});
 }
 
 MotionPlan MotionPlan::replan(const Config& config, double time, const std::optional<MotionGoal>& goal,
-                              const std::optional<PlanOptions>& given, const CancellationToken& cancellation) const {
-  if (!std::isfinite(time)) throw ValueError("replan: the time is not finite");
-  const MotionState now = at(time);
-  PlanOptions next = given.value_or(optionsAt(time));
+                              const std::optional<PlanOptions>& options_now,
+                              const CancellationToken& cancellation) const {
+  if (!std::isfinite(time)) throw ValueError("MotionPlan.replan: the time is not finite");
+  const MotionState now = eval(time);
+  PlanOptions next = options_now.value_or(optionsAt(time));
   next.start_velocity = now.velocity;
   next.start_acceleration = {};
   if (next.jerk.size() > 0 && !now.velocity.isZero(0.)) next.start_acceleration = now.acceleration;
   next.validateFor(config.getJointDimension());
   if (now.q.size() != config.getJointDimension())
     throw ValueError(
-        cat("replan: the running motion has ", now.q.size(), " dofs; the scene has ", config.getJointDimension()));
-  const TimeScaling& scaling = timed.scaling();
-  const double held = std::clamp(time, 0., scaling.duration());
-  const ScalingPhase& phase = scaling.phaseAt(held);
-  const ScalingState state = phase.at(held - phase.time);
+        cat("MotionPlan.replan: the motion has ", now.q.size(), " dofs; the scene has ", config.getJointDimension()));
+  const TimeScaling& scaling = timed_path.scaling();
+  const double clamped = std::clamp(time, 0., scaling.duration());
+  const ScalingPhase& phase = scaling.phaseAt(clamped);
+  const ScalingState state = phase.at(clamped - phase.time);
   const MotionLimits limits = planLimits(config, next);
-  const KnownCurves known = knownCurves(timed, held, std::clamp(state.s, phase.begin.s, phase.end), state.speed, limits,
-                                        areSame(limits, planLimits(config, options)), goal.has_value());
-  return planWith(config, goal ? *goal : MotionGoal(VectorXd(path.bottomRows(1).transpose())), next, now.q,
-                  cancellation, known);
+  const KnownCurves known = knownCurves(timed_path, clamped, std::clamp(state.s, phase.begin.s, phase.end), state.speed,
+                                        limits, areSame(limits, planLimits(config, options)), goal.has_value());
+  return planFromState(config, goal ? *goal : MotionGoal(VectorXd(path.bottomRows(1).transpose())), next, now.q,
+                       cancellation, known);
 }
 
 }  // namespace kinegraph

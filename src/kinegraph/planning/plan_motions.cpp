@@ -6,7 +6,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kImprove = 1000000;  // evaluations, where the options say none
+constexpr int kDefaultImprovement = 1000000;  // evaluations
 
 }  // namespace
 
@@ -20,8 +20,8 @@ MotionPlans::MotionPlans(const Config& config, MotionGoal goal, PlanOptions opti
   options_.validateFor(config_.getJointDimension());
   if (!options_.obstacle_trajectories.empty() ||
       (options_.start_velocity.size() > 0 && !options_.start_velocity.isZero(0.)))
-    throw ValueError("planMotions: moving obstacles and start_velocity are not known here; call planMotion");
-  if (options_.improvement_evaluations == 0) options_.improvement_evaluations = kImprove;
+    throw ValueError("planMotions: obstacle_trajectories and start_velocity are not supported; call planMotion");
+  if (options_.improvement_evaluations == 0) options_.improvement_evaluations = kDefaultImprovement;
 }
 
 MotionPlans::~MotionPlans() = default;

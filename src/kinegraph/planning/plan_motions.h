@@ -9,24 +9,25 @@ namespace kinegraph {
 
 class Planner;
 
-/// Motions that get better while one waits: the first is that of planMotion, each further one is shorter, or takes less
-/// time, than the one before, as options.optimize says.
+/// A sequence of improving motions: the first is that of planMotion; each further one is shorter or takes less time
+/// than the one before, as options.optimize says.
 ///
-///     MotionPlans plans = planMotions(C, goal, {.margin = .01, .improve = 200000});
+///     MotionPlans plans = planMotions(C, goal, {.margin = .01, .improvement_evaluations = 200000});
 ///     while (std::optional<MotionPlan> plan = plans.next()) C.viewPath(plan->path, plan->duration());
 ///
-/// Further ways are searched with options.improvement_evaluations evaluations (1000000 if that is 0), where a shorter one can be. The
-/// same arguments give the same motions, at any number of threads, unless time_limit, counted from the first call on,
-/// ends it.
+/// Further searches spend options.improvement_evaluations (1000000 if that is 0) in the part of the space that can
+/// contain a shorter path. Equal arguments give equal motions at any number of threads, unless time_limit, counted from
+/// the first call of `next`, ends the sequence.
 class MotionPlans {
  public:
-  /// Throws ValueError for what makes no sense, and for moving obstacles and start velocities, which planMotion knows.
+  /// Throws ValueError for invalid options, and for dynamic obstacles and start velocities, which only planMotion
+  /// takes.
   MotionPlans(const Config& config, MotionGoal goal, PlanOptions options = {},
               const std::optional<VectorXd>& start = std::nullopt);
   ~MotionPlans();
   MotionPlans(const MotionPlans&) = delete;
 
-  /// The next motion; where there is none, the first one says why. None after the last one.
+  /// Returns the next motion. If there is no motion, the first plan says why. None after the last one.
   std::optional<MotionPlan> next(const CancellationToken& cancellation = {});
 
  private:
@@ -35,9 +36,10 @@ class MotionPlans {
   PlanOptions options_;
   const VectorXd start_;
   CancellationToken cancellation_, user_cancellation_;
-  std::unique_ptr<Planner> planner_;  ///< made by the first call
+  std::unique_ptr<Planner> planner_;  ///< constructed by the first call
 };
 
+/// Starts a sequence of improving motions; errors as the constructor.
 MotionPlans planMotions(const Config& config, const MotionGoal& goal, const PlanOptions& options = {},
                         const std::optional<VectorXd>& start = std::nullopt);
 

@@ -7,7 +7,7 @@ namespace kinegraph {
 namespace {
 
 constexpr int kMostSlices = 10000;
-constexpr double kAMoment = 1e-9;  // s
+constexpr double kLeastTime = 1e-9;  // s
 
 void validateLimit(const VectorXd& limit, const char* name, int dofs) {
   if (limit.size() > 1 && limit.size() != dofs)
@@ -18,16 +18,16 @@ void validateLimit(const VectorXd& limit, const char* name, int dofs) {
 }
 
 void validateStartAcceleration(const PlanOptions& options, int dofs) {
-  const VectorXd& given = options.start_acceleration;
-  if (given.size() == 0) return;
-  if (given.size() != dofs)
-    throw ValueError(cat("planMotion: start_acceleration has ", given.size(), " numbers; expected ", dofs));
-  if (!given.allFinite()) throw ValueError("planMotion: start_acceleration has numbers that are not finite");
-  if (given.isZero(0.)) return;
-  if (options.jerk.size() == 0)
-    throw ValueError("planMotion: start_acceleration is for motions with limits of the jerk; give jerk, too");
+  const VectorXd& acceleration = options.start_acceleration;
+  if (acceleration.size() == 0) return;
+  if (acceleration.size() != dofs)
+    throw ValueError(cat("planMotion: start_acceleration has ", acceleration.size(), " numbers; expected ", dofs));
+  if (!acceleration.allFinite()) throw ValueError("planMotion: start_acceleration has numbers that are not finite");
+  if (acceleration.isZero(0.)) return;
+  if (options.jerk.size() == 0) throw ValueError("planMotion: start_acceleration needs jerk limits; pass jerk");
   if (options.start_velocity.size() == 0 || options.start_velocity.isZero(0.))
-    throw ValueError("planMotion: there is a start_acceleration and no start_velocity; from rest there is none");
+    throw ValueError(
+        "planMotion: start_acceleration needs a start_velocity; a motion from rest starts with zero acceleration");
 }
 
 }  // namespace
@@ -38,56 +38,55 @@ const OptionTable<PlanOptions>& planOptionTable() {
   static const OptionTable<O> table(
       "planMotion",
       {{"margin", &O::margin, "m",
-        "Distance that all collidable pairs keep; around a start or goal that keeps less, what that keeps.",
+        "Least distance of all collidable pairs. Around a start or goal that keeps less, its own distance counts.",
         Range::notNegative()},
        {"optimize",
         &O::optimize,
         "",
-        "What is made small: 'time', 'length', or 'clearance' (the largest margin that is found, then the time).",
+        "Objective: 'time', 'length', or 'clearance' (the largest margin for which a path is found, then the time).",
         {"time", "length", "clearance"}},
-       {"restarts", &O::restarts, "", "Ways that are searched and shortened; the best one counts.",
+       {"restarts", &O::restarts, "", "Number of paths that are searched and shortened; the best one counts.",
         Range::atLeastOne()},
-       {"blend", &O::blend, "rad or m", "By how much corners may be rounded, in every dof; 0 stops at them.",
+       {"blend", &O::blend, "rad or m",
+        "Largest deviation, in every dof, of a rounded corner from the path; 0 stops at corners.",
         Range::notNegative()},
        {"max_start_penetration", &O::max_start_penetration, "m",
-        "Depth up to which a start or goal in collision is mended: the motion first leaves, and says so.",
+        "Maximum penetration of the start or goal that the planner resolves by a retreat motion, with a warning.",
         Range::notNegative()},
        {"constraint_tolerance", &O::constraint_tolerance, "",
-        "Violation of each row of the constraints that is allowed, in its own unit.", Range::positive()},
+        "Maximum violation of each constraint row, in its own unit.", Range::positive()},
        {"max_goal_samples", &O::max_goal_samples, "",
-        "Most postures that are looked for where the goal is targets or conditions.", Range::atLeastOne()},
+        "Maximum number of goal configurations that are sampled for targets or conditions.", Range::atLeastOne()},
        {"max_evaluations", &O::max_evaluations, "",
-        "Effort of the search of the first way, at most: looks at up to eight postures side by side, or at a motion at "
-        "all times; "
-        "postures that are drawn, or at which constraints are computed, count one each.",
+        "Budget of the first search. One evaluation is a collision check of up to eight configurations, a continuous "
+        "check of one edge, an evaluation of the constraints, or a sample.",
         Range::atLeastOne()},
        {"improvement_evaluations", &O::improvement_evaluations, "",
-        "Effort that is spent on further ways after `tries`: evaluations, each round of ways to its end. planMotions "
-        "takes 1000000 where this is 0.",
+        "Evaluations that are spent on further paths after `restarts`; a started round is completed. planMotions takes "
+        "1000000 if this is 0.",
         Range::notNegative()},
        {"slices", &O::slices, "",
-        "Of a KOMO that bends the motion so that it accelerates less; taken if that is free and faster. 0: none, else "
-        "80 are a good number. For 'time' alone, without constraints, moving obstacles and start velocity.",
+        "Slices of a KOMO problem that smooths the motion, so that it accelerates less. The result replaces the motion "
+        "if it is collision-free and faster. 0: none; 80 is a good number. Needs optimize='time', and no constraints, "
+        "dynamic obstacles or start velocity.",
         Range::notNegative()},
        {"prove_infeasibility", &O::prove_infeasibility, "",
-        "Where no way is found, a proof that there is none is looked for, up to 1.25 times the time limit; without, "
-        "the "
-        "status is 'no_path_found' sooner."},
-       {"timing", &O::timing, "",
-        "The motion gets times; without, there is a path alone, and `at` has nothing to say."},
+        "If no path is found, searches a proof that there is none, for up to 1.25 times the time limit. Without it the "
+        "status 'no_path_found' comes sooner."},
+       {"timing", &O::timing, "", "Computes a time parameterization. Without it the plan has a path only."},
        {"time_limit",
         &O::time_limit,
         "s",
-        "Ends the search, or what would improve its answer; effort is what evaluations and tries say.",
+        "Ends the search, and further improvements of a motion.",
         {[](double v) { return v > 0.; }, "a positive number"}},
-       {"seed", &O::seed, "", "Of random postures; the same one gives the same motion."},
-       {"threads", &O::threads, "", "How many share the work; answers do not depend on it.", Range::atLeastOne()}});
+       {"seed", &O::seed, "", "Seed of the samples. Equal seeds give equal motions."},
+       {"threads", &O::threads, "", "Number of threads. The result does not depend on it.", Range::atLeastOne()}});
   return table;
 }
 
 void PlanOptions::validate() const { planOptionTable().validate(*this); }
 
-double PlanOptions::timeLeft(double seconds) const { return std::max(kAMoment, time_limit - seconds); }
+double PlanOptions::timeLeft(double seconds) const { return std::max(kLeastTime, time_limit - seconds); }
 
 void PlanOptions::validateFor(int dofs) const {
   validate();
@@ -101,13 +100,13 @@ void PlanOptions::validateFor(int dofs) const {
   if (slices > 0 &&
       (optimize != "time" || !constraints.empty() || !obstacle_trajectories.empty() || start_velocity.size() > 0))
     throw ValueError(
-        "planMotion: slices is for optimize 'time', without constraints, obstacle_trajectories and start_velocity");
+        "planMotion: slices needs optimize='time', and no constraints, obstacle_trajectories or start_velocity");
   if (slices == 1 || slices > kMostSlices)
     throw ValueError(cat("planMotion: slices is ", slices, "; expected 0, or 2 to ", kMostSlices));
   if (!start_velocity.allFinite()) throw ValueError("planMotion: start_velocity has numbers that are not finite");
   validateStartAcceleration(*this, dofs);
   if (!obstacle_trajectories.empty() && !acceleration.allFinite())
-    throw ValueError("planMotion: acceleration is infinite; among moving obstacles it has to be limited");
+    throw ValueError("planMotion: acceleration is infinite; dynamic obstacles need a finite limit");
 }
 
 }  // namespace kinegraph

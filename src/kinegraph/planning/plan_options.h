@@ -12,8 +12,10 @@
 
 namespace kinegraph {
 
-/// Where a motion is to end: at one of several postures, or where targets of inverse kinematics are met, or where
-/// conditions hold. Of the latter two, several free postures are looked for, and the motion goes to one of them.
+inline constexpr const char* kPlanMotion = "planMotion";  ///< names the caller in messages
+
+/// The goal of a motion: one of several configurations, targets of inverse kinematics, or conditions. For targets and
+/// conditions the planner samples several collision-free configurations; the motion ends at one of them.
 struct MotionGoal {
   MotionGoal() = default;
   MotionGoal(VectorXd configuration) : configurations{std::move(configuration)} {}
@@ -21,7 +23,7 @@ struct MotionGoal {
   MotionGoal(std::vector<IkTarget> targets) : targets(std::move(targets)) {}
   MotionGoal(std::vector<MotionConstraint> conditions) : conditions(std::move(conditions)) {}
 
-  /// A joint state that the scene knows by name (Config::getStateNames).
+  /// A named joint state of the scene (Config::getStateNames).
   static MotionGoal named(std::string state) {
     MotionGoal goal;
     goal.state = std::move(state);
@@ -34,7 +36,9 @@ struct MotionGoal {
   std::string state;
 };
 
-/// Settings of planMotion; planOptionTable() says what each number means.
+/// Settings of planMotion; planOptionTable() documents the scalar ones. Budgets are evaluations: one evaluation is a
+/// collision check of up to eight configurations side by side, a continuous check of one edge, an evaluation of the
+/// constraints, or a sample. A check that exits early still counts as one.
 struct PlanOptions {
   double margin = 0.;
   std::string optimize = "time";
@@ -50,23 +54,22 @@ struct PlanOptions {
   std::uint64_t seed = 0;
   int threads = 1;
 
-  VectorXd velocity = {};      ///< most |dq/dt| per dof, or one for all, rad/s or m/s; empty: the model's
-  VectorXd acceleration = {};  ///< most |d2q/dt2|; empty: full speed within a quarter of a second
-  VectorXd jerk = {};          ///< most |d3q/dt3|; empty: none
-  std::vector<MotionConstraint> constraints = {};  ///< that hold all along the path
-  VectorXd start_velocity = {};                    ///< dq/dt with which the motion begins, rad/s or m/s; empty: at rest
-  VectorXd start_acceleration = {};                ///< d2q/dt2, with start_velocity and limits of the jerk; empty: none
-  bool prove_infeasibility = true;                 ///< where no way is found, a proof that there is none is looked for
-  bool timing = true;                              ///< the path gets times; else `timed` is empty
-  std::vector<ObstacleTrajectory> obstacle_trajectories =
-      {};  ///< what moves meanwhile; times count from the begin of the motion, s
+  VectorXd velocity = {};      ///< limit of |dq/dt|, per dof or one for all, rad/s or m/s; empty: the model's
+  VectorXd acceleration = {};  ///< limit of |d2q/dt2|; empty: full speed within a quarter of a second
+  VectorXd jerk = {};          ///< limit of |d3q/dt3|; empty: none
+  std::vector<MotionConstraint> constraints = {};  ///< of the whole path
+  VectorXd start_velocity = {};                    ///< initial dq/dt, rad/s or m/s; empty: at rest
+  VectorXd start_acceleration = {};                ///< initial d2q/dt2; needs start_velocity and jerk; empty: zero
+  bool prove_infeasibility = true;                 ///< if no path is found, searches a proof that there is none
+  bool timing = true;                              ///< computes a time parameterization; else timed_path is empty
+  std::vector<ObstacleTrajectory> obstacle_trajectories = {};  ///< dynamic obstacles; time 0 is the start of the motion
 
-  void validate() const;  ///< throws ValueError naming the first field that makes no sense
+  void validate() const;  ///< throws ValueError that names the first invalid field
 
-  /// The same for a scene with that many dofs.
+  /// Also validates the fields whose length or use depends on the number of dofs.
   void validateFor(int dofs) const;
 
-  /// What is left of time_limit after so many seconds, and a moment at least.
+  /// The rest of time_limit after some seconds; always positive.
   double timeLeft(double seconds) const;
 };
 

@@ -1,4 +1,4 @@
-// How plans and roadmaps look in the scene.
+// Pictures of plans and roadmaps in their scene.
 #include <algorithm>
 #include <cmath>
 
@@ -12,13 +12,13 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kDrawnStep = .1;  // joint space: what is straight in q is curved in the world
-constexpr int kMostPerMotion = 40;
+constexpr double kDrawnStep = .1;  // between points of a line, in joint space
+constexpr int kMostParts = 40;
 using Color = std::array<std::uint8_t, 4>;
 constexpr Color kBlue = {40, 110, 220, 255}, kOrange = {240, 140, 30, 255}, kGray = {120, 120, 120, 255},
                 kGreen = {20, 160, 60, 255};
 
-/// One frame on each link at the end of a chain.
+/// Returns one frame of each link without children.
 std::vector<int> tips(const KinematicModel& model) {
   std::vector<char> ends(model.links.size(), 1);
   for (const KinematicModel::Link& link : model.links) ends[std::size_t(link.parent)] = 0;
@@ -28,22 +28,22 @@ std::vector<int> tips(const KinematicModel& model) {
   return frames;
 }
 
-/// Lines along which frames go.
+/// Traces of frames along edges, as lines in a copy of the scene.
 class Drawing {
  public:
   Drawing(const Config& config, const JointSpace& space, const std::vector<std::string>& frames, const char* who)
       : picture_(config), space_(space), state_(config.state()) {
     if (config.getJointDimension() != space.dofs())
       throw ValueError(cat(who, ": the scene has ", config.getJointDimension(), " dofs; expected ", space.dofs(),
-                           ", those that were planned for"));
+                           ", as the scene of the plan has"));
     const KinematicModel& model = *config.model();
     for (const std::string& name : frames) frames_.push_back(frameId(model, name, who));
     if (frames.empty()) frames_ = tips(model);
   }
 
-  void addMotion(const VectorXd& from, const VectorXd& to) {
+  void addEdge(const VectorXd& from, const VectorXd& to) {
     const VectorXd change = space_.difference(from, to);
-    const int parts = std::clamp(int(std::ceil(change.norm() / kDrawnStep)), 1, kMostPerMotion);
+    const int parts = std::clamp(int(std::ceil(change.norm() / kDrawnStep)), 1, kMostParts);
     for (const int frame : frames_) {
       for (int i = 0; i <= parts; ++i) {
         const VectorXd q = from + double(i) / parts * change;
@@ -55,16 +55,16 @@ class Drawing {
   }
 
   void addPath(const MatrixXd& path) {
-    for (Eigen::Index k = 1; k < path.rows(); ++k) addMotion(path.row(k - 1).transpose(), path.row(k).transpose());
+    for (Eigen::Index k = 1; k < path.rows(); ++k) addEdge(path.row(k - 1).transpose(), path.row(k).transpose());
   }
 
-  void addTree(const MotionTree& tree) {
+  void addTree(const SearchTree& tree) {
     for (int i = 0; i < tree.size(); ++i)
-      if (tree.node(i).parent >= 0) addMotion(tree.q(tree.node(i).parent), tree.q(i));
+      if (tree.node(i).parent >= 0) addEdge(tree.q(tree.node(i).parent), tree.q(i));
   }
 
-  /// Puts what was added into the picture.
-  void sample(const std::string& name, const Color& color) {
+  /// Adds a frame with the lines since the last call.
+  void addLines(const std::string& name, const Color& color) {
     if (points_.empty()) return;
     Frame frame = picture_.addFrame(name);
     setLines(frame, points_, {color});
@@ -87,20 +87,20 @@ Config MotionPlan::picture(const Config& config, const std::vector<std::string>&
   Drawing drawing(config, *space, frames, "MotionPlan.picture");
   for (std::size_t i = 0; i < trees.size(); ++i) {
     drawing.addTree(trees[i]);
-    drawing.sample(i == 0 ? "start tree" : "goal tree", i == 0 ? kBlue : kOrange);
+    drawing.addLines(i == 0 ? "start tree" : "goal tree", i == 0 ? kBlue : kOrange);
   }
   drawing.addPath(raw_path);
-  drawing.sample("first way", kGray);
+  drawing.addLines("raw path", kGray);
   drawing.addPath(path);
-  drawing.sample("path", kGreen);
+  drawing.addLines("path", kGreen);
   if (!feasible() && !obstacles.empty()) drawing.picture().getFrame(obstacles.front().frame).setColor({1., 0., 0.});
   return std::move(drawing.picture());
 }
 
 Config Roadmap::picture(const Config& config, const std::vector<std::string>& frames) const {
   Drawing drawing(config, *space_, frames, "Roadmap.picture");
-  for (const auto& [a, b] : motionEnds()) drawing.addMotion(nodes_[std::size_t(a)], nodes_[std::size_t(b)]);
-  drawing.sample("roadmap", kBlue);
+  for (const auto& [a, b] : edgeEnds()) drawing.addEdge(nodes_[std::size_t(a)], nodes_[std::size_t(b)]);
+  drawing.addLines("roadmap", kBlue);
   return std::move(drawing.picture());
 }
 

@@ -7,26 +7,26 @@
 
 namespace kinegraph {
 
-/// Most |dq/dt|, |d2q/dt2|, |d3q/dt3| per dof: as the options say, else the model's velocities, 1 rad/s or m/s where it
-/// says none, and accelerations that reach them in a quarter of a second.
+/// The limits of |dq/dt|, |d2q/dt2| and |d3q/dt3| per dof. Defaults: the velocities of the model, or 1 rad/s or m/s if
+/// it has none, and accelerations that reach them in a quarter of a second.
 MotionLimits planLimits(const Config& config, const PlanOptions& options);
 
-/// Whether a rounded corner keeps the margins and constraints of a Steering, which must stay, at all times.
-BlendCheck freeBlends(Steering& steering);
+/// A check that a rounded corner keeps the margins and constraints of a Steering continuously. The Steering must
+/// outlive it.
+BlendCheck collisionFreeBlends(Steering& steering);
 
-/// Is every piece of a curve free at all times, by a Steering's margins and constraints? Each one that is no line is looked at
-/// in so many parts, with room for how far these leave their chords.
+/// Whether a curve keeps the margins and constraints of a Steering continuously. Checks the chords of so many `parts`
+/// of each curved piece, with margins that include the deviation of the curve from its chords.
 bool isFree(Steering& steering, const PathCurve& curve, int parts);
 
-/// The motion of a law that is known along a curve, which is as `rows` at its marks; of its phases, s says on which pieces they
-/// are.
-TimedPath timedBy(TimeScaling scaling, const MatrixXd& rows, const PathCurve& curve);
+/// The timed path of a known time scaling along a curve. `waypoints` are the points at the marks of the curve. Assigns
+/// each phase of the scaling to the piece at its s.
+TimedPath timedBy(TimeScaling scaling, const MatrixXd& waypoints, const PathCurve& curve);
 
-/// One motion and then another one: the first ends at rest where the second begins at rest.
-TimedPath inTurn(const TimedPath& first, const TimedPath& second);
+/// Concatenates two timed paths: the first ends at rest, and the second begins there at rest.
+TimedPath concatenated(const TimedPath& first, const TimedPath& second);
 
-/// The fastest motion along a path. Corners are rounded where that keeps the margins and constraints; at others it
-/// stops.
+/// The fastest motion along a path. Rounds corners if that keeps the margins and constraints, and stops at others.
 TimedPath timeMotion(Steering& steering, const MatrixXd& path, const MotionLimits& limits, double blend);
 
 }  // namespace kinegraph

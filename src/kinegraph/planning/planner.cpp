@@ -12,20 +12,19 @@ namespace kinegraph {
 
 namespace {
 
-constexpr const char* kWho = "planMotion";
-constexpr int kRoundTries = 8;          // ways that are searched side by side, before the best one is known to others
-constexpr double kWorthPulling = 1.25;  // of the best cost: a way that is so much longer is not pulled taut
-constexpr double kProofUntil = 1.25;    // of the time limit
-constexpr double kWorthTelling = 1e-4;  // of what is made small, by which the next motion is better
-constexpr double kMargins[] = {.1, .05, .03, .02, .01, .005};  // m, tried in turn where clearance is asked for
+constexpr int kPathsPerRound = 8;          // searched in parallel, each without the results of the others
+constexpr double kWorthTightening = 1.25;  // of the best cost: longer paths are not tightened
+constexpr double kProofUntil = 1.25;       // of the time limit
+constexpr double kLeastGain = 1e-4;        // of the objective, by which the next motion is better
+constexpr double kMargins[] = {.1, .05, .03, .02, .01, .005};  // m, tried in turn to optimize clearance
 
 double secondsSince(std::chrono::steady_clock::time_point began) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
 }
 
-std::string noteOf(const Way& way) {
-  if (way.is_line) return "the straight motion is free";
-  return cat(way.attempts.size(), " attempts with trees, ", way.points.empty() ? "no way" : "a way");
+std::string noteOf(const PathSearchResult& found) {
+  if (found.is_line) return "the straight motion is collision-free";
+  return cat(found.searches.size(), " tree searches, ", found.points.empty() ? "no path" : "a path");
 }
 
 }  // namespace
@@ -37,14 +36,14 @@ Planner::Planner(const Config& config, const PlanOptions& options, const Cancell
       contexts_(options.threads),
       user_cancellation_(cancellation),
       cancellation_([this] { return isCancelled() || isLate(); }),
-      draws_(*config.model()) {
+      samples_(*config.model()) {
   plan_.space = std::make_shared<const JointSpace>(*config.model());
   plan_.scene = std::make_shared<const State>(config.state());
-  planning_constraints_ = {.scene = plan_.scene.get(),
-                           .space = &draws_,
-                           .clearance = {.margin = options.margin},
-                           .constraints = options.constraints,
-                           .constraint_tolerance = options.constraint_tolerance};
+  constraints_ = {.scene = plan_.scene.get(),
+                  .space = &samples_,
+                  .clearance = {.margin = options.margin},
+                  .constraints = options.constraints,
+                  .constraint_tolerance = options.constraint_tolerance};
 }
 
 MotionPlan Planner::run(const MotionGoal& goal, const VectorXd& start) {
@@ -73,30 +72,31 @@ bool Planner::failStopped(const std::string& message) {
                     : fail(PlanStatus::timeout, cat("time limit of ", options_.time_limit, " s; ", message));
 }
 
-// --- the ends ----------------------------------------------------------------------------------------------------
+// --- endpoints ---------------------------------------------------------------------------------------------------
 
-/// A blocked end that only touches, or overlaps slightly, is left first.
+/// Replaces an endpoint in slight contact by a retreat configuration.
 Planner::SearchEndpoint Planner::searchEndpoint(Steering& steering, Endpoint end, const std::string& what) {
-  SearchEndpoint gate{end, end.q};
-  plan_.space->normalize(gate.inside);
+  SearchEndpoint endpoint{end, end.q};
+  plan_.space->normalize(endpoint.inside);
   const bool slight = !end.near.empty() && end.near.front().distance >= -options_.max_start_penetration;
-  if (end.isFree() || !slight) return gate;
+  if (end.isFree() || !slight) return endpoint;
   const std::optional<VectorXd> inside = retreatFromContact(config_, steering, end, options_.margin);
-  if (!inside) return gate;
-  plan_.warnings.push_back(cat("the ", what, " is in contact: ", describePairs(*config_.model(), end.near),
-                               what == "start" ? "; the motion first leaves it" : "; the motion comes to it last"));
-  gate.inside = *inside;
-  gate.leaves = true;
-  gate.deepest = end.near.front().distance - 2. * Clearance::kTolerance;
-  gate.end = checkEndpoint(steering, *config_.model(), *inside, options_.margin, what, kWho);
-  gate.end.q = end.q;
-  return gate;
+  if (!inside) return endpoint;
+  plan_.warnings.push_back(
+      cat("the ", what, " is in contact: ", describePairs(*config_.model(), end.near),
+          what == "start" ? "; the motion begins with a retreat" : "; the motion ends with a contact"));
+  endpoint.inside = *inside;
+  endpoint.retreats = true;
+  endpoint.deepest = end.near.front().distance - 2. * Clearance::kTolerance;
+  endpoint.end = checkEndpoint(steering, *config_.model(), *inside, options_.margin, what, kPlanMotion);
+  endpoint.end.q = end.q;
+  return endpoint;
 }
 
 bool Planner::checkEndpoints(const MotionGoal& goal, const VectorXd& start) {
-  Steering& steering = contexts_.of(0, planning_constraints_);
-  start_ = searchEndpoint(steering, checkEndpoint(steering, *config_.model(), start, options_.margin, "start", kWho),
-                          "start");
+  Steering& steering = contexts_.of(0, constraints_);
+  start_ = searchEndpoint(
+      steering, checkEndpoint(steering, *config_.model(), start, options_.margin, "start", kPlanMotion), "start");
   if (!start_.end.isFree()) return fail(PlanStatus::invalid_start, start_.end.problem);
   GoalConfigurations configurations =
       goalConfigurations(config_, goal, start_.end.q, steering, options_, cancellation_);
@@ -105,28 +105,27 @@ bool Planner::checkEndpoints(const MotionGoal& goal, const VectorXd& start) {
                            : fail(PlanStatus::goal_unreachable, configurations.message);
   std::string problem;
   for (std::size_t i = 0; i < configurations.ends.size(); ++i) {
-    SearchEndpoint gate = searchEndpoint(steering, configurations.ends[i], "goal");
-    if (gate.end.isFree()) {
-      goals_.push_back(gate);
+    SearchEndpoint endpoint = searchEndpoint(steering, configurations.ends[i], "goal");
+    if (endpoint.end.isFree()) {
+      goals_.push_back(endpoint);
       goal_numbers_.push_back(int(i));
     } else if (problem.empty()) {
-      problem = gate.end.problem;
+      problem = endpoint.end.problem;
     }
   }
-  endStage("ends", steering.evaluations(),
-           cat(goals_.size(), " of ", configurations.ends.size(), " goal postures are free"));
+  endStage("endpoints", steering.evaluations(),
+           cat(goals_.size(), " of ", configurations.ends.size(), " goal configurations are collision-free"));
   if (goals_.empty()) return fail(PlanStatus::invalid_goal, problem);
   if (plan_.warnings.size() > 3) plan_.warnings.resize(3);
   for (const std::string& name : steering.manifold().sampled())
-    plan_.warnings.push_back(
-        cat("the constraint ", name, " was looked at every ", Steering::kSpacing, " along the way"));
+    plan_.warnings.push_back(cat("the constraint ", name, " was checked at samples ", Steering::kSpacing, " apart"));
   return true;
 }
 
-/// Around gates that keep less than the margin, it is what they keep.
+/// The clearance to keep: the margin, and around endpoints that keep less, their own clearance.
 Clearance Planner::clearance(double margin) const {
   std::vector<Endpoint> ends;
-  for (const SearchEndpoint& gate : goals_) ends.push_back(gate.end), ends.back().q = gate.inside;
+  for (const SearchEndpoint& endpoint : goals_) ends.push_back(endpoint.end), ends.back().q = endpoint.inside;
   ends.push_back(start_.end);
   ends.back().q = start_.inside;
   std::vector<const Endpoint*> list;
@@ -136,86 +135,86 @@ Clearance Planner::clearance(double margin) const {
   return clearance;
 }
 
-// --- the way -----------------------------------------------------------------------------------------------------
+// --- path --------------------------------------------------------------------------------------------------------
 
-PathQuery Planner::request() {
-  PathQuery request{.constraints = planning_constraints_, .starts = {start_.inside}, .goals = {}};
-  for (const SearchEndpoint& gate : goals_) request.goals.push_back(gate.inside);
-  request.seed = options_.seed;
-  request.evaluations = options_.max_evaluations;
-  request.threads = options_.threads;
-  request.cancellation = cancellation_;
-  request.steering = &contexts_.of(0, planning_constraints_);
-  return request;
+PathQuery Planner::query() {
+  PathQuery query{.constraints = constraints_, .starts = {start_.inside}, .goals = {}};
+  for (const SearchEndpoint& endpoint : goals_) query.goals.push_back(endpoint.inside);
+  query.seed = options_.seed;
+  query.max_evaluations = options_.max_evaluations;
+  query.threads = options_.threads;
+  query.cancellation = cancellation_;
+  query.steering = &contexts_.of(0, constraints_);
+  return query;
 }
 
 bool Planner::findPath() {
-  Way way;
-  if (options_.optimize == "clearance") way = searchWithRoom();
-  if (way.points.empty()) {
-    planning_constraints_.clearance = clearance(options_.margin);
-    way = searchPath(request());
+  PathSearchResult found;
+  if (options_.optimize == "clearance") found = searchWithClearance();
+  if (found.points.empty()) {
+    constraints_.clearance = clearance(options_.margin);
+    found = searchPath(query());
   }
-  plan_.attempts = way.attempts;
-  plan_.trees = way.trees;
-  endStage("search", way.evaluations, noteOf(way));
-  if (way.points.empty()) return failSearch(way);
-  improve(way);
+  plan_.searches = found.searches;
+  plan_.trees = found.trees;
+  endStage("search", found.evaluations, noteOf(found));
+  if (found.points.empty()) return failSearch(found);
+  improve(found);
   return true;
 }
 
-/// With the largest margin for which a way is found soon.
-Way Planner::searchWithRoom() {
+/// Searches with the largest margin for which a path is found with a small budget.
+PathSearchResult Planner::searchWithClearance() {
   for (const double margin : kMargins) {
     if (margin <= options_.margin || cancellation_()) continue;
-    planning_constraints_.clearance = withEndsAt(margin);
-    PathQuery asked = request();
-    asked.evaluations = std::max(1l, asked.evaluations / 20);
-    Way way = searchPath(asked);
-    if (way.points.empty()) continue;
+    constraints_.clearance = clearanceOfEndpoints(margin);
+    PathQuery asked = query();
+    asked.max_evaluations = std::max(1l, asked.max_evaluations / 20);
+    PathSearchResult found = searchPath(asked);
+    if (found.points.empty()) continue;
     plan_.margin = margin;
-    return way;
+    return found;
   }
   return {};
 }
 
-/// Clearances for a larger margin than the ends were looked at with.
-Clearance Planner::withEndsAt(double margin) {
-  Steering& steering = contexts_.of(0, planning_constraints_);
+/// The clearance to keep for a larger margin than the one of the endpoint checks.
+Clearance Planner::clearanceOfEndpoints(double margin) {
+  Steering& steering = contexts_.of(0, constraints_);
   Clearance larger{.margin = margin, .guard = Clearance::kGuard};
   std::vector<Endpoint> ends;
-  for (const SearchEndpoint& gate : goals_)
-    ends.push_back(checkEndpoint(steering, *config_.model(), gate.inside, margin, "goal", kWho));
-  ends.push_back(checkEndpoint(steering, *config_.model(), start_.inside, margin, "start", kWho));
+  for (const SearchEndpoint& endpoint : goals_)
+    ends.push_back(checkEndpoint(steering, *config_.model(), endpoint.inside, margin, "goal", kPlanMotion));
+  ends.push_back(checkEndpoint(steering, *config_.model(), start_.inside, margin, "start", kPlanMotion));
   std::vector<const Endpoint*> list;
   for (const Endpoint& end : ends) list.push_back(&end);
   larger.tight = clearanceAround(margin, list).tight;
   return larger;
 }
 
-bool Planner::failSearch(const Way& way) {
+bool Planner::failSearch(const PathSearchResult& found) {
   long samples = 0;
-  for (const SearchReport& attempt : way.attempts) samples += attempt.samples;
-  const SearchReport last = way.attempts.empty() ? SearchReport() : way.attempts.back();
-  plan_.obstacles = obstaclesMet(*config_.model(), way.hits);
+  for (const SearchReport& search : found.searches) samples += search.samples;
+  const SearchReport last = found.searches.empty() ? SearchReport() : found.searches.back();
+  plan_.obstacles = obstaclesMet(*config_.model(), found.hits);
   const std::string met = describeObstacles(plan_.obstacles);
-  const std::string words =
-      cat("no way found: ", way.evaluations, " evaluations, ", samples, " postures drawn in ", way.attempts.size(),
-          " attempts; the last trees have ", last.start_nodes, " postures (start) and ", last.goal_nodes, " (goals)",
-          met.empty() ? "" : cat("; most motions ended at ", met));
-  if (cancelled_) return failStopped(words);
+  const std::string description =
+      cat("no path found: ", found.evaluations, " evaluations, ", samples, " samples in ", found.searches.size(),
+          " tree searches; the last trees have ", last.start_nodes, " nodes (start) and ", last.goal_nodes, " (goals)",
+          met.empty() ? "" : cat("; most edges collided with ", met));
+  if (cancelled_) return failStopped(description);
   std::vector<VectorXd> goals;
-  for (const SearchEndpoint& gate : goals_) goals.push_back(gate.inside);
-  const bool tight = !planning_constraints_.clearance.tight.empty();  // then the margin does not hold everywhere
+  for (const SearchEndpoint& endpoint : goals_) goals.push_back(endpoint.inside);
+  const bool is_tight = !constraints_.clearance.tight.empty();  // the margin does not hold everywhere
   std::string proof;
   if (options_.prove_infeasibility) {
     const auto is_enough = [this] { return isCancelled() || secondsSince(began_) > kProofUntil * options_.time_limit; };
-    proof = proveInfeasible(*plan_.scene, start_.inside, goals, tight ? 0. : options_.margin, is_enough);
-    endStage("prove", 0, proof.empty() ? "no proof that there is none" : "");
+    proof = proveInfeasible(*plan_.scene, start_.inside, goals, is_tight ? 0. : options_.margin, is_enough);
+    endStage("infeasibility_proof", 0, proof.empty() ? "no proof found" : "");
   }
-  if (!proof.empty()) return fail(PlanStatus::infeasible, cat(proof, "; ", words));
-  if (way.was_stopped || cancelled_) return failStopped(words);
-  return fail(PlanStatus::no_path_found, words);
+  if (!proof.empty()) return fail(PlanStatus::infeasible, cat(proof, "; ", description));
+  if (found.was_stopped || cancelled_) return failStopped(description);
+  return fail(PlanStatus::no_path_found, description);
 }
 
 VectorXd Planner::weight() const {
@@ -223,53 +222,53 @@ VectorXd Planner::weight() const {
   return limits_.velocity.minCoeff() * limits_.velocity.cwiseInverse();
 }
 
-void Planner::improve(const Way& first) {
-  tries_ = options_.restarts;
-  best_ = improvePath(first, request(),
-                      {.tries = options_.restarts, .weight = weight(), .late = [this] { return isLate(); }}, contexts_);
-  endStage("shorten", best_.evaluations,
-           first.is_line ? "" : cat("the best of ", options_.restarts, options_.restarts == 1 ? " way" : " ways"));
+void Planner::improve(const PathSearchResult& first) {
+  paths_ = options_.restarts;
+  best_ = improvePath(first, query(),
+                      {.paths = options_.restarts, .weight = weight(), .late = [this] { return isLate(); }}, contexts_);
+  endStage("shortcut", best_.evaluations,
+           first.is_line ? "" : cat("the best of ", options_.restarts, options_.restarts == 1 ? " path" : " paths"));
   const double before = best_.cost;
-  const int refinements = options_.optimize == "length" ? 2 : 0;  // each corner more takes time
-  tighten(best_, request(), weight(), refinements, contexts_);
-  endStage("tighten", best_.evaluations,
+  const int refinements = options_.optimize == "length" ? 2 : 0;  // every additional corner takes time
+  tighten(best_, query(), weight(), refinements, contexts_);
+  endStage("rope_shortcut", best_.evaluations,
            best_.cost < before ? cat(lround(1000. * (1. - best_.cost / before)) / 10., " % shorter") : "");
 }
 
-/// The next round of ways.
+/// Runs the next round of searches.
 void Planner::improveFurther() {
-  drawWhereShorter();
+  restrictSamples();
   ImprovePathOptions options{
-      .tries = kRoundTries, .first_try = tries_, .weight = weight(), .late = [this] { return isLate(); }};
-  options.taut_below = kWorthPulling * best_.cost;
+      .paths = kPathsPerRound, .first_number = paths_, .weight = weight(), .late = [this] { return isLate(); }};
+  options.tighten_below = kWorthTightening * best_.cost;
   options.refinements = options_.optimize == "length" ? 2 : 0;
-  ShortcutResult found = improvePath(best_.way, request(), options, contexts_);
-  tries_ += kRoundTries;
+  ShortcutResult found = improvePath(best_.found, query(), options, contexts_);
+  paths_ += kPathsPerRound;
   further_ += std::max(found.evaluations, 1l);
   if (found.points.empty() || found.cost >= best_.cost) return;
   best_ = std::move(found);
 }
 
-/// A way from start to goal through q is not shorter than |q - start| + |q - goal|.
-void Planner::drawWhereShorter() {
+/// Restricts samples to where a shorter path can pass: a path through q is at least |q - start| + |q - goal| long.
+void Planner::restrictSamples() {
   const VectorXd w = weight(), start = start_.inside;
   VectorXd lower = start, upper = start;
-  for (const SearchEndpoint& gate : goals_) {
-    const VectorXd change = draws_.difference(start, gate.inside).cwiseProduct(w);
+  for (const SearchEndpoint& endpoint : goals_) {
+    const VectorXd change = samples_.difference(start, endpoint.inside).cwiseProduct(w);
     const double a = .5 * best_.cost, direct = change.norm(), b2 = a * a - .25 * direct * direct;
     if (b2 < 0.) continue;
     for (Eigen::Index j = 0; j < w.size(); ++j) {
       const double along = direct > 0. ? change[j] / direct : 0.;
       const double half = std::sqrt(a * a * along * along + b2 * (1. - along * along)) / w[j];
-      lower[j] = std::min(lower[j], .5 * (start[j] + gate.inside[j]) - half);
-      upper[j] = std::max(upper[j], .5 * (start[j] + gate.inside[j]) + half);
+      lower[j] = std::min(lower[j], .5 * (start[j] + endpoint.inside[j]) - half);
+      upper[j] = std::max(upper[j], .5 * (start[j] + endpoint.inside[j]) + half);
     }
   }
-  draws_.sampleWithin(lower, upper);
+  samples_.sampleWithin(lower, upper);
 }
 
 std::optional<MotionPlan> Planner::better() {
-  if (!plan_.feasible() || best_.way.is_line) return std::nullopt;
+  if (!plan_.feasible() || best_.found.is_line) return std::nullopt;
   const bool by_length = options_.optimize == "length" || !options_.timing;
   const auto value = [&](const MotionPlan& plan) { return by_length ? plan.length : plan.duration(); };
   while (further_ < options_.improvement_evaluations && !cancellation_()) {
@@ -278,43 +277,44 @@ std::optional<MotionPlan> Planner::better() {
     if (best_.cost >= cost) continue;
     MotionPlan before = plan_;
     std::erase_if(plan_.stages, [](const PlanStage& stage) {
-      return stage.name == "improve" || stage.name == "verify" || stage.name == "time" || stage.name == "bend";
+      return stage.name == "improvement" || stage.name == "verify" || stage.name == "timing" ||
+             stage.name == "smoothing";
     });
-    endStage("improve", further_, cat(tries_ - options_.restarts, " further ways"));
+    endStage("improvement", further_, cat(paths_ - options_.restarts, " further paths"));
     finish();
-    if (plan_.feasible() && value(plan_) < (1. - kWorthTelling) * value(before)) return plan_;
+    if (plan_.feasible() && value(plan_) < (1. - kLeastGain) * value(before)) return plan_;
     plan_ = std::move(before);
   }
   return std::nullopt;
 }
 
-// --- the motion ----------------------------------------------------------------------------------------------------
+// --- motion ------------------------------------------------------------------------------------------------------
 
-/// The whole path, gates included, as rows.
-MatrixXd Planner::rows(const std::vector<VectorXd>& points, const Way& way) const {
+/// The waypoints of the whole path, retreat motions included.
+MatrixXd Planner::waypoints(const std::vector<VectorXd>& points, const PathSearchResult& found) const {
   std::vector<VectorXd> all = points;
-  if (start_.leaves) {
+  if (start_.retreats) {
     all.insert(all.begin(), start_.end.q);
   } else {
-    all.front() = start_.end.q;  // an endless joint keeps its turns
+    all.front() = start_.end.q;  // an endless joint keeps its number of rotations
   }
-  if (goals_[std::size_t(way.goal)].leaves) all.push_back(goals_[std::size_t(way.goal)].end.q);
+  if (goals_[std::size_t(found.goal)].retreats) all.push_back(goals_[std::size_t(found.goal)].end.q);
   return plan_.space->unroll(all);
 }
 
-/// What keeps the margins without a guard.
-Steering& Planner::exactly() {
-  PlanningConstraints exact = planning_constraints_;
+/// Steering that keeps the margins without a guard.
+Steering& Planner::withoutGuard() {
+  PlanningConstraints exact = constraints_;
   exact.clearance.guard = 0.;
   return contexts_.of(0, exact);
 }
 
-/// Is each straight motion free at all times, but for those that leave and enter contacts, which are known?
-bool Planner::verify(const MatrixXd& path, const Way& way, long& evaluations) {
-  Steering& steering = exactly();
+/// Verifies every edge continuously, except the retreat motions, which retreatFromContact verified.
+bool Planner::verify(const MatrixXd& path, const PathSearchResult& found, long& evaluations) {
+  Steering& steering = withoutGuard();
   const long before = steering.evaluations();
-  const Eigen::Index first = start_.leaves ? 2 : 1,
-                     last = path.rows() - 1 - (goals_[std::size_t(way.goal)].leaves ? 1 : 0);
+  const Eigen::Index first = start_.retreats ? 2 : 1,
+                     last = path.rows() - 1 - (goals_[std::size_t(found.goal)].retreats ? 1 : 0);
   bool is_free = true;
   for (Eigen::Index k = first; k <= last && is_free; ++k)
     is_free = steering.isFree(path.row(k - 1).transpose(), path.row(k).transpose());
@@ -322,53 +322,54 @@ bool Planner::verify(const MatrixXd& path, const Way& way, long& evaluations) {
   return is_free;
 }
 
-/// What all of the path keeps: the margin, the least one around the ends, or the depth of a contact that is left.
-double Planner::verified_margin() const {
+/// The margin of the whole path: the margin, the least one around endpoints, or the distance of a pair in contact.
+double Planner::verifiedMargin() const {
   double least = plan_.margin;
-  for (const Clearance::Tight& tight : planning_constraints_.clearance.tight) least = std::min(least, tight.margin);
-  for (const SearchEndpoint* gate : {&start_, &goals_[std::size_t(best_.way.goal)]})
-    if (gate->leaves) least = std::min(least, gate->deepest);
+  for (const Clearance::Tight& tight : constraints_.clearance.tight) least = std::min(least, tight.margin);
+  for (const SearchEndpoint* endpoint : {&start_, &goals_[std::size_t(best_.found.goal)]})
+    if (endpoint->retreats) least = std::min(least, endpoint->deepest);
   return least;
 }
 
 void Planner::finish() {
   long evaluations = 0;
-  plan_.path = rows(best_.points, best_.way);
-  const bool is_free = verify(plan_.path, best_.way, evaluations);
+  plan_.path = waypoints(best_.points, best_.found);
+  const bool is_free = verify(plan_.path, best_.found, evaluations);
   if (!is_free) {
-    plan_.path = rows(best_.way.points, best_.way);  // as the search had verified it
-    if (!verify(plan_.path, best_.way, evaluations)) {
+    plan_.path = waypoints(best_.found.points, best_.found);  // as verified by the search
+    if (!verify(plan_.path, best_.found, evaluations)) {
       plan_.path.resize(0, 0);
-      fail(PlanStatus::no_path_found, "the way that was found could not be verified");
+      fail(PlanStatus::no_path_found, "the path that was found could not be verified");
       return;
     }
   }
-  plan_.raw_path = rows(best_.way.points, best_.way);
-  plan_.goal = goal_numbers_[std::size_t(best_.way.goal)];
-  plan_.verified_margin = verified_margin();
+  plan_.raw_path = waypoints(best_.found.points, best_.found);
+  plan_.goal = goal_numbers_[std::size_t(best_.found.goal)];
+  plan_.verified_margin = verifiedMargin();
   plan_.length = pathLength(*plan_.space, plan_.path);
-  endStage("verify", evaluations, is_free ? "" : "the way as it was found, since the shortened one was not free");
+  endStage("verify", evaluations, is_free ? "" : "the raw path, since the shortened one is not collision-free");
   if (options_.timing) {
-    plan_.timed = timeMotion(exactly(), plan_.path, limits_, options_.blend);
-    endStage("time", 0, plan_.timed.str());
+    plan_.timed_path = timeMotion(withoutGuard(), plan_.path, limits_, options_.blend);
+    endStage("timing", 0, plan_.timed_path.str());
   }
-  if (options_.slices > 0) bend();
+  if (options_.slices > 0) smooth();
   plan_.status = PlanStatus::solved;
 }
 
-/// Takes what KOMO makes of the motion, if that is faster. Not where the motion leaves or enters contacts.
-void Planner::bend() {
-  const bool leaves = start_.leaves || goals_[std::size_t(best_.way.goal)].leaves;
-  if (leaves || !plan_.timed.feasible() || !config_.model()->unit_norms.empty()) return;
-  const double before = plan_.timed.duration();
-  std::optional<SmoothedMotion> bent =
-      smoothMotion(config_, exactly(), plan_.timed, limits_, verified_margin(), options_.slices, cancellation_);
-  if (bent) {
-    plan_.path = std::move(bent->path);
-    plan_.timed = std::move(bent->timed);
+/// Smooths the motion by KOMO, and takes the result if it is faster. Motions with retreats stay.
+void Planner::smooth() {
+  const bool retreats = start_.retreats || goals_[std::size_t(best_.found.goal)].retreats;
+  if (retreats || !plan_.timed_path.feasible() || !config_.model()->unit_norms.empty()) return;
+  const double before = plan_.timed_path.duration();
+  std::optional<SmoothedMotion> smoothed = smoothMotion(config_, withoutGuard(), plan_.timed_path, limits_,
+                                                        verifiedMargin(), options_.slices, cancellation_);
+  if (smoothed) {
+    plan_.path = std::move(smoothed->path);
+    plan_.timed_path = std::move(smoothed->timed_path);
     plan_.length = pathLength(*plan_.space, plan_.path);
   }
-  endStage("bend", 0, bent ? cat(plan_.timed.duration(), " s instead of ", before, " s") : "nothing faster was found");
+  endStage("smoothing", 0,
+           smoothed ? cat(plan_.timed_path.duration(), " s instead of ", before, " s") : "no faster motion was found");
 }
 
 MotionPlan planFromRest(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,

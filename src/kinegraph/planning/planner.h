@@ -10,35 +10,33 @@
 
 namespace kinegraph {
 
-/// planMotion from a start at rest among obstacles that stand still: its stages, one after the other, and what is done to
-/// find better motions.
+/// planMotion from a start at rest among static obstacles: its stages in turn, and the search for better motions.
 ///
-/// Further ways are searched in rounds: always with other random numbers, and in the part of the space through which a
-/// shorter way could go: of start s and goal g, the box around the ellipsoid |q - s| + |q - g| < c, with the cost c of the
-/// best way so far. Each is shortened and pulled taut. Each search is independent of the others, and finds a way next to
-/// any given one with a chance that is not zero; so the best one comes as near to the best of all as is wished, if effort
-/// is spent long enough. Sources: Gammell, Srinivasa, Barfoot, Informed RRT*, 2014; Wilson, Thomason, Kingston, Kavraki,
-/// AORRTC, 2025.
+/// Better paths are searched in rounds. Each round has its own random numbers and samples only the part of the space
+/// that can contain a shorter path: for start s, goal g and the cost c of the best path, the bounding box of the
+/// ellipsoid |q - s| + |q - g| < c. Each path is shortened and tightened. Searches are independent, and each finds a
+/// path close to any given one with positive probability, so that the best path converges to the optimum. Sources:
+/// Gammell, Srinivasa, Barfoot, Informed RRT*, 2014; Wilson, Thomason, Kingston, Kavraki, AORRTC, 2025.
 class Planner {
  public:
-  /// All of them must stay.
+  /// All arguments must outlive the planner.
   Planner(const Config& config, const PlanOptions& options, const CancellationToken& cancellation);
 
   MotionPlan run(const MotionGoal& goal, const VectorXd& start);
 
-  /// The next motion that is better than those before, by a share of 1e-4 at least; none once options.improvement_evaluations evaluations
-  /// are spent, or the time is up, or where none can be better.
+  /// Returns the next motion that is better than those before by a share of at least 1e-4. None if
+  /// options.improvement_evaluations are spent, if the time is up, or if no motion can be better.
   std::optional<MotionPlan> better();
 
  private:
   using Clock = std::chrono::steady_clock;
 
-  /// A start or goal as the search sees it: where it is blocked by a slight contact, the posture behind it.
+  /// A start or goal as the search sees it. If it is in slight contact, the search uses a free configuration close by.
   struct SearchEndpoint {
     Endpoint end;
-    VectorXd inside;  ///< from where the search begins
-    bool leaves = false;
-    double deepest = 0.;  ///< of the contact that is left, m
+    VectorXd inside;        ///< where the search begins or ends
+    bool retreats = false;  ///< `inside` is not the endpoint
+    double deepest = 0.;    ///< distance of the deepest pair in contact, m
   };
 
   bool isCancelled();
@@ -51,44 +49,44 @@ class Planner {
   bool checkEndpoints(const MotionGoal& goal, const VectorXd& start);
   Clearance clearance(double margin) const;
 
-  PathQuery request();
+  PathQuery query();
   bool findPath();
-  Way searchWithRoom();
-  Clearance withEndsAt(double margin);
-  bool failSearch(const Way& way);
+  PathSearchResult searchWithClearance();
+  Clearance clearanceOfEndpoints(double margin);
+  bool failSearch(const PathSearchResult& found);
   VectorXd weight() const;
-  void improve(const Way& first);
+  void improve(const PathSearchResult& first);
   void improveFurther();
-  void drawWhereShorter();
+  void restrictSamples();
 
-  MatrixXd rows(const std::vector<VectorXd>& points, const Way& way) const;
-  Steering& exactly();
-  bool verify(const MatrixXd& path, const Way& way, long& evaluations);
-  double verified_margin() const;
+  MatrixXd waypoints(const std::vector<VectorXd>& points, const PathSearchResult& found) const;
+  Steering& withoutGuard();
+  bool verify(const MatrixXd& path, const PathSearchResult& found, long& evaluations);
+  double verifiedMargin() const;
   void finish();
-  void bend();
+  void smooth();
 
   const Config& config_;
   const PlanOptions& options_;
   const MotionLimits limits_;
   SteeringContexts contexts_;
-  const CancellationToken& user_cancellation_;  ///< of the caller
-  const CancellationToken cancellation_;
+  const CancellationToken& user_cancellation_;
+  const CancellationToken cancellation_;  ///< also true if the time is up
   const Clock::time_point began_ = Clock::now();
   Clock::time_point stage_began_ = began_;
   bool cancelled_ = false;
   MotionPlan plan_;
-  JointSpace draws_;  ///< from which postures are drawn
-  PlanningConstraints planning_constraints_;
+  JointSpace samples_;  ///< from which configurations are sampled
+  PlanningConstraints constraints_;
   SearchEndpoint start_;
   std::vector<SearchEndpoint> goals_;
   std::vector<int> goal_numbers_;
   ShortcutResult best_;
-  int tries_ = 0;     ///< ways that were searched so far
-  long further_ = 0;  ///< evaluations that further ones took
+  int paths_ = 0;     ///< number of paths that were searched so far
+  long further_ = 0;  ///< evaluations of further paths
 };
 
-/// What a Planner finds with all of options.improvement_evaluations.
+/// Plans with a Planner until options.improvement_evaluations are spent.
 MotionPlan planFromRest(const Config& config, const MotionGoal& goal, const PlanOptions& options, const VectorXd& start,
                         const CancellationToken& cancellation);
 

@@ -10,7 +10,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kPosturesPerBlend = 9;
+constexpr int kPointsPerBlend = 9;
 
 void requireFreePath(const Config& config, Steering& steering, const MatrixXd& path, const char* who) {
   if (path.rows() == 0 || path.cols() != config.getJointDimension() || !path.allFinite())
@@ -19,7 +19,7 @@ void requireFreePath(const Config& config, Steering& steering, const MatrixXd& p
   for (Eigen::Index k = 1; k < path.rows(); ++k) {
     const auto contact = steering.check().contact(path.row(k - 1).transpose(), path.row(k).transpose());
     if (!contact) continue;
-    throw ValueError(cat(who, ": the path is not free between rows ", k - 1, " and ", k, ": ",
+    throw ValueError(cat(who, ": the path is in collision between rows ", k - 1, " and ", k, ": ",
                          describePairs(*config.model(), {{steering.check().lastDistance(), contact->a, contact->b}})));
   }
 }
@@ -34,7 +34,7 @@ MatrixXd shortcut(const Config& config, const MatrixXd& path, const RefineOption
   std::vector<VectorXd> points;
   for (Eigen::Index k = 0; k < path.rows(); ++k) points.push_back(path.row(k).transpose());
   return space.unroll(
-      shorten(steering, std::move(points), {.seed = options.seed, .cancellation = options.cancellation}));
+      shortcutPath(steering, std::move(points), {.seed = options.seed, .cancellation = options.cancellation}));
 }
 
 MatrixXd smooth(const Config& config, const MatrixXd& path, const RefineOptions& options) {
@@ -43,10 +43,10 @@ MatrixXd smooth(const Config& config, const MatrixXd& path, const RefineOptions&
   const JointSpace space(scene.model());
   Steering steering({.scene = &scene, .space = &space, .clearance = {.margin = options.margin}});
   requireFreePath(config, steering, path, "smooth");
-  const PathCurve curve = blendedPolyline(path, {.tolerance = options.blend, .is_free = freeBlends(steering)});
+  const PathCurve curve = blendedPolyline(path, {.tolerance = options.blend, .is_free = collisionFreeBlends(steering)});
   std::vector<VectorXd> points = {path.row(0).transpose()};
   for (int piece = 0; piece < curve.pieces(); ++piece) {
-    const int count = curve.isLine(piece) ? 1 : kPosturesPerBlend - 1;
+    const int count = curve.isLine(piece) ? 1 : kPointsPerBlend - 1;
     for (int i = 1; i <= count; ++i) {
       VectorXd q(curve.dofs());
       const double begin = curve.begin(piece), end = curve.end(piece);

@@ -9,17 +9,17 @@
 namespace kinegraph {
 
 struct RefineOptions {
-  double margin = 0.;      ///< m, that all collidable pairs keep
-  double blend = .05;      ///< rad or m, by which smooth may miss corners, in every dof
-  std::uint64_t seed = 0;  ///< of the places that shortcut joins
+  double margin = 0.;      ///< least distance of all collidable pairs, m
+  double blend = .05;      ///< largest deviation of `smooth` from the path in every dof, rad or m
+  std::uint64_t seed = 0;  ///< of the random shortcuts
   CancellationToken cancellation = {};
 };
 
-/// A shorter path between the same ends, rows of `path` (K, n), free at all times. Throws ValueError for a path of
-/// another width, and for one that is not free itself, saying where.
+/// Shortens a path (K, n) between the same ends; the result is continuously collision-free. Throws ValueError for a
+/// path of another width, and for a path in collision; the message says between which rows.
 MatrixXd shortcut(const Config& config, const MatrixXd& path, const RefineOptions& options = {});
 
-/// Postures along the same path with rounded corners, where that is free at all times. Throws as shortcut.
+/// Rounds the corners of a path as far as that is continuously collision-free. Errors as `shortcut`.
 MatrixXd smooth(const Config& config, const MatrixXd& path, const RefineOptions& options = {});
 
 }  // namespace kinegraph

@@ -10,42 +10,42 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kAway = 2e-3;        // m, beyond the margin: where pairs are pushed to
-constexpr double kWatched = 2e-2;     // m, beyond that: pairs that must not come nearer meanwhile
-constexpr double kLongestPush = .05;  // of a dof
-constexpr double kFarthest = .5;      // from the end, in joint space
+constexpr double kAway = 2e-3;        // m, beyond the margin: target of the pushes
+constexpr double kWatched = 2e-2;     // m, beyond that: pairs that must not come closer meanwhile
+constexpr double kLongestPush = .05;  // of a dof, rad or m
+constexpr double kFarthest = .5;      // from the endpoint, in joint space
 constexpr int kPushes = 50;
 constexpr double kDeeper = 1e-6;  // m, of rounding
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// Distances of near pairs less what they are to keep, and how they change.
-struct Needs {
-  VectorXd short_of;  ///< m, positive where a pair is too near
+/// Shortfalls of the distances of near pairs, and the gradients of these distances.
+struct Shortfalls {
+  VectorXd values;  ///< m, positive if a pair is too close
   Rows J;
 };
 
-Needs needsAt(const State& state, const std::vector<ClearanceCheck::Nearest>& near, double wanted) {
-  Needs needs{VectorXd::Zero(Eigen::Index(near.size())), Rows::Zero(Eigen::Index(near.size()), state.dofs())};
+Shortfalls shortfallsAt(const State& state, const std::vector<ClearanceCheck::Nearest>& near, double wanted) {
+  Shortfalls shortfalls{VectorXd::Zero(Eigen::Index(near.size())), Rows::Zero(Eigen::Index(near.size()), state.dofs())};
   for (std::size_t i = 0; i < near.size(); ++i) {
     const auto row = Eigen::Index(i);
-    needs.short_of[row] = std::max(0., wanted - near[i].distance);
-    needs.J.row(row) = pairGradient(state, near[i].a, near[i].b).gradient.transpose();
+    shortfalls.values[row] = std::max(0., wanted - near[i].distance);
+    shortfalls.J.row(row) = pairGradient(state, near[i].a, near[i].b).gradient.transpose();
   }
-  return needs;
+  return shortfalls;
 }
 
-/// Pushes near pairs apart until all keep `wanted`.
+/// Pushes near pairs apart until all keep the distance `wanted`.
 std::optional<VectorXd> push(State state, Steering& steering, const VectorXd& from, double wanted) {
   VectorXd q = from;
   for (int step = 0; step < kPushes; ++step) {
     const std::vector<ClearanceCheck::Nearest> near = steering.check().nearerThan(q, wanted + kWatched);
     if (near.empty() || near.front().distance >= wanted) return q;
     state.setJoints(q.data());
-    const Needs needs = needsAt(state, near, wanted + .25 * kAway);
-    MatrixXd A = needs.J * needs.J.transpose();
+    const Shortfalls shortfalls = shortfallsAt(state, near, wanted + .25 * kAway);
+    MatrixXd A = shortfalls.J * shortfalls.J.transpose();
     A.diagonal().array() += 1e-4 * std::max(A.diagonal().maxCoeff(), 1e-9);
-    VectorXd change = needs.J.transpose() * A.ldlt().solve(needs.short_of);
+    VectorXd change = shortfalls.J.transpose() * A.ldlt().solve(shortfalls.values);
     const double longest = change.cwiseAbs().maxCoeff();
     if (!(longest > 1e-9)) return std::nullopt;
     if (longest > kLongestPush) change *= kLongestPush / longest;
@@ -58,8 +58,8 @@ std::optional<VectorXd> push(State state, Steering& steering, const VectorXd& fr
   return std::nullopt;
 }
 
-/// Do the pairs in contact never overlap more than at the end, on the way to `q`, and are all other pairs free?
-bool leavesWell(const Config& config, Steering& steering, const Endpoint& end, const VectorXd& q, double deepest) {
+/// Whether, on the edge to q, the pairs in contact never penetrate more than at the endpoint, and all others stay free.
+bool isValidRetreat(const Config& config, Steering& steering, const Endpoint& end, const VectorXd& q, double deepest) {
   const KinematicModel& model = *config.model();
   std::vector<std::pair<int, int>> ids;
   std::vector<std::pair<std::string, std::string>> names;
@@ -82,7 +82,7 @@ std::optional<VectorXd> retreatFromContact(const Config& config, Steering& steer
   const double deepest = std::min(0., end.near.front().distance);
   for (const double wanted : {margin + kAway, .5 * kAway}) {
     const std::optional<VectorXd> q = push(config.state(), steering, end.q, wanted);
-    if (q && leavesWell(config, steering, end, *q, deepest)) return q;
+    if (q && isValidRetreat(config, steering, end, *q, deepest)) return q;
   }
   return std::nullopt;
 }

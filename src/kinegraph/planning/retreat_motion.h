@@ -5,9 +5,9 @@
 
 namespace kinegraph {
 
-/// A posture near a start or goal that touches something, or overlaps it slightly, from where all is free: pairs are
-/// pushed apart along their normals. The straight motion between the two is free at all times for all other pairs, and
-/// the pairs in contact never overlap more than at the end itself. None if there is no such posture.
+/// Finds a collision-free configuration near a start or goal in slight contact, by pushing pairs apart along their
+/// normals. On the straight edge between the two, all other pairs stay collision-free, and the pairs in contact never
+/// penetrate more than at the endpoint. None if there is no such configuration.
 std::optional<VectorXd> retreatFromContact(const Config& config, Steering& steering, const Endpoint& end,
                                            double margin);
 

@@ -15,14 +15,14 @@ namespace {
 
 constexpr std::size_t kNeighbors = 12;
 constexpr char kMagic[8] = {'K', 'G', 'R', 'O', 'A', 'D', '0', '2'};
-constexpr char kEarlierMagic[8] = {'K', 'G', 'R', 'O', 'A', 'D', '0', '1'};  // without how it draws on
+constexpr char kEarlierMagic[8] = {'K', 'G', 'R', 'O', 'A', 'D', '0', '1'};  // without the state of the random numbers
 
 std::unique_ptr<Steering> steeringFor(const State& scene, const JointSpace& space, double margin) {
   return std::make_unique<Steering>(PlanningConstraints{
       .scene = &scene, .space = &space, .clearance = {.margin = margin, .guard = Clearance::kGuard}});
 }
 
-/// FNV-1a of bytes.
+/// Adds bytes to a hash (FNV-1a).
 void mix(std::uint64_t& code, const void* bytes, std::size_t count) {
   for (std::size_t i = 0; i < count; ++i)
     code = (code ^ static_cast<const unsigned char*>(bytes)[i]) * 0x100000001B3ull;
@@ -37,7 +37,7 @@ template <class T>
 T take(std::istream& in, const std::string& path) {
   T value;
   if (!in.read(reinterpret_cast<char*>(&value), sizeof value))
-    throw FileError(cat(path, ": the roadmap ends too early"));
+    throw FileError(cat(path, ": the roadmap file ends too early"));
   return value;
 }
 
@@ -48,7 +48,7 @@ Roadmap::Roadmap(const Config& config, double margin, std::uint64_t seed)
       space_(std::make_shared<const JointSpace>(scene_->model())),
       margin_(margin),
       rng_(seed) {
-  if (!(margin >= 0.)) throw ValueError(cat("Roadmap: the margin is ", margin, "; expected a distance >= 0, in m"));
+  if (!(margin >= 0.)) throw ValueError(cat("Roadmap: margin is ", margin, "; expected a number >= 0, in m"));
   space_->requireRanges("Roadmap");
   steering_ = steeringFor(*scene_, *space_, margin_);
 }
@@ -64,15 +64,16 @@ int Roadmap::addNode(const VectorXd& q) {
   edges_of_.emplace_back();
   for (std::size_t i = 0; i < count; ++i) {
     const int other = near[i].second;
-    edges_of_[std::size_t(node)].push_back(motions());
-    edges_of_[std::size_t(other)].push_back(motions());
+    edges_of_[std::size_t(node)].push_back(edges());
+    edges_of_[std::size_t(other)].push_back(edges());
     edges_.push_back({other, node, near[i].first, Known::nothing});
   }
   return node;
 }
 
 void Roadmap::grow(int configurations, const CancellationToken& cancellation) {
-  if (configurations < 0) throw ValueError(cat("Roadmap.grow: ", configurations, " postures; expected 0 or more"));
+  if (configurations < 0)
+    throw ValueError(cat("Roadmap.grow: configurations is ", configurations, "; expected a number >= 0"));
   const VectorXd like = scene_->q();
   for (long tries = 1000l * configurations; configurations > 0 && tries > 0; --tries) {
     if (tries % 16 == 0 && cancellation && cancellation()) return;
@@ -99,7 +100,7 @@ bool Roadmap::edgeIsFree(Edge& edge) {
   return edge.known == Known::is_free;
 }
 
-/// By A*, over motions that are not known to be blocked; empty if there is none.
+/// Finds the shortest path over edges that are not known to be in collision, by A*. Empty if there is none.
 std::vector<int> Roadmap::shortestPath(int from, int to) const {
   constexpr double kFar = std::numeric_limits<double>::infinity();
   std::vector<double> cost(nodes_.size(), kFar);
@@ -136,7 +137,7 @@ std::vector<int> Roadmap::shortestPath(int from, int to) const {
   return path;
 }
 
-/// Motions of a path that are all free: the shortest, then the next one where one of its motions turns out blocked.
+/// Checks the edges of the shortest path, and replans when one of them is in collision.
 std::vector<int> Roadmap::freePath(int from, int to, const CancellationToken& cancellation) {
   while (!(cancellation && cancellation())) {
     const std::vector<int> path = shortestPath(from, to);
@@ -174,18 +175,18 @@ RoadmapPath Roadmap::findPath(const VectorXd& start, const VectorXd& goal, const
   }
   if (node == ends[1]) {
     points.front() = start;
-    answer.path = space_->unroll(shorten(*steering_, std::move(points), {.cancellation = cancellation}));
+    answer.path = space_->unroll(shortcutPath(*steering_, std::move(points), {.cancellation = cancellation}));
   } else {
-    answer.message = cat("no path in a map of ", size(), " postures and ", motions(), " motions; grow adds more");
+    answer.message = cat("no path in a roadmap of ", size(), " configurations and ", edges(), " edges; grow adds more");
   }
-  answer.checked = steering_->evaluations() - before;
+  answer.evaluations = steering_->evaluations() - before;
   return answer;
 }
 
 void Roadmap::setScene(const Config& config) {
   const auto scene = std::make_shared<const State>(config.state());
   if (dofNames(scene->model()) != dofNames(scene_->model()))
-    throw ValueError("Roadmap.setScene: the joints of this scene are others than those of the map");
+    throw ValueError("Roadmap.setScene: the scene has other joints than the roadmap");
   scene_ = scene;
   space_ = std::make_shared<const JointSpace>(scene_->model());
   steering_ = steeringFor(*scene_, *space_, margin_);
@@ -199,14 +200,14 @@ MatrixXd Roadmap::configurations() const {
   return rows;
 }
 
-std::vector<std::pair<int, int>> Roadmap::motionEnds() const {
+std::vector<std::pair<int, int>> Roadmap::edgeEnds() const {
   std::vector<std::pair<int, int>> ends;
   for (const Edge& edge : edges_)
     if (edge.known != Known::is_blocked) ends.emplace_back(edge.a, edge.b);
   return ends;
 }
 
-/// A number that differs where bodies, places or limits do.
+/// A hash of the bodies, their poses and the margin.
 std::uint64_t Roadmap::sceneCode() const {
   std::uint64_t code = 0xCBF29CE484222325ull;
   const KinematicModel& model = scene_->model();
@@ -272,8 +273,8 @@ void Roadmap::load(std::istream& in, const std::string& path) {
   in.seekg(begin);
   char magic[sizeof kMagic];
   const bool is_read = bool(in.read(magic, sizeof magic));
-  const bool draws_on = is_read && std::memcmp(magic, kMagic, sizeof magic) == 0;
-  if (!is_read || (!draws_on && std::memcmp(magic, kEarlierMagic, sizeof magic) != 0))
+  const bool has_rng = is_read && std::memcmp(magic, kMagic, sizeof magic) == 0;
+  if (!is_read || (!has_rng && std::memcmp(magic, kEarlierMagic, sizeof magic) != 0))
     throw FileError(cat(path, ": not a roadmap"));
   const auto counted = [&](const char* what) {
     const auto count = take<std::uint64_t>(in, path);
@@ -282,9 +283,9 @@ void Roadmap::load(std::istream& in, const std::string& path) {
   };
   std::string joints(counted("letters"), ' ');
   if (!in.read(joints.data(), std::streamsize(joints.size())))
-    throw FileError(cat(path, ": the roadmap ends too early"));
+    throw FileError(cat(path, ": the roadmap file ends too early"));
   if (joints != join(dofNames(scene_->model()), "\n"))
-    throw ValueError(cat("Roadmap.load: ", path, " is a map of other joints: ", joints));
+    throw ValueError(cat("Roadmap.load: ", path, " is a roadmap of other joints: ", joints));
   const bool same_scene = take<std::uint64_t>(in, path) == sceneCode();
   if (counted("dofs") != std::size_t(space_->dofs())) throw FileError(cat(path, ": the roadmap is damaged: dofs"));
   std::vector<VectorXd> nodes(counted("configurations"), VectorXd(space_->dofs()));
@@ -305,11 +306,12 @@ void Roadmap::load(std::istream& in, const std::string& path) {
     const auto state = take<unsigned char>(in, path);
     edge.known = same_scene && state <= 2 ? Known(state) : Known::nothing;
     for (const int node : {edge.a, edge.b}) {
-      if (node < 0 || node >= int(nodes.size())) throw FileError(cat(path, ": the roadmap is damaged: posture ", node));
+      if (node < 0 || node >= int(nodes.size()))
+        throw FileError(cat(path, ": the roadmap is damaged: configuration ", node));
       edges_of[std::size_t(node)].push_back(int(e));
     }
   }
-  const Rng rng = draws_on ? take<Rng>(in, path) : rng_;
+  const Rng rng = has_rng ? take<Rng>(in, path) : rng_;
   nodes_ = std::move(nodes);
   rng_ = rng;
   node_known_ = std::move(known);

@@ -13,58 +13,59 @@
 
 namespace kinegraph {
 
-/// What a Roadmap answers.
+/// The answer of Roadmap::findPath.
 struct RoadmapPath {
-  MatrixXd path;        ///< (K, n), free at all times; no rows if there is none
-  std::string message;  ///< "" if there is one, else why not
-  long checked = 0;     ///< evaluations of Steering that it took; none where all was known
+  MatrixXd path;         ///< (K, n), continuously collision-free; no rows if there is none
+  std::string message;   ///< "" if there is a path, else why not
+  long evaluations = 0;  ///< evaluations of Steering; 0 if the results of all edges were known
 
   bool feasible() const { return path.rows() > 0; }
 };
 
-/// Postures and motions between them that are kept from query to query.
+/// A graph of configurations and edges that is kept from query to query (lazy PRM).
 ///
 ///     Roadmap map(C, .01);
 ///     map.grow(500);
 ///     MatrixXd path = map.findPath(q0, q1).path;
 ///
-/// Motions are looked at when a query first wants to use them, at all times of them, and it is remembered what came out.
-/// Paths are shortest ones in the map, then shortened. Starts and goals stay in the map as postures. After obstacles have
-/// moved, `setScene` forgets what was found free or not, and keeps the postures. The same calls give the same bits.
-/// Source: Bohlin, Kavraki, Path planning using lazy PRM, 2000.
+/// An edge is checked continuously when a query first uses it, and the result is kept. Queries return shortest paths of
+/// the graph, shortened by shortcuts. Starts and goals stay in the graph. After obstacles have moved, `setScene` drops
+/// the results of the checks and keeps the configurations. Equal calls give equal bits. Source: Bohlin, Kavraki, Path
+/// planning using lazy PRM, 2000.
 class Roadmap {
  public:
-  /// All collidable pairs keep `margin` (m) apart. Throws ValueError for joints without limits, and a negative margin.
+  /// Keeps all collidable pairs `margin` (m) apart. Throws ValueError for joints without limits and a negative margin.
   explicit Roadmap(const Config& config, double margin = 0., std::uint64_t seed = 0);
 
-  /// Adds that many free random postures, each with motions to the nearest ones. Throws ValueError for less than 0.
+  /// Adds so many collision-free random configurations, each with edges to the nearest ones. Throws ValueError for a
+  /// negative number.
   void grow(int configurations, const CancellationToken& cancellation = {});
 
-  /// Throws ValueError for joint vectors of a wrong length.
+  /// Finds a path between two joint vectors. Throws ValueError for a wrong length.
   RoadmapPath findPath(const VectorXd& start, const VectorXd& goal, const CancellationToken& cancellation = {});
 
-  /// The scene is another one now, with the same joints; else ValueError.
+  /// Replaces the scene by another one with the same joints; else throws ValueError.
   void setScene(const Config& config);
 
-  /// Writes postures, what is known of motions, and how it draws on. Throws FileError.
+  /// Writes configurations, results of checks, and the state of the random numbers. Throws FileError.
   void save(const std::string& path) const;
   void save(std::ostream& out) const;
 
-  /// Reads them in place of its own. Throws FileError for a file that is not there or damaged, ValueError for a map of
-  /// other joints. What is known of motions is taken over only if the scene is the same as when it was saved.
+  /// Replaces the graph by a saved one. Keeps its results of checks only if the scene is the same as when it was saved.
+  /// Throws FileError for a missing or damaged file, ValueError for a graph of other joints.
   void load(const std::string& path);
 
-  /// The same from a stream that can be sought in; `name` is for messages.
+  /// Loads from a seekable stream; messages call it `name`.
   void load(std::istream& in, const std::string& name);
 
-  /// A copy of a scene with these joints, and lines in it along which frames go: "roadmap" (blue) are all motions that are not
-  /// known to be blocked. Frames and errors as in MotionPlan::picture.
+  /// Returns a copy of a scene with the traces of frames as lines: "roadmap" (blue) are all edges that are not known to
+  /// be in collision. Frames and errors as in MotionPlan::picture.
   Config picture(const Config& config, const std::vector<std::string>& frames = {}) const;
 
   int size() const { return int(nodes_.size()); }
-  int motions() const { return int(edges_.size()); }
-  MatrixXd configurations() const;                      ///< (N, n)
-  std::vector<std::pair<int, int>> motionEnds() const;  ///< places of postures
+  int edges() const { return int(edges_.size()); }
+  MatrixXd configurations() const;                    ///< (N, n)
+  std::vector<std::pair<int, int>> edgeEnds() const;  ///< indices of configurations
   double margin() const { return margin_; }
 
  private:

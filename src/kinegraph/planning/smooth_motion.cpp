@@ -10,18 +10,18 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kGuard = 1e-3;  // m: more than the margin, as the spline leaves the straight motions between slices
-constexpr double kCost = .1;     // scale of accelerations
+constexpr double kGuard = 1e-3;        // m, beyond the margin: the spline leaves the edges between slices
+constexpr double kCost = .1;           // scale of accelerations
 constexpr int kMostEvaluations = 120;  // of the solver
-constexpr int kParts = 8;              // of the spline between two slices, when it is looked at
-constexpr double kFaster = 1e-3;       // by which a motion must be faster, as a share
-constexpr double kRounding = 1e-9;     // by which a joint may be beyond its limits
+constexpr int kParts = 8;              // of a spline piece, in the collision check
+constexpr double kFaster = 1e-3;       // least relative gain of the duration
+constexpr double kRounding = 1e-9;     // by which a joint may exceed its limits
 
-/// From the motion's start to its end; empty where KOMO finds none that is free.
+/// Returns the slices that KOMO finds, the start included; empty if it finds no collision-free path.
 MatrixXd solvedPath(const Config& config, const TimedPath& motion, double margin, int slices,
                     const CancellationToken& cancellation) {
   Config scene(config);
-  const VectorXd start = motion.at(0.).q, goal = motion.at(motion.duration()).q;
+  const VectorXd start = motion.eval(0.).q, goal = motion.eval(motion.duration()).q;
   scene.setJointState(start);
   const auto komo = std::make_shared<Komo>();
   komo->setConfig(scene);
@@ -31,7 +31,7 @@ MatrixXd solvedPath(const Config& config, const TimedPath& motion, double margin
   komo->addObjective({1.}, FeatureSymbol::jointState, {}, ObjectiveType::eq, Scale(10.), goal);
   komo->addObjective({1.}, FeatureSymbol::jointState, {}, ObjectiveType::eq, Scale(1.), {}, 1);
   MatrixXd path(slices + 1, start.size());
-  for (int i = 0; i <= slices; ++i) path.row(i) = motion.at(motion.duration() * i / slices).q.transpose();
+  for (int i = 0; i <= slices; ++i) path.row(i) = motion.eval(motion.duration() * i / slices).q.transpose();
   komo->setPath(path.bottomRows(slices));
   NlpSolver solver(makeNlp(komo), 0);
   solver.options.verbose = 0;
@@ -46,7 +46,7 @@ MatrixXd solvedPath(const Config& config, const TimedPath& motion, double margin
   return path;
 }
 
-/// Does a curve of degree three keep the limits of all joints? By its Bernstein coefficients.
+/// Whether a cubic curve keeps the joint limits: its Bernstein coefficients do.
 bool keepsLimits(const PathCurve& curve, const MatrixXd& limits) {
   for (int piece = 0; piece < curve.pieces(); ++piece) {
     const double h = curve.end(piece) - curve.begin(piece);
@@ -54,9 +54,9 @@ bool keepsLimits(const PathCurve& curve, const MatrixXd& limits) {
       if (k > curve.degree()) return VectorXd::Zero(curve.dofs());
       return std::pow(h, k) * Eigen::Map<const VectorXd>(curve.coefficient(piece, k), curve.dofs());
     };
-    const VectorXd first = power(0), slope = power(1), bend = power(2);
-    for (const VectorXd& q : {first, VectorXd(first + slope / 3.), VectorXd(first + (2. * slope + bend) / 3.),
-                              VectorXd(first + slope + bend + power(3))}) {
+    const VectorXd first = power(0), slope = power(1), square = power(2);
+    for (const VectorXd& q : {first, VectorXd(first + slope / 3.), VectorXd(first + (2. * slope + square) / 3.),
+                              VectorXd(first + slope + square + power(3))}) {
       if ((q.array() < limits.row(0).transpose().array() - kRounding).any()) return false;
       if ((q.array() > limits.row(1).transpose().array() + kRounding).any()) return false;
     }

@@ -10,16 +10,16 @@
 
 namespace kinegraph {
 
-/// A motion as KOMO bends it.
+/// A motion smoothed by KOMO.
 struct SmoothedMotion {
-  MatrixXd path;  ///< slices, rows from start to goal
-  TimedPath timed;
+  MatrixXd path;  ///< the slices, from start to goal
+  TimedPath timed_path;
 };
 
-/// Bends a motion so that it accelerates less, among what stands still: `slices` postures of it, in equal times, begin a
-/// KOMO whose cost is the acceleration, and that is free at all times with `margin` (m). The cubic spline through its slices
-/// is then timed. None if no motion is found that is free on the spline, by the margins of the Steering, keeps the limits
-/// of joints, and is faster. Straight motions from row to row of the path are free, too.
+/// Smooths a motion among static obstacles so that it accelerates less. `slices` configurations at equal times of the
+/// motion initialize a KOMO problem, whose cost is the acceleration and whose collision constraints keep `margin` (m)
+/// continuously. The result is a timed cubic spline through the slices. It is collision-free, and so are the straight
+/// edges between the slices, by the margins of the Steering; it keeps the joint limits and is faster. Else none.
 /// Source: Toussaint, A tutorial on Newton methods for constrained trajectory optimization, 2017.
 std::optional<SmoothedMotion> smoothMotion(const Config& config, Steering& steering, const TimedPath& motion,
                                            const MotionLimits& limits, double margin, int slices,

@@ -13,22 +13,22 @@ struct Camera {
   int height = 480;
   double focal_length = 2.41421356;  ///< in image heights: fx = fy = focal_length * height pixels
   double ortho_height = 0.;          ///< if > 0: orthographic, this many m high
-  double near = .1, far = 10.;       ///< what is seen lies in between, m along z
-  bool has_range = false;  ///< somebody has said what `near` and `far` are: pages show no more than that either
+  double near = .1, far = 10.;       ///< visible range, m along z
+  bool has_range = false;            ///< `near` and `far` were set explicitly: pages are limited to them, too
 
   /// fx, fy, cx, cy in pixels.
   Vector4d fxycxy() const { return {focal_length * height, focal_length * height, .5 * width, .5 * height}; }
 
-  /// Throws ValueError for sizes, focal lengths and ranges that are no camera's.
+  /// Throws ValueError for invalid sizes, focal lengths and ranges.
   void validate() const;
 };
 
-/// The camera that a frame's attributes describe, at its pose: `focalLength` or `heightAngle` (the image's vertical
-/// angle, degrees) or `orthoAbsHeight` / `heightAbs` (m), `width`, `height`, `zRange` [near far]. What is missing is as
-/// in Camera. Throws ValueError for attributes that make no sense.
+/// Reads a camera from a frame's attributes, at the frame's pose: `focalLength`, `heightAngle` (the image's vertical
+/// angle, degrees) or `orthoAbsHeight` / `heightAbs` (m); `width`, `height`, `zRange` [near far]. The defaults are
+/// those of Camera. Throws ValueError for invalid attributes.
 Camera cameraOf(const Frame& frame);
 
-/// What a viewer starts with: 600 x 500, from (2, 5, 1.7) towards (0, 0, 1).
+/// The initial camera of a viewer: 600 x 500 pixels, from (2, 5, 1.7) towards (0, 0, 1).
 Camera defaultViewCamera();
 
 }  // namespace kinegraph

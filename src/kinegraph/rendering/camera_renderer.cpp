@@ -15,11 +15,11 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kFineness = 2;             // pixels of letters that become one, across and down
-constexpr float kShadowHalfWidth = 2.5;  // m, of what the first light's shadow map covers
+constexpr int kFineness = 2;             // pixels of a rendered letter per output pixel, in both directions
+constexpr float kShadowHalfWidth = 2.5;  // m, of the area of the first light's shadow map
 const Vector4d kDefaultColor(.8, .8, .8, 1.);
 
-/// One of `count`, at a place, towards where things stand.
+/// Returns one of `count` directional lights, from a position towards the center of the scene.
 mjvLight directionalLight(int id, const Vector3d& from, std::size_t count, bool shadow) {
   const Vector3d to(0., 0., .8);
   mjvLight light{};
@@ -39,7 +39,7 @@ mjvLight directionalLight(int id, const Vector3d& from, std::size_t count, bool 
   return light;
 }
 
-/// Shows colors as they are.
+/// Returns a light that shows colors unchanged.
 mjvLight flatLight() {
   mjvLight light = directionalLight(0, Vector3d::UnitZ(), 1, false);
   for (int i = 0; i < 3; ++i) {
@@ -49,7 +49,7 @@ mjvLight flatLight() {
   return light;
 }
 
-/// Where nothing was drawn, and so the depth is that of infinity.
+/// Colors the pixels with infinite depth.
 void paintBackground(CameraImage& image, const Vector3d& color) {
   std::uint8_t rgb[3];
   for (int i = 0; i < 3; ++i) rgb[i] = std::uint8_t(std::lround(255. * std::clamp(color[i], 0., 1.)));
@@ -58,7 +58,7 @@ void paintBackground(CameraImage& image, const Vector3d& color) {
   }
 }
 
-/// Each pixel the mean of factor x factor; its depth that of the one in their middle.
+/// Averages the colors of factor x factor pixels; the depth is that of their middle pixel.
 CameraImage shrunk(const CameraImage& fine, int factor) {
   CameraImage image{fine.width / factor, fine.height / factor, {}, {}};
   const std::size_t row_length = std::size_t(fine.width), count = std::size_t(image.width) * std::size_t(image.height);
@@ -88,7 +88,7 @@ CameraImage shrunk(const CameraImage& fine, int factor) {
   return image;
 }
 
-/// From a depth buffer, in which 1 is near and 0 is far: 1/z is linear in the values, or z is.
+/// Converts a depth buffer, 1 at `near` and 0 at `far`, to meters: 1/z is linear in its values (z, if orthographic).
 void toMeters(std::vector<float>& depth, const Camera& camera) {
   const double near = camera.near, far = camera.far;
   for (float& d : depth) {
@@ -101,7 +101,7 @@ void toMeters(std::vector<float>& depth, const Camera& camera) {
   }
 }
 
-/// Which of MuJoCo's own shapes a type is drawn with, if any.
+/// Returns MuJoCo's own geom for a shape type, if there is one.
 std::optional<mjtGeom> builtinShape(ShapeType type) {
   switch (type) {
     case ShapeType::box:
@@ -119,7 +119,7 @@ std::optional<mjtGeom> builtinShape(ShapeType type) {
   }
 }
 
-/// Half sides of a box; radius and half length of what is round.
+/// Returns the half sides of a box, or the radius and half length of a round shape.
 Vector3d builtinSize(const Geometry& shape) {
   const std::vector<double>& s = shape.size;
   switch (shape.type) {
@@ -178,7 +178,7 @@ CameraRenderer::Impl::~Impl() {
     const MujocoErrors errors;
     mujoco().mjr_freeContext(context.get());
     mujoco().mjv_freeScene(scene.get());
-  } catch (const Error&) {  // the driver is gone, and its memory with it
+  } catch (const Error&) {  // the driver has gone, and its memory with it
   }
 }
 
@@ -198,7 +198,7 @@ std::vector<CameraRenderer::Impl::Item> CameraRenderer::Impl::visibleItems(const
 
 void CameraRenderer::Impl::makeContext() {
   mujoco().mjr_freeContext(context.get());
-  mjModel listed = **model;  // the arrays are the model's or the library's
+  mjModel listed = **model;  // the arrays belong to the model or the library
   listed.vis.quality.offsamples = 0;
   listed.vis.quality.shadowsize = options.shadows ? 1024 : 0;
   listed.vis.quality.numslices = options.slices;
@@ -230,7 +230,7 @@ mjvGeom& CameraRenderer::Impl::addGeom(int type, const Vector3d& size, const Rig
 void CameraRenderer::Impl::addMarker(double length, const RigidTransform& X_WG, int segment) {
   const Vector4d colors[] = {{.84, .27, .27, 1.}, {.25, .61, .29, 1.}, {.23, .44, .84, 1.}};
   for (int axis = 0; axis < 3; ++axis) {
-    Matrix3d R;  // z along the axis
+    Matrix3d R;  // z is the axis
     R << Vector3d::Unit((axis + 1) % 3), Vector3d::Unit((axis + 2) % 3), Vector3d::Unit(axis);
     const RigidTransform X_WA = X_WG * RigidTransform{R, Vector3d::Zero()};
     addGeom(mjGEOM_ARROW, {.02 * length, .02 * length, length}, X_WA, colors[axis], segment).castshadow = false;
@@ -255,7 +255,7 @@ void CameraRenderer::Impl::placeGeoms(const std::vector<Item>& items, const Stat
     mjvGeom& floor = addGeom(mjGEOM_MESH, Vector3d::Ones(), {}, color, frames);
     floor.dataid = 0;
     floor.specular = 0.f;
-    floor.castshadow = false;  // on itself, in speckles where the light is far
+    floor.castshadow = false;  // its shadow on itself would be speckled if the light is far away
   }
   for (const Item& item : items) {
     const RigidTransform& X_WG = state.pose(item.frame);
@@ -319,7 +319,7 @@ void CameraRenderer::Impl::makeRoom(int width, int height) {
   mujoco().mjr_resizeOffscreen(std::max(width, context->offWidth), std::max(height, context->offHeight), context.get());
 }
 
-/// White letters on black.
+/// Renders white letters on black.
 CameraImage CameraRenderer::Impl::write(const std::string& text, int width, int height) {
   if (!model) {
     model = emptyModel();
@@ -385,9 +385,9 @@ void CameraRenderer::Impl::read(const Camera& camera, std::uint8_t* rgb, float* 
 }
 
 CameraRenderer::CameraRenderer(const RendererOptions& options) : impl_(std::make_unique<Impl>(options)) {
-  constexpr std::size_t kMostLights = 8;
-  if (options.lights.size() > kMostLights) {
-    throw ValueError(cat("camera: ", options.lights.size(), " lights; expected at most ", kMostLights));
+  constexpr std::size_t kMaxLights = 8;
+  if (options.lights.size() > kMaxLights) {
+    throw ValueError(cat("camera: ", options.lights.size(), " lights; expected at most ", kMaxLights));
   }
 }
 CameraRenderer::~CameraRenderer() = default;
@@ -434,7 +434,7 @@ std::vector<std::int32_t> CameraRenderer::segment(SceneTree& scene, const Camera
   const int frames = int(scene.frames().size());
   for (std::size_t i = 0; i < ids.size(); ++i) {
     const int id = rgb[3 * i] + (rgb[3 * i + 1] << 8) + (rgb[3 * i + 2] << 16) - 1;
-    ids[i] = id < frames ? id : -1;  // the floor counts as the frame after the last
+    ids[i] = id < frames ? id : -1;  // the floor has the index after the last frame
   }
   return ids;
 }

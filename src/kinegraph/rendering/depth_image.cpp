@@ -13,7 +13,7 @@ constexpr double kOccluded = .05;  // m
 
 using Field = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-/// White noise averaged over windows of `size` pixels in both directions.
+/// Returns white noise averaged over windows of size x size pixels.
 Field smoothNoise(int height, int width, int size, Rng& rng) {
   Field noise(height + size - 1, width + size - 1);
   for (double& x : noise.reshaped()) x = rng.normal();
@@ -41,7 +41,7 @@ std::vector<double> depthToPoints(const float* depth, int height, int width, con
 void DepthNoise::validate() const {
   for (const double value : {baseline, overall, wide, local, pixel, no_depth}) {
     if (!(value >= 0.) || !std::isfinite(value))
-      throw ValueError(cat("depth noise: ", value, " is no size; expected numbers >= 0"));
+      throw ValueError(cat("depth noise: ", value, " is not a valid size; expected finite numbers >= 0"));
   }
 }
 
@@ -63,7 +63,7 @@ void addDepthNoise(std::vector<float>& depth, const std::vector<float>& other_ey
       const std::size_t line = std::size_t(row) * std::size_t(camera.width);
       float& pixel = depth[line + std::size_t(column)];
       const double d = filled(pixel);
-      // A point at depth d appears this much further left in the eye on the right.
+      // in the right eye, a point at depth d appears this much further to the left
       const double scale = camera.ortho_height > 0. ? camera.height / camera.ortho_height : camera.fxycxy()[0] / d;
       const int seen_at = int(std::lround(column - scale * noise.baseline));
       const bool seen_twice = seen_at >= 0 && std::abs(filled(other_eye[line + std::size_t(seen_at)]) - d) <= kOccluded;

@@ -10,7 +10,7 @@ namespace kinegraph {
 
 namespace {
 
-/// The vertices of all that is shown, in the world.
+/// Returns the vertices of all visible shapes, in the world.
 std::vector<Vector3d> shownPoints(const Config& config) {
   std::vector<Vector3d> points;
   VisualMeshes visual_meshes;
@@ -29,7 +29,7 @@ std::vector<Vector3d> shownPoints(const Config& config) {
 }  // namespace
 
 bool servesCollisionsOnly(const Shape& shape) {
-  constexpr double kFaint = .25;  // as the page has it
+  constexpr double kFaint = .25;  // the same threshold as on the page
   return shape.contact != 0 && shape.color && (*shape.color)[3] <= kFaint;
 }
 
@@ -46,11 +46,13 @@ std::optional<ShownBall> shownBall(const Config& config) {
   return ball;
 }
 
-/// The image is bounded by planes through the camera's center c. A point lies on the inner sides of a pair of them if
-///     |x - c_x| <= t (z - c_z),     t the tangent of half the angle between them;
-/// for all points this bounds c_z t - c_x and c_z t + c_x from above, and both bounds are met where the view is narrowest.
+/// Fits the camera to all visible points. Planes through the camera's center c bound the image. A point lies inside a
+/// pair of them if
+///     |x - c_x| <= t (z - c_z),
+/// where t is the tangent of half the angle between the planes. Over all points this bounds c_z t - c_x and c_z t + c_x
+/// from above; the narrowest view meets both bounds.
 Camera fitted(Camera camera, const Config& config) {
-  constexpr double kShare = .92;  // of the image's sides
+  constexpr double kShare = .92;  // of the image's width and height
   const std::vector<Vector3d> points = shownPoints(config);
   if (points.empty()) return camera;
   const Eigen::Vector2d half(.5 * kShare * camera.width / camera.height, .5 * kShare);  // image heights

@@ -7,8 +7,8 @@
 
 namespace kinegraph {
 
-/// Is a shape there for collisions and not for the eye? It counts in collisions, and its alpha is at most 0.25. The page
-/// has a switch for these; pictures leave them out.
+/// Returns whether a shape exists for collisions only: it collides, and its alpha is at most .25. The page has a switch
+/// for such shapes; pictures omit them.
 bool servesCollisionsOnly(const Shape& shape);
 
 struct ShownBall {
@@ -16,11 +16,11 @@ struct ShownBall {
   double radius;    ///< m
 };
 
-/// A ball around all surfaces that pictures show; none if there are none.
+/// Returns a ball around all visible surfaces, or nothing without any.
 std::optional<ShownBall> shownBall(const Config& config);
 
-/// The camera, moved along its line of sight so that all that pictures show just fills the image, with a range that holds
-/// it. As it was if there is nothing to see.
+/// Returns the camera, moved along its line of sight so that the visible scene just fills the image, with a suitable
+/// range. Returns it unchanged for an empty scene.
 Camera fitted(Camera camera, const Config& config);
 
 }  // namespace kinegraph

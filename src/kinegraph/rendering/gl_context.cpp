@@ -14,7 +14,7 @@ namespace kinegraph {
 
 namespace {
 
-// What is used of EGL 1.5 and its extensions, declared here because its headers need not be installed.
+// The used part of EGL 1.5 and its extensions, declared here because its headers may not be installed.
 using Bool = unsigned;
 using Int = std::int32_t;
 constexpr Int kNone = 0x3038, kSurfaceType = 0x3033, kPbufferBit = 1, kRenderableType = 0x3040, kOpenGlBit = 8;
@@ -41,7 +41,7 @@ struct Egl {
 };
 
 Egl loadEgl() {
-  // Global, because the renderer looks for eglGetProcAddress among what the process has loaded.
+  // global, because the renderer searches eglGetProcAddress among the symbols of the process
   void* library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_GLOBAL);
   if (!library) throw FileError(cat("camera images need EGL, but libEGL.so.1 cannot be loaded; ", kPackages));
   Egl egl;
@@ -76,7 +76,7 @@ const Egl& egl() {
   return loaded;
 }
 
-/// The devices that are graphics cards.
+/// Returns the devices that are graphics cards.
 std::vector<void*> graphicsCards() {
   if (!egl().queryDevices || !egl().queryDeviceString) return {};
   std::array<void*, 32> devices;
@@ -97,11 +97,12 @@ bool GlContext::open(void* display, const char* device) {
   if (!display || !egl().initialize(display, nullptr, nullptr)) return false;
   const unsigned api = egl().queryApi();
   egl().bindApi(kOpenGlApi);
-  const Int wanted[] = {kSurfaceType, kPbufferBit, kRenderableType, kOpenGlBit, kRed, 8, kGreen, 8, kBlue, 8, kNone};
+  const Int attributes[] = {kSurfaceType, kPbufferBit, kRenderableType, kOpenGlBit, kRed, 8,
+                            kGreen,       8,           kBlue,           8,          kNone};
   void* config = nullptr;
   Int count = 0;
   const Int none[] = {kNone};
-  if (egl().chooseConfig(display, wanted, &config, 1, &count) && count > 0)
+  if (egl().chooseConfig(display, attributes, &config, 1, &count) && count > 0)
     context_ = egl().createContext(display, config, nullptr, none);
   egl().bindApi(api);
   display_ = display;
@@ -114,11 +115,11 @@ GlContext::GlContext() {
     if (open(egl().getPlatformDisplay(kPlatformDevice, card, nullptr), "graphics card")) return;
   }
   if (!open(egl().getPlatformDisplay(kPlatformSurfaceless, nullptr, nullptr), "software")) {
-    throw FileError(cat("camera images need an OpenGL driver, and EGL finds none; ", kPackages));
+    throw FileError(cat("camera images need an OpenGL driver, but EGL finds none; ", kPackages));
   }
 }
 
-// The display stays initialized: EGL shares it with everybody in the process who asks for the same one.
+// The display stays initialized, because EGL shares it among all users in the process.
 GlContext::~GlContext() { egl().destroyContext(display_, context_); }
 
 GlContext::Use::Use(GlContext& context) : lock_(context.mutex_), own_display_(context.display_) {
@@ -130,8 +131,7 @@ GlContext::Use::Use(GlContext& context) : lock_(context.mutex_), own_display_(co
   egl().bindApi(kOpenGlApi);
   if (!egl().makeCurrent(context.display_, nullptr, nullptr, context.context_)) {
     egl().bindApi(api_);
-    throw Error(
-        cat("the OpenGL context (", context.device_, ") cannot be used without a surface; a newer driver is needed"));
+    throw Error(cat("the OpenGL context (", context.device_, ") needs a surface; install a newer driver"));
   }
 }
 

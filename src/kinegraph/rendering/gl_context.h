@@ -5,18 +5,19 @@
 
 namespace kinegraph {
 
-/// An OpenGL context without window or display, by EGL: on the first graphics card that EGL knows, or else in software.
-/// EGL is loaded when the first context is made; nothing needs it before.
+/// An OpenGL context without window or display, made by EGL: on the first graphics card, or else in software. EGL is
+/// loaded with the first context.
 class GlContext {
  public:
-  /// Throws FileError if libEGL or a driver is not installed, naming the packages; Error if no context can be made.
+  /// Throws FileError with the names of the packages if libEGL or a driver is missing; Error if no context can be
+  /// created.
   GlContext();
   ~GlContext();
   GlContext(const GlContext&) = delete;
   GlContext& operator=(const GlContext&) = delete;
 
-  /// While it lives, the calling thread draws into the context, and no other thread does. What was current before is
-  /// current again afterwards.
+  /// While it exists, the calling thread alone draws into the context. Its destructor restores the previous current
+  /// context.
   class Use {
    public:
     explicit Use(GlContext& context);

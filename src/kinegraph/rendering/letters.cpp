@@ -8,17 +8,18 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kMargin = 12, kBesides = 12, kAbove = 7;  // pixels: around the panel, and in it around the letters
-constexpr int kPanel = 255, kInk = 36;                  // gray values
-constexpr double kSolid = .93;                          // of the panel
+constexpr int kMargin = 12, kBesides = 12,
+              kAbove = 7;               // pixels: margin around the panel, and between panel and letters
+constexpr int kPanel = 255, kInk = 36;  // gray values
+constexpr double kSolid = .93;          // opacity of the panel
 
-/// One byte for each character.
+/// Converts to one byte per character.
 std::string ascii(const std::string& text) {
   std::string out;
   for (const char c : validUtf8(text)) {
     const auto byte = static_cast<unsigned char>(c);
     if (byte >= 0xc0)
-      out += '?';  // begins a character; the bytes that follow belong to it
+      out += '?';  // start of a multi-byte character; its other bytes are skipped
     else if (byte == '\t')
       out += ' ';
     else if (byte == '\n' || (byte >= 32 && byte < 127))

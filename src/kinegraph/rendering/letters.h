@@ -6,18 +6,18 @@
 
 namespace kinegraph {
 
-/// A text as a picture: how much of each pixel its letters cover, 0 to 255. Rows run from top to bottom.
+/// A rendered text: the coverage of each pixel by letters, 0 to 255. Rows run from top to bottom.
 struct Letters {
   int width = 0, height = 0;
   std::vector<std::uint8_t> cover;  ///< height x width
 };
 
-/// The lines of a text, none of them wider than `width`: those that are go on in the next line, where there is a space
-/// if possible. `width_of` is that of an ASCII character. What is not ASCII becomes a question mark.
+/// Breaks a text into lines of at most `width` pixels, at spaces if possible. `width_of` gives the width of each ASCII
+/// character. Other characters become question marks.
 std::vector<std::string> brokenLines(const std::string& text, int width, const int* width_of);
 
-/// Puts letters on a picture with `width` columns, whose `rgb` are rows from top to bottom: in the top left corner,
-/// dark on a light panel, as pages show messages. What is outside is cut off.
+/// Draws letters in the top left corner of a picture with `width` columns, dark on a light panel like messages on
+/// pages. `rgb` has rows from top to bottom. Parts outside are clipped.
 void drawLetters(std::vector<std::uint8_t>& rgb, int width, const Letters& letters);
 
 }  // namespace kinegraph

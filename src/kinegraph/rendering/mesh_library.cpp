@@ -8,14 +8,14 @@ namespace kinegraph {
 namespace {
 
 constexpr float kFloorHalf = 5.f;  // m
-constexpr std::size_t kMostPictures = std::min(mjMAXTEXTURE, mjMAXMATERIAL) - 1;
+constexpr std::size_t kMaxImages = std::min(mjMAXTEXTURE, mjMAXMATERIAL) - 1;
 
 RenderMesh floorMesh() {
   const float h = kFloorHalf;
   return {{-h, -h, 0, h, -h, 0, h, h, 0, -h, h, 0}, {0, 0, 1}, {0, 1, 2, 0, 2, 3}, {0, 0, 0, 0, 0, 0}, std::nullopt};
 }
 
-/// Since version 3.3.1 only.
+/// This field exists since MuJoCo 3.3.1.
 template <class Model>
 void setColorSpace(Model& model, int* spaces) {
   if constexpr (requires { model.tex_colorspace; }) model.tex_colorspace = spaces;
@@ -40,9 +40,9 @@ void MeshLibrary::append(const RenderMesh& mesh) {
   face_texcoords_.insert(face_texcoords_.end(), mesh.face_normals.begin(), mesh.face_normals.end());
 }
 
-/// Beyond what MuJoCo can hold, pictures are left out.
+/// Omits images beyond MuJoCo's capacity.
 int MeshLibrary::materialOf(const std::shared_ptr<const Image>& image) {
-  if (!image || (texture_start_.size() >= kMostPictures && !materials_.contains(image->bytes))) return -1;
+  if (!image || (texture_start_.size() >= kMaxImages && !materials_.contains(image->bytes))) return -1;
   const auto [place, is_new] = materials_.try_emplace(image->bytes, int(texture_start_.size()));
   if (!is_new) return place->second;
   const Pixels picture = decodeImage(*image);
@@ -87,7 +87,7 @@ bool MeshLibrary::update(const Shapes& shapes) {
   for (std::size_t i = 0; i < pictures; ++i) texture_of_material_[i * mjNTEXROLE + mjTEXROLE_RGB] = int(i);
   texture_types_.assign(pictures, mjTEXTURE_2D);
   texture_channels_.assign(pictures, 3);
-  linear_.assign(pictures, mjCOLORSPACE_LINEAR);  // as they are
+  linear_.assign(pictures, mjCOLORSPACE_LINEAR);  // colors are used unchanged
   not_uniform_ = std::make_unique<std::remove_pointer_t<decltype(mjModel::mat_texuniform)>[]>(pictures);
   ones_.assign(2 * pictures, 1.f);
   return true;

@@ -12,12 +12,11 @@
 
 namespace kinegraph {
 
-/// The meshes of all shapes that a rendering context knows, and the pictures on them, as a MuJoCo model lists them.
-/// Mesh 0 is the floor.
+/// The meshes and images of all shapes in a rendering context, in the arrays of a MuJoCo model. Mesh 0 is the floor.
 class MeshLibrary {
  public:
-  /// A part of a shape: the number of its mesh, its color if it has its own, and the number of the material with its
-  /// picture, or -1.
+  /// A part of a shape: the index of its mesh, its own color if it has one, and the index of the material with its
+  /// image, or -1.
   struct Part {
     int mesh;
     std::optional<Vector4d> color;
@@ -25,18 +24,18 @@ class MeshLibrary {
   };
   using Shapes = std::set<std::shared_ptr<const Geometry>>;
 
-  /// Takes in what is new, and forgets everything that is not used any more when something is. True if anything
-  /// changed. Throws FileError for a damaged picture.
+  /// Adds new shapes; then also removes unused ones. Returns whether anything changed. Throws FileError for a damaged
+  /// image.
   bool update(const Shapes& shapes);
 
   const std::vector<Part>& parts(const std::shared_ptr<const Geometry>& shape) const { return parts_.at(shape); }
 
-  /// Points the mesh arrays of `model` into this library.
+  /// Sets the mesh arrays of `model` to those of this library.
   void fill(mjModel& model);
 
  private:
   template <class Pointer>
-  using Items = std::vector<std::remove_pointer_t<Pointer>>;  // whose type depends on the version of MuJoCo
+  using Items = std::vector<std::remove_pointer_t<Pointer>>;  // the type depends on the version of MuJoCo
 
   void append(const RenderMesh& mesh);
   int materialOf(const std::shared_ptr<const Image>& image);
@@ -48,7 +47,7 @@ class MeshLibrary {
   std::vector<int> faces_, face_normals_;
   std::vector<int> texcoord_start_, texcoord_count_, face_texcoords_;
   std::vector<float> texcoords_;
-  std::map<std::string_view, int> materials_;  ///< by the bytes of the picture, which belong to a mesh
+  std::map<std::string_view, int> materials_;  ///< by the image's bytes, which a mesh owns
   std::vector<int> texture_of_material_, texture_types_, texture_widths_, texture_heights_, texture_channels_, linear_;
   Items<decltype(mjModel::tex_adr)> texture_start_;
   Items<decltype(mjModel::tex_data)> texture_bytes_;

@@ -13,7 +13,7 @@ void throwErrors(const mjLogMessage* message) {
   if (message->level == mjLOG_ERROR) throw Error(cat("MuJoCo: ", message->subject));
 }
 
-/// MuJoCo has one handler for all threads: the first that asks sets ours, the last one takes it back.
+/// Installs our error handler for the first user and restores the former with the last: MuJoCo has one for all threads.
 struct HandlerUse {
   std::mutex mutex;
   int users = 0;

@@ -13,13 +13,13 @@ namespace kinegraph {
 namespace {
 
 constexpr double kPointRadius = .002;  // m
-constexpr double kCosCrease = .766;    // of 40 degrees
-constexpr std::size_t kMostColors = 64;
+constexpr double kCosCrease = .766;    // cosine of 40 degrees
+constexpr std::size_t kMaxColors = 64;
 
 using Triangle = std::array<std::uint32_t, 3>;
 using Color = std::array<std::uint8_t, 4>;
 
-/// Adds the hull of a cross-section's corners drawn from a to b.
+/// Adds the hull of a cross-section that is extruded from a to b.
 void addTriangles(Mesh& mesh, const std::vector<Vector3d>& corners, const std::vector<Triangle>& triangles,
                   const Color* color) {
   const auto first = std::uint32_t(mesh.vertices.size());
@@ -78,7 +78,7 @@ Mesh surfaceOf(const Geometry& geometry) {
   }
 }
 
-/// For each vertex, the first one at the same place.
+/// Returns for each vertex the first one at the same position.
 std::vector<std::uint32_t> mergedVertices(const std::vector<Vector3d>& vertices) {
   std::map<std::tuple<double, double, double>, std::uint32_t> first;
   std::vector<std::uint32_t> merged(vertices.size());
@@ -89,7 +89,7 @@ std::vector<std::uint32_t> mergedVertices(const std::vector<Vector3d>& vertices)
   return merged;
 }
 
-/// True if every edge of every triangle is met by another triangle's, run through the other way.
+/// Returns whether each edge of each triangle belongs to exactly one other triangle, in the opposite direction.
 bool isClosed(const std::vector<Triangle>& triangles) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> open;
   for (const Triangle& t : triangles) {
@@ -101,10 +101,10 @@ bool isClosed(const std::vector<Triangle>& triangles) {
   return open.empty();
 }
 
-/// What triangles show: one of the mesh's pictures, or a color.
+/// The paint of triangles: an image of the mesh, or a color.
 using Paint = std::pair<const TexturedTriangles*, Color>;
 
-/// Which triangles show what; one group without color if the mesh has none of its own.
+/// Groups triangles by paint; a mesh without own colors is one group without color.
 std::map<Paint, std::vector<std::size_t>> groupByPaint(const Mesh& mesh, const std::vector<std::size_t>& triangles,
                                                        bool colored) {
   for (int coarse = 0;; ++coarse) {
@@ -120,7 +120,7 @@ std::map<Paint, std::vector<std::size_t>> groupByPaint(const Mesh& mesh, const s
       for (std::uint8_t& channel : paint.second) channel = std::uint8_t(channel >> coarse << coarse);
       groups[paint].push_back(i);
     }
-    if (groups.size() <= kMostColors + mesh.textures.size()) return groups;
+    if (groups.size() <= kMaxColors + mesh.textures.size()) return groups;
   }
 }
 
@@ -130,7 +130,7 @@ std::vector<RenderMesh> renderMeshes(const Geometry& geometry) {
   const Mesh mesh = surfaceOf(geometry);
   const std::vector<std::uint32_t> merged = mergedVertices(mesh.vertices);
 
-  // Triangles over merged vertices; those without area show nothing.
+  // triangles over merged vertices; those without area are dropped
   std::vector<Triangle> corners(mesh.triangles.size());
   std::vector<Vector3d> areas(mesh.triangles.size());
   std::vector<std::size_t> used;
@@ -148,7 +148,7 @@ std::vector<RenderMesh> renderMeshes(const Geometry& geometry) {
   for (const std::size_t i : used) surface.push_back(corners[i]);
   const bool both_sides = !isClosed(surface);
 
-  // The normal at a corner: of the faces around it that are not across a sharp edge.
+  // the normal at a corner: of the adjacent faces that no sharp edge separates
   const auto cornerNormal = [&](std::size_t triangle, std::uint32_t vertex) {
     const Vector3d own = areas[triangle].normalized();
     Vector3d sum = Vector3d::Zero();

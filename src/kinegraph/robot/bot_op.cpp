@@ -11,16 +11,17 @@ namespace kinegraph {
 
 BotOp::BotOp(const Config& config, std::shared_ptr<RobotDriver> driver, BotOpOptions options)
     : options_(std::move(options)), model_(config), home_(config.getJointState()) {
-  asked_.fill(-1);
-  if (home_.size() == 0) throw ValueError("BotOp: the configuration has no joints that are active; expected a robot");
+  last_query_.fill(-1);
+  if (home_.size() == 0) throw ValueError("BotOp: the configuration has no active joints; expected a robot");
   const bool is_simulated = driver && driver->world();
-  loop_ = std::make_unique<RobotLoop>(std::move(driver), options_.period, options_.guards);
+  loop_ = std::make_unique<RobotLoop>(std::move(driver), options_.period, options_.safety);
   const std::size_t joints = loop_->info().joints.size();
   if (joints != std::size_t(home_.size()))
     throw ValueError(cat("BotOp: robot '", loop_->info().name, "' has ", joints, " joints; the configuration has ",
                          home_.size(), ": ", join(config.getJointNames())));
   if (options_.realtime && !is_simulated) options_.hyper_speed = 1.;
-  if (options_.realtime && !(options_.hyper_speed > 0.)) options_.realtime = false;  // as fast as it can
+  if (options_.realtime && !(options_.hyper_speed > 0.))
+    options_.realtime = false;  // as fast as the computation allows
   if (options_.realtime) thread_ = std::jthread([this](const std::stop_token& stop) { runThread(stop); });
 }
 
@@ -29,22 +30,23 @@ BotOp::~BotOp() {
   if (thread_.joinable()) thread_.join();
 }
 
-// --- state ---------------------------------------------------------------------------------------------------------------
+// --- state
+// ---------------------------------------------------------------------------------------------------------------
 
 double BotOp::get_t() {
-  ask(askTime);
+  countQuery(queryTime);
   const Lock lock(mutex_);
   return loop_->time();
 }
 
 VectorXd BotOp::get_q() {
-  ask(askQ);
+  countQuery(queryQ);
   const Lock lock(mutex_);
   return loop_->state().q;
 }
 
 VectorXd BotOp::get_qDot() {
-  ask(askVelocity);
+  countQuery(queryVelocity);
   const Lock lock(mutex_);
   return loop_->state().velocity;
 }
@@ -52,7 +54,7 @@ VectorXd BotOp::get_qDot() {
 VectorXd BotOp::get_qHome() const { return home_; }
 
 VectorXd BotOp::get_tauExternal() {
-  ask(askExternal);
+  countQuery(queryExternal);
   const Lock lock(mutex_);
   VectorXd mean = VectorXd::Constant(home_.size(), std::numeric_limits<double>::quiet_NaN());
   if (external_count_ > 0) {
@@ -65,7 +67,7 @@ VectorXd BotOp::get_tauExternal() {
 }
 
 double BotOp::getTimeToEnd() {
-  ask(askEnd);
+  countQuery(queryEnd);
   const Lock lock(mutex_);
   return timeToEnd();
 }
@@ -84,7 +86,8 @@ std::string BotOp::getFault() const {
   return loop_->fault();
 }
 
-// --- grippers ------------------------------------------------------------------------------------------------------------
+// --- grippers
+// ------------------------------------------------------------------------------------------------------------
 
 void BotOp::requireGripper(const char* call, int gripper) const {
   const auto& grippers = loop_->info().grippers;
@@ -100,8 +103,8 @@ void BotOp::gripper(const char* call, GripperCommand command) {
   requireGripper(call, command.gripper);
   const GripperInfo& info = loop_->info().grippers[std::size_t(command.gripper)];
   if (!std::isfinite(command.width) || !(command.speed > 0.) || !(command.force > 0.))
-    throw ValueError(cat(call, ": width ", command.width, ", speed ", command.speed, ", force ", command.force,
-                         "; expected finite numbers, speed and force more than 0"));
+    throw ValueError(cat(call, ": width is ", command.width, ", speed ", command.speed, ", force ", command.force,
+                         "; expected a finite width, and speed and force above 0"));
   command.width = std::clamp(command.width, info.min_width, info.max_width);
   command.speed = std::min(command.speed, info.max_speed);
   command.force = std::min(command.force, info.max_force);
@@ -123,19 +126,20 @@ void BotOp::gripperCloseGrasp(int gripper, const std::string& object, double for
 
 double BotOp::getGripperPos(int gripper) {
   requireGripper("BotOp::getGripperPos", gripper);
-  ask(askGripper);
+  countQuery(queryGripper);
   const Lock lock(mutex_);
   return loop_->state().grippers.at(std::size_t(gripper)).width;
 }
 
 bool BotOp::gripperDone(int gripper) {
   requireGripper("BotOp::gripperDone", gripper);
-  ask(askDone);
+  countQuery(queryDone);
   const Lock lock(mutex_);
   return loop_->state().grippers.at(std::size_t(gripper)).is_done;
 }
 
-// --- the simulated world -------------------------------------------------------------------------------------------------
+// --- the simulated world
+// -------------------------------------------------------------------------------------------------
 
 Config BotOp::getWorld() const {
   const Lock lock(mutex_);
@@ -174,7 +178,8 @@ void BotOp::setFramePose(const std::string& frame, const Pose& pose) {
   loop_->apply(PlaceFrame{frame, pose});
 }
 
-// --- records -------------------------------------------------------------------------------------------------------------
+// --- records
+// -------------------------------------------------------------------------------------------------------------
 
 CommandLog BotOp::getLog() const {
   const Lock lock(mutex_);
@@ -184,13 +189,14 @@ CommandLog BotOp::getLog() const {
 void BotOp::replay(const CommandLog& log) {
   constexpr const char* call = "BotOp::replay";
   Lock lock(mutex_);
-  if (options_.realtime) throw ValueError(cat(call, ": time is real here; a log is replayed in virtual time"));
+  if (options_.realtime)
+    throw ValueError(cat(call, ": the robot moves in real time; a log is replayed in virtual time"));
   if (loop_->tick() != 0 || !loop_->log().entries.empty())
-    throw ValueError(cat(call, ": the robot was moved before; expected a BotOp that is new"));
+    throw ValueError(cat(call, ": the robot has moved before; expected a new BotOp"));
   if (log.period != options_.period)
-    throw ValueError(
-        cat(call, ": the log's period is ", log.period, " s; that of this BotOp is ", options_.period, " s"));
-  const auto go = [&](long tick) {
+    throw ValueError(cat(call, ": the period of the log is ", log.period, " s; expected that of the BotOp, ",
+                         options_.period, " s"));
+  const auto advanceTo = [&](long tick) {
     while (loop_->tick() < tick) {
       lock.unlock();
       advanceVirtually(options_.period);
@@ -198,10 +204,10 @@ void BotOp::replay(const CommandLog& log) {
     }
   };
   for (const CommandLog::Entry& entry : log.entries) {
-    go(entry.tick);
+    advanceTo(entry.tick);
     loop_->apply(entry.command);
   }
-  go(log.ticks);
+  advanceTo(log.ticks);
 }
 
 void BotOp::recordTo(const std::string& path) {

@@ -18,192 +18,217 @@ class BotOp;
 
 /// Settings of a BotOp.
 struct BotOpOptions {
-  double period = .01;      ///< of control, s
-  bool realtime = false;    ///< a thread moves the robot by the clock on the wall; of a robot that is there, always
-  double hyper_speed = 1.;  ///< seconds of control per second on the wall, where these have to do with each other
-  GuardLimits guards;
+  double period = .01;      ///< control period, s
+  bool realtime = false;    ///< a thread moves the robot in wall-clock time
+  double hyper_speed = 1.;  ///< control time per wall-clock time, with `realtime` or while a viewer is open
+  SafetyLimits safety;
 
-  /// Shows a scene, which is where robot and world are; returns the key pressed since the last time, or 0.
+  /// Shows a scene in the state of robot and world; returns the key pressed since the last call, or 0.
   std::function<int(const BotOp&, Config&, const std::string& message)> show;
-  std::function<bool()> watched;   ///< does somebody look at what is shown?
-  CancellationToken cancellation;  ///< called now and then while a call waits; what it throws ends the call
+  std::function<bool()> watched;   ///< tells whether a viewer is open
+  CancellationToken cancellation;  ///< called while a call waits; an exception of it ends the call
 
-  /// Where time is real, asked before each period, by the thread that moves the robot: true holds the robot, whatever
-  /// the rest of the program does meanwhile.
+  /// Called before each period by the thread of `realtime`; true holds the robot, even while no call waits.
   std::function<bool()> interrupted;
 };
 
-/// What a robot says and was told at one time, for `stepAction`.
-struct StepObservation {
-  double ctrl_time = 0.;    ///< s
-  VectorXd qpos, qvel;      ///< as read
-  VectorXd qref, qvel_ref;  ///< as told
+/// Options of BotOp::follow.
+struct FollowOptions {
+  double tolerance = 1e-3;           ///< rad or m: largest distance of a joint from the trajectory's start
+  double velocity_tolerance = 1e-2;  ///< rad/s or m/s: largest difference from the trajectory's velocity at its start
+  bool overwrite = false;            ///< replace the present motion, instead of following it
+  double start_time = -1.;           ///< control time of t = 0 with `overwrite`, s; negative: now
+
+  void validate() const;  ///< throws ValueError
 };
 
-/// Moves a robot, simulated or there, along motions; opens and closes its grippers; shows how it goes.
+/// State and reference of a robot at one time, for `stepAction`.
+struct StepObservation {
+  double ctrl_time = 0.;    ///< s
+  VectorXd qpos, qvel;      ///< of the robot's state
+  VectorXd qref, qvel_ref;  ///< of the last command
+};
+
+/// Moves a simulated or real robot along motions, operates its grippers, and shows both.
 ///
-/// Time is *virtual* unless a robot is there or `realtime` is set: it goes on in calls that wait (`sync`, `wait`, `home`,
-/// `stop`) by exactly what they say, as fast as it can be computed, or as fast as time on the wall while somebody watches.
-/// Whoever asks the same question again at the same time is answered one period later, so that loops that ask until a
-/// motion is over come to an end. The same calls give the same motion, to the bit.
+/// Time is *virtual* unless the robot is real or `realtime` is set. It advances in calls that wait (`sync`, `wait`,
+/// `home`, `stop`), by exactly their duration, as fast as the computation allows, or at the pace of the wall clock
+/// while a viewer is open. A repeated query at the same time advances the clock by one control period, so that polling
+/// loops terminate. The same calls give the same motion, to the bit.
 ///
-/// A Config that is given to a call is the user's: it is set to where robot and world are, and never looked at for where
-/// they should be; but what it has that the simulated world has not, is added there.
+/// A Config argument belongs to the caller. A call sets it to the state of robot and world, and copies its new frames
+/// into the simulated world; its q is never read.
 ///
-/// Calls throw ValueError for arguments that make no sense and for motions beyond limits of the robot, and RobotFault if
-/// it was stopped. Where `cancellation` throws, as Ctrl-C does in Python, the robot is held first.
+/// Calls throw ValueError for invalid arguments and for motions beyond the robot's limits, and RobotFault if the robot
+/// was stopped. If `cancellation` throws, as for Ctrl-C in Python, the robot is held first.
 class BotOp {
  public:
-  /// A simulated robot in a copy of `config`, shown by its viewer; `use_real_robot` is refused, as that takes a driver.
+  /// Simulates a robot in a copy of `config`, shown by its viewer. Throws ValueError for `use_real_robot`, which
+  /// requires a driver.
   explicit BotOp(Config& config, bool use_real_robot = false);
 
-  /// A robot behind a driver. Its joints are those of `config`, in that order.
+  /// Moves a robot through its driver. Its joints are those of `config`, in that order.
   BotOp(const Config& config, std::shared_ptr<RobotDriver> driver, BotOpOptions options = {});
   ~BotOp();
   BotOp(const BotOp&) = delete;
 
-  // --- state -----------------------------------------------------------------------------------------------------------
+  // --- state
+  // -----------------------------------------------------------------------------------------------------------
 
   double get_t();              ///< control time, s
   VectorXd get_q();            ///< (n,)
   VectorXd get_qDot();         ///< (n,)
-  VectorXd get_qHome() const;  ///< q of the configuration that it was made from
-  VectorXd get_tauExternal();  ///< (n,) N m or N; mean since the last call. NaN if the robot does not know
-  double getTimeToEnd();       ///< s until the motion ends; not positive: it has, or there is none
-  int getKeyPressed() const { return key_; }  ///< the one of the last sync
+  VectorXd get_qHome() const;  ///< q of the configuration passed to the constructor
+  VectorXd get_tauExternal();  ///< (n,) N m or N; mean since the last call. NaN if the robot does not measure it
+  double getTimeToEnd();       ///< s until the motion ends; 0 or less if it has ended, or if there is none
+  int getKeyPressed() const { return key_; }  ///< key of the last sync
   const RobotInfo& getInfo() const { return loop_->info(); }
   LoopMode getMode() const;
-  std::string getFault() const;  ///< why it was stopped; empty if it was not
+  std::string getFault() const;  ///< cause of the fault; empty without one
 
-  // --- motions ---------------------------------------------------------------------------------------------------------
+  // --- motions
+  // ---------------------------------------------------------------------------------------------------------
 
-  /// Goes to q, after what it does now, or instead with `overwrite` (from where it is, if something holds it back). It
-  /// takes T = (sqrt(6 c d + v^2) - v) / c of the distance d, the velocity v towards it and the cost of time c; at least
-  /// .1 s and as long as limits ask for.
+  /// Moves to q, after the present motion, or instead of it with `overwrite` (from the robot's q, if it is blocked).
+  /// The duration is T = (sqrt(6 c d + v^2) - v) / c for the distance d, the velocity v towards q, and the time cost c;
+  /// at least .1 s, and longer if the limits require it.
   void moveTo(const VectorXd& q, double time_cost = 1., bool overwrite = false);
 
-  /// Goes along a spline of degree 3 of these points (K x n), which it comes near and ends at, at these times (K,) after
-  /// the end of what it does now; a single time is that of the last point, the others share it evenly. With `overwrite`,
-  /// what it does ends at `overwrite_time`, or now if that is negative, and times count from there. Until a time to come
-  /// it goes on with what it does, and then with the velocity that it has there. From a time that is over, it takes up
-  /// the motion where that would be now.
+  /// Moves along a spline of degree 3 with these control points (K x n) at these times (K,) after the end of the
+  /// present motion. The motion comes near the inner points and ends at the last. A single time is that of the last
+  /// point; the others share it evenly. With `overwrite`, the present motion ends at `overwrite_time`, or now if that
+  /// is negative, and times count from there. If `overwrite_time` lies ahead, the new motion starts there with the
+  /// present velocity; if it has passed, the new motion starts at the point that it would have reached by now.
   void move(const MatrixXd& path, const VectorXd& times, bool overwrite = false, double overwrite_time = -1.);
 
-  /// The same with the shortest time for which no joint is faster than max_velocity and max_acceleration, nor than its
-  /// limits.
+  /// Moves along the same spline in the shortest time within max_velocity, max_acceleration, and the joints' limits.
   void moveAutoTimed(const MatrixXd& path, double max_velocity = 1., double max_acceleration = 1.);
 
-  /// Follows any motion, in control time. It must begin where the robot is.
-  void follow(const BSpline& motion);
+  /// Executes a trajectory as it is: the reference of each control period is trajectory.eval(t), with velocity and
+  /// acceleration. t = 0 is the end of the present motion, or now, or a later control time with `overwrite`. The robot
+  /// rests at the end; a trajectory that ends with a velocity is followed by a stopping segment. The trajectory is
+  /// evaluated in this call, and not needed later.
+  ///
+  /// Throws ValueError if the robot or its reference is not at the trajectory's start, within the tolerances, and if the
+  /// trajectory exceeds a limit of position, velocity, acceleration or effort.
+  void follow(const Trajectory& trajectory, const FollowOptions& options = {});
 
-  void hold();                         ///< comes to rest at once and stays, stiff
-  void floating(double damping = 0.);  ///< no stiffness; damping 0 .. 1 of the robot's
+  void hold();                         ///< stops at once, and stays there, at full stiffness
+  void floating(double damping = 0.);  ///< sets the stiffness to zero; damping is a share of the robot's, 0 .. 1
 
-  /// Gives way in the directions of the rows of J (k x n), which must be independent: by `compliance` 0 (not) .. 1 (fully).
+  /// Makes the robot compliant in the directions of the rows of J (k x n), which must be linearly independent.
+  /// `compliance` is 0 (stiff) .. 1 (no stiffness).
   void setCompliance(const MatrixXd& J, double compliance = .5);
 
   StepObservation stepObservation();
 
-  /// Accelerates constantly for lambda s from the observation's reference, with (delta - 2 xi lambda qvel) / lambda^2,
-  /// scaled down to max_acceleration; comes to rest in the next lambda s unless another step follows.
+  /// Accelerates by (delta - 2 xi lambda qvel) / lambda^2 for lambda s, from the reference of the observation; the
+  /// acceleration is scaled down to max_acceleration. Comes to rest in the next lambda s unless another step follows.
   void stepAction(const VectorXd& delta, const StepObservation& observation, double lambda,
                   double max_acceleration = 5., double xi = 1.);
 
-  void home(Config& C);  ///< moves to qHome, waits
-  void stop(Config& C);  ///< holds, waits until it is at rest
-  void recover();        ///< after a fault: clears it, holds where it is
+  void home(Config& C);  ///< moves to qHome, and waits
+  void stop(Config& C);  ///< holds, and waits until the robot rests
+  void recover();        ///< clears a fault, and holds the robot at its present q
 
-  /// Limits in place of the robot's own, (n,) or one number for all; empty: as they are. Throws ValueError if negative.
+  /// Replaces limits of the robot; (n,) or one number for all joints, empty to keep them. Throws ValueError if one is
+  /// not positive.
   void setLimits(const VectorXd& velocity, const VectorXd& acceleration, const VectorXd& effort);
 
-  // --- time ------------------------------------------------------------------------------------------------------------
+  // --- time
+  // ------------------------------------------------------------------------------------------------------------
 
-  /// Time goes on by `wait_time` s; then C is where robot and world are, and is shown. Returns the key pressed since the
-  /// last time, or 0; where time is real, a key ends the waiting.
+  /// Advances time by `wait_time` s, sets C to the state of robot and world, and shows it. Returns the key pressed
+  /// since the last call, or 0; in real time a key ends the wait.
   int sync(Config& C, double wait_time = .1, const std::string& message = {});
 
-  /// Syncs until a key is pressed, the motion is over, or grippers are done; whichever are asked for. Returns the key, 'g'
-  /// for grippers, else 0. For keys alone it does not wait if nobody watches.
+  /// Syncs until a key is pressed, the motion ends, or all grippers are done, as selected. Returns the key, 'g' for
+  /// grippers, else 0. Without a viewer it does not wait for keys alone.
   int wait(Config& C, bool for_key = true, bool for_end = true, bool for_gripper = false, double sync_period = .05);
 
-  // --- grippers --------------------------------------------------------------------------------------------------------
+  // --- grippers
+  // --------------------------------------------------------------------------------------------------------
 
   void gripperMove(int gripper, double width = .075, double speed = .2);
-  /// Closes until something is between the fingers, and holds it.
+  /// Closes until an object stops the fingers, and holds it.
   void gripperClose(int gripper, double force = 10., double width = .05, double speed = .1);
   void gripperCloseGrasp(int gripper, const std::string& object, double force = 10., double width = .05,
                          double speed = .1);
-  double getGripperPos(int gripper);  ///< the opening, m
+  double getGripperPos(int gripper);  ///< width of the opening, m
   bool gripperDone(int gripper);
 
-  // --- the simulated world ---------------------------------------------------------------------------------------------
+  // --- the simulated world
+  // ---------------------------------------------------------------------------------------------
 
   void attach(const std::string& from, const std::string& to);
   void detach(const std::string& from, const std::string& to);
   void setFramePose(const std::string& frame, const Pose& pose);
 
-  Config getWorld() const;  ///< a copy of the simulated world as it is now
+  Config getWorld() const;  ///< a copy of the simulated world in its present state
 
-  /// What touches in the simulated world now; nothing without forces, and of a robot that is there.
+  /// Returns the present contacts in the simulated world; none without forces, and for a real robot.
   std::vector<Contact> getContacts() const;
 
-  /// Brings `config`, a copy of an earlier time or another configuration, to the present.
+  /// Sets `config`, which has frames of the same names, to the present state of robot and world.
   void update(Config& config) const;
 
-  /// What a camera of the world sees, by the name of its frame; see CameraRenderer::render. Throws FrameNotFound, ValueError.
+  /// Renders the view of a camera, given by its frame's name; see CameraRenderer::render. Throws FrameNotFound,
+  /// ValueError.
   CameraImage getImageAndDepth(const std::string& camera);
   Vector4d getCameraFxycxy(const std::string& camera);  ///< fx, fy, cx, cy in pixels
 
-  /// Image, depth, and the points of the depth image (height x width x 3), in the camera's axes or in those of the world.
+  /// Renders image and depth, and computes the points of the depth image (height x width x 3), in the axes of the
+  /// camera or of the world.
   std::pair<CameraImage, std::vector<double>> getImageDepthPcl(const std::string& camera,
                                                                bool global_coordinates = false);
 
-  // --- records ---------------------------------------------------------------------------------------------------------
+  // --- records
+  // ---------------------------------------------------------------------------------------------------------
 
-  CommandLog getLog() const;  ///< all that the robot was told so far
+  CommandLog getLog() const;  ///< all commands so far
 
-  /// Does again what a log says, on a robot that was not told anything yet. Throws ValueError otherwise, and for a log of
-  /// another period.
+  /// Executes a log on a robot without commands so far. Throws ValueError otherwise, and if the log has another period.
   void replay(const CommandLog& log);
 
-  /// Writes a row for each period into a file from now on: t, q, velocity, reference. None if the path is empty. Throws
-  /// FileError.
+  /// Writes a line per control period into a file from now on: t, q, velocity, and the references of both. An empty
+  /// path ends it. Throws FileError.
   void recordTo(const std::string& path);
 
  private:
-  enum Question : int {
-    askTime,
-    askQ,
-    askVelocity,
-    askExternal,
-    askEnd,
-    askGripper,
-    askDone,
-    askObservation,
-    askCount
+  enum Query : int {
+    queryTime,
+    queryQ,
+    queryVelocity,
+    queryExternal,
+    queryEnd,
+    queryGripper,
+    queryDone,
+    queryObservation,
+    queryCount
   };
   using Clock = std::chrono::steady_clock;
   using Lock = std::unique_lock<std::mutex>;
 
-  void ask(Question question);
+  void countQuery(Query query);
   void stepOnce(const Lock& lock);
   void advance(double seconds, bool keys_end_it);
   void advanceVirtually(double seconds);
   void waitRealtime(double seconds, bool keys_end_it);
   void pace();
-  void look();  ///< calls `cancellation`, holds the robot if that throws
+  void checkCancellation();
   void runThread(const std::stop_token& stop);
   void requireRunning(const char* call) const;
   int show(Config& C, const std::string& message);
-  void takeUp(const Config& C);
+  void addNewFrames(const Config& C);
   bool isWatched() const { return options_.watched && options_.watched(); }
 
-  BSpline doneUntil(double time) const;
-  BSpline continued(const MatrixXd& path, const VectorXd& times, bool overwrite, double cut) const;
-  void engage(const char* call, const BSpline& motion, double from);
+  FollowSpline continuation(const MatrixXd& path, const VectorXd& times, bool overwrite, double cut) const;
+  void start(const char* call, const FollowSpline& motion, double from);
+  void requireStart(const Trajectory& trajectory, const FollowOptions& options, double begin) const;
   double nextStart() const;
   void holdNow();
-  void giveWay();
+  void holdIfBlocked();
+  double trackingError() const;
   void gripper(const char* call, GripperCommand command);
   void requireGripper(const char* call, int gripper) const;
   BotCameras& cameras();
@@ -213,17 +238,17 @@ class BotOp {
   Config model_;  ///< for efforts
   VectorXd home_;
   std::unique_ptr<RobotLoop> loop_;
-  mutable std::mutex mutex_;          ///< of the loop and all that it changes
-  std::array<long, askCount> asked_;  ///< the period at which each question was answered last
-  double owed_ = 0.;                  ///< virtual time that is less than a period
+  mutable std::mutex mutex_;                 ///< guards the loop
+  std::array<long, queryCount> last_query_;  ///< the control period of each query
+  double pending_time_ = 0.;                 ///< virtual time that is less than a period, s
   int key_ = 0;
-  std::uint64_t seen_structure_ = 0;  ///< of the configuration that was synced last
+  std::uint64_t seen_structure_ = 0;  ///< structure revision of the configuration of the last sync
   VectorXd external_sum_;
   long external_count_ = 0;
   std::unique_ptr<std::ofstream> record_;
-  std::shared_ptr<BotCameras> cameras_;  ///< made for the first picture
-  Clock::time_point started_ = Clock::now(), next_ = started_, looked_ = started_;
-  std::jthread thread_;  ///< the last member: it ends first
+  std::shared_ptr<BotCameras> cameras_;  ///< created by the first image
+  Clock::time_point started_ = Clock::now(), next_ = started_, checked_ = started_;
+  std::jthread thread_;  ///< the last member, so that it ends first
 };
 
 }  // namespace kinegraph

@@ -1,4 +1,4 @@
-// How time goes on in a BotOp.
+// The clock of a BotOp: virtual time, and the thread of real time.
 #include <algorithm>
 #include <fstream>
 
@@ -13,8 +13,8 @@ using std::chrono::duration;
 using std::chrono::duration_cast;
 using std::chrono::milliseconds;
 
-constexpr milliseconds kLook{20};     // between two looks at whether a call shall end
-constexpr milliseconds kCatchUp{50};  // what is later than that is not caught up with: time slips
+constexpr milliseconds kCheck{20};    // between two checks for cancellation
+constexpr milliseconds kCatchUp{50};  // larger delays are not caught up with
 
 std::chrono::steady_clock::duration wallTime(double seconds, double speed) {
   return duration_cast<std::chrono::steady_clock::duration>(duration<double>(seconds / speed));
@@ -25,7 +25,7 @@ std::chrono::steady_clock::duration wallTime(double seconds, double speed) {
 void BotOp::stepOnce(const Lock&) {
   try {
     loop_->step();
-  } catch (...) {  // no error of the driver's, which stops the robot, but somebody who ends the program
+  } catch (...) {  // an interrupt of the program; the loop itself catches the driver's errors
     holdNow();
     throw;
   }
@@ -43,8 +43,8 @@ void BotOp::stepOnce(const Lock&) {
   *record_ << '\n';
 }
 
-void BotOp::look() {
-  looked_ = Clock::now();
+void BotOp::checkCancellation() {
+  checked_ = Clock::now();
   if (!options_.cancellation) return;
   try {
     options_.cancellation.check();
@@ -55,49 +55,50 @@ void BotOp::look() {
   }
 }
 
-void BotOp::ask(Question question) {
+/// A repeated query at the same virtual time advances it by one period.
+void BotOp::countQuery(Query query) {
   if (options_.realtime) return;
-  long& asked = asked_[std::size_t(question)];
-  if (asked == loop_->tick()) advanceVirtually(options_.period);
-  asked = loop_->tick();
+  long& last = last_query_[std::size_t(query)];
+  if (last == loop_->tick()) advanceVirtually(options_.period);
+  last = loop_->tick();
 }
 
-/// Keeps virtual time from being faster than that on the wall, as far as it is not late.
+/// Delays virtual time to the pace of the wall clock.
 void BotOp::pace() {
   const auto now = Clock::now();
   next_ += wallTime(options_.period, options_.hyper_speed);
   if (next_ + kCatchUp < now) next_ = now;
   while (Clock::now() < next_) {
-    std::this_thread::sleep_until(std::min(next_, Clock::now() + kLook));
-    look();
+    std::this_thread::sleep_until(std::min(next_, Clock::now() + kCheck));
+    checkCancellation();
   }
 }
 
 void BotOp::advanceVirtually(double seconds) {
-  owed_ += seconds;
+  pending_time_ += seconds;
   const bool paced = options_.hyper_speed > 0. && isWatched();
-  for (; owed_ >= options_.period * (1. - 1e-9); owed_ -= options_.period) {
+  for (; pending_time_ >= options_.period * (1. - 1e-9); pending_time_ -= options_.period) {
     {
       const Lock lock(mutex_);
       stepOnce(lock);
     }
     if (paced) pace();
-    if (Clock::now() - looked_ > kLook) look();
+    if (Clock::now() - checked_ > kCheck) checkCancellation();
   }
-  if (owed_ < 1e-9 * options_.period) owed_ = 0.;
+  if (pending_time_ < 1e-9 * options_.period) pending_time_ = 0.;
 }
 
 void BotOp::waitRealtime(double seconds, bool keys_end_it) {
   const auto end = Clock::now() + wallTime(seconds, options_.hyper_speed);
   for (auto now = Clock::now(); now < end && !(keys_end_it && key_); now = Clock::now()) {
-    std::this_thread::sleep_until(std::min(end, now + kLook));
-    look();
+    std::this_thread::sleep_until(std::min(end, now + kCheck));
+    checkCancellation();
   }
 }
 
 void BotOp::advance(double seconds, bool keys_end_it) {
-  if (!(seconds >= 0.)) throw ValueError(cat("BotOp: a time of ", seconds, " s to wait; expected 0 or more"));
-  look();
+  if (!(seconds >= 0.)) throw ValueError(cat("BotOp: the time to wait is ", seconds, " s; expected 0 or more"));
+  checkCancellation();
   if (options_.realtime) {
     waitRealtime(seconds, keys_end_it);
   } else {
@@ -113,7 +114,7 @@ void BotOp::runThread(const std::stop_token& stop) {
       try {
         if (options_.interrupted && options_.interrupted() && loop_->mode() == LoopMode::follow) holdNow();
         stepOnce(lock);
-      } catch (const std::exception& error) {  // nobody is above
+      } catch (const std::exception& error) {  // no caller could catch it
         loop_->stop(error.what());
       }
     }
@@ -138,11 +139,12 @@ int BotOp::show(Config& C, const std::string& message) {
 void BotOp::requireRunning(const char* call) const {
   const Lock lock(mutex_);
   if (loop_->mode() == LoopMode::fault)
-    throw RobotFault(cat(call, ": the robot was stopped: ", loop_->fault(), "; call recover() when that is mended"));
+    throw RobotFault(
+        cat(call, ": the robot was stopped: ", loop_->fault(), "; resolve the cause, then call recover()"));
 }
 
-/// What was added to the configuration since it was last looked at is part of the world from now on.
-void BotOp::takeUp(const Config& C) {
+/// Copies frames that are new in the configuration since its last sync into the simulated world.
+void BotOp::addNewFrames(const Config& C) {
   if (C.scene()->structureRevision() == seen_structure_) return;
   seen_structure_ = C.scene()->structureRevision();
   const Lock lock(mutex_);
@@ -151,7 +153,7 @@ void BotOp::takeUp(const Config& C) {
 
 int BotOp::sync(Config& C, double wait_time, const std::string& message) {
   key_ = 0;
-  takeUp(C);
+  addNewFrames(C);
   if (options_.realtime) {
     update(C);
     key_ = show(C, message);
@@ -167,7 +169,8 @@ int BotOp::sync(Config& C, double wait_time, const std::string& message) {
 }
 
 int BotOp::wait(Config& C, bool for_key, bool for_end, bool for_gripper, double sync_period) {
-  if (!(sync_period > 0.)) throw ValueError(cat("BotOp::wait: sync_period is ", sync_period, "; expected more than 0"));
+  if (!(sync_period > 0.))
+    throw ValueError(cat("BotOp::wait: sync_period is ", sync_period, " s; expected a number above 0"));
   for (;;) {
     const int key = sync(C, sync_period);
     if (for_key && key) return key;

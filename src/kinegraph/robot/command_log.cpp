@@ -1,5 +1,6 @@
 #include "kinegraph/robot/command_log.h"
 
+#include <cmath>
 #include <fstream>
 #include <iomanip>
 #include <sstream>
@@ -33,7 +34,18 @@ void write(std::ostream& out, const BSpline& spline) {
 struct Writer {
   std::ostream& out;
 
-  void operator()(const FollowSpline& c) { write(out << "follow", c.motion); }
+  void operator()(const FollowSpline& c) {
+    if (std::isfinite(c.begin)) {
+      write(out << "follow_from " << exact(c.begin), c.motion);
+    } else {
+      write(out << "follow", c.motion);
+    }
+  }
+  void operator()(const FollowTrajectory& c) {
+    const MotionStates& samples = c.motion->samples();
+    write(out << "trajectory " << exact(c.begin), samples.times);
+    for (const MatrixXd* values : {&samples.q, &samples.velocity, &samples.acceleration}) write(out, *values);
+  }
   void operator()(const HoldRobot& c) { write(out << "hold", c.motion); }
   void operator()(const FloatRobot& c) { out << "float " << exact(c.damping); }
   void operator()(const SetStiffness& c) { write(out << "stiffness", c.stiffness); }
@@ -50,7 +62,7 @@ struct Writer {
 
 // --- reading -------------------------------------------------------------------------------------------------------
 
-/// One line of a log; whatever is wrong with it is an error with its place.
+/// Reads the words of one line; errors name the line.
 class Line {
  public:
   Line(const std::string& text, SourcePosition where) : in_(text), where_(std::move(where)) {}
@@ -71,18 +83,19 @@ class Line {
       if (used == text.size()) return value;
     } catch (const std::exception&) {
     }
-    fail(cat("'", text, "' is no number"));
+    fail(cat("'", text, "' is not a number"));
   }
 
   long count() {
     const double value = number();
-    if (!(value >= 0.) || value > 1e7 || value != double(long(value))) fail(cat("expected a count, not ", value));
+    if (!(value >= 0.) || value > 1e7 || value != double(long(value)))
+      fail(cat("the count is ", value, "; expected an integer from 0 to 1e7"));
     return long(value);
   }
 
   std::string quoted() {
     std::string text;
-    if (!(in_ >> std::quoted(text))) fail("expected a name in quotes");
+    if (!(in_ >> std::quoted(text))) fail("expected a name in quotes here");
     return text;
   }
 
@@ -94,7 +107,8 @@ class Line {
 
   MatrixXd matrix() {
     const long rows = count(), columns = count();
-    if (rows * columns > 10'000'000) fail("too many numbers");
+    if (rows * columns > 10'000'000)
+      fail(cat("the matrix has ", rows, " x ", columns, " numbers; expected at most 1e7"));
     MatrixXd numbers(rows, columns);
     for (double& x : numbers.reshaped<Eigen::RowMajor>()) x = number();
     return numbers;
@@ -110,6 +124,17 @@ class Line {
     }
   }
 
+  std::shared_ptr<const SampledTrajectory> trajectory() {
+    MotionStates samples;
+    samples.times = vector();
+    for (MatrixXd* values : {&samples.q, &samples.velocity, &samples.acceleration}) *values = matrix();
+    try {
+      return std::make_shared<const SampledTrajectory>(std::move(samples));
+    } catch (const ValueError& error) {
+      fail(error.what());
+    }
+  }
+
  private:
   std::istringstream in_;
   SourcePosition where_;
@@ -118,6 +143,14 @@ class Line {
 LoopCommand readCommand(Line& line) {
   const std::string kind = line.word();
   if (kind == "follow") return FollowSpline{line.spline()};
+  if (kind == "follow_from") {
+    const double begin = line.number();
+    return FollowSpline{line.spline(), begin};
+  }
+  if (kind == "trajectory") {
+    const double begin = line.number();
+    return FollowTrajectory{begin, line.trajectory()};
+  }
   if (kind == "hold") return HoldRobot{line.spline()};
   if (kind == "float") return FloatRobot{line.number()};
   if (kind == "stiffness") return SetStiffness{line.matrix()};
@@ -138,11 +171,13 @@ LoopCommand readCommand(Line& line) {
   if (kind == "place") {
     const std::string frame = line.quoted();
     const VectorXd pose = line.vector();
-    if (pose.size() != 7) line.fail(cat("a pose of ", pose.size(), " numbers; expected 7"));
+    if (pose.size() != 7) line.fail(cat("the pose has ", pose.size(), " numbers; expected 7"));
     return PlaceFrame{frame, Pose(pose.head<3>(), Quaterniond(pose[3], pose[4], pose[5], pose[6]))};
   }
   if (kind == "recover") return RecoverRobot{};
-  line.fail(cat("no command '", kind, "'"));
+  const std::vector<std::string> kinds = {"follow",  "follow_from", "trajectory", "hold",   "float", "stiffness",
+                                          "gripper", "grasp",       "attach",     "detach", "place", "recover"};
+  line.fail(cat("unknown command '", kind, "'", similarHint(kind, kinds)));
 }
 
 }  // namespace
@@ -162,23 +197,24 @@ std::string CommandLog::text() const {
 CommandLog CommandLog::fromText(const std::string& text, const std::string& name) {
   std::istringstream in(text);
   CommandLog log;
-  std::string words;
+  std::string content;
   SourcePosition where{name, 1, 1};
-  if (!std::getline(in, words) || words != kHeader) throw ParseError(where, cat("expected '", kHeader, "'"));
-  for (bool ended = false; std::getline(in, words);) {
+  if (!std::getline(in, content) || content != kHeader)
+    throw ParseError(where, cat("the first line is not '", kHeader, "'; expected a command log"));
+  for (bool ended = false; std::getline(in, content);) {
     ++where.line;
-    if (words.empty()) continue;
-    Line line(words, where);
-    if (ended) line.fail("nothing is expected after the end");
+    if (content.empty()) continue;
+    Line line(content, where);
+    if (ended) line.fail("a line follows the end of the log");
     if (where.line == 2) {
       if (line.word() != "period" || !((log.period = line.number()) > 0.))
-        line.fail("expected 'period' and s, more than 0");
+        line.fail("expected the word 'period' and a number of seconds above 0");
       continue;
     }
     const long tick = line.count();
-    if (tick < log.ticks) line.fail(cat("period ", tick, " comes after ", log.ticks));
+    if (tick < log.ticks) line.fail(cat("control period ", tick, " follows ", log.ticks, "; expected increasing ones"));
     log.ticks = tick;
-    if (words.ends_with(" end")) {
+    if (content.ends_with(" end")) {
       ended = true;
     } else {
       log.entries.push_back({tick, readCommand(line)});

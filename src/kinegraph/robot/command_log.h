@@ -1,64 +1,76 @@
 #pragma once
 
-#include <iosfwd>
+#include <limits>
+#include <memory>
 #include <variant>
+#include <vector>
 
 #include "kinegraph/robot/robot_driver.h"
 #include "kinegraph/trajectories/b_spline.h"
+#include "kinegraph/trajectories/sampled_trajectory.h"
 
 namespace kinegraph {
 
-/// Follow a motion, in control time.
+/// Follows a spline, in control time. The present motion goes on until `begin` (s).
 struct FollowSpline {
   BSpline motion;
+  double begin = -std::numeric_limits<double>::infinity();
 };
 
-/// Come to rest along a motion that ends soon, and stay.
+/// Follows a trajectory whose t = 0 is the control time `begin` (s). Its samples are the references of control periods.
+struct FollowTrajectory {
+  double begin = 0.;
+  std::shared_ptr<const SampledTrajectory> motion;
+};
+
+/// Comes to rest along a spline in control time that ends soon, and stays at its end.
 struct HoldRobot {
   BSpline motion;
 };
 
-/// No stiffness: who pushes the robot moves it.
+/// Sets the stiffness to zero, so that a hand can move the robot.
 struct FloatRobot {
-  double damping = 0.;  ///< share of the robot's, 0 to 1
+  double damping = 0.;  ///< share of the robot's damping that remains, 0 to 1
 };
 
-/// Be less stiff; see RobotCommand::stiffness. Empty: fully stiff again.
+/// Sets a reduced stiffness; see RobotCommand::stiffness. Empty: full stiffness.
 struct SetStiffness {
   MatrixXd stiffness;
 };
 
-/// Fix a frame of a simulated world to another one, or free it.
+/// Attaches a frame of a simulated world to another one, or detaches it.
 struct AttachFrames {
   std::string from, to;
   bool attach = true;
 };
 
-/// Put a frame of a simulated world somewhere.
+/// Sets the pose of a frame of a simulated world.
 struct PlaceFrame {
   std::string frame;
   Pose pose;
 };
 
-/// Go on after a fault.
+/// Clears a fault.
 struct RecoverRobot {};
 
-using LoopCommand = std::variant<FollowSpline, HoldRobot, FloatRobot, SetStiffness, GripperCommand, AttachFrames,
-                                 PlaceFrame, RecoverRobot>;
+using LoopCommand = std::variant<FollowSpline, FollowTrajectory, HoldRobot, FloatRobot, SetStiffness, GripperCommand,
+                                 AttachFrames, PlaceFrame, RecoverRobot>;
 
-/// All that a robot was told, and when, in periods of control. From the same start, the same log gives the same motion.
+/// All commands to a robot with the control period of each. The same log from the same start gives the same motion.
 struct CommandLog {
   struct Entry {
-    long tick = 0;  ///< it was told before this period
+    long tick = 0;  ///< number of control periods before the command
     LoopCommand command;
   };
-  double period = .01;  ///< s
-  long ticks = 0;       ///< how long it ran
+  double period = .01;  ///< control period, s
+  long ticks = 0;       ///< number of control periods in all
   std::vector<Entry> entries;
 
-  /// As text, one command a line, with numbers that read back as they are.
+  /// Returns the log as text, one command per line, with all digits of its numbers.
   std::string text() const;
-  static CommandLog fromText(const std::string& text, const std::string& name = "text");  ///< throws ParseError
+
+  /// Reads such a text; `name` stands for the file in messages. Throws ParseError.
+  static CommandLog fromText(const std::string& text, const std::string& name = "text");
 
   void save(const std::string& path) const;         ///< throws FileError
   static CommandLog load(const std::string& path);  ///< throws FileError, ParseError

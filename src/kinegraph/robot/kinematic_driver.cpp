@@ -19,7 +19,7 @@ KinematicDriver::KinematicDriver(const Config& config)
 
 RobotInfo KinematicDriver::info() {
   RobotInfo info = RobotInfo::of(config_, "kinematic");
-  info.compliant = true;  // where nothing pushes, it makes no difference
+  info.compliant = true;  // without forces, stiffness has no effect
   for (const Gripper& gripper : grippers_) info.grippers.push_back(gripper.scene.info);
   return info;
 }
@@ -54,7 +54,7 @@ void KinematicDriver::step(double period) {
 void KinematicDriver::moveGripper(const GripperCommand& command) {
   if (command.gripper < 0 || std::size_t(command.gripper) >= grippers_.size()) return RobotDriver::moveGripper(command);
   Gripper& gripper = grippers_[std::size_t(command.gripper)];
-  if (!gripper.held.empty()) {  // whatever it does next, it lets go first
+  if (!gripper.held.empty()) {  // each command first releases the object
     detach(gripper.scene.info.name, gripper.held);
     gripper.held.clear();
   }
@@ -62,7 +62,7 @@ void KinematicDriver::moveGripper(const GripperCommand& command) {
   gripper.is_done = false;
 }
 
-/// Towards the width of the command; what is grasped by name is held when the fingers are as wide as it was told to be.
+/// Moves the fingers towards the commanded width. At that width they hold the object that the command names.
 void KinematicDriver::moveFingers(Gripper& gripper, double period) {
   if (gripper.is_done) return;
   const double step = gripper.command.speed * period, left = gripper.command.width - gripper.width;

@@ -4,11 +4,11 @@
 
 namespace kinegraph {
 
-/// A robot that is exactly where it is told to be, in a world where nothing else moves: no forces, no contacts. What a
-/// gripper has grasped by name moves with it.
+/// A robot that follows its commands exactly, in a world without forces and contacts. An object that a gripper grasps
+/// by name moves with the gripper.
 class KinematicDriver final : public RobotDriver, private SimulatedWorld {
  public:
-  /// A world of its own, as `config` is now.
+  /// Copies `config` as the world.
   explicit KinematicDriver(const Config& config);
 
   RobotInfo info() override;
@@ -25,7 +25,7 @@ class KinematicDriver final : public RobotDriver, private SimulatedWorld {
     GripperCommand command;
     double width = 0.;
     bool is_done = true;
-    std::string held;  ///< the frame that is attached
+    std::string held;  ///< the attached frame
   };
 
   void updateConfig(Config& config) const override { copyMotion(config_, config); }

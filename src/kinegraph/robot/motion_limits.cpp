@@ -10,7 +10,8 @@ namespace kinegraph {
 namespace {
 
 constexpr double kRounding = 1. + 1e-9;
-constexpr double kPositionTolerance = 1e-3;  // rad or m: what an optimizer calls within its limits
+constexpr double kDifference = 1. + 1e-6;    // of differences between two control periods, as in limitCommand
+constexpr double kPositionTolerance = 1e-3;  // rad or m: the constraint tolerance of the optimizers
 constexpr int kSamples = 1000;
 
 struct Peak {
@@ -20,7 +21,7 @@ struct Peak {
   }
 };
 
-/// The times at which one polynomial follows another, from `from` on.
+/// Returns the times at which the polynomial pieces begin and end, from `from` on.
 std::vector<double> pieceTimes(const BSpline& motion, double from) {
   std::vector<double> times = {std::max(from, motion.start())};
   for (const double knot : motion.getKnots()) {
@@ -29,13 +30,50 @@ std::vector<double> pieceTimes(const BSpline& motion, double from) {
   return times;
 }
 
-/// Seen as times by which it must be slower.
 std::string slower(double factor) { return cat("take at least ", factor, " times as long"); }
 
-std::string beyond(const RobotInfo& robot, Eigen::Index i, double time, double value, const char* unit, double limit) {
-  return cat("joint '", robot.joints[std::size_t(i)], "' would ", value, unit, " ", time,
-             " s after its start; its limit is ", limit);
+std::string exceeded(const RobotInfo& robot, Eigen::Index i, double time, const char* quantity, double value,
+                     const char* unit, double limit) {
+  return cat("joint '", robot.joints[std::size_t(i)], "' would have ", quantity, " of ", value, unit, " ", time,
+             " s after the start of the motion; its limit is ", limit, unit);
 }
+
+std::string outOfRange(const RobotInfo& robot, Eigen::Index i, double q) {
+  return cat("joint '", robot.joints[std::size_t(i)], "' would go to ", q, "; its limits are ", robot.lower[i], " to ",
+             robot.upper[i]);
+}
+
+bool hasEffortLimits(const RobotInfo& robot, const Config& model) {
+  const bool any_limit = (robot.effort.array() < std::numeric_limits<double>::infinity()).any();
+  const std::vector<LinkInertia> inertias = model.inertias();
+  return any_limit &&
+         std::any_of(inertias.begin(), inertias.end(), [](const LinkInertia& inertia) { return inertia.mass > 0.; });
+}
+
+/// The largest efforts of a motion, (n,) N m or N, and their times.
+class EffortPeaks {
+ public:
+  explicit EffortPeaks(Eigen::Index n) : effort_(VectorXd::Zero(n)), time_(effort_) {}
+
+  void take(double time, const MotionState& state, Config& model) {
+    model.setJointState(state.q);
+    const VectorXd effort = model.inverseDynamics(state.velocity, state.acceleration).cwiseAbs();
+    time_ = (effort.array() > effort_.array()).select(time, time_);
+    effort_ = effort_.cwiseMax(effort);
+  }
+
+  std::optional<std::string> violation(const RobotInfo& robot, double from) const {
+    for (Eigen::Index i = 0; i < effort_.size(); ++i) {
+      if (effort_[i] > kRounding * robot.effort[i])
+        return cat(exceeded(robot, i, time_[i] - from, "an effort", effort_[i], " N m", robot.effort[i]),
+                   "; take longer, or carry less");
+    }
+    return std::nullopt;
+  }
+
+ private:
+  VectorXd effort_, time_;
+};
 
 }  // namespace
 
@@ -61,8 +99,8 @@ MotionPeaks peaksOf(const BSpline& motion, double from) {
       Peak& hard = hardest[std::size_t(i)];
       fast.take(v[i], start);
       fast.take(v[i] + length * (a[i] + .5 * length * jerk[i]), start + length);
-      const double turn = jerk[i] != 0. ? -a[i] / jerk[i] : -1.;  // where its acceleration changes sign
-      if (turn > 0. && turn < length) fast.take(v[i] + .5 * turn * a[i], start + turn);
+      const double peak = jerk[i] != 0. ? -a[i] / jerk[i] : -1.;  // the acceleration changes its sign there
+      if (peak > 0. && peak < length) fast.take(v[i] + .5 * peak * a[i], start + peak);
       hard.take(a[i], start);
       hard.take(a[i] + length * jerk[i], start + length);
     }
@@ -77,8 +115,8 @@ MotionPeaks peaksOf(const BSpline& motion, double from) {
   return peaks;
 }
 
-std::optional<std::string> brokenLimit(const BSpline& motion, double from, const RobotInfo& robot) {
-  MatrixXd points = motion.getCtrlPoints();  // the motion is within their hull, and often well within
+std::optional<std::string> violatedLimit(const BSpline& motion, double from, const RobotInfo& robot) {
+  MatrixXd points = motion.getCtrlPoints();  // their hull contains the motion, which may stay far inside
   const auto beyond_limits = [&](Eigen::Index i) {
     return points.col(i).minCoeff() < robot.lower[i] || points.col(i).maxCoeff() > robot.upper[i];
   };
@@ -87,45 +125,70 @@ std::optional<std::string> brokenLimit(const BSpline& motion, double from, const
       points = motion.eval(VectorXd::LinSpaced(kSamples, std::max(from, motion.start()), motion.end()));
     const double lowest = points.col(i).minCoeff(), highest = points.col(i).maxCoeff();
     if (lowest >= robot.lower[i] - kPositionTolerance && highest <= robot.upper[i] + kPositionTolerance) continue;
-    const bool low = lowest < robot.lower[i] - kPositionTolerance;
-    return cat("joint '", robot.joints[std::size_t(i)], "' would go to ", low ? lowest : highest, "; its limits are ",
-               robot.lower[i], " to ", robot.upper[i]);
+    return outOfRange(robot, i, lowest < robot.lower[i] - kPositionTolerance ? lowest : highest);
   }
   const MotionPeaks peaks = peaksOf(motion, from);
   const double factor = peaks.slowdown(robot.velocity, robot.acceleration);
   for (Eigen::Index i = 0; i < points.cols(); ++i) {
     if (peaks.velocity[i] > kRounding * robot.velocity[i])
-      return cat(beyond(robot, i, peaks.velocity_time[i] - from, peaks.velocity[i], " /s", robot.velocity[i]), " /s; ",
-                 slower(factor));
-    if (peaks.acceleration[i] > kRounding * robot.acceleration[i])
       return cat(
-          beyond(robot, i, peaks.acceleration_time[i] - from, peaks.acceleration[i], " /s^2", robot.acceleration[i]),
-          " /s^2; ", slower(factor));
+          exceeded(robot, i, peaks.velocity_time[i] - from, "a velocity", peaks.velocity[i], " /s", robot.velocity[i]),
+          "; ", slower(factor));
+    if (peaks.acceleration[i] > kRounding * robot.acceleration[i])
+      return cat(exceeded(robot, i, peaks.acceleration_time[i] - from, "an acceleration", peaks.acceleration[i],
+                          " /s^2", robot.acceleration[i]),
+                 "; ", slower(factor));
   }
   return std::nullopt;
 }
 
-std::optional<std::string> brokenEffort(const BSpline& motion, double from, double period, const RobotInfo& robot,
-                                        Config& model) {
-  const bool any_limit = (robot.effort.array() < std::numeric_limits<double>::infinity()).any();
-  const std::vector<LinkInertia> inertias = model.inertias();
-  const bool any_mass =
-      std::any_of(inertias.begin(), inertias.end(), [](const LinkInertia& inertia) { return inertia.mass > 0.; });
-  if (!any_limit || !any_mass) return std::nullopt;
-  VectorXd most = VectorXd::Zero(robot.effort.size()), when = most;
+std::optional<std::string> violatedLimit(const MotionStates& motion, const RobotInfo& robot) {
+  const Eigen::Index count = motion.times.size();
+  double factor = 1.;
+  std::string violation;
+  const auto check = [&](Eigen::Index i, double time, const char* quantity, double value, const char* unit,
+                         double limit, double slack, double power) {
+    if (!(std::abs(value) > slack * limit)) return;
+    if (violation.empty()) violation = exceeded(robot, i, time, quantity, std::abs(value), unit, limit);
+    factor = std::max(factor, std::pow(std::abs(value) / limit, power));
+  };
+  for (Eigen::Index i = 0; i < motion.q.cols(); ++i) {
+    const double lowest = motion.q.col(i).minCoeff(), highest = motion.q.col(i).maxCoeff();
+    if (lowest < robot.lower[i] - kPositionTolerance) return outOfRange(robot, i, lowest);
+    if (highest > robot.upper[i] + kPositionTolerance) return outOfRange(robot, i, highest);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const double time = motion.times[k];
+      check(i, time, "a velocity", motion.velocity(k, i), " /s", robot.velocity[i], kRounding, 1.);
+      check(i, time, "an acceleration", motion.acceleration(k, i), " /s^2", robot.acceleration[i], kRounding, .5);
+      if (k == 0) continue;
+      const double h = time - motion.times[k - 1];
+      const double velocity = (motion.q(k, i) - motion.q(k - 1, i)) / h;
+      const double acceleration = (motion.velocity(k, i) - motion.velocity(k - 1, i)) / h;
+      check(i, time, "a velocity", velocity, " /s", robot.velocity[i], kDifference, 1.);
+      check(i, time, "an acceleration", acceleration, " /s^2", robot.acceleration[i], kDifference, .5);
+    }
+  }
+  if (violation.empty()) return std::nullopt;
+  return cat(violation, "; ", slower(factor));
+}
+
+std::optional<std::string> violatedEffort(const BSpline& motion, double from, double period, const RobotInfo& robot,
+                                          Config& model) {
+  if (!hasEffortLimits(robot, model)) return std::nullopt;
+  EffortPeaks peaks(robot.effort.size());
   const double start = std::max(from, motion.start()), step = std::max(period, (motion.end() - start) / kSamples);
-  for (double t = start; t < motion.end(); t += step) {
-    model.setJointState(motion.eval(t));
-    const VectorXd effort = model.inverseDynamics(motion.eval(t, 1), motion.eval(t, 2)).cwiseAbs();
-    when = (effort.array() > most.array()).select(t, when);
-    most = most.cwiseMax(effort);
-  }
-  for (Eigen::Index i = 0; i < most.size(); ++i) {
-    if (most[i] > kRounding * robot.effort[i])
-      return cat(beyond(robot, i, when[i] - from, most[i], " N m", robot.effort[i]),
-                 " N m; take longer, or carry less");
-  }
-  return std::nullopt;
+  for (double t = start; t < motion.end(); t += step)
+    peaks.take(t, {motion.eval(t), motion.eval(t, 1), motion.eval(t, 2)}, model);
+  return peaks.violation(robot, from);
+}
+
+std::optional<std::string> violatedEffort(const MotionStates& motion, const RobotInfo& robot, Config& model) {
+  if (!hasEffortLimits(robot, model)) return std::nullopt;
+  EffortPeaks peaks(robot.effort.size());
+  const Eigen::Index count = motion.times.size(), step = 1 + count / kSamples;
+  for (Eigen::Index k = 0; k < count; k += step)
+    peaks.take(motion.times[k], {motion.q.row(k), motion.velocity.row(k), motion.acceleration.row(k)}, model);
+  return peaks.violation(robot, 0.);
 }
 
 }  // namespace kinegraph

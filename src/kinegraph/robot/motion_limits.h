@@ -4,29 +4,38 @@
 
 #include "kinegraph/robot/robot_driver.h"
 #include "kinegraph/trajectories/b_spline.h"
+#include "kinegraph/trajectories/trajectory.h"
 
 namespace kinegraph {
 
-/// The largest velocity and acceleration of each number of a motion, without sign, and when.
+/// The largest absolute velocity and acceleration of each dof of a motion, and their times (s); (n,) each.
 struct MotionPeaks {
   VectorXd velocity, velocity_time;
   VectorXd acceleration, acceleration_time;
 
-  /// By which factor the motion must take longer so that it is within these limits; 1 if it is.
+  /// Returns the factor on the motion's duration that keeps these limits; 1 if it keeps them already.
   double slowdown(const VectorXd& velocity_limits, const VectorXd& acceleration_limits) const;
 };
 
-/// Those of a spline of degree 3 or less from a time on, exactly.
+/// Computes the exact peaks of a spline of degree 3 or less from a time on.
 MotionPeaks peaksOf(const BSpline& motion, double from);
 
-/// Which limit a motion does not respect from a time on, in a sentence with the joint, the time and what would do; none
-/// if it respects all. Positions and velocities may be beyond by rounding, positions by 1e-3.
-std::optional<std::string> brokenLimit(const BSpline& motion, double from, const RobotInfo& robot);
+/// Describes the first limit of position, velocity or acceleration that a motion violates from a time on: joint, time,
+/// and the factor on its duration that would do. Empty if it keeps all of them. Velocities and accelerations may exceed
+/// their limits by rounding, positions by 1e-3 (rad or m).
+std::optional<std::string> violatedLimit(const BSpline& motion, double from, const RobotInfo& robot);
 
-/// The same for efforts, by the masses of `model`, at times `period` apart, a thousand at most: which joint would need more
-/// than it can.
-/// Nothing is known, and none is told, where masses or limits are not.
-std::optional<std::string> brokenEffort(const BSpline& motion, double from, double period, const RobotInfo& robot,
-                                        Config& model);
+/// The same for the states of control periods. Differences of q and velocity between two periods count, too, so that
+/// `limitCommand` leaves such a motion unchanged.
+std::optional<std::string> violatedLimit(const MotionStates& motion, const RobotInfo& robot);
+
+/// Describes the first joint whose effort exceeds its limit, from the masses of `model` by inverse dynamics: at times
+/// `period` apart, at most a thousand of them. Empty if none does, and if masses or limits are unknown. Sets q of
+/// `model`.
+std::optional<std::string> violatedEffort(const BSpline& motion, double from, double period, const RobotInfo& robot,
+                                          Config& model);
+
+/// The same at the times of given states, at most about a thousand of them.
+std::optional<std::string> violatedEffort(const MotionStates& motion, const RobotInfo& robot, Config& model);
 
 }  // namespace kinegraph

@@ -5,7 +5,7 @@ namespace kinegraph {
 RecordedDriver::RecordedDriver(RobotInfo info, std::vector<RobotState> states, const VectorXd& start)
     : info_(std::move(info)), states_(std::move(states)), start_(start) {
   if (states_.empty() && std::size_t(start_.size()) != info_.joints.size())
-    throw ValueError("RecordedDriver: expected readings, or a start with a number per joint");
+    throw ValueError("RecordedDriver: there are no states; expected states, or a start with one number per joint");
 }
 
 RobotState RecordedDriver::read() {

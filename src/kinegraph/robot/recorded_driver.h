@@ -4,12 +4,12 @@
 
 namespace kinegraph {
 
-/// A robot of which everything is known beforehand: what it will say, period after period. It notes what it is told. For
-/// tests of whoever moves robots, and to see again what a real one did.
+/// A robot that returns given states, one per period, and records its commands: for tests, and to replay the states of
+/// a real robot.
 class RecordedDriver final : public RobotDriver {
  public:
-  /// `readings` are given one after the other, then the last one for ever, its clock going on. Without any, the robot is
-  /// where it was told to be, from `start` on. Throws ValueError if there is neither.
+  /// `states` are returned in order; the last one repeats, with an increasing clock. Without states, the robot follows
+  /// its commands exactly, from `start` on. Throws ValueError without states and start.
   RecordedDriver(RobotInfo info, std::vector<RobotState> states, const VectorXd& start = {});
 
   RobotInfo info() override { return info_; }

@@ -26,11 +26,12 @@ void RobotInfo::validate() const {
   const auto n = Eigen::Index(joints.size());
   const auto fits = [&](const char* field, const VectorXd& numbers, bool positive) {
     if (numbers.size() != n)
-      throw ValueError(cat("RobotInfo of '", name, "': ", field, " has ", numbers.size(), " numbers; expected ", n));
+      throw ValueError(cat("RobotInfo of '", name, "': ", field, " has ", numbers.size(), " numbers; expected ", n,
+                           ", one per joint"));
     for (Eigen::Index i = 0; i < n; ++i) {
       if (std::isnan(numbers[i]) || (positive && !(numbers[i] > 0.)))
         throw ValueError(cat("RobotInfo of '", name, "': ", field, "[", i, "] is ", numbers[i], "; expected ",
-                             positive ? "more than 0" : "a number"));
+                             positive ? "a number above 0" : "a number"));
     }
   };
   fits("lower", lower, false);
@@ -38,11 +39,12 @@ void RobotInfo::validate() const {
   fits("velocity", velocity, true);
   fits("acceleration", acceleration, true);
   fits("effort", effort, true);
-  if (!(rate > 0.)) throw ValueError(cat("RobotInfo of '", name, "': rate is ", rate, "; expected more than 0"));
+  if (!(rate > 0.))
+    throw ValueError(cat("RobotInfo of '", name, "': rate is ", rate, " Hz; expected a number above 0"));
   for (const GripperInfo& gripper : grippers) {
     if (!(gripper.min_width <= gripper.max_width) || !(gripper.max_speed > 0.) || !(gripper.max_force > 0.))
       throw ValueError(cat("RobotInfo of '", name, "': gripper '", gripper.name,
-                           "': expected min_width <= max_width, and max_speed and max_force more than 0"));
+                           "': expected min_width <= max_width, and max_speed and max_force above 0"));
   }
 }
 

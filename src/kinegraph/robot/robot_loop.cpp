@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/robot/safety_limits.h"
@@ -13,24 +14,24 @@ namespace {
 void requireFit(const char* field, const VectorXd& numbers, std::size_t expected, bool may_be_empty) {
   if (may_be_empty && numbers.size() == 0) return;
   if (std::size_t(numbers.size()) != expected)
-    throw RobotFault(cat("the robot's reading has a ", field, " of ", numbers.size(), " numbers; expected ", expected));
+    throw RobotFault(cat("the robot's state has a ", field, " of ", numbers.size(), " numbers; expected ", expected));
 }
 
 }  // namespace
 
-RobotLoop::RobotLoop(std::shared_ptr<RobotDriver> driver, double period, const GuardLimits& guards)
-    : driver_(std::move(driver)), guards_(guards) {
+RobotLoop::RobotLoop(std::shared_ptr<RobotDriver> driver, double period, const SafetyLimits& safety)
+    : driver_(std::move(driver)), safety_(safety) {
   if (!driver_) throw ValueError("RobotLoop: there is no driver");
   if (!(period > 0.) || !std::isfinite(period))
-    throw ValueError(cat("RobotLoop: period is ", period, " s; expected more than 0"));
+    throw ValueError(cat("RobotLoop: the control period is ", period, " s; expected a number above 0"));
   log_.period = period;
   driver_->connect();
   info_ = driver_->info();
   info_.validate();
-  look(driver_->read());
+  accept(driver_->read());
   if (!fault_.empty()) {
     driver_->disconnect();
-    throw RobotFault(cat("robot '", info_.name, "' cannot be moved: ", fault_));
+    throw RobotFault(cat("robot '", info_.name, "' cannot move: ", fault_));
   }
   restAtState();
 }
@@ -38,7 +39,7 @@ RobotLoop::RobotLoop(std::shared_ptr<RobotDriver> driver, double period, const G
 RobotLoop::~RobotLoop() {
   try {
     driver_->disconnect();
-  } catch (const std::exception&) {  // nobody is left who could be told
+  } catch (const std::exception&) {  // a destructor reports no errors
   }
 }
 
@@ -47,22 +48,22 @@ void RobotLoop::step() {
   try {
     if (mode_ != LoopMode::fault) driver_->write(nextCommand());
     driver_->step(period());
-    look(driver_->read());
+    accept(driver_->read());
   } catch (const Error& error) {
     stop(error.what());
   }
 }
 
 MatrixXd RobotLoop::reference(double time) const {
-  if (mode_ == LoopMode::follow || mode_ == LoopMode::hold) return motion_.eval3(time);
+  if (mode_ == LoopMode::follow || mode_ == LoopMode::hold) return motion_.eval(time);
   MatrixXd still = MatrixXd::Zero(3, state_.q.size());
   still.row(0) = state_.q.transpose();
   return still;
 }
 
 RobotCommand RobotLoop::nextCommand() {
-  const MatrixXd wanted = reference(time());
-  RobotCommand command{period(), wanted.row(0).transpose(), wanted.row(1).transpose(), wanted.row(2).transpose(), {}};
+  const MatrixXd target = reference(time());
+  RobotCommand command{period(), target.row(0).transpose(), target.row(1).transpose(), target.row(2).transpose(), {}};
   if (mode_ == LoopMode::floating) {
     command.stiffness = MatrixXd::Zero(command.q.size(), command.q.size());
     command.damping = floating_damping_;
@@ -75,32 +76,33 @@ RobotCommand RobotLoop::nextCommand() {
   return command;
 }
 
-void RobotLoop::look(const RobotState& state) {
+void RobotLoop::accept(const RobotState& state) {
   const std::size_t n = info_.joints.size();
   requireFit("q", state.q, n, false);
   requireFit("velocity", state.velocity, n, false);
   requireFit("effort", state.effort, n, true);
   requireFit("external_effort", state.external_effort, n, true);
-  still_ = state.time > state_.time || log_.ticks == 0 ? 0. : still_ + period();
-  std::string wrong = state.error;
+  clock_pause_ = state.time > state_.time || log_.ticks == 0 ? 0. : clock_pause_ + period();
+  std::string error = state.error;
   if (!state.q.allFinite() || !state.velocity.allFinite()) {
-    wrong = "its reading has numbers that are not finite";
+    error = "its state has numbers that are not finite";
   } else {
     state_ = state;
-    if (wrong.empty() && still_ > guards_.stale_time) wrong = cat("its clock has stood still for ", still_, " s");
-    if (wrong.empty()) wrong = heldUp();
+    if (error.empty() && clock_pause_ > safety_.clock_timeout)
+      error = cat("its clock has stood still for ", clock_pause_, " s");
+    if (error.empty()) error = trackingFault();
   }
-  if (!wrong.empty()) stop(wrong);
+  if (!error.empty()) stop(error);
 }
 
-/// Which joint is far from where it was told to be; empty if none is, or if the robot may give way.
-std::string RobotLoop::heldUp() const {
+/// Describes the joint that is too far from its command; empty if none is, or if the robot is compliant.
+std::string RobotLoop::trackingFault() const {
   if (mode_ == LoopMode::floating || mode_ == LoopMode::fault || stiffness_.size() > 0) return {};
   for (Eigen::Index i = 0; i < commanded_.size(); ++i) {
-    const double behind = std::abs(commanded_[i] - state_.q[i]);
-    if (behind > guards_.follow_distance)
-      return cat("joint '", info_.joints[std::size_t(i)], "' is ", behind,
-                 " from where it shall be; is something in its way?");
+    const double distance = std::abs(commanded_[i] - state_.q[i]);
+    if (distance > safety_.tracking_distance)
+      return cat("joint '", info_.joints[std::size_t(i)], "' is ", distance,
+                 " from its command; does an obstacle block it?");
   }
   return {};
 }
@@ -108,7 +110,7 @@ std::string RobotLoop::heldUp() const {
 void RobotLoop::stop(const std::string& reason) {
   if (mode_ == LoopMode::fault) return;
   mode_ = LoopMode::fault;
-  fault_ = reason.empty() ? "it was stopped" : reason;
+  fault_ = reason.empty() ? "it was stopped without a reason" : reason;
   try {
     driver_->stop(fault_);
   } catch (const Error& error) {
@@ -124,81 +126,91 @@ void RobotLoop::restAtState() {
   still.rowwise() = state_.q.transpose();
   VectorXd times(2);
   times << now, now + period();
-  motion_.set(1, still, times);
+  motion_.add(BSpline(1, still, times), -std::numeric_limits<double>::infinity(), now);
 }
 
-BSpline RobotLoop::braking(double most) const {
-  const double now = time();
-  const MatrixXd here = reference(now);
-  const VectorXd q = here.row(0).transpose(), velocity = here.row(1).transpose();
-  // The velocity falls to zero along a parabola: by at most 2 v / T at once, and q goes on by v T / 3.
-  double duration = most;
+BSpline RobotLoop::stoppingSegment(double time, const MatrixXd& reference, double duration) const {
+  const VectorXd q = reference.row(0).transpose(), velocity = reference.row(1).transpose();
+  // The velocity falls to zero along a parabola: the deceleration is at most 2 v / T, and q moves on by v T / 3.
   for (Eigen::Index i = 0; i < q.size(); ++i)
     duration = std::max(duration, 2. * std::abs(velocity[i]) / info_.acceleration[i]);
   const VectorXd end =
       (q + duration / 3. * velocity).cwiseMax(info_.lower.cwiseMin(q)).cwiseMin(info_.upper.cwiseMax(q));
   VectorXd times(2);
-  times << now, now + duration;
+  times << time, time + duration;
   MatrixXd points(2, q.size());
   points << q.transpose(), end.transpose();
   return BSpline(3, points, times, velocity);
 }
 
-void RobotLoop::requireReady(const char* call, const VectorXd& reference) const {
+void RobotLoop::requireReady(const char* call, const VectorXd& q) const {
   if (mode_ == LoopMode::fault)
-    throw RobotFault(cat(call, ": the robot was stopped: ", fault_, "; call recover() when that is mended"));
-  for (Eigen::Index i = 0; i < reference.size(); ++i) {
-    const double apart = std::abs(reference[i] - state_.q[i]);
-    if (apart <= guards_.engage_distance || mode_ == LoopMode::floating) continue;
-    throw RobotFault(cat(call, ": joint '", info_.joints[std::size_t(i)], "' is at ", state_.q[i], ", ", apart,
-                         " from where the motion begins; call hold() first, to begin where the robot is"));
+    throw RobotFault(cat(call, ": the robot was stopped: ", fault_, "; resolve the cause, then call recover()"));
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const double distance = std::abs(q[i] - state_.q[i]);
+    if (distance <= safety_.start_distance || mode_ == LoopMode::floating) continue;
+    throw RobotFault(cat(call, ": joint '", info_.joints[std::size_t(i)], "' is at ", state_.q[i], ", ", distance,
+                         " from the start of the motion; call hold() first, so that the motion starts at the robot"));
   }
 }
 
 void RobotLoop::apply(const LoopCommand& command) {
-  std::visit([&](const auto& c) { applyNow(c); }, command);
+  std::visit([&](const auto& c) { execute(c); }, command);
   log_.entries.push_back({log_.ticks, command});
 }
 
-void RobotLoop::requireMotion(const BSpline& motion) const {
-  if (motion.isEmpty() || motion.dimension() != state_.q.size())
-    throw ValueError(cat("RobotLoop: a motion of ", motion.dimension(), " numbers; expected ", state_.q.size()));
+void RobotLoop::requireDimension(int dimension) const {
+  if (dimension != int(state_.q.size()))
+    throw ValueError(cat("RobotLoop: a motion has ", dimension, " dofs; the robot has ", state_.q.size(), " joints"));
 }
 
-void RobotLoop::applyNow(const FollowSpline& command) {
-  requireMotion(command.motion);
+void RobotLoop::startFollowing() {
   if (mode_ == LoopMode::fault) requireReady("RobotLoop", {});
   if (mode_ == LoopMode::floating) restAtState();
   mode_ = LoopMode::follow;
-  motion_ = command.motion;
 }
 
-void RobotLoop::applyNow(const HoldRobot& command) {
-  requireMotion(command.motion);
+void RobotLoop::execute(const FollowSpline& command) {
+  requireDimension(command.motion.dimension());
+  startFollowing();
+  motion_.add(command.motion, command.begin, time());
+}
+
+void RobotLoop::execute(const FollowTrajectory& command) {
+  if (!command.motion) throw ValueError("RobotLoop: FollowTrajectory has no trajectory");
+  requireDimension(command.motion->dimension());
+  startFollowing();
+  motion_.add(command.motion, command.begin, time(), period());
+}
+
+void RobotLoop::execute(const HoldRobot& command) {
+  requireDimension(command.motion.dimension());
   if (mode_ == LoopMode::fault) return;
   if (mode_ == LoopMode::floating) restAtState();
   mode_ = LoopMode::hold;
-  motion_ = command.motion;
+  motion_.add(command.motion, -std::numeric_limits<double>::infinity(), time());
   stiffness_.resize(0, 0);
 }
 
-void RobotLoop::applyNow(const FloatRobot& command) {
-  if (!info_.compliant) throw RobotFault(cat("robot '", info_.name, "' cannot float: it is always stiff"));
+void RobotLoop::execute(const FloatRobot& command) {
+  if (!info_.compliant) throw RobotFault(cat("robot '", info_.name, "' cannot float: its stiffness is fixed"));
   if (mode_ == LoopMode::fault) requireReady("RobotLoop", {});
   mode_ = LoopMode::floating;
   floating_damping_ = command.damping;
 }
 
-void RobotLoop::applyNow(const SetStiffness& command) {
+void RobotLoop::execute(const SetStiffness& command) {
   const Eigen::Index n = state_.q.size();
   const bool fits = command.stiffness.size() == 0 || (command.stiffness.rows() == n && command.stiffness.cols() == n);
-  if (!fits) throw ValueError(cat("RobotLoop: a stiffness of ", command.stiffness.rows(), " rows; expected ", n));
+  if (!fits)
+    throw ValueError(cat("RobotLoop: the stiffness has shape (", command.stiffness.rows(), ", ",
+                         command.stiffness.cols(), "); expected (", n, ", ", n, ")"));
   if (command.stiffness.size() > 0 && !info_.compliant)
-    throw RobotFault(cat("robot '", info_.name, "' cannot be compliant: it is always stiff"));
+    throw RobotFault(cat("robot '", info_.name, "' cannot be compliant: its stiffness is fixed"));
   stiffness_ = command.stiffness;
 }
 
-void RobotLoop::applyNow(const GripperCommand& command) {
+void RobotLoop::execute(const GripperCommand& command) {
   driver_->moveGripper(command);
   if (const auto i = std::size_t(command.gripper); i < state_.grippers.size()) state_.grippers[i].is_done = false;
 }
@@ -209,7 +221,7 @@ SimulatedWorld& RobotLoop::world(const char* call) {
   return *world;
 }
 
-void RobotLoop::applyNow(const AttachFrames& command) {
+void RobotLoop::execute(const AttachFrames& command) {
   if (command.attach) {
     world("attach").attach(command.from, command.to);
   } else {
@@ -217,15 +229,15 @@ void RobotLoop::applyNow(const AttachFrames& command) {
   }
 }
 
-void RobotLoop::applyNow(const PlaceFrame& command) { world("setFramePose").setFramePose(command.frame, command.pose); }
+void RobotLoop::execute(const PlaceFrame& command) { world("setFramePose").setFramePose(command.frame, command.pose); }
 
-void RobotLoop::applyNow(const RecoverRobot&) {
+void RobotLoop::execute(const RecoverRobot&) {
   driver_->recover();
   mode_ = LoopMode::hold;
   fault_.clear();
-  still_ = 0.;
+  clock_pause_ = 0.;
   stiffness_.resize(0, 0);
-  look(driver_->read());
+  accept(driver_->read());
   if (mode_ != LoopMode::fault) restAtState();
 }
 

@@ -4,92 +4,100 @@
 
 #include "kinegraph/robot/command_log.h"
 #include "kinegraph/robot/motion_limits.h"
+#include "kinegraph/robot/reference_motion.h"
 
 namespace kinegraph {
 
-/// How a robot is moved at present.
+/// The control mode of a robot.
 enum class LoopMode : int {
-  follow,    ///< along a motion, and at rest at its end
-  hold,      ///< at rest
-  floating,  ///< without stiffness
-  fault,     ///< stopped by a guard or by an error of the robot
+  follow,    ///< follows its reference motion, and rests at the end
+  hold,      ///< rests
+  floating,  ///< has no stiffness
+  fault,     ///< was stopped by a safety limit or by an error of the robot
 };
 
-/// What stops a robot.
-struct GuardLimits {
-  double engage_distance = .05;  ///< rad or m: further from the robot no motion may begin
-  double follow_distance = .3;   ///< rad or m: further from where it shall be no stiff robot is moved on
-  double stale_time = .1;        ///< s for which a robot's clock may stand still
+/// Limits that stop a robot, or keep a motion from starting.
+struct SafetyLimits {
+  double start_distance = .05;    ///< rad or m: a motion starts at most this far from the robot, per joint
+  double tracking_distance = .3;  ///< rad or m: a stiff joint that is farther from its command is a fault
+  double clock_timeout = .1;      ///< s: a robot's clock that stands still for longer is a fault
 };
 
-/// Moves a robot period by period: the reference at the end of the next one goes to the driver, within its limits of
-/// velocity and acceleration, and the robot is read. Guards look at every reading: numbers that are not finite, a clock
-/// that stands still, an error of the robot or of its driver stop it. All commands are logged with the period before
-/// which they came. It knows no clock: who calls `step` decides how fast time goes.
+/// Moves a robot in control periods: `step` writes the reference at the end of the period to the driver, within the
+/// robot's limits of position, velocity and acceleration, and reads the robot's state. A state with numbers that are
+/// not finite, a clock that stands still, a tracking error, and an error of the robot or its driver stop the robot. The
+/// loop logs each command with the number of its period. It has no clock: its caller sets the pace.
 class RobotLoop {
  public:
-  /// Connects the driver, reads the robot, and holds it where it is. Throws what the driver throws, and RobotFault if the
-  /// robot reports an error.
-  RobotLoop(std::shared_ptr<RobotDriver> driver, double period, const GuardLimits& guards = {});
+  /// Connects the driver, reads the robot, and holds it. Throws the driver's errors, and RobotFault if the robot
+  /// reports an error.
+  RobotLoop(std::shared_ptr<RobotDriver> driver, double period, const SafetyLimits& safety = {});
   ~RobotLoop();
 
-  void step();                             ///< one period
-  void apply(const LoopCommand& command);  ///< now, before the next period; throws what does not fit
+  /// Runs one control period.
+  void step();
+
+  /// Executes a command before the next period. Throws ValueError or RobotFault if it does not fit the robot.
+  void apply(const LoopCommand& command);
 
   double period() const { return log_.period; }
-  long tick() const { return log_.ticks; }
-  double time() const { return double(log_.ticks) * log_.period; }  ///< s since it began
+  long tick() const { return log_.ticks; }                          ///< number of periods so far
+  double time() const { return double(log_.ticks) * log_.period; }  ///< control time, s
   LoopMode mode() const { return mode_; }
-  const std::string& fault() const { return fault_; }  ///< why it was stopped; empty if it was not
+  const std::string& fault() const { return fault_; }  ///< cause of the fault; empty without one
   const RobotState& state() const { return state_; }
-  const BSpline& motion() const { return motion_; }  ///< empty unless it follows or holds
+  const ReferenceMotion& motion() const { return motion_; }  ///< of the modes follow and hold
   const RobotInfo& info() const { return info_; }
   RobotInfo& info() { return info_; }
   const CommandLog& log() const { return log_; }
   RobotDriver& driver() { return *driver_; }
 
-  /// What was written last: the reference now, as far as limits let it be; where the robot is while it floats.
+  /// The last command: the reference within the robot's limits, or the robot's q while it floats.
   const VectorXd& commanded() const { return commanded_; }
   const VectorXd& commandedVelocity() const { return commanded_velocity_; }
 
-  /// The reference at a time, and its derivatives: 3 x n. That of a floating robot is where it is.
+  /// Returns the reference at a control time (s) and its two derivatives: 3 x n. A floating robot's is its own q, at
+  /// rest.
   MatrixXd reference(double time) const;
 
-  /// Throws RobotFault if the robot was stopped, or is too far from where a motion from `reference` would begin.
-  void requireReady(const char* call, const VectorXd& reference) const;
+  /// Throws RobotFault if the robot is in fault, or if `q` is farther from the robot than the start distance.
+  void requireReady(const char* call, const VectorXd& q) const;
 
-  /// The shortest motion to rest from where the reference is, at most `most` seconds or as long as limits of acceleration
-  /// need.
-  BSpline braking(double most = .05) const;
+  /// Returns a stopping segment from the reference at `time` (s): a cubic that takes `duration` s, or as long as limits
+  /// of acceleration require.
+  BSpline stoppingSegment(double time, const MatrixXd& reference, double duration = .05) const;
 
-  void stop(const std::string& reason);  ///< as guards do
+  /// Puts the robot in fault.
+  void stop(const std::string& reason);
 
  private:
   RobotCommand nextCommand();
-  void look(const RobotState& state);
-  std::string heldUp() const;
-  void applyNow(const FollowSpline& command);
-  void applyNow(const HoldRobot& command);
-  void applyNow(const FloatRobot& command);
-  void applyNow(const SetStiffness& command);
-  void applyNow(const GripperCommand& command);
-  void applyNow(const AttachFrames& command);
-  void applyNow(const PlaceFrame& command);
-  void applyNow(const RecoverRobot& command);
-  void requireMotion(const BSpline& motion) const;
+  void accept(const RobotState& state);
+  std::string trackingFault() const;
+  void execute(const FollowSpline& command);
+  void execute(const FollowTrajectory& command);
+  void execute(const HoldRobot& command);
+  void execute(const FloatRobot& command);
+  void execute(const SetStiffness& command);
+  void execute(const GripperCommand& command);
+  void execute(const AttachFrames& command);
+  void execute(const PlaceFrame& command);
+  void execute(const RecoverRobot& command);
+  void requireDimension(int dimension) const;
+  void startFollowing();
   void restAtState();
   SimulatedWorld& world(const char* call);
 
   std::shared_ptr<RobotDriver> driver_;
-  GuardLimits guards_;
+  SafetyLimits safety_;
   RobotInfo info_;
   CommandLog log_;
   LoopMode mode_ = LoopMode::hold;
   std::string fault_;
   RobotState state_;
-  double still_ = 0.;  ///< for how long the robot's clock has not moved, s
-  BSpline motion_;
-  VectorXd commanded_, commanded_velocity_;  ///< what was written last
+  double clock_pause_ = 0.;  ///< how long the robot's clock has stood still, s
+  ReferenceMotion motion_;
+  VectorXd commanded_, commanded_velocity_;
   MatrixXd stiffness_;
   double floating_damping_ = 0.;
 };

@@ -7,8 +7,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kSlack = 1. + 1e-6;  // of what a motion that was checked asks between two periods
-constexpr double kLimitSlack = 2e-3;  // rad or m beyond a limit that checked motions may go
+constexpr double kSlack = 1. + 1e-6;  // rounding, for motions that were checked before
+constexpr double kLimitSlack = 2e-3;  // rad or m: checked motions may exceed a limit of position by half as much
 
 }  // namespace
 
@@ -19,15 +19,15 @@ void limitCommand(RobotCommand& command, const VectorXd& last, const VectorXd& l
     const double target = std::clamp(command.q[i], std::min(robot.lower[i] - kLimitSlack, last[i]),
                                      std::max(robot.upper[i] + kLimitSlack, last[i]));
     const double mean = (target - last[i]) / h;
-    const bool is_free = target == command.q[i] && std::abs(mean) <= kSlack * fastest &&
-                         std::abs(command.velocity[i]) <= kSlack * fastest &&
-                         std::abs(command.velocity[i] - last_velocity[i]) <= kSlack * hardest * h;
-    if (is_free) continue;
+    const bool keeps_limits = target == command.q[i] && std::abs(mean) <= kSlack * fastest &&
+                              std::abs(command.velocity[i]) <= kSlack * fastest &&
+                              std::abs(command.velocity[i] - last_velocity[i]) <= kSlack * hardest * h;
+    if (keeps_limits) continue;
     double velocity = std::clamp(mean, -fastest, fastest);
-    if (std::isfinite(hardest)) {  // at the reference it must not be faster than that is
-      const double way = target - last[i],
-                   along = std::clamp(std::copysign(1., way) * command.velocity[i], 0., fastest);
-      const double stoppable = std::sqrt(along * along + 2. * hardest * std::abs(way));
+    if (std::isfinite(hardest)) {  // so that the joint can brake to the velocity of the reference when it arrives
+      const double distance = target - last[i],
+                   along = std::clamp(std::copysign(1., distance) * command.velocity[i], 0., fastest);
+      const double stoppable = std::sqrt(along * along + 2. * hardest * std::abs(distance));
       velocity = std::clamp(velocity, -stoppable, stoppable);
       velocity = std::clamp(velocity, last_velocity[i] - hardest * h, last_velocity[i] + hardest * h);
     }

@@ -4,9 +4,9 @@
 
 namespace kinegraph {
 
-/// Keeps a command within the limits of a robot, given the last one: joints that would go too fast, change their velocity
-/// too fast, or leave their limits go as near to where they should as they can, braking in time. Joints within all limits
-/// are left as they are, to the bit.
+/// Keeps a command within a robot's limits of position, velocity and acceleration, given the last command. A joint that
+/// would exceed a limit approaches its target as fast as the limits allow, and brakes in time. Other joints keep their
+/// command to the bit.
 void limitCommand(RobotCommand& command, const VectorXd& last, const VectorXd& last_velocity, const RobotInfo& robot);
 
 }  // namespace kinegraph

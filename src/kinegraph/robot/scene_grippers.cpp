@@ -6,7 +6,7 @@ namespace kinegraph {
 
 namespace {
 
-/// The frame by which a gripper is known.
+/// Returns the frame that names a gripper.
 std::string nameOf(const FrameData& joint) {
   const FrameData* head = joint.parent;
   while (head->parent && !head->joint) head = head->parent;
@@ -86,7 +86,7 @@ int copyNewFrames(const Config& from, Config& to) {
     copy.attributes = frame->attributes;
     copies.emplace_back(frame.get(), &copy);
   }
-  for (const auto& [frame, copy] : copies) {  // now all are there
+  for (const auto& [frame, copy] : copies) {  // after all frames exist
     if (copy->joint && copy->joint->mimic) copy->joint->mimic = tree.find(frame->joint->mimic->name);
     for (const FrameData* other : frame->no_contact) {
       if (FrameData* known = tree.find(other->name)) copy->no_contact.push_back(known);

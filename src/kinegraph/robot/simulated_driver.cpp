@@ -6,8 +6,8 @@ namespace kinegraph {
 
 namespace {
 
-/// rad/s: how stiff a compliant robot is where it does not give way. A motor that holds its torque for an inner step is
-/// stable far beyond, and what touches the robot feels less of it.
+/// Natural frequency (rad/s) of a compliant robot in its stiff directions. Torques that are constant over an inner step
+/// are stable far beyond it; a lower stiffness gives smaller contact forces.
 constexpr double kCompliantFrequency = 30.;
 
 }  // namespace
@@ -69,8 +69,8 @@ void SimulatedDriver::stepStiff(double period) {
   simulation_.step(reference, period, ControlMode::positionVelocity);
 }
 
-/// Torques of springs and dampers that make the mass of the robot swing with one frequency, in the directions that are
-/// stiff; anew for each inner step.
+/// Applies the torques of springs and dampers, scaled by the mass matrix so that all stiff directions have the same
+/// natural frequency, anew in each inner step.
 void SimulatedDriver::stepCompliant(double period) {
   const Eigen::Index n = command_.q.size();
   const double w = kCompliantFrequency;
@@ -81,12 +81,12 @@ void SimulatedDriver::stepCompliant(double period) {
     const VectorXd velocity = simulation_.get_qDot();
     MatrixXd mass = config_.equationOfMotion(VectorXd::Zero(n)).M;
     mass.diagonal().array() += armature;
-    VectorXd wanted = 2. * w * (floats ? command_.damping : 1.) * (command_.velocity - velocity);
+    VectorXd acceleration = 2. * w * (floats ? command_.damping : 1.) * (command_.velocity - velocity);
     if (!floats) {
-      const VectorXd pull = w * w * (command_.q - simulation_.get_q());
-      wanted = command_.stiffness * (pull + wanted) + command_.acceleration;
+      const VectorXd spring = w * w * (command_.q - simulation_.get_q());
+      acceleration = command_.stiffness * (spring + acceleration) + command_.acceleration;
     }
-    simulation_.step(mass * wanted, period / parts, ControlMode::torque);
+    simulation_.step(mass * acceleration, period / parts, ControlMode::torque);
   }
 }
 

@@ -5,10 +5,10 @@
 
 namespace kinegraph {
 
-/// A robot in a simulated world with masses, contacts and friction: what a gripper holds, it holds by force.
+/// A robot in a simulated world with masses, contacts and friction. A gripper holds objects by force.
 class SimulatedDriver final : public RobotDriver, private SimulatedWorld {
  public:
-  /// A world of its own, as `config` is now. Throws ValueError for what cannot be simulated.
+  /// Copies `config` as the world. Throws ValueError if it cannot be simulated.
   explicit SimulatedDriver(const Config& config, const SimulationOptions& options = {});
 
   RobotInfo info() override;

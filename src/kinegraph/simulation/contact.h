@@ -6,13 +6,13 @@
 
 namespace kinegraph {
 
-/// Two frames that touch.
+/// A contact point between two frames.
 struct Contact {
   std::string frame_a, frame_b;  ///< "ground" for the plane at z = 0
   Vector3d position;             ///< world, m
   Vector3d normal;               ///< unit, from a to b
-  double distance;               ///< m, negative: they overlap
-  Vector3d force;                ///< that a exerts on b, world, N
+  double distance;               ///< m; negative if the shapes overlap
+  Vector3d force;                ///< exerted by a on b, world, N
 };
 
 }  // namespace kinegraph

@@ -7,20 +7,20 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kSlow =
-    1e-3;  ///< rad per step: the energy of what turns less grows by less than h/2 (kSlow/h)^2 per s
+/// rad per step. Slower rotations are not corrected: their energy grows by less than h/2 (kSlow/h)^2 per second.
+constexpr double kSlow = 1e-3;
 constexpr double kTooFast = .5;  ///< rad per step
-constexpr int kMostIterations = 20;
-constexpr double kAccuracy = 1e-13;       ///< of an angular momentum, relative
-constexpr double kJointAccuracy = 1e-10;  ///< of velocities of joints, relative
+constexpr int kMaxIterations = 20;
+constexpr double kAccuracy = 1e-13;       ///< relative, of an angular momentum
+constexpr double kJointAccuracy = 1e-10;  ///< relative, of joint velocities
 
 using Vector = Eigen::Map<const Vector3d>;
 using Rotation = Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 
-Matrix3d rotation(const Vector3d& turn) {
-  const double angle = turn.norm();
+Matrix3d rotation(const Vector3d& vector) {
+  const double angle = vector.norm();
   if (angle == 0.) return Matrix3d::Identity();
-  return Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
+  return Eigen::AngleAxisd(angle, vector / angle).toRotationMatrix();
 }
 
 Matrix3d crossMatrix(const Vector3d& v) {
@@ -29,13 +29,13 @@ Matrix3d crossMatrix(const Vector3d& v) {
   return m;
 }
 
-/// The w' of which exp(h w'/2) I w' is the given angular momentum, from a w that is near; false if none is found.
-bool findTurn(const Matrix3d& I, const Vector3d& momentum, double h, Vector3d& w) {
-  for (int i = 0; i < kMostIterations; ++i) {
-    const Vector3d turned = rotation(-.5 * h * w) * momentum;
-    const Vector3d missing = I * w - turned;
+/// Solves exp(h w'/2) I w' = momentum for w' by Newton's method, starting at `w`. Returns false without convergence.
+bool findAngularVelocity(const Matrix3d& I, const Vector3d& momentum, double h, Vector3d& w) {
+  for (int i = 0; i < kMaxIterations; ++i) {
+    const Vector3d rotated = rotation(-.5 * h * w) * momentum;
+    const Vector3d missing = I * w - rotated;
     if (missing.norm() <= kAccuracy * momentum.norm()) return true;
-    w -= (I - .5 * h * crossMatrix(turned)).partialPivLu().solve(missing);
+    w -= (I - .5 * h * crossMatrix(rotated)).partialPivLu().solve(missing);
   }
   return false;
 }
@@ -44,14 +44,14 @@ bool findTurn(const Matrix3d& I, const Vector3d& momentum, double h, Vector3d& w
 
 GyroscopicForces::GyroscopicForces(const SceneModel& scene, const mjModel& model) {
   std::vector<char> is_driven(std::size_t(model.nv), false), is_listed(std::size_t(model.nv), false);
-  for (const Servo& servo : scene.drives)
+  for (const Servo& servo : scene.servos)
     std::fill_n(is_driven.begin() + servo.dof, servo.kind == MotionKind::quaternion ? 3 : 1, true);
   for (const GripperJoint& gripper : scene.grippers) {
     for (const int dof : gripper.dof) is_driven[std::size_t(dof)] = true;
   }
   for (const SceneModel::Follower& follower : scene.followers) is_driven[std::size_t(follower.dof)] = true;
 
-  std::vector<char> turns(std::size_t(model.ntree), false);
+  std::vector<char> rotates(std::size_t(model.ntree), false);
   for (int dof = 0; dof < model.nv; ++dof) {
     const int joint = model.dof_jntid[dof], tree = model.dof_treeid[dof];
     const bool is_free = model.jnt_type[joint] == mjJNT_FREE;
@@ -60,12 +60,12 @@ GyroscopicForces::GyroscopicForces(const SceneModel& scene, const mjModel& model
       is_listed[std::size_t(dof)] = true;
     } else if (!is_driven[std::size_t(dof)] && model.jnt_type[joint] != mjJNT_SLIDE &&
                !(is_free && dof < model.jnt_dofadr[joint] + 3)) {
-      turns[std::size_t(tree)] = true;
-      turns_.push_back(dof);
+      rotates[std::size_t(tree)] = true;
+      rotation_dofs_.push_back(dof);
     }
   }
   for (int dof = 0; dof < model.nv; ++dof) {
-    if (!is_driven[std::size_t(dof)] && !is_listed[std::size_t(dof)] && turns[std::size_t(model.dof_treeid[dof])])
+    if (!is_driven[std::size_t(dof)] && !is_listed[std::size_t(dof)] && rotates[std::size_t(model.dof_treeid[dof])])
       joint_dofs_.push_back(dof);
   }
   for (std::vector<mjtNum>* numbers : {&velocity_, &middle_, &bias_, &force_, &change_})
@@ -93,25 +93,27 @@ void GyroscopicForces::applyToFree(mjData& d, const FreeBody& free, double h) {
   I = R.transpose() * I * R;
   const Vector3d center = R.transpose() * (Vector(d.subtree_com + 3 * free.body) - Vector(d.xpos + 3 * free.body));
   Vector3d next = w;
-  if (!findTurn(I, rotation(-.5 * h * w) * (I * w), h, next)) return;
+  if (!findAngularVelocity(I, rotation(-.5 * h * w) * (I * w), h, next)) return;
 
-  // the origin moves such that the center goes on straight
+  // the origin moves such that the center of mass keeps its velocity
   const Vector3d to_next = next - w;
   const Vector3d velocity = (2. * center - rotation(-h * w) * center - rotation(h * next) * center) / h;
-  // MuJoCo solves (M + h C) dv = h f with C the derivative of the forces Q of turning by the velocity, and
-  // C dv = Q(v + dv) - Q(v) - Q(dv); Q(v) is in f already
+  // MuJoCo solves (M + h C) dv = h f, where C = dQ/dv is the derivative of the velocity-dependent forces Q. Because Q
+  // is quadratic, C dv = Q(v + dv) - Q(v) - Q(dv); f already contains Q(v).
   const Matrix3d C = crossMatrix(center), about_origin = I - mass * C * C;
-  const auto pull = [&](const Vector3d& of) -> Vector3d { return mass * of.cross(of.cross(center)); };
-  const auto turn = [&](const Vector3d& of) -> Vector3d { return of.cross(about_origin * of); };
-  applied.head<3>() = R * (mass / h * (velocity + to_next.cross(center)) + pull(next) - pull(to_next));
-  applied.tail<3>() = (mass * center.cross(velocity) + about_origin * to_next) / h + turn(next) - turn(to_next);
+  const auto centrifugal = [&](const Vector3d& of) -> Vector3d { return mass * of.cross(of.cross(center)); };
+  const auto gyroscopic = [&](const Vector3d& of) -> Vector3d { return of.cross(about_origin * of); };
+  applied.head<3>() = R * (mass / h * (velocity + to_next.cross(center)) + centrifugal(next) - centrifugal(to_next));
+  applied.tail<3>() =
+      (mass * center.cross(velocity) + about_origin * to_next) / h + gyroscopic(next) - gyroscopic(to_next);
 }
 
-/// The middle (v + v')/2 by repetition, where v' is what follows without contacts and damping.
+/// Finds the midpoint velocity (v + v')/2 by fixed-point iteration; v' is the next velocity without contacts and
+/// damping.
 void GyroscopicForces::applyToJoints(const mjModel& m, mjData& d, double h) {
   for (const int dof : joint_dofs_) d.qfrc_applied[dof] = 0.;
   double fastest = 0.;
-  for (const int dof : turns_) {
+  for (const int dof : rotation_dofs_) {
     const double angle = h * std::abs(d.qvel[dof]);
     fastest = std::max(fastest, angle);
     if (angle > kTooFast) too_fast_ = m.dof_bodyid[dof];
@@ -124,7 +126,7 @@ void GyroscopicForces::applyToJoints(const mjModel& m, mjData& d, double h) {
   std::copy_n(d.qfrc_bias, n, bias_.begin());
   const double largest = std::abs(*std::ranges::max_element(velocity_, {}, [](double v) { return std::abs(v); }));
   bool is_found = false;
-  for (int i = 0; i < kMostIterations && !is_found; ++i) {
+  for (int i = 0; i < kMaxIterations && !is_found; ++i) {
     for (int k = 0; k < n; ++k) force_[std::size_t(k)] = d.qfrc_applied[k] + d.qfrc_gravcomp[k] - bias_[std::size_t(k)];
     mj.mj_solveM(&m, &d, change_.data(), force_.data(), 1);
     double moved = 0.;

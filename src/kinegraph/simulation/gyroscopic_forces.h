@@ -6,30 +6,31 @@
 
 namespace kinegraph {
 
-/// What MuJoCo's step lacks where things turn fast without a motor. It takes the forces of turning (Coriolis, gyroscopic)
-/// at the beginning of a step, so that a top on a joint gains energy and at last leaves all bounds; and at its end for a
-/// body that is free, which loses half of its energy in 5 s at 40 rad/s.
+/// Corrects the velocity-dependent (Coriolis, gyroscopic) forces of unactuated bodies that rotate fast.
 ///
-/// Here they are taken in the middle, by forces in addition:
+/// MuJoCo evaluates these forces at the beginning of a step for joints, so a spinning top on a joint gains energy and
+/// diverges. For free bodies it evaluates them at the end: a body loses half of its energy in 5 s at 40 rad/s.
+/// This class adds forces such that they act at the midpoint of the step instead:
 ///
-/// - a free body turns such that its angular momentum in space and the velocity of its center stay as they are,
+/// - A free body keeps its angular momentum in space and the velocity of its center of mass. In body axes,
 ///
 ///       exp(h w'/2) I w' = exp(-h w/2) I w,
 ///
-///   in its axes, where w' is the velocity with which MuJoCo turns it on by h: Verlet's method on the group of rotations;
-/// - what turns about joints without motors has the forces that belong to (v + v')/2.
+///   where w' is the angular velocity by which MuJoCo rotates the body over h (Verlet's method on the rotation group).
+/// - Joints without motors get the velocity-dependent forces of (v + v')/2.
 ///
-/// Both are the same forwards and backwards in time, so that energies oscillate with h^2 and neither grow nor fall.
+/// Both schemes are time-reversible: energies oscillate with an amplitude of order h^2, without drift.
 /// Source: Hairer, Lubich, Wanner, Geometric Numerical Integration, chapters V and VII.5.
 class GyroscopicForces {
  public:
   GyroscopicForces() = default;
   GyroscopicForces(const SceneModel& scene, const mjModel& model);
 
-  /// Sets the forces of dofs without motors, in `qfrc_applied`. After the stage of velocities, and after the motors.
+  /// Sets the forces of the unactuated dofs in `qfrc_applied`. Call it after MuJoCo's velocity stage and after the
+  /// motors.
   void apply(mjModel& model, mjData& data, double h);
 
-  /// The model's body that turned by more than .5 rad in a step, which is too much for these methods, or 0.
+  /// Returns the model's id of a body that rotated by more than .5 rad in the step, too fast for these methods, or 0.
   int tooFast() const { return too_fast_; }
 
  private:
@@ -40,8 +41,8 @@ class GyroscopicForces {
   void applyToJoints(const mjModel& m, mjData& d, double h);
 
   std::vector<FreeBody> free_;
-  std::vector<int> joint_dofs_;  ///< without motors, of trees in which such dofs turn
-  std::vector<int> turns_;       ///< those of them that turn
+  std::vector<int> joint_dofs_;     ///< unactuated dofs of trees that contain unactuated rotations
+  std::vector<int> rotation_dofs_;  ///< the rotational ones among them
   std::vector<mjtNum> velocity_, middle_, bias_, force_, change_;
   int too_fast_ = 0;
 };

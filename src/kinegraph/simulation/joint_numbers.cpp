@@ -34,7 +34,7 @@ void writeJoint(const ModelJoint& joint, const double* q, mjtNum* qpos) {
         break;
       }
       case MotionKind::circle: {
-        // the turn that is nearest to where it is
+        // the angle modulo 2 pi that is closest to the present one
         const double angle = 2. * std::atan2(q[1], q[0]);
         qpos[step.qpos] = angle + 2. * M_PI * std::round((qpos[step.qpos] - angle) / (2. * M_PI));
         q += 2;
@@ -76,11 +76,11 @@ void writeJointVelocity(const ModelJoint& joint, const double* q, const double* 
   for (const ModelStep& step : joint.steps) {
     switch (step.kind) {
       case MotionKind::quaternion: {
-        const Quaterniond turn = Quaterniond(q[0], q[1], q[2], q[3]).conjugate() *
+        const Quaterniond rate = Quaterniond(q[0], q[1], q[2], q[3]).conjugate() *
                                  Quaterniond(velocity[0], velocity[1], velocity[2], velocity[3]);
-        qvel[step.dof] = 2. * turn.x();
-        qvel[step.dof + 1] = 2. * turn.y();
-        qvel[step.dof + 2] = 2. * turn.z();
+        qvel[step.dof] = 2. * rate.x();
+        qvel[step.dof + 1] = 2. * rate.y();
+        qvel[step.dof + 2] = 2. * rate.z();
         q += 4;
         velocity += 4;
         break;

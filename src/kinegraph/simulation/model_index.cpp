@@ -76,11 +76,11 @@ class ModelIndex {
       for (const auto& step : made.steps) joint.steps.push_back(indexed(m, step));
       model_.joints.push_back(joint);
       const bool gripper = isFingerJoint(frame) && !parts_.followersOf(frame).empty();
-      if (!gripper && !attributeFlag(frame, "noMotor", false)) addDrives(frame);
+      if (!gripper && !attributeFlag(frame, "noMotor", false)) addServos(frame);
     }
   }
 
-  void addDrives(const FrameData& frame) {
+  void addServos(const FrameData& frame) {
     const ModelJoint& joint = model_.joints.back();
     int q = 0;
     for (std::size_t i = 0; i < joint.steps.size(); ++i) {
@@ -94,7 +94,7 @@ class ModelIndex {
         servo.kind = step.kind;
         servo.scale = joint.scale;
         setMotor(servo, frame);
-        model_.drives.push_back(servo);
+        model_.servos.push_back(servo);
       }
       q += frame.joint->steps[i].dofs();
     }

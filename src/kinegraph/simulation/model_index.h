@@ -8,33 +8,33 @@
 
 namespace kinegraph {
 
-/// What a model is made of, as it is known before MuJoCo compiles it.
+/// The parts of a model before MuJoCo compiles it.
 struct ModelParts {
   struct MadeJoint {
     const FrameData* frame;
-    std::vector<std::pair<MotionKind, mjsJoint*>> steps;  ///< null for a step that does not move
+    std::vector<std::pair<MotionKind, mjsJoint*>> steps;  ///< null for a step without motion
   };
-  std::vector<mjsBody*> bodies;  ///< in the order of the scene's
+  std::vector<mjsBody*> bodies;  ///< in the order of SceneBodies::bodies
   std::vector<MadeJoint> joints;
-  std::vector<std::vector<const FrameData*>> grippers;  ///< a joint, and those that follow it
-  std::vector<mjsSensor*> sensors;                      ///< those of forces two by two, then the accelerometers
+  std::vector<std::vector<const FrameData*>> grippers;  ///< each a joint and its followers
+  std::vector<mjsSensor*> sensors;                      ///< pairs of force and torque sensors, then the accelerometers
 
   const MadeJoint& joint(const FrameData& frame) const;
 
-  /// Frames of the joints that mimic that of `source`.
+  /// Returns the frames of the joints that mimic the joint of `source`.
   std::vector<const FrameData*> followersOf(const FrameData& source) const;
 };
 
-/// Is the joint's motion one number, along or about an axis?
+/// Returns whether the joint's motion is one number, along or about an axis.
 bool isScalar(MotionKind kind);
 
-/// Is it a single inactive joint, as those of fingers are? With followers it is a gripper.
+/// Returns whether it is a single inactive joint, as finger joints are. With followers it forms a gripper.
 bool isFingerJoint(const FrameData& frame);
 
-/// The motion of a joint that mimics another, per motion of that.
+/// Returns the motion of a follower per motion of the joint that it mimics.
 double motionRatio(const FrameData& follower, const FrameData& source);
 
-/// Fills in where the compiled model has what the scene calls bodies, geoms, joints, drives, grippers and sensors.
+/// Fills in the compiled model's ids and addresses of the scene's bodies, geoms, joints, servos, grippers and sensors.
 void indexModel(const ModelParts& parts, const std::vector<ModelShapes::Geom>& geoms, const KinematicModel& kinematics,
                 SceneModel& model);
 

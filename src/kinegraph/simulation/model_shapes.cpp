@@ -13,18 +13,19 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kThinnest = 1e-5;  ///< m: half the least thickness of a core
-/// m: points are looked for at this distance already. MuJoCo asks whether shapes touch by their least distance, and then
-/// measures between faces, which gives up to 1e-5 less: without this, contacts of small forces would come and go.
-constexpr double kLooksAhead = 5e-4;
-constexpr int kThing = 1;        ///< contact bit of what is no robot
-constexpr int kMostRobots = 30;  ///< each has a bit of its own
+constexpr double kThinnest = 1e-5;  ///< m: smallest half-extent of a core
+/// m: distance at which contact points are searched already. MuJoCo decides on contact by the least distance of two
+/// shapes and then measures between faces, which yields up to 1e-5 m less: without this gap, contacts of small forces
+/// flicker.
+constexpr double kContactGap = 5e-4;
+constexpr int kNonRobot = 1;    ///< contact bit of everything outside robots
+constexpr int kMaxRobots = 30;  ///< each has its own contact bit
 
-int contactBit(int robot) { return robot < 0 ? kThing : 1 << (1 + robot % kMostRobots); }
+int contactBit(int robot) { return robot < 0 ? kNonRobot : 1 << (1 + robot % kMaxRobots); }
 
-/// What collides with what: all with all, but a robot with itself.
+/// Returns whether two shapes may collide: all pairs do, except those within one robot.
 bool mayTouch(int robot_a, int robot_b) {
-  return contactBit(robot_a) == kThing || contactBit(robot_a) != contactBit(robot_b);
+  return contactBit(robot_a) == kNonRobot || contactBit(robot_a) != contactBit(robot_b);
 }
 
 void setContactNumbers(mjsGeom* geom, const SimulationOptions& options, double friction) {
@@ -32,14 +33,14 @@ void setContactNumbers(mjsGeom* geom, const SimulationOptions& options, double f
   std::copy_n(solref, 2, geom->solref);
   std::copy_n(solimp, 5, geom->solimp);
   geom->condim = 6;
-  geom->gap = kLooksAhead;
+  geom->gap = kContactGap;
   geom->friction[0] = friction;
   geom->friction[1] = options.torsional_friction;
   geom->friction[2] = options.rolling_friction;
   geom->mass = 0.;
 }
 
-/// Points in a plane or on a line, made a little thicker, because a mesh must have a volume.
+/// Thickens points in a plane or on a line slightly, because a mesh needs a volume.
 std::vector<Vector3d> withVolume(const std::vector<Vector3d>& points) {
   if (points.size() >= 4 && spanVolume(points)) return points;
   std::vector<Vector3d> thick;
@@ -63,7 +64,7 @@ void ModelShapes::addGround() {
   geom->size[2] = .05;
   mj.mjs_setName(geom->element, "ground");
   setContactNumbers(geom, options_, options_.friction);
-  geom->contype = kThing;
+  geom->contype = kNonRobot;
   geom->conaffinity = -1;
   geoms.push_back({geom, "ground", -1, kGroundBody, -1, false, options_.friction, false});
 }
@@ -112,7 +113,7 @@ void ModelShapes::addBody(const CollisionBody& core, const FrameData& frame, mjs
     return;
   }
   mjsGeom* geom = addGeom(body, frame, X_BF, robot);
-  geom->margin = core.radius();  // inflates
+  geom->margin = core.radius();  // the margin inflates the core
   switch (core.core()) {
     case Core::point:
       geom->type = mjGEOM_SPHERE;
@@ -137,7 +138,7 @@ void ModelShapes::addBody(const CollisionBody& core, const FrameData& frame, mjs
     case Core::hull:
       setMesh(geom, core.hull().points, &core);
       return;
-    default:  // a grid, or a box and an ellipsoid: the hull of the surface
+    default:  // a grid, or a box or ellipsoid with a radius: the hull of its surface
       geom->margin = 0.;
       setMesh(geom, shapeKind(frame.shape->geometry->type).surface(*frame.shape->geometry).vertices, &core);
   }
@@ -167,12 +168,12 @@ void ModelShapes::exclude(const std::string& a, const std::string& b) {
   mj.mjs_setString(pair->bodyname2, b.c_str());
 }
 
-void ModelShapes::addFrictionPairs(const std::set<std::pair<int, int>>& excluded, bool all_given) {
+void ModelShapes::addFrictionPairs(const std::set<std::pair<int, int>>& excluded, bool all_listed) {
   const Physics& mj = physics();
   for (std::size_t i = 0; i < geoms.size(); ++i) {
     for (std::size_t j = i + 1; j < geoms.size(); ++j) {
       const Geom &a = geoms[i], &b = geoms[j];
-      const bool differ = a.friction != b.friction || (all_given && (a.is_given || b.is_given));
+      const bool differ = a.friction != b.friction || (all_listed && (a.has_friction || b.has_friction));
       if (!differ || a.body == b.body || !(a.moves || b.moves) || !mayTouch(a.robot, b.robot)) continue;
       if (excluded.contains(std::minmax(a.body, b.body))) continue;
       mjsPair* pair = mj.mjs_addPair(spec_, nullptr);
@@ -180,7 +181,7 @@ void ModelShapes::addFrictionPairs(const std::set<std::pair<int, int>>& excluded
       mj.mjs_setString(pair->geomname2, b.name.c_str());
       pair->condim = 6;
       pair->margin = a.spec->margin + b.spec->margin;
-      pair->gap = kLooksAhead;
+      pair->gap = kContactGap;
       std::copy_n(a.spec->solref, 2, pair->solref);
       std::copy_n(a.spec->solimp, 5, pair->solimp);
       const double mean = .5 * (a.friction + b.friction);

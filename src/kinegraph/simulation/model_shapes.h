@@ -10,34 +10,35 @@ namespace kinegraph {
 constexpr int kGroundBody = -1;  ///< ModelShapes::Geom::body of the ground
 inline int fixedBody(int frame) { return -2 - frame; }
 
-/// Enters shapes of frames into a model that is being made, and remembers the meshes that they share.
+/// Adds the shapes of frames to a model under construction; frames with the same mesh share it.
 class ModelShapes {
  public:
   ModelShapes(mjSpec* spec, const SimulationOptions& options) : spec_(spec), options_(options) {}
 
-  /// The shape of a frame on a body. `robot` is -1 for things. Several geoms where it has several parts.
+  /// Adds the shape of a frame to a body, as several geoms if it has several parts. `robot` is -1 outside robots.
   void add(const FrameData& frame, mjsBody* body, const Pose& X_BF, int robot);
 
   void addGround();
 
-  /// Two bodies never touch: those of robots that overlap at the start with others of their tree.
+  /// Disables contacts between two bodies, for links of a robot that overlap others of their tree at the start.
   void exclude(const std::string& a, const std::string& b);
 
-  /// Where frictions differ the mean counts, as pairs of geoms, or where one is given and may be changed. `excluded` tells
-  /// pairs of bodies that never touch.
-  void addFrictionPairs(const std::set<std::pair<int, int>>& excluded, bool all_given);
+  /// Lists pairs of geoms with different frictions, so that the mean of both counts. With `all_listed`, lists every
+  /// pair with a friction attribute, because it may be changed later. `excluded` contains the body pairs without
+  /// contacts.
+  void addFrictionPairs(const std::set<std::pair<int, int>>& excluded, bool all_listed);
 
   struct Geom {
     mjsGeom* spec;
     std::string name;
-    int frame, body;  ///< body as in SceneBodies; what is fixed to the world has one for each frame, below 0
+    int frame, body;  ///< body as in SceneBodies; frames fixed to the world have one negative number each
     int robot;
     bool moves;
     double friction;
-    bool is_given;  ///< by the frame's attribute
+    bool has_friction;  ///< the frame has the attribute
   };
   std::vector<Geom> geoms;
-  int body_number = 0;  ///< of the body that geoms are added to
+  int body_number = 0;  ///< of the body that receives the geoms
   bool body_moves = false;
 
  private:

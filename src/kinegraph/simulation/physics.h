@@ -17,13 +17,13 @@ namespace kinegraph {
   X(mjs_setString) X(mjs_setFloat) X(mjs_getId) X(mj_rne) X(mj_solveM)
 // clang-format on
 
-/// The functions of MuJoCo that steps need, by their own names.
+/// The functions of MuJoCo that simulation steps call, by their own names.
 struct Physics {
   KINEGRAPH_PHYSICS_FUNCTIONS(KINEGRAPH_LIBRARY_MEMBER)
 };
 
-/// MuJoCo, loaded by the first call: a program that simulates nothing does without. Throws FileError, which names the
-/// library, if it is missing.
+/// Returns MuJoCo's functions. The first call loads the library, so programs without simulation do not need it. Throws
+/// FileError with the library's name if it is missing.
 const Physics& physics();
 
 }  // namespace kinegraph

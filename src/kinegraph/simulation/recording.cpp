@@ -84,7 +84,7 @@ class RecordReader {
     s.remainder = text();
     return s;
   }
-  [[noreturn]] static void fail() { throw ValueError("Recording: the bytes are not those of a recording"); }
+  [[noreturn]] static void fail() { throw ValueError("Recording: the bytes are not a recording of this version"); }
 
  private:
   const char* take(std::size_t size) {
@@ -105,11 +105,11 @@ void repeatCall(Simulation& simulation, const Recording::Call& call) {
     case CallKind::step:
       return simulation.step(vector(2, n.size() - 2), n[0], ControlMode(int(n[1])));
     case CallKind::gripper:
-      return simulation.closeGripper(call.words[0], n[0], n[1], n[2]);
+      return simulation.closeGripper(call.names[0], n[0], n[1], n[2]);
     case CallKind::attach:
-      return simulation.attach(call.words[0], call.words[1]);
+      return simulation.attach(call.names[0], call.names[1]);
     case CallKind::detach:
-      return simulation.detach(call.words[0], call.words[1]);
+      return simulation.detach(call.names[0], call.names[1]);
     case CallKind::spline: {
       const auto rows = std::size_t(n[1]), columns = std::size_t(n[2]), times = n.size() - 3 - rows * columns;
       const MatrixXd path = vector(3, rows * columns).reshaped(long(rows), long(columns));
@@ -120,15 +120,15 @@ void repeatCall(Simulation& simulation, const Recording::Call& call) {
     case CallKind::reset_time:
       return simulation.resetTime(n[0]);
     case CallKind::set_state:
-      return simulation.setState(RecordReader(call.words[0]).state());
-    case CallKind::push:
-      return simulation.perturb(call.words[0], vector(0, 3), vector(3, 3),
-                                n.size() > 6 ? std::optional<Vector3d>(vector(6, 3)) : std::nullopt);
-    case CallKind::clear_pushes:
-      return simulation.clearPerturbations();
-    case CallKind::pull:
-      return simulation.pull(call.words[0], vector(0, 3), vector(3, 3));
-    case CallKind::end_pull:
+      return simulation.setState(RecordReader(call.names[0]).state());
+    case CallKind::apply_force:
+      return simulation.applyForce(call.names[0], vector(0, 3), vector(3, 3),
+                                   n.size() > 6 ? std::optional<Vector3d>(vector(6, 3)) : std::nullopt);
+    case CallKind::clear_forces:
+      return simulation.clearForces();
+    case CallKind::perturb:
+      return simulation.perturb(call.names[0], vector(0, 3), vector(3, 3));
+    case CallKind::end_perturbation:
       return simulation.endPerturbation();
   }
 }
@@ -153,8 +153,8 @@ std::string Recording::toBytes() const {
   for (const Call& call : calls) {
     write.count(std::size_t(call.kind));
     write.matrix(Eigen::Map<const VectorXd>(call.numbers.data(), long(call.numbers.size())));
-    write.count(call.words.size());
-    for (const std::string& word : call.words) write.text(word);
+    write.count(call.names.size());
+    for (const std::string& name : call.names) write.text(name);
   }
   write.count(times.size());
   for (std::size_t i = 0; i < times.size(); ++i) {
@@ -185,11 +185,11 @@ Recording Recording::fromBytes(const std::string& bytes) {
   for (std::size_t left = read.count(); left > 0; --left) {
     Call call;
     const std::size_t kind = read.count();
-    if (kind > std::size_t(CallKind::end_pull)) RecordReader::fail();
+    if (kind > std::size_t(CallKind::end_perturbation)) RecordReader::fail();
     call.kind = CallKind(int(kind));
     const MatrixXd numbers = read.matrix();
     call.numbers.assign(numbers.data(), numbers.data() + numbers.size());
-    for (std::size_t words = read.count(); words > 0; --words) call.words.push_back(read.text());
+    for (std::size_t names = read.count(); names > 0; --names) call.names.push_back(read.text());
     made.calls.push_back(std::move(call));
   }
   for (std::size_t left = read.count(); left > 0; --left) {
@@ -225,7 +225,7 @@ std::vector<std::vector<Pose>> Recording::framePoses(const std::vector<std::size
   std::vector<std::vector<Pose>> poses;
   for (const std::size_t step : steps) {
     if (step >= motions.size())
-      throw ValueError(cat("Recording: there is no step ", step, "; it has ", motions.size()));
+      throw ValueError(cat("Recording: there is no step ", step, "; number of steps: ", motions.size()));
     simulation.show(motions[step]);
     std::vector<Pose>& all = poses.emplace_back();
     for (int i = 0; i < config.getFrameDimension(); ++i) all.emplace_back(config.state().pose(i));
@@ -238,13 +238,15 @@ Simulation Recording::replay(const Config& config) const {
   simulation.setState(start);
   for (const Call& call : calls) repeatCall(simulation, call);
   if (!(simulation.getState() == end))
-    throw Error("Recording.replay: the run ends otherwise than it did; it may be of another version or machine");
+    throw Error(
+        "Recording.replay: the run ends in another state than recorded; the recording may come from another version or "
+        "machine");
   return simulation;
 }
 
 void Simulation::show(const VectorXd& motions) {
   World& world = *impl_->world;
-  if (motions.size() != world.model().nq) throw ValueError("Recording: it is not one of the scene that it has");
+  if (motions.size() != world.model().nq) throw ValueError("Recording: its states do not fit its scene");
   std::copy_n(motions.data(), motions.size(), world.positions());
   publish();
 }
@@ -262,25 +264,25 @@ void Simulation::startRecording() {
 bool Simulation::isRecording() const { return impl_->recording && !impl_->recording->is_cut; }
 
 Recording Simulation::stopRecording() {
-  if (!impl_->recording) throw ValueError("Simulation.stopRecording: startRecording was not called before");
+  if (!impl_->recording) throw ValueError("Simulation.stopRecording: startRecording was not called");
   if (!impl_->recording->is_cut) impl_->recording->end = getState();
   Recording done = std::move(*impl_->recording);
   impl_->recording.reset();
   return done;
 }
 
-void Simulation::Impl::note(CallKind kind, std::vector<double> numbers, std::vector<std::string> words) {
-  if (recording && !recording->is_cut) recording->calls.push_back({kind, std::move(numbers), std::move(words)});
+void Simulation::Impl::record(CallKind kind, std::vector<double> numbers, std::vector<std::string> names) {
+  if (recording && !recording->is_cut) recording->calls.push_back({kind, std::move(numbers), std::move(names)});
 }
 
-void Simulation::Impl::noteState(const SimulationState& state) {
+void Simulation::Impl::recordState(const SimulationState& state) {
   if (!recording || recording->is_cut) return;
   RecordWriter write;
   write.state(state);
-  note(CallKind::set_state, {}, {write.bytes});
+  record(CallKind::set_state, {}, {write.bytes});
 }
 
-void Simulation::Impl::notePoses() {
+void Simulation::Impl::recordPoses() {
   if (!recording || recording->is_cut) return;
   recording->times.push_back(world->time());
   recording->q.push_back(q());

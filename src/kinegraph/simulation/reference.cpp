@@ -9,11 +9,11 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kFarthestAhead = .05;  ///< rad or m
+constexpr double kMaxLead = .05;  ///< rad or m
 
 bool isBall(const Servo& servo) { return servo.kind == MotionKind::quaternion; }
 
-/// The motion that a drive's numbers in a vector of the scene's q mean.
+/// Converts a servo's entries in a vector of the scene's q to its motion.
 double motionOf(const Servo& servo, const double* u, double near) {
   if (servo.kind != MotionKind::circle) return servo.scale * u[servo.q];
   const double angle = 2. * std::atan2(u[servo.q + 1], u[servo.q]);
@@ -54,16 +54,16 @@ const char* controlModeName(ControlMode mode) {
   return "";
 }
 
-void Reference::hold(const SceneModel& model, const mjtNum* qpos, const mjtNum* qvel) {
-  parts_.dofs.assign(model.drives.size(), {});
-  parts_.courses.assign(model.drives.size(), {});
-  parts_.torque = VectorXd::Zero(long(model.drives.size()));
-  parts_.next.assign(model.drives.size(), 0.);
+void Reference::holdAt(const SceneModel& model, const mjtNum* qpos, const mjtNum* qvel) {
+  parts_.dofs.assign(model.servos.size(), {});
+  parts_.courses.assign(model.servos.size(), {});
+  parts_.torque = VectorXd::Zero(long(model.servos.size()));
+  parts_.next.assign(model.servos.size(), 0.);
   parts_.clock.mode = ControlMode::none;
   for (std::size_t i = 0; i < parts_.dofs.size(); ++i) {
-    const Servo& servo = model.drives[i];
+    const Servo& servo = model.servos[i];
     if (isBall(servo)) {
-      std::copy_n(qpos + servo.qpos, 4, parts_.dofs[i].turn);
+      std::copy_n(qpos + servo.qpos, 4, parts_.dofs[i].rotation);
     } else {
       parts_.dofs[i].position = parts_.dofs[i].goal = qpos[servo.qpos];
       parts_.dofs[i].velocity = parts_.dofs[i].rate = parts_.dofs[i].slope = qvel[servo.dof];
@@ -89,14 +89,14 @@ void Reference::command(const SceneModel& model, const VectorXd& u, double tau, 
   parts_.clock.tau = tau;
   parts_.clock.elapsed = 0.;
   for (std::size_t i = 0; i < parts_.dofs.size(); ++i) {
-    const Servo& servo = model.drives[i];
+    const Servo& servo = model.servos[i];
     Dof& dof = parts_.dofs[i];
     Course& course = parts_.courses[i];
     if (mode == ControlMode::none || servo.q < 0) {
       course.path = dof.position == dof.goal ? Path::still : Path::limited;
     } else if (mode == ControlMode::position || mode == ControlMode::positionVelocity) {
       if (isBall(servo)) {
-        std::copy_n(wxyz(unitQuaternion(u.segment<4>(servo.q), "a joint's quaternion")).data(), 4, dof.turn);
+        std::copy_n(wxyz(unitQuaternion(u.segment<4>(servo.q), "a joint's quaternion")).data(), 4, dof.rotation);
       } else if (mode == ControlMode::position) {
         courseOf(i, servo, motionOf(servo, u.data(), dof.position), tau, options);
       } else {
@@ -104,9 +104,9 @@ void Reference::command(const SceneModel& model, const VectorXd& u, double tau, 
         dof.goal = motionOf(servo, u.data(), dof.position);
       }
     } else if (mode == ControlMode::velocity) {
-      course = {Path::given, dof.position, dof.velocity, servo.scale * u[servo.q]};
+      course = {Path::constant_velocity, dof.position, dof.velocity, servo.scale * u[servo.q]};
     } else if (mode == ControlMode::acceleration) {
-      course = {Path::accelerated, 0., 0., servo.scale * u[servo.q]};
+      course = {Path::constant_acceleration, 0., 0., servo.scale * u[servo.q]};
     } else if (mode == ControlMode::spline) {
       course.path = Path::still;
     } else if (mode == ControlMode::torque) {
@@ -115,12 +115,12 @@ void Reference::command(const SceneModel& model, const VectorXd& u, double tau, 
   }
 }
 
-/// The next position of a reference that nears a far goal: so fast that it can still stop there, in steps of h.
+/// Returns the next position of a reference that approaches a distant goal, fast but able to stop there in steps of h.
 double Reference::limitedStep(const Dof& dof, const Servo& servo, double h, const SimulationOptions& options) {
   const double a = options.reference_acceleration, left = dof.goal - dof.position, half = .5 * a * h;
-  double wanted = std::min(servo.velocity, std::sqrt(2. * a * std::abs(left) + half * half) - half);
-  wanted = std::copysign(std::min(wanted, std::abs(left) / h), left);
-  const double velocity = std::clamp(wanted, dof.velocity - a * h, dof.velocity + a * h);
+  double speed = std::min(servo.velocity, std::sqrt(2. * a * std::abs(left) + half * half) - half);
+  speed = std::copysign(std::min(speed, std::abs(left) / h), left);
+  const double velocity = std::clamp(speed, dof.velocity - a * h, dof.velocity + a * h);
   const double next = dof.position + h * velocity;
   return std::abs(dof.goal - next) <= 1e-12 ? dof.goal : next;
 }
@@ -134,9 +134,9 @@ double Reference::nextPosition(std::size_t i, const Servo& servo, double h, cons
       return dof.position;
     case Path::limited:
       return limitedStep(dof, servo, h, options);
-    case Path::given:
+    case Path::constant_velocity:
       return dof.goal = course.start + parts_.clock.elapsed * course.end_velocity;
-    case Path::accelerated: {
+    case Path::constant_acceleration: {
       dof.goal = dof.position + h * (dof.rate + .5 * h * course.end_velocity);
       dof.rate += h * course.end_velocity;
       return dof.goal;
@@ -154,10 +154,11 @@ double Reference::nextPosition(std::size_t i, const Servo& servo, double h, cons
 void Reference::nextOfSpline(const SceneModel& model, double time) {
   const VectorXd q = spline.eval(time - spline_start, 0);
   for (std::size_t i = 0; i < parts_.dofs.size(); ++i) {
-    const Servo& servo = model.drives[i];
+    const Servo& servo = model.servos[i];
     if (servo.q < 0) continue;
     if (isBall(servo)) {
-      std::copy_n(wxyz(unitQuaternion(q.segment<4>(servo.q), "a spline's quaternion")).data(), 4, parts_.dofs[i].turn);
+      std::copy_n(wxyz(unitQuaternion(q.segment<4>(servo.q), "a spline's quaternion")).data(), 4,
+                  parts_.dofs[i].rotation);
     } else {
       parts_.dofs[i].goal = parts_.next[i] = motionOf(servo, q.data(), parts_.dofs[i].position);
     }
@@ -167,13 +168,13 @@ void Reference::nextOfSpline(const SceneModel& model, double time) {
 void Reference::stayNear(const SceneModel& model, const mjtNum* qpos, const mjtNum* qvel) {
   for (std::size_t i = 0; i < parts_.dofs.size(); ++i) {
     Course& course = parts_.courses[i];
-    const bool accelerates = course.path == Path::accelerated;
-    if (course.path != Path::given && !accelerates) continue;
-    const Servo& servo = model.drives[i];
+    const bool accelerates = course.path == Path::constant_acceleration;
+    if (course.path != Path::constant_velocity && !accelerates) continue;
+    const Servo& servo = model.servos[i];
     Dof& dof = parts_.dofs[i];
-    const double ahead = dof.position - qpos[servo.qpos];
-    if (std::abs(ahead) <= kFarthestAhead) continue;
-    const double back = std::copysign(kFarthestAhead, ahead) - ahead;
+    const double lead = dof.position - qpos[servo.qpos];
+    if (std::abs(lead) <= kMaxLead) continue;
+    const double back = std::copysign(kMaxLead, lead) - lead;
     dof.position += back;
     course.start += back;
     if (accelerates) dof.rate = dof.velocity = qvel[servo.dof];
@@ -184,7 +185,7 @@ void Reference::prepare(const SceneModel& model, double time, double h, bool las
   parts_.clock.elapsed += h;
   parts_.clock.last = last;
   for (std::size_t i = 0; i < parts_.dofs.size(); ++i)
-    parts_.next[i] = isBall(model.drives[i]) ? 0. : nextPosition(i, model.drives[i], h, options);
+    parts_.next[i] = isBall(model.servos[i]) ? 0. : nextPosition(i, model.servos[i], h, options);
   if (parts_.clock.mode == ControlMode::spline && !spline.isEmpty()) nextOfSpline(model, time + h);
   for (std::size_t i = 0; i < parts_.dofs.size(); ++i)
     parts_.dofs[i].acceleration = ((parts_.next[i] - parts_.dofs[i].position) / h - parts_.dofs[i].velocity) / h;
@@ -198,7 +199,7 @@ void Reference::shift(double h) {
     if (parts_.courses[i].path == Path::cubic) {
       if (parts_.clock.last) dof.rate = parts_.courses[i].end_velocity;
     } else {
-      if (parts_.courses[i].path != Path::accelerated) dof.rate = dof.velocity;
+      if (parts_.courses[i].path != Path::constant_acceleration) dof.rate = dof.velocity;
       dof.slope = dof.velocity;
     }
   }

@@ -7,27 +7,27 @@
 
 namespace kinegraph {
 
-/// Where motors shall be: position, velocity and acceleration of every drive, in the units of the model's motions, and what
-/// moves them on. A value: copies of it are part of a simulation's state.
+/// Reference trajectories of all servos: position, velocity and acceleration, in the units of the model's motions.
+/// A value type: copies of it are part of a simulation's state.
 ///
-/// A position that the reference can reach within the step by a change of velocity that motors can follow is approached on a
-/// cubic, which has at its end the velocity that the last two positions tell, so that a stream of positions is followed without
-/// jerks; one that is farther away is approached with limited velocity and acceleration.
+/// A commanded position within reach of one step, by a change of velocity that motors can follow, is approached on a
+/// cubic. Its final velocity is extrapolated from the last two commanded positions, so a stream of positions is
+/// followed without jerks. A position farther away is approached with limited velocity and acceleration.
 class Reference {
  public:
   struct Dof {
     double position = 0.;
-    double velocity = 0.;      ///< that brought it here, over the last inner step
-    double acceleration = 0.;  ///< for the next one
+    double velocity = 0.;      ///< of the last inner step
+    double acceleration = 0.;  ///< for the next inner step
     double goal = 0.;
-    double rate = 0.;                   ///< velocity where it is, of the smooth curve that it follows
-    double slope = 0.;                  ///< mean velocity over the last command
-    double turn[4] = {1., 0., 0., 0.};  ///< of a ball: the orientation wanted
+    double rate = 0.;                       ///< velocity at this position of the smooth curve
+    double slope = 0.;                      ///< mean velocity over the last command
+    double rotation[4] = {1., 0., 0., 0.};  ///< commanded orientation of a ball joint, (w, x, y, z)
     bool operator==(const Dof&) const = default;
   };
 
-  /// How a drive comes to where it shall be.
-  enum class Path : std::int64_t { still, limited, given, accelerated, cubic };
+  /// The kind of motion towards the goal.
+  enum class Path : std::int64_t { still, limited, constant_velocity, constant_acceleration, cubic };
   struct Course {
     Path path = Path::still;
     double start = 0., start_velocity = 0., end_velocity = 0.;
@@ -38,7 +38,7 @@ class Reference {
     double tau = 0., elapsed = 0.;  ///< of the present command, s
   };
 
-  /// All but the spline. Its structs have no padding: they are compared and stored as bytes.
+  /// Everything but the spline. The structs have no padding, because they are compared and stored as bytes.
   struct Parts {
     std::vector<Dof> dofs;
     std::vector<Course> courses;
@@ -49,34 +49,34 @@ class Reference {
 
   Reference() = default;
 
-  /// A new command, for the time tau. `u` has the numbers that `mode` asks for; they are finite.
+  /// Starts a command that lasts `tau` s. `u` has the finite numbers of the control vector of `mode`.
   void command(const SceneModel& model, const VectorXd& u, double tau, ControlMode mode,
                const SimulationOptions& options);
 
-  /// Looks ahead from `time` by an inner step of length h, the `last` one of the command or not: acceleration() is then what
-  /// brings a motor that is at the reference to the next one.
+  /// Computes the references at `time` + h, the end of an inner step; `last` marks the final one of the command.
+  /// acceleration() then moves a motor from the present reference to the next one.
   void prepare(const SceneModel& model, double time, double h, bool last, const SimulationOptions& options);
 
-  /// Where velocities or accelerations are told, the reference goes no farther ahead of its joint than motors at their limit
-  /// need (.05 rad or m): what is blocked does not jump when it comes free.
+  /// Bounds the lead of velocity and acceleration references over their joints by the lag of motors at their limit (.05
+  /// rad or m): a blocked joint does not jump when it is released.
   void stayNear(const SceneModel& model, const mjtNum* qpos, const mjtNum* qvel);
 
-  /// The inner step is done.
+  /// Finishes the inner step.
   void shift(double h);
 
-  /// Everything shall be where it is; its velocity is that of what brought it there.
-  void hold(const SceneModel& model, const mjtNum* qpos, const mjtNum* qvel);
+  /// Sets all references to the present positions, with the velocity of the motion up to here.
+  void holdAt(const SceneModel& model, const mjtNum* qpos, const mjtNum* qvel);
 
   double next(std::size_t servo) const { return parts_.next[servo]; }  ///< position at the end of the inner step
   const std::vector<Dof>& dofs() const { return parts_.dofs; }
   void setDof(std::size_t servo, const Dof& dof) { parts_.dofs[servo] = dof; }
   ControlMode mode() const { return parts_.clock.mode; }
-  const VectorXd& torque() const { return parts_.torque; }  ///< per drive, of ControlMode::torque
+  const VectorXd& torque() const { return parts_.torque; }  ///< per servo, for ControlMode::torque
 
   Parts parts() const { return parts_; }
   void setParts(Parts parts) { parts_ = std::move(parts); }
 
-  BSpline spline;  ///< of q; in time from spline_start
+  BSpline spline;  ///< of q, over the time since spline_start
   double spline_start = 0.;
 
  private:
@@ -88,7 +88,7 @@ class Reference {
   Parts parts_;
 };
 
-/// Numbers that a control vector of a mode has: 0 where there is none.
+/// Returns the size of the control vector of a mode; 0 if the mode takes none.
 int controlSize(ControlMode mode, int dofs);
 const char* controlModeName(ControlMode mode);
 

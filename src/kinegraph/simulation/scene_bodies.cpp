@@ -20,7 +20,7 @@ bool isRigidLink(const FrameData& frame) {
 
 bool isFree(const FrameData& frame) { return frame.joint && frame.joint->type == JointType::free; }
 
-/// Calls visit for a frame and all that is fixed to it without a joint; returns whether a joint with dofs follows.
+/// Calls `visit` for a frame and everything rigidly attached to it; returns whether a joint with dofs follows below.
 template <class Visit>
 bool forLink(const FrameData& frame, const Visit& visit) {
   visit(frame);
@@ -35,7 +35,7 @@ bool forLink(const FrameData& frame, const Visit& visit) {
   return carries;
 }
 
-/// Whether a link without a joint is a thing that falls: its frame has a mass, or all of its shapes have one.
+/// Returns whether a link without a joint is a free object: its root frame has a mass, or all of its shapes have one.
 bool isLoose(const FrameData& root, std::vector<std::string>& warnings) {
   bool weighs = false, all_weigh = true;
   std::string heavy, massless;
@@ -50,9 +50,9 @@ bool isLoose(const FrameData& root, std::vector<std::string>& warnings) {
   });
   if (carries || !weighs) return false;
   if (all_weigh || root.inertia) return true;
-  warnings.push_back(cat("Simulation: frame '", heavy, "' has a mass, but is fixed to '", root.name,
-                         "' together with '", massless,
-                         "', which has none: it stays where it is. Give it a joint of type rigid to let it fall"));
+  warnings.push_back(
+      cat("Simulation: frame '", heavy, "' has a mass, but is rigidly attached to '", root.name, "' like '", massless,
+          "', which has no mass: the object does not move. Give it a joint of type rigid to let it fall"));
   return false;
 }
 
@@ -68,13 +68,13 @@ void checkInertia(const FrameData& frame) {
                          "' has an inertia with a negative diagonal: ", inertia.matrix.diagonal().transpose()));
 }
 
-/// No body has a moment of inertia that is larger than the sum of the other two.
+/// Warns of an inertia that no body has: a principal moment larger than the sum of the other two.
 void warnOfImpossibleInertia(const FrameData& frame, std::vector<std::string>& warnings) {
   const Vector3d moments = frame.inertia->matrix.selfadjointView<Eigen::Lower>().eigenvalues();
   if (2. * moments.maxCoeff() > 1.001 * moments.sum())
     warnings.push_back(
         cat("Simulation: frame '", frame.name, "' has principal moments of inertia ", moments.transpose(),
-            ", which no body has: one is larger than the other two together. Their mean is taken for each"));
+            ", which are impossible: one exceeds the sum of the other two. Their mean is used for all three"));
 }
 
 LinkInertia surfaceInertia(const Geometry& geometry, double mass) {
@@ -160,7 +160,7 @@ class Divider {
     result_.bodies[std::size_t(placed.body)].inertia.add(part, placed.X_BF.transform());
   }
 
-  /// What moves and has no mass of its own gets that of its surfaces.
+  /// Computes the inertia of a moving body without mass from its surfaces.
   void completeMass(int number) {
     SceneBody& body = result_.bodies[std::size_t(number)];
     if (body.inertia.mass > 0.) return;

@@ -8,28 +8,28 @@
 
 namespace kinegraph {
 
-/// What moves as one in a simulation: a frame and all that is fixed to it.
+/// A rigid body of the simulation: a frame and everything rigidly attached to it.
 struct SceneBody {
   enum class Kind {
     world,    ///< never moves; body 0
     jointed,  ///< moved by the joint of its frame
     free,     ///< moves freely
-    fixed,    ///< fixed to its parent, and a body of its own because forces between the two are measured
+    fixed,    ///< fixed to its parent, but a separate body because the force between both is measured
   };
   Kind kind = Kind::world;
-  const FrameData* frame = nullptr;  ///< whose axes it has; null for the world
-  int parent = 0;                    ///< a body that comes before it
-  Pose X_PB;                         ///< in its parent, before the joint; of a free body: in the world
-  int robot = -1;                    ///< which one it belongs to
+  const FrameData* frame = nullptr;  ///< defines the body's axes; null for the world
+  int parent = 0;                    ///< index of a preceding body
+  Pose X_PB;                         ///< pose in the parent, before the joint; of a free body: in the world
+  int robot = -1;                    ///< index of its robot
   bool has_gravity = true;
-  LinkInertia inertia{};  ///< of all its frames, in its axes
+  LinkInertia inertia{};  ///< of all its frames, in the body's axes
 };
 
-/// Where a frame is in a simulation.
+/// The place of a frame in a simulation.
 struct PlacedFrame {
   int body = 0;
   Pose X_BF;
-  int robot = -1;  ///< of its body; those of a robot's base, which is fixed to the world, have theirs, too
+  int robot = -1;  ///< of its body; frames of a robot's base, fixed to the world, have their robot's index, too
 };
 
 /// A scene divided into bodies.
@@ -40,18 +40,20 @@ struct SceneBodies {
   std::vector<std::string> warnings;
 };
 
-/// Divides a scene. A frame without parent or with a joint begins a link, to which all belongs that hangs below it without a
-/// joint. A link moves by its joint. Without one, or with a rigid one, it moves freely if it has a mass and hangs on nothing
-/// that belongs to a robot; else it is part of what it hangs on. A robot begins at a frame with the attribute `multibody`,
-/// or at the first joint of a chain; its base stays where it is unless `multibody_fixedBase` is false. `measured` are
-/// frames that become bodies of their own. Throws ValueError, which names the frame, for masses that are none.
+/// Divides a scene into bodies. A frame without parent or with a joint starts a link; everything below it without a
+/// joint belongs to that link. A link with a joint moves by it. A link without a joint, or with a rigid one, moves
+/// freely if it has a mass and is not attached to a robot; otherwise it is part of its parent. A robot starts at a
+/// frame with the attribute `multibody`, or at the first joint of a chain; its base is fixed unless
+/// `multibody_fixedBase` is false. `measured` frames become bodies of their own. Throws ValueError with the frame's
+/// name for invalid masses.
 SceneBodies divideScene(const SceneTree& scene, const std::set<int>& measured = {});
 
-/// An attribute of a frame as a truth value or number; `otherwise` if it is not there. Throws ValueError for other kinds.
+/// Returns a frame's attribute as a truth value or number, or `otherwise` without one. Throws ValueError for other
+/// types.
 bool attributeFlag(const FrameData& frame, const char* key, bool otherwise);
 double attributeNumber(const FrameData& frame, const char* key, double otherwise);
 
-/// Does the shape of a frame take part: opaque and a body, or told to by `simulate`?
+/// Returns whether the shape of a frame collides: it is opaque and has a volume, or its attribute `simulate` says so.
 bool takesPart(const FrameData& frame);
 
 }  // namespace kinegraph

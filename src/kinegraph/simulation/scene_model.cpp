@@ -14,11 +14,11 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kWelds = 32;                ///< kept for attach
-constexpr double kOverlap = 1e-3;         ///< m: what overlaps more at the start never touches, in one tree
-constexpr double kGripStiffness = 2000.;  ///< N/m; and damping N s/m
+constexpr int kWelds = 32;                ///< equalities reserved for attach
+constexpr double kOverlap = 1e-3;         ///< m: pairs of one tree that overlap more at the start never collide
+constexpr double kGripStiffness = 2000.;  ///< N/m; the damping is in N s/m
 constexpr double kGripDamping = 60.;
-constexpr double kGripLever = .1;  ///< m: turns them into those of fingers that turn
+constexpr double kGripLever = .1;  ///< m: converts both to values of rotating fingers
 
 class ModelMaker {
  public:
@@ -167,10 +167,10 @@ class ModelMaker {
     const double restitution = attributeNumber(frame, "restitution", 0.);
     if (restitution > .2)
       model_.scene.warnings.push_back(cat("Simulation: frame '", frame.name, "' has restitution ", restitution,
-                                          "; things bounce by .1 to .2 here, not more"));
+                                          "; the simulation reproduces at most .1 to .2"));
   }
 
-  /// Links of robots that overlap, as the scene is, with others of their tree, or with the ground.
+  /// Excludes links of robots that overlap other links of their tree, or the ground, in the scene's present state.
   void excludeOverlaps() {
     struct Placed {
       const FrameData *frame, *root;
@@ -213,7 +213,7 @@ class ModelMaker {
 
   static std::string jointName(const FrameData& frame, std::size_t step) { return cat("j", frame.id, "_", step); }
 
-  /// Joints that mimic others.
+  /// Couples joints to those that they mimic.
   void couple() {
     for (const ModelParts::MadeJoint& joint : parts_.joints) {
       if (!joint.frame->joint->mimic) continue;

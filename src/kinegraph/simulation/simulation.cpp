@@ -17,15 +17,15 @@ Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
 
-Simulation::Impl::Impl(const Config& given, SimulationEngine which, const SimulationOptions& chosen, bool for_batch)
-    : config(given.scene()), engine(which), options(chosen), can_change_frictions(for_batch) {
+Simulation::Impl::Impl(const Config& source, SimulationEngine which, const SimulationOptions& chosen, bool for_batch)
+    : config(source.scene()), engine(which), options(chosen), can_change_frictions(for_batch) {
   if (engine == SimulationEngine::bullet)
     throw ValueError("Simulation: there is no engine bullet; use physx (rigid bodies with contacts) or kinematic");
   if (engine != SimulationEngine::physx && engine != SimulationEngine::kinematic)
     throw ValueError(cat("Simulation: there is no engine ", int(engine), "; expected physx (1) or kinematic (3)"));
   options.validate();
   world = makeWorld();
-  takeFromConfig(*world);
+  readConfig(*world);
   world->settle();
 }
 
@@ -62,7 +62,7 @@ std::unique_ptr<World> Simulation::Impl::makeWorld() {
   return made;
 }
 
-void Simulation::Impl::takeFromConfig(World& to) const {
+void Simulation::Impl::readConfig(World& to) const {
   const SceneModel& model = to.scene();
   for (const ModelJoint& joint : model.joints)
     writeJoint(joint, frames[std::size_t(joint.frame)]->joint->q.data(), to.positions());
@@ -83,40 +83,39 @@ void Simulation::update() {
 
 void Simulation::advance(const VectorXd& u, double tau, ControlMode mode, const CancellationToken& cancellation) {
   impl_->world->step(u, tau, mode, cancellation);
-  impl_->warnOfTurns();
+  impl_->warnOfFastRotations();
   if (!isRecording()) return;
   std::vector<double> numbers{tau, double(int(mode))};
   numbers.insert(numbers.end(), u.begin(), u.end());
-  impl_->note(Recording::Call::Kind::step, std::move(numbers));
-  impl_->notePoses();
+  impl_->record(Recording::Call::Kind::step, std::move(numbers));
+  impl_->recordPoses();
 }
 
-void Simulation::Impl::warnOfTurns() {
+void Simulation::Impl::warnOfFastRotations() {
   for (const int body : world->tooFast()) {
     const FrameData* frame = world->scene().scene.bodies[std::size_t(body)].frame;
     const std::string name = frame ? frame->name : "";
-    if (!warned.insert(cat("turns ", name)).second) continue;
-    warnings.push_back(cat("Simulation: '", name, "' turns by more than .5 rad in an inner step of ",
-                           world->model().opt.timestep,
-                           " s; how it moves is not to be relied on: take a smaller inner_step"));
+    if (!warned.insert(cat("rotates ", name)).second) continue;
+    warnings.push_back(cat("Simulation: '", name, "' rotates by more than .5 rad in an inner step of ",
+                           world->model().opt.timestep, " s; its motion is unreliable: use a smaller inner_step"));
   }
 }
 
-void Simulation::setWatcher(std::shared_ptr<SimulationWatcher> watcher) { impl_->watcher = std::move(watcher); }
-const std::shared_ptr<SimulationWatcher>& Simulation::watcher() const { return impl_->watcher; }
+void Simulation::setObserver(std::shared_ptr<SimulationObserver> observer) { impl_->observer = std::move(observer); }
+const std::shared_ptr<SimulationObserver>& Simulation::observer() const { return impl_->observer; }
 
-void Simulation::publish() { impl_->giveToConfig(); }
+void Simulation::publish() { impl_->writeConfig(); }
 
 void Simulation::step(const VectorXd& u, double tau, ControlMode mode) {
-  SimulationWatcher* watcher = impl_->watcher.get();
-  while (watcher && !watcher->mayStep(*this)) watcher->rest();
+  SimulationObserver* observer = impl_->observer.get();
+  while (observer && !observer->mayStep(*this)) observer->rest();
   update();
   advance(u, tau, mode);
   publish();
-  if (watcher) watcher->hasStepped(*this);
+  if (observer) observer->afterStep(*this);
 }
 
-void Simulation::Impl::giveToConfig() {
+void Simulation::Impl::writeConfig() {
   const SceneModel& model = world->scene();
   SceneTree& scene = *config.scene();
   if (scene.structureRevision() != revision) return;
@@ -156,7 +155,7 @@ void Simulation::resetTime(double time) {
   if (!std::isfinite(time)) throw ValueError(cat("Simulation.resetTime: time is ", time, "; expected a finite number"));
   impl_->world->setTime(time);
   impl_->resetSpline(-1.);
-  impl_->note(Recording::Call::Kind::reset_time, {time});
+  impl_->record(Recording::Call::Kind::reset_time, {time});
 }
 
 const Config& Simulation::config() const { return impl_->config; }
@@ -207,10 +206,10 @@ void Simulation::Impl::setFreeVelocities(const MatrixXd& velocities) {
   for (long i = 0; i < velocities.rows(); ++i) {
     mjtNum* v = world->velocities() + model.free_dof[std::size_t(i)];
     const Pose pose = readFreePose(world->positions() + model.free_qpos[std::size_t(i)]);
-    const Vector3d turn = pose.q.conjugate() * Vector3d(velocities.row(i).tail<3>());
+    const Vector3d angular = pose.q.conjugate() * Vector3d(velocities.row(i).tail<3>());
     for (int k = 0; k < 3; ++k) {
       v[k] = velocities(i, k);
-      v[3 + k] = turn[k];
+      v[3 + k] = angular[k];
     }
   }
 }
@@ -229,11 +228,11 @@ std::vector<Frame> Simulation::getFreeFrames() const {
 VectorXd Simulation::getReference() const {
   const World& world = *impl_->world;
   std::vector<mjtNum> positions(world.data().qpos, world.data().qpos + world.model().nq);
-  for (std::size_t i = 0; i < world.scene().drives.size(); ++i) {
-    const Servo& servo = world.scene().drives[i];
+  for (std::size_t i = 0; i < world.scene().servos.size(); ++i) {
+    const Servo& servo = world.scene().servos[i];
     const Reference::Dof& dof = world.reference().dofs()[i];
     if (servo.kind == MotionKind::quaternion) {
-      std::copy_n(dof.turn, 4, &positions[std::size_t(servo.qpos)]);
+      std::copy_n(dof.rotation, 4, &positions[std::size_t(servo.qpos)]);
     } else {
       positions[std::size_t(servo.qpos)] = dof.position;
     }

@@ -12,28 +12,28 @@
 #include "kinegraph/scene/config.h"
 #include "kinegraph/simulation/contact.h"
 #include "kinegraph/simulation/recording.h"
+#include "kinegraph/simulation/simulation_observer.h"
 #include "kinegraph/simulation/simulation_options.h"
 #include "kinegraph/simulation/simulation_state.h"
-#include "kinegraph/simulation/simulation_watcher.h"
 
 namespace kinegraph {
 
-/// A point of a frame's link that is pulled.
+/// A point of a link that a spring moves to a target.
 struct Perturbation {
   Vector3d position, target;  ///< world, m
   Vector3d force;             ///< of the last inner step, world, N
 };
 
-/// A configuration in time. It works directly on the Config: joints and free bodies there follow every step. Same calls, same
-/// numbers, bit for bit. What the scene has decides what moves, see docs/simulation.md: joints have motors, frames without
-/// parent (or with a rigid joint) that have a mass move freely, all else stays.
+/// Simulates the dynamics of a configuration. It works directly on the Config: its joints and free bodies are updated
+/// after every step. The same calls give the same numbers, bit for bit. Joints have motors; frames without a parent (or
+/// with a rigid joint) that have a mass move freely; everything else is fixed. See docs/simulation.md.
 ///
-/// Frames that are added to the Config later, or changed in structure, take part from the next call on. Poses and joints that
-/// are set there do not, before pushConfigToSim.
+/// Frames that are added to the Config later, or changed in structure, take part from the next call on. Poses and joint
+/// values set there take effect with pushConfigToSim only.
 class Simulation {
  public:
-  /// Throws ValueError, which names the frame, for what cannot be simulated, for options that make no sense and for the engine
-  /// bullet; FileError if MuJoCo is missing.
+  /// Throws ValueError with the frame's name for scenes that cannot be simulated, for invalid options, and for the
+  /// engine bullet. Throws FileError if MuJoCo is missing.
   explicit Simulation(const Config& config, SimulationEngine engine = SimulationEngine::physx,
                       const SimulationOptions& options = {});
   ~Simulation();
@@ -42,21 +42,21 @@ class Simulation {
 
   // --- time --------------------------------------------------------------------------------------------------------
 
-  /// Goes on by `tau` s. `u` has an entry per dof of the Config's q (2n for positionVelocity, none for none and spline).
-  /// Throws ValueError for a vector that does not fit, or is not finite: nothing has changed then. Throws Error if numbers
-  /// leave all bounds; the state is that before the call.
+  /// Advances the simulation by `tau` seconds. `u` has an entry per dof of the Config's q (2n for positionVelocity,
+  /// none for none and spline). Throws ValueError for a vector of wrong size or not finite, before any change. Throws
+  /// Error if the simulation diverges, and restores the state before the call.
   void step(const VectorXd& u = {}, double tau = .01, ControlMode mode = ControlMode::none);
 
-  /// The same in three parts, for those who hold a lock on the Config: the second does not touch it. `cancellation`, where
-  /// given, is called between inner steps and may throw to stop: the state is then that before the call.
-  void update();  ///< takes in frames that are new in the Config
+  /// The parts of `step`, for callers that lock the Config: `advance` does not touch it. `cancellation` is checked
+  /// between inner steps and may throw, which restores the state before the call.
+  void update();  ///< takes in new frames of the Config
   void advance(const VectorXd& u, double tau, ControlMode mode, const CancellationToken& cancellation = {});
-  void publish();  ///< sets joints and free bodies in the Config
+  void publish();  ///< writes joints and free bodies to the Config
 
   double get_t() const;              ///< s
-  void resetTime(double time = 0.);  ///< and resetSplineRef
+  void resetTime(double time = 0.);  ///< also calls resetSplineRef
 
-  // --- what is ---------------------------------------------------------------------------------------------------
+  // --- state -----------------------------------------------------------------------------------------------------
 
   const Config& config() const;
   SimulationEngine engine() const;
@@ -65,55 +65,58 @@ class Simulation {
   VectorXd get_qDot() const;
   std::vector<Frame> getFreeFrames() const;
   MatrixXd get_frameVelocities() const;  ///< of the free frames, F x 6: linear (m/s) and angular (rad/s), world
-  VectorXd getReference() const;         ///< the q that motors want to have
+  VectorXd getReference() const;         ///< the q that the motors track
 
   SimulationState getState() const;
 
-  /// Restores it: what follows is the same, bit for bit. Fields that were changed count; then velocities and poses are those.
-  /// Throws ValueError for the state of another scene.
+  /// Restores a state: subsequent steps repeat bit for bit. Changed fields are respected; poses and velocities follow
+  /// from them. Throws ValueError for a state of another scene.
   void setState(const SimulationState& state);
 
-  /// Everything goes to where it is in the Config, at rest or with these velocities (F x 6 as get_frameVelocities; n).
-  /// References are there, too. Throws ValueError for wrong sizes.
+  /// Sets poses and joints, and the motors' references, to those of the Config, at rest or with the given velocities (F
+  /// x 6 as in get_frameVelocities; n). Throws ValueError for wrong sizes.
   void pushConfigToSim(const MatrixXd& frame_velocities = {}, const VectorXd& joint_velocities = {});
 
   // --- splines ---------------------------------------------------------------------------------------------------
 
-  /// A motion for ControlMode::spline through control points `path` (K x n) at `times` (K, s), or one number, the time of all,
-  /// in equal parts. Appended at the end of the present one, at rest; else from the present reference on, smoothly.
+  /// Sets the trajectory of ControlMode::spline: control points `path` (K x n) at `times` (K, s); a single time is the
+  /// total duration. It is appended at the end of the present spline, at rest, or else blends smoothly from the present
+  /// reference.
   void setSplineRef(const MatrixXd& path, const VectorXd& times, bool append = true);
   double getTimeToSplineEnd() const;            ///< s; negative after it
-  void resetSplineRef(double ctrl_time = -1.);  ///< a spline that stays at the present q; from that time on, or now
+  void resetSplineRef(double ctrl_time = -1.);  ///< replaces the spline by the present q, at that time, or now
 
-  /// round(tau_step / tau_sim) steps in spline mode; `cancellation`, where given, as in advance, which undoes one of them.
+  /// Runs round(tau_step / tau_sim) steps in spline mode. `cancellation` as in advance: it undoes the interrupted step
+  /// only.
   void multi_step(double tau_step, double tau_sim, const CancellationToken& cancellation = {});
 
-  // --- grippers and things that are attached -------------------------------------------------------------------------
+  // --- grippers and attached objects ---------------------------------------------------------------------------------
 
-  /// Opens or closes the fingers below a frame's link to a width between them (m), each at `speed` (m/s) with at most 20 N.
+  /// Moves the fingers below a frame's link to a width between them (m), each at `speed` (m/s) with at most 20 N.
   /// Returns at once; the following steps move them. Throws FrameNotFound, and ValueError for a frame without gripper.
   void moveGripper(const std::string& gripper, double width, double speed = .3);
 
-  /// Closes to a width (m) with a force per finger (N), or until something is in between.
+  /// Closes to a width (m) with a force per finger (N), or until an object blocks the fingers.
   void closeGripper(const std::string& gripper, double width = 0., double speed = .3, double force = 20.);
-  bool gripperIsDone(const std::string& gripper) const;      ///< at its target, to .1 mm, or stopped by something
-  double getGripperWidth(const std::string& gripper) const;  ///< m between the fingers
+  bool gripperIsDone(const std::string& gripper) const;      ///< at its target within .1 mm, or blocked
+  double getGripperWidth(const std::string& gripper) const;  ///< between the fingers, m
 
-  /// Holds the link of frame `to` to that of `from` as they are. Throws FrameNotFound, and ValueError for more than 32.
+  /// Fixes the link of frame `to` to that of `from` at their present relative pose. Throws FrameNotFound, and
+  /// ValueError for more than 32 at once.
   void attach(const std::string& from, const std::string& to);
   void detach(const std::string& from, const std::string& to);  ///< throws ValueError if they are not attached
 
   // --- cameras ---------------------------------------------------------------------------------------------------
 
-  /// A camera under a name, at a frame whose attributes say what it is like (see cameraOf); without one, at the frame of that
-  /// name. It is selected. Throws FrameNotFound, and ValueError for attributes that no camera can have.
+  /// Adds a named camera at a frame with camera attributes (see cameraOf), by default the frame of that name, and
+  /// selects it. Throws FrameNotFound, and ValueError for invalid attributes.
   void addSensor(const std::string& name, const std::string& frame = {});
   void selectSensor(const std::string& name);  ///< throws NameError
   void setCamera(const std::string& frame);    ///< the same as addSensor(frame)
-  Camera camera() const;                       ///< the selected one, or one that overlooks the scene
+  Camera camera() const;                       ///< the selected one, or a default view of the scene
 
-  /// What the selected camera sees: colors and depth; with errors of a stereo camera after setSimulateDepthNoise, the same at
-  /// the same time. Throws FileError where nothing can be drawn.
+  /// Renders the image and depth of the selected camera, with stereo errors after setSimulateDepthNoise; the errors
+  /// depend on the time only. Throws FileError if no renderer is available.
   CameraImage getImageAndDepth(const DepthNoise& noise = {});
   void setSimulateDepthNoise(bool noisy);
 
@@ -121,68 +124,71 @@ class Simulation {
 
   std::vector<Contact> getContacts() const;  ///< of the last inner step
   VectorXd getJointTorques() const;          ///< of the motors, n: N m or N
-  VectorXd getExternalTorques() const;       ///< what contacts, limits, welds and perturbations add, n
+  VectorXd getExternalTorques() const;       ///< of contacts, limits, welds, forces and perturbations, n
 
-  /// A sensor where a frame is fixed to its link: what is below the frame pulls at it.
+  /// Adds a sensor between a frame and its link: it measures the force of everything below the frame.
   void addForceTorqueSensor(const std::string& frame);
   Vector6d getForceTorque(const std::string& frame) const;  ///< force (N) and torque (N m), in the frame's axes
 
   void addAccelerometer(const std::string& frame);
-  Vector3d getAcceleration(const std::string& frame) const;  ///< with gravity, in the frame's axes, m/s^2
+  Vector3d getAcceleration(const std::string& frame) const;  ///< including gravity, in the frame's axes, m/s^2
 
-  /// A force (N) and a torque (N m) on a frame's link, world, at a point (world; else the frame's origin), that lasts until
-  /// clearPerturbations. Several add up.
-  void perturb(const std::string& frame, const Vector3d& force, const Vector3d& torque = Vector3d::Zero(),
-               const std::optional<Vector3d>& point = std::nullopt);
-  void clearPerturbations();
+  /// Applies a constant force (N) and torque (N m), in world axes, to a frame's link until clearForces. `point` (world)
+  /// is where the force acts, by default the frame's origin. Several calls add up.
+  void applyForce(const std::string& frame, const Vector3d& force, const Vector3d& torque = Vector3d::Zero(),
+                  const std::optional<Vector3d>& point = std::nullopt);
+  void clearForces();
 
-  /// Pulls a point (in the frame's axes, m) to a place (world, m) by a damped spring, as a hand would, until endPerturbation:
-  /// f = m (w^2 (target - p) - 2 w dp/dt) with w = 10 rad/s and m the mass of the frame's link with all that hangs on its
-  /// joints. One point at a time. Throws FrameNotFound, and ValueError for what is fixed to the world.
-  void pull(const std::string& frame, const Vector3d& point, const Vector3d& target);
+  /// Moves a point of a frame's link (in the frame's axes, m) to a target (world, m) by a damped spring until
+  /// endPerturbation: f = m (w^2 (target - p) - 2 w dp/dt), with w = 10 rad/s and m the mass of the link and all links
+  /// below it. At most one perturbation is active. Throws FrameNotFound, and ValueError for a frame fixed to the world.
+  void perturb(const std::string& frame, const Vector3d& point, const Vector3d& target);
   void endPerturbation();
   std::optional<Perturbation> getPerturbation() const;
 
   // --- on the page -----------------------------------------------------------------------------------------------
 
-  /// Shows it live in the browser, from now on with each step: also time, real-time factor, contacts and their forces. There
-  /// people pause it, let it go on by one step, reset it to where it was at this call, and pull bodies with the mouse; `step`
-  /// does what they ask before it steps. Who asks for nothing changes nothing. Returns the key pressed since the last call, or
-  /// 0; with `pause`, waits for one as Config::view.
+  /// Shows the simulation live in the browser, from now on with each step: time, real-time factor, contacts and their
+  /// forces. Users can pause it, step it, reset it to the state of this call, and perturb bodies with the mouse; `step`
+  /// applies these requests first. Without requests, the simulation is unaffected. Returns the key pressed since the
+  /// last call, or 0; with `pause`, waits for a key like Config::view.
   int view(bool pause = false, const std::string& message = {});
 
-  /// Steps of `tau` s along the spline for so many seconds: as fast as it can be computed or, while a browser shows it, as fast
-  /// as the clock on the wall times `speed` (<= 0: as fast as possible). Ends early if somebody presses q or Escape there.
-  /// Returns the last key pressed there, or 0. `cancellation`, where given and nothing is shown, as in advance.
+  /// Runs steps of `tau` s along the spline for the given duration (s). While a browser shows the simulation, it runs
+  /// at `speed` times real time (<= 0: unlimited); otherwise as fast as possible. Ends early if a user presses q or
+  /// Escape there. Returns the last key pressed there, or 0. `cancellation` as in advance; it counts only without a
+  /// browser.
   int run(double seconds, double tau = .01, double speed = 1., const CancellationToken& cancellation = {});
 
-  /// Who looks on, or null.
-  void setWatcher(std::shared_ptr<SimulationWatcher> watcher);
-  const std::shared_ptr<SimulationWatcher>& watcher() const;
+  /// Sets the observer of all steps, or null.
+  void setObserver(std::shared_ptr<SimulationObserver> observer);
+  const std::shared_ptr<SimulationObserver>& observer() const;
 
   // --- recording -------------------------------------------------------------------------------------------------
 
-  /// From now on everything that is asked of the simulation is kept, so that it can be repeated bit for bit.
+  /// Starts to record all calls, so that the run can be repeated bit for bit.
   void startRecording();
   bool isRecording() const;
 
-  /// Throws ValueError without startRecording. Frames that are added meanwhile end a recording: what was before is returned.
+  /// Ends the recording and returns it. Throws ValueError without startRecording. Frames added during a recording end
+  /// it: the part before is returned.
   Recording stopRecording();
 
-  /// What was odd but not wrong since the last call.
+  /// Returns the warnings since the last call.
   std::vector<std::string> takeWarnings();
 
-  /// setState without the Config, which stays as it is.
+  /// Like setState, without an update of the Config.
   void restore(const SimulationState& state);
 
-  /// Another one at the same time, of the same model and the same Config, which only one of them should follow.
+  /// Creates a second simulation of the same model and Config at the same time. At most one of both may update the
+  /// Config.
   struct SameModel {};
   Simulation(const Simulation& other, SameModel);
 
  private:
   friend class SimulationBatch;
   friend struct Recording;
-  void show(const VectorXd& motions);  ///< sets the Config to where a recording was
+  void show(const VectorXd& motions);  ///< sets the Config to recorded positions
   struct Impl;
   explicit Simulation(std::unique_ptr<Impl> impl);
   std::unique_ptr<Impl> impl_;

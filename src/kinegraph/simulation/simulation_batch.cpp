@@ -27,13 +27,13 @@ struct SimulationBatch::Impl {
         throw ValueError(cat(call, ": there is no environment ", i, "; they are 0 to ", environments.size() - 1));
     }
   }
-  void checkSize(const char* call, const char* what, const VectorXd& values, double least, bool may_be_least) const {
+  void checkSize(const char* call, const char* what, const VectorXd& values, double minimum, bool inclusive) const {
     if (values.size() != long(environments.size()))
-      throw ValueError(cat(call, ": ", what, " has ", values.size(), " numbers; expected ", environments.size()));
+      throw ValueError(cat(call, ": ", what, " has ", values.size(), " entries; expected ", environments.size()));
     for (const double value : values) {
-      if (!std::isfinite(value) || value < least || (value == least && !may_be_least))
+      if (!std::isfinite(value) || value < minimum || (value == minimum && !inclusive))
         throw ValueError(
-            cat(call, ": ", what, " has ", value, "; expected finite numbers ", may_be_least ? ">= " : "> ", least));
+            cat(call, ": ", what, " has ", value, "; expected a finite number ", inclusive ? ">= " : "> ", minimum));
     }
   }
   void perform(const std::function<void(int)>& work, const CancellationToken& cancellation) const {
@@ -79,7 +79,7 @@ std::vector<std::string> SimulationBatch::freeFrames() const {
 void SimulationBatch::step(const MatrixXd& u, double tau, ControlMode mode, int repeat,
                            const CancellationToken& cancellation) {
   const char* call = "SimulationBatch.step";
-  if (repeat < 1) throw ValueError(cat(call, ": repeat is ", repeat, "; expected at least 1"));
+  if (repeat < 1) throw ValueError(cat(call, ": repeat is ", repeat, "; expected at minimum 1"));
   const int columns = controlSize(mode, dofs());
   if (columns == 0 ? u.size() != 0 : u.rows() != size() || u.cols() != columns)
     throw ValueError(cat(call, ": u has shape (", u.rows(), ", ", u.cols(), "); mode ", controlModeName(mode),
@@ -186,7 +186,7 @@ void SimulationBatch::setMasses(const std::string& frame, const VectorXd& masses
   const char* call = "SimulationBatch.setMasses";
   impl_->checkSize(call, "masses", masses, 0., false);
   const int body = impl_->first().body(frame, call);
-  if (body == 0) throw ValueError(cat(call, ": frame '", frame, "' is fixed to the world: its mass does not count"));
+  if (body == 0) throw ValueError(cat(call, ": frame '", frame, "' is fixed to the world: its mass has no effect"));
   const int id = impl_->world(0).scene().body_id[std::size_t(body)];
   const MujocoErrors thrown;
   for (int i = 0; i < size(); ++i) {
@@ -205,9 +205,10 @@ void SimulationBatch::setFrictions(const std::string& frame, const VectorXd& fri
   const int id = impl_->first().frame(frame, call).id;
   const std::vector<int>& geom_frame = impl_->world(0).scene().geom_frame;
   if (std::find(geom_frame.begin(), geom_frame.end(), id) == geom_frame.end())
-    throw ValueError(cat(call, ": frame '", frame, "' has no shape that takes part"));
+    throw ValueError(cat(call, ": frame '", frame, "' has no shape that collides"));
   if (!impl_->first().frame(frame, call).attributes->find("friction"))
-    throw ValueError(cat(call, ": frame '", frame, "' has no attribute friction; only what is given can be changed"));
+    throw ValueError(
+        cat(call, ": frame '", frame, "' has no attribute friction; only frames with this attribute can be changed"));
   for (int i = 0; i < size(); ++i) impl_->world(i).setFriction(id, frictions[i]);
 }
 

@@ -14,7 +14,7 @@ bool isBelow(const FrameData* frame, const FrameData& above) {
   return frame != nullptr;
 }
 
-/// The frame that a link begins with.
+/// Returns the first frame of the frame's link.
 const FrameData& linkOf(const FrameData& frame) {
   const FrameData* root = &frame;
   while (root->parent && !root->joint) root = root->parent;
@@ -36,7 +36,7 @@ int Simulation::Impl::body(const std::string& name, const char* call) const {
   return world->scene().scene.frames[std::size_t(frame(name, call).id)].body;
 }
 
-/// The gripper of a frame: that below its link, the nearest in the order of frames.
+/// Returns the gripper of a frame: the first in the order of frames below its link.
 std::size_t Simulation::Impl::gripper(const std::string& name, const char* call) const {
   const FrameData& link = linkOf(frame(name, call));
   const SceneModel& model = world->scene();
@@ -47,9 +47,9 @@ std::size_t Simulation::Impl::gripper(const std::string& name, const char* call)
   std::vector<std::string> there;
   for (const GripperJoint& each : model.grippers)
     there.push_back(frames[std::size_t(model.joints[std::size_t(each.joint)].frame)]->name);
-  throw ValueError(cat(call, ": below the link of frame '", name,
-                       "' is no gripper, which is a joint that is not active and that others mimic",
-                       there.empty() ? "; the scene has none" : cat("; those of the scene: ", join(there))));
+  throw ValueError(cat(call, ": there is no gripper below the link of frame '", name,
+                       "'; a gripper is an inactive joint that other joints mimic",
+                       there.empty() ? "; the scene has no gripper" : cat("; grippers of the scene: ", join(there))));
 }
 
 void Simulation::moveGripper(const std::string& gripper, double width, double speed) {
@@ -72,7 +72,7 @@ void Simulation::closeGripper(const std::string& gripper, double width, double s
   task.speed = speed;
   task.force = force;
   task.still = 0.;
-  s.note(Recording::Call::Kind::gripper, {width, speed, force}, {gripper});
+  s.record(Recording::Call::Kind::gripper, {width, speed, force}, {gripper});
 }
 
 bool Simulation::gripperIsDone(const std::string& gripper) const {
@@ -87,9 +87,9 @@ double Simulation::getGripperWidth(const std::string& gripper) const {
 void Simulation::attach(const std::string& from, const std::string& to) {
   update();
   const int a = impl_->body(from, "Simulation.attach"), b = impl_->body(to, "Simulation.attach");
-  if (a == b) throw ValueError(cat("Simulation.attach: '", from, "' and '", to, "' are fixed to each other already"));
+  if (a == b) throw ValueError(cat("Simulation.attach: '", from, "' and '", to, "' already belong to the same link"));
   impl_->world->weld(a, b);
-  impl_->note(Recording::Call::Kind::attach, {}, {from, to});
+  impl_->record(Recording::Call::Kind::attach, {}, {from, to});
 }
 
 void Simulation::detach(const std::string& from, const std::string& to) {
@@ -97,7 +97,7 @@ void Simulation::detach(const std::string& from, const std::string& to) {
   const int a = impl_->body(from, "Simulation.detach"), b = impl_->body(to, "Simulation.detach");
   const bool either = impl_->world->unweld(a, b) || impl_->world->unweld(b, a);
   if (!either) throw ValueError(cat("Simulation.detach: '", to, "' is not attached to '", from, "'"));
-  impl_->note(Recording::Call::Kind::detach, {}, {from, to});
+  impl_->record(Recording::Call::Kind::detach, {}, {from, to});
 }
 
 // --- splines ------------------------------------------------------------------------------------------------------
@@ -110,7 +110,7 @@ void Simulation::setSplineRef(const MatrixXd& path, const VectorXd& times, bool 
   if (path.rows() == 0 || path.cols() != n)
     throw ValueError(cat(call, ": path has shape (", path.rows(), ", ", path.cols(), "); expected (K, ", n, ")"));
   if (times.size() != 1 && times.size() != path.rows())
-    throw ValueError(cat(call, ": times has ", times.size(), " numbers; expected 1 or ", path.rows()));
+    throw ValueError(cat(call, ": times has ", times.size(), " entries; expected 1 or ", path.rows()));
   const VectorXd at = times.size() == path.rows()
                           ? times
                           : VectorXd(VectorXd::LinSpaced(path.rows(), times[0] / double(path.rows()), times[0]));
@@ -135,7 +135,7 @@ void Simulation::setSplineRef(const MatrixXd& path, const VectorXd& times, bool 
   std::vector<double> numbers{append ? 1. : 0., double(path.rows()), double(path.cols())};
   numbers.insert(numbers.end(), path.data(), path.data() + path.size());
   numbers.insert(numbers.end(), times.begin(), times.end());
-  s.note(Recording::Call::Kind::spline, std::move(numbers));
+  s.record(Recording::Call::Kind::spline, std::move(numbers));
 }
 
 double Simulation::getTimeToSplineEnd() const {
@@ -159,15 +159,15 @@ void Simulation::resetSplineRef(double ctrl_time) {
   if (!std::isfinite(ctrl_time))
     throw ValueError(cat("Simulation.resetSplineRef: ctrl_time is ", ctrl_time, "; expected a finite number"));
   impl_->resetSpline(ctrl_time);
-  impl_->note(Recording::Call::Kind::reset_spline, {ctrl_time});
+  impl_->record(Recording::Call::Kind::reset_spline, {ctrl_time});
 }
 
 void Simulation::multi_step(double tau_step, double tau_sim, const CancellationToken& cancellation) {
   expectPositive("Simulation.multi_step", "tau_step", tau_step);
   expectPositive("Simulation.multi_step", "tau_sim", tau_sim);
   const double steps = std::round(tau_step / tau_sim);
-  if (steps > 1e7) throw ValueError(cat("Simulation.multi_step: ", steps, " steps are too many"));
-  if (impl_->watcher) {
+  if (steps > 1e7) throw ValueError(cat("Simulation.multi_step: ", steps, " steps; expected at most 1e7"));
+  if (impl_->observer) {
     for (int i = 0; i < int(steps); ++i) {
       cancellation.check();
       step({}, tau_sim, ControlMode::spline);
@@ -197,7 +197,7 @@ std::vector<Contact> Simulation::getContacts() const {
     if (contact.efc_address < 0) continue;
     mjtNum force[6];
     physics().mj_contactForce(&world.model(), &d, i, force);
-    // rows of the frame: normal from geom 0 to geom 1, and two tangents
+    // the contact frame's rows: the normal from geom 0 to geom 1, and two tangents
     const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> axes(contact.frame);
     found.push_back({name(contact.geom[0]), name(contact.geom[1]), Eigen::Map<const Vector3d>(contact.pos), axes.row(0),
                      contact.dist - contact.includemargin, axes.transpose() * Eigen::Map<const Vector3d>(force)});
@@ -205,7 +205,7 @@ std::vector<Contact> Simulation::getContacts() const {
   return found;
 }
 
-VectorXd Simulation::getJointTorques() const { return impl_->world->driveTorques(); }
+VectorXd Simulation::getJointTorques() const { return impl_->world->motorTorques(); }
 VectorXd Simulation::getExternalTorques() const { return impl_->world->externalTorques(); }
 
 void Simulation::addForceTorqueSensor(const std::string& frame) {
@@ -227,7 +227,7 @@ const mjtNum* sensorNumbers(const World& world, const std::vector<ModelSensor>& 
   for (const ModelSensor& sensor : sensors) {
     if (sensor.frame == frame.id) return world.computed().sensordata + sensor.address;
   }
-  throw ValueError(cat(call, ": frame '", frame.name, "' has no such sensor; ", add, " makes one"));
+  throw ValueError(cat(call, ": frame '", frame.name, "' has no such sensor; call ", add, " first"));
 }
 
 }  // namespace
@@ -244,54 +244,54 @@ Vector3d Simulation::getAcceleration(const std::string& frame) const {
                                                   impl_->frame(frame, call), call, "addAccelerometer"));
 }
 
-void Simulation::perturb(const std::string& frame, const Vector3d& force, const Vector3d& torque,
-                         const std::optional<Vector3d>& point) {
+void Simulation::applyForce(const std::string& frame, const Vector3d& force, const Vector3d& torque,
+                            const std::optional<Vector3d>& point) {
   update();
-  const char* call = "Simulation.perturb";
+  const char* call = "Simulation.applyForce";
   if (!force.allFinite() || !torque.allFinite() || (point && !point->allFinite()))
-    throw ValueError(cat(call, ": force, torque or point has numbers that are not finite"));
+    throw ValueError(cat(call, ": force, torque and point must be finite"));
   const FrameData& data = impl_->frame(frame, call);
   const PlacedFrame& placed = impl_->world->scene().scene.frames[std::size_t(data.id)];
-  if (placed.body == 0) throw ValueError(cat(call, ": frame '", frame, "' is fixed to the world and cannot be pushed"));
+  if (placed.body == 0)
+    throw ValueError(cat(call, ": frame '", frame, "' is fixed to the world and no force can move it"));
   std::vector<double> numbers(force.begin(), force.end());
   numbers.insert(numbers.end(), torque.begin(), torque.end());
   if (point) numbers.insert(numbers.end(), point->begin(), point->end());
-  impl_->note(Recording::Call::Kind::push, std::move(numbers), {frame});
-  impl_->world->push(placed.body, force, torque,
-                     point ? *point : (impl_->world->bodyPose(placed.body) * placed.X_BF).p);
+  impl_->record(Recording::Call::Kind::apply_force, std::move(numbers), {frame});
+  impl_->world->applyForce(placed.body, force, torque,
+                           point ? *point : (impl_->world->bodyPose(placed.body) * placed.X_BF).p);
 }
 
-void Simulation::pull(const std::string& frame, const Vector3d& point, const Vector3d& target) {
+void Simulation::perturb(const std::string& frame, const Vector3d& point, const Vector3d& target) {
   update();
-  const char* call = "Simulation.pull";
-  if (!point.allFinite() || !target.allFinite())
-    throw ValueError(cat(call, ": point or target has numbers that are not finite"));
+  const char* call = "Simulation.perturb";
+  if (!point.allFinite() || !target.allFinite()) throw ValueError(cat(call, ": point and target must be finite"));
   const FrameData& data = impl_->frame(frame, call);
   World& world = *impl_->world;
   const PlacedFrame& placed = world.scene().scene.frames[std::size_t(data.id)];
   if (!world.canMove(placed.body))
-    throw ValueError(cat(call, ": frame '", frame, "' is fixed to the world and cannot be pulled"));
-  world.pull({placed.body, placed.X_BF.p + placed.X_BF.q * point, target});
+    throw ValueError(cat(call, ": frame '", frame, "' is fixed to the world and cannot be perturbed"));
+  world.perturb({placed.body, placed.X_BF.p + placed.X_BF.q * point, target});
   std::vector<double> numbers(point.begin(), point.end());
   numbers.insert(numbers.end(), target.begin(), target.end());
-  impl_->note(Recording::Call::Kind::pull, std::move(numbers), {frame});
+  impl_->record(Recording::Call::Kind::perturb, std::move(numbers), {frame});
 }
 
 void Simulation::endPerturbation() {
-  if (impl_->world->pulled().body == 0) return;
-  impl_->world->pull({});
-  impl_->note(Recording::Call::Kind::end_pull, {});
+  if (impl_->world->perturbation().body == 0) return;
+  impl_->world->perturb({});
+  impl_->record(Recording::Call::Kind::end_perturbation, {});
 }
 
 std::optional<Perturbation> Simulation::getPerturbation() const {
   const World& world = *impl_->world;
-  if (world.pulled().body == 0) return std::nullopt;
-  return Perturbation{world.pulledPoint(), world.pulled().target, world.pullForce()};
+  if (world.perturbation().body == 0) return std::nullopt;
+  return Perturbation{world.perturbedPoint(), world.perturbation().target, world.perturbationForce()};
 }
 
-void Simulation::clearPerturbations() {
-  impl_->world->clearPushes();
-  impl_->note(Recording::Call::Kind::clear_pushes, {});
+void Simulation::clearForces() {
+  impl_->world->clearForces();
+  impl_->record(Recording::Call::Kind::clear_forces, {});
 }
 
 }  // namespace kinegraph

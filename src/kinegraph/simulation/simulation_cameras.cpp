@@ -19,8 +19,8 @@ void Simulation::selectSensor(const std::string& name) {
   if (!impl_->cameras.contains(name)) {
     std::vector<std::string> names;
     for (const auto& [known, frame] : impl_->cameras) names.push_back(known);
-    throw NameError(cat("Simulation.selectSensor: there is no sensor '", name, "'; addSensor makes one",
-                        names.empty() ? "" : cat("; there are ", join(names)), similarHint(name, names)));
+    throw NameError(cat("Simulation.selectSensor: there is no sensor '", name, "'; call addSensor first",
+                        names.empty() ? "" : cat("; existing sensors: ", join(names)), similarHint(name, names)));
   }
   impl_->selected_camera = name;
 }

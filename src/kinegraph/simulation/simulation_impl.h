@@ -9,14 +9,14 @@
 namespace kinegraph {
 
 struct Simulation::Impl {
-  Impl(const Config& given, SimulationEngine which, const SimulationOptions& chosen, bool for_batch = false);
+  Impl(const Config& source, SimulationEngine which, const SimulationOptions& chosen, bool for_batch = false);
   Impl(const Impl& other);  ///< of the same model
 
   std::unique_ptr<World> makeWorld();
-  void takeFromConfig(World& to) const;
-  void giveToConfig();
+  void readConfig(World& to) const;
+  void writeConfig();
 
-  /// The model anew, of the Config as it is now; what was there before goes on.
+  /// Rebuilds the model from the present Config and transfers the state.
   void rebuild();
 
   VectorXd q() const;
@@ -27,13 +27,13 @@ struct Simulation::Impl {
   void resetSpline(double ctrl_time);
   void setJoints(const VectorXd& q, const VectorXd* velocity);
 
-  /// Keeps a call that changes what will happen.
-  void note(Recording::Call::Kind kind, std::vector<double> numbers, std::vector<std::string> words = {});
-  void noteState(const SimulationState& state);
-  void notePoses();
-  void warnOfTurns();
+  /// Records a call that affects later steps.
+  void record(Recording::Call::Kind kind, std::vector<double> numbers, std::vector<std::string> names = {});
+  void recordState(const SimulationState& state);
+  void recordPoses();
+  void warnOfFastRotations();
 
-  /// The frame of that name, and its body. Throws FrameNotFound; `call` is what asks.
+  /// Returns the frame of that name, or its body. Throws FrameNotFound; `call` names the caller.
   const FrameData& frame(const std::string& name, const char* call) const;
   int body(const std::string& name, const char* call) const;
   std::size_t gripper(const std::string& name, const char* call) const;
@@ -42,16 +42,16 @@ struct Simulation::Impl {
   SimulationEngine engine;
   SimulationOptions options;
   bool can_change_frictions = false;
-  std::vector<std::shared_ptr<FrameData>> force_frames, acceleration_frames;  ///< with a sensor
+  std::vector<std::shared_ptr<FrameData>> force_frames, acceleration_frames;  ///< frames with a sensor
   std::unique_ptr<World> world;
   std::vector<std::shared_ptr<FrameData>> frames;  ///< of the model, by id
-  std::uint64_t revision = 0;                      ///< of the scene's structure, as in the model
+  std::uint64_t revision = 0;                      ///< of the scene's structure when the model was built
   std::map<std::string, Frame> cameras;
   std::string selected_camera;
   bool has_depth_noise = false;
   std::unique_ptr<CameraRenderer> renderer;
   std::unique_ptr<Recording> recording;
-  std::shared_ptr<SimulationWatcher> watcher;
+  std::shared_ptr<SimulationObserver> observer;
   std::vector<std::string> warnings;
   std::set<std::string> warned;
 };

@@ -4,44 +4,44 @@
 
 namespace kinegraph {
 
-/// What steps a simulation. The numbers are those of the Python enum `ry.SimulationEngine`.
+/// The engine of a simulation. The numbers are those of the Python enum `ry.SimulationEngine`.
 enum class SimulationEngine : int {
-  physx = 1,      ///< rigid bodies with contacts: our dynamic engine, MuJoCo, under the name that scripts know
+  physx = 1,      ///< rigid bodies with contacts: MuJoCo, under the name that scripts of the reference use
   bullet = 2,     ///< refused
-  kinematic = 3,  ///< joints follow their references exactly, nothing else moves
+  kinematic = 3,  ///< joints follow their references exactly; nothing else moves
 };
 
-/// How the control vector of a step is meant. The numbers are those of the Python enum `ry.ControlMode`.
+/// The meaning of a step's control vector. The numbers are those of the Python enum `ry.ControlMode`.
 enum class ControlMode : int {
-  none = 0,              ///< no vector: the motors keep their present targets
+  none = 0,              ///< no vector: motors keep their targets
   position = 1,          ///< q at the end of the step
   velocity = 2,          ///< dq/dt
-  acceleration = 3,      ///< of the reference, whose velocity is kept between the calls
+  acceleration = 3,      ///< of the reference; its velocity persists between calls
   positionVelocity = 4,  ///< q and dq/dt at the end of the step, 2n numbers
-  spline = 5,            ///< no vector: the spline that setSplineRef gave
-  torque = 6,            ///< N m (N) at the joints, beside the compensation of gravity where a robot has it
+  spline = 5,            ///< no vector: the spline of setSplineRef
+  torque = 6,            ///< at the joints, N m (N), added to gravity compensation if the robot has it
 };
 
-/// Settings of a simulation. The defaults hold what is grasped.
+/// Settings of a simulation. Grasped objects stay in the hand with the defaults.
 struct SimulationOptions {
-  double inner_step = .002;             ///< s; a step is made of equal ones that are not longer
-  double servo_frequency = 100.;        ///< rad/s: how stiff joints follow; times inner_step at most .5
-  double reference_acceleration = 20.;  ///< rad/s^2 or m/s^2: how fast references of far targets move
+  double inner_step = .002;             ///< s; a step consists of equal inner steps of at most this duration
+  double servo_frequency = 100.;        ///< rad/s: stiffness of joints; times inner_step at most .5
+  double reference_acceleration = 20.;  ///< rad/s^2 or m/s^2: acceleration of references towards distant targets
   double friction = 1.;                 ///< of frames without the attribute `friction`
   double torsional_friction = .005;     ///< m: against spinning on the spot
   double rolling_friction = 1e-4;       ///< m
   double gravity = 9.81;                ///< m/s^2, along -z
-  double armature = .1;                 ///< kg m^2 or kg: inertia of motors, added to that of driven joints
+  double armature = .1;                 ///< kg m^2 or kg: inertia of motors, added to actuated joints
   bool ground = true;                   ///< a plane at z = 0
-  bool speculative = false;             ///< contacts before they happen: stops what would fly through thin walls
-  bool sleep = false;                   ///< what rests costs nothing; states then replay in the same object only
+  bool speculative = false;             ///< predicts contacts, which keeps fast objects from passing through thin walls
+  bool sleep = false;                   ///< bodies at rest are not computed; states then replay in the same object only
 
-  /// Throws ValueError, which names the first field that makes no sense.
+  /// Throws ValueError with the name of the first invalid field.
   void validate() const;
   bool operator==(const SimulationOptions&) const = default;
 };
 
-/// The table of these options: names, units, sentences, ranges.
+/// Returns the table of these options: names, units, descriptions, ranges.
 const OptionTable<SimulationOptions>& simulationOptionTable();
 
 }  // namespace kinegraph

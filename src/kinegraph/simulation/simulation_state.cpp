@@ -13,11 +13,11 @@ namespace kinegraph {
 namespace {
 
 void expectSize(const char* call, const char* what, std::ptrdiff_t rows, std::ptrdiff_t columns,
-                const MatrixXd& given) {
-  if (given.rows() != rows || given.cols() != columns)
-    throw ValueError(cat(call, ": ", what, " has shape (", given.rows(), ", ", given.cols(), "); expected (", rows,
+                const MatrixXd& values) {
+  if (values.rows() != rows || values.cols() != columns)
+    throw ValueError(cat(call, ": ", what, " has shape (", values.rows(), ", ", values.cols(), "); expected (", rows,
                          ", ", columns, ")"));
-  if (!given.allFinite()) throw ValueError(cat(call, ": ", what, " has numbers that are not finite"));
+  if (!values.allFinite()) throw ValueError(cat(call, ": ", what, " must be finite"));
 }
 
 }  // namespace
@@ -51,10 +51,10 @@ void Simulation::restore(const SimulationState& state) {
   expectSize(call, "qDot", n, 1, state.qDot);
   expectSize(call, "freePos", f, 7, state.freePos);
   expectSize(call, "freeVel", f, 6, state.freeVel);
-  if (!std::isfinite(state.time)) throw ValueError(cat(call, ": time is ", state.time));
+  if (!std::isfinite(state.time)) throw ValueError(cat(call, ": time is ", state.time, "; expected a finite number"));
   for (std::ptrdiff_t i = 0; i < f; ++i) Pose::fromNumbers(state.freePos.row(i).transpose());
   if (!state.remainder.empty()) s.world->setState(stateFromBytes(state.remainder, *s.world));
-  // what was changed by hand counts
+  // changed fields take precedence over the stored bytes
   const VectorXd q_before = s.q();
   if (state.q != q_before || state.qDot != s.qDot()) s.setJoints(state.q, &state.qDot);
   if (state.freePos != s.freePoses()) {
@@ -65,7 +65,7 @@ void Simulation::restore(const SimulationState& state) {
   if (state.freeVel != s.freeVelocities()) s.setFreeVelocities(state.freeVel);
   s.world->setTime(state.time);
   if (state.q != q_before || state.remainder.empty()) s.world->settle();
-  s.noteState(state);
+  s.recordState(state);
 }
 
 void Simulation::pushConfigToSim(const MatrixXd& frame_velocities, const VectorXd& joint_velocities) {
@@ -76,19 +76,19 @@ void Simulation::pushConfigToSim(const MatrixXd& frame_velocities, const VectorX
   if (frame_velocities.size() > 0)
     expectSize(call, "frameVelocities", std::ptrdiff_t(model.free_frames.size()), 6, frame_velocities);
   if (joint_velocities.size() > 0) expectSize(call, "jointVelocities", model.dofs, 1, joint_velocities);
-  s.takeFromConfig(*s.world);
+  s.readConfig(*s.world);
   std::fill_n(s.world->velocities(), s.world->model().nv, 0.);
   if (frame_velocities.size() > 0) s.setFreeVelocities(frame_velocities);
   if (joint_velocities.size() > 0) s.setJoints(s.q(), &joint_velocities);
   s.world->settle();
   s.world->forgetForces();
-  s.noteState(getState());
+  s.recordState(getState());
 }
 
 void Simulation::Impl::rebuild() {
   const std::vector<std::shared_ptr<FrameData>> before = frames;
   std::unique_ptr<World> next = makeWorld();
-  takeFromConfig(*next);
+  readConfig(*next);
   next->settle();
   next->transferState(*world, [&](int frame) {
     const auto found = std::find(before.begin(), before.end(), frames[std::size_t(frame)]);

@@ -53,8 +53,8 @@ class StateReader {
     std::int64_t rows = 0, columns = 0;
     (*this)(rows);
     (*this)(columns);
-    const auto most = std::int64_t(bytes_.size() / sizeof(double));
-    if (rows < 0 || columns < 0 || rows > most || columns > most || rows * columns > most) fail();
+    const auto max_count = std::int64_t(bytes_.size() / sizeof(double));
+    if (rows < 0 || columns < 0 || rows > max_count || columns > max_count || rows * columns > max_count) fail();
     MatrixXd result(rows, columns);
     const std::size_t size = std::size_t(rows * columns) * sizeof(double);
     if (size > 0) std::memcpy(result.data(), take(size), size);
@@ -62,7 +62,7 @@ class StateReader {
   }
   bool isDone() const { return bytes_.empty(); }
   [[noreturn]] static void fail() {
-    throw ValueError("Simulation.setState: the state is not one that getState gave, or it is of another version");
+    throw ValueError("Simulation.setState: the bytes are not a state from getState of this version");
   }
 
  private:
@@ -75,13 +75,13 @@ class StateReader {
   std::string_view bytes_;
 };
 
-/// The numbers of a pose, which Eigen does not let copy as bytes.
+/// The numbers of a pose, because Eigen's types cannot be copied as bytes.
 struct WeldBytes {
   int body_a, body_b, active, unused;
   double pose[7];
 };
 
-struct PullBytes {
+struct SpringBytes {
   std::int64_t body;
   double point[3], target[3];
 };
@@ -112,10 +112,10 @@ std::string stateToBytes(const WorldState& state) {
     welds.push_back(weld);
   }
   write(welds);
-  PullBytes pull{state.pull.body, {}, {}};
-  std::copy_n(state.pull.point.data(), 3, pull.point);
-  std::copy_n(state.pull.target.data(), 3, pull.target);
-  write(pull);
+  SpringBytes spring{state.perturbation.body, {}, {}};
+  std::copy_n(state.perturbation.point.data(), 3, spring.point);
+  std::copy_n(state.perturbation.target.data(), 3, spring.target);
+  write(spring);
   return std::move(write.bytes);
 }
 
@@ -142,17 +142,17 @@ WorldState stateFromBytes(std::string_view bytes, const World& world) {
   read(state.grippers);
   std::vector<WeldBytes> welds;
   read(welds);
-  PullBytes pull{};
-  read(pull);
+  SpringBytes spring{};
+  read(spring);
   if (!read.isDone()) StateReader::fail();
   if (state.physics.size() != now.physics.size() || parts.dofs.size() != now.reference.dofs().size() ||
       state.grippers.size() != now.grippers.size() || welds.size() != now.welds.size())
-    throw ValueError("Simulation.setState: the state is of another scene: one with other joints or free frames");
+    throw ValueError("Simulation.setState: the state belongs to a scene with other joints or free frames");
   state.reference.setParts(parts);
   state.reference.spline = spline;
   const int bodies = int(world.scene().scene.bodies.size());
-  if (pull.body < 0 || pull.body >= bodies) StateReader::fail();
-  state.pull = {int(pull.body), Vector3d(pull.point), Vector3d(pull.target)};
+  if (spring.body < 0 || spring.body >= bodies) StateReader::fail();
+  state.perturbation = {int(spring.body), Vector3d(spring.point), Vector3d(spring.target)};
   for (std::size_t i = 0; i < welds.size(); ++i) {
     const WeldBytes& weld = welds[i];
     if (weld.body_a < 0 || weld.body_b < 0 || weld.body_a >= bodies || weld.body_b >= bodies) StateReader::fail();

@@ -52,9 +52,9 @@ void World::transferState(const World& old, const std::function<int(int frame)>&
     }
   }
   settle();
-  for (std::size_t i = 0; i < to.drives.size(); ++i) {
-    for (std::size_t j = 0; j < from.drives.size(); ++j) {
-      const Servo &a = to.drives[i], &b = from.drives[j];
+  for (std::size_t i = 0; i < to.servos.size(); ++i) {
+    for (std::size_t j = 0; j < from.servos.size(); ++j) {
+      const Servo &a = to.servos[i], &b = from.servos[j];
       if (joint_was[std::size_t(a.joint)] != b.joint || a.kind != b.kind) continue;
       const int first = to.joints[std::size_t(a.joint)].steps.front().dof;
       if (a.dof - first == b.dof - from.joints[std::size_t(b.joint)].steps.front().dof)

@@ -11,8 +11,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kGripTolerance = 1e-4;  ///< m: a gripper has arrived
-constexpr double kStillFor = .02;        ///< s: fingers that have not moved for so long stand still
+constexpr double kGripTolerance = 1e-4;  ///< m: a gripper has reached its target
+constexpr double kStillFor = .02;        ///< s without motion after which fingers count as stopped
 
 int stateSize(const mjModel& m) { return physics().mj_stateSize(&m, mjSTATE_INTEGRATION); }
 
@@ -37,9 +37,9 @@ World::World(std::shared_ptr<const SceneModel> model, const SimulationOptions& o
     grippers_.push_back(task);
   }
   bias_.resize(6 * std::size_t(physics_->nbody));
-  wanted_.resize(std::size_t(physics_->nv));
+  desired_acceleration_.resize(std::size_t(physics_->nv));
   torque_.resize(std::size_t(physics_->nv));
-  turning_ = GyroscopicForces(*model_, *physics_);
+  gyroscopic_forces_ = GyroscopicForces(*model_, *physics_);
   settle();
 }
 
@@ -48,7 +48,7 @@ void World::settle() {
     data_->qpos[f.qpos] = f.ratio * data_->qpos[f.source_qpos];
     data_->qvel[f.dof] = f.ratio * data_->qvel[f.source_dof];
   }
-  reference_.hold(*model_, data_->qpos, data_->qvel);
+  reference_.holdAt(*model_, data_->qpos, data_->qvel);
   for (std::size_t g = 0; g < grippers_.size(); ++g) {
     GripperTask& task = grippers_[g];
     task.target = task.reference = data_->qpos[model_->grippers[g].qpos[0]];
@@ -70,7 +70,7 @@ WorldState World::state() const {
   state.reference = reference_;
   state.grippers = grippers_;
   state.welds = welds_;
-  state.pull = pull_;
+  state.perturbation = perturbation_;
   return state;
 }
 
@@ -80,8 +80,8 @@ void World::setState(const WorldState& state) {
   reference_ = state.reference;
   grippers_ = state.grippers;
   welds_ = state.welds;
-  pull_ = state.pull;
-  pull_force_.setZero();
+  perturbation_ = state.perturbation;
+  perturbation_force_.setZero();
   for (std::size_t slot = 0; slot < welds_.size(); ++slot) activate(slot);
   is_computed_ = copy_is_computed_ = false;
 }
@@ -110,7 +110,8 @@ void World::weld(int body_a, int body_b, const Pose& X_AB) {
     activate(slot);
     return;
   }
-  throw ValueError(cat("Simulation.attach: ", welds_.size(), " things are attached, more at once are not possible"));
+  throw ValueError(
+      cat("Simulation.attach: ", welds_.size(), " objects are attached; expected at most this many at once"));
 }
 
 bool World::unweld(int body_a, int body_b) {
@@ -125,7 +126,7 @@ bool World::unweld(int body_a, int body_b) {
   return found;
 }
 
-void World::push(int body, const Vector3d& force, const Vector3d& torque, const Vector3d& point) {
+void World::applyForce(int body, const Vector3d& force, const Vector3d& torque, const Vector3d& point) {
   const int id = model_->body_id[std::size_t(body)];
   const Pose X_WB = bodyPose(body);
   const Vector3d com = X_WB.p + X_WB.q * Vector3d(Eigen::Map<const Vector3d>(physics_->body_ipos + 3 * id));
@@ -137,11 +138,11 @@ void World::push(int body, const Vector3d& force, const Vector3d& torque, const 
   }
 }
 
-void World::clearPushes() { std::fill_n(data_->xfrc_applied, 6 * physics_->nbody, 0.); }
+void World::clearForces() { std::fill_n(data_->xfrc_applied, 6 * physics_->nbody, 0.); }
 
-VectorXd World::driveTorques() const {
+VectorXd World::motorTorques() const {
   VectorXd torques = VectorXd::Zero(model_->dofs);
-  for (const Servo& servo : model_->drives) {
+  for (const Servo& servo : model_->servos) {
     if (servo.q >= 0 && servo.kind != MotionKind::quaternion)
       torques[servo.q] = servo.scale * data_->qfrc_applied[servo.dof];
   }
@@ -168,14 +169,14 @@ VectorXd World::externalTorques() const {
     if (std::any_of(f, f + 6, [](double x) { return x != 0.; }))
       physics().mj_applyFT(physics_.get(), const_cast<mjData*>(&d), f, f + 3, d.xipos + 3 * b, b, pushed.data());
   }
-  if (pull_.body != 0) {
-    const int b = model_->body_id[std::size_t(pull_.body)];
-    const Vector3d point = pulledPoint(), none = Vector3d::Zero();
-    physics().mj_applyFT(physics_.get(), const_cast<mjData*>(&d), pull_force_.data(), none.data(), point.data(), b,
-                         pushed.data());
+  if (perturbation_.body != 0) {
+    const int b = model_->body_id[std::size_t(perturbation_.body)];
+    const Vector3d point = perturbedPoint(), none = Vector3d::Zero();
+    physics().mj_applyFT(physics_.get(), const_cast<mjData*>(&d), perturbation_force_.data(), none.data(), point.data(),
+                         b, pushed.data());
   }
   VectorXd torques = VectorXd::Zero(model_->dofs);
-  for (const Servo& servo : model_->drives) {
+  for (const Servo& servo : model_->servos) {
     if (servo.q >= 0 && servo.kind != MotionKind::quaternion)
       torques[servo.q] = servo.scale * (d.qfrc_constraint[servo.dof] + pushed[std::size_t(servo.dof)]);
   }

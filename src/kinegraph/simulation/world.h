@@ -13,45 +13,45 @@
 
 namespace kinegraph {
 
-/// What a gripper is about to do.
+/// The present command of a gripper.
 struct GripperTask {
   double target = 0.;     ///< of its joint, m or rad
   double reference = 0.;  ///< moves to the target at `speed`
   double speed = .3;
   double force = 20.;  ///< of each finger, N
-  double still = 0.;   ///< s for which it has not moved although its force is at the limit
+  double still = 0.;   ///< s without motion although the force is at its limit
   bool operator==(const GripperTask&) const = default;
 };
 
-/// A thing that is held to another.
+/// Two bodies that are fixed to each other.
 struct WeldedPair {
   int body_a = 0, body_b = 0;  ///< as in SceneBodies
   Pose X_AB;
   bool active = false;
 };
 
-/// A point of a body that is drawn to a place by a spring.
-struct Pull {
-  int body = 0;              ///< as in SceneBodies; 0: nothing is pulled
+/// A spring that moves a point of a body to a target.
+struct PerturbationSpring {
+  int body = 0;              ///< as in SceneBodies; 0: no perturbation
   Vector3d point{0, 0, 0};   ///< in the body's axes, m
   Vector3d target{0, 0, 0};  ///< world, m
-  bool operator==(const Pull&) const = default;
+  bool operator==(const PerturbationSpring&) const = default;
 };
 
-/// Everything that a world will do next depends on: two worlds of one model with the same do the same, bit for bit.
+/// The complete state of a world: two worlds of one model with equal states evolve equally, bit for bit.
 struct WorldState {
   std::vector<mjtNum> physics;
   Reference reference;
   std::vector<GripperTask> grippers;
   std::vector<WeldedPair> welds;
-  Pull pull;
+  PerturbationSpring perturbation;
 };
 
-/// A model in time: MuJoCo's data, motors, grippers and welds. Knows no scene.
+/// A model in time: MuJoCo's data, motors, grippers and welds. Does not know the scene.
 class World {
  public:
-  /// `model` stays, and is not changed: a world has a copy of what welds and randomization change.
-  /// A kinematic one moves joints exactly as their references, and nothing else.
+  /// `model` is shared and not changed: a world copies the parts that welds and randomization change. A kinematic world
+  /// moves joints exactly along their references, and nothing else.
   World(std::shared_ptr<const SceneModel> model, const SimulationOptions& options, bool is_kinematic = false);
 
   const SceneModel& scene() const { return *model_; }
@@ -59,36 +59,36 @@ class World {
   const mjModel& model() const { return *physics_; }
   const mjData& data() const { return *data_; }
 
-  /// For other masses; constantsChanged must follow.
+  /// For changes of masses; call constantsChanged afterwards.
   mjModel& editModel() { return *physics_; }
   void constantsChanged();
 
-  /// Of the geoms of a frame, and of the pairs that they are in.
+  /// Sets the friction of a frame's geoms, and of the pairs that contain them.
   void setFriction(int frame, double friction);
   double time() const { return data_->time; }
 
-  /// Positions and velocities, as of the model's joints; what follows from them is computed in the next step.
+  /// Positions and velocities of the model's joints; dependent quantities are computed in the next step.
   mjtNum* positions() { return data_->qpos; }
   mjtNum* velocities() { return data_->qvel; }
   const mjtNum* positions() const { return data_->qpos; }
   void setTime(double time) { data_->time = time; }
 
-  /// Followers of joints go where their sources are, and motors want to stay where they are.
+  /// Moves followers to their sources' positions, and sets the motors' references to the present positions.
   void settle();
 
-  /// Steps for tau seconds. Throws ValueError for a control vector that does not fit the mode; then nothing has changed.
-  /// Throws Error where numbers leave all bounds; then the state is as before the call.
+  /// Steps for `tau` seconds. Throws ValueError for a control vector that does not fit the mode, before any change.
+  /// Throws Error if the simulation diverges, and restores the state before the call.
   void checkCommand(const VectorXd& u, double tau, ControlMode mode) const;
   void step(const VectorXd& u, double tau, ControlMode mode, const CancellationToken& cancellation = {});
 
   WorldState state() const;
   void setState(const WorldState& state);
 
-  /// Takes over what goes on in another world: the state of all frames that it had, `old_frame` being the id that a frame had
-  /// there, or -1.
+  /// Copies the state of all frames that another world has, too. `old_frame` maps a frame's id to its id there, or to
+  /// -1.
   void transferState(const World& old, const std::function<int(int frame)>& old_frame);
 
-  /// Forces of the last step do not help to find those of the next.
+  /// Clears the warm start: forces of the last step do not predict those of the next.
   void forgetForces();
 
   Reference& reference() { return reference_; }
@@ -97,34 +97,34 @@ class World {
   const std::vector<GripperTask>& grippers() const { return grippers_; }
   bool isGripperDone(int gripper) const;
 
-  /// Holds body b to body a where it is. Throws ValueError if all of the model's welds are in use.
+  /// Fixes body b to body a at their relative pose. Throws ValueError if all welds of the model are in use.
   void weld(int body_a, int body_b);
   bool unweld(int body_a, int body_b);
   const std::vector<WeldedPair>& welds() const { return welds_; }
 
-  /// A force and a torque (world, N and N m) at a point that act on a body until they are set again.
-  void push(int body, const Vector3d& force, const Vector3d& torque, const Vector3d& point);
-  void clearPushes();
+  /// Applies a force (world, N) and a torque (N m) at a point of a body until they are set again.
+  void applyForce(int body, const Vector3d& force, const Vector3d& torque, const Vector3d& point);
+  void clearForces();
 
-  /// Bodies, as in SceneBodies, that turned by more than .5 rad in an inner step of the last step.
+  /// Bodies, as in SceneBodies, that rotated by more than .5 rad in an inner step of the last step.
   const std::set<int>& tooFast() const { return too_fast_; }
 
-  /// A spring of 10 rad/s with the mass of the body and all that it carries, damped so that it does not swing, draws a point
-  /// of it to a place from now on.
-  void pull(const Pull& pull);
-  const Pull& pulled() const { return pull_; }
-  Vector3d pulledPoint() const;                              ///< where the point is, world
-  const Vector3d& pullForce() const { return pull_force_; }  ///< of the last inner step, N
-  bool canMove(int body) const;                              ///< false: it is fixed to the world
+  /// Moves a point of a body to a target by a spring, from now on. The spring has a frequency of 10 rad/s with the mass
+  /// of the body and all bodies below it, and is critically damped.
+  void perturb(const PerturbationSpring& spring);
+  const PerturbationSpring& perturbation() const { return perturbation_; }
+  Vector3d perturbedPoint() const;                                           ///< world, m
+  const Vector3d& perturbationForce() const { return perturbation_force_; }  ///< of the last inner step, N
+  bool canMove(int body) const;                                              ///< false: fixed to the world
 
-  /// The torque of each drive in the last inner step, and what contacts, limits, welds and pushes add.
-  VectorXd driveTorques() const;
+  /// The torques of the motors in the last inner step; and those of contacts, limits, welds and applied forces.
+  VectorXd motorTorques() const;
   VectorXd externalTorques() const;
 
-  /// Where a body is now, world.
+  /// The present pose of a body, world.
   Pose bodyPose(int body) const;
 
-  /// Data of which everything is computed at the present positions: the world's own after a step, else a copy's.
+  /// Data with all quantities computed at the present positions: the world's own after a step, else those of a copy.
   const mjData& computed() const;
 
  private:
@@ -134,8 +134,8 @@ class World {
   void innerStep(double h);
   void correctContacts(double h);
   void driveMotors(double h);
-  void addPull();
-  void removePull();
+  void addPerturbation();
+  void removePerturbation();
   void moveGrippers(double h);
   void activate(std::size_t slot);
   void followReferences(double h);
@@ -151,11 +151,11 @@ class World {
   Reference reference_;
   std::vector<GripperTask> grippers_;
   std::vector<WeldedPair> welds_;
-  Pull pull_;
-  Vector3d pull_force_{0, 0, 0};
-  Vector6d pushed_before_ = Vector6d::Zero();  ///< what acted on the pulled body before the spring did
-  std::vector<mjtNum> bias_, wanted_, torque_;
-  GyroscopicForces turning_;
+  PerturbationSpring perturbation_;
+  Vector3d perturbation_force_{0, 0, 0};
+  Vector6d force_before_perturbation_ = Vector6d::Zero();  ///< applied force without the spring's
+  std::vector<mjtNum> bias_, desired_acceleration_, torque_;
+  GyroscopicForces gyroscopic_forces_;
   std::set<int> too_fast_;
 };
 

@@ -1,4 +1,4 @@
-// A body that is pulled by a spring.
+// The spring perturbation of a body.
 #include <algorithm>
 
 #include "kinegraph/simulation/world.h"
@@ -7,11 +7,11 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kPullFrequency = 10.;  ///< rad/s
+constexpr double kPerturbationFrequency = 10.;  ///< rad/s
 
 using Vector = Eigen::Map<const Vector3d>;
 
-/// Where a point of a body is, world, as MuJoCo has it now.
+/// Returns a point of a body in the world, by MuJoCo's present positions.
 Vector3d placed(const mjData& d, int id, const Vector3d& point) {
   const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> axes(d.xmat + 9 * id);
   return Vector(d.xpos + 3 * id) + axes * point;
@@ -19,14 +19,14 @@ Vector3d placed(const mjData& d, int id, const Vector3d& point) {
 
 }  // namespace
 
-void World::pull(const Pull& pull) {
-  pull_ = pull;
-  pull_force_.setZero();
+void World::perturb(const PerturbationSpring& spring) {
+  perturbation_ = spring;
+  perturbation_force_.setZero();
 }
 
-Vector3d World::pulledPoint() const {
-  const Pose X_WB = bodyPose(pull_.body);
-  return X_WB.p + X_WB.q * pull_.point;
+Vector3d World::perturbedPoint() const {
+  const Pose X_WB = bodyPose(perturbation_.body);
+  return X_WB.p + X_WB.q * perturbation_.point;
 }
 
 bool World::canMove(int body) const {
@@ -35,26 +35,26 @@ bool World::canMove(int body) const {
   return bodies[std::size_t(body)].kind != SceneBody::Kind::world;
 }
 
-/// f = m (w^2 (target - p) - 2 w dp/dt), beside what pushes the body already.
-void World::addPull() {
+/// Adds the spring force f = m (w^2 (target - p) - 2 w dp/dt) to the forces on the body.
+void World::addPerturbation() {
   const mjModel& m = *physics_;
   mjData& d = *data_;
-  const int id = model_->body_id[std::size_t(pull_.body)];
-  const Vector3d point = placed(d, id, pull_.point);
+  const int id = model_->body_id[std::size_t(perturbation_.body)];
+  const Vector3d point = placed(d, id, perturbation_.point);
   const mjtNum* twist = d.cvel + 6 * id;
   const Vector3d velocity =
       Vector(twist + 3) + Vector(twist).cross(point - Vector(d.subtree_com + 3 * m.body_rootid[id]));
-  const double w = kPullFrequency;
-  pull_force_ = m.body_subtreemass[id] * (w * w * (pull_.target - point) - 2. * w * velocity);
+  const double w = kPerturbationFrequency;
+  perturbation_force_ = m.body_subtreemass[id] * (w * w * (perturbation_.target - point) - 2. * w * velocity);
   Eigen::Map<Vector6d> applied(d.xfrc_applied + 6 * id);
-  pushed_before_ = applied;
-  applied.head<3>() += pull_force_;
-  applied.tail<3>() += (point - Vector(d.xipos + 3 * id)).cross(pull_force_);
+  force_before_perturbation_ = applied;
+  applied.head<3>() += perturbation_force_;
+  applied.tail<3>() += (point - Vector(d.xipos + 3 * id)).cross(perturbation_force_);
 }
 
-void World::removePull() {
-  const int id = model_->body_id[std::size_t(pull_.body)];
-  std::copy_n(pushed_before_.data(), 6, data_->xfrc_applied + 6 * id);
+void World::removePerturbation() {
+  const int id = model_->body_id[std::size_t(perturbation_.body)];
+  std::copy_n(force_before_perturbation_.data(), 6, data_->xfrc_applied + 6 * id);
 }
 
 }  // namespace kinegraph

@@ -10,15 +10,15 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kStill = 1e-3;       ///< m/s: fingers that are slower do not move
-constexpr double kLongestStep = 1e4;  ///< s, of a call
+constexpr double kStill = 1e-3;       ///< m/s: slower fingers count as stopped
+constexpr double kLongestStep = 1e4;  ///< s, of one call
 
 bool hasSurfaceVelocity(const mjModel& m, int geom) {
   const mjtNum* velocity = m.geom_surfacevel + 6 * geom;
   return std::any_of(velocity, velocity + 6, [](mjtNum v) { return v != 0.; });
 }
 
-/// MuJoCo's, for solimp with the midpoint .5 and the power 2, which all contacts here have.
+/// MuJoCo's impedance for solimp with midpoint .5 and power 2, as in all contacts of these models.
 double impedance(const mjContact& contact) {
   const double x = std::min(1., std::abs(contact.dist - contact.includemargin) / contact.solimp[2]);
   const double y = x < .5 ? 2. * x * x : 1. - 2. * (1. - x) * (1. - x);
@@ -32,16 +32,14 @@ void World::checkCommand(const VectorXd& u, double tau, ControlMode mode) const 
     throw ValueError(cat("Simulation.step: tau is ", tau, " s; expected a positive number up to ", kLongestStep));
   const int size = controlSize(mode, model_->dofs);
   if (u.size() != size)
-    throw ValueError(cat("Simulation.step: u_control has ", u.size(), " numbers; mode ", controlModeName(mode),
+    throw ValueError(cat("Simulation.step: u_control has ", u.size(), " entries; mode ", controlModeName(mode),
                          size == 0 ? " takes none" : cat(" takes ", size, ", the joints' ", model_->dofs, " dofs")));
-  if (!u.allFinite())
-    throw ValueError(cat("Simulation.step: u_control has numbers that are not finite: ", u.transpose()));
+  if (!u.allFinite()) throw ValueError(cat("Simulation.step: u_control is not finite: ", u.transpose()));
   if (mode == ControlMode::velocity || mode == ControlMode::acceleration || mode == ControlMode::torque) {
-    for (const Servo& servo : model_->drives) {
+    for (const Servo& servo : model_->servos) {
       if (servo.q >= 0 && (servo.kind == MotionKind::quaternion || servo.kind == MotionKind::circle))
-        throw ValueError(cat("Simulation.step: mode ", controlModeName(mode),
-                             " is not for the joint whose numbers begin at ", servo.q,
-                             ": they are those of a quaternion; use mode position"));
+        throw ValueError(cat("Simulation.step: mode ", controlModeName(mode), " does not apply to the joint at index ",
+                             servo.q, " of q, which is a quaternion; use mode position"));
     }
   }
 }
@@ -64,7 +62,7 @@ void World::step(const VectorXd& u, double tau, ControlMode mode, const Cancella
       reference_.shift(h);
     }
     data_->time = start + tau;
-    if (mode == ControlMode::torque) reference_.hold(*model_, data_->qpos, data_->qvel);
+    if (mode == ControlMode::torque) reference_.holdAt(*model_, data_->qpos, data_->qvel);
   } catch (...) {
     setState(before);
     throw;
@@ -74,13 +72,13 @@ void World::step(const VectorXd& u, double tau, ControlMode mode, const Cancella
   copy_is_computed_ = false;
 }
 
-/// Joints are where they shall be, and what is attached goes with them.
+/// Moves joints to their references, and attached bodies with them.
 void World::followReferences(double h) {
   mjData& d = *data_;
-  for (std::size_t i = 0; i < model_->drives.size(); ++i) {
-    const Servo& servo = model_->drives[i];
+  for (std::size_t i = 0; i < model_->servos.size(); ++i) {
+    const Servo& servo = model_->servos[i];
     if (servo.kind == MotionKind::quaternion) {
-      std::copy_n(reference_.dofs()[i].turn, 4, d.qpos + servo.qpos);
+      std::copy_n(reference_.dofs()[i].rotation, 4, d.qpos + servo.qpos);
     } else {
       d.qpos[servo.qpos] = reference_.next(i);
       d.qvel[servo.dof] = (reference_.next(i) - reference_.dofs()[i].position) / h;
@@ -88,8 +86,8 @@ void World::followReferences(double h) {
   }
   for (std::size_t g = 0; g < grippers_.size(); ++g) {
     GripperTask& task = grippers_[g];
-    const double way = task.speed * h;
-    task.reference += std::clamp(task.target - task.reference, -way, way);
+    const double travel = task.speed * h;
+    task.reference += std::clamp(task.target - task.reference, -travel, travel);
     d.qpos[model_->grippers[g].qpos[0]] = task.reference;
   }
   for (const SceneModel::Follower& f : model_->followers) d.qpos[f.qpos] = f.ratio * d.qpos[f.source_qpos];
@@ -118,18 +116,19 @@ void World::innerStep(double h) {
   mj.mj_fwdVelocity(m, d);
   mj.mj_sensorVel(m, d);
   driveMotors(h);
-  turning_.apply(*m, *d, h);
-  if (const int id = turning_.tooFast(); id != 0) too_fast_.insert(model_->body_of_id[std::size_t(id)]);
-  if (pull_.body != 0) addPull();
+  gyroscopic_forces_.apply(*m, *d, h);
+  if (const int id = gyroscopic_forces_.tooFast(); id != 0) too_fast_.insert(model_->body_of_id[std::size_t(id)]);
+  if (perturbation_.body != 0) addPerturbation();
   mj.mj_step2(m, d);
-  if (pull_.body != 0) removePull();
+  if (perturbation_.body != 0) removePerturbation();
 }
 
-/// MuJoCo leaves the term dJ/dt v out of the rows of contacts, so that what friction holds in a turning hand slips, and
-/// its step lets positions drift by h^2/2 of it. Both vanish with the velocity v* = (1/b + h/2) t (a2 - a1) along the
-/// tangents t, where a_i is the acceleration of the touching point of body i at zero acceleration of the joints, and
-/// b = 2 / (dmax timeconst); and along the normal with another distance, which counts the drift of a step, too: MuJoCo
-/// asks for the force that belongs to the distance at the end of the step.
+/// Corrects a drift of MuJoCo's contacts. MuJoCo omits the term dJ/dt v in the rows of contacts, so objects held by
+/// friction slip in a rotating hand; its step also lets positions drift by h^2/2 of that term. Both errors vanish with
+/// the tangential surface velocity v* = (1/b + h/2) t (a2 - a1), where t are the tangents, a_i is the acceleration of
+/// the contact point of body i at zero joint acceleration, and b = 2 / (dmax timeconst). Along the normal a shifted
+/// distance does the same; it also includes the drift of a step, because MuJoCo computes the force for the distance at
+/// the end of the step.
 void World::correctContacts(double h) {
   const mjModel& m = *physics_;
   mjData& d = *data_;
@@ -145,8 +144,8 @@ void World::correctContacts(double h) {
   const auto acceleration = [&](int b, const Vector3d& point) -> Vector3d {
     const Vector3d r = point - Vector(d.subtree_com + 3 * m.body_rootid[b]);
     const mjtNum *A = &bias_[6 * std::size_t(b)], *V = d.cvel + 6 * b;
-    const Vector3d turn = Vector(V), velocity = Vector(V + 3) + turn.cross(r);
-    return Vector(A + 3) + Vector(A).cross(r) + turn.cross(velocity);
+    const Vector3d w = Vector(V), velocity = Vector(V + 3) + w.cross(r);
+    return Vector(A + 3) + Vector(A).cross(r) + w.cross(velocity);
   };
   for (int i = 0; i < d.ncon; ++i) {
     mjContact& contact = d.contact[i];
@@ -155,12 +154,12 @@ void World::correctContacts(double h) {
     const Vector3d missing =
         acceleration(m.geom_bodyid[contact.geom[1]], point) - acceleration(m.geom_bodyid[contact.geom[0]], point);
     const double factor = .5 * contact.solimp[1] * contact.solref[0] + .5 * h;
-    // MuJoCo fills in the velocities of surfaces that have one, and leaves those of others as they are in memory
+    // MuJoCo writes the velocities of surfaces that have one, and leaves the memory of others uninitialized
     if (!hasSurfaceVelocity(m, contact.geom[0]) && !hasSurfaceVelocity(m, contact.geom[1]))
       std::fill_n(contact.surfacevel, 3, 0.);
     contact.surfacevel[0] += factor * Vector(contact.frame + 3).dot(missing);
     contact.surfacevel[1] += factor * Vector(contact.frame + 6).dot(missing);
-    // the normal has no velocity to set: a change of the distance does the same
+    // the normal has no surface velocity: a shift of the distance has the same effect
     const double dmax = contact.solimp[1], b = 2. / (dmax * contact.solref[0]);
     const double k = 1. / (dmax * dmax * contact.solref[0] * contact.solref[0] * contact.solref[1] * contact.solref[1]);
     const double shift = (1. + .5 * h * b) / (k * impedance(contact)) + .5 * h * h;
@@ -173,27 +172,29 @@ void World::driveMotors(double h) {
   const mjModel& m = *physics_;
   mjData& d = *data_;
   const double w = options_.servo_frequency;
-  std::fill(wanted_.begin(), wanted_.end(), 0.);
+  std::fill(desired_acceleration_.begin(), desired_acceleration_.end(), 0.);
   const auto& references = reference_.dofs();
-  for (std::size_t i = 0; i < model_->drives.size(); ++i) {
-    const Servo& servo = model_->drives[i];
-    const Reference::Dof& wanted = references[i];
+  for (std::size_t i = 0; i < model_->servos.size(); ++i) {
+    const Servo& servo = model_->servos[i];
+    const Reference::Dof& desired = references[i];
     if (servo.kind == MotionKind::quaternion) {
       const Quaterniond now(d.qpos[servo.qpos], d.qpos[servo.qpos + 1], d.qpos[servo.qpos + 2], d.qpos[servo.qpos + 3]);
-      const Eigen::AngleAxisd turn(now.conjugate() *
-                                   Quaterniond(wanted.turn[0], wanted.turn[1], wanted.turn[2], wanted.turn[3]));
-      const double angle = turn.angle() > M_PI ? turn.angle() - 2. * M_PI : turn.angle();
+      const Eigen::AngleAxisd rotation(now.conjugate() * Quaterniond(desired.rotation[0], desired.rotation[1],
+                                                                     desired.rotation[2], desired.rotation[3]));
+      const double angle = rotation.angle() > M_PI ? rotation.angle() - 2. * M_PI : rotation.angle();
       for (int k = 0; k < 3; ++k)
-        wanted_[std::size_t(servo.dof + k)] = w * w * angle * turn.axis()[k] - 2. * w * d.qvel[servo.dof + k];
+        desired_acceleration_[std::size_t(servo.dof + k)] =
+            w * w * angle * rotation.axis()[k] - 2. * w * d.qvel[servo.dof + k];
     } else if (!servo.gains) {
-      wanted_[std::size_t(servo.dof)] = wanted.acceleration + 2. * w * (wanted.velocity - d.qvel[servo.dof]) +
-                                        w * w * (wanted.position - d.qpos[servo.qpos]);
+      desired_acceleration_[std::size_t(servo.dof)] = desired.acceleration +
+                                                      2. * w * (desired.velocity - d.qvel[servo.dof]) +
+                                                      w * w * (desired.position - d.qpos[servo.qpos]);
     }
   }
-  physics().mj_mulM(&m, &d, torque_.data(), wanted_.data());
+  physics().mj_mulM(&m, &d, torque_.data(), desired_acceleration_.data());
   const bool direct = reference_.mode() == ControlMode::torque;
-  for (std::size_t i = 0; i < model_->drives.size(); ++i) {
-    const Servo& servo = model_->drives[i];
+  for (std::size_t i = 0; i < model_->servos.size(); ++i) {
+    const Servo& servo = model_->servos[i];
     const int dofs = servo.kind == MotionKind::quaternion ? 3 : 1;
     for (int k = servo.dof; k < servo.dof + dofs; ++k) {
       double torque = torque_[std::size_t(k)];
@@ -201,7 +202,7 @@ void World::driveMotors(double h) {
         torque = reference_.torque()[long(i)];
       } else {
         if (servo.gains && dofs == 1) {
-          // stiffness and damping at the end of the step, so that no gain is too large for it
+          // stiffness and damping at the end of the step (implicit), stable for any gain
           const double kp = servo.gains->first, kd = servo.gains->second;
           const double error = references[i].position - d.qpos[servo.qpos], rate = references[i].velocity - d.qvel[k];
           const double inertia = d.M[m.M_rowadr[k] + m.M_rownnz[k] - 1];
@@ -219,8 +220,8 @@ void World::moveGrippers(double h) {
   for (std::size_t g = 0; g < grippers_.size(); ++g) {
     const GripperJoint& gripper = model_->grippers[g];
     GripperTask& task = grippers_[g];
-    const double way = task.speed * h;
-    task.reference += std::clamp(task.target - task.reference, -way, way);
+    const double travel = task.speed * h;
+    task.reference += std::clamp(task.target - task.reference, -travel, travel);
     double length = 0., speed = 0.;
     for (std::size_t i = 0; i < gripper.qpos.size(); ++i) {
       length += gripper.coefficient / gripper.ratio[i] * d.qpos[gripper.qpos[i]];
@@ -241,11 +242,10 @@ void World::checkNumbers(const WorldState& before, double time) {
       warning[mjWARN_BADQPOS].number > 0 || warning[mjWARN_BADQVEL].number > 0 || warning[mjWARN_BADQACC].number > 0;
   if (!full && !bad) return;
   setState(before);
-  if (full)
-    throw Error("Simulation.step: more contacts at once than there is memory for; the state is as before the step");
+  if (full) throw Error("Simulation.step: the contacts exceed the memory; the state before the step is restored");
   throw Error(
-      cat("Simulation.step: numbers leave all bounds before ", time,
-          " s; the state is as before the step. Look for tiny masses, things that overlap much, or large torques"));
+      cat("Simulation.step: the simulation diverges before ", time,
+          " s; the state before the step is restored. Possible causes: tiny masses, deep overlaps, large torques"));
 }
 
 }  // namespace kinegraph

@@ -15,16 +15,16 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kMostTrials = 12;    // relaxations tried, the most promising first
-constexpr double kNoSlack = 1e-9;  // distance from a bound that counts as at the bound
+constexpr int kMaxTrials = 12;     // number of relaxations, the most promising first
+constexpr double kNoSlack = 1e-9;  // distance at which a bound counts as active
 constexpr double kWeakPull =
-    1e-3;  // a bound that presses less than this part of the strongest is no part of a conflict
+    1e-3;  // a bound with a smaller share of the largest multiplier is not part of the conflict
 
 double angleOfChord(double chord) { return 2. * std::asin(std::min(1., .5 * chord)); }
 
 void raise(double& value, double to) { value = std::isnan(value) ? to : std::max(value, to); }
 
-/// How far these residuals of one demand and one slice are missed. Equalities of lengths count as a vector.
+/// Returns the violation of residuals of one objective in one slice. Lengths of equalities form a vector.
 Amount amountOf(const Nlp& nlp, const VectorXd& phi, const std::vector<int>& rows) {
   Amount out;
   double length = -1., quaternion = -1., axis = -1.;
@@ -64,7 +64,7 @@ Amount amountOf(const Nlp& nlp, const VectorXd& phi, const std::vector<int>& row
   return out;
 }
 
-/// The worst slice decides.
+/// Returns the largest violation over all slices.
 Amount amountOfSlices(const Nlp& nlp, const VectorXd& phi, const std::vector<int>& rows) {
   std::map<int, std::vector<int>> by_slice;
   for (int row : rows) by_slice[nlp.describeRow(row).slice].push_back(row);
@@ -79,7 +79,7 @@ Amount amountOfSlices(const Nlp& nlp, const VectorXd& phi, const std::vector<int
   return out;
 }
 
-/// With three digits.
+/// Formats a number with three digits.
 std::string rounded(double value) {
   std::ostringstream out;
   out << std::setprecision(3) << value;
@@ -97,8 +97,8 @@ std::string slicesText(const std::vector<int>& slices) {
   return cat(" in ", slices.size(), " slices, ", slices.front(), " to ", slices.back());
 }
 
-/// Groups the violated rows by what the user demanded.
-std::vector<Conflict> violatedDemands(const Nlp& nlp, const VectorXd& phi, double tolerance) {
+/// Groups violated residuals by requirement.
+std::vector<Conflict> violatedRequirements(const Nlp& nlp, const VectorXd& phi, double tolerance) {
   std::map<int, Conflict> by_group;
   for (int row = 0; row < int(nlp.types().size()); ++row) {
     const double v = violation(nlp.types()[row], phi[row]);
@@ -126,9 +126,9 @@ std::vector<Conflict> violatedDemands(const Nlp& nlp, const VectorXd& phi, doubl
   return conflicts;
 }
 
-/// The bounds that keep x from going on down the sum of squared violations.
-std::vector<Conflict> pressingBounds(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const Jacobian& J,
-                                     double tolerance) {
+/// Returns the bounds that prevent a further decrease of the sum of squared violations.
+std::vector<Conflict> activeBounds(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const Jacobian& J,
+                                   double tolerance) {
   VectorXd gradient = VectorXd::Zero(x.size());
   for (int row = 0; row < phi.size(); ++row) {
     if (violation(nlp.types()[row], phi[row]) > tolerance) J.addRowTo(row, 2. * phi[row], gradient);
@@ -163,8 +163,9 @@ Amount amountOfBound(const Nlp& nlp, int variable, double beyond) {
   return out;
 }
 
-/// Gives one demand up, as far as needed, and looks whether the others can hold.
-void tryRelaxing(Nlp& nlp, const VectorXd& x, double tolerance, const EvaluationHook& hook, Conflict& conflict) {
+/// Relaxes one requirement as far as necessary, and checks whether the others can hold.
+void tryRelaxing(Nlp& nlp, const VectorXd& x, double tolerance, const EvaluationCallback& callback,
+                 Conflict& conflict) {
   const std::size_t rows = nlp.types().size();
   std::vector<bool> relaxed(rows, false);
   std::vector<int> group_rows;
@@ -180,7 +181,7 @@ void tryRelaxing(Nlp& nlp, const VectorXd& x, double tolerance, const Evaluation
   options.verbose = 0;
   options.stopEvals = 100;
   options.stopGTolerance = .1 * tolerance;
-  const SolverResult result = solveAugmentedLagrangian(problem, x, options, {}, hook);
+  const SolverResult result = solveAugmentedLagrangian(problem, x, options, {}, callback);
   VectorXd phi(Eigen::Index(problem.types().size()));
   problem.evaluate(result.x, phi, nullptr);
   conflict.remaining = result.violation;
@@ -195,7 +196,7 @@ void tryRelaxing(Nlp& nlp, const VectorXd& x, double tolerance, const Evaluation
   }
 }
 
-/// In m or rad where it has a unit, so that the scales of objectives do not matter.
+/// Returns the size in m or rad, if it has a unit, so that the scales of objectives do not matter.
 double sizeOf(const Amount& amount) {
   double size = 0.;
   if (!std::isnan(amount.meters)) size = amount.meters;
@@ -203,7 +204,8 @@ double sizeOf(const Amount& amount) {
   return size > 0. ? size : amount.scaled;
 }
 
-/// The one that lets all others hold and gives way least; else the one that leaves least.
+/// Returns the requirement whose smallest relaxation lets all others hold; else the one that leaves the least
+/// violation.
 int mostHelpful(const std::vector<Conflict>& conflicts, double violation_now) {
   int best = -1;
   for (int i = 0; i < int(conflicts.size()); ++i) {
@@ -226,15 +228,15 @@ int mostHelpful(const std::vector<Conflict>& conflicts, double violation_now) {
 
 std::string Amount::str() const {
   const std::string per = time_order == 0 ? "" : time_order == 1 ? "/s" : cat("/s^", time_order);
-  std::vector<std::string> words;
-  if (!std::isnan(meters) && (meters > 0. || std::isnan(radians))) words.push_back(withUnit(meters) + per);
-  if (!std::isnan(radians) && (radians > 0. || words.empty())) words.push_back(cat(rounded(radians), " rad", per));
-  return words.empty() ? cat(rounded(scaled), " (scaled)") : join(words, " and ");
+  std::vector<std::string> parts;
+  if (!std::isnan(meters) && (meters > 0. || std::isnan(radians))) parts.push_back(withUnit(meters) + per);
+  if (!std::isnan(radians) && (radians > 0. || parts.empty())) parts.push_back(cat(rounded(radians), " rad", per));
+  return parts.empty() ? cat(rounded(scaled), " (scaled)") : join(parts, " and ");
 }
 
 namespace {
 
-Explanation findConflicts(Nlp& nlp, const VectorXd& x, double tolerance, const EvaluationHook& hook) {
+Explanation findConflicts(Nlp& nlp, const VectorXd& x, double tolerance, const EvaluationCallback& callback) {
   Explanation out;
   out.tolerance = tolerance;
   out.x = x;
@@ -244,7 +246,7 @@ Explanation findConflicts(Nlp& nlp, const VectorXd& x, double tolerance, const E
     throw ValueError(cat("explain: ", what));
   out.violation = out.least_violation = largestViolation(nlp.types(), phi);
   if (out.violation <= tolerance) return out;
-  out.conflicts = violatedDemands(nlp, phi, tolerance);
+  out.conflicts = violatedRequirements(nlp, phi, tolerance);
 
   RelaxedNlp least(nlp, std::vector<bool>(nlp.types().size(), true));
   SolverOptions options;
@@ -252,7 +254,7 @@ Explanation findConflicts(Nlp& nlp, const VectorXd& x, double tolerance, const E
   options.stopEvals = 200;
   options.stopTolerance = 1e-6;
   if (nlp.dimension() > 0)
-    out.x = solveAugmentedLagrangian(least, x.cwiseMax(nlp.lower()).cwiseMin(nlp.upper()), options, {}, hook).x;
+    out.x = solveAugmentedLagrangian(least, x.cwiseMax(nlp.lower()).cwiseMin(nlp.upper()), options, {}, callback).x;
   Jacobian J = nlp.makeJacobian();
   nlp.evaluate(out.x, phi, &J);
   out.least_violation = largestViolation(nlp.types(), phi);
@@ -262,11 +264,11 @@ Explanation findConflicts(Nlp& nlp, const VectorXd& x, double tolerance, const E
     return out;
   }
   out.verdict = Explanation::Verdict::conflict;
-  out.conflicts = violatedDemands(nlp, phi, tolerance);
-  for (Conflict& bound : pressingBounds(nlp, out.x, phi, J, tolerance)) out.conflicts.push_back(std::move(bound));
+  out.conflicts = violatedRequirements(nlp, phi, tolerance);
+  for (Conflict& bound : activeBounds(nlp, out.x, phi, J, tolerance)) out.conflicts.push_back(std::move(bound));
   for (int i = 0; i < int(out.conflicts.size()); ++i) {
-    if (i < kMostTrials) {
-      tryRelaxing(nlp, out.x, tolerance, hook, out.conflicts[i]);
+    if (i < kMaxTrials) {
+      tryRelaxing(nlp, out.x, tolerance, callback, out.conflicts[i]);
     } else {
       out.conflicts[i].remaining = out.least_violation;
     }
@@ -280,7 +282,7 @@ Explanation findConflicts(Nlp& nlp, const VectorXd& x, double tolerance, const E
 
 Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance, const CancellationToken& cancellation) {
   if (x.size() != nlp.dimension())
-    throw ValueError(cat("explain: x has ", x.size(), " numbers; the problem has ", nlp.dimension(), " variables"));
+    throw ValueError(cat("explain: x has ", x.size(), " entries; the problem has ", nlp.dimension(), " variables"));
   VectorXd no_multipliers;
   nlp.refine(x, no_multipliers);
   if (!cancellation) return findConflicts(nlp, x, tolerance, {});
@@ -297,10 +299,9 @@ Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance, const Cancell
 
 std::string Explanation::str(int at_most) const {
   if (verdict == Verdict::holds) return cat("All constraints hold to ", tolerance, ".");
-  std::string text =
-      verdict == Verdict::not_reached
-          ? "The constraints can all hold near here, but at this point they do not; solve (again) from here:"
-          : "The constraints contradict each other. Where they are violated least:";
+  std::string text = verdict == Verdict::not_reached
+                         ? "All constraints can hold nearby, but not at this point; solve (again) from here:"
+                         : "The constraints contradict each other. At the point of least violation:";
   int shown = 0;
   for (const Conflict& conflict : conflicts) {
     if (shown++ == at_most) {
@@ -309,8 +310,8 @@ std::string Explanation::str(int at_most) const {
     }
     text += cat("\n  ", conflict.name, slicesText(conflict.slices));
     text += conflict.is_bound
-                ? cat(" holds at ", conflict.bound, " and is pressed on")
-                : cat(" (", objectiveTypeName(conflict.type), ") is missed by ", conflict.violation.str());
+                ? cat(" is active at ", conflict.bound)
+                : cat(" (", objectiveTypeName(conflict.type), ") is violated by ", conflict.violation.str());
     if (!conflict.details.empty())
       text +=
           cat(": ",
@@ -318,10 +319,10 @@ std::string Explanation::str(int at_most) const {
                     conflict.details.begin() + std::min<std::ptrdiff_t>(3, std::ptrdiff_t(conflict.details.size()))}));
   }
   if (verdict == Verdict::not_reached) return text;
-  if (best < 0) return text + "\nGiving up any single one of these does not help.";
+  if (best < 0) return text + "\nRelaxing any single one of these does not help.";
   const Conflict& c = conflicts[best];
-  if (c.suffices) return text + cat("\nIf ", c.name, " gives way by ", c.relaxation.str(), ", all others can hold.");
-  return text + cat("\nNo single one can be given up to let all others hold; giving up ", c.name,
+  if (c.suffices) return text + cat("\nIf ", c.name, " is relaxed by ", c.relaxation.str(), ", all others can hold.");
+  return text + cat("\nNo single relaxation lets all others hold. Relaxing ", c.name,
                     " helps most: the largest violation falls from ", least_violation, " to ", c.remaining,
                     " (scaled).");
 }

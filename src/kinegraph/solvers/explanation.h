@@ -10,57 +10,57 @@
 
 namespace kinegraph {
 
-/// By how much something is missed, in its own units.
+/// The size of a violation or relaxation, with units.
 struct Amount {
-  double scaled = 0.;                                         ///< the largest entry, as the solver sees it
-  double meters = std::numeric_limits<double>::quiet_NaN();   ///< nan: no part of it is a length; per s^time_order
-  double radians = std::numeric_limits<double>::quiet_NaN();  ///< nan: no part of it is an angle; per s^time_order
+  double scaled = 0.;                                         ///< the largest scaled entry
+  double meters = std::numeric_limits<double>::quiet_NaN();   ///< nan if no entry is a length; per s^time_order
+  double radians = std::numeric_limits<double>::quiet_NaN();  ///< nan if no entry is an angle; per s^time_order
   int time_order = 0;
 
   std::string str() const;  ///< "3.1 cm", "0.2 rad", "3.1 cm and 0.2 rad", "0.5 (scaled)"
 };
 
-/// One of the demands that cannot hold together: an objective, or a bound of a variable.
+/// One of several requirements that contradict each other: an objective, or a bound of a variable.
 struct Conflict {
-  std::string name;  ///< of the objective; of the variable if it is a bound
+  std::string name;  ///< of the objective, or of the variable of a bound
   bool is_bound = false;
   ObjectiveType type = ObjectiveType::ineq;
   std::vector<std::string> frames;
-  std::vector<int> slices;  ///< where it is violated
-  std::vector<int> rows;    ///< of phi that are violated; a bound has none
-  int variable = -1;        ///< of a bound
+  std::vector<int> slices;  ///< slices with violations
+  std::vector<int> rows;    ///< violated residuals; empty for a bound
+  int variable = -1;        ///< variable of a bound; else -1
   double bound = 0.;
   std::vector<std::string> details;  ///< "box and camera overlap by 3 mm"
-  Amount violation;                  ///< at the point of least violation; a bound holds
-  double pull = 0.;  ///< its multiplier there: how much the sum of squares would fall per unit that it gives way
+  Amount violation;                  ///< at the point of least violation; zero for a bound
+  double pull = 0.;                  ///< its multiplier there: decrease of the sum of squares per unit of relaxation
 
-  bool suffices = false;  ///< giving way alone, by `relaxation`, lets everything else hold
-  Amount relaxation;      ///< how far it is missed then, at least nearby
-  double remaining = 0.;  ///< the largest (scaled) violation of the others then
+  bool suffices = false;  ///< whether its relaxation alone lets all others hold
+  Amount relaxation;      ///< the smallest one that was found nearby
+  double remaining = 0.;  ///< the largest (scaled) violation of the others after it
 };
 
-/// Why constraints do not hold at a point.
+/// The reason why constraints do not hold at a point.
 struct Explanation {
   enum class Verdict {
-    holds,        ///< they do
-    not_reached,  ///< a point where all hold is nearby: the problem is not solved yet
-    conflict,     ///< near here they cannot hold together
+    holds,        ///< all constraints hold
+    not_reached,  ///< a feasible point is nearby: the problem is not solved yet
+    conflict,     ///< the constraints contradict each other near this point
   };
   Verdict verdict = Verdict::holds;
   double tolerance = 0.;
-  double violation = 0.;            ///< the largest, scaled, at the point given
-  double least_violation = 0.;      ///< the largest, scaled, where the sum of squares is least
+  double violation = 0.;            ///< the largest (scaled) at the given point
+  double least_violation = 0.;      ///< the largest (scaled) at the point of least sum of squares
   VectorXd x;                       ///< the point of least violation
-  std::vector<Conflict> conflicts;  ///< what is violated, the worst first, then the bounds that press
+  std::vector<Conflict> conflicts;  ///< violated objectives, the worst first, then active bounds
   int best = -1;                    ///< the conflict whose relaxation helps most; -1 if none helps
 
   std::string str(int at_most = 10) const;
 };
 
-/// Finds which constraints contradict each other around `x`. From there it minimizes the violation alone; what is
-/// violated at that point, with the bounds that hold it there, is the conflict. Each part of it is then given up in
-/// turn, to see whether the others can hold and how far it has to give way. Leaves the problem at `x`. `cancellation`, where
-/// given, is called at every evaluation, and may throw.
+/// Finds the constraints that contradict each other around `x`. The function first minimizes the violation from `x`;
+/// the constraints that are violated at that minimum, and the bounds that are active there, form the conflict. Then it
+/// relaxes each of them in turn, to find whether the others can hold and how much relaxation that takes. Leaves the
+/// problem at `x`. `cancellation` is asked at every evaluation; the function throws if it is cancelled.
 Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance = 1e-3, const CancellationToken& cancellation = {});
 
 }  // namespace kinegraph

@@ -13,11 +13,12 @@ std::vector<LagrangeGradient> lagrangeGradients(Nlp& nlp, const VectorXd& x, con
                                                 const std::vector<std::string>& names) {
   const int rows = int(nlp.types().size());
   if (x.size() != nlp.dimension())
-    throw ValueError(cat("x has ", x.size(), " numbers; the problem has ", nlp.dimension(), " variables"));
+    throw ValueError(
+        cat("lagrangeGradients: x has ", x.size(), " entries; the problem has ", nlp.dimension(), " variables"));
   if (dual.size() != 0 && dual.size() != rows)
-    throw ValueError(cat("there are ", dual.size(), " multipliers; the problem has ", rows, " residuals"));
+    throw ValueError(cat("lagrangeGradients: got ", dual.size(), " multipliers; the problem has ", rows, " residuals"));
   if (!names.empty() && int(names.size()) != rows)
-    throw ValueError(cat("there are ", names.size(), " names; the problem has ", rows, " residuals"));
+    throw ValueError(cat("lagrangeGradients: got ", names.size(), " names; the problem has ", rows, " residuals"));
   Jacobian J = nlp.makeJacobian();
   VectorXd phi(rows);
   nlp.evaluate(x, phi, &J);

@@ -7,18 +7,17 @@
 
 namespace kinegraph {
 
-/// What residuals of one name do to a problem at a point.
+/// The contribution of residuals of one name to the gradient of the Lagrangian at a point.
 struct LagrangeGradient {
   std::string name;
   ObjectiveType type = ObjectiveType::none;
-  double error = 0.;  ///< f: phi, sos: phi^2, else the violation; their sum
-  double gradient =
-      0.;  ///< length of their part of the Lagrangian's gradient: J for f, 2 phi J for sos, dual J for constraints
+  double error = 0.;     ///< sum of phi (f), phi^2 (sos), or violations
+  double gradient = 0.;  ///< norm of their sum of J (f), 2 phi J (sos), or dual J (constraints)
 };
 
-/// The residuals by name and type, the largest gradient first; those without error are left out. `dual` has an entry
-/// per residual, or none: then those of constraints are taken as 0. `names`: one per residual; empty: the objectives'
-/// names. Throws ValueError for sizes that do not fit.
+/// Returns the contributions of residuals with an error, by name and type, the largest gradient first. `dual`: one
+/// multiplier per residual, or empty for zeros. `names`: one per residual, or empty for the names of the objectives.
+/// Throws ValueError for other sizes.
 std::vector<LagrangeGradient> lagrangeGradients(Nlp& nlp, const VectorXd& x, const VectorXd& dual,
                                                 const std::vector<std::string>& names = {});
 

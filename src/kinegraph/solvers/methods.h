@@ -7,17 +7,17 @@
 
 namespace kinegraph {
 
-/// Solves by `options.method`. Each method says in its own header what it takes; one that cannot take constraints
-/// throws ValueError where there are some. OptMethod::Ipopt and NLopt are other people's programs, which C++ does not
-/// have here. `memory`, where given, is of this problem alone.
+/// Solves a problem by `options.method`. The header of each method describes the problems that it supports; methods
+/// without support for constraints throw ValueError if there are any. OptMethod::Ipopt and NLopt are external packages,
+/// which only Python offers. `memory` must belong to this problem.
 SolverResult solve(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const VectorXd& dual = {},
-                   const EvaluationHook& hook = {}, AugmentedLagrangianMemory* memory = nullptr);
+                   const EvaluationCallback& callback = {}, AugmentedLagrangianMemory* memory = nullptr);
 
-/// One truth of what is feasible: constraints that hold as `feasible` says do not contradict each other, whatever the
-/// method thinks, and with constraints that do not hold nothing has converged. In both cases the status is `stalled`.
+/// Makes status and feasibility consistent: a feasible result cannot be `infeasible`, and an infeasible one cannot be
+/// `converged`. In both cases the status becomes `stalled`.
 void agreeOnFeasibility(SolverResult& result);
 
-/// The methods that `solve` has.
+/// Returns the methods that `solve` supports.
 const std::vector<OptMethod>& availableMethods();
 
 }  // namespace kinegraph

@@ -9,14 +9,14 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kMostRefinements = 40;
-constexpr int kMostBeginnings = 12;
-constexpr int kMostEvalsOfBlocked = 40;                      // of the first beginning, where it leads through something
-constexpr int kMostEvalsOfOne = 120;                         // of each other one
-constexpr double kCarefulStep = .1, kCarefulPenalty = 100.;  // of solves that begin anew
+constexpr int kMaxRefinements = 40;
+constexpr int kMaxGuesses = 12;
+constexpr int kMaxEvalsOfInvalidGuess = 40;                          // of the first guess, if it is invalid
+constexpr int kMaxEvalsOfGuess = 120;                                // of each further guess
+constexpr double kCautiousStep = .1, kCautiousPenaltyFactor = 100.;  // of solves from further guesses
 
-/// Tells what the constraints of the last refinement say of the result.
-void giveUp(Nlp& nlp, double tolerance, int rounds, SolverResult& result) {
+/// Writes the residuals at the last result, including the constraints of the last refinement, to the result.
+void reportViolations(Nlp& nlp, double tolerance, int rounds, SolverResult& result) {
   VectorXd phi(Eigen::Index(nlp.types().size()));
   nlp.evaluate(result.x, phi, nullptr);
   result.setSums(nlp.types(), phi, tolerance);
@@ -25,86 +25,89 @@ void giveUp(Nlp& nlp, double tolerance, int rounds, SolverResult& result) {
                        " evaluations constraints are still violated between slices");
 }
 
-/// The form of a problem that takes up constraints while a solver is at work; else null.
-LazyConstraints* roomIn(const Separation& separation) {
-  auto* room = dynamic_cast<LazyConstraints*>(separation.problem.get());
-  return room && room->hasRoom() ? room : nullptr;
+/// Returns the lazy constraints of a separate form, or null if it has no capacity for them.
+LazyConstraints* lazyConstraintsOf(const Separation& separation) {
+  LazyConstraints* lazy = separation.problem ? separation.problem->lazyConstraints() : nullptr;
+  return lazy && lazy->hasCapacity() ? lazy : nullptr;
 }
 
-/// Beginnings after the first one, which has ended at `first`.
-class NextBeginnings {
+/// Provides the initial guesses after the first one, whose solve ended at `first`.
+class FurtherGuesses {
  public:
-  NextBeginnings(InitialGuesses* ways, GuessKind kind, const VectorXd& start, const VectorXd& first)
-      : ways_(ways), again_(kind == GuessKind::free ? 2 : 3), start_(start), first_(first) {
-    if (kind == GuessKind::still) start_ = first;  // what leads nowhere has no detours
+  FurtherGuesses(InitialGuesses* guesses, GuessKind kind, const VectorXd& start, const VectorXd& first)
+      : guesses_(guesses), repeated_(kind == GuessKind::valid ? 2 : 3), start_(start), first_(first) {
+    if (kind == GuessKind::stationary) start_ = first;  // a stationary point has no alternatives
     from_start_ = start;
   }
 
-  /// The second one, 3, ... From the start again: of a way that is free at once, so that it is kept; else after a detour.
+  /// Returns guess 2, 3, ... One of them is the start itself: the second if the start is valid, so that the solver
+  /// keeps its basin; else the third, after an alternative.
   VectorXd at(int number) const {
-    if (!ways_ || number == again_) return from_start_;
-    const int detour = number - (number > again_ ? 2 : 1);
-    return ways_->initialGuess(detour % 2 == 1 ? start_ : first_, detour).value_or(from_start_);
+    if (!guesses_ || number == repeated_) return from_start_;
+    const int alternative = number - (number > repeated_ ? 2 : 1);
+    return guesses_->initialGuess(alternative % 2 == 1 ? start_ : first_, alternative).value_or(from_start_);
   }
 
  private:
-  InitialGuesses* ways_;
-  int again_;
+  InitialGuesses* guesses_;
+  int repeated_;
   VectorXd start_, first_, from_start_;
 };
 
 }  // namespace
 
-/// Solves; and where constraints are to hold at all times of a motion, again with those that the solution violates: from
-/// there, or, where the solution is no place to go on from, in short steps from other beginnings. A way that is free is
-/// tried once more before others that the problem offers. One that leads through something is given up soon, and they come
-/// first. All of it together takes no more than the evaluations that are allowed.
-SolverResult NlpSolver::runRefining(Separation& separation, const EvaluationHook& watch, const EvaluationHook& seen) {
+/// Solves the problem, and solves it again as long as the solution violates lazy constraints (constraint generation).
+///
+/// A further solve starts at the last solution, or in short steps at another initial guess if that solution is too far
+/// from a valid one. A valid start is tried once more before alternatives. An invalid start gets few evaluations, and
+/// alternatives come first. All solves share the evaluations of the options.
+SolverResult NlpSolver::runRefining(Separation& separation, const EvaluationCallback& callback,
+                                    const EvaluationCallback& joined_callback) {
   struct Restore {
     SolverOptions& options;
     const SolverOptions given = options;
     ~Restore() { options = given; }
   } restore{options};
   const VectorXd start = x;
-  InitialGuesses* const ways = roomIn(separation) ? dynamic_cast<InitialGuesses*>(problem_.get()) : nullptr;
-  const GuessKind kind = ways ? ways->guessKind(start) : GuessKind::free;
-  const bool may_be_cut_off = kind == GuessKind::blocked && options.stopEvals > kMostEvalsOfBlocked;
-  if (may_be_cut_off) options.stopEvals = kMostEvalsOfBlocked;
-  SolverResult result = runMethod(separation, watch, seen);
+  InitialGuesses* const guesses = lazyConstraintsOf(separation) ? problem_->initialGuesses() : nullptr;
+  const GuessKind kind = guesses ? guesses->guessKind(start) : GuessKind::valid;
+  const bool limits_first = kind == GuessKind::invalid && options.stopEvals > kMaxEvalsOfInvalidGuess;
+  if (limits_first) options.stopEvals = kMaxEvalsOfInvalidGuess;
+  SolverResult result = runMethod(separation, callback, joined_callback);
   if (result.status == SolverStatus::cancelled) return result;
   Refinement found = problem_->refine(result.x, solved_dual_);
-  const bool was_cut_off =
-      may_be_cut_off && result.status == SolverStatus::limit && result.evals >= kMostEvalsOfBlocked;
-  if (found == Refinement::none && !was_cut_off) return result;
-  const NextBeginnings next(ways, kind, start, result.feasible ? result.x : start);
+  const bool first_was_limited =
+      limits_first && result.status == SolverStatus::limit && result.evals >= kMaxEvalsOfInvalidGuess;
+  if (found == Refinement::none && !first_was_limited) return result;
+  const FurtherGuesses further(guesses, kind, start, result.feasible ? result.x : start);
   bool is_first = true;
-  int beginnings = 1, of_this = result.evals;
-  for (int rounds = 1; found != Refinement::none || !result.feasible || (is_first && was_cut_off); ++rounds) {
-    const bool is_at_limit = result.status == SolverStatus::limit && !(is_first && was_cut_off);
-    const bool is_lost = found == Refinement::much || !result.feasible || is_at_limit;
+  int guess = 1, guess_evals = result.evals;
+  for (int rounds = 1; found != Refinement::none || !result.feasible || (is_first && first_was_limited); ++rounds) {
+    const bool is_at_limit = result.status == SolverStatus::limit && !(is_first && first_was_limited);
+    const bool needs_guess = found == Refinement::much || !result.feasible || is_at_limit;
     is_first = false;
     const int left = restore.given.stopEvals - result.evals;
-    if (left <= 0 || rounds > kMostRefinements || (is_lost && beginnings == kMostBeginnings)) {
-      // where there is nothing to refine, the constraints that are known contradict
-      if (found != Refinement::none) giveUp(*problem_, options.constraintTolerance(), rounds - 1, result);
+    if (left <= 0 || rounds > kMaxRefinements || (needs_guess && guess == kMaxGuesses)) {
+      // without violated lazy constraints, the active ones contradict each other
+      if (found != Refinement::none) reportViolations(*problem_, options.constraintTolerance(), rounds - 1, result);
       break;
     }
     releaseMemory();
     x = result.x;
     dual = result.dual;
-    if (is_lost) {  // in short steps, so that it does not leave the way that it begins with
-      options.stepMax = std::min(options.stepMax, kCarefulStep);
-      options.muInit = kCarefulPenalty * restore.given.muInit;
-      x = next.at(++beginnings);
+    if (needs_guess) {  // short steps do not leave the basin of the guess
+      options.stepMax = std::min(options.stepMax, kCautiousStep);
+      options.muInit = kCautiousPenaltyFactor * restore.given.muInit;
+      x = further.at(++guess);
       dual.resize(0);
-      of_this = 0;
+      guess_evals = 0;
     }
-    options.stopEvals = std::min(left, std::max(1, kMostEvalsOfOne - of_this));
+    options.stopEvals = std::min(left, std::max(1, kMaxEvalsOfGuess - guess_evals));
     if (separation.problem) separation = problem_->separation();
-    if (LazyConstraints* room = roomIn(separation)) room->askAtEachStep(beginnings > 1);
+    if (LazyConstraints* lazy = lazyConstraintsOf(separation)) lazy->setActivationAtEachStep(guess > 1);
     const int evals = result.evals;
-    result = runMethod(separation, watch, seen);
-    of_this += result.evals;
+    result = runMethod(separation, callback, joined_callback);
+    guess_evals += result.evals;
     result.evals += evals;
     if (result.status == SolverStatus::cancelled) break;
     found = problem_->refine(result.x, solved_dual_);

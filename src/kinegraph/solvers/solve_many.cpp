@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <chrono>
 #include <set>
 
+#include "kinegraph/common/cancellation_interval.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/parallel.h"
+#include "kinegraph/common/stopwatch.h"
 #include "kinegraph/common/text.h"
 
 namespace kinegraph {
@@ -19,37 +20,38 @@ bool isBetter(const SolverResult& a, const SolverResult& b) {
   return a.feasible ? a.f + a.sos < b.f + b.sos : a.violation < b.violation;
 }
 
-using Clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds kWatch{20};
-
 }  // namespace
 
 SolveManyResult solveMany(int count, const SolveManyOptions& options, const SolveOne& solve,
-                          const std::function<bool(int)>& watch) {
-  if (options.threads < 1) throw ValueError(cat("the number of threads is ", options.threads, "; expected at least 1"));
-  if (count < 1) throw ValueError("there are no problems to solve");
+                          const ProgressCallback& progress, const CancellationToken& cancellation) {
+  if (options.threads < 1)
+    throw ValueError(cat("solveMany: the number of threads is ", options.threads, "; expected at least 1"));
+  if (count < 1) throw ValueError("solveMany: there are no problems; expected at least one");
   SolveManyResult all;
   all.results.resize(std::size_t(count));
   std::atomic<bool> stop = false;
-  std::atomic<int> sufficient = count, ended = 0;  // the first feasible one, where one is enough
-  Clock::time_point watched = Clock::now();
+  std::atomic<int> sufficient = count, ended = 0;  // index of the first feasible one, if one is enough
+  const bool asks = progress || cancellation;
+  Stopwatch since_asked;
   const auto ask = [&] {
-    watched = Clock::now();
+    since_asked.restart();
     try {
-      if (watch && watch(ended)) stop = true;
+      if (progress) progress({ended, count});
+      if (cancellation.isCancelled()) stop = true;
     } catch (...) {
-      stop = true;  // for those that run
+      stop = true;  // cancels running problems
       throw;
     }
   };
   const auto work = [&](int worker, int i, int) {
     if (stop || i > sufficient) return;
-    const EvaluationHook hook = [&, worker, i](const VectorXd&, const VectorXd&) {
-      if (worker == 0 && watch && Clock::now() - watched >= kWatch) ask();
+    const EvaluationCallback callback = [&, worker, i](const VectorXd&, const VectorXd&) {
+      if (worker == 0 && asks && since_asked.seconds() >= std::chrono::duration<double>(kCancellationInterval).count())
+        ask();
       return !stop && i <= sufficient;
     };
     try {
-      all.results[std::size_t(i)] = solve(worker, i, hook);
+      all.results[std::size_t(i)] = solve(worker, i, callback);
     } catch (const EvaluationCancelled&) {
       return;
     } catch (const ValueError& error) {
@@ -61,28 +63,28 @@ SolveManyResult solveMany(int count, const SolveManyOptions& options, const Solv
   };
   parallelFor(count, 1, std::min(options.threads, count), work, ask);
   for (int i = sufficient + 1; i < count; ++i)
-    all.results[std::size_t(i)] = SolverResult();  // begun or not: threads decide
+    all.results[std::size_t(i)] = SolverResult();  // whether they began depends on the threads
   all.chosen = int(std::min_element(all.results.begin(), all.results.end(), isBetter) - all.results.begin());
   return all;
 }
 
 SolveManyResult solveAll(const std::vector<NlpSolver*>& solvers, const SolveManyOptions& options, std::uint64_t seed,
-                         const std::function<bool(int)>& watch) {
+                         const ProgressCallback& progress, const CancellationToken& cancellation) {
   std::set<const void*> known;
   for (std::size_t i = 0; i < solvers.size(); ++i) {
     if (!solvers[i]->problem())
       throw ValueError(cat("problem ", i, ": this solver has no problem; call setProblem first"));
     if (known.insert(solvers[i]).second && known.insert(solvers[i]->problem().get()).second) continue;
     throw ValueError(
-        cat("problem ", i, " is there twice; problems that are solved at the same time are different objects"));
+        cat("problem ", i, " occurs twice; problems that are solved at the same time must be different objects"));
   }
   return solveMany(
       int(solvers.size()), options,
-      [&](int, int i, const EvaluationHook& hook) {
+      [&](int, int i, const EvaluationCallback& callback) {
         Rng rng(seed);
-        return solvers[std::size_t(i)]->solve(false, rng, hook);
+        return solvers[std::size_t(i)]->solve(false, rng, callback);
       },
-      watch);
+      progress, cancellation);
 }
 
 }  // namespace kinegraph

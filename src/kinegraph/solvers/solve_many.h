@@ -3,36 +3,40 @@
 #include <functional>
 #include <vector>
 
+#include "kinegraph/common/progress.h"
 #include "kinegraph/solvers/nlp_solver.h"
 
 namespace kinegraph {
 
 struct SolveManyOptions {
-  bool best = true;  ///< solves all; else the first feasible result ends it, first by index and not by time
+  bool best = true;  ///< solves all problems; false: ends with the feasible result of the lowest index
   int threads = 1;
 };
 
-/// How many problems ended, one result per problem.
+/// The results of several problems.
 struct SolveManyResult {
-  std::vector<SolverResult> results;  ///< not `done` where an earlier one sufficed
+  std::vector<SolverResult> results;  ///< per problem; not `done` if an earlier one sufficed
   int chosen = -1;  ///< the best: feasible before infeasible, then the least cost, or the least violation
 
   const SolverResult& best() const { return results[std::size_t(chosen)]; }
 };
 
-/// Calls solve(worker, i, hook) for i = 0 .. count-1, by workers 0 .. threads-1, the first of which is the calling
-/// thread; what it returns is result i. It passes `hook` on to a solver. The calling thread asks `watch` before each of
-/// its problems, every 20 ms and at the end, with the number of problems that have ended; once that returns true the
-/// problems that run are cancelled, and those that have not begun stay not `done`, as one whose solve throws
-/// EvaluationCancelled. Neither the results nor the choice depend on the number of threads. An Error is passed on as
-/// that of the first problem that has one. Throws ValueError without problems or threads.
-using SolveOne = std::function<SolverResult(int worker, int i, const EvaluationHook& hook)>;
+/// Solves several problems: calls solve(worker, i, callback) for i = 0 .. count-1 and collects the results.
+///
+/// Workers 0 .. threads-1 share the problems; worker 0 is the calling thread. `solve` passes `callback` on to a solver.
+/// Before each of its problems, every 20 ms and at the end, the calling thread calls `progress` with the number of
+/// solved problems and asks `cancellation`. If that is cancelled, running problems are cancelled, and the others stay
+/// not `done`, as does a problem whose solve throws EvaluationCancelled. Neither the results nor the choice depend on
+/// the number of threads. If several problems throw an Error, that of the lowest index is passed on. Throws ValueError
+/// if there are no problems or threads.
+using SolveOne = std::function<SolverResult(int worker, int i, const EvaluationCallback& callback)>;
 SolveManyResult solveMany(int count, const SolveManyOptions& options, const SolveOne& solve,
-                          const std::function<bool(int ended)>& watch = {});
+                          const ProgressCallback& progress = {}, const CancellationToken& cancellation = {});
 
-/// Solves independent problems, each from where its solver stands or, if there is no x yet, from the initial point that
-/// a generator with this seed gives. Throws ValueError for a solver or a problem that is there twice.
+/// Solves independent problems, each from the x of its solver or, if there is none yet, from the initial point of a
+/// generator with this seed. Throws ValueError if a solver or a problem occurs twice.
 SolveManyResult solveAll(const std::vector<NlpSolver*>& solvers, const SolveManyOptions& options = {},
-                         std::uint64_t seed = 0, const std::function<bool(int ended)>& watch = {});
+                         std::uint64_t seed = 0, const ProgressCallback& progress = {},
+                         const CancellationToken& cancellation = {});
 
 }  // namespace kinegraph

@@ -21,7 +21,7 @@ using O = ObjectiveType;
 constexpr double kAlign = .2, kKeepOff = .3;  ///< phases before a grasp
 constexpr int kMotionSlices = 50;
 
-/// The i-th and j-th row of a scaled unit matrix: residuals of these coordinates only.
+/// Rows of a scaled unit matrix, a scale that selects these coordinates.
 template <class... Axis>
 MatrixXd only(double scale, Axis... axes) {
   MatrixXd rows = MatrixXd::Zero(int(sizeof...(axes)), 3);
@@ -66,7 +66,7 @@ VectorXd ManipulationHelper::boxSize(const std::string& name, const char* call) 
   using Body = ShapeKind::Body;
   const Body body = shapeKind(frame(name).getShapeType()).body;
   if (body == Body::box) return Eigen::Map<const VectorXd>(size.data(), 3);
-  // What is not a box has the box that its height and width span.
+  // The bounding box of cylinders and capsules without their caps.
   if (body == Body::cylinder || body == Body::capsule) return Vector3d(2. * size[1], 2. * size[1], size[0]);
   throw ValueError(cat("ManipulationHelper.", call, ": frame '", name,
                        "' has no box, cylinder or capsule; give it one with setShape"));
@@ -146,7 +146,7 @@ void ManipulationHelper::snap_switch(double time, const std::string& parent, con
 
 void ManipulationHelper::grasp_top_box(double time, const std::string& gripper, const std::string& obj,
                                        const std::string& grasp_direction) {
-  // The products of the object's axes with the gripper's that vanish.
+  // The scalar products of axes of the object and the gripper that have to vanish.
   using Products = std::array<F, 3>;
   static const std::map<std::string, Products> vanishing = {
       {"xz", {F::scalarProductXY, F::scalarProductXZ, F::scalarProductYZ}},

@@ -13,9 +13,9 @@ namespace {
 using F = FeatureSymbol;
 using O = ObjectiveType;
 
-constexpr double kDepth = .025;  ///< m: how far a gripper's marker is inside of what it pushes
+constexpr double kDepth = .025;  ///< m: depth of a gripper's marker inside of a pushed object
 
-/// As Python writes it: 1.0
+/// Formats a number like Python: 1.0
 std::string number(double value) { return std::floor(value) == value ? cat(value, ".0") : cat(value); }
 
 std::pair<double, double> fromTo(const std::vector<double>& times, const char* call) {
@@ -33,7 +33,7 @@ void ManipulationHelper::straight_push(const std::vector<double>& times, const s
   Komo& k = problem("straight_push");
   const auto [from, to] = fromTo(times, "straight_push");
   if (helper.empty()) helper = cat("_straight_pushStart_", gripper, "_", obj, "_", number(from));
-  if (!table.empty()) frame(table);  // throws if it is not there
+  if (!table.empty()) frame(table);  // throws if it does not exist
   add_stable_frame(JointType::hingeZ, obj, helper);
   k.addObjective({to}, F::AlignYWithDiff, {helper, obj}, O::eq, 1., {}, 1);
   k.addObjective({from}, F::distance, {gripper, obj}, O::eq, scale, -kDepth);
@@ -62,7 +62,7 @@ void ManipulationHelper::pull(const std::vector<double>& times, const std::strin
   k.addObjective({to}, F::poseDiff, {obj, end}, O::eq, 1e1);
 }
 
-/// A frame that stays where the gripper is in the path at a time.
+/// Adds a static frame at the pose of the gripper in the path at a time.
 void ManipulationHelper::addReference(const std::string& name, const std::string& gripper, double time) {
   const Path& path = komo->path();
   const Pose X_WG(path.state(path.grid().sliceAt(time)).pose(frameId(path.state(0).model(), gripper, "gripper")));

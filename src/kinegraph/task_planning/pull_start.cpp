@@ -14,17 +14,18 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kPull = .2;     ///< m: how far something is pulled to where it can be taken
-constexpr double kGap = .01;     ///< m: a shorter way has no direction
-constexpr double kLow = .005;    ///< m: above the ground, where a bar pulls without tipping
-constexpr double kApart = 1e-3;  ///< m: between a bar and what it pulls
-constexpr int kSteps = 4;        ///< of a pull
-constexpr int kAttempts = 3;     ///< of each grip
-constexpr int kDraws = 10;       ///< of the rest
-constexpr std::array kAlong = {0., -.2, .2, -.35, .35, -.45, .45};  ///< of a bar's length: where it is held
-constexpr std::array kInclined = {0., -.4, .4, -.8, .8};            ///< rad: from above
+constexpr double kPull = .2;       ///< m: default length of a pull
+constexpr double kGap = .01;       ///< m: shorter displacements have no direction
+constexpr double kLow = .005;      ///< m: height of a pulling bar above the ground
+constexpr double kApart = 1e-3;    ///< m: between a bar and the pulled object
+constexpr int kSteps = 4;          ///< of a pull, so that the arm does not jump
+constexpr int kAttempts = 3;       ///< of IK for each grip
+constexpr int kManyAttempts = 10;  ///< of IK otherwise
+constexpr std::array kAlong = {0.,  -.2,  .2, -.35,
+                               .35, -.45, .45};           ///< positions of grips along a bar, shares of its length
+constexpr std::array kInclined = {0., -.4, .4, -.8, .8};  ///< rad: inclinations of the hand from the vertical
 
-/// How far a shape reaches from its frame along a direction of the world, m.
+/// The extent of a shape from its frame along a direction of the world, m.
 double extentAlong(const Frame& frame, const Vector3d& direction) {
   const Vector3d local = frame.getRotationMatrix().transpose() * direction;
   double most = 0.;
@@ -53,13 +54,13 @@ bool pullsWithBar(const Config& C, const std::vector<TaskAction>& actions) {
 
 Vector3d usualPull(const Config& C, const TaskAction& end, const std::string& variant) {
   const Frame obj = C.getFrame(end[1]);
-  Vector3d way = C.getFrame(end[5]).getPosition() - obj.getPosition();
-  way.z() = 0.;
+  Vector3d displacement = C.getFrame(end[5]).getPosition() - obj.getPosition();
+  displacement.z() = 0.;
   if (variant == "x" || variant == "y") {
     const Vector3d side = obj.getRotationMatrix().col(variant == "x" ? 0 : 1);
-    way = side.dot(way) < 0. ? Vector3d(-side) : side;
+    displacement = side.dot(displacement) < 0. ? Vector3d(-side) : side;
   }
-  return kPull / std::max(way.norm(), kGap) * way;
+  return kPull / std::max(displacement.norm(), kGap) * displacement;
 }
 
 PullStart::PullStart(const Config& C, const std::vector<TaskAction>& actions, const std::vector<std::string>& variants,
@@ -82,11 +83,11 @@ std::optional<VectorXd> PullStart::after(std::size_t i, const VectorXd& q, Vecto
   if (action[0] == "pick") return pick(i, q, x);
   if (action[0] == "place") return place(i, q, x);
   if (isPull(action)) return beginPull(i, q, x);
-  if (action[0] == "hook_end") return endPerturbation(i, q, x);
+  if (action[0] == "hook_end") return endPull(i, q, x);
   return std::nullopt;
 }
 
-/// What is taken: a tool so that its next pull can be reached, too.
+/// Picks an object; a tool with a grip that also reaches its next pull.
 std::optional<VectorXd> PullStart::pick(std::size_t i, const VectorXd& q, VectorXd& x) {
   const std::string &obj = actions_[i][1], &hand = actions_[i][3];
   const auto next = nextPullWith(obj, i);
@@ -102,7 +103,7 @@ std::optional<VectorXd> PullStart::pick(std::size_t i, const VectorXd& q, Vector
   return std::nullopt;
 }
 
-/// What is put down on the place that it was taken from goes back to where it was, a little aside where that is drawn.
+/// Places an object. On the place that it was picked from, it returns to its pose; `rng` moves it a little aside.
 std::optional<VectorXd> PullStart::place(std::size_t i, const VectorXd& q, VectorXd& x) {
   constexpr double kAside = .1;
   const std::string &obj = actions_[i][1], &hand = actions_[i][2], &to = actions_[i][3];
@@ -117,7 +118,7 @@ std::optional<VectorXd> PullStart::place(std::size_t i, const VectorXd& q, Vecto
   const double above = .5 * (place.getSize()[2] + thing.getSize()[2]);
   const Pose on(Vector3d(x[slot], x[slot + 1], above), Quaterniond(axisRotation(2, x[slot + 2])));
   at_[obj] = place.getPose() * on;
-  return reach(hand, at_.at(obj) * grip_.at(obj).inverse(), q, kDraws);
+  return reach(hand, at_.at(obj) * grip_.at(obj).inverse(), q, kManyAttempts);
 }
 
 std::optional<VectorXd> PullStart::beginPull(std::size_t i, const VectorXd& q, VectorXd& x) {
@@ -126,11 +127,11 @@ std::optional<VectorXd> PullStart::beginPull(std::size_t i, const VectorXd& q, V
   if (!pull) return std::nullopt;
   const Pose& obj = at_.at(action[1]);
   x.segment<7>(slot_(cat("grasp_", action[3], "_", action[1], "_", i + 1))) = (pull->begin.inverse() * obj).numbers();
-  return reachWithTool(action, pull->begin, q, kDraws);
+  return reachWithTool(action, pull->begin, q, kManyAttempts);
 }
 
-/// Step by step, so that the arm ends as it began.
-std::optional<VectorXd> PullStart::endPerturbation(std::size_t i, const VectorXd& q, VectorXd& x) {
+/// Moves in steps, so that the arm stays in the same IK branch.
+std::optional<VectorXd> PullStart::endPull(std::size_t i, const VectorXd& q, VectorXd& x) {
   const TaskAction& action = actions_[i];
   std::size_t begin = i;
   while (begin > 0 && !(isPull(actions_[begin]) && actions_[begin][1] == action[1])) --begin;
@@ -139,19 +140,19 @@ std::optional<VectorXd> PullStart::endPerturbation(std::size_t i, const VectorXd
   Pose bar = pull->begin;
   VectorXd found = q;
   for (int step = 0; step < kSteps; ++step) {
-    bar.p += pull->way / kSteps;
+    bar.p += pull->displacement / kSteps;
     found = reachWithTool(actions_[begin], bar, found, 1).value_or(found);
   }
   Pose& obj = at_.at(action[1]);
-  const Vector3d ahead = obj.q.conjugate() * pull->way;
+  const Vector3d ahead = obj.q.conjugate() * pull->displacement;
   x[slot_(cat("push_", action[2], "_", action[1], "_", i + 1))] = std::atan2(-ahead.x(), ahead.y());
-  obj.p += pull->way;
+  obj.p += pull->displacement;
   const Pose there = C_.getFrame(action[3]).getPose().inverse() * obj;
   x.segment<3>(slot_(cat("place_", action[3], "_", action[1], "_", i + 1))) << there.p.x(), there.p.y(), yawOf(there);
   return found;
 }
 
-/// Where a pull begins and ends at first; none without a bar, or a way.
+/// The initial guess of a pull; none without a bar or a displacement.
 std::optional<PullStart::Pull> PullStart::pullOf(std::size_t begin, const VectorXd& x) const {
   const TaskAction& action = actions_[begin];
   std::size_t end = begin;
@@ -159,14 +160,14 @@ std::optional<PullStart::Pull> PullStart::pullOf(std::size_t begin, const Vector
   if (end == actions_.size() || longAxis(C_.getFrame(action[3])) < 0) return std::nullopt;
   const Pose& obj = at_.at(action[1]);
   const std::string& to = actions_[end][3];
-  Vector3d way = share_ * usualPull(C_, actions_[end], variants_[begin]);
+  Vector3d displacement = share_ * usualPull(C_, actions_[end], variants_[begin]);
   if (!isOn(C_.getFrame(action[1]), to)) {
     const int slot = slot_(cat("place_", to, "_", action[1], "_", end + 1));
-    way = C_.getFrame(to).getPose().transform() * Vector3d(x[slot], x[slot + 1], 0.) - obj.p;
-    way.z() = 0.;
+    displacement = C_.getFrame(to).getPose().transform() * Vector3d(x[slot], x[slot + 1], 0.) - obj.p;
+    displacement.z() = 0.;
   }
-  if (way.norm() < kGap) return std::nullopt;
-  return Pull{barBehind(action, obj, way), way};
+  if (displacement.norm() < kGap) return std::nullopt;
+  return Pull{barBehind(action, obj, displacement), displacement};
 }
 
 std::optional<std::size_t> PullStart::nextPullWith(const std::string& tool, std::size_t from) const {
@@ -177,11 +178,11 @@ std::optional<std::size_t> PullStart::nextPullWith(const std::string& tool, std:
   return std::nullopt;
 }
 
-/// Across the way, with the tool flat and ahead of the bar, a little above the ground.
-Pose PullStart::barBehind(const TaskAction& begin, const Pose& obj, const Vector3d& way) const {
+/// The pose of a bar across the displacement, with the tool flat and ahead of it, a little above the ground.
+Pose PullStart::barBehind(const TaskAction& begin, const Pose& obj, const Vector3d& displacement) const {
   const Frame thing = C_.getFrame(begin[1]), bar = C_.getFrame(begin[3]), tool = C_.getFrame(begin[4]);
   const int along = longAxis(bar), up = flatAxis(bar, tool), third = 3 - along - up;
-  const Vector3d ahead = way.normalized(), side = Vector3d::UnitZ().cross(ahead);
+  const Vector3d ahead = displacement.normalized(), side = Vector3d::UnitZ().cross(ahead);
   const Vector3d body = bar.getPose().inverse().transform() * (tool.getPose().transform() * centerOfBody(tool));
   Matrix3d R;
   for (const double sign : {1., -1.}) {  // of the two ways to lie across, that with the tool ahead
@@ -196,15 +197,15 @@ Pose PullStart::barBehind(const TaskAction& begin, const Pose& obj, const Vector
   return {at, Quaterniond(R)};
 }
 
-/// In which ways a hand may hold what it picks, in the hand: fingers along the axis that the variant names, from above, along
-/// a bar in several places.
+/// Poses of a picked object in the hand: fingers along the axis of the variant, from above, at several places along a
+/// bar.
 std::vector<Pose> PullStart::gripsOf(std::size_t pick) const {
   const std::size_t axis = std::string_view("xyz").find(variants_[pick]);
   const Frame obj = C_.getFrame(actions_[pick][1]);
   const Matrix3d R = at_.at(actions_[pick][1]).q.toRotationMatrix();
   const Vector3d fingers = axis < 3 ? Vector3d(R.col(Eigen::Index(axis))) : Vector3d(R.col(0));
   const Vector3d ahead = Vector3d::UnitZ().cross(fingers);
-  if (ahead.norm() < .5) return {};  // they would close from above and from below
+  if (ahead.norm() < .5) return {};  // fingers would close from above and below
   const int bar = longAxis(obj);
   std::vector<Pose> grips;
   for (const double inclined : kInclined)
@@ -223,7 +224,7 @@ std::vector<Pose> PullStart::gripsOf(std::size_t pick) const {
   return grips;
 }
 
-/// Joints that bring a frame to a pose; doors stay.
+/// Solves IK for a frame at a pose, with doors fixed.
 std::optional<VectorXd> PullStart::reach(const std::string& hand, const Pose& there, const VectorXd& q,
                                          int attempts) const {
   Config scene = C_;

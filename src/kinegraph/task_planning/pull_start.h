@@ -11,39 +11,38 @@
 
 namespace kinegraph {
 
-/// Does a sequence pull something with a bar?
+/// Whether a sequence pulls an object with a bar.
 bool pullsWithBar(const Config& C, const std::vector<TaskAction>& actions);
 
-/// The way of a pull to anywhere on the place that something stands on: .2 m towards the hand, along the side of a box that
-/// the variant names (x, y), else straight; m. `end`: hook_end (obj hook to tool hand).
+/// Returns the default displacement of a pull on the current place of an object, m: .2 m towards the hand, along the
+/// side of a box that the variant names (x, y), else straight. `end`: hook_end (obj hook to tool hand).
 Vector3d usualPull(const Config& C, const TaskAction& end, const std::string& variant);
 
-/// A starting point of a sequence in which something is pulled, action by action: grasps, placements and joints fit each
-/// other. A hand comes from above, more or less inclined.
+/// Builds the initial guess of a sequence with a pull, action by action, so that grasps, placements and joints fit each
+/// other. Hands come from above, at several inclinations.
 class PullStart {
  public:
-  /// `slot`: where the dofs of an added frame are in x, -1 if there is none of that name. `rng` draws which grips are tried
-  /// first, and how far is pulled.
+  /// `slot` returns the index of the dofs of an added frame in x, -1 for unknown names. `rng` samples the order of
+  /// grips and the length of pulls.
   PullStart(const Config& C, const std::vector<TaskAction>& actions, const std::vector<std::string>& variants,
             std::function<int(const std::string&)> slot, Rng* rng);
 
-  /// Joints after an action that begins at q. The dofs of its slots are entered in x. None where nothing was found that
-  /// fits.
+  /// Returns the joints after an action that begins at q, and writes the dofs of its slots to x. None if no guess fits.
   std::optional<VectorXd> after(std::size_t action, const VectorXd& q, VectorXd& x);
 
  private:
   struct Pull {
-    Pose begin;    ///< of the bar
-    Vector3d way;  ///< m
+    Pose begin;             ///< pose of the bar
+    Vector3d displacement;  ///< m
   };
 
   std::optional<VectorXd> pick(std::size_t i, const VectorXd& q, VectorXd& x);
   std::optional<VectorXd> place(std::size_t i, const VectorXd& q, VectorXd& x);
   std::optional<VectorXd> beginPull(std::size_t i, const VectorXd& q, VectorXd& x);
-  std::optional<VectorXd> endPerturbation(std::size_t i, const VectorXd& q, VectorXd& x);
+  std::optional<VectorXd> endPull(std::size_t i, const VectorXd& q, VectorXd& x);
   std::optional<Pull> pullOf(std::size_t begin, const VectorXd& x) const;
   std::optional<std::size_t> nextPullWith(const std::string& tool, std::size_t from) const;
-  Pose barBehind(const TaskAction& begin, const Pose& obj, const Vector3d& way) const;
+  Pose barBehind(const TaskAction& begin, const Pose& obj, const Vector3d& displacement) const;
   std::vector<Pose> gripsOf(std::size_t pick) const;
   std::optional<VectorXd> reach(const std::string& hand, const Pose& there, const VectorXd& q, int attempts) const;
   std::optional<VectorXd> reachWithTool(const TaskAction& begin, const Pose& bar, const VectorXd& q,
@@ -54,9 +53,9 @@ class PullStart {
   const std::vector<std::string>& variants_;
   std::function<int(const std::string&)> slot_;
   Rng* rng_;
-  double share_;                      ///< of the usual length of a pull
-  std::map<std::string, Pose> at_;    ///< where objects are
-  std::map<std::string, Pose> grip_;  ///< of what is held, in the hand
+  double share_;                      ///< factor on the default length of a pull
+  std::map<std::string, Pose> at_;    ///< poses of objects
+  std::map<std::string, Pose> grip_;  ///< poses of held objects in the hand
 };
 
 }  // namespace kinegraph

@@ -7,13 +7,13 @@
 
 namespace kinegraph {
 
-/// What a scene says in logic, in the order of its frames:
+/// Returns the facts of a scene, in the order of its frames:
 ///
-/// - a frame with `logical: { is_gripper, ... }`: each of these words of it, `(is_gripper hand)`;
-/// - another frame with a joint of type rigid: `(is_object cup)`, and is_box, is_sphere, is_capsule or is_cylinder by its
-///   shape;
-/// - of these frames: `(on table cup)` where the first frame with a joint, from cup upwards, hangs below the table, and
-///   `(partOf cup handle)` for what hangs at another of them without a joint.
+/// - a frame with `logical: { is_gripper, ... }`: a fact per label, `(is_gripper hand)`;
+/// - another frame with a joint of type rigid and a shape: `(is_object cup)`, and is_box, is_sphere, is_capsule or
+///   is_cylinder by its shape;
+/// - among these frames: `(on table cup)` if the first frame with a joint, from cup upwards, is a child of the table,
+/// and   `(partOf cup handle)` for a frame that hangs below another of them without a joint.
 std::vector<Literal> sceneFacts(const Config& C);
 
 }  // namespace kinegraph

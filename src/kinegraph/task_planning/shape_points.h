@@ -7,16 +7,17 @@
 
 namespace kinegraph {
 
-/// Vertices of a shape's surface, in the frame's coordinates, m; none without a surface.
+/// Returns vertices of the surface of a shape, in frame coordinates, m; none without a surface.
 std::vector<Vector3d> shapePoints(const Frame& frame);
 
-/// The box around them, along the frame's axes; empty without any.
+/// Returns the box around shapePoints along the axes of the frame; empty without points.
 Eigen::AlignedBox3d boxAround(const Frame& frame);
 
-/// The sides of a place along its x and y, m: its first two sizes. Throws ValueError for shapes that have fewer.
+/// Returns the sides of a place along x and y, m: its first two sizes. Throws ValueError for shapes with fewer sizes.
 Eigen::Vector2d placeSides(const Frame& place);
 
-/// Of the first `count` sizes of a shape, m: half of it is how far a corner of a box is from its middle.
+/// Returns the diagonal of the first `count` sizes of a shape, m. Half of it is the distance of a corner of a box from
+/// its center.
 double diagonalOf(const Frame& frame, std::size_t count);
 
 }  // namespace kinegraph

@@ -15,9 +15,9 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kLevel = .999, kUp = .9;  ///< cosines of what is level, and of what points up
-constexpr double kLong = 1.5;              ///< a bar is that many times longer than thick
-constexpr double kLeastPlace = .05;        ///< m: what is narrower carries nothing
+constexpr double kLevel = .999, kUp = .9;  ///< cosines of level axes, and of axes that point up
+constexpr double kLong = 1.5;              ///< minimum ratio of length and thickness of a bar
+constexpr double kLeastPlace = .05;        ///< m: narrower boxes are no places
 
 constexpr char kDefaultFol[] = R"(
 is_gripper is_object is_place is_face is_pose is_carrier is_pushable is_hook is_handle is_guided partOf on busy up fresh posed
@@ -66,7 +66,7 @@ DecisionRule pose { Obj, Hand, Goal,
   { (posed Obj Goal) } }
 )";
 
-/// Large enough to carry something, level, and not a part of what moves, but for drawers.
+/// Whether a frame is a place: large, level, and static or in a drawer.
 bool isPlaceFrame(const Frame& frame, const std::set<std::string>& objects, const std::set<std::string>& drawers) {
   if (objects.contains(frame.getName())) return true;
   for (std::optional<Frame> up = frame; up; up = up->getParent()) {
@@ -79,7 +79,7 @@ bool isPlaceFrame(const Frame& frame, const std::set<std::string>& objects, cons
 
 std::set<std::string> setOf(const std::vector<std::string>& words) { return {words.begin(), words.end()}; }
 
-/// Facts without those that were there before.
+/// Drops facts that are already known.
 std::vector<Literal> unique(const std::vector<Literal>& facts) {
   std::vector<Literal> kept;
   for (const Literal& fact : facts) {
@@ -118,7 +118,7 @@ class StartFacts {
     for (const std::string& name : objects)
       if (const std::string up = upOf(C_, name); !up.empty()) said_.push_back({"up", {up, name}});
     std::vector<std::string> kinds = {"is_carrier", "is_pushable"};
-    if (has("is_hook")) kinds.emplace_back("is_object");  // anything may be pulled to where it can be grasped
+    if (has("is_hook")) kinds.emplace_back("is_object");  // any object may be pulled within reach
     for (const std::string& kind : kinds)
       for (const std::string& name : wordsOf(said_, kind)) said_.push_back({"fresh", {name}});
     if (std::ranges::any_of(goal, [](const Literal& g) { return g.predicate == "up"; })) {
@@ -136,7 +136,7 @@ class StartFacts {
     return std::ranges::any_of(whatIsBelow(said_), [&](const auto& entry) { return entry.second == hand; });
   }
 
-  /// Of objects that hang below a frame of which nothing was said.
+  /// Facts about objects that hang below unlabeled frames.
   void addWhatIsOn(const std::set<std::string>& grippers, const std::set<std::string>& objects) {
     const std::map<std::string, std::string> below = whatIsBelow(said_);
     for (const std::string& name : objects) {

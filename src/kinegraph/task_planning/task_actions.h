@@ -18,62 +18,68 @@ bool isPick(const TaskAction& action);
 /// A hand puts an object down: place, lay (obj hand to).
 bool isPlace(const TaskAction& action);
 
-/// Something begins to slide on what it stands on: push_start (obj from hand), hook_start (obj from hook tool hand).
+/// An object begins to slide on its ground: push_start (obj from hand), hook_start (obj from hook tool hand).
 bool startsSliding(const TaskAction& action);
 
-/// It has been slid somewhere: push_end (obj hand to), hook_end (obj hook to tool hand).
+/// An object has been slid to a place: push_end (obj hand to), hook_end (obj hook to tool hand).
 bool endsSliding(const TaskAction& action);
 
-/// Throws ValueError for an action of a name that is known here with too few words, or with none.
+/// Throws ValueError for an empty action, and for a default action with too few words.
 void requireWords(const TaskAction& action);
 
-/// What an action is about: its second word, or "".
+/// The object of an action: its second word, or "".
 std::string objectOf(const TaskAction& action);
 
-/// The axes that can point up beside z, which `place` does: zNeg x xNeg y yNeg.
+/// The axes other than z that `lay` lets point up: zNeg x xNeg y yNeg.
 const std::vector<std::string>& otherFaces();
 
-/// The domain of planTask where none is given: pick (obj from hand) for what nothing stands on, lift (obj from hand) for
-/// what is called is_carrier, with all that stands on it, place (obj hand to), handover (obj hand to), lay (obj hand to
-/// face) where the goal says which face is up, pose (obj hand goal) for frames that are called is_pose, push_start (obj
-/// from hand) and push_end (obj hand to) for what is called is_pushable, hook_start (obj from hook tool hand) and hook_end
-/// (obj hook to tool hand) with a tool of which a part is called is_hook, hold, open and close (door handle hand) for what
-/// is called is_door or is_drawer, with a part that is called is_handle.
+/// Returns the default domain of planTask. Its actions are:
+///
+/// - pick (obj from hand) for objects with nothing on them;
+/// - lift (obj from hand) for objects labeled is_carrier, with everything that stands on them;
+/// - place (obj hand to), handover (obj hand to);
+/// - lay (obj hand to face) if the goal names the face that points up;
+/// - pose (obj hand goal) for frames labeled is_pose;
+/// - push_start (obj from hand) and push_end (obj hand to) for objects labeled is_pushable;
+/// - hook_start (obj from hook tool hand) and hook_end (obj hook to tool hand), with a tool that has a part labeled
+/// is_hook;
+/// - hold, open and close (door handle hand) for frames labeled is_door or is_drawer that have a part labeled
+/// is_handle.
 LogicDomain defaultDomain();
 
-/// What holds at the start: what a scene says (sceneFacts) and, where that names no gripper, no object or no place, what
-/// shapes and names suggest. There are faces where the goal says which face of something is up.
+/// Returns the initial facts: sceneFacts and, if these name no gripper, object or place, guesses from shapes and names.
+/// Faces are added if the goal names a face that points up.
 std::vector<Literal> taskFacts(const Config& C, const std::vector<Literal>& goal = {});
 
 /// "(pick cup table hand) (place cup hand tray)"
 std::string planText(const std::vector<TaskAction>& actions);
 
-/// A number with so many digits behind the point: fixed(.0123, 2) is "0.01".
+/// Formats a number with `digits` decimals: fixed(.0123, 2) is "0.01".
 std::string fixed(double value, int digits);
 
-/// Does a fact hold?
+/// Whether a fact is among the facts.
 bool contains(const std::vector<Literal>& facts, const Literal& fact);
 
-/// What a predicate of one argument holds of.
+/// Returns the arguments of all facts of a unary predicate.
 std::vector<std::string> wordsOf(const std::vector<Literal>& facts, const std::string& predicate);
 
-/// Of facts (on below above): what each thing is on; the last one counts.
+/// From facts (on below above): maps each object to the one below it; the last fact counts.
 std::map<std::string, std::string> whatIsBelow(const std::vector<Literal>& facts);
 
-/// The hand that an object hangs below without a joint of q in between; "" if there is none.
+/// Returns the hand that an object is attached to, without an active joint in between; "" if there is none.
 std::string holderOf(const Config& C, const std::string& obj, const std::vector<std::string>& hands);
 
-/// Objects that stand on something that a hand holds.
+/// Returns the objects that stand on a held object.
 std::vector<std::string> carriedBy(const Config& C, const std::vector<std::string>& hands,
                                    const std::vector<std::string>& objects);
 
-/// The axis of a frame that points up, to 25 degrees: x y z xNeg yNeg zNeg; "" if none does.
+/// Returns the axis of a frame that points up, to 25 degrees: x y z xNeg yNeg zNeg; "" if none does.
 std::string upOf(const Config& C, const std::string& name);
 
-/// The axis along which a box is long (0 to 2), as of a bar; -1 for what is none, or not long.
+/// Returns the long axis of a bar (0 to 2); -1 for other frames.
 int longAxis(const Frame& frame);
 
-/// Is it a box, sharp or rounded?
+/// Whether the shape is a box, sharp or rounded.
 bool isBox(const Frame& frame);
 
 }  // namespace kinegraph

@@ -8,13 +8,13 @@
 
 namespace kinegraph {
 
-/// A door or a drawer: a frame that is called is_door or is_drawer, with a joint of one dof that has limits.
+/// A door or a drawer: a frame labeled is_door or is_drawer, with a joint of one dof with limits.
 struct TaskDoor {
   std::string name;
   Eigen::Index dof = 0;           ///< in q
-  double closed = 0., open = 0.;  ///< rad or m: its limits, of which `closed` is nearer to zero
+  double closed = 0., open = 0.;  ///< rad or m: its limits; `closed` is closer to zero
 
-  /// Of its range, 0 where it is closed, 1 where it is open.
+  /// The share of the range: 0 is closed, 1 is open.
   double share(double q) const { return (q - closed) / (open - closed); }
   double at(double share) const { return closed + share * (open - closed); }
 
@@ -22,11 +22,11 @@ struct TaskDoor {
   std::string stateAt(double q) const;
 };
 
-/// Of a door's range: from where on it is open, and up to where closed; where one is left that is opened, between two
-/// values, or closed.
+/// Shares of a door's range: it is open from kOpened on, and closed up to kClosed. An action leaves an opened door
+/// between kOpenLeast and kOpenMost, and a closed one at kClose.
 inline constexpr double kOpened = .8, kClosed = .05, kOpenLeast = .85, kOpenMost = .98, kClose = .005;
 
-/// All of a scene whose joints are active.
+/// Returns the doors of a scene with active joints.
 std::vector<TaskDoor> doorsOf(const Config& C);
 
 /// A hand takes the handle of a door: hold (door handle hand).
@@ -35,25 +35,25 @@ bool isHold(const TaskAction& action);
 /// A door is moved by the hand that holds its handle: open, close (door handle hand).
 bool isGuided(const TaskAction& action);
 
-/// How a hand that holds a handle can still turn: about the point that it touches, or the middle of a ball; about the axis
-/// of a cylinder or capsule; not at all.
+/// The rotation that a handle allows the hand: about a contact point or the center of a ball; about the axis of a
+/// cylinder or capsule; none.
 enum class Grip { point, axis, rigid };
 Grip gripOf(const Config& C, const std::string& hand, const std::string& handle);
 
-/// Postures after each action, K x n: doors stay where they are but where an action moves them, and then within limits.
+/// Returns the waypoints, (K, n), with doors fixed except in actions that move them, and within their limits.
 MatrixXd withSettledDoors(const Config& C, const std::vector<TaskAction>& actions, MatrixXd waypoints);
 
-/// A scene whose doors cannot move, and its dofs among those of the scene with doors.
+/// A scene with inactive doors, and the indices of its dofs in the original scene.
 struct StillDoors {
   Config scene;
   std::vector<Eigen::Index> dofs;
 };
 StillDoors withStillDoors(const Config& C, const std::vector<TaskDoor>& doors);
 
-/// The frames of a door or drawer: those below it but for objects, and what moves by itself.
+/// Returns the frames of a door or drawer: those below it without joints.
 std::vector<std::string> partsOf(const Config& C, const std::string& door);
 
-/// Objects that a door or drawer takes along: those below it.
+/// Returns the objects that a door or drawer moves along: those below it.
 std::vector<std::string> movedBy(const Config& C, const std::string& door, const std::vector<std::string>& objects);
 
 }  // namespace kinegraph

@@ -20,19 +20,19 @@ using O = ObjectiveType;
 using Body = ShapeKind::Body;
 using Variants = std::vector<std::string>;
 
-constexpr double kFingers = .08;             ///< m: what a hand with a palm opens if its frame does not say it
-constexpr double kInside = .02;              ///< m: how far from the ends of an object it is grasped
-constexpr double kHookGap = 5e-4;            ///< m: between a hook, which collides, and what it begins to pull
-constexpr double kAbove = .003;              ///< m: that a tool keeps from the ground where it pulls
-constexpr double kPlay = .002;               ///< m: by which it may be higher, where it is as low as it can be
-constexpr double kSafe = .5;                 ///< of the height at which what it pulls tips
-constexpr std::size_t kCombinations = 4096;  ///< of variants that are ranked
+constexpr double kFingers = .08;             ///< m: default opening of a hand with a palm
+constexpr double kInside = .02;              ///< m: distance of a grasp from the ends of an object
+constexpr double kHookGap = 5e-4;            ///< m: between a hook and the object at the begin of a pull
+constexpr double kAbove = .003;              ///< m: clearance of a pulling tool from the ground
+constexpr double kPlay = .002;               ///< m: by which the lowest tool may be higher
+constexpr double kSafe = .5;                 ///< share of the height at which the pulled object tips
+constexpr std::size_t kCombinations = 4096;  ///< of variants that are ranked at most
 
 Body bodyOf(const Frame& frame) { return shapeKind(frame.getShapeType()).body; }
 
 double leastSide(const std::vector<double>& size) { return std::min({size[0], size[1], size[2]}); }
 
-/// Of a box, or of the box around a mesh, along x y z, m.
+/// The sizes of a box, or of the box around a mesh, along x, y, z, m.
 Vector3d widthsOf(const Frame& frame) {
   const std::vector<double> size = frame.getSize();
   if (isBox(frame)) return {size[0], size[1], size[2]};
@@ -61,7 +61,7 @@ void graspHull(TaskWaypoints& w, double time, const std::string& hand, const std
     w.komo().addObjective({time - .3, time}, F::distance, {palm, obj}, O::ineq, 1e1, -.001);
 }
 
-/// The farther inside, and the nearer to what it weighs, the less it turns in the hand.
+/// A grasp far inside and close to the center of mass reduces the rotation in the hand.
 void nearCenter(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj) {
   const Vector3d center = centerOfBody(w.C.getFrame(obj));
   if (isCentered(center))
@@ -111,8 +111,8 @@ void touch(TaskWaypoints& w, double time, const TaskAction& action, const std::s
   w.attach(time, action[3], action[1], true, action[0] == "hook_start" ? kHookGap : 0.);
 }
 
-/// A bar presses with an upright face, which can give way only downwards, and so low that what it pulls does not tip: its
-/// tool lies flat, a little above the ground.
+/// A bar presses with an upright face, so low that the pulled object does not tip. The tool lies flat, a little above
+/// the ground.
 void layFlat(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
   const Frame obj = w.C.getFrame(action[1]), place = w.C.getFrame(action[2]), bar = w.C.getFrame(action[3]),
               tool = w.C.getFrame(action[4]);
@@ -130,8 +130,8 @@ void layFlat(TaskWaypoints& w, double time, const TaskAction& action, const std:
     w.komo().addObjective({time}, F::distance, {part.getName(), action[2]}, O::ineq, 1e1, -kAbove);
 }
 
-/// The bar of a hook is along a side of a box, across the axis that the variant names: it does not turn then as it is pulled
-/// along that.
+/// The bar of a hook lies along a side of a box, across the axis of the variant, so that the box does not rotate during
+/// the pull.
 void hookOn(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
   touch(w, time, action, variant);
   const int bar = longAxis(w.C.getFrame(action[3]));
@@ -145,7 +145,7 @@ void hookOn(TaskWaypoints& w, double time, const TaskAction& action, const std::
   w.komo().addObjective({time}, across, {action[3], action[1]}, O::eq, 1e0);
 }
 
-/// Of the sides of a box first the one along which it comes nearer to the hand.
+/// The sides of a box, first the one along which a pull brings it closer to the hand.
 Variants hooksOf(const Config& C, const TaskAction& action) {
   const Frame obj = C.getFrame(action[1]);
   if (!isBox(obj) || longAxis(C.getFrame(action[3])) < 0) return {"touch"};
@@ -180,7 +180,7 @@ Variants faceOf(const Config& C, const TaskAction& action) {
   return isBox(C.getFrame(action[1])) ? Variants{action[4]} : Variants{};
 }
 
-/// Upright, or a box with the face up that it has up already.
+/// Upright; a box keeps the face up that it has up already.
 Variants standsOf(const Config& C, const TaskAction& action) {
   Variants ways = {"upright"};
   const std::string face = upOf(C, action[1]);
@@ -253,7 +253,7 @@ std::vector<Variants> allVariants(const Config& C, const std::vector<TaskAction>
     lists.push_back(rule->second.variants(C, action));
     if (lists.back().empty()) return {};
   }
-  // Counted up like the digits of a number, then the ones of the least sum first.
+  // Enumerates combinations like the digits of a number, then sorts them by the sum of their ranks.
   using Choice = std::pair<std::size_t, std::vector<std::size_t>>;
   std::vector<Choice> ranked;
   std::vector<std::size_t> choice(lists.size(), 0);

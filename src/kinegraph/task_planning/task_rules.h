@@ -12,7 +12,7 @@ namespace kinegraph {
 
 class TaskWaypoints;
 
-/// An action of planTask: what it asks of the waypoints, and in which ways it can be done. An own one:
+/// The geometric meaning of an action of planTask: the constraints of its waypoints, and its variants. For example:
 ///
 ///     TaskRule show{[](TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
 ///                     const double height = variant == "high" ? 1.2 : .9;
@@ -20,35 +20,37 @@ class TaskWaypoints;
 ///                   },
 ///                   [](const Config&, const TaskAction&) { return std::vector<std::string>{"high", "low"}; }};
 ///
-/// Both may be called by several threads at the same time.
+/// Several threads may call both functions at the same time.
 struct TaskRule {
-  /// Adds what the action asks at a time (in phases), in one of its variants.
+  /// Adds the constraints of the action at a time (in phases), in one of its variants.
   std::function<void(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant)> add;
 
-  /// The names of its variants in a scene, best first; none: it cannot be done.
+  /// Returns the names of its variants in a scene, the best first; none: the action is impossible.
   std::function<std::vector<std::string>(const Config& C, const TaskAction& action)> variants;
 };
 
-/// By the first words of the actions.
+/// Rules by the names of the actions.
 using TaskRules = std::map<std::string, TaskRule>;
 
-/// Of the actions of defaultDomain. `upright` where the goal says which face of something is up: `place` then leaves other
-/// faces to `lay`.
+/// Returns the rules of the actions of defaultDomain. `upright`: `place` puts objects down upright, and leaves other
+/// faces to `lay`, for goals that name a face.
 TaskRules defaultTaskRules(bool upright = false);
 
-/// The frame between the fingers of a hand and its arm, which nothing that is held comes into; "" for hands without one.
+/// Returns the palm, the frame between the fingers of a hand and its arm that held objects must not enter; "" for hands
+/// without one.
 std::string palmOf(const Config& C, const std::string& hand);
 
-/// How far the fingers of a hand open, m; none for a hand without fingers. Its frame may say it as `opening`.
+/// Returns the opening of the fingers of a hand, m; none for a hand without fingers. The attribute `opening` of its
+/// frame overrides the default.
 std::optional<double> opening(const Config& C, const std::string& hand);
 
-/// The ways in which a hand can hold an object: axes of the object that the fingers close along, narrow ones first: of x,
-/// y, z for boxes and meshes, `around` for cylinders and capsules, `center` for balls, `touch` for hands without fingers.
-/// None if it is too wide. Throws ValueError for objects without a shape.
+/// Returns the grasps of an object by a hand. Boxes and meshes have the axes x, y, z along which the fingers can close,
+/// the narrow ones first; cylinders and capsules `around`, balls `center`, and hands without fingers `touch`. None if
+/// the object is too wide. Throws ValueError for objects without a shape.
 std::vector<std::string> graspVariants(const Config& C, const std::string& obj, const std::string& hand);
 
-/// Combinations of the variants of a sequence of actions, the first ones first, `most` of them. Throws NameError for an
-/// action that has no rule.
+/// Returns at most `most` combinations of the variants of a sequence of actions, the best first. Throws NameError for
+/// an action without a rule.
 std::vector<std::vector<std::string>> allVariants(const Config& C, const std::vector<TaskAction>& actions,
                                                   const TaskRules& rules, std::size_t most);
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kFine = 1e-3;  ///< m
 
-/// The frames that are fixed to a body, itself first.
+/// Returns the frames fixed to a body, the body first.
 std::vector<Frame> fixedTo(const Frame& body) {
   std::vector<Frame> parts = {body};
   for (std::size_t i = 0; i < parts.size(); ++i)
@@ -28,7 +28,7 @@ using Polygon = std::vector<Eigen::Vector2d>;  ///< convex, counterclockwise
 
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-/// Around points in the plane (Andrew's monotone chain).
+/// The convex hull of points in the plane (Andrew's monotone chain).
 Polygon hullOf(Polygon points) {
   const auto isBefore = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
     return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
@@ -48,7 +48,7 @@ Polygon hullOf(Polygon points) {
   return hull;
 }
 
-/// What is inside of a rectangle around the origin (Sutherland and Hodgman).
+/// The part of a polygon inside of a rectangle around the origin (Sutherland and Hodgman).
 Polygon clipped(Polygon polygon, const Eigen::Vector2d& half) {
   for (int edge = 0; edge < 4; ++edge) {
     const int axis = edge / 2;
@@ -65,7 +65,7 @@ Polygon clipped(Polygon polygon, const Eigen::Vector2d& half) {
   return polygon;
 }
 
-/// How far a point is outside of a polygon, which may be a line or a point; infinitely where that is empty.
+/// The distance of a point from a polygon, a line or a point, 0 inside; infinite if the polygon is empty.
 double gapTo(const Eigen::Vector2d& point, const Polygon& polygon) {
   double nearest = std::numeric_limits<double>::infinity();
   bool is_inside = polygon.size() > 2;
@@ -78,7 +78,7 @@ double gapTo(const Eigen::Vector2d& point, const Polygon& polygon) {
   return is_inside ? 0. : nearest;
 }
 
-/// The frames with a joint that moves, from a frame upwards.
+/// Returns the frames with an active joint, from a frame upwards.
 std::set<std::string> movingAbove(const Frame& frame) {
   std::set<std::string> moving;
   for (std::optional<Frame> up = frame; up; up = up->getParent())
@@ -93,7 +93,7 @@ double frictionOf(const Frame& frame) {
   return friction ? *friction : kUsual;
 }
 
-/// A mass, and where it is in the frame.
+/// A mass and its position in the frame.
 struct PointMass {
   double mass = 0.;
   Vector3d at = Vector3d::Zero();
@@ -153,7 +153,7 @@ void ignorePairs(Config& C, const FramePairs& pairs) {
   if (!pairs.empty()) C.scene()->structureChanged();
 }
 
-void mindPairs(Config& C, const FramePairs& pairs) {
+void includePairs(Config& C, const FramePairs& pairs) {
   for (const auto& [a, b] : pairs) {
     std::vector<FrameData*>& ignored = C.getFrame(a).data().no_contact;
     const auto found = std::ranges::find(ignored, &C.getFrame(b).data());

@@ -8,37 +8,37 @@
 
 namespace kinegraph {
 
-/// The center of mass of a body, with all that is fixed to it, in the coordinates of its frame, m. Where no part has a mass,
-/// each has that of its surface, as in a simulation.
+/// Returns the center of mass of a body with everything fixed to it, in frame coordinates, m. If no part has a mass,
+/// masses are proportional to surfaces, as in a simulation.
 Vector3d centerOfBody(const Frame& body);
 
-/// Whether that is so near to the frame that it can be taken for its center: to 1 mm.
+/// Whether a center of mass coincides with the origin of the frame, to 1 mm.
 bool isCentered(const Vector3d& center);
 
-/// Does what touches a place along its lower side rest there: is its center of mass above what both share? To 1 mm, as the
-/// scene is. The place is a box that is level.
+/// Whether an object that touches a place rests there: its center of mass is above the area that both share, to 1 mm,
+/// in the current scene. The place is a level box.
 bool isSupported(const Frame& obj, const Frame& place);
 
-/// Pairs of frames that overlap by more than `depth` (m) where hands hold objects: a part of what is held, and one of the robot.
-/// Models of hands are wider than hands, and what is held may have turned or slipped.
+/// Returns the pairs of frames, one of a held object and one of the robot, that overlap by more than `depth` (m). Such
+/// overlaps occur because models of hands are wider than hands, and held objects rotate or slip.
 using FramePairs = std::vector<std::pair<std::string, std::string>>;
 FramePairs wedgedPairs(const Config& C, const std::vector<std::string>& hands, const std::vector<std::string>& objects,
                        double depth);
 
-/// Lets pairs never collide, or again.
+/// Excludes pairs from collisions, or includes them again.
 void ignorePairs(Config& C, const FramePairs& pairs);
-void mindPairs(Config& C, const FramePairs& pairs);
+void includePairs(Config& C, const FramePairs& pairs);
 
-/// The frames of a body that have a shape: its own, and those that are fixed to it.
+/// Returns the frames with a shape of a body: its own, and those fixed to it.
 std::vector<Frame> shapesOf(const Frame& body);
 
-/// The axis of a bar (0 to 2) that points up where its tool lies flat: of the two across it that along which the tool is
-/// thinner.
+/// Returns the axis of a bar (0 to 2) that points up if its tool lies flat: the one across the bar along which the tool
+/// is thinner.
 int flatAxis(const Frame& bar, const Frame& tool);
 
-/// Up to which height above the ground an object can be pulled, without acceleration, and does not tip: depth / (2 friction),
-/// m. `depth` is that of its base along the pull; the friction is the mean of that of the object and that of the place, as in
-/// a simulation. Infinite without friction.
+/// Returns the height above the ground up to which a slow pull does not tip an object: depth / (2 friction), m. `depth`
+/// is that of its base along the pull. The friction is the mean of those of the object and the place, as in a
+/// simulation. Infinite without friction.
 double tippingHeight(const Frame& obj, const Frame& place, double depth);
 
 }  // namespace kinegraph

@@ -19,21 +19,21 @@ namespace {
 using F = FeatureSymbol;
 using O = ObjectiveType;
 
-constexpr double kGap = .02;     ///< m: how far things should stand apart that are put on the same place
-constexpr double kBehind = .01;  ///< m: how far behind the middle of an object what pushes it is at least
-constexpr double kBeside = .5;   ///< of half its height: how far above its middle at most
-constexpr double kEdge = .01;    ///< m: how far inside of an edge the center of what stands there is
+constexpr double kGap = .02;     ///< m: preferred distance of objects on one place
+constexpr double kBehind = .01;  ///< m: minimum distance of a pusher behind the center of an object
+constexpr double kBeside = .5;   ///< share of half its height: maximum height of a pusher above its center
+constexpr double kEdge = .01;    ///< m: distance of the center of a standing object from the edges
 constexpr std::array kAcross = {F::scalarProductYX, F::scalarProductYY, F::scalarProductYZ};
 constexpr std::array kAxes = {F::vectorX, F::vectorY, F::vectorZ};
-constexpr double kLow = .005;    ///< m: above the ground, where a bar pulls without tipping
-constexpr double kApart = .003;  ///< m: that a hand with a handle keeps from all else, if it can
-constexpr double kNear = .3;     ///< scale of joint motions that a straight line of the joints is to come near to
+constexpr double kLow = .005;    ///< m: height of a pulling bar above the ground
+constexpr double kApart = .003;  ///< m: preferred clearance of a hand at a handle
+constexpr double kNear = .3;     ///< scale of the objective that keeps a push close to a straight line of the joints
 constexpr char kRoom[] = "room on ", kWeight[] = "weight of ";
 
 std::string roundText(double time) { return std::to_string(long(std::nearbyint(time))); }
 
-/// A scene with what its objects and places lack: where something is laid on a place, a large frame there, as a free frame
-/// below it has wide limits; where something that is put down weighs more on one side, a frame at its center of mass.
+/// Adds auxiliary frames to a scene: a large frame on each place for `lay`, because a free frame below it gets wide
+/// limits; and a frame at the center of mass of each placed object that is not at its origin.
 Config prepared(const Config& C, const std::vector<TaskAction>& actions, const std::vector<std::string>& variants) {
   if (variants.size() != actions.size())
     throw ValueError(
@@ -99,7 +99,7 @@ void TaskWaypoints::addActions(const TaskRules& rules) {
   }
 }
 
-/// Doors stay where they are but where an action moves them.
+/// Fixes doors except in actions that move them.
 void TaskWaypoints::keepDoors() {
   for (std::size_t i = 0; i < actions.size(); ++i)
     for (const TaskDoor& door : doors_)
@@ -114,7 +114,7 @@ void TaskWaypoints::guide(double time, const std::string& name, const std::strin
     throw ValueError(cat("planTask: '", name,
                          "' is no door; expected a frame that is called is_door or is_drawer, with a ",
                          "joint of one dof that has limits"));
-  const auto bound = [&](double share, bool is_most) {  // the joint's sign is that of the way from closed to open
+  const auto bound = [&](double share, bool is_most) {  // the sign depends on the direction from closed to open
     const double sign = (is_most ? 1e1 : -1e1) / (door->open - door->closed);
     komo().addObjective({time}, F::qItself, {name}, O::ineq, sign, VectorXd::Constant(1, door->at(share)));
   };
@@ -126,7 +126,7 @@ void TaskWaypoints::guide(double time, const std::string& name, const std::strin
     komo().addObjective({time}, F::qItself, {name}, O::eq, 1e2, shut);
   }
   const std::vector<std::string> parts = partsOf(C, name);
-  for (const auto& [place, objects] : beside_) {  // what was put elsewhere had better be out of its way
+  for (const auto& [place, objects] : beside_) {  // prefers placed objects away from the motion
     if (std::ranges::find(parts, place) != parts.end()) continue;
     for (const std::string& obj : objects)
       for (const std::string& part : parts)
@@ -134,7 +134,7 @@ void TaskWaypoints::guide(double time, const std::string& name, const std::strin
           komo().addObjective({time}, F::distance, {obj, part}, O::ineqP, 3e0, -2. * kGap);
   }
   komo().addControlObjective({time}, 1, kNear);
-  // Motions begin where nothing touches.
+  // Motions begin without contact.
   komo().addObjective({time}, F::accumulatedCollisions, {}, O::sos, 1e2, {}, -1, kApart);
   const std::vector<std::string> pair = {hand, handle};
   switch (gripOf(C, hand, handle)) {
@@ -186,10 +186,10 @@ void TaskWaypoints::put(double time, const std::string& obj, const std::string& 
     komo().addObjective({time}, F::positionRel, {what, to}, O::ineq, rows, inside);
     komo().addObjective({time}, F::positionRel, {what, to}, O::ineq, -rows, -inside);
   }
-  for (const std::string& other : beside_[to])  // room for fingers, where there is room
+  for (const std::string& other : beside_[to])  // prefers room for fingers
     komo().addObjective({time}, F::distance, {obj, other}, O::ineqP, 3e0, -kGap);
   beside_[to].push_back(obj);
-  if (C.getFrame(to).getJointType() == JointType::rigid)  // on something small and loose the middle is safest
+  if (C.getFrame(to).getJointType() == JointType::rigid)  // the center of a small, loose object is safest
     komo().addObjective({time}, F::positionRel, {obj, to}, O::sos, .3 * rows);
 }
 
@@ -217,7 +217,7 @@ void TaskWaypoints::push(double start, double end, const std::string& pusher, co
   if (const int across = longAxis(C.getFrame(pusher)); across >= 0) {  // a bar is level, across the line, and low
     komo().addObjective({start}, kAcross[std::size_t(across)], {helper, pusher}, O::eq, 1e0);
     komo().addControlObjective({end}, 1, kNear);
-    if (isOn(C.getFrame(obj), C.getFrame(to)))  // no farther than has to be, and not nowhere
+    if (isOn(C.getFrame(obj), C.getFrame(to)))  // short, but not zero
       komo().addObjective(
           {end}, F::position, {obj}, O::sos, kNear,
           usualPull(C, actions.at(std::size_t(std::lround(end)) - 1), variants.at(std::size_t(std::lround(start)) - 1)),

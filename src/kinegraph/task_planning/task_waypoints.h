@@ -11,57 +11,55 @@
 
 namespace kinegraph {
 
-/// The waypoint problem of a sequence of actions, in one variant of each: one Komo with a slice per action, and grasps and
-/// placements that all slices share. Rules add to it what their actions ask, through `komo()`, `m`, and the calls below;
-/// times are in phases, that of the i-th action (from 0 on) is i + 1. Calls throw FrameNotFound for frames that are not
-/// there.
+/// The waypoint problem of a sequence of actions in one variant each: a Komo with a slice per action, and grasps and
+/// placements shared by all slices. Rules add the constraints of their actions through `komo()`, `m`, and the calls
+/// below. Times are in phases; action i, counted from 0, ends at i + 1. Calls throw FrameNotFound for unknown frames.
 class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
  public:
-  /// The problem without what the actions ask. `helper`: of another kind than ManipulationHelper; none: that.
+  /// Makes the problem without the constraints of the actions. `helper`: null for a ManipulationHelper.
   TaskWaypoints(const Config& C, std::vector<TaskAction> actions, std::vector<std::string> variants,
                 std::shared_ptr<ManipulationHelper> helper = nullptr);
 
-  /// Adds what all the actions ask. Throws NameError for an action that has no rule.
+  /// Adds the constraints of all actions. Throws NameError for an action without a rule.
   void addActions(const TaskRules& rules);
 
-  const std::shared_ptr<ManipulationHelper> m;  ///< of the problem
-  const Config C;                               ///< the scene; with a large frame on places where something is laid
+  const std::shared_ptr<ManipulationHelper> m;  ///< helper for the problem
+  const Config C;                               ///< the scene, with a large frame on places for `lay`
   const std::vector<TaskAction> actions;
   const std::vector<std::string> variants;
 
   Komo& komo() { return *m->komo; }
 
-  /// From a time on the hand holds the object, in a pose that is found. `touching`: their surfaces touch, as where a stick
-  /// takes something along; they are `gap` m apart.
+  /// Lets a hand hold an object from a time on, in a pose that the solver finds. `touching`: the surfaces are `gap` m
+  /// apart, as of a stick that takes an object along.
   void attach(double time, const std::string& hand, const std::string& obj, bool touching = false, double gap = 0.);
 
-  /// From a time on the object stands on a place, upright.
+  /// Lets an object stand upright on a place from a time on.
   void put(double time, const std::string& obj, const std::string& to);
 
-  /// From a time on the object, a box, lies on a place with one of its faces up: x y z xNeg yNeg zNeg. Throws ValueError
-  /// for another one.
+  /// Lets a box lie on a place from a time on, with a face up: x y z xNeg yNeg zNeg. Throws ValueError for other faces.
   void lay(double time, const std::string& obj, const std::string& to, const std::string& face);
 
-  /// Between `start`, when the pusher touches it, and `end` the object is pushed straight to a place, from behind, without
-  /// turning.
+  /// Pushes an object straight to a place between `start`, the first contact, and `end`, from behind and without
+  /// rotation.
   void push(double start, double end, const std::string& pusher, const std::string& obj, const std::string& to);
 
-  /// A hand that has held a handle since the time before moves its door or drawer until it is open, or closed. Throws
-  /// ValueError for what is no door.
+  /// Opens or closes a door or drawer by a hand that has held its handle since the action before. Throws ValueError if
+  /// the frame is no door.
   void guide(double time, const std::string& door, const std::string& handle, const std::string& hand, bool opens);
 
-  /// A starting point, the variables of the problem: hands near what they do. `rng` draws placements and, where `grasps`,
-  /// grasps; without one, placements are in the middle.
+  /// Returns an initial guess of the variables, with hands close to the objects that they handle. `rng` samples
+  /// placements and, with `grasps`, grasps; without `rng`, placements are central.
   VectorXd start(Rng* rng, bool grasps = true) const;
 
  private:
-  /// Dofs of frames that were added; they are the first ones in x, in this order.
+  /// Dofs of an added frame. Slots are the first dofs in x, in this order.
   struct Slot {
     enum class Kind { grasp, place, lay, push };
     Kind kind;
     int first;
     std::string frame;
-    std::string face = {};  ///< of what is laid
+    std::string face = {};  ///< of `lay`
   };
 
   void addSlot(Slot::Kind kind, const std::string& frame, int dofs, const std::string& face = {});
@@ -74,11 +72,11 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
   const std::vector<TaskDoor> doors_;
   std::vector<Slot> slots_;
   int slot_dofs_ = 0;
-  std::map<std::string, std::string> held_;                 ///< what each object moves with
-  std::map<std::string, std::vector<std::string>> beside_;  ///< what was put on each place so far
+  std::map<std::string, std::string> held_;                 ///< by object: the frame it is attached to
+  std::map<std::string, std::vector<std::string>> beside_;  ///< by place: the objects put there so far
 };
 
-/// With what all the actions ask.
+/// Makes the problem with the constraints of all actions.
 std::shared_ptr<TaskWaypoints> makeTaskWaypoints(const Config& C, std::vector<TaskAction> actions,
                                                  std::vector<std::string> variants, const TaskRules& rules,
                                                  std::shared_ptr<ManipulationHelper> helper = nullptr);

@@ -9,8 +9,8 @@
 
 namespace kinegraph {
 
-/// The demand of a problem that stands in the way of the others, where its path is, in words: "cup and table overlap by
-/// 3 mm"; "" if all hold. `cancellation`, where given, is called at every evaluation, and may throw.
+/// Returns the constraint that conflicts with the others at the current path of a problem, as "cup and table overlap by
+/// 3 mm"; "" if all hold. `cancellation` is queried at every evaluation, and may throw.
 std::string violatedConstraint(const std::shared_ptr<Komo>& komo, const CancellationToken& cancellation = {});
 
 }  // namespace kinegraph

@@ -8,31 +8,31 @@
 #include "kinegraph/task_planning/pull_start.h"
 #include "kinegraph/task_planning/task_waypoints.h"
 
-// Where searches for waypoints begin.
+// Initial guesses of waypoint problems.
 namespace kinegraph {
 
 namespace {
 
-constexpr double kTurn = 1.6;  ///< rad: starts of placements are turned by up to that
+constexpr double kMaxRotation = 1.6;  ///< rad: maximum rotation of sampled placements
 
-Vector4d turnAbout(const Vector3d& axis, double angle) {
+Vector4d rotationAbout(const Vector3d& axis, double angle) {
   Vector4d q;
   q << std::cos(.5 * angle), std::sin(.5 * angle) * axis;
   return q;
 }
 
-/// The shortest turn that brings an axis of an object up.
+/// The shortest rotation that points an axis of an object up.
 Vector4d upright(const Vector3d& axis) {
-  if (axis.z() < -1. + 1e-12) return turnAbout(axis.cross(Vector3d::UnitY()), std::numbers::pi);
+  if (axis.z() < -1. + 1e-12) return rotationAbout(axis.cross(Vector3d::UnitY()), std::numbers::pi);
   Vector4d q;
   q << 1. + axis.z(), axis.cross(Vector3d::UnitZ());
   return q / std::sqrt(q.squaredNorm());
 }
 
-/// The quaternion that turns an axis of an object up, then about that by an angle.
-Vector4d turned(const std::string& face, double about) {
+/// The quaternion that points an axis of an object up, then rotates about it by an angle.
+Vector4d faceUp(const std::string& face, double about) {
   const int k = int(std::string_view("xyz").find(face[0]));
-  const Vector4d q = turnAbout(Vector3d::UnitZ(), about),
+  const Vector4d q = rotationAbout(Vector3d::UnitZ(), about),
                  r = upright((face.ends_with("Neg") ? -1. : 1.) * Vector3d::Unit(k));
   const Vector3d v = q.tail<3>(), b = r.tail<3>();
   Vector4d product;
@@ -40,7 +40,7 @@ Vector4d turned(const std::string& face, double about) {
   return product;
 }
 
-/// Joints that bring a hand to a target, upright if that is possible; else as they are. Doors stay.
+/// Solves IK for a hand at a target, upright if possible. Returns q if there is no solution. Doors are fixed.
 VectorXd near(const Config& C, const std::string& hand, const Vector3d& target, const VectorXd& q) {
   Config all = C;
   all.setJointState(q);
@@ -61,16 +61,16 @@ VectorXd near(const Config& C, const std::string& hand, const Vector3d& target, 
   return q;
 }
 
-/// Joints somewhere within their limits, from which another way to reach a handle may be found. Doors stay.
+/// Samples joints within their limits, from which another solution at a handle may be found. Doors are fixed.
 VectorXd elsewhere(const Config& C, const VectorXd& q, Rng& rng) {
   Config scene = C;
   scene.setRandom(rng);
-  VectorXd drawn = scene.getJointState();
-  for (const TaskDoor& door : doorsOf(C)) drawn[door.dof] = q[door.dof];
-  return drawn;
+  VectorXd sampled = scene.getJointState();
+  for (const TaskDoor& door : doorsOf(C)) sampled[door.dof] = q[door.dof];
+  return sampled;
 }
 
-/// Joints that bring a hook to a target, of a tool that the hand holds in its middle.
+/// Solves IK for a hook at a target, with the hand at the origin of the tool.
 VectorXd nearWithTool(const Config& C, const TaskAction& action, const Vector3d& target, const VectorXd& q) {
   const std::string &hook = action[startsSliding(action) ? 3 : 2], &tool = action[4], &hand = action[5];
   Config scene = C;
@@ -81,17 +81,17 @@ VectorXd nearWithTool(const Config& C, const TaskAction& action, const Vector3d&
 
 }  // namespace
 
-/// Where a slot begins; of placements, the offset from the middle of the place.
+/// Initializes a slot. Returns the offset from the center of the place, for placements.
 Vector3d TaskWaypoints::startSlot(const Slot& slot, const Nlp& nlp, VectorXd& x, Rng* rng, bool grasps) const {
   const int first = slot.first;
-  const auto draw = [&](double low, double high) { return rng ? rng->uniform(low, high) : 0.; };
+  const auto sample = [&](double low, double high) { return rng ? rng->uniform(low, high) : 0.; };
   if (slot.kind == Slot::Kind::place) {
-    for (int i = first; i < first + 2; ++i) x[i] = draw(.9 * nlp.lower()[i], .9 * nlp.upper()[i]);
-    x[first + 2] = draw(-kTurn, kTurn);
+    for (int i = first; i < first + 2; ++i) x[i] = sample(.9 * nlp.lower()[i], .9 * nlp.upper()[i]);
+    x[first + 2] = sample(-kMaxRotation, kMaxRotation);
   } else if (slot.kind == Slot::Kind::lay) {
-    for (int i = first; i < first + 2; ++i) x[i] = draw(-.1, .1);
+    for (int i = first; i < first + 2; ++i) x[i] = sample(-.1, .1);
     x[first + 2] = .1;
-    x.segment<4>(first + 3) = turned(slot.face, draw(-kTurn, kTurn));
+    x.segment<4>(first + 3) = faceUp(slot.face, sample(-kMaxRotation, kMaxRotation));
   } else if (slot.kind == Slot::Kind::grasp) {
     x.segment<7>(first) << 0., 0., 0., 1., 0., 0., 0.;
     if (rng && grasps) {
@@ -131,7 +131,7 @@ VectorXd TaskWaypoints::start(Rng* rng, bool grasps) const {
   return x;
 }
 
-/// Joints after an action that begins at `before`, near what the hand does; and what it moves. `at`: where things are.
+/// Guesses the joints after an action from those before it, and moves the positions `at` of the objects that it moves.
 VectorXd TaskWaypoints::startOf(std::size_t i, const VectorXd& before, std::map<std::string, Vector3d>& at,
                                 const std::map<std::string, Vector3d>& offsets) const {
   const TaskAction& action = actions[i];

@@ -14,18 +14,17 @@ namespace {
 
 constexpr int kLargestDegree = 9;
 
-/// The values at one time of those basis functions that are not zero: `values[0 .. degree]`, of control points
-/// `first ..`.
+/// The nonzero basis functions at one time: `values[0 .. degree]` belong to the control points from `first` on.
 struct Basis {
   std::array<double, kLargestDegree + 1> values{};
   int first = 0;
 };
 
-/// 0 where the knots coincide: such a function is zero everywhere.
+/// Returns part / whole, or 0 for knots that coincide: their basis function is zero everywhere.
 double ratio(double part, double whole) { return whole > 0. ? part / whole : 0.; }
 
-/// Basis functions of a degree, or a derivative, at `t` within the knots: raised degree by degree, the last ones as
-/// derivatives.
+/// Evaluates the basis functions of a degree, or a derivative, at `t` within the knots, by the recursion over degrees;
+/// its last steps are those of the derivatives.
 Basis basisAt(const VectorXd& knots, int degree, double t, int derivative) {
   const auto after = std::upper_bound(knots.begin() + degree, knots.end() - degree - 1, t);
   const int span = int(after - knots.begin()) - 1;
@@ -53,7 +52,8 @@ void requireTimes(const VectorXd& times, const char* call, double after) {
     if (!std::isfinite(times[i]))
       throw ValueError(cat(call, ": times[", i, "] is ", times[i], "; expected a finite time"));
     if (times[i] < last)
-      throw ValueError(cat(call, ": times[", i, "] = ", times[i], " is before ", last, "; times must not fall"));
+      throw ValueError(
+          cat(call, ": times[", i, "] = ", times[i], " is before ", last, "; expected times that do not decrease"));
     last = times[i];
   }
 }
@@ -74,7 +74,7 @@ MatrixXd stacked(std::initializer_list<MatrixXd> parts) {
   return all;
 }
 
-/// Knots strictly between the first and the last of these times.
+/// Returns the knots strictly between the first and the last time.
 VectorXd innerKnots(int degree, const VectorXd& times) {
   const Eigen::Index n = times.size();
   if (degree % 2) return times.segment(1, n - 2);
@@ -94,10 +94,11 @@ BSpline& BSpline::setKnots(int degree, const VectorXd& times) {
   constexpr const char* call = "BSpline::setKnots";
   if (degree < 0 || degree > kLargestDegree)
     throw ValueError(cat(call, ": degree is ", degree, "; expected 0 to ", kLargestDegree));
-  if (times.size() < 2) throw ValueError(cat(call, ": ", times.size(), " times; expected two or more"));
+  if (times.size() < 2) throw ValueError(cat(call, ": there are ", times.size(), " times; expected two or more"));
   requireTimes(times, call, -INFINITY);
   const double first = times[0], last = times[times.size() - 1];
-  if (!(last > first)) throw ValueError(cat(call, ": all times are ", first, "; expected a last one after the first"));
+  if (!(last > first))
+    throw ValueError(cat(call, ": all times are ", first, "; expected the last one after the first"));
   degree_ = degree;
   knots_ = stacked({repeated(first, degree + 1), innerKnots(degree, times), repeated(last, degree + 1)});
   ctrl_points_.resize(0, 0);
@@ -107,13 +108,13 @@ BSpline& BSpline::setKnots(int degree, const VectorXd& times) {
 BSpline& BSpline::setCtrlPoints(const MatrixXd& points, bool add_start_duplicates, bool add_end_duplicates,
                                 const VectorXd& start_velocity, const VectorXd& end_velocity) {
   constexpr const char* call = "BSpline::setCtrlPoints";
-  if (knots_.size() == 0) throw ValueError(cat(call, ": there are no knots yet; call setKnots before, or set"));
+  if (knots_.size() == 0) throw ValueError(cat(call, ": there are no knots yet; call setKnots or set first"));
   const int before = add_start_duplicates ? duplicates() : 0, behind = add_end_duplicates ? duplicates() : 0;
   const int expected = ctrlCount() - before - behind;
   if (points.rows() != expected)
-    throw ValueError(cat(call, ": ", points.rows(), " points; expected ", expected, " for ", knots_.size(),
+    throw ValueError(cat(call, ": there are ", points.rows(), " points; expected ", expected, " for ", knots_.size(),
                          " knots of degree ", degree_, before + behind ? "" : ", duplicates included"));
-  if (points.cols() == 0) throw ValueError(cat(call, ": points have no numbers"));
+  if (points.cols() == 0) throw ValueError(cat(call, ": the points have no columns; expected one per dof"));
   requireFinite(points, call, "points");
   for (const VectorXd* velocity : {&start_velocity, &end_velocity}) {
     if (velocity->size() == 0) continue;
@@ -130,8 +131,8 @@ BSpline& BSpline::setCtrlPoints(const MatrixXd& points, bool add_start_duplicate
   return *this;
 }
 
-/// Puts the duplicates of an end on the line that passes it with this velocity: a control point belongs to the mean of the
-/// knots within its reach.
+/// Places the duplicates of an end on the line through it with this velocity. The time of a control point is the mean
+/// of its inner knots (Greville abscissa).
 void BSpline::moveDuplicates(bool at_end, const VectorXd& velocity) {
   const Eigen::Index last = ctrl_points_.rows() - 1, end = at_end ? last : 0;
   for (int j = 1; j <= duplicates(); ++j) {
@@ -144,8 +145,8 @@ void BSpline::moveDuplicates(bool at_end, const VectorXd& velocity) {
 BSpline& BSpline::set(int degree, const MatrixXd& points, const VectorXd& times, const VectorXd& start_velocity,
                       const VectorXd& end_velocity) {
   if (points.rows() != times.size())
-    throw ValueError(
-        cat("BSpline::set: ", points.rows(), " points and ", times.size(), " times; expected a time per point"));
+    throw ValueError(cat("BSpline::set: there are ", points.rows(), " points and ", times.size(),
+                         " times; expected one time per point"));
   BSpline made;
   made.setKnots(degree, times).setCtrlPoints(points, true, true, start_velocity, end_velocity);
   *this = std::move(made);
@@ -156,9 +157,10 @@ BSpline& BSpline::append(const MatrixXd& points, const VectorXd& times, bool ins
   constexpr const char* call = "BSpline::append";
   requirePoints(call);
   if (points.rows() != times.size() || points.rows() == 0)
-    throw ValueError(cat(call, ": ", points.rows(), " points and ", times.size(), " times; expected a time per point"));
+    throw ValueError(
+        cat(call, ": there are ", points.rows(), " points and ", times.size(), " times; expected one time per point"));
   if (points.cols() != dimension())
-    throw ValueError(cat(call, ": points of ", points.cols(), " numbers; expected ", dimension()));
+    throw ValueError(cat(call, ": the points have ", points.cols(), " numbers; expected ", dimension()));
   requireFinite(points, call, "points");
   requireTimes(times, call, 0.);
   const VectorXd absolute = stacked({repeated(end(), 1), VectorXd(times.array() + end())});
@@ -179,7 +181,7 @@ BSpline& BSpline::append(const MatrixXd& points, const VectorXd& times, bool ins
   return *this;
 }
 
-/// The old end and its duplicates give way to the new ones; the point itself stays.
+/// Replaces the duplicates of the previous end by those of the new one.
 void BSpline::appendInside(const MatrixXd& points, const VectorXd& times) {
   const int m = duplicates(), count = ctrlCount(), kept = count - 1 - m;
   VectorXd around = times;
@@ -190,14 +192,14 @@ void BSpline::appendInside(const MatrixXd& points, const VectorXd& times) {
       stacked({ctrl_points_.topRows(kept), ctrl_points_.bottomRows(1), points, points.bottomRows(1).replicate(m, 1)});
 }
 
-/// The end and its duplicates stay; with so many knots there as it takes for them to be the motion at that time.
+/// Keeps the previous end with its duplicates, and adds enough knots there for the spline to pass through it.
 void BSpline::appendAtRest(const MatrixXd& points, const VectorXd& times) {
   const Eigen::Index kept = ctrlCount() + (degree_ + 1) / 2;
   knots_ = stacked({knots_.head(kept), innerKnots(degree_, times), repeated(times[times.size() - 1], degree_ + 1)});
   ctrl_points_ = stacked({ctrl_points_, points, points.bottomRows(1).replicate(duplicates(), 1)});
 }
 
-/// What was there stays, all of it, and a spline of its own follows that starts where it ends.
+/// Keeps the previous spline unchanged, and joins a new one that starts at its end.
 void BSpline::appendInMotion(const MatrixXd& points, const VectorXd& times, const VectorXd& velocity) {
   const BSpline next(degree_, stacked({ctrl_points_.bottomRows(1), points}), times, velocity);
   knots_ = stacked({knots_.head(knots_.size() - 1), next.knots_.tail(next.ctrlCount())});
@@ -208,7 +210,7 @@ BSpline& BSpline::overwriteSmooth(const MatrixXd& points, const VectorXd& times,
   constexpr const char* call = "BSpline::overwriteSmooth";
   requirePoints(call);
   if (points.cols() != dimension())
-    throw ValueError(cat(call, ": points of ", points.cols(), " numbers; expected ", dimension()));
+    throw ValueError(cat(call, ": the points have ", points.cols(), " numbers; expected ", dimension()));
   const VectorXd position = eval(time_cut), velocity = eval(time_cut, 1);
   return set(degree_, stacked({position.transpose(), points}),
              stacked({repeated(time_cut, 1), VectorXd(times.array() + time_cut)}),
@@ -216,7 +218,7 @@ BSpline& BSpline::overwriteSmooth(const MatrixXd& points, const VectorXd& times,
 }
 
 void BSpline::requirePoints(const char* call) const {
-  if (isEmpty()) throw ValueError(cat(call, ": the spline has no control points yet; call set, or setCtrlPoints"));
+  if (isEmpty()) throw ValueError(cat(call, ": the spline has no control points yet; call set or setCtrlPoints first"));
 }
 
 MatrixXd BSpline::eval(const VectorXd& times, int derivative) const {
@@ -230,7 +232,7 @@ VectorXd BSpline::eval(double time, int derivative) const {
   constexpr const char* call = "BSpline::eval";
   requirePoints(call);
   if (derivative < 0) throw ValueError(cat(call, ": derivative is ", derivative, "; expected 0 or more"));
-  if (std::isnan(time)) throw ValueError(cat(call, ": a time is not a number"));
+  if (std::isnan(time)) throw ValueError(cat(call, ": a time is NaN"));
   if (time < start() || time >= end()) {
     if (derivative > 0) return VectorXd::Zero(dimension());
     return ctrl_points_.row(time < start() ? 0 : ctrl_points_.rows() - 1).transpose();
@@ -249,11 +251,11 @@ MatrixXd BSpline::eval3(double time) const {
 
 MatrixXd BSpline::getBmatrix(const VectorXd& times, bool start_duplicates, bool end_duplicates, int derivative) const {
   constexpr const char* call = "BSpline::getBmatrix";
-  if (knots_.size() == 0) throw ValueError(cat(call, ": there are no knots yet; call setKnots, or set"));
+  if (knots_.size() == 0) throw ValueError(cat(call, ": there are no knots yet; call setKnots or set first"));
   if (derivative < 0) throw ValueError(cat(call, ": derivative is ", derivative, "; expected 0 or more"));
   MatrixXd B = MatrixXd::Zero(times.size(), ctrlCount());
   for (Eigen::Index i = 0; i < times.size(); ++i) {
-    if (std::isnan(times[i])) throw ValueError(cat(call, ": times[", i, "] is not a number"));
+    if (std::isnan(times[i])) throw ValueError(cat(call, ": times[", i, "] is NaN"));
     if (times[i] < start() || times[i] >= end()) {
       if (derivative == 0) B(i, times[i] < start() ? 0 : B.cols() - 1) = 1.;
       continue;
@@ -269,12 +271,12 @@ MatrixXd BSpline::getBmatrix(const VectorXd& times, bool start_duplicates, bool 
 }
 
 double BSpline::start() const {
-  if (knots_.size() == 0) throw ValueError("BSpline: there are no knots yet; call setKnots, or set");
+  if (knots_.size() == 0) throw ValueError("BSpline: there are no knots yet; call setKnots or set first");
   return knots_[0];
 }
 
 double BSpline::end() const {
-  if (knots_.size() == 0) throw ValueError("BSpline: there are no knots yet; call setKnots, or set");
+  if (knots_.size() == 0) throw ValueError("BSpline: there are no knots yet; call setKnots or set first");
   return knots_[knots_.size() - 1];
 }
 
@@ -285,10 +287,10 @@ BSpline BSpline::fromParts(int degree, const VectorXd& knots, const MatrixXd& ct
   if (knots.size() > 0) requireTimes(knots, call, -INFINITY);
   const Eigen::Index count = knots.size() - degree - 1;
   if (knots.size() > 0 && count < degree + 1)
-    throw ValueError(cat(call, ": ", knots.size(), " knots; expected at least ", 2 * degree + 2));
+    throw ValueError(cat(call, ": there are ", knots.size(), " knots; expected at least ", 2 * degree + 2));
   if (ctrl_points.rows() > 0 && ctrl_points.rows() != count)
     throw ValueError(
-        cat(call, ": ", ctrl_points.rows(), " control points; expected ", std::max<Eigen::Index>(count, 0)));
+        cat(call, ": there are ", ctrl_points.rows(), " control points; expected ", std::max<Eigen::Index>(count, 0)));
   requireFinite(ctrl_points, call, "ctrl_points");
   BSpline spline;
   spline.degree_ = degree;

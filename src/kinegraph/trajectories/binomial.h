@@ -2,7 +2,7 @@
 
 namespace kinegraph {
 
-/// Binomial coefficient n over k; 0 outside 0 <= k <= n.
+/// Returns the binomial coefficient n over k; 0 outside of 0 <= k <= n.
 inline double binomial(int n, int k) {
   if (k < 0 || k > n) return 0.;
   double value = 1.;

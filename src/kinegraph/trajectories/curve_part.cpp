@@ -7,15 +7,15 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kNothing = 1e-12;  // of the curve's length
+constexpr double kEmptyPiece = 1e-12;  // of the curve's length
 
-/// Appends the polynomial of a piece as one of s - begin(piece) - shift, of the degree of `parts`.
+/// Appends the polynomial of a piece in the variable s - begin(piece) - shift, with the degree of `parts`.
 void addPiece(PathCurve::Parts& parts, const PathCurve& curve, int piece, double shift) {
   const std::size_t n = std::size_t(parts.dofs), first = parts.coefficients.size();
   parts.coefficients.resize(first + n * std::size_t(parts.degree + 1));
   for (int from = 0; from <= curve.degree(); ++from) {
     const double* c = curve.coefficient(piece, from);
-    double factor = 1.;  // of (x + shift)^from: its term of x^to
+    double factor = 1.;  // coefficient of x^to in (x + shift)^from
     for (int to = from; to >= 0; --to) {
       double* out = &parts.coefficients[first + std::size_t(to) * n];
       for (std::size_t j = 0; j < n; ++j) out[j] += factor * c[j];
@@ -46,7 +46,7 @@ TimeScaling CurvePart::restOf(const TimeScaling& whole, double time) const {
     const double from = std::max(time, phase.time);
     if (phase.begin.s - begin >= curve.length()) break;
     phase.begin = phase.at(from - phase.time);
-    if (phase.growth != 0.) phase.begin.jerk = 0.;  // the growth says how the acceleration changes
+    if (phase.growth != 0.) phase.begin.jerk = 0.;  // the growth determines the change of the acceleration
     phase.begin.s = std::max(0., phase.begin.s - begin);
     phase.end = std::clamp(phase.end - begin, phase.begin.s, curve.length());
     phase.piece = std::clamp(phase.piece - first_piece, 0, curve.pieces() - 1);
@@ -56,14 +56,14 @@ TimeScaling CurvePart::restOf(const TimeScaling& whole, double time) const {
 }
 
 CurvePart partOf(const PathCurve& curve, double from, double to) {
-  const double nothing = kNothing * curve.length();
+  const double empty = kEmptyPiece * curve.length();
   from = std::clamp(from, 0., curve.length());
   to = std::clamp(to, from, curve.length());
   CurvePart part{{}, from, -1};
   PathCurve::Parts parts{.dofs = curve.dofs(), .degree = curve.degree(), .length = to - from};
   for (int piece = curve.pieceAt(from); piece < curve.pieces() && curve.begin(piece) < to; ++piece) {
     const double begin = std::max(from, curve.begin(piece)), end = std::min(to, curve.end(piece));
-    if (end - begin <= nothing) continue;
+    if (end - begin <= empty) continue;
     if (part.first_piece < 0) part.first_piece = piece;
     parts.stops.push_back(!parts.begin.empty() && curve.stopsAt(piece));
     parts.begin.push_back(parts.begin.empty() ? 0. : begin - from);
@@ -76,7 +76,7 @@ CurvePart partOf(const PathCurve& curve, double from, double to) {
 }
 
 PathCurve joined(const PathCurve& first, const PathCurve& second, bool jumps) {
-  assert(first.dofs() == second.dofs() && "curves of one robot are joined");
+  assert(first.dofs() == second.dofs() && "the curves have different numbers of dofs");
   PathCurve::Parts parts{.dofs = first.dofs(), .degree = std::max(first.degree(), second.degree())};
   for (const PathCurve* curve : {&first, &second}) {
     for (int piece = 0; piece < curve->pieces(); ++piece) {

@@ -4,30 +4,31 @@
 
 namespace kinegraph {
 
-/// What a law with limits of the jerk came to.
+/// A jerk-limited time scaling, or the cause of its failure at s = place.
 struct JerkLimitedScaling {
   TimeScaling scaling;
   ScalingFailure failure = ScalingFailure::none;
   double place = 0.;
 };
 
-/// The fastest law that keeps the limits of the jerk, too. `first` are the fastest speeds without them, on `grid`. Where it
-/// does not begin at rest, s'' is `start_acceleration` there.
+/// Computes the fastest time scaling with jerk limits. `first` are the fastest speeds without jerk limits on `grid`. If
+/// the motion does not start at rest, s'' is `start_acceleration` at the start.
 ///
-/// Between two stops s'^2 =: b(s) is a quadratic spline, so that s'' is continuous; where the motion begins or ends at
-/// rest, s is a cubic of time. Velocities, accelerations and rows are linear in its coefficients, the time taken is convex
-/// in them, and so is what the jerk leaves,
+/// Between two stops s'^2 =: b(s) is a quadratic spline, so that s'' is continuous; at a start or end at rest, s is a
+/// cubic of time. Velocities, accelerations and constraints are linear in the coefficients of b, and the duration is
+/// convex. The jerk limit
 ///
-///     |q''' b + 3/2 q'' b' + 1/2 q' b''| <= jerk / sqrt(b),
+///     |q''' b + 3/2 q'' b' + 1/2 q' b''| <= jerk / sqrt(b)
 ///
-/// once the right side is replaced by its tangent, which lies below it. A primal-dual interior-point method takes a step
-/// from tangent to tangent; its matrices have five diagonals. Limits that the answer exceeds between the places are then
-/// tightened there, and what is left is taken off all speeds; so all limits hold all along, which Bernstein coefficients
-/// of q' ^2 b, (q' b'/2 + q'' b) and b (...)^2 prove. A line between two stops has the seven phases that are known.
-/// Source: Verscheure, Demeulenaere, Swevers, De Schutter, Diehl, Time-optimal path tracking for robots: a convex
-/// optimization approach, 2009; Lipp, Boyd, Variations and extension of the convex-concave procedure, 2016.
+/// is convex if the right side is replaced by its tangent, which lies below it. A primal-dual interior-point method
+/// updates the tangent in each step; its matrices have five diagonals. Limits that the solution violates between
+/// gridpoints are tightened there, and the motion is slowed down by the remaining violation. Then all limits hold at
+/// all times, by bounds on the Bernstein coefficients of q'^2 b, (q' b'/2 + q'' b) and b (...)^2. A line between two
+/// stops has the S-curve profile. Source: Verscheure, Demeulenaere, Swevers, De Schutter, Diehl, Time-optimal path
+/// tracking for robots: a convex optimization approach, 2009; Lipp, Boyd, Variations and extension of the
+/// convex-concave procedure, 2016.
 JerkLimitedScaling jerkLimitedScaling(const ScalingGrid& grid, const SquaredSpeeds& first, double start_acceleration,
                                       const MotionLimits& limits, const ConstraintSource& rows,
-                                      const ScalingBudget& effort);
+                                      const ScalingBudget& budget);
 
 }  // namespace kinegraph

@@ -4,13 +4,13 @@
 
 namespace kinegraph {
 
-const JerkLimitedKernel& smoothKernel(int width) {
+const JerkLimitedKernel& jerkLimitedKernel(int width) {
   width = checkedLaneWidth(width);
 #ifdef KINEGRAPH_WIDE_LANES
-  if (width == 8) return lanes::kSmoothKernelAvx512;
-  if (width == 4) return lanes::kSmoothKernelAvx2;
+  if (width == 8) return lanes::kJerkLimitedKernelAvx512;
+  if (width == 4) return lanes::kJerkLimitedKernelAvx2;
 #endif
-  return lanes::kSmoothKernelBase;
+  return lanes::kJerkLimitedKernelBase;
 }
 
 }  // namespace kinegraph

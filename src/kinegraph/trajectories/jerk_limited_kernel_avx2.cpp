@@ -8,6 +8,6 @@ constexpr int kLanes = 4;
 
 namespace kinegraph::lanes {
 
-const JerkLimitedKernel kSmoothKernelAvx2 = kKernel;
+const JerkLimitedKernel kJerkLimitedKernelAvx2 = kKernel;
 
 }  // namespace kinegraph::lanes

@@ -8,6 +8,6 @@ constexpr int kLanes = 8;
 
 namespace kinegraph::lanes {
 
-const JerkLimitedKernel kSmoothKernelAvx512 = kKernel;
+const JerkLimitedKernel kJerkLimitedKernelAvx512 = kKernel;
 
 }  // namespace kinegraph::lanes

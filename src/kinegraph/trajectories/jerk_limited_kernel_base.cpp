@@ -8,6 +8,6 @@ constexpr int kLanes = 2;
 
 namespace kinegraph::lanes {
 
-const JerkLimitedKernel kSmoothKernelBase = kKernel;
+const JerkLimitedKernel kJerkLimitedKernelBase = kKernel;
 
 }  // namespace kinegraph::lanes

@@ -1,5 +1,5 @@
-// The kernel of smooth_kernel.h for registers of `kLanes` doubles. Each source file that includes this is compiled for
-// its own instruction set; all names are local to it.
+// The kernel of jerk_limited_kernel.h for registers of `kLanes` doubles. Each including source file is compiled for its
+// own instruction set; all names are local to it.
 
 #include "kinegraph/math/lane_math.h"
 #include "kinegraph/trajectories/jerk_limited_kernel.h"
@@ -22,7 +22,7 @@ Lane from(const double* numbers) {
 }
 void to(double* numbers, Lane pack) { __builtin_memcpy(numbers, &pack, sizeof(Lane)); }
 
-/// Of kLanes intervals: b, and 1 / sqrt(b) at both ends.
+/// b and, at both ends, 1 / sqrt(b) of kLanes intervals.
 struct Place {
   Lane b[3], roots[2];
 
@@ -31,7 +31,7 @@ struct Place {
         roots{from(of_roots + k), from(of_roots + k + 1)} {}
 };
 
-/// r b + offset, the size that it may have, and how that falls with the coefficient of the root.
+/// r b + offset, its limit, and the negative derivative of the limit by the coefficient under the root.
 struct Value {
   Lane value, size, falls;
 };
@@ -59,12 +59,12 @@ template <Root kRoot>
   }
 }
 
-/// What is added up over the rows of kLanes intervals.
+/// Sums over the rows of kLanes intervals.
 struct RowTotals {
-  Lane slope[3]{}, by_barrier[3]{}, matrix[6]{}, gap{}, missed{};
+  Lane slope[3]{}, by_barrier[3]{}, matrix[6]{}, gap{}, violation{};
 };
 
-/// With the sides (a, weight, slope) of a row, a = +-r + falls e, these are the sums of slope a and of weight a a^T.
+/// Adds slope a and weight a a^T for both sides (a, weight, slope) of each row, with a = +-r + falls e.
 template <Root kRoot>
 [[gnu::always_inline]] inline void takeRows(Rows& rows, int i, const Place& at, double slack_share, double dual_share,
                                             RowTotals& sum) {
@@ -72,22 +72,23 @@ template <Root kRoot>
   Lane weight[2], slope[2], inverse[2];
   for (int side = 0; side < 2; ++side) {
     const Lane h = (side == 0 ? row.value : -row.value) - row.size;
-    // what a tangent has promised, the limit itself keeps: its slack is at least as large
+    // the tangent lies below the limit, so the slack of the limit is at least as large
     const Lane slack = larger(from(rows.slack[side] + i) + slack_share * from(rows.slack_step[side] + i), -h);
     const Lane dual = from(rows.dual[side] + i) + dual_share * from(rows.dual_step[side] + i);
     to(rows.slack[side] + i, slack);
     to(rows.dual[side] + i, dual);
     sum.gap += slack * dual;
-    sum.missed = larger(sum.missed, h);
+    sum.violation = larger(sum.violation, h);
     inverse[side] = 1. / slack;
     weight[side] = dual * inverse[side];
     slope[side] = weight[side] * (h + slack);
   }
   const Lane r[3] = {from(rows.r[0] + i), from(rows.r[1] + i), from(rows.r[2] + i)};
-  const Lane both = weight[0] + weight[1], pull = slope[0] - slope[1], pull_by_barrier = inverse[0] - inverse[1];
+  const Lane both = weight[0] + weight[1], difference = slope[0] - slope[1],
+             barrier_difference = inverse[0] - inverse[1];
   for (int x = 0, place = 0; x < 3; ++x) {
-    sum.slope[x] += pull * r[x];
-    sum.by_barrier[x] += pull_by_barrier * r[x];
+    sum.slope[x] += difference * r[x];
+    sum.by_barrier[x] += barrier_difference * r[x];
     const Lane weighted = both * r[x];
     for (int y = 0; y <= x; ++y) sum.matrix[place++] += weighted * r[y];
   }
@@ -148,9 +149,9 @@ void takeAll(const Coefficients& b, const double* roots, const Block* blocks, in
       const int k = blocks[n].first + i;
       const Place at(b, roots, k);
       RowTotals sum;
-      sum.gap = from(sums.gap + i), sum.missed = from(sums.missed + i);
+      sum.gap = from(sums.gap + i), sum.violation = from(sums.violation + i);
       forRows(blocks[n], [&]<Root kRoot>(Rows& rows) { takeRows<kRoot>(rows, i, at, slack_share, dual_share, sum); });
-      to(sums.gap + i, sum.gap), to(sums.missed + i, sum.missed);
+      to(sums.gap + i, sum.gap), to(sums.violation + i, sum.violation);
       for (int x = 0; x < 3; ++x) {
         to(sums.slope[x] + k, from(sums.slope[x] + k) + sum.slope[x]);
         to(sums.slope_by_barrier[x] + k, from(sums.slope_by_barrier[x] + k) + sum.by_barrier[x]);

@@ -9,11 +9,11 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kFirstSlack = 1e-3;  // of a limit, at least
-constexpr double kStartRoom = .7;     // of each limit, that the start may use
-constexpr double kToBoundary = .95;   // of the way to where a slack ends
-constexpr int kBlocksAtOnce = 64;     // until somebody may end it
-constexpr double kFixed = 1e30;       // on the diagonal of what is given
+constexpr double kFirstSlack = 1e-3;  // relative to a limit, at least
+constexpr double kStartMargin = .7;   // share of each limit for the start
+constexpr double kToBoundary = .95;   // of the step at which a slack vanishes
+constexpr int kBlocksAtOnce = 64;     // between two checks for cancellation
+constexpr double kFixed = 1e30;       // diagonal entry of fixed coefficients
 
 }  // namespace
 
@@ -31,22 +31,22 @@ double JerkLimitedProgram::duration() const {
   return time + 3. * rest_width_[0] * roots_[0] + 3. * rest_width_[1] * roots_[count_];
 }
 
-/// Calls visit(blocks, count) for all blocks, a part after the other.
-void JerkLimitedProgram::parallelFor(const std::function<void(const JerkLimitedKernel::Block*, int)>& visit) const {
+/// Calls visit(blocks, count) for all blocks, in parts, with checks for cancellation.
+void JerkLimitedProgram::forBlocks(const std::function<void(const JerkLimitedKernel::Block*, int)>& visit) const {
   const int count = int(blocks_.size());
   for (int n = 0; n < count; n += kBlocksAtOnce) {
-    effort_.cancellation.check();
+    budget_.cancellation.check();
     visit(blocks_.data() + n, std::min(kBlocksAtOnce, count - n));
   }
 }
 
-/// Takes all of b down until every limit leaves room: accelerations fall as b does, jerks as b^(3/2).
+/// Scales b down until all limits have slack: accelerations are linear in b, jerks grow with b^(3/2).
 void JerkLimitedProgram::slowDown() {
   placeKnots();
   using Lanes = Eigen::Map<const Eigen::Array<double, kLanes, 1>>;
   Eigen::Array<double, kLanes, 1> factor = Eigen::Array<double, kLanes, 1>::Ones(), of_jerk = factor;
   for (const JerkLimitedKernel::Block& block : blocks_) {
-    effort_.pause(block.first);
+    budget_.poll(block.first);
     const auto b0 = knots_.segment<kLanes>(block.first), b1 = middle_.segment<kLanes>(block.first),
                b2 = knots_.segment<kLanes>(block.first + 1);
     const auto root0 = roots_.segment<kLanes>(block.first), root2 = roots_.segment<kLanes>(block.first + 1);
@@ -54,13 +54,13 @@ void JerkLimitedProgram::slowDown() {
     for (int r = 0; r < all; ++r) {
       const Rows& row = block.rows[r];
       const auto value = (Lanes(row.r[0]) * b0 + Lanes(row.r[1]) * b1 + Lanes(row.r[2]) * b2).abs().max(1e-300);
-      const auto room = kStartRoom * (Lanes(row.size) - Lanes(row.offset).abs());
+      const auto available = kStartMargin * (Lanes(row.size) - Lanes(row.offset).abs());
       if (r < block.plain) {
-        factor = factor.min(room / value);
+        factor = factor.min(available / value);
       } else if (r < block.plain + block.at_begin) {
-        of_jerk = of_jerk.min(room * root0 / value);
+        of_jerk = of_jerk.min(available * root0 / value);
       } else {
-        of_jerk = of_jerk.min(room * root2 / value);
+        of_jerk = of_jerk.min(available * root2 / value);
       }
     }
   }
@@ -69,10 +69,10 @@ void JerkLimitedProgram::slowDown() {
   placeKnots();
 }
 
-/// Rows of the jerk are taken times the root of b as it is now.
-void JerkLimitedProgram::takeRootsNow() {
+/// Multiplies the rows of the jerk by the present root of b.
+void JerkLimitedProgram::scaleJerkRows() {
   for (int k = 0; k < count_; ++k) {
-    effort_.pause(k);
+    budget_.poll(k);
     for (int end = 0; end < 2; ++end) {
       const double unit = 1. / roots_[k + end];
       for (int j = 0; j < jerks_; ++j) {
@@ -88,10 +88,10 @@ void JerkLimitedProgram::takeRootsNow() {
 void JerkLimitedProgram::begin(const std::vector<double>& start, double gap) {
   for (int k = 0; k < count_; ++k) middle_[k] = start[std::size_t(first_ + k)];
   slowDown();
-  takeRootsNow();
+  scaleJerkRows();
   barrier_ = gap * duration() / (2. * kLanes * double(rows_.size()));
-  parallelFor([&](const JerkLimitedKernel::Block* blocks, int count) {
-    smoothKernel().begin({knots_.data(), middle_.data()}, roots_.data(), blocks, count, barrier_, kFirstSlack);
+  forBlocks([&](const JerkLimitedKernel::Block* blocks, int count) {
+    jerkLimitedKernel().begin({knots_.data(), middle_.data()}, roots_.data(), blocks, count, barrier_, kFirstSlack);
   });
 }
 
@@ -118,7 +118,7 @@ void JerkLimitedProgram::spread(int k) {
   }
 }
 
-/// The duration w b^(-1/2) at both ends, and of the mean of b; and what does not let c become zero.
+/// Adds the duration, w b^(-1/2) at both ends and at the mean of b by Simpson's rule, and the barrier of c > 0.
 void JerkLimitedProgram::addCost() {
   const auto at_begin = roots_.head(count_), at_end = roots_.segment(1, count_), middle = middle_.head(count_);
   const Array mean_root = (.25 * (knots_.head(count_) + 2. * middle + knots_.segment(1, count_))).sqrt().inverse();
@@ -144,25 +144,25 @@ void JerkLimitedProgram::assemble() {
   std::fill(band_.begin(), band_.end(), std::array<double, 3>{0., 0., 0.});
   std::fill(gradient_.begin(), gradient_.end(), 0.);
   for (int k = 0; k < count_; ++k) {
-    effort_.pause(k);
+    budget_.poll(k);
     spread(k);
   }
   for (int end = 0; end < 2; ++end) {
     const int k = end == 0 ? 0 : count_ - 1;
-    if (!ends_[end].at_rest) band_[k][0] = kFixed, gradient_[k] = -kFixed * (given_[end] - middle_[k]);
+    if (!ends_[end].at_rest) band_[k][0] = kFixed, gradient_[k] = -kFixed * (fixed_middle_[end] - middle_[k]);
   }
 }
 
 /// middle_step_ = -band^-1 gradient, by L D L^T in place.
 void JerkLimitedProgram::solveBand() {
   for (int k = 0; k < count_; ++k) {
-    effort_.pause(k);
+    budget_.poll(k);
     auto& [d, one, two] = band_[k];
     middle_step_[k] = -gradient_[k];
     if (k > 1) {
       const double factor = two / band_[k - 2][0];
       d -= factor * two;
-      one -= factor * band_[k - 1][1];  // (k, k-2) (k-1, k-2) / d, and (k-1, k-2) is kept times d below
+      one -= factor * band_[k - 1][1];  // (k, k-2) (k-1, k-2) / d; (k-1, k-2) is stored times d
       middle_step_[k] -= factor * middle_step_[k - 2];
       two = factor;
     }
@@ -184,16 +184,16 @@ void JerkLimitedProgram::solveBand() {
 
 JerkLimitedProgram::Steps JerkLimitedProgram::findSteps() {
   JerkLimitedKernel::Falls falls{};
-  parallelFor([&](const JerkLimitedKernel::Block* blocks, int count) {
-    smoothKernel().findSteps({knots_.data(), middle_.data()}, roots_.data(), {knot_step_.data(), middle_step_.data()},
-                             blocks, count, barrier_, falls);
+  forBlocks([&](const JerkLimitedKernel::Block* blocks, int count) {
+    jerkLimitedKernel().findSteps({knots_.data(), middle_.data()}, roots_.data(),
+                                  {knot_step_.data(), middle_step_.data()}, blocks, count, barrier_, falls);
   });
   double primal = (-middle_step_.head(count_) / middle_.head(count_)).maxCoeff(), dual = 0.;
   for (int i = 0; i < kLanes; ++i) primal = std::max(primal, falls.slack[i]), dual = std::max(dual, falls.dual[i]);
   return {primal > kToBoundary ? kToBoundary / primal : 1., dual > kToBoundary ? kToBoundary / dual : 1.};
 }
 
-/// Goes on, and sums up what the rows say of the next step.
+/// Takes a step, and sums up the terms of the next Newton system.
 JerkLimitedProgram::Gap JerkLimitedProgram::take(const Steps& steps) {
   middle_ += steps.primal * middle_step_;
   placeKnots();
@@ -203,31 +203,32 @@ JerkLimitedProgram::Gap JerkLimitedProgram::take(const Steps& steps) {
     sums.slope[x] = slope_[x].data(), sums.slope_by_barrier[x] = by_barrier_[x].data();
   }
   for (int m = 0; m < 6; ++m) matrix_[m].setZero(), sums.matrix[m] = matrix_[m].data();
-  parallelFor([&](const JerkLimitedKernel::Block* blocks, int count) {
-    smoothKernel().take({knots_.data(), middle_.data()}, roots_.data(), blocks, count, steps.primal, steps.dual, sums);
+  forBlocks([&](const JerkLimitedKernel::Block* blocks, int count) {
+    jerkLimitedKernel().take({knots_.data(), middle_.data()}, roots_.data(), blocks, count, steps.primal, steps.dual,
+                             sums);
   });
   Gap gap;
-  for (int i = 0; i < kLanes; ++i) gap.sum += sums.gap[i], gap.missed = std::max(gap.missed, sums.missed[i]);
+  for (int i = 0; i < kLanes; ++i) gap.sum += sums.gap[i], gap.violation = std::max(gap.violation, sums.violation[i]);
   for (int end = 0; end < 2; ++end)
     if (!ends_[end].at_rest)
-      gap.missed = std::max(gap.missed, std::abs(middle_[end ? count_ - 1 : 0] / given_[end] - 1.));
+      gap.violation = std::max(gap.violation, std::abs(middle_[end ? count_ - 1 : 0] / fixed_middle_[end] - 1.));
   return gap;
 }
 
-bool JerkLimitedProgram::improve(double gap, double missed, int most_steps) {
+bool JerkLimitedProgram::improve(double gap, double violation, int max_steps) {
   gap_ = take({0., 0.});
-  for (int i = 0; i < most_steps; ++i) {
+  for (int i = 0; i < max_steps; ++i) {
     assemble();
     solveBand();
     const Steps steps = findSteps();
     gap_ = take(steps);
-    const double least = std::min(steps.primal, steps.dual);
-    barrier_ = (least > .8 ? .1 : least > .4 ? .3 : 1.) * gap_.sum / (2. * kLanes * double(rows_.size()));
-    if (!std::isfinite(gap_.sum) || (gap_.sum <= gap * duration() && gap_.missed <= missed)) break;
+    const double step = std::min(steps.primal, steps.dual);
+    barrier_ = (step > .8 ? .1 : step > .4 ? .3 : 1.) * gap_.sum / (2. * kLanes * double(rows_.size()));
+    if (!std::isfinite(gap_.sum) || (gap_.sum <= gap * duration() && gap_.violation <= violation)) break;
   }
-  if (!(gap_.missed <= missed) || !middle_.allFinite()) return false;
+  if (!(gap_.violation <= violation) || !middle_.allFinite()) return false;
   for (int end = 0; end < 2; ++end)
-    if (!ends_[end].at_rest) middle_[end ? count_ - 1 : 0] = given_[end];
+    if (!ends_[end].at_rest) middle_[end ? count_ - 1 : 0] = fixed_middle_[end];
   placeKnots();
   return true;
 }
@@ -238,9 +239,9 @@ void JerkLimitedProgram::tighten(int k, const std::array<double, 3>& ratios) {
     place.rows.size[place.lane] /= ratio;
   };
   for (int r = 0; r < rowsPerBlock(); ++r) {
-    const double ratio = kinds_[std::size_t(r)] == kVelocity ? ratios[kVelocity] * ratios[kVelocity]
-                         : kinds_[std::size_t(r)] == kGiven  ? 1.
-                                                             : ratios[kinds_[std::size_t(r)]];
+    const double ratio = kinds_[std::size_t(r)] == kVelocity     ? ratios[kVelocity] * ratios[kVelocity]
+                         : kinds_[std::size_t(r)] == kConstraint ? 1.
+                                                                 : ratios[kinds_[std::size_t(r)]];
     if (ratio == 1.) continue;
     divide(r, k, ratio);
     if (r < beginRoots() && (r == 0 || k == count_ - 1)) divide(r, k + 1, ratio);

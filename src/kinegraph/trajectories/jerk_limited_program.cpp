@@ -9,17 +9,17 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kGivenSpan = 1e6;  // stands for an open side of a row, in units of the other
+constexpr double kOpenSpan = 1e6;  // range of a constraint with one open side, relative to the other side
 
 }  // namespace
 
 JerkLimitedProgram::JerkLimitedProgram(const ScalingGrid& grid, const MotionLimits& limits,
                                        const ConstraintSource& rows, SectionEnd begin, SectionEnd end,
-                                       const ScalingBudget& effort)
+                                       const ScalingBudget& budget)
     : first_(begin.at_rest ? 1 : 0),
       count_(grid.intervals() - int(begin.at_rest) - int(end.at_rest)),
       ends_{begin, end},
-      effort_(effort) {
+      budget_(budget) {
   if (begin.at_rest) rest_width_[0] = grid.width(0);
   if (end.at_rest) rest_width_[1] = grid.width(grid.intervals() - 1);
   width_.resize(count_);
@@ -29,13 +29,14 @@ JerkLimitedProgram::JerkLimitedProgram(const ScalingGrid& grid, const MotionLimi
     left_[k] = width_[k] / (width_[k - 1] + width_[k]);
     right_[k] = 1. - left_[k];
   }
-  // at rest: b = y (x / w)^(4/3) has the slope 4 y / 3 w at its end, so that c = y + h/2 of it
-  // else b' = 2 s'' is given, and with it c; the knot is a share of it
-  given_[0] = begin.squared_speed + begin.acceleration * width_[0];
-  given_[1] = end.squared_speed - end.acceleration * width_[count_ - 1];
-  right_[0] = begin.at_rest ? 1. / (1. + 2. * width_[0] / (3. * rest_width_[0])) : begin.squared_speed / given_[0];
+  // At rest, b = y (x / w)^(4/3) has the slope 4 y / 3 w at its end, so that c = y + h/2 times the slope. Otherwise b'
+  // = 2 s'' fixes c, and the knot is a multiple of c.
+  fixed_middle_[0] = begin.squared_speed + begin.acceleration * width_[0];
+  fixed_middle_[1] = end.squared_speed - end.acceleration * width_[count_ - 1];
+  right_[0] =
+      begin.at_rest ? 1. / (1. + 2. * width_[0] / (3. * rest_width_[0])) : begin.squared_speed / fixed_middle_[0];
   left_[count_] =
-      end.at_rest ? 1. / (1. + 2. * width_[count_ - 1] / (3. * rest_width_[1])) : end.squared_speed / given_[1];
+      end.at_rest ? 1. / (1. + 2. * width_[count_ - 1] / (3. * rest_width_[1])) : end.squared_speed / fixed_middle_[1];
   const int padded = count_ + 2 * kLanes + 1;
   for (Array* array : {&middle_, &knots_, &roots_}) array->setOnes(padded);
   for (Array* array : {&middle_step_, &knot_step_}) array->setZero(padded);
@@ -49,12 +50,12 @@ JerkLimitedProgram::JerkLimitedProgram(const ScalingGrid& grid, const MotionLimi
     if (limits.jerk[j] < kOpen) ++jerks_;
   }
   for (int r = 0; rows && r < rows.high.size(); ++r)
-    if (rows.low[r] > -kOpen || rows.high[r] < kOpen) kinds_.push_back(kGiven);
+    if (rows.low[r] > -kOpen || rows.high[r] < kOpen) kinds_.push_back(kConstraint);
   kinds_.insert(kinds_.end(), 2 * std::size_t(jerks_), kJerk);
   addBlocks();
   addCaps(grid, limits);
   addMotionRows(grid, limits);
-  if (rows) addGivenRows(grid, rows);
+  if (rows) addConstraints(grid, rows);
 }
 
 void JerkLimitedProgram::addBlocks() {
@@ -64,7 +65,7 @@ void JerkLimitedProgram::addBlocks() {
   rows_.reserve(std::size_t(blocks + 1) * kinds_.size());
   for (int n = 0; n <= blocks; ++n) {
     const bool is_end = n == blocks;
-    effort_.pause(n * kLanes);
+    budget_.poll(n * kLanes);
     rows_.insert(rows_.end(), kinds_.size(), none);
     Rows* rows = rows_.data() + std::size_t(n) * kinds_.size();
     blocks_.push_back({is_end ? count_ - 1 : n * kLanes, beginRoots(), is_end ? 0 : jerks_, is_end ? 0 : jerks_, rows});
@@ -76,8 +77,8 @@ JerkLimitedProgram::RowPlace JerkLimitedProgram::row(int r, int k) {
   return {block.rows[r], k == count_ ? 0 : k % kLanes};
 }
 
-/// Accelerations: of the Bernstein coefficients of an interval, the last one is the first of the next interval. Jerks at
-/// both ends. With dq/ds = sum_k p_k B_k of degree m, (q' b'/2 + q'' b) w has the coefficients
+/// Adds the rows of accelerations and, at both ends, of jerks. The last Bernstein coefficient of an acceleration is the
+/// first one of the next interval. With dq/ds = sum_k p_k B_k of degree m, (q' b'/2 + q'' b) w has the coefficients
 ///
 ///     ((m + 1 - k) p_k (b1 - b0) + k p_k-1 (b2 - b1)) / (m + 1) + m sum_l C(2, l) C(m - 1, k - l) / C(m + 1, k) d_k-l b_l
 ///
@@ -88,7 +89,7 @@ void JerkLimitedProgram::addMotionRows(const ScalingGrid& grid, const MotionLimi
   for (int c = 0; c <= top; ++c)
     for (int l = 0; l < 3; ++l) weight[c][l] = m * binomial(2, l) * binomial(m - 1, c - l) / binomial(top, c);
   for (int k = 0; k < count_; ++k) {
-    effort_.pause(k);
+    budget_.poll(k);
     const auto p = grid.tangent(first_ + k);
     const double w = width_[k];
     int r = 2, jerk = beginRoots();
@@ -109,16 +110,16 @@ void JerkLimitedProgram::addMotionRows(const ScalingGrid& grid, const MotionLimi
       if (!(limits.jerk[j] < kOpen)) continue;
       for (int end = 0; end < 2; ++end) {  // q''' b + 3/2 q'' b' + 1/2 q' b'', times w^2
         const int at = end * m;
-        const double unit = 1. / (limits.jerk[j] * w * w), bend = unit * p(j, at);
-        const double turn = m > 0 ? 3. * unit * m * (end ? p(j, m) - p(j, m - 1) : p(j, 1) - p(j, 0)) : 0.;
+        const double unit = 1. / (limits.jerk[j] * w * w), first = unit * p(j, at);
+        const double second = m > 0 ? 3. * unit * m * (end ? p(j, m) - p(j, m - 1) : p(j, 1) - p(j, 0)) : 0.;
         const int middle = end ? m - 1 : 1;
-        const double twist =
+        const double third =
             m > 1 ? unit * m * (m - 1) * (p(j, middle - 1) - 2. * p(j, middle) + p(j, middle + 1)) : 0.;
         RowPlace place = row(jerk + end * jerks_, k);
         if (end == 0) {
-          place.add(bend - turn + twist, turn - 2. * bend, bend);
+          place.add(first - second + third, second - 2. * first, first);
         } else {
-          place.add(bend, -turn - 2. * bend, bend + turn + twist);
+          place.add(first, -second - 2. * first, first + second + third);
         }
       }
       ++jerk;
@@ -126,10 +127,10 @@ void JerkLimitedProgram::addMotionRows(const ScalingGrid& grid, const MotionLimi
   }
 }
 
-void JerkLimitedProgram::addGivenRows(const ScalingGrid& grid, const ConstraintSource& source) {
-  const int first = int(std::find(kinds_.begin(), kinds_.end(), kGiven) - kinds_.begin());
+void JerkLimitedProgram::addConstraints(const ScalingGrid& grid, const ConstraintSource& source) {
+  const int first = int(std::find(kinds_.begin(), kinds_.end(), kConstraint) - kinds_.begin());
   for (int k = 0; k <= count_; ++k) {
-    effort_.pause(k);
+    budget_.poll(k);
     const bool at_end = k == count_;
     const int interval = first_ + k - int(at_end);
     const double h = width_[k - int(at_end)];
@@ -138,46 +139,45 @@ void JerkLimitedProgram::addGivenRows(const ScalingGrid& grid, const ConstraintS
     for (int r = 0; r < source.high.size(); ++r) {
       double low = source.low[r], high = source.high[r];
       if (low == -kOpen && high == kOpen) continue;
-      if (low == -kOpen) low = high - kGivenSpan * (1. + std::abs(high));
-      if (high == kOpen) high = low + kGivenSpan * (1. + std::abs(low));
-      const double size = (high - low) / 2., slope = at.a[r] / h / size, turn = at.b[r] / size;
+      if (low == -kOpen) low = high - kOpenSpan * (1. + std::abs(high));
+      if (high == kOpen) high = low + kOpenSpan * (1. + std::abs(low));
+      const double size = (high - low) / 2., slope = at.a[r] / h / size, square = at.b[r] / size;
       RowPlace place = row(of_block++, k);
-      place.add(at_end ? 0. : turn - slope, at_end ? -slope : slope, at_end ? turn + slope : 0.);
+      place.add(at_end ? 0. : square - slope, at_end ? -slope : slope, at_end ? square + slope : 0.);
       place.rows.offset[place.lane] = (at.c[r] - (low + high) / 2.) / size;
     }
   }
 }
 
-/// Where the motion begins at rest with a constant jerk j of s, s = j t^3 / 6: the path's jerk is j (q' + 9 s q'' + 9/2 s^2
-/// q'''), its acceleration (6 j^2 s)^(1/3) (q' + 3/2 s q''). Both are j, and a power of it, times a polynomial. The answer
-/// is the largest b at the end of the interval.
+/// Returns the largest b at the end of an interval that starts at rest with a constant jerk j of s, s = j t^3 / 6. The
+/// jerk is j (q' + 9 s q'' + 9/2 s^2 q'''), the acceleration (6 j^2 s)^(1/3) (q' + 3/2 s q''): powers of j times
+/// polynomials of s.
 double JerkLimitedProgram::restCap(const ScalingGrid& grid, const MotionLimits& limits, bool at_begin) const {
   const int interval = at_begin ? 0 : grid.intervals() - 1, n = grid.curve().dofs(), piece = grid.piece(interval);
   const double w = grid.width(interval), sign = at_begin ? 1. : -1.;
-  double most_jerk = kOpen, cap = kOpen;
+  double max_jerk = kOpen, cap = kOpen;
   VectorXd q1(n), q2(n), q3(n);
-  for (double x :
-       {0., .25, .5, .75, 1.}) {  // the polynomials are near q', and w is small: a margin covers what is between
+  for (double x : {0., .25, .5, .75, 1.}) {  // the polynomials are near q', and w is small; a margin covers other x
     const double s = x * w;
     const double place = at_begin ? grid.place(0) + s : grid.place(interval + 1) - s;
     grid.curve().eval(piece, place, 1, q1.data()), grid.curve().eval(piece, place, 2, q2.data());
     grid.curve().eval(piece, place, 3, q3.data());
     for (int j = 0; j < n; ++j) {
       const double jerk = std::abs(q1[j] + sign * 9. * s * q2[j] + 4.5 * s * s * q3[j]);
-      const double turn = std::abs(q1[j] + sign * 1.5 * s * q2[j]);
-      if (jerk > 0.) most_jerk = std::min(most_jerk, limits.jerk[j] / jerk);
-      if (turn > 0. && x > 0.)
-        most_jerk = std::min(most_jerk, std::pow(limits.acceleration[j] / turn, 1.5) / std::sqrt(6. * s));
+      const double acceleration = std::abs(q1[j] + sign * 1.5 * s * q2[j]);
+      if (jerk > 0.) max_jerk = std::min(max_jerk, limits.jerk[j] / jerk);
+      if (acceleration > 0. && x > 0.)
+        max_jerk = std::min(max_jerk, std::pow(limits.acceleration[j] / acceleration, 1.5) / std::sqrt(6. * s));
       if (q1[j] != 0.) cap = std::min(cap, std::pow(limits.velocity[j] / q1[j], 2));
     }
   }
   constexpr double kMargin = .995;
-  const double time = std::cbrt(6. * w / (kMargin * most_jerk));
+  const double time = std::cbrt(6. * w / (kMargin * max_jerk));
   return std::min(kMargin * cap, time > 0. ? 9. * w * w / (time * time) : kOpen);
 }
 
 void JerkLimitedProgram::addCaps(const ScalingGrid& grid, const MotionLimits& limits) {
-  std::vector<double> caps = grid.caps(limits.velocity, effort_);
+  std::vector<double> caps = grid.caps(limits.velocity, budget_);
   double& begin = caps[std::size_t(first_)];
   double& end = caps[std::size_t(first_ + count_)];
   const double middle_of_first = (begin + caps[std::size_t(first_ + 1)]) / 2.,

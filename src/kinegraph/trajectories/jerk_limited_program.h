@@ -9,42 +9,43 @@
 
 namespace kinegraph {
 
-/// How a section of a curve begins or ends.
+/// Start or end of a section of a curve.
 struct SectionEnd {
   bool at_rest = true;
-  double squared_speed = 0.;  ///< s'^2, where it is not at rest
+  double squared_speed = 0.;  ///< s'^2, if it is not at rest
   double acceleration = 0.;   ///< s'' there
 };
 
 /// Bernstein coefficients of b = s'^2 in an interval.
 using Quadratic = std::array<double, 3>;
 
-/// The fastest s'^2 =: b(s) with a continuous slope along a section of a curve, within limits of velocity, acceleration,
-/// rows and jerk; see jerk_limited.h. b is quadratic in each interval of a grid, but for the first and the last one where
-/// the section is at rest: there s is a cubic of time, and b grows with s^(4/3).
+/// The program for the fastest s'^2 =: b(s) with a continuous slope along a section of a curve, within limits of
+/// velocity, acceleration and jerk, and constraints; see jerk_limited.h. b is quadratic in each interval of a grid,
+/// except for a first or last interval at rest: there s is a cubic of time, and b grows with s^(4/3).
 ///
-/// The unknowns are the middle coefficients c_k; a knot is the mean of its neighbors that makes the slope continuous.
-/// Velocities and accelerations hold all along: a cap on all coefficients of b, and on the Bernstein coefficients of
-/// q' b'/2 + q'' b. Rows of the caller hold at the knots, jerks at both ends of each interval.
+/// The unknowns are the middle coefficients c_k; a knot is the weighted mean of its neighbors that makes the slope
+/// continuous. Velocity and acceleration limits hold throughout, as bounds on all coefficients of b and on the
+/// Bernstein coefficients of q' b'/2 + q'' b. Constraints of the caller hold at the knots, jerk limits at both ends of
+/// each interval.
 class JerkLimitedProgram {
  public:
-  /// `effort` must stay.
+  /// Keeps a reference to `budget`.
   JerkLimitedProgram(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& rows,
-                     SectionEnd begin, SectionEnd end, const ScalingBudget& effort);
+                     SectionEnd begin, SectionEnd end, const ScalingBudget& budget);
 
-  /// Takes the shape `start` of b, in the middle of each interval of the grid, as where `improve` begins; `gap` is how far
-  /// it is thought to be from the least duration, as a share.
+  /// Sets the initial guess of `improve`: the shape of b in the middle of each interval of the grid, and its estimated
+  /// relative distance `gap` from the least duration.
   void begin(const std::vector<double>& start, double gap);
 
-  /// Interior-point steps until the duration is within `gap` of the least one, as a share, and no limit is exceeded by
-  /// more than `missed`, likewise. False if that takes more than so many steps. May be called again.
-  bool improve(double gap, double missed, int most_steps);
+  /// Takes interior-point steps until the duration is within the relative `gap` of the least one, and all relative
+  /// violations of limits are at most `violation`. Returns false after max_steps. May be called again.
+  bool improve(double gap, double violation, int max_steps);
 
-  int first() const { return first_; }  ///< the first interval of the grid in which b is quadratic
+  int first() const { return first_; }  ///< the first interval of the grid with a quadratic b
   int count() const { return count_; }
   Quadratic at(int k) const { return {knots_[k], middle_[k], knots_[k + 1]}; }
 
-  /// Divides the limits in interval k by these: of velocity, acceleration, jerk.
+  /// Divides the limits of velocity, acceleration and jerk in interval k by these ratios.
   void tighten(int k, const std::array<double, 3>& ratios);
 
  private:
@@ -52,17 +53,17 @@ class JerkLimitedProgram {
   using Rows = JerkLimitedKernel::Rows;
   static constexpr int kLanes = JerkLimitedKernel::kLanes;
   static constexpr double kOpen = std::numeric_limits<double>::infinity();  ///< no limit
-  enum Kind { kVelocity, kAcceleration, kJerk, kGiven };
+  enum Kind { kVelocity, kAcceleration, kJerk, kConstraint };
 
-  /// How far all may go until a slack, a multiplier or a coefficient ends.
+  /// Largest shares of the primal and the dual step that keep slacks, multipliers and coefficients positive.
   struct Steps {
     double primal = 1., dual = 1.;
   };
-  /// Of all slacks times their multipliers; and by how much a limit is missed at most, as a share.
+  /// Sum of slacks times multipliers, and the largest relative violation of a limit.
   struct Gap {
-    double sum = 0., missed = 0.;
+    double sum = 0., violation = 0.;
   };
-  /// A row in an interval.
+  /// A constraint row in an interval.
   struct RowPlace {
     Rows& rows;
     int lane;
@@ -71,18 +72,18 @@ class JerkLimitedProgram {
 
   int rowsPerBlock() const { return int(kinds_.size()); }
   int beginRoots() const { return int(kinds_.size()) - 2 * jerks_; }
-  /// Row r in interval k; at the end of the last interval for k = count().
+  /// Returns row r in interval k; k = count() stands for the end of the last interval.
   RowPlace row(int r, int k);
   void addBlocks();
   void addMotionRows(const ScalingGrid& grid, const MotionLimits& limits);
-  void addGivenRows(const ScalingGrid& grid, const ConstraintSource& rows);
+  void addConstraints(const ScalingGrid& grid, const ConstraintSource& rows);
   void addCaps(const ScalingGrid& grid, const MotionLimits& limits);
   double restCap(const ScalingGrid& grid, const MotionLimits& limits, bool at_begin) const;
   void placeKnots();
   double duration() const;
   void slowDown();
-  void takeRootsNow();
-  void parallelFor(const std::function<void(const JerkLimitedKernel::Block*, int)>& visit) const;
+  void scaleJerkRows();
+  void forBlocks(const std::function<void(const JerkLimitedKernel::Block*, int)>& visit) const;
   void addCost();
   void assemble();
   void spread(int k);
@@ -92,18 +93,19 @@ class JerkLimitedProgram {
 
   int first_, count_;
   SectionEnd ends_[2];
-  double given_[2] = {0., 0.};  ///< middle coefficients of the first and last interval, where it is not at rest
-  const ScalingBudget& effort_;
+  double fixed_middle_[2] = {0., 0.};  ///< middle coefficients of the first and last interval, if not at rest
+  const ScalingBudget& budget_;
   double rest_width_[2] = {0., 0.};
   Array width_, left_, right_;  ///< knot k = left_[k] c_(k-1) + right_[k] c_k
   Array middle_, knots_, middle_step_, knot_step_;
-  Array roots_;              ///< 1 / sqrt(b) at the knots
-  std::vector<Kind> kinds_;  ///< of the rows of a block: velocity, acceleration, given; jerk where intervals begin, end
-  int jerks_ = 0;            ///< dofs whose jerk is limited
+  Array roots_;  ///< 1 / sqrt(b) at the knots
+  std::vector<Kind>
+      kinds_;  ///< of the rows of a block: velocity, acceleration, constraint, jerk at the start and the end of intervals
+  int jerks_ = 0;  ///< number of dofs with a jerk limit
   std::vector<Rows> rows_;
-  std::vector<JerkLimitedKernel::Block> blocks_;  ///< the last one has what holds at the end
-  Array slope_[3], by_barrier_[3], matrix_[6];    ///< on the coefficients of each interval, see JerkLimitedKernel::Sums
-  std::vector<std::array<double, 3>> band_;       ///< diagonal, and one and two below it
+  std::vector<JerkLimitedKernel::Block> blocks_;  ///< the last one has the rows at the end of the section
+  Array slope_[3], by_barrier_[3], matrix_[6];    ///< per interval, see JerkLimitedKernel::Sums
+  std::vector<std::array<double, 3>> band_;       ///< diagonal, first and second subdiagonal
   std::vector<double> gradient_;
   double barrier_ = 0.;
   Gap gap_;

@@ -45,7 +45,7 @@ PathCurve PathCurve::fromParts(const Parts& parts) {
   const std::size_t pieces = parts.begin.size();
   if (parts.dofs < 0 || parts.degree < 1 || parts.is_line.size() != pieces || parts.stops.size() != pieces ||
       parts.coefficients.size() != pieces * std::size_t(parts.dofs) * std::size_t(parts.degree + 1))
-    throw ValueError("PathCurve: the parts of a curve do not fit each other");
+    throw ValueError("PathCurve: the sizes of the parts do not match");
   PathCurve curve;
   curve.dofs_ = parts.dofs, curve.degree_ = parts.degree, curve.length_ = parts.length;
   curve.begin_ = parts.begin, curve.marks_ = parts.marks, curve.coefficients_ = parts.coefficients;
@@ -64,7 +64,8 @@ class PathCurveBuilder {
 
   double length() const { return curve_.length_; }
 
-  /// Columns of `coefficients` (n, up to degree + 1): of 1, x, x^2, ... with x from 0 to `length`.
+  /// Appends a polynomial of x, 0 <= x <= `length`; the columns of `coefficients` (n, up to degree + 1) belong to 1, x,
+  /// x^2, ...
   void add(const MatrixXd& coefficients, double length, bool is_line, bool stops = false) {
     curve_.begin_.push_back(curve_.length_);
     curve_.length_ += length;
@@ -90,47 +91,47 @@ class PathCurveBuilder {
 
 namespace {
 
-constexpr double kSamePoint = 1e-12;      // as a share of the largest number in the path
-constexpr double kSameDirection = 1e-10;  // by which unit vectors may differ, so that their corner is none
+constexpr double kSamePoint = 1e-12;      // relative to the largest number in the path
+constexpr double kSameDirection = 1e-10;  // largest difference of unit vectors without a corner
 
-/// The points of a path without those that equal their predecessor.
+/// The points of a path, without those that equal their predecessor.
 struct DistinctPoints {
-  MatrixXd points;         ///< (n, K): a column each
-  std::vector<int> place;  ///< of each given point among the columns
+  MatrixXd points;         ///< (n, K): one per column
+  std::vector<int> place;  ///< column of each point of the path
   VectorXd chord;          ///< lengths, (K - 1,)
 
   DistinctPoints() = default;
-  explicit DistinctPoints(const MatrixXd& given);
+  explicit DistinctPoints(const MatrixXd& path);
   int count() const { return int(points.cols()); }
 
-  /// Without the points that are no corners.
+  /// Returns the ends and corners only.
   DistinctPoints corners() const;
 
   VectorXd direction(int line) const { return (points.col(line + 1) - points.col(line)) / chord[line]; }
-  void checkFinite(const MatrixXd& given) const;
+  void checkFinite(const MatrixXd& path) const;
 };
 
-void DistinctPoints::checkFinite(const MatrixXd& given) const {
-  if (given.rows() == 0 || given.cols() == 0)
-    throw ValueError(cat("retime: the path has shape (", given.rows(), ", ", given.cols(),
+void DistinctPoints::checkFinite(const MatrixXd& path) const {
+  if (path.rows() == 0 || path.cols() == 0)
+    throw ValueError(cat("retime: the path has shape (", path.rows(), ", ", path.cols(),
                          "); expected (K, n) with K >= 1 points of n >= 1 dofs"));
-  for (int i = 0; i < given.rows(); ++i)
-    for (int j = 0; j < given.cols(); ++j)
-      if (!std::isfinite(given(i, j)))
-        throw ValueError(cat("retime: path[", i, ", ", j, "] is ", given(i, j), "; expected a finite number"));
+  for (int i = 0; i < path.rows(); ++i)
+    for (int j = 0; j < path.cols(); ++j)
+      if (!std::isfinite(path(i, j)))
+        throw ValueError(cat("retime: path[", i, ", ", j, "] is ", path(i, j), "; expected a finite number"));
 }
 
-DistinctPoints::DistinctPoints(const MatrixXd& given) {
-  checkFinite(given);
-  const double same = kSamePoint * std::max(1., given.cwiseAbs().maxCoeff());
-  points.resize(given.cols(), given.rows());
-  chord.resize(std::max<Eigen::Index>(0, given.rows() - 1));
+DistinctPoints::DistinctPoints(const MatrixXd& path) {
+  checkFinite(path);
+  const double same = kSamePoint * std::max(1., path.cwiseAbs().maxCoeff());
+  points.resize(path.cols(), path.rows());
+  chord.resize(std::max<Eigen::Index>(0, path.rows() - 1));
   int count = 0;
-  for (int i = 0; i < given.rows(); ++i) {
-    const double length = count ? (given.row(i).transpose() - points.col(count - 1)).norm() : 0.;
+  for (int i = 0; i < path.rows(); ++i) {
+    const double length = count ? (path.row(i).transpose() - points.col(count - 1)).norm() : 0.;
     if (count == 0 || length > same) {
       if (count) chord[count - 1] = length;
-      points.col(count++) = given.row(i).transpose();
+      points.col(count++) = path.row(i).transpose();
     }
     place.push_back(count - 1);
   }
@@ -139,25 +140,25 @@ DistinctPoints::DistinctPoints(const MatrixXd& given) {
 }
 
 DistinctPoints DistinctPoints::corners() const {
-  DistinctPoints kept;
-  kept.points.resize(points.rows(), count());
-  kept.chord.resize(chord.size());
+  DistinctPoints selected;
+  selected.points.resize(points.rows(), count());
+  selected.chord.resize(chord.size());
   int corners = 0;
   for (int i = 0; i < count(); ++i) {
     const bool is_end = i == 0 || i == count() - 1;
     const bool is_corner = is_end || (direction(i) - direction(i - 1)).cwiseAbs().maxCoeff() > kSameDirection;
     if (is_corner) {
-      if (corners) kept.chord[corners - 1] = (points.col(i) - kept.points.col(corners - 1)).norm();
-      kept.points.col(corners++) = points.col(i);
+      if (corners) selected.chord[corners - 1] = (points.col(i) - selected.points.col(corners - 1)).norm();
+      selected.points.col(corners++) = points.col(i);
     }
-    kept.place.push_back(is_corner ? corners - 1 : -corners);  // on the line that began at corner |place| - 1
+    selected.place.push_back(is_corner ? corners - 1 : -corners);  // on the line from corner |place| - 1
   }
-  kept.points.conservativeResize(Eigen::NoChange, corners);
-  kept.chord.conservativeResize(corners - 1);
-  return kept;
+  selected.points.conservativeResize(Eigen::NoChange, corners);
+  selected.chord.conservativeResize(corners - 1);
+  return selected;
 }
 
-/// A curve that stays where it is.
+/// Returns the curve of one point.
 PathCurve restingCurve(const DistinctPoints& distinct) {
   PathCurveBuilder curve(int(distinct.points.rows()), 1);
   curve.addLine(distinct.points.col(0), VectorXd::Zero(distinct.points.rows()), 0., false);
@@ -169,18 +170,18 @@ void markAll(PathCurveBuilder& curve, const DistinctPoints& distinct, const std:
   for (const int place : distinct.place) curve.mark(at[std::size_t(place)]);
 }
 
-/// A corner P between unit directions u and v, rounded from P - half u to P + half v: its direction u + (v - u) w(x)
-/// with w(x) = x or, smooth, 3 x^2 - 2 x^3, x in [0, 1], s = 2 half x.
+/// A blend of the corner P between unit directions u and v, from P - half u to P + half v. Its direction is
+/// u + (v - u) w(x) with w(x) = x or, if smooth, 3 x^2 - 2 x^3, for x in [0, 1], s = 2 half x.
 struct Blend {
   VectorXd corner, in, out;
   double half = 0.;
   bool smooth = false;
 
-  VectorXd turn() const { return out - in; }
+  VectorXd change() const { return out - in; }
   VectorXd begin() const { return corner - half * in; }
 
-  /// How far the middle is from the corner, as a share of half |v - u|.
-  static double miss(bool smooth) { return smooth ? 3. / 16. : 1. / 4.; }
+  /// Distance of the middle from the corner, relative to half |v - u|.
+  static double cornerDistance(bool smooth) { return smooth ? 3. / 16. : 1. / 4.; }
 
   MatrixXd coefficients() const {
     const double length = 2. * half;
@@ -188,48 +189,48 @@ struct Blend {
     c.col(0) = begin();
     c.col(1) = in;
     if (smooth) {  // the integral of w is x^3 - x^4 / 2
-      c.col(3) = turn() / (length * length);
-      c.col(4) = -turn() / (2. * length * length * length);
+      c.col(3) = change() / (length * length);
+      c.col(4) = -change() / (2. * length * length * length);
     } else {
-      c.col(2) = turn() / (2. * length);
+      c.col(2) = change() / (2. * length);
     }
     return c;
   }
 
-  /// Points along it for the check, ends included.
+  /// Returns points along the blend, with both ends.
   MatrixXd samples(int count) const {
     MatrixXd points(count, corner.size());
     for (int i = 0; i < count; ++i) {
       const double x = double(i) / (count - 1);
       const double integral = smooth ? x * x * x - x * x * x * x / 2. : x * x / 2.;
-      points.row(i) = (begin() + 2. * half * (x * in + integral * turn())).transpose();
+      points.row(i) = (begin() + 2. * half * (x * in + integral * change())).transpose();
     }
     return points;
   }
 
-  /// By which the curve leaves the chords of that many samples: |q''| h^2 / 8, |q''| <= (1.5 or 1) |turn| / length.
+  /// Bounds the deviation from the chords of so many samples: |q''| h^2 / 8 with |q''| <= (1.5 or 1) |v - u| / length.
   double deviation(int count) const {
     const double step = 2. * half / (count - 1);
-    return (smooth ? 1.5 : 1.) * turn().cwiseAbs().maxCoeff() / (2. * half) * step * step / 8.;
+    return (smooth ? 1.5 : 1.) * change().cwiseAbs().maxCoeff() / (2. * half) * step * step / 8.;
   }
 };
 
 constexpr int kBlendSamples = 9;
-constexpr int kSmallerBlends = 6;  // halvings, before a corner stays one
+constexpr int kSmallerBlends = 6;  // halvings before a corner stays
 
-/// Of the mean of both directions: below it a corner turns back, nearly, and a smooth blend would have to stand still in it,
-/// but for a moment.
-constexpr double kTurnsBack = .0035;
+/// Least norm of the mean of both directions. Below it a corner nearly reverses the direction, and a motion would
+/// almost stop in a smooth blend.
+constexpr double kReversal = .0035;
 
-/// The largest blend that is within tolerance and free; `half` is 0 if there is none.
+/// Returns the largest collision-free blend within the tolerance; `half` is 0 if there is none.
 Blend findBlend(const DistinctPoints& distinct, int corner, const BlendOptions& options) {
   Blend blend{distinct.points.col(corner), distinct.direction(corner - 1), distinct.direction(corner), 0.,
               options.smooth};
   const double mean = .5 * (distinct.direction(corner - 1) + distinct.direction(corner)).norm();
-  if (options.smooth && mean < kTurnsBack) return blend;
-  const double turn = blend.turn().cwiseAbs().maxCoeff();
+  if (options.smooth && mean < kReversal) return blend;
+  const double change = blend.change().cwiseAbs().maxCoeff();
   const double room = std::min(distinct.chord[corner - 1], distinct.chord[corner]) / 2.;
-  blend.half = std::min(room, options.tolerance / (Blend::miss(options.smooth) * turn));
+  blend.half = std::min(room, options.tolerance / (Blend::cornerDistance(options.smooth) * change));
   if (!options.is_free || blend.half <= 0.) return blend;
   for (int i = 0; i <= kSmallerBlends; ++i, blend.half /= 2.)
     if (options.is_free(blend.samples(kBlendSamples), blend.deviation(kBlendSamples))) return blend;
@@ -250,7 +251,7 @@ PathCurve blendedPolyline(const MatrixXd& points, const BlendOptions& options) {
   const int last = distinct.count() - 1;
   PathCurveBuilder curve(int(points.cols()), options.tolerance == 0. ? 1 : options.smooth ? 4 : 2);
   std::vector<double> corner_at{0.};
-  double begun = 0.;  // how much of the present line the blend before it has taken
+  double begun = 0.;  // length that the previous blend takes from the present line
   bool stops = false;
   for (int line = 0; line < last; ++line) {
     const VectorXd direction = distinct.direction(line);
@@ -279,7 +280,7 @@ PathCurve blendedPolyline(const MatrixXd& points, const BlendOptions& options) {
 
 namespace {
 
-/// Slopes of the not-a-knot spline at its points, (n, K), K >= 3: for K = 3 those of the parabola.
+/// Returns the slopes of the not-a-knot spline at its points, (n, K), K >= 3; for K = 3 those of the parabola.
 MatrixXd splineSlopes(const DistinctPoints& distinct) {
   const int last = distinct.count() - 1;
   const VectorXd& h = distinct.chord;
@@ -290,14 +291,14 @@ MatrixXd splineSlopes(const DistinctPoints& distinct) {
     below[i] = h[i], diagonal[i] = 2. * (h[i - 1] + h[i]), above[i] = h[i - 1];
     right.col(i) = 3. * (h[i] * secant.col(i - 1) + h[i - 1] * secant.col(i));
   }
-  const auto endRow = [&](int end, int line, int next) {  // the third derivative is continuous at the point between
+  const auto endRow = [&](int end, int line, int next) {  // continuity of the third derivative at the second point
     const double width = h[line] + h[next];
     diagonal[end] = h[next];
     (end == 0 ? above : below)[end] = width;
     right.col(end) =
         ((h[line] + 2. * width) * h[next] * secant.col(line) + h[line] * h[line] * secant.col(next)) / width;
   };
-  if (last == 2) {  // the two rows above would be the same: a parabola has the mean slope in between
+  if (last == 2) {  // both rows would coincide: a parabola has the mean slope in between
     diagonal[0] = diagonal[2] = 1., above[0] = below[2] = 1.;
     right.col(0) = 2. * secant.col(0), right.col(2) = 2. * secant.col(1);
   } else {

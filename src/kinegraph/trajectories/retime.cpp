@@ -52,16 +52,16 @@ Corners cornersOfName(const std::string& name) {
 
 namespace {
 
-constexpr double kAlong = 1e-6;  // by which a velocity may leave the path's direction, as a share of it
+constexpr double kAlong = 1e-6;  // largest relative deviation of a velocity from the direction of the path
 constexpr int kNarrowings = 10;
-constexpr int kMostTrials = 5;  // each with twice as many intervals
-constexpr int kMostIntervals = 1000000;
-constexpr int kTrialHalvings = 24, kIntervalsOfTrials = 100;  // of what would do
-constexpr double kBelowBound[] = {1e-6, 1e-4};                // by so much, as a share, is what a message then says
-constexpr double kExcess = 1e-12;                             // of the rows' range: rounding
-constexpr double kNarrowMore = 1.5;                           // than what is exceeded
+constexpr int kMaxTrials = 5;  // each with twice as many intervals
+constexpr int kMaxIntervals = 1000000;
+constexpr int kTrialHalvings = 24, kIntervalsOfTrials = 100;  // of the search for a velocity that would do
+constexpr double kBelowBound[] = {1e-6, 1e-4};                // the message gives a value smaller by this share
+constexpr double kExcess = 1e-12;                             // of a constraint's range: rounding
+constexpr double kNarrowMore = 1.5;                           // times the violation
 
-/// ds/dt for a velocity at s.
+/// Returns ds/dt for a velocity at s.
 double speedOf(const char* name, const VectorXd& velocity, const PathCurve& curve, double s) {
   if (velocity.size() == 0) return 0.;
   if (velocity.size() != curve.dofs())
@@ -73,33 +73,33 @@ double speedOf(const char* name, const VectorXd& velocity, const PathCurve& curv
   const double speed = norm2 > 0. ? velocity.dot(direction) / norm2 : 0.;
   const double miss = (velocity - speed * direction).norm() / velocity.norm();
   if (speed <= 0. || miss > kAlong)
-    throw ValueError(cat("retime: ", name, " does not point along the path; there the path goes along (",
+    throw ValueError(cat("retime: ", name, " does not point along the path; the direction of the path there is (",
                          direction.normalized().transpose().format(Eigen::IOFormat(4, 0, ", ", ", ")), ")"));
   return speed;
 }
 
-/// d^2s/dt^2 for the acceleration at the start.
+/// Returns d^2s/dt^2 for the acceleration at the start.
 double startAcceleration(const RetimeOptions& options, const PathCurve& curve, const MotionLimits& limits,
                          double speed) {
-  const VectorXd& given = options.start_acceleration;
-  if (given.size() == 0) return 0.;
-  if (given.size() != curve.dofs())
+  const VectorXd& acceleration = options.start_acceleration;
+  if (acceleration.size() == 0) return 0.;
+  if (acceleration.size() != curve.dofs())
     throw ValueError(
-        cat("retime: start_acceleration has ", given.size(), " entries; the path has ", curve.dofs(), " dofs"));
-  if (!given.allFinite()) throw ValueError("retime: start_acceleration has entries that are not finite");
+        cat("retime: start_acceleration has ", acceleration.size(), " entries; the path has ", curve.dofs(), " dofs"));
+  if (!acceleration.allFinite()) throw ValueError("retime: start_acceleration has entries that are not finite");
   if (!limits.limitsJerk())
-    throw ValueError("retime: start_acceleration is for motions with limits of the jerk; accelerations of others jump");
-  if (speed == 0. && !given.isZero(0.))
+    throw ValueError("retime: start_acceleration requires jerk limits; without them, accelerations jump");
+  if (speed == 0. && !acceleration.isZero(0.))
     throw ValueError(
-        "retime: there is a start_acceleration and no start_velocity; motions from rest begin without one");
+        "retime: start_acceleration requires a start_velocity; motions from rest start without acceleration");
   if (speed == 0.) return 0.;
-  const VectorXd direction = curve.eval(0., 1), turned = speed * speed * curve.eval(0., 2);
-  const double along = direction.dot(given - turned) / direction.squaredNorm();
-  const double miss = (given - turned - along * direction).norm();
-  if (miss > kAlong * (given.norm() + turned.norm()))
-    throw ValueError(cat("retime: start_acceleration leaves the path by ", miss, "; there it is (",
-                         turned.transpose().format(Eigen::IOFormat(4, 0, ", ", ", ")),
-                         ") at a constant speed, and something along the velocity may be added"));
+  const VectorXd direction = curve.eval(0., 1), normal = speed * speed * curve.eval(0., 2);
+  const double along = direction.dot(acceleration - normal) / direction.squaredNorm();
+  const double miss = (acceleration - normal - along * direction).norm();
+  if (miss > kAlong * (acceleration.norm() + normal.norm()))
+    throw ValueError(cat("retime: start_acceleration leaves the path by ", miss, "; expected (",
+                         normal.transpose().format(Eigen::IOFormat(4, 0, ", ", ", ")),
+                         "), the acceleration at constant speed, plus a multiple of the velocity"));
   return along;
 }
 
@@ -117,9 +117,9 @@ std::string failureText(const SquaredSpeeds& speeds, const PathCurve& curve, con
       const std::string name = speeds.row >= 0 && speeds.row < int(rows.names.size()) ? rows.names[speeds.row] : "";
       if (speeds.row < 0) return cat("no speed keeps the limits ", along(curve, speeds.place));
       const ScalingConstraints at = rows.at(speeds.place, curve.pieceAt(speeds.place));
-      return cat(name.empty() ? cat("row ", speeds.row) : cat("'", name, "'"), " cannot be held ",
-                 along(curve, speeds.place), ": it takes ", at.c[speeds.row], rows.unit, " to stand still, and ",
-                 rows.low[speeds.row], " to ", rows.high[speeds.row], rows.unit, " are allowed");
+      return cat(name.empty() ? cat("constraint ", speeds.row) : cat("'", name, "'"), " cannot rest ",
+                 along(curve, speeds.place), ": rest requires ", at.c[speeds.row], rows.unit, ", and the limits are ",
+                 rows.low[speeds.row], " to ", rows.high[speeds.row], rows.unit);
     }
     case ScalingFailure::none:
       break;
@@ -141,10 +141,10 @@ RetimeStatus statusOf(ScalingFailure failure) {
   return RetimeStatus::timed;
 }
 
-/// Something must limit every part of the way.
-void checkLimited(const ScalingGrid& grid, const MotionLimits& limits, const ScalingBudget& effort) {
+/// A limit must bound the speed on every part of the path.
+void checkLimited(const ScalingGrid& grid, const MotionLimits& limits, const ScalingBudget& budget) {
   for (int i = 0; i < grid.intervals(); ++i) {
-    effort.pause(i);
+    budget.poll(i);
     std::vector<std::string> moving;
     const auto tangent = grid.tangent(i);
     bool is_limited = false;
@@ -154,8 +154,8 @@ void checkLimited(const ScalingGrid& grid, const MotionLimits& limits, const Sca
       is_limited |= std::isfinite(limits.velocity[j]) || std::isfinite(limits.acceleration[j]);
     }
     if (is_limited || moving.empty()) continue;
-    throw ValueError(cat("retime: nothing limits the motion ", along(grid.curve(), grid.place(i)), ", where dofs ",
-                         join(moving), " move: their velocities and accelerations are infinite"));
+    throw ValueError(cat("retime: the speed is unlimited ", along(grid.curve(), grid.place(i)), ": dofs ", join(moving),
+                         " move, and their velocity and acceleration limits are infinite"));
   }
 }
 
@@ -163,27 +163,28 @@ void checkLimited(const ScalingGrid& grid, const MotionLimits& limits, const Sca
 
 namespace {
 
-/// Of an end velocity that is too fast, what would do, in words; "" where that is not known. By bisection.
-std::string whatWouldDo(const TimedPath& failed, const MotionLimits& limits, const RetimeOptions& options) {
+/// Describes the largest feasible end velocity by bisection, after one that is too fast; "" if it is unknown.
+std::string feasibleVelocity(const TimedPath& failed, const MotionLimits& limits, const RetimeOptions& options) {
   const bool is_start = failed.status == RetimeStatus::start_too_fast;
   if ((!is_start && failed.status != RetimeStatus::end_too_fast) || options.start_acceleration.size() > 0) return "";
   RetimeOptions slower = options;
   VectorXd& velocity = is_start ? slower.start_velocity : slower.end_velocity;
-  const VectorXd given = velocity;
-  const auto does = [&](double share) {
-    velocity = share * given;
+  const VectorXd requested = velocity;
+  const auto isFeasible = [&](double share) {
+    velocity = share * requested;
     return retime(MatrixXd(), failed.curve(), limits, slower).feasible();
   };
   slower.intervals = std::min(options.intervals, kIntervalsOfTrials);
   double low = 0., high = 1.;
   for (int i = 0; i < kTrialHalvings; ++i) {
     const double middle = .5 * (low + high);
-    (does(middle) ? low : high) = middle;
+    (isFeasible(middle) ? low : high) = middle;
   }
   slower.intervals = options.intervals;
   for (const double below : kBelowBound) {
-    const std::string length = cat((1. - below) * low * given.norm());  // rounded, and so looked at again
-    if (low > 0. && does(std::stod(length) / given.norm())) return cat("; a length of at most ", length, " would do");
+    const std::string length = cat((1. - below) * low * requested.norm());  // rounded, so it is checked again
+    if (low > 0. && isFeasible(std::stod(length) / requested.norm()))
+      return cat("; a length of at most ", length, " would do");
   }
   return "";
 }
@@ -194,18 +195,18 @@ TimedPath retime(const MatrixXd& path, const MotionLimits& limits, const RetimeO
   options.validate();
   if (path.cols() > 0) limits.validate(int(path.cols()));
   TimedPath timed = retime(path, curveOf(path, limits, options), limits, options);
-  timed.message += whatWouldDo(timed, limits, options);
+  timed.message += feasibleVelocity(timed, limits, options);
   return timed;
 }
 
 namespace {
 
-/// By how much the rows of a law exceed their limits at most, each; between the places where they were asked for, too.
-VectorXd excessOf(const TimeScaling& scaling, const ConstraintSource& rows, const ScalingBudget& effort) {
+/// Returns the largest violation of each constraint by a time scaling, also between gridpoints.
+VectorXd excessOf(const TimeScaling& scaling, const ConstraintSource& rows, const ScalingBudget& budget) {
   VectorXd excess = VectorXd::Zero(rows.high.size());
   constexpr int kParts = 6;
   for (std::size_t i = 0; i < scaling.phases().size(); ++i) {
-    effort.pause(int(i));
+    budget.poll(int(i));
     const ScalingPhase& phase = scaling.phases()[i];
     const double time =
         (i + 1 < scaling.phases().size() ? scaling.phases()[i + 1].time : scaling.duration()) - phase.time;
@@ -230,36 +231,36 @@ struct EndSpeeds {
 };
 
 Timing timingOf(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& rows,
-                const EndSpeeds& ends, const ScalingBudget& effort) {
+                const EndSpeeds& ends, const ScalingBudget& budget) {
   Timing timing;
-  SquaredSpeeds& speeds = timing.speeds = fastestSpeeds(grid, limits, rows, ends.start, ends.end, effort);
+  SquaredSpeeds& speeds = timing.speeds = fastestSpeeds(grid, limits, rows, ends.start, ends.end, budget);
   if (speeds.failure != ScalingFailure::none) return timing;
   if (!limits.limitsJerk()) {
-    timing.scaling = scalingOf(grid, limits, speeds, effort);
+    timing.scaling = scalingOf(grid, limits, speeds, budget);
     return timing;
   }
-  JerkLimitedScaling smooth = jerkLimitedScaling(grid, speeds, ends.start_acceleration, limits, rows, effort);
+  JerkLimitedScaling smooth = jerkLimitedScaling(grid, speeds, ends.start_acceleration, limits, rows, budget);
   speeds.failure = smooth.failure, speeds.place = smooth.place;
   timing.scaling = std::move(smooth.scaling);
   return timing;
 }
 
-/// The same with rows, whose limits are narrowed by what they exceed between the places.
-Timing timingWithRows(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& given,
-                      const EndSpeeds& ends, const ScalingBudget& effort) {
-  ConstraintSource rows = given;
-  Timing timing = timingOf(grid, limits, rows, ends, effort);
+/// The same with constraints, whose limits are narrowed by their violation between gridpoints.
+Timing timingWithConstraints(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& original,
+                             const EndSpeeds& ends, const ScalingBudget& budget) {
+  ConstraintSource rows = original;
+  Timing timing = timingOf(grid, limits, rows, ends, budget);
   for (int round = 0; round < kNarrowings && timing.speeds.failure == ScalingFailure::none; ++round) {
-    const VectorXd excess = excessOf(timing.scaling, given, effort);
-    if ((excess.array() <= kExcess * (given.high - given.low).array().min(1e9)).all()) break;
+    const VectorXd excess = excessOf(timing.scaling, original, budget);
+    if ((excess.array() <= kExcess * (original.high - original.low).array().min(1e9)).all()) break;
     rows.high -= kNarrowMore * excess, rows.low += kNarrowMore * excess;
-    timing = timingOf(grid, limits, rows, ends, effort);
+    timing = timingOf(grid, limits, rows, ends, budget);
   }
   return timing;
 }
 
-/// Does a law fail by nothing but how coarse its places are?
-bool mayDoWithMore(const Timing& timing) {
+/// Tells whether a finer grid may have a time scaling.
+bool needsFinerGrid(const Timing& timing) {
   return timing.speeds.failure == ScalingFailure::cannot_move && timing.speeds.row < 0;
 }
 
@@ -281,22 +282,22 @@ TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimit
     timed.times = VectorXd::Zero(path.rows());
     return timed;
   }
-  ScalingBudget effort{options.intervals, options.cancellation};
+  ScalingBudget budget{options.intervals, options.cancellation};
   Timing timing;
-  for (int trial = 0; trial == 0 || (mayDoWithMore(timing) && trial < kMostTrials); ++trial) {
-    if (trial > 0) effort.intervals = std::max(effort.intervals, std::min(2 * effort.intervals, kMostIntervals));
-    const ScalingGrid grid(timed.curve_, limits, effort, bool(options.rows));
-    checkLimited(grid, limits, effort);
-    timing = options.rows ? timingWithRows(grid, limits, options.rows, ends, effort)
-                          : timingOf(grid, limits, {}, ends, effort);
+  for (int trial = 0; trial == 0 || (needsFinerGrid(timing) && trial < kMaxTrials); ++trial) {
+    if (trial > 0) budget.intervals = std::max(budget.intervals, std::min(2 * budget.intervals, kMaxIntervals));
+    const ScalingGrid grid(timed.curve_, limits, budget, bool(options.constraints));
+    checkLimited(grid, limits, budget);
+    timing = options.constraints ? timingWithConstraints(grid, limits, options.constraints, ends, budget)
+                                 : timingOf(grid, limits, {}, ends, budget);
   }
   timed.status = statusOf(timing.speeds.failure);
-  timed.message = failureText(timing.speeds, timed.curve_, options.rows);
+  timed.message = failureText(timing.speeds, timed.curve_, options.constraints);
   if (!timed.feasible()) return timed;
   timed.scaling_ = std::move(timing.scaling);
   timed.times.resize(Eigen::Index(curve.marks().size()));
   for (Eigen::Index i = 0; i < timed.times.size(); ++i) {
-    effort.pause(int(i));
+    budget.poll(int(i));
     timed.times[i] = timed.scaling_.timeOf(curve.marks()[std::size_t(i)]);
   }
   return timed;
@@ -304,9 +305,9 @@ TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimit
 
 void motionAt(const PathCurve& curve, const TimeScaling& scaling, double t, double* q, double* velocity,
               double* acceleration) {
-  const double held = std::clamp(t, 0., scaling.duration());
-  const ScalingPhase& phase = scaling.phaseAt(held);
-  const ScalingState state = phase.at(held - phase.time);
+  const double time = std::clamp(t, 0., scaling.duration());
+  const ScalingPhase& phase = scaling.phaseAt(time);
+  const ScalingState state = phase.at(time - phase.time);
   const double s = std::clamp(state.s, phase.begin.s, phase.end);
   curve.eval(phase.piece, s, 0, q);
   curve.eval(phase.piece, s, 2, acceleration);
@@ -324,17 +325,10 @@ MotionState motionAt(const PathCurve& curve, const TimeScaling& scaling, double 
   return state;
 }
 
-void TimedPath::at(double t, double* q, double* velocity, double* acceleration) const {
-  if (scaling_.phases().empty()) throw ValueError(cat("retime: there is no motion: ", message));
-  if (!(t == t)) throw ValueError("retime: at(t) has a t that is no number");
+void TimedPath::evalTo(double t, double* q, double* velocity, double* acceleration) const {
+  if (scaling_.phases().empty()) throw ValueError(cat("TimedPath::eval: there is no motion: ", message));
+  if (std::isnan(t)) throw ValueError("TimedPath::eval: t is NaN; expected a time in s");
   motionAt(curve_, scaling_, t, q, velocity, acceleration);
-}
-
-MotionState TimedPath::at(double t) const {
-  const int n = curve_.dofs();
-  MotionState state{VectorXd(n), VectorXd(n), VectorXd(n)};
-  at(t, state.q.data(), state.velocity.data(), state.acceleration.data());
-  return state;
 }
 
 std::string TimedPath::str() const {

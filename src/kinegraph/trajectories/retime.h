@@ -10,25 +10,25 @@
 
 namespace kinegraph {
 
-/// What becomes of the corners of a path.
+/// Treatment of the corners of a path.
 enum class Corners {
-  blend,   ///< rounded within a tolerance; where that is not free, a stop
-  stop,    ///< the motion stands still at each
-  spline,  ///< a cubic spline through all points, which may be far from the lines between them
+  blend,   ///< blended within a tolerance; a stop if no blend is collision-free
+  stop,    ///< the motion stops at each
+  spline,  ///< a cubic spline through all points, which may deviate far from the lines between them
 };
 
-/// "blend", "stop" or "spline"; throws ValueError for another name.
+/// Returns the value of "blend", "stop" or "spline"; throws ValueError for another name.
 Corners cornersOfName(const std::string& name);
 
 struct RetimeOptions {
   Corners corners = Corners::blend;
-  double tolerance = .01;                 ///< of blends: by which they may miss their corner, in every dof (rad or m)
-  BlendCheck is_free;                     ///< of blends: whether one may be taken; all are if there is none
+  double tolerance = .01;                 ///< largest distance of a blend from its corner, in every dof (rad or m)
+  BlendCheck is_free;                     ///< checks a blend for collisions; none: all are free
   VectorXd start_velocity, end_velocity;  ///< (n,), rad/s or m/s, along the path; empty: at rest
-  VectorXd start_acceleration;            ///< (n,), with limits of the jerk; empty: that of a constant speed
-  int intervals = 100;                    ///< of the law, on what is curved
-  ConstraintSource rows;                  ///< further limits, such as torques; they hold at the ends of the intervals
-  CancellationToken cancellation;         ///< called now and then, and may throw to end it
+  VectorXd start_acceleration;            ///< (n,), with jerk limits only; empty: that of a constant speed
+  int intervals = 100;                    ///< of the time scaling, on curved pieces
+  ConstraintSource constraints;           ///< further limits, such as torques; they hold at the ends of the intervals
+  CancellationToken cancellation;         ///< checked regularly; may throw
 
   void validate() const;  ///< throws ValueError
 };
@@ -37,40 +37,37 @@ enum class RetimeStatus {
   timed,
   start_too_fast,  ///< the start velocity is above the limits, or cannot be braked
   end_too_fast,    ///< the end velocity is above the limits, or cannot be reached
-  cannot_move,     ///< a further limit holds for no speed somewhere
+  cannot_move,     ///< a further limit holds for no speed at some s
 };
 
-/// The curve that `retime` takes through the points of a path.
+/// Returns the curve of `retime` for a path.
 PathCurve curveOf(const MatrixXd& path, const MotionLimits& limits, const RetimeOptions& options);
 
 std::string retimeStatusName(RetimeStatus status);
 
-/// The motion of a law along a curve at t s, held within 0 and the law's duration, which has phases; (n,) numbers each.
+/// Evaluates a time scaling (with at least one phase) along a curve at t (s), clamped to its duration; (n,) numbers
+/// each.
 void motionAt(const PathCurve& curve, const TimeScaling& scaling, double t, double* q, double* velocity,
               double* acceleration);
 MotionState motionAt(const PathCurve& curve, const TimeScaling& scaling, double t);
 
-/// A path and when a motion is where on it.
-class TimedPath {
+/// A path with its time parameterization: q(s(t)) along a curve through the points, s(t) from `retime`.
+class TimedPath final : public Trajectory {
  public:
   RetimeStatus status = RetimeStatus::timed;
-  std::string message;  ///< "" if timed, else what is too fast, and what would do
+  std::string message;  ///< "" if timed, else the cause, with a value that would do
   MatrixXd path;        ///< (K, n), as given
-  VectorXd times;  ///< (K,): when the motion is at each point, or nearest to it in a blend, s; empty without a motion
+  VectorXd times;       ///< (K,) s: time of each point, or of the nearest point of its blend; empty without a motion
 
   bool feasible() const { return status == RetimeStatus::timed; }
-  double duration() const { return scaling_.duration(); }
-
-  /// The motion at t s, held within 0 and duration(). Throws ValueError where there is no motion.
-  MotionState at(double t) const;
-
-  /// The same, written to (n,) each.
-  void at(double t, double* q, double* velocity, double* acceleration) const;
+  int dimension() const override { return curve_.dofs(); }
+  double duration() const override { return scaling_.duration(); }
+  void evalTo(double t, double* q, double* velocity, double* acceleration) const override;
 
   const PathCurve& curve() const { return curve_; }
   const TimeScaling& scaling() const { return scaling_; }
 
-  /// What another one had.
+  /// Builds a TimedPath from its members.
   static TimedPath fromParts(RetimeStatus status, std::string message, MatrixXd path, VectorXd times, PathCurve curve,
                              TimeScaling scaling);
 
@@ -83,17 +80,19 @@ class TimedPath {
   TimeScaling scaling_;
 };
 
-/// The fastest motion along a path, rows of `path` (K, n), that keeps the limits at all times.
+/// Computes the fastest motion along the points of a path (K, n) that keeps the limits at all times.
 ///
-/// Without limits of the jerk: two passes over s'^2 (time_optimal.h). With them: a program in s'^2 that is linear but for
-/// its cost and the jerk's limit, by an interior-point method whose matrices are bands (jerk_limited.h). The motion
-/// begins and ends at rest unless told otherwise. With limits of the jerk, the speed ds/dt does not change at both ends, unless
-/// a start acceleration says how: q' s'' + q'' s'^2 with any s''. Points that equal their predecessor take no time. Throws ValueError for a path without points, numbers that are not finite, limits
-/// that are not positive, a dof that moves and that nothing limits, velocities that do not point along the path, and a
-/// start acceleration that leaves it; what cannot be followed is a status.
+/// Without jerk limits, two passes compute s'^2 (time_optimal.h). With jerk limits, an interior-point method with
+/// banded matrices solves a program in s'^2 (jerk_limited.h). The motion starts and ends at rest unless `options` has
+/// velocities. With jerk limits, s'' = 0 at both ends, unless `start_acceleration` = q' s'' + q'' s'^2 sets s'' at the
+/// start. Points that equal their predecessor take no time.
+///
+/// Throws ValueError for a path without points, numbers that are not finite, limits that are not positive, a moving dof
+/// without limits, velocities that do not point along the path, and a start acceleration that leaves it. A path that
+/// cannot be followed is a status.
 TimedPath retime(const MatrixXd& path, const MotionLimits& limits, const RetimeOptions& options = {});
 
-/// The same along a curve through the points of `path`.
+/// The same along a given curve through the points of `path`.
 TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimits& limits,
                  const RetimeOptions& options = {});
 

@@ -22,12 +22,12 @@ struct SpeedChange {
   double time() const { return 2. * ramp + hold; }
 };
 
-/// The way that a change of speed takes: its mean speed is the mean of both.
-double wayOf(double from, double to, const LineMotionLimits& limits) {
+/// Returns the distance of a change of speed; its mean speed is the mean of both.
+double distanceOf(double from, double to, const LineMotionLimits& limits) {
   return (from + to) / 2. * SpeedChange(from, to, limits).time();
 }
 
-/// Appends phases of constant jerk; each begins where the last one ends.
+/// Appends phases of constant jerk; each starts at the end of the last one.
 struct PhaseAppender {
   TimeScaling& scaling;
   ScalingState now;
@@ -53,25 +53,25 @@ struct PhaseAppender {
 
 }  // namespace
 
-bool addDoubleS(TimeScaling& scaling, double s0, double s1, double speed0, double speed1,
-                const LineMotionLimits& limits, int piece) {
-  const double way = s1 - s0;
-  const auto needed = [&](double top) { return wayOf(speed0, top, limits) + wayOf(top, speed1, limits); };
+bool addSCurve(TimeScaling& scaling, double s0, double s1, double speed0, double speed1, const LineMotionLimits& limits,
+               int piece) {
+  const double distance = s1 - s0;
+  const auto needed = [&](double top) { return distanceOf(speed0, top, limits) + distanceOf(top, speed1, limits); };
   double low = std::max(speed0, speed1), high = limits.speed;
-  if (low > high || needed(low) > way * (1. + 1e-12)) return false;
+  if (low > high || needed(low) > distance * (1. + 1e-12)) return false;
   if (!std::isfinite(high)) {
     high = 2. * low + 1e-9;
-    while (needed(high) < way) high *= 2.;
+    while (needed(high) < distance) high *= 2.;
   }
-  if (needed(high) <= way) low = high;
+  if (needed(high) <= distance) low = high;
   for (int i = 0; i < 200 && low < high; ++i) {
     const double middle = (low + high) / 2.;
     if (middle <= low || middle >= high) break;
-    (needed(middle) <= way ? low : high) = middle;
+    (needed(middle) <= distance ? low : high) = middle;
   }
   PhaseAppender phases{scaling, {s0, speed0, 0., 0.}, s1, piece};
   phases.add(SpeedChange(speed0, low, limits));
-  const double rest = way - needed(low);
+  const double rest = distance - needed(low);
   if (low > 0.) phases.add(0., rest / low);
   phases.now.speed = low;
   phases.add(SpeedChange(low, speed1, limits));

@@ -28,8 +28,8 @@ void MotionLimits::validate(int dofs) const {
 
 namespace {
 
-/// About how long a motion takes for a piece: 1/s' is |q'| / velocity where velocities limit it, and the root of |q''| /
-/// acceleration where it turns.
+/// Estimates the duration of a piece: 1/s' is |q'| / velocity if velocities limit the motion, and the root of |q''| /
+/// acceleration in curves.
 double weightOf(const PathCurve& curve, const MotionLimits& limits, int piece, VectorXd& derivative) {
   const double begin = curve.begin(piece), length = curve.end(piece) - begin;
   double pace = 0.;
@@ -44,7 +44,7 @@ double weightOf(const PathCurve& curve, const MotionLimits& limits, int piece, V
 
 }  // namespace
 
-ScalingGrid::ScalingGrid(const PathCurve& curve, const MotionLimits& limits, const ScalingBudget& effort,
+ScalingGrid::ScalingGrid(const PathCurve& curve, const MotionLimits& limits, const ScalingBudget& budget,
                          bool divide_lines)
     : curve_(&curve), whole_lines_(!divide_lines) {
   std::vector<double> weight(std::size_t(curve.pieces()), 0.);
@@ -60,7 +60,7 @@ ScalingGrid::ScalingGrid(const PathCurve& curve, const MotionLimits& limits, con
     const double begin = curve.begin(piece), length = curve.end(piece) - begin;
     const double share =
         isDivided(piece) ? length / curved + (total > 0. ? weight[piece] / total : length / curved) : 0.;
-    const int parts = isDivided(piece) ? std::max(2, int(std::lround(effort.intervals * share / 2.))) : 1;
+    const int parts = isDivided(piece) ? std::max(2, int(std::lround(budget.intervals * share / 2.))) : 1;
     for (int i = 0; i < parts; ++i) {
       places_.push_back(begin + length * i / parts);
       piece_.push_back(piece);
@@ -68,24 +68,24 @@ ScalingGrid::ScalingGrid(const PathCurve& curve, const MotionLimits& limits, con
     }
   }
   places_.push_back(curve.length());
-  expand(effort);
+  expand(budget);
 }
 
-ScalingGrid::ScalingGrid(const PathCurve& curve, std::vector<double> places, const ScalingBudget& effort)
+ScalingGrid::ScalingGrid(const PathCurve& curve, std::vector<double> places, const ScalingBudget& budget)
     : curve_(&curve), whole_lines_(false), places_(std::move(places)) {
   for (std::size_t i = 0; i + 1 < places_.size(); ++i) {
-    effort.pause(int(i));
+    budget.poll(int(i));
     piece_.push_back(curve.pieceAt(places_[i]));
     stops_.push_back(places_[i] == curve.begin(piece_.back()) && curve.stopsAt(piece_.back()));
   }
-  expand(effort);
+  expand(budget);
 }
 
-void ScalingGrid::expand(const ScalingBudget& effort) {
+void ScalingGrid::expand(const ScalingBudget& budget) {
   const int dofs = curve_->dofs(), m = degree();
   tangents_.resize(dofs, Eigen::Index(intervals()) * (m + 1));
   for (int i = 0; i < intervals(); ++i) {
-    effort.pause(i);
+    budget.poll(i);
     double* p = tangents_.col(Eigen::Index(i) * (m + 1)).data();
     const double x = place(i) - curve_->begin(piece_[i]), h = width(i);
     const double *c1 = curve_->coefficient(piece_[i], 1), *c2 = m > 0 ? curve_->coefficient(piece_[i], 2) : nullptr;
@@ -117,24 +117,24 @@ void ScalingGrid::expand(const ScalingBudget& effort) {
 
 namespace {
 
-/// A bound of |dq/ds| over an interval that is linear in s, from its Bernstein coefficients: by how much the line from
-/// |first| to |last| must be raised.
+/// Returns the offset of the line from |first| to |last| coefficient that makes it a bound of |dq/ds| over an interval.
 double bulge(const double* p, int dofs, int degree) {
-  double most = 0.;
+  double offset = 0.;
   const double first = std::abs(p[0]), last = std::abs(p[degree * dofs]);
-  for (int k = 1; k < degree; ++k) most = std::max(most, std::abs(p[k * dofs]) - (first + (last - first) * k / degree));
-  return most;
+  for (int k = 1; k < degree; ++k)
+    offset = std::max(offset, std::abs(p[k * dofs]) - (first + (last - first) * k / degree));
+  return offset;
 }
 
 }  // namespace
 
-std::vector<double> ScalingGrid::caps(const VectorXd& velocity, const ScalingBudget& effort) const {
+std::vector<double> ScalingGrid::caps(const VectorXd& velocity, const ScalingBudget& budget) const {
   const int dofs = curve_->dofs(), m = degree(), count = intervals();
   constexpr double kNone = std::numeric_limits<double>::infinity();
   std::vector<double> caps(std::size_t(count) + 1, kNone);
   Eigen::ArrayXd least(dofs), inverse = velocity.array().inverse();
   for (int i = 0; i < count; ++i) {
-    effort.pause(i);
+    budget.poll(i);
     const double* p = tangents_.col(Eigen::Index(i) * (m + 1)).data();
     double peak0 = 0., peak1 = 0.;
     for (int j = 0; j < dofs; ++j) {
@@ -148,7 +148,7 @@ std::vector<double> ScalingGrid::caps(const VectorXd& velocity, const ScalingBud
     }
     peak0 = std::max(peak0, 1e-3 * peak1), peak1 = std::max(peak1, 1e-3 * peak0);
     const double cap0 = 1. / (peak0 * peak0), cap1 = 1. / (peak1 * peak1);
-    double excess = 1.;  // of (bound of |dq/ds|)^2 (interpolated cap) / velocity^2, a cubic in Bernstein form
+    double excess = 1.;  // largest (bound of |dq/ds|)^2 (interpolated cap) / velocity^2, a cubic in Bernstein form
     if (m > 0) {
       for (int j = 0; j < dofs; ++j) {
         const double raised = bulge(p + j, dofs, m);

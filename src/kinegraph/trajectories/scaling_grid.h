@@ -11,8 +11,8 @@
 
 namespace kinegraph {
 
-/// What a motion must keep, per dof: |dq/dt| <= velocity, |d2q/dt2| <= acceleration, |d3q/dt3| <= jerk. Positive, in
-/// rad or m, s; infinity for none. No jerk is limited where `jerk` is empty.
+/// Limits per dof: |dq/dt| <= velocity, |d2q/dt2| <= acceleration, |d3q/dt3| <= jerk. Positive, in rad or m, s;
+/// infinity for none. An empty `jerk` limits no jerk.
 struct MotionLimits {
   VectorXd velocity, acceleration, jerk;
 
@@ -20,66 +20,66 @@ struct MotionLimits {
   void validate(int dofs) const;  ///< throws ValueError
 };
 
-/// Linear rows at a place of the curve, such as torques: low <= a s'' + b s'^2 + c <= high, (m,) each.
+/// Linear constraints at a gridpoint, such as torque limits: low <= a s'' + b s'^2 + c <= high, (m,) each.
 struct ScalingConstraints {
   VectorXd a, b, c;
 };
 
-/// Rows that the caller knows: `at(s, piece)` gives m of them, within limits that are the same everywhere.
+/// Constraints of the caller: `at(s, piece)` returns m of them; their limits do not depend on s.
 struct ConstraintSource {
   VectorXd low, high;  ///< (m,); infinity for none
   std::function<ScalingConstraints(double s, int piece)> at;
-  std::vector<std::string> names;  ///< of the rows, for messages
+  std::vector<std::string> names;  ///< of the constraints, for messages
   std::string unit;
   explicit operator bool() const { return bool(at); }
 };
 
-/// How finely a law is computed, and what is called now and then meanwhile, if anything is; it may throw to end it.
+/// The number of intervals of a time scaling, and a token to cancel its computation.
 struct ScalingBudget {
   int intervals = 100;
   CancellationToken cancellation;
 
-  /// Asked at the i-th step of what takes many.
-  void pause(int i) const {
+  /// Checks for cancellation in every 64th step i of a loop.
+  void poll(int i) const {
     if (i % 64 == 0 && cancellation) cancellation.check();
   }
 };
 
-/// The places where a law is computed, and dq/ds between them as Bernstein polynomials.
+/// The gridpoints of a time scaling, with dq/ds between them as Bernstein polynomials.
 class ScalingGrid {
  public:
   using Coefficients = Eigen::ArrayXXd;
 
-  /// About `effort.intervals` of them, more where a motion within the limits will take longer; lines are one each unless
-  /// `divide_lines`.
-  ScalingGrid(const PathCurve& curve, const MotionLimits& limits, const ScalingBudget& effort, bool divide_lines);
+  /// Divides a curve into about `budget.intervals` intervals, shorter ones on slow parts of the curve. A line is one
+  /// interval unless `divide_lines` is set.
+  ScalingGrid(const PathCurve& curve, const MotionLimits& limits, const ScalingBudget& budget, bool divide_lines);
 
-  /// At these places, which include all knots of the curve.
-  ScalingGrid(const PathCurve& curve, std::vector<double> places, const ScalingBudget& effort);
+  /// Takes the gridpoints, which include all knots of the curve.
+  ScalingGrid(const PathCurve& curve, std::vector<double> places, const ScalingBudget& budget);
 
   const PathCurve& curve() const { return *curve_; }
   int intervals() const { return int(piece_.size()); }
   double place(int i) const { return places_[i]; }
   double width(int i) const { return places_[i + 1] - places_[i]; }
   int piece(int i) const { return piece_[i]; }
-  /// Whether the interval is a whole line, within which a law may change its acceleration.
+  /// Tells whether the interval is a whole line; its acceleration may change within the interval.
   bool isLine(int i) const { return whole_lines_ && curve_->isLine(piece_[i]); }
   const std::vector<double>& places() const { return places_; }
 
-  /// Whether the direction jumps where this interval begins.
+  /// Tells whether the direction jumps at the start of this interval.
   bool stopsAt(int i) const { return stops_[i]; }
 
   /// Degree of dq/ds.
   int degree() const { return curve_->degree() - 1; }
 
-  /// Bernstein coefficients of dq/ds over interval i, a column each: (dofs, degree() + 1).
+  /// Bernstein coefficients of dq/ds over interval i, one per column: (dofs, degree() + 1).
   auto tangent(int i) const { return tangents_.middleCols(i * (degree() + 1), degree() + 1); }
 
-  /// The largest s'^2 at each place that, interpolated, keeps the velocities between them, too; 0 where it must stop.
-  std::vector<double> caps(const VectorXd& velocity, const ScalingBudget& effort) const;
+  /// Returns the largest s'^2 at each gridpoint whose linear interpolation keeps the velocity limits; 0 at stops.
+  std::vector<double> caps(const VectorXd& velocity, const ScalingBudget& budget) const;
 
  private:
-  void expand(const ScalingBudget& effort);
+  void expand(const ScalingBudget& budget);
 
   const PathCurve* curve_;
   bool whole_lines_;

@@ -7,20 +7,20 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kMostOfProduct = 8;  // the degree of b (q''' b + ...)^2 for a path of degree four
-constexpr int kHalvings = 3;       // of an interval where a bound is not enough
+constexpr int kMaxProductDegree = 8;  // of b (q''' b + ...)^2 for a path of degree four
+constexpr int kHalvings = 3;          // of an interval whose bound exceeds 1
 
-constexpr double kBinomial[kMostOfProduct + 1][kMostOfProduct + 1] = {{1},
-                                                                      {1, 1},
-                                                                      {1, 2, 1},
-                                                                      {1, 3, 3, 1},
-                                                                      {1, 4, 6, 4, 1},
-                                                                      {1, 5, 10, 10, 5, 1},
-                                                                      {1, 6, 15, 20, 15, 6, 1},
-                                                                      {1, 7, 21, 35, 35, 21, 7, 1},
-                                                                      {1, 8, 28, 56, 70, 56, 28, 8, 1}};
+constexpr double kBinomial[kMaxProductDegree + 1][kMaxProductDegree + 1] = {{1},
+                                                                            {1, 1},
+                                                                            {1, 2, 1},
+                                                                            {1, 3, 3, 1},
+                                                                            {1, 4, 6, 4, 1},
+                                                                            {1, 5, 10, 10, 5, 1},
+                                                                            {1, 6, 15, 20, 15, 6, 1},
+                                                                            {1, 7, 21, 35, 35, 21, 7, 1},
+                                                                            {1, 8, 28, 56, 70, 56, 28, 8, 1}};
 
-/// Polynomials on [0, 1] in Bernstein form, their coefficients times the binomials, so that products are convolutions.
+/// Polynomials on [0, 1] in Bernstein form. Coefficients include the binomials, so that products are convolutions.
 template <class Number, int kMost>
 struct Bernstein {
   int degree = 0;
@@ -48,16 +48,16 @@ struct Bernstein {
   void add(const Bernstein<Number, kMostOther>& other, double factor) {  // of the same degree
     for (int i = 0; i <= degree; ++i) c[i] += factor * other.c[i];
   }
-  /// At least the largest |value|, per lane.
-  Number most() const {
-    Number most = c[0].abs();
-    for (int i = 1; i <= degree; ++i) most = most.max(c[i].abs() * (1. / kBinomial[degree][i]));
-    return most;
+  /// Bounds |value| per lane by the coefficients.
+  Number coefficientBound() const {
+    Number bound = c[0].abs();
+    for (int i = 1; i <= degree; ++i) bound = bound.max(c[i].abs() * (1. / kBinomial[degree][i]));
+    return bound;
   }
-  /// The same; where it is beyond 1, those of halves tell more.
+  /// The same, refined by halving the interval if the bound exceeds 1.
   Number bound(int halvings) const {
-    const Number most = this->most();
-    if (halvings == 0 || (most <= 1.).all()) return most;
+    const Number bound = coefficientBound();
+    if (halvings == 0 || (bound <= 1.).all()) return bound;
     Bernstein first = *this, second = *this;  // de Casteljau
     std::array<Number, kMost + 1> x;
     for (int i = 0; i <= degree; ++i) x[i] = c[i] * (1. / kBinomial[degree][i]);
@@ -81,11 +81,10 @@ auto tangentOf(const Tangent& tangent, int degree) {
   return q1;
 }
 
-/// At least the largest sqrt(b) |p|, per lane. The largest p and the largest b say enough where both together are at most
-/// 1; else their product is looked at.
+/// Bounds sqrt(b) |p|: by the bounds of p and b if their product is at most 1, else by the polynomial b p^2.
 template <class Polynomial>
 double shareOf(const Polynomial& p, const Speed& speed, double most_speed) {
-  const auto together = (p.most() * std::sqrt(most_speed)).eval();
+  const auto together = (p.coefficientBound() * std::sqrt(most_speed)).eval();
   if ((together <= 1.).all()) return together.maxCoeff();
   return (p * p * speed).bound(kHalvings).min(together.square()).sqrt().maxCoeff();
 }
@@ -113,7 +112,7 @@ double ScalingProof::velocityShare(const Tangent& tangent, const std::array<doub
   return shareOf(q1, speedOf(b), most_speed);
 }
 
-/// q' b'/2 + q'' b, with both derivatives by the way as a share of the interval.
+/// q' b'/2 + q'' b, with derivatives by s relative to the interval's width.
 double ScalingProof::accelerationShare(const Tangent& tangent, const std::array<double, 3>& b,
                                        const Inverse& inverse) const {
   const auto q1 = tangentOf(tangent, grid_.degree());
@@ -125,7 +124,7 @@ double ScalingProof::accelerationShare(const Tangent& tangent, const std::array<
   return acceleration.bound(kHalvings).maxCoeff();
 }
 
-/// q''' b + 3/2 q'' b' + 1/2 q' b'', likewise, times the root of b.
+/// sqrt(b) (q''' b + 3/2 q'' b' + 1/2 q' b''), likewise.
 double ScalingProof::jerkShare(const Tangent& tangent, const std::array<double, 3>& b, double most_speed,
                                const Inverse& inverse) const {
   const auto q1 = tangentOf(tangent, grid_.degree());

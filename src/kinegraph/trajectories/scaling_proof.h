@@ -7,24 +7,24 @@
 
 namespace kinegraph {
 
-/// How much of its limits a motion uses at most in an interval of a grid where s'^2 is a quadratic of s. Bounds:
-/// polynomials keep within their Bernstein coefficients. Several dofs are looked at side by side.
+/// Bounds the largest ratio of a motion to its limits in an interval with a quadratic s'^2: a polynomial stays within
+/// its Bernstein coefficients. Several dofs are bounded at once (SIMD).
 class ScalingProof {
  public:
-  /// `grid` must stay.
+  /// Keeps a reference to `grid`.
   ScalingProof(const ScalingGrid& grid, const MotionLimits& limits);
 
-  /// Of velocity, acceleration and jerk, each as a share, for the Bernstein coefficients `b` of s'^2. Jerks are looked at
-  /// where they are limited.
+  /// Returns the ratios of velocity, acceleration and jerk to their limits, for the Bernstein coefficients `b` of s'^2.
+  /// The ratio of an unlimited jerk is 0.
   std::array<double, 3> shares(int interval, const std::array<double, 3>& b) const;
 
  private:
   static constexpr int kLanes = 8;
-  static constexpr int kMostDegree = 3;  ///< of dq/ds
+  static constexpr int kMaxDegree = 3;  ///< of dq/ds
   using Lanes = Eigen::Array<double, kLanes, 1>;
-  using Tangent = std::array<Lanes, kMostDegree + 1>;  ///< Bernstein coefficients of dq/ds
+  using Tangent = std::array<Lanes, kMaxDegree + 1>;  ///< Bernstein coefficients of dq/ds
 
-  /// One over the limits of some dofs; zero for what is not limited.
+  /// Inverse limits of some dofs; zero without a limit.
   struct Inverse {
     Lanes velocity, acceleration, jerk;
     bool limits_jerk = false;
@@ -36,7 +36,7 @@ class ScalingProof {
                    const Inverse& inverse) const;
 
   const ScalingGrid& grid_;
-  std::vector<Inverse> inverse_;  ///< of kLanes dofs each
+  std::vector<Inverse> inverse_;  ///< one per kLanes dofs
 };
 
 }  // namespace kinegraph

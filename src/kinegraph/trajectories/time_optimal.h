@@ -5,34 +5,35 @@
 
 namespace kinegraph {
 
-/// Why a curve cannot be followed as asked.
+/// Cause of an infeasible time parameterization.
 enum class ScalingFailure {
   none,
-  start_too_fast,  ///< the speed at the start is above what the limits allow, or cannot be braked in time
-  end_too_fast,    ///< the speed at the end is above what the limits allow, or cannot be reached
-  cannot_move,     ///< rows of the caller hold for no speed at some place
+  start_too_fast,  ///< the speed at the start exceeds the limits, or is too high to brake in time
+  end_too_fast,    ///< the speed at the end exceeds the limits, or is unreachable
+  cannot_move,     ///< constraints of the caller hold for no speed at some gridpoint
 };
 
-/// s'^2 along a grid: quadratic in each interval, in Bernstein form at[i], middle[i], at[i + 1].
+/// s'^2 on a grid: quadratic in each interval, with Bernstein coefficients at[i], middle[i], at[i + 1].
 struct SquaredSpeeds {
   std::vector<double> at, middle;
   ScalingFailure failure = ScalingFailure::none;
   double place = 0.;  ///< cannot_move: s
-  int row = -1;       ///< cannot_move: of the caller's rows, the one that is missed by most when standing still
+  int row = -1;       ///< cannot_move: the caller's constraint with the largest violation at rest
 };
 
-/// The fastest law that keeps velocity, acceleration and rows, from one speed ds/dt to another.
+/// Computes the fastest s'^2 within velocity and acceleration limits and constraints, from one speed ds/dt to another.
 ///
-/// Two passes over b = s'^2 (Pham, Pham: A new approach to time-optimal path parameterization based on reachability
-/// analysis, 2018): backwards, what b may be at each place so that the rest of the way is possible, by a linear program
-/// in the plane for each interval; forwards, the largest b that it leaves. b is quadratic in an interval, so that s'' may
-/// follow the limits there; every acceleration is a polynomial, and keeps what its Bernstein coefficients keep. Rows of
-/// the caller hold at both ends of each interval. Where all is linear (lines), the answer is exact.
+/// Reachability analysis in two passes over b = s'^2: the backward pass computes the range of b at each gridpoint from
+/// which the rest of the path is feasible, by a two-variable linear program per interval; the forward pass takes the
+/// largest b in that range. b is quadratic in an interval, so that s'' can follow the limits. Accelerations are
+/// polynomials; bounds on their Bernstein coefficients hold throughout the interval. Constraints of the caller hold at
+/// both ends of each interval. On lines the result is exact. Source: Pham, Pham, A new approach to time-optimal path
+/// parameterization based on reachability analysis, 2018.
 SquaredSpeeds fastestSpeeds(const ScalingGrid& grid, const MotionLimits& limits, const ConstraintSource& rows,
-                            double start_speed, double end_speed, const ScalingBudget& effort);
+                            double start_speed, double end_speed, const ScalingBudget& budget);
 
-/// The law of these speeds. On lines it accelerates, cruises and brakes within the interval.
+/// Returns the time scaling of these speeds. On lines it accelerates, cruises and brakes within the interval.
 TimeScaling scalingOf(const ScalingGrid& grid, const MotionLimits& limits, const SquaredSpeeds& speeds,
-                      const ScalingBudget& effort);
+                      const ScalingBudget& budget);
 
 }  // namespace kinegraph

@@ -10,7 +10,7 @@ ScalingState ScalingPhase::at(double tau) const {
   if (growth == 0.) {
     return {s0 + tau * (v + tau * (a / 2. + tau * j / 6.)), v + tau * (a + tau * j / 2.), a + tau * j, j};
   }
-  // s - s0 = v S + a C with S' = C'' growth + 1, of sines or hyperbolic sines
+  // s - s0 = v S + a C, with sines S and C for a negative growth, hyperbolic sines for a positive one
   const double rate = std::sqrt(std::abs(growth)), angle = rate * tau;
   const bool grows = growth > 0.;
   const double sine = (grows ? std::sinh(angle) : std::sin(angle)) / rate;
@@ -21,8 +21,8 @@ ScalingState ScalingPhase::at(double tau) const {
 }
 
 double ScalingPhase::squaredSpeed(double s) const {
-  const double way = s - begin.s;
-  return begin.speed * begin.speed + way * (2. * begin.acceleration + way * growth);
+  const double distance = s - begin.s;
+  return begin.speed * begin.speed + distance * (2. * begin.acceleration + distance * growth);
 }
 
 const ScalingPhase& TimeScaling::phaseAt(double t) const {
@@ -33,8 +33,8 @@ const ScalingPhase& TimeScaling::phaseAt(double t) const {
 
 namespace {
 
-/// How long a phase takes until its speed and acceleration are those of `end`. With growth g = -u^2 the point (v, a / u)
-/// turns at the rate u; with g = u^2, a + u v grows and a - u v falls with the exponential of u t.
+/// Returns the time at which a phase reaches the speed and acceleration of `end`. For growth -u^2 the point (v, a / u)
+/// rotates at the rate u; for growth u^2, a + u v grows and a - u v decays with exp(u t).
 double timeUntil(const ScalingPhase& phase, const ScalingState& end) {
   const ScalingState& begin = phase.begin;
   const double u = std::sqrt(std::abs(phase.growth));
@@ -46,11 +46,11 @@ double timeUntil(const ScalingPhase& phase, const ScalingState& end) {
   return std::log((begin.acceleration - u * begin.speed) / (end.acceleration - u * end.speed)) / u;
 }
 
-/// The same; Newton's method takes off what rounding has left.
-double polishedTime(const ScalingPhase& phase, const ScalingState& end) {
+/// The same, with the rounding errors reduced by Newton steps.
+double refinedTime(const ScalingPhase& phase, const ScalingState& end) {
   double time = timeUntil(phase, end);
-  constexpr int kPolishings = 2;
-  for (int i = 0; i < kPolishings; ++i) {
+  constexpr int kNewtonSteps = 2;
+  for (int i = 0; i < kNewtonSteps; ++i) {
     const ScalingState there = phase.at(time);
     const double mean = (end.s - phase.begin.s) / time;
     if (there.speed > .1 * mean) time -= (there.s - end.s) / there.speed;
@@ -79,9 +79,10 @@ double TimeScaling::timeOf(double s) const {
   double low = 0., high = until - found->time;
   if (s >= found->end) return until;
   if (found->begin.jerk == 0.) {
-    const double way = s - found->begin.s, square = found->squaredSpeed(s);
-    const ScalingState there{s, std::sqrt(std::max(0., square)), found->begin.acceleration + found->growth * way, 0.};
-    const double time = polishedTime(*found, there);
+    const double distance = s - found->begin.s, square = found->squaredSpeed(s);
+    const ScalingState there{s, std::sqrt(std::max(0., square)), found->begin.acceleration + found->growth * distance,
+                             0.};
+    const double time = refinedTime(*found, there);
     if (time >= 0. && time <= high) return found->time + time;
   }
   for (int i = 0; i < 60 && high - low > 1e-15 * duration_; ++i) {
@@ -104,13 +105,13 @@ void TimeScaling::addConstantAcceleration(double s0, double s1, double speed0, d
 
 void TimeScaling::addQuadratic(double s0, double s1, double first, double middle, double last, int piece) {
   const double h = s1 - s0;
-  // s'' = half the slope of s'^2, which grows linearly with s
+  // s'' is half the slope of s'^2, and linear in s
   ScalingPhase phase{
       0., {s0, std::sqrt(first), (middle - first) / h, 0.}, (first - 2. * middle + last) / (h * h), s1, piece};
   const double largest = std::max({first, middle, last});
-  constexpr double kNoGrowth = 1e-13;  // of s'^2: it is linear
+  constexpr double kNoGrowth = 1e-13;  // relative to s'^2, which then counts as linear
   if (std::abs(phase.growth) * h * h <= kNoGrowth * largest) phase.growth = 0.;
-  add(phase, polishedTime(phase, {s1, std::sqrt(last), (last - middle) / h, 0.}));
+  add(phase, refinedTime(phase, {s1, std::sqrt(last), (last - middle) / h, 0.}));
 }
 
 void TimeScaling::append(const TimeScaling& other) {

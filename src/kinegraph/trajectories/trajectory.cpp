@@ -9,7 +9,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kLongestSampling = 1e8;  // rows of `sample`
+constexpr double kLongestSampling = 1e8;  // samples
 
 }  // namespace
 
@@ -35,8 +35,9 @@ MotionStates Trajectory::eval(const VectorXd& times) const {
 
 MotionStates Trajectory::sample(double rate) const {
   if (!(rate > 0.) || !(duration() * rate < kLongestSampling))
-    throw ValueError(cat("Trajectory::sample: the rate is ", rate, " Hz; expected a positive number, and less than ",
-                         kLongestSampling, " samples"));
+    throw ValueError(cat("Trajectory::sample: the rate is ", rate,
+                         " Hz; expected a positive number that gives fewer than ", kLongestSampling, " samples in ",
+                         duration(), " s"));
   const auto steps = Eigen::Index(std::ceil(duration() * rate - 1e-9));
   VectorXd times(steps + 1);
   for (Eigen::Index k = 0; k <= steps; ++k) times[k] = steps > 0 ? duration() * double(k) / double(steps) : 0.;

@@ -28,17 +28,17 @@ class Trajectory {
   virtual double duration() const = 0;
 
   /// Writes q, dq/dt and d2q/dt2 at time t (s), n numbers each. Times outside of [0, duration()] are clamped. Throws
-  /// ValueError if there is no motion.
+  /// ValueError if there is no motion, and if t is NaN.
   virtual void evalTo(double t, double* q, double* velocity, double* acceleration) const = 0;
 
-  /// The state at time t (s); errors as `evalTo`.
+  /// Returns the state at time t (s); errors as `evalTo`.
   MotionState eval(double t) const;
 
-  /// The states at several times (s).
+  /// Returns the states at several times (s).
   MotionStates eval(const VectorXd& times) const;
 
-  /// The states at equal steps of time, at most 1 / rate s apart, from 0 to duration(), both included. Throws ValueError
-  /// if `rate` (Hz) is not positive.
+  /// Returns the states at equal steps of time, at most 1 / rate s apart, from 0 to duration(), both included. Throws
+  /// ValueError if `rate` (Hz) is not positive, or asks for more than 1e8 samples.
   MotionStates sample(double rate) const;
 };
 

@@ -7,14 +7,15 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kTolerance = 1e-11;  // by which a row may be missed, as a share of its limits
-constexpr double kRounding = 2e-15;   // likewise, of the largest of its terms
-constexpr double kFlat = 1e-6;        // sine-like share below which two rows of a guess count as parallel
-constexpr int kMostPivots = 80;
+constexpr double kTolerance = 1e-11;  // largest violation of a row, relative to its limits
+constexpr double kRounding = 2e-15;   // likewise, relative to the largest of its terms
+constexpr double kFlat = 1e-6;        // relative determinant below which two rows of a guess count as parallel
+constexpr int kMaxPivots = 80;
 
 }  // namespace
 
-// Inequalities are numbered: 2 r and 2 r + 1 the upper and lower side of row r, then of the others, then of the box.
+// Inequalities are numbered: 2 r and 2 r + 1 are the upper and the lower side of row r; first come the rows with limit
+// 1, then the others, then the box.
 TwoVariableProgram::Cut TwoVariableProgram::cut(int inequality) const {
   const int row = inequality / 2, rows = int(u.size()), count = rows + int(others.size());
   const bool is_upper = inequality % 2 == 0;
@@ -28,7 +29,7 @@ TwoVariableProgram::Cut TwoVariableProgram::cut(int inequality) const {
   return {0., sign, is_upper ? y_high : -y_low};
 }
 
-int TwoVariableProgram::mostMissed(double x, double y, double tolerance) {
+int TwoVariableProgram::mostViolated(double x, double y, double tolerance) {
   const int rows = int(u.size());
   double most = tolerance;
   int found = -1;
@@ -41,8 +42,8 @@ int TwoVariableProgram::mostMissed(double x, double y, double tolerance) {
       if (peak > tolerance) most = peak, found = 2 * r + (value_[r] > 0. ? 0 : 1);
     }
   }
-  const auto offer = [&](double missed, int inequality) {
-    if (missed > most) most = missed, found = inequality;
+  const auto offer = [&](double violation, int inequality) {
+    if (violation > most) most = violation, found = inequality;
   };
   for (std::size_t k = 0; k < others.size(); ++k) {
     const PlaneRow& row = others[k];
@@ -71,14 +72,14 @@ TwoVariableProgram::Answer TwoVariableProgram::farthest(double dx, double dy, co
         (first.a * dy - first.b * dx) / determinant >= 0.)
       answer.rows[0] = guess->rows[0], answer.rows[1] = guess->rows[1];
   }
-  for (int pivot = 0; pivot < kMostPivots; ++pivot) {
+  for (int pivot = 0; pivot < kMaxPivots; ++pivot) {
     const Cut first = cut(answer.rows[0]), second = cut(answer.rows[1]);
     const double determinant = first.a * second.b - first.b * second.a;
     answer.x = (first.c * second.b - first.b * second.c) / determinant;
     answer.y = (first.a * second.c - first.c * second.a) / determinant;
     answer.multipliers[0] = (dx * second.b - dy * second.a) / determinant;
     answer.multipliers[1] = (first.a * dy - first.b * dx) / determinant;
-    const int entering = mostMissed(answer.x, answer.y, kTolerance);
+    const int entering = mostViolated(answer.x, answer.y, kTolerance);
     if (entering < 0) {
       answer.is_feasible = true;
       return answer;
@@ -93,7 +94,7 @@ TwoVariableProgram::Answer TwoVariableProgram::farthest(double dx, double dy, co
       const double ratio = std::max(0., answer.multipliers[k]) / share[k];
       if (share[k] > tiny && (leaving < 0 || ratio < least)) leaving = k, least = ratio;
     }
-    if (leaving < 0) {  // next + |share| (first, second) leave nothing
+    if (leaving < 0) {  // next + |share| (first, second) have no common point
       answer.third = entering;
       answer.contradiction = next.a * answer.x + next.b * answer.y - next.c;
       answer.multipliers[0] = -share[0], answer.multipliers[1] = -share[1];

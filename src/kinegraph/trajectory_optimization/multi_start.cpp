@@ -26,7 +26,7 @@ std::vector<VectorXd> sampleStarts(Komo& komo, int count, std::uint64_t seed, co
 
 SolveManyResult solveFromMany(const std::shared_ptr<Komo>& komo, const std::vector<VectorXd>& starts,
                               const SolverOptions& solver, const SolveManyOptions& options,
-                              const std::function<bool(int)>& watch) {
+                              const ProgressCallback& progress, const CancellationToken& cancellation) {
   if (starts.empty()) throw ValueError("solveFromMany: there are no starts");
   for (std::size_t i = 0; i < starts.size(); ++i) {
     if (starts[i].size() == komo->path().layout().dimension) continue;
@@ -37,17 +37,17 @@ SolveManyResult solveFromMany(const std::shared_ptr<Komo>& komo, const std::vect
   for (auto& copy : copies) copy = makeNlp(std::make_shared<Komo>(komo->clone()));
   SolveManyResult all = solveMany(
       int(starts.size()), options,
-      [&](int worker, int i, const EvaluationHook& hook) {
+      [&](int worker, int i, const EvaluationCallback& callback) {
         NlpSolver one(copies[std::size_t(worker)], 0);
         one.options = solver;
         one.options.verbose = 0;
         one.setInitialization(starts[std::size_t(i)]);
         Rng unused(0);
-        SolverResult result = one.solve(false, unused, hook);
+        SolverResult result = one.solve(false, unused, callback);
         result.problem = nullptr;  // the next start reuses the copy
         return result;
       },
-      watch);
+      progress, cancellation);
   const auto problem = makeNlp(komo);
   for (SolverResult& result : all.results) {
     if (result.done) result.problem = problem;

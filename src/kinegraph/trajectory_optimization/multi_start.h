@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/komo/komo.h"
@@ -19,6 +18,6 @@ std::vector<VectorXd> sampleStarts(Komo& komo, int count, std::uint64_t seed,
 /// a wrong length.
 SolveManyResult solveFromMany(const std::shared_ptr<Komo>& komo, const std::vector<VectorXd>& starts,
                               const SolverOptions& solver = {}, const SolveManyOptions& options = {},
-                              const std::function<bool(int ended)>& watch = {});
+                              const ProgressCallback& progress = {}, const CancellationToken& cancellation = {});
 
 }  // namespace kinegraph

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "kinegraph/collision/stray_bound.h"
+#include "kinegraph/collision/displacement_bound.h"
 #include "kinegraph/komo/path/path_motion.h"
 #include "kinegraph/trajectory_optimization/spline_layout.h"
 
@@ -47,7 +47,7 @@ class SplineCurve {
   BSpline spline_;
   std::vector<SliceMotion> motions_;
   MatrixXd second_derivatives_;  ///< per polynomial and splined dof: bound on |q''|
-  std::vector<StrayBound> bounds_;
+  std::vector<DeviationBound> bounds_;
   std::vector<int> bound_of_;  ///< per slice
 };
 

@@ -105,7 +105,7 @@ Separation SplineNlp::separation() {
   return separation_;
 }
 
-std::shared_ptr<const LazyValidity> SplineNlp::motionValidity(const VectorXd& c) {
+std::shared_ptr<const LazyValidity> SplineNlp::validity(const VectorXd& c) {
   const std::vector<Objective>& objectives = komo_->objectives().all();
   if (!constrainsAnyMotion(komo_->path(), objectives)) return nullptr;
   moveTo(c);
@@ -165,7 +165,8 @@ VectorXd SplineNlp::carriedOver(const VectorXd& dual, const SplineConstraints& b
   return carried;
 }
 
-Refinement SplineNlp::takeUp(const VectorXd& c, bool is_solution, VectorXd& phi, Jacobian& J, std::vector<int>& rows) {
+Refinement SplineNlp::activate(const VectorXd& c, bool is_solution, VectorXd& phi, Jacobian& J,
+                               std::vector<int>& rows) {
   moveTo(c);
   SplineMotions spline(curve_, probe_);
   double lack = 0.;

@@ -30,10 +30,12 @@ class SplineNlp final : public Nlp, public InitialGuesses, public LazyConstraint
     slices_->addCurvature(k, weights, H);
   }
   Separation separation() override;
-  std::shared_ptr<const LazyValidity> motionValidity(const VectorXd& c) override;
+  std::shared_ptr<const LazyValidity> validity(const VectorXd& c) override;
   Refinement refine(const VectorXd& c, VectorXd& dual) override;
-  bool hasRoom() const override { return is_separate_ && rows_.rows() > 0; }
-  Refinement takeUp(const VectorXd& c, bool is_solution, VectorXd& phi, Jacobian& J, std::vector<int>& rows) override;
+  bool hasCapacity() const override { return is_separate_ && rows_.rows() > 0; }
+  Refinement activate(const VectorXd& c, bool is_solution, VectorXd& phi, Jacobian& J, std::vector<int>& rows) override;
+  InitialGuesses* initialGuesses() override { return this; }
+  LazyConstraints* lazyConstraints() override { return this; }
   GuessKind guessKind(const VectorXd& c) override;
   std::optional<VectorXd> initialGuess(const VectorXd& c, int number) override;
   VectorXd initialPoint(Rng& rng) override { return slices_->initialPoint(rng); }

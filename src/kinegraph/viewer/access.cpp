@@ -19,7 +19,7 @@ bool isPageOf(std::string_view host, std::string_view origin) {
   return origin == cat("http://", host) || origin == cat("https://", host);
 }
 
-/// In a time that does not tell how much of them is the same.
+/// Compares in constant time, so that the time does not reveal the length of the common prefix.
 bool isSame(std::string_view a, std::string_view b) {
   if (a.size() != b.size()) return false;
   unsigned difference = 0;

@@ -5,7 +5,7 @@
 
 namespace kinegraph {
 
-/// What a request of a browser says of where it comes from and what it wants.
+/// The origin and target of a browser's request.
 struct RequestedAccess {
   std::string_view host;            ///< header Host
   std::string_view forwarded_host;  ///< header X-Forwarded-Host of a proxy; empty: none. Pages cannot set it
@@ -13,18 +13,19 @@ struct RequestedAccess {
   std::string_view target;          ///< path and query
 };
 
-/// Who may connect to a viewer.
+/// Access control of a viewer.
 struct Access {
   bool loopback_only = true;
-  std::string token;  ///< empty: none is asked for
+  std::string token;  ///< empty: no token required
 
-  /// A page from elsewhere must not drive a viewer on this machine: its Origin, or a Host that merely resolves to it,
-  /// differs. Behind a proxy (TLS ends there, the Origin is https) the host may be any if a token is asked for.
+  /// Returns whether a request is allowed. Pages of other sites must not control a local viewer: their Origin differs,
+  /// or their Host is a foreign name that resolves to this machine. Behind a proxy (TLS ends there, the Origin is
+  /// https) any host is allowed if a token is required.
   bool allows(const RequestedAccess& request) const;
 };
 
-/// The sources that may show a viewer's page in a frame, as the header Content-Security-Policy says it: the viewer
-/// itself, and notebooks on this machine or in an editor.
+/// Returns the header Content-Security-Policy with the sources that may embed a viewer's page: the viewer itself, and
+/// notebooks on this machine or in an editor.
 std::string_view framePolicy();
 
 std::string randomToken();

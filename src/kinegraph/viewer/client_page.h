@@ -4,7 +4,7 @@
 
 namespace kinegraph {
 
-/// The browser client: one HTML page with everything in it, embedded when the library is built.
+/// Returns the browser client: a self-contained HTML page, embedded when the library is built.
 std::string_view clientPage();
 
 }  // namespace kinegraph

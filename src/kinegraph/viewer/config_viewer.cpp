@@ -16,7 +16,7 @@ namespace {
 
 bool isOverSsh() { return std::getenv("SSH_CONNECTION") != nullptr; }
 
-/// Says where the page is.
+/// Prints the address of the page.
 void announce(const ViewerServer& server) {
   const std::string url = server.url();
   constexpr std::string_view kLocal = "http://localhost:";
@@ -80,13 +80,13 @@ void ConfigViewer::setMessage(const std::string& text) {
   server().setMessage(text);
 }
 
-void ConfigViewer::noteMessage(const std::string& text) {
+void ConfigViewer::storeMessage(const std::string& text) {
   remember(text);
   if (isOpen()) server_->setMessage(text);
 }
 
 std::string ConfigViewer::recording() {
-  server().setNotes(edits_->notes());
+  server().setWarnings(edits_->warnings());
   return server().recording();
 }
 
@@ -109,22 +109,23 @@ void ConfigViewer::update(const Config& config) {
 
 bool ConfigViewer::takeEdits(Config& config) { return items_.isOf(config) && edits_->takeInto(config); }
 
-int ConfigViewer::view(Config& config, bool pause, const std::optional<std::string>& message, const Stop& stop) {
+int ConfigViewer::view(Config& config, bool pause, const std::optional<std::string>& message,
+                       const CancellationToken& cancellation) {
   takeEdits(config);
   update(config);
-  const int key = wait(pause, message, stop);
+  const int key = wait(pause, message, cancellation);
   if (pause && takeEdits(config)) update(config);
   return key;
 }
 
-int ConfigViewer::wait(bool pause, const std::optional<std::string>& message, const Stop& stop) {
-  if (pause) return ask(message, stop);
+int ConfigViewer::wait(bool pause, const std::optional<std::string>& message, const CancellationToken& cancellation) {
+  if (pause) return promptKey(message, cancellation);
   if (message) setMessage(*message);
   return server().takeKey();
 }
 
 int ConfigViewer::showMotion(const Config& config, const ShownMotion& motion, bool pause,
-                             const std::optional<std::string>& message, const Stop& stop) {
+                             const std::optional<std::string>& message, const CancellationToken& cancellation) {
   update(config);
   server().showMotion(motion);
   if (message) setMessage(*message);
@@ -134,23 +135,23 @@ int ConfigViewer::showMotion(const Config& config, const ShownMotion& motion, bo
     using Clock = std::chrono::steady_clock;
     const auto end =
         Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(motion.seconds));
-    key = waitKey(message.value_or(""), [&] { return Clock::now() >= end || stop(); });
+    key = waitKey(message.value_or(""), [&] { return Clock::now() >= end || cancellation(); });
   }
-  return pause && key == 0 ? ask(message, stop) : key;
+  return pause && key == 0 ? promptKey(message, cancellation) : key;
 }
 
-int ConfigViewer::ask(const std::optional<std::string>& message, const Stop& stop) {
+int ConfigViewer::promptKey(const std::optional<std::string>& message, const CancellationToken& cancellation) {
   std::string text = message.value_or("");
   if (!text.ends_with("]")) text += text.empty() ? "[press key to continue]" : "\n[press key to continue]";
   int key = server().takeKey();
   setMessage(text);
-  if (waits()) key = waitKey(text, stop);
+  if (waits()) key = waitKey(text, cancellation);
   setMessage(message.value_or(""));
   return key;
 }
 
-int ConfigViewer::waitKey(const std::string& prompt, const Stop& stop) {
-  constexpr auto kPatience = std::chrono::seconds(5);  // a page that is loaded again is back sooner
+int ConfigViewer::waitKey(const std::string& prompt, const CancellationToken& cancellation) {
+  constexpr auto kPatience = std::chrono::seconds(5);  // a reloaded page is back sooner
   const bool patient = isPatient();
   if (isatty(STDIN_FILENO)) {
     std::printf("%s (in the browser, or Enter here)\n", prompt.c_str());
@@ -164,7 +165,7 @@ int ConfigViewer::waitKey(const std::string& prompt, const Stop& stop) {
       last_seen = now;
       seen = true;
     }
-    return (entered = enterWasPressed()) || ((!patient || seen) && now - last_seen > kPatience) || stop();
+    return (entered = enterWasPressed()) || ((!patient || seen) && now - last_seen > kPatience) || cancellation();
   });
   return entered ? 13 : key;
 }

@@ -7,9 +7,9 @@ namespace kinegraph {
 
 void drawQuad(std::vector<std::uint8_t>& rgb, int width, const Quad& quad) {
   const int height = int(rgb.size() / 3) / width;
-  const double pixel = quad.height * height / quad.rows;  // of the picture, for one of the quad
+  const double pixel = quad.height * height / quad.rows;  // pixels of the picture per pixel of the quad
   const double left = quad.x * height, top = quad.y * height;
-  const auto from = [](double edge, int most) { return int(std::clamp(std::ceil(edge - .5), 0., double(most))); };
+  const auto from = [](double edge, int limit) { return int(std::clamp(std::ceil(edge - .5), 0., double(limit))); };
   const int first_row = from(top, height), last_row = from(top + pixel * quad.rows, height);
   const int first_column = from(left, width), last_column = from(left + pixel * quad.columns, width);
   for (int row = first_row; row < last_row; ++row) {

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "kinegraph/viewer/messages/look.h"
+#include "kinegraph/viewer/messages/appearance.h"
 
 namespace kinegraph {
 
-/// Draws a quad, where pages show it, on top of a picture with `width` columns, whose `rgb` are rows from top to
-/// bottom. What is outside is cut off.
+/// Draws a quad on a picture with `width` columns, at its place on pages. `rgb` has rows from top to bottom. Parts
+/// outside are clipped.
 void drawQuad(std::vector<std::uint8_t>& rgb, int width, const Quad& quad);
 
 }  // namespace kinegraph

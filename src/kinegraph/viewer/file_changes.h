@@ -9,7 +9,7 @@
 
 namespace kinegraph {
 
-/// When a file was last written, and its size; a missing one has neither.
+/// Time of the last write and size of a file; a missing file has neither.
 struct FileStamp {
   std::filesystem::file_time_type written = std::filesystem::file_time_type::min();
   std::uintmax_t size = 0;
@@ -20,23 +20,23 @@ using FileStamps = std::map<std::string, FileStamp>;
 
 FileStamps stampsOf(const std::vector<std::string>& files);
 
-/// Says when files that somebody edits are worth reading again. Editors empty or remove a file before they write it, so
-/// a change counts when it has been steady for 40 ms, and one that leaves a file empty or missing after 300 ms.
+/// Detects completed changes of files. Editors empty or remove a file before they write it. Therefore a change counts
+/// after 40 ms without another one, and a change to an empty or missing file after 300 ms.
 class FileChanges {
  public:
   using Time = std::chrono::steady_clock::time_point;
 
-  /// These are the files as they were read.
+  /// Sets the stamps of the files when they were read.
   void setRead(FileStamps stamps);
 
   std::vector<std::string> files() const;  ///< those of setRead
 
-  /// Looks at these files, as they are at `time`: true if they have changed, and may be read.
+  /// Compares with the present stamps at `time`. Returns whether the files have changed and are complete.
   bool settled(const FileStamps& now, Time time);
 
  private:
   FileStamps read_, seen_;
-  Time since_{};  ///< when `seen_` was first seen
+  Time since_{};  ///< time of the first observation of `seen_`
 };
 
 }  // namespace kinegraph

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kRate = 50;  // slices per second
 
-/// Basis of a uniform cubic B-spline in one segment, u in [0, 1).
+/// Returns the basis of a uniform cubic B-spline in one segment, u in [0, 1).
 Vector4d cubicBasis(double u) {
   const double v = 1. - u;
   return Vector4d(v * v * v, 3. * u * u * u - 6. * u * u + 4., 3. * v * v * v - 6. * v * v + 4., u * u * u) / 6.;

@@ -27,7 +27,7 @@ boost::json::value recorded(const Outgoing& message) {
   return boost::json::object{{"text", jsonOf(*message.data)}};
 }
 
-/// Text that may stand inside a script element: "<" only occurs in strings, where it may be escaped.
+/// Escapes text for a script element: "<" occurs in strings only, and strings may escape it.
 std::string insideScript(const std::string& json) {
   std::string text;
   for (const char c : json) c == '<' ? text += "\\u003c" : text += c;
@@ -54,7 +54,7 @@ std::string recordedScene(const Config& config, const ShownMotion* motion, const
   scene.title = title;
   scene.update(items.items());
   scene.setJoints(items.structure(), items.joints(), config.getJointState());
-  scene.setNotes(sceneNotes(config));
+  scene.setWarnings(sceneWarnings(config));
   if (motion) scene.setMotion(*motion);
   ShownScene::Seen nothing;
   return recordedPage(scene.messagesSince(nothing));

@@ -8,10 +8,10 @@
 
 namespace kinegraph {
 
-/// The client's page with the messages inside: shows them without a program, from a file.
+/// Returns the client's page with embedded messages, which it shows from a file without a program.
 std::string recordedPage(const std::vector<Outgoing>& messages);
 
-/// The page with a configuration inside, and a motion of it if there is one. Needs no server.
+/// Returns the page with an embedded configuration and, optionally, a motion of it. Needs no server.
 std::string recordedScene(const Config& config, const ShownMotion* motion = nullptr,
                           const std::string& title = "Kinegraph");
 

@@ -32,13 +32,13 @@ std::optional<EditedScene> SceneEdits::apply(const Command& command) {
   if (!scene_ || !change(command)) return std::nullopt;
   EditedScene result{posesOf(*edited_), edited_->getJointState(), {}};
   if (margin_ > 0.) result.near = nearLines(*edited_, margin_);
-  if (std::holds_alternative<NotesCommand>(command)) result.notes = sceneNotes(*edited_);
+  if (std::holds_alternative<WarningsCommand>(command)) result.warnings = sceneWarnings(*edited_);
   return result;
 }
 
-std::vector<SceneNote> SceneEdits::notes() {
+std::vector<SceneWarning> SceneEdits::warnings() {
   const std::lock_guard lock(mutex_);
-  return scene_ ? sceneNotes(edited()) : std::vector<SceneNote>{};
+  return scene_ ? sceneWarnings(edited()) : std::vector<SceneWarning>{};
 }
 
 bool SceneEdits::takeInto(Config& config) {
@@ -115,9 +115,9 @@ void SceneEdits::setAllJoints(const VectorXd& q) {
   for (int i = 0; i < q.size(); ++i) joints_[i] = q[i];
 }
 
-/// A frame with a joint takes the nearest pose that the joint can reach: then joint values have changed, and no pose.
+/// Moves a frame. A frame with a joint takes the nearest reachable pose: then joint values change, and no pose.
 bool SceneEdits::moveFrame(int id, const std::vector<double>& numbers) {
-  constexpr double kFar = 1e6;  // m: nothing of use is there
+  constexpr double kFar = 1e6;  // m: positions beyond are rejected
   if (id < 0 || id >= edited_->getFrameDimension() || numbers.size() != 7) return false;
   const Eigen::Map<const Vector7d> pose(numbers.data());
   if (pose.cwiseAbs().maxCoeff() > kFar || pose.tail<4>().norm() < 1e-3) return false;

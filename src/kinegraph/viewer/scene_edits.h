@@ -10,25 +10,25 @@
 
 namespace kinegraph {
 
-/// What people change in browsers: joint values and poses of frames. Browsers see the effect at once, on a copy of the
-/// scene; the program's own scene takes the changes over when the program asks for them. For several threads.
+/// Changes that users make in browsers: joint values and poses of frames. Browsers see the effect at once, on a copy of
+/// the scene; the program applies the changes to its own scene with takeInto. Thread-safe.
 class SceneEdits {
  public:
-  /// The scene that commands refer to from now on. Changes that were not taken are kept while `structure` stays.
+  /// Sets the scene of subsequent commands. Pending changes persist while `structure` stays the same.
   void setScene(std::shared_ptr<const SceneTree> scene, int structure);
 
-  /// Makes a change; the scene with it, or nothing if the command means nothing here.
+  /// Applies a command. Returns the changed scene, or nothing for a command that does not apply.
   std::optional<EditedScene> apply(const Command& command);
 
-  /// Moves all changes into `config`, which has the structure of the scene. True if there were any.
+  /// Moves all changes into `config`, which has the structure of the scene. Returns whether there were any.
   bool takeInto(Config& config);
 
   bool hasAny() const;
 
-  /// What there is to say about the scene with the changes.
-  std::vector<SceneNote> notes();
+  /// Returns the warnings about the changed scene.
+  std::vector<SceneWarning> warnings();
 
-  /// How near, m, shapes have to be that browsers want to see lines between; 0: none wants to.
+  /// Returns the distance (m) below which browsers show lines between shapes; 0: no browser shows them.
   double margin() const;
   void forgetMargin();
 
@@ -42,7 +42,7 @@ class SceneEdits {
   mutable std::mutex mutex_;
   std::shared_ptr<const SceneTree> scene_;
   int structure_ = 0;
-  std::optional<Config> edited_;  ///< the scene with the changes; made when there is first something to change
+  std::optional<Config> edited_;  ///< the changed scene; created with the first change
   std::map<int, double> joints_;  ///< dof -> value
   std::map<int, Pose> frames_;    ///< frame -> pose in its parent, or in the world without one
   double margin_ = 0.;

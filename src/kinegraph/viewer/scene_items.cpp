@@ -10,7 +10,7 @@ namespace kinegraph {
 
 namespace {
 
-/// The unit of each dof of a joint.
+/// Returns the unit of each dof of a joint.
 std::vector<std::string> unitsOf(const Joint& joint) {
   std::vector<std::string> units;
   for (const MotionStep& step : joint.steps) {
@@ -20,7 +20,7 @@ std::vector<std::string> unitsOf(const Joint& joint) {
   return units;
 }
 
-/// What is said of it depends on more than the frame itself holds.
+/// Returns whether a frame's details depend on other frames.
 bool refersToOthers(const FrameData& frame) { return frame.joint || !frame.no_contact.empty(); }
 
 std::vector<ShownJoint> jointsOf(const Config& config) {
@@ -61,33 +61,33 @@ std::vector<Pose> posesOf(const Config& config) {
   return poses;
 }
 
-bool SceneItems::Told::knows(const FrameData& frame) const {
+bool SceneItems::SentFrame::knows(const FrameData& frame) const {
   const auto same_numbers = [](const Inertia& a, const Inertia& b) {
     return a.mass == b.mass && a.com == b.com && a.matrix == b.matrix;
   };
   if (&*attributes != &*frame.attributes || inertia.has_value() != frame.inertia.has_value()) return false;
   if (inertia && !same_numbers(*inertia, *frame.inertia)) return false;
   if (!frame.shape) return !geometry;
-  return shape.lock() == frame.shape && geometry == frame.shape->geometry && look == frame.shape->revision &&
+  return shape.lock() == frame.shape && geometry == frame.shape->geometry && shape_revision == frame.shape->revision &&
          contact == frame.shape->contact;
 }
 
-void SceneItems::Told::remember(const FrameData& frame) {
+void SceneItems::SentFrame::remember(const FrameData& frame) {
   refers_to_others = refersToOthers(frame);
   attributes = frame.attributes;
   inertia = frame.inertia;
   shape = frame.shape;
   geometry = frame.shape ? frame.shape->geometry : nullptr;
-  look = frame.shape ? frame.shape->revision : 0;
+  shape_revision = frame.shape ? frame.shape->revision : 0;
   contact = frame.shape ? frame.shape->contact : 0;
 }
 
-/// Most frames of a scene that is built step by step are as they were: to write all of them anew would be most of the
-/// work.
-bool SceneItems::saysTheSame(const FrameData& frame, bool same_structure) const {
-  const Told& told = told_[std::size_t(frame.id)];
-  const bool refers = told.refers_to_others || refersToOthers(frame);
-  return (same_structure || !refers) && told.knows(frame);
+/// Returns whether a frame's details are unchanged. Most frames of a scene under construction are, and writing all
+/// details again would take most of the time.
+bool SceneItems::isUnchanged(const FrameData& frame, bool same_structure) const {
+  const SentFrame& sent = sent_[std::size_t(frame.id)];
+  const bool refers = sent.refers_to_others || refersToOthers(frame);
+  return (same_structure || !refers) && sent.knows(frame);
 }
 
 bool SceneItems::isOf(const Config& config) const {
@@ -104,7 +104,7 @@ void SceneItems::read(const Config& config) {
     ++structure_;
     joints_ = jointsOf(config);
     items_.resize(frames.size());
-    told_.resize(frames.size());
+    sent_.resize(frames.size());
   }
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const FrameData& frame = *frames[i];
@@ -112,8 +112,8 @@ void SceneItems::read(const Config& config) {
     if (item.name != frame.name) item.name = frame.name;
     item.parent = frame.parent ? frame.parent->id : -1;
     item.pose = Pose(state.pose(int(i)));
-    if (saysTheSame(frame, same)) continue;
-    told_[i].remember(frame);
+    if (isUnchanged(frame, same)) continue;
+    sent_[i].remember(frame);
     item.details = detailsOf(frame);
     item.geometry = nullptr;
     if (!frame.shape) continue;

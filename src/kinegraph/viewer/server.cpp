@@ -19,7 +19,7 @@ class ViewerServer::Impl {
 
   const std::string& url() const { return web_.url(); }
 
-  /// The change is made with the scene locked; all browsers are told if it says that there is something to tell.
+  /// Changes the locked scene; if the change returns true, all browsers are updated.
   template <class Change>
   void changeScene(const Change& change) {
     bool changed;
@@ -42,19 +42,19 @@ class ViewerServer::Impl {
     return state;
   }
 
-  /// On the server's thread.
+  /// Runs on the server's thread.
   void receive(const Command& command) {
     if (const auto* key = std::get_if<KeyCommand>(&command)) return state_->press(*key);
     if (const auto* event = std::get_if<EventCommand>(&command)) return state_->addEvent(*event);
     if (const auto* cursor = std::get_if<CursorCommand>(&command)) return state_->moveCursor(*cursor);
     if (const auto* viewpoint = std::get_if<ViewpointCommand>(&command)) return state_->moveCamera(*viewpoint);
     if (const auto* run = std::get_if<RunCommand>(&command)) return state_->steerRun(*run);
-    if (const auto* pull = std::get_if<PerturbCommand>(&command)) return state_->pull(*pull);
+    if (const auto* perturb = std::get_if<PerturbCommand>(&command)) return state_->perturb(*perturb);
     std::optional<EditedScene> edited;
     try {
       const std::lock_guard lock(answer_mutex_);
       if (answer_) edited = answer_(command);
-    } catch (const Error&) {  // what cannot be done is not done
+    } catch (const Error&) {  // an impossible command is ignored
     }
     if (!edited) return;
     changeScene([&](ShownScene& scene) {
@@ -64,13 +64,13 @@ class ViewerServer::Impl {
     state_->changed.notify_all();
   }
 
-  WebServer web_;  ///< the last, because its thread uses the others
+  WebServer web_;  ///< declared last, because its thread uses the other members
 };
 
 ViewerServer::ViewerServer(const ViewerOptions& options) : impl_(std::make_unique<Impl>(options)) {}
 
 ViewerServer::~ViewerServer() {
-  if (!isOurs()) (void)impl_.release();  // its sockets are shared with the process that it belongs to
+  if (!isOurs()) (void)impl_.release();  // its sockets are shared with the parent process
 }
 
 bool ViewerServer::isOurs() const { return impl_->process_ == getpid(); }
@@ -163,8 +163,8 @@ void ViewerServer::setNear(const std::vector<NearLine>& lines) {
   impl_->changeScene([&](ShownScene& scene) { return scene.setNear(lines); });
 }
 
-void ViewerServer::setNotes(const std::vector<SceneNote>& notes) {
-  impl_->changeScene([&](ShownScene& scene) { return scene.setNotes(notes); });
+void ViewerServer::setWarnings(const std::vector<SceneWarning>& warnings) {
+  impl_->changeScene([&](ShownScene& scene) { return scene.setWarnings(warnings); });
 }
 
 void ViewerServer::setQuad(const Quad& quad) {
@@ -179,8 +179,8 @@ void ViewerServer::setQuad(const Quad& quad) {
   });
 }
 
-void ViewerServer::setLook(const Look& look) {
-  impl_->changeScene([&](ShownScene& scene) { return scene.setLook(look); });
+void ViewerServer::setAppearance(const Appearance& appearance) {
+  impl_->changeScene([&](ShownScene& scene) { return scene.setAppearance(appearance); });
 }
 
 void ViewerServer::requestEvents(bool instead) {
@@ -222,7 +222,7 @@ int ViewerServer::takeKey() {
   return std::exchange(impl_->state_->key, 0);
 }
 
-int ViewerServer::waitKey(const std::function<bool()>& stop) {
+int ViewerServer::waitKey(const CancellationToken& cancellation) {
   for (;;) {
     {
       std::unique_lock lock(impl_->state_->mutex);
@@ -230,7 +230,7 @@ int ViewerServer::waitKey(const std::function<bool()>& stop) {
                                       [&] { return impl_->state_->key != 0 && impl_->state_->key_releases; });
       if (impl_->state_->key != 0 && impl_->state_->key_releases) return std::exchange(impl_->state_->key, 0);
     }
-    if (stop()) return 0;
+    if (cancellation()) return 0;
   }
 }
 

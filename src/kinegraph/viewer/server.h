@@ -6,12 +6,13 @@
 #include <span>
 #include <string>
 
+#include "kinegraph/common/cancellation.h"
 #include "kinegraph/geometry/shapes/geometry.h"
+#include "kinegraph/viewer/messages/appearance.h"
 #include "kinegraph/viewer/messages/commands.h"
-#include "kinegraph/viewer/messages/look.h"
 #include "kinegraph/viewer/messages/near_lines.h"
 #include "kinegraph/viewer/messages/run_requests.h"
-#include "kinegraph/viewer/messages/scene_notes.h"
+#include "kinegraph/viewer/messages/scene_warnings.h"
 #include "kinegraph/viewer/messages/shown_motion.h"
 #include "kinegraph/viewer/messages/shown_run.h"
 
@@ -19,90 +20,89 @@ namespace kinegraph {
 
 class ShownScene;
 
-/// What a viewer shows of a frame.
+/// A frame in the viewer.
 struct ViewItem {
   std::string name;
   int parent = -1;                           ///< index of the parent item, or -1
   Pose pose;                                 ///< in the world
-  std::shared_ptr<const Geometry> geometry;  ///< null: nothing to see
+  std::shared_ptr<const Geometry> geometry;  ///< null: nothing visible
   Vector4d color{.8, .8, .8, 1.};            ///< rgba in 0..1
   bool collides = false;                     ///< it counts in collisions
-  std::string details;                       ///< what else there is to say, as attributes of a .g file
+  std::string details;                       ///< further attributes, as in a .g file
 };
 
-/// A dof that people can move in the browser.
+/// A dof that users can move in the browser.
 struct ShownJoint {
   std::string name;
-  int frame = 0;                ///< index of the item that carries it
+  int frame = 0;                ///< index of the item with the joint
   std::string unit;             ///< rad, m, or nothing
   double lower = 0, upper = 0;  ///< no limits if lower > upper
   bool operator==(const ShownJoint&) const = default;
 };
 
-/// What a command of a browser makes of the scene.
+/// The scene after a command of a browser.
 struct EditedScene {
   std::vector<Pose> poses;  ///< of all items, in the world
   VectorXd q;
   std::vector<NearLine> near{};
-  std::optional<std::vector<SceneNote>> notes{};  ///< if somebody asked
+  std::optional<std::vector<SceneWarning>> warnings{};  ///< if a browser requested them
 };
 
 struct ViewerOptions {
-  std::string host = "127.0.0.1";  ///< only this machine, unless told otherwise
-  int port = 7000;                 ///< first one tried; those in use are passed over; 0: any free one
+  std::string host = "127.0.0.1";  ///< by default this machine only
+  int port = 7000;                 ///< first port tried; occupied ports are skipped; 0: any free port
   std::string title = "Kinegraph";
-  std::string token{};  ///< that browsers have to send, as in url(); empty: none on this machine, else a random one
+  std::string token{};  ///< required from browsers, part of url(); empty: none on this machine, else a random one
 };
 
-/// Shows items in any number of browsers: an HTTP server for the page, and a websocket each for what changes. It has a
-/// thread of its own; a slow browser misses intermediate poses and never holds the program up.
+/// Shows items in any number of browsers: an HTTP server for the page, and a websocket per browser for changes. It has
+/// its own thread; a slow browser misses intermediate poses and never delays the program.
 class ViewerServer {
  public:
-  /// Throws ValueError for a host or port that cannot be, Error if no port can be had.
+  /// Throws ValueError for an invalid host or port, and Error if no port is available.
   explicit ViewerServer(const ViewerOptions& options = {});
-  ~ViewerServer();  ///< in a forked process, leaves the other one's server alone
+  ~ViewerServer();  ///< in a forked process, does not close the parent's server
   ViewerServer(const ViewerServer&) = delete;
 
-  /// False in a process that was forked from the one that made this: the server's thread is not there.
+  /// Returns false in a forked child of the process that created it, which lacks the server's thread.
   bool isOurs() const;
 
   std::string url() const;
   int clients() const;
 
-  /// Changes what is shown, with the scene locked, and tells browsers if `change` returns that there is something to
-  /// tell. The methods below say the same in a word.
+  /// Changes the locked scene, and updates browsers if `change` returns true. The methods below are shortcuts for it.
   void show(const std::function<bool(ShownScene&)>& change);
 
-  /// Sends what differs from the last call: nothing if nothing does.
+  /// Sends the differences from the last call.
   void update(std::span<const ViewItem> items);
 
-  /// The dofs, and their values. Browsers send `structure` with their commands: the scene that they refer to.
+  /// Sets the dofs and their values. Browsers send `structure`, the number of the scene, with their commands.
   void setJoints(int structure, const std::vector<ShownJoint>& joints, const VectorXd& q);
 
-  /// Shows a motion of the items that were given last, with a time slider, until `endMotion`.
+  /// Shows a motion of the present items, with a time slider, until `endMotion`.
   void showMotion(const ShownMotion& motion);
   void endMotion();
 
-  /// Lines between shapes that are near each other, for browsers that show them.
+  /// Sets the lines between near shapes, for browsers that show them.
   void setNear(const std::vector<NearLine>& lines);
 
-  /// What there is to say about the scene.
-  void setNotes(const std::vector<SceneNote>& notes);
+  /// Sets the warnings about the scene.
+  void setWarnings(const std::vector<SceneWarning>& warnings);
 
-  /// A picture on top of the scene; one with the same id is replaced. Throws ValueError for numbers of pixels that do
-  /// not match.
+  /// Shows an image on top of the scene; it replaces one with the same id. Throws ValueError for a wrong number of
+  /// pixels.
   void setQuad(const Quad& quad);
 
-  void setLook(const Look& look);
+  void setAppearance(const Appearance& appearance);
 
   /// Shows the card of an item, with handles to move it.
   void select(int item);
 
-  /// The page with all that is shown inside: an HTML file that opens without this server.
+  /// Returns a self-contained HTML page of everything shown, which needs no server.
   std::string recording() const;
 
-  /// Answers commands other than keys, on the server's thread; nothing for those that mean nothing. All browsers see
-  /// the answer.
+  /// Sets the handler of commands other than keys; it runs on the server's thread and returns nothing for commands that
+  /// do not apply. All browsers see the result.
   void onCommand(std::function<std::optional<EditedScene>(const Command&)> answer);
 
   void setMessage(const std::string& text);  ///< in the corner; may have several lines
@@ -111,39 +111,39 @@ class ViewerServer {
 
   void setCamera(const PageCamera& camera);
 
-  /// Where pages look from: as setCamera said, or where a person turned one to; nothing if nobody has said anything.
+  /// Returns the camera of the pages: from setCamera, or as a user moved it; nothing without either.
   std::optional<PageCamera> camera() const;
 
-  /// Where a person has turned a page to since the last call, and since the last setCamera; nothing if nobody has.
+  /// Returns the camera that a user has moved since the last call and the last setCamera; nothing if no user has.
   std::optional<PageCamera> takeViewpoint();
 
-  /// The last key pressed in a browser since the previous call, or 0. Letters as lower-case ASCII, Enter 13, Escape 27,
-  /// space 32; others have the codes of GLFW.
+  /// Returns the last key pressed in a browser since the previous call, or 0. Letters are lower-case ASCII, Enter is
+  /// 13, Escape 27, space 32; other keys have the codes of GLFW.
   int takeKey();
 
-  /// Waits for a key that is pressed without Shift, Ctrl and Alt, and that is not the arrow to the left or right, which
-  /// step through motions. Returns 0 as soon as `stop` (asked every 20 ms) says so.
-  int waitKey(const std::function<bool()>& stop);
+  /// Waits for a key that is pressed without Shift, Ctrl and Alt, except the left and right arrows, which step through
+  /// motions. Returns 0 as soon as `cancellation` (checked every 20 ms) returns true.
+  int waitKey(const CancellationToken& cancellation);
 
-  /// Browsers send events from now on; with `instead`, mouse and keys do nothing else on the page.
+  /// Requests events from browsers; with `instead`, mouse and keys have no other effect on the page.
   void requestEvents(bool instead);
-  /// The keys 1, 2, 3, 4 and 7 switch shapes, markers, axes, distances and names on and off, in the browser where they
-  /// are pressed.
+  /// Lets the keys 1, 2, 3, 4 and 7 toggle shapes, markers, axes, distances and names in the browser where they are
+  /// pressed.
   void requestDigits(bool yes);
-  std::vector<std::string> takeEvents();  ///< those since the last call; see eventName
+  std::vector<std::string> takeEvents();  ///< events since the last call; see eventName
 
-  /// What is under the pointer of the browser in which it moved last. Browsers tell from the first call on.
+  /// Returns the point under the pointer that moved last in any browser. Browsers report it from the first call on.
   std::optional<Cursor> cursor();
 
-  /// Shows that a simulation runs, with buttons to steer it, until `endRun`.
+  /// Shows a running simulation, with buttons to control it, until `endRun`.
   void showRun(const ShownRun& run);
   void endRun();
 
-  RunRequests takeRunRequests();        ///< what people ask of it now; see RunRequests::take
-  void waitRunRequest(double seconds);  ///< for any news from browsers, or for so long
-  void endRunRequests();                ///< nobody asks for anything any more: it is not paused, and nothing is pulled
+  RunRequests takeRunRequests();        ///< present requests of users; see RunRequests::take
+  void waitRunRequest(double seconds);  ///< waits for any message of browsers, up to a duration
+  void endRunRequests();                ///< clears all requests: neither paused nor perturbed
 
-  /// Waits until a browser is connected, for at most so many seconds.
+  /// Waits until a browser is connected, up to a duration in s.
   bool waitForClient(double seconds);
 
  private:
@@ -151,11 +151,12 @@ class ViewerServer {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Opens `url` in the user's browser if there is a display and KINEGRAPH_HEADLESS is not set. Never waits, never fails.
+/// Opens `url` in the user's browser if there is a display and KINEGRAPH_HEADLESS is not set. Returns at once and never
+/// fails.
 void openBrowser(const std::string& url);
 
-/// True if the environment variable KINEGRAPH_HEADLESS is set to anything but 0: no browser is opened, and nothing
-/// waits.
+/// Returns whether the environment variable KINEGRAPH_HEADLESS is set to a value other than 0: no browser is opened,
+/// and no call waits.
 bool isHeadless();
 
 }  // namespace kinegraph

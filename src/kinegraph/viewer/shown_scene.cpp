@@ -44,9 +44,10 @@ MotionMessage headOf(const ShownMotion& motion) {
           motion.violations,        motion.marked,  touching, traces};
 }
 
-NotesMessage messageOf(const std::vector<SceneNote>& notes) {
-  NotesMessage message;
-  for (const SceneNote& note : notes) message.notes.push_back({note.text, note.frames, note.ignored});
+WarningsMessage messageOf(const std::vector<SceneWarning>& warnings) {
+  WarningsMessage message;
+  for (const SceneWarning& warning : warnings)
+    message.warnings.push_back({warning.text, warning.frames, warning.ignored});
   return message;
 }
 
@@ -56,9 +57,9 @@ RunMessage messageOf(const ShownRun& run) {
     message.contacts.insert(message.contacts.end(), position.begin(), position.end());
     message.contacts.insert(message.contacts.end(), force.begin(), force.end());
   }
-  if (run.pull) {
-    const auto& [from, to, force] = *run.pull;
-    message.pull = {from.x(), from.y(), from.z(), to.x(), to.y(), to.z(), force};
+  if (run.perturbation) {
+    const auto& [from, to, force] = *run.perturbation;
+    message.perturbation = {from.x(), from.y(), from.z(), to.x(), to.y(), to.z(), force};
   }
   return message;
 }
@@ -90,7 +91,7 @@ std::shared_ptr<const ShownScene::SentMesh> ShownScene::meshOf(const ViewItem& i
   return place->second;
 }
 
-/// kind, number, then the bytes of its file.
+/// Encodes kind, number, then the bytes of the image's file.
 std::shared_ptr<const ShownScene::SentImage> ShownScene::sentImage(const std::shared_ptr<const Image>& image) {
   const auto [place, is_new] = images_.try_emplace(image);
   if (is_new) {
@@ -105,31 +106,31 @@ std::shared_ptr<const ShownScene::SentImage> ShownScene::sentImage(const std::sh
 
 bool ShownScene::update(std::span<const ViewItem> items) {
   const std::uint64_t next = revision_ + 1;
-  bool changed = false, looks_changed = false;
+  bool changed = false, appearance_changed = false;
   if (frames_.size() != items.size()) {
     frames_.resize(items.size());
     count_revision_ = next;
-    changed = looks_changed = true;
+    changed = appearance_changed = true;
   }
   for (std::size_t i = 0; i < items.size(); ++i) {
     Shown& shown = frames_[i];
     const ViewItem& item = items[i];
-    const bool same_look = shown.look_revision > 0 && shown.item.geometry == item.geometry &&
-                           shown.item.color == item.color && shown.item.collides == item.collides &&
-                           shown.item.parent == item.parent && shown.item.name == item.name &&
-                           shown.item.details == item.details;
-    if (!same_look) {
+    const bool same_appearance = shown.appearance_revision > 0 && shown.item.geometry == item.geometry &&
+                                 shown.item.color == item.color && shown.item.collides == item.collides &&
+                                 shown.item.parent == item.parent && shown.item.name == item.name &&
+                                 shown.item.details == item.details;
+    if (!same_appearance) {
       shown.mesh = meshOf(item);
-      shown.look_revision = next;
-      changed = looks_changed = true;
+      shown.appearance_revision = next;
+      changed = appearance_changed = true;
     }
-    if (!same_look || shown.item.pose.p != item.pose.p || shown.item.pose.q.coeffs() != item.pose.q.coeffs()) {
+    if (!same_appearance || shown.item.pose.p != item.pose.p || shown.item.pose.q.coeffs() != item.pose.q.coeffs()) {
       shown.pose_revision = next;
       changed = true;
       shown.item = item;
     }
   }
-  if (looks_changed) {
+  if (appearance_changed) {
     std::erase_if(meshes_, [](const auto& entry) { return entry.second.use_count() == 1; });
     std::erase_if(images_, [](const auto& entry) { return entry.second.use_count() == 1; });
   }
@@ -143,7 +144,7 @@ bool ShownScene::setJoints(int structure, const std::vector<ShownJoint>& joints,
     structure_ = structure;
     joints_ = joints;
     joints_revision_ = ++revision_;
-    setNotes({});  // those were of other frames
+    setWarnings({});  // the former ones refer to other frames
   }
   if (q.size() != q_.size() || q != q_) {
     q_ = q;
@@ -164,7 +165,7 @@ void ShownScene::setEdited(const EditedScene& edited) {
   }
   setJoints(structure_, joints_, edited.q);
   setNear(edited.near);
-  if (edited.notes) setNotes(*edited.notes);
+  if (edited.warnings) setWarnings(*edited.warnings);
 }
 
 void ShownScene::select(int frame) {
@@ -211,10 +212,10 @@ bool ShownScene::setNear(const std::vector<NearLine>& lines) {
   return true;
 }
 
-bool ShownScene::setNotes(const std::vector<SceneNote>& notes) {
-  if (notes == notes_) return false;
-  notes_ = notes;
-  notes_revision_ = ++revision_;
+bool ShownScene::setWarnings(const std::vector<SceneWarning>& warnings) {
+  if (warnings == warnings_) return false;
+  warnings_ = warnings;
+  warnings_revision_ = ++revision_;
   return true;
 }
 
@@ -222,28 +223,28 @@ void ShownScene::setQuad(const Quad& quad) {
   quads_[quad.id] = {++revision_, {std::make_shared<std::string>(encodeQuad(quad)), true}};
 }
 
-bool ShownScene::setLook(const Look& look) {
-  if (look == look_) return false;
-  look_ = look;
-  look_revision_ = ++revision_;
+bool ShownScene::setAppearance(const Appearance& appearance) {
+  if (appearance == appearance_) return false;
+  appearance_ = appearance;
+  appearance_revision_ = ++revision_;
   return true;
 }
 
 bool ShownScene::requestEvents(int kind) {
   if (std::exchange(events_, kind) == kind) return false;
-  look_revision_ = ++revision_;
+  appearance_revision_ = ++revision_;
   return true;
 }
 
 bool ShownScene::requestDigits(bool yes) {
   if (std::exchange(digits_, yes) == yes) return false;
-  look_revision_ = ++revision_;
+  appearance_revision_ = ++revision_;
   return true;
 }
 
 bool ShownScene::requestCursor() {
   if (std::exchange(cursor_, true)) return false;
-  look_revision_ = ++revision_;
+  appearance_revision_ = ++revision_;
   return true;
 }
 
@@ -266,7 +267,7 @@ FrameMessage ShownScene::frameMessage(std::size_t index) const {
   return frame;
 }
 
-/// Meshes and pictures that the browser does not have, then looks, then poses.
+/// Adds the meshes and images that the browser lacks, then frames, then poses.
 void ShownScene::addFrames(Seen& seen, std::vector<Outgoing>& out) const {
   SceneMessage scene;
   scene.count = int(frames_.size());
@@ -275,7 +276,7 @@ void ShownScene::addFrames(Seen& seen, std::vector<Outgoing>& out) const {
   std::uint32_t moved = 0;
   for (std::size_t i = 0; i < frames_.size(); ++i) {
     const Shown& shown = frames_[i];
-    if (shown.look_revision > seen.revision) scene.frames.push_back(frameMessage(i));
+    if (shown.appearance_revision > seen.revision) scene.frames.push_back(frameMessage(i));
     if (shown.mesh && meshes.insert(shown.mesh->number).second) {
       for (const auto& image : shown.mesh->images) {
         if (images.insert(image->number).second && !seen.images.contains(image->number))
@@ -305,14 +306,25 @@ JointsMessage ShownScene::jointsMessage() const {
   return message;
 }
 
-LookMessage ShownScene::lookMessage() const {
-  LookMessage look{look_.visuals_only, {},      {},      look_.shadows, look_.text, {}, look_.flat_colors,
-                   look_.wireframe,    digits_, events_, cursor_};
-  for (const Vector3d& light : look_.lights) look.lights.insert(look.lights.end(), light.begin(), light.end());
-  if (look_.background) look.background.assign(look_.background->data(), look_.background->data() + 3);
-  if (look_.floor) look.floor.assign(look_.floor->data(), look_.floor->data() + 3);
-  if (!look_.has_floor) look.floor = {-1.};
-  return look;
+AppearanceMessage ShownScene::appearanceMessage() const {
+  AppearanceMessage appearance{appearance_.visuals_only,
+                               {},
+                               {},
+                               appearance_.shadows,
+                               appearance_.text,
+                               {},
+                               appearance_.flat_colors,
+                               appearance_.wireframe,
+                               digits_,
+                               events_,
+                               cursor_};
+  for (const Vector3d& light : appearance_.lights)
+    appearance.lights.insert(appearance.lights.end(), light.begin(), light.end());
+  if (appearance_.background)
+    appearance.background.assign(appearance_.background->data(), appearance_.background->data() + 3);
+  if (appearance_.floor) appearance.floor.assign(appearance_.floor->data(), appearance_.floor->data() + 3);
+  if (!appearance_.has_floor) appearance.floor = {-1.};
+  return appearance;
 }
 
 std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
@@ -323,9 +335,9 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
   addFrames(seen, out);
   if (joints_revision_ > seen.revision) send(jointsMessage());
   if (q_revision_ > seen.revision) out.push_back({std::make_shared<std::string>(encodeJoints(q_)), true});
-  if (look_revision_ > seen.revision) send(lookMessage());
+  if (appearance_revision_ > seen.revision) send(appearanceMessage());
   if (near_revision_ > seen.revision) out.push_back({near_, false});
-  if (notes_revision_ > seen.revision) send(messageOf(notes_));
+  if (warnings_revision_ > seen.revision) send(messageOf(warnings_));
   if (run_revision_ > seen.revision) send(run_ ? messageOf(*run_) : RunMessage{});
   for (const auto& [id, quad] : quads_) {
     if (quad.first > seen.revision) out.push_back(quad.second);

@@ -14,7 +14,7 @@ namespace kinegraph {
 
 struct FrameMessage;
 struct JointsMessage;
-struct LookMessage;
+struct AppearanceMessage;
 
 /// A message for a browser. Large ones are shared by all browsers.
 struct Outgoing {
@@ -22,24 +22,24 @@ struct Outgoing {
   bool binary;
 };
 
-/// What is shown at present, and what of it has changed since any earlier revision. Not synchronized.
+/// The shown scene, with the changes since any earlier revision. Not synchronized.
 class ShownScene {
  public:
-  /// What one browser has got so far.
+  /// The content of one browser.
   struct Seen {
     std::uint64_t revision = 0;
-    std::set<int> meshes;  ///< those in use at that revision; a browser forgets the others
-    std::set<int> images;  ///< the same, of the pictures on them
+    std::set<int> meshes;  ///< meshes in use at that revision; a browser drops all others
+    std::set<int> images;  ///< the same for images on them
   };
 
-  /// True if anything differs from before.
+  /// Updates the items. Returns whether anything differs.
   bool update(std::span<const ViewItem> items);
   bool setJoints(int structure, const std::vector<ShownJoint>& joints, const VectorXd& q);
 
-  /// New poses of all items, and joint values.
+  /// Sets new poses of all items, and joint values.
   void setEdited(const EditedScene& edited);
 
-  /// Browsers show this frame with handles to move it.
+  /// Lets browsers show this frame with handles to move it.
   void select(int frame);
 
   void setMotion(const ShownMotion& motion);
@@ -47,22 +47,22 @@ class ShownScene {
   void setRun(const ShownRun& run);
   bool endRun();
   bool setNear(const std::vector<NearLine>& lines);
-  bool setNotes(const std::vector<SceneNote>& notes);
+  bool setWarnings(const std::vector<SceneWarning>& warnings);
   void setQuad(const Quad& quad);
-  bool setLook(const Look& look);
-  bool requestEvents(int kind);  ///< 1: browsers send events; 2: and do nothing else with mouse and keys
+  bool setAppearance(const Appearance& appearance);
+  bool requestEvents(int kind);  ///< 1: browsers send events; 2: mouse and keys have no other effect
   bool requestCursor();
-  bool requestDigits(bool yes);  ///< 1, 2, 3, 4 and 7 switch what browsers draw
+  bool requestDigits(bool yes);  ///< the keys 1, 2, 3, 4 and 7 toggle parts of the picture
   bool setText(std::string ShownScene::*field, const std::string& text);
   void setCamera(const PageCamera& camera);
 
   std::string title, message, error;
 
-  /// The messages that bring a browser from `seen` to the present; `seen` is updated.
+  /// Returns the messages that update a browser from `seen` to the present, and updates `seen`.
   std::vector<Outgoing> messagesSince(Seen& seen) const;
 
  private:
-  /// A picture or a mesh as it is sent, under a number that is never used again.
+  /// An encoded image or mesh, with a number that is never reused.
   struct SentImage {
     int number;
     std::shared_ptr<const std::string> data;
@@ -70,14 +70,14 @@ class ShownScene {
   struct SentMesh {
     int number;
     std::shared_ptr<const std::string> data;
-    std::vector<std::shared_ptr<const SentImage>> images = {};  ///< on its textured triangles
+    std::vector<std::shared_ptr<const SentImage>> images = {};  ///< of its textured triangles
   };
   struct Shown {
     ViewItem item;
     std::shared_ptr<const SentMesh> mesh;
-    std::uint64_t look_revision = 0, pose_revision = 0;
+    std::uint64_t appearance_revision = 0, pose_revision = 0;
   };
-  struct LessBytes {  // equal pictures are one
+  struct LessBytes {  // equal images are stored once
     bool operator()(const std::shared_ptr<const Image>& a, const std::shared_ptr<const Image>& b) const {
       return a->bytes < b->bytes;
     }
@@ -86,31 +86,31 @@ class ShownScene {
   std::shared_ptr<const SentImage> sentImage(const std::shared_ptr<const Image>& image);
   FrameMessage frameMessage(std::size_t index) const;
   JointsMessage jointsMessage() const;
-  LookMessage lookMessage() const;
+  AppearanceMessage appearanceMessage() const;
   void addFrames(Seen& seen, std::vector<Outgoing>& out) const;
 
   std::uint64_t revision_ = 1, count_revision_ = 1, text_revision_ = 1, camera_revision_ = 0;
   std::vector<Shown> frames_;
-  std::map<std::shared_ptr<const Geometry>, std::shared_ptr<const SentMesh>> meshes_;  ///< those that frames show
+  std::map<std::shared_ptr<const Geometry>, std::shared_ptr<const SentMesh>> meshes_;  ///< meshes of the shown frames
   std::map<std::shared_ptr<const Image>, std::shared_ptr<const SentImage>, LessBytes>
-      images_;  ///< those on these meshes
+      images_;  ///< images on these meshes
   int next_mesh_ = 0, next_image_ = 0;
   int structure_ = 0;
   std::vector<ShownJoint> joints_;
   VectorXd q_;
   std::uint64_t joints_revision_ = 0, q_revision_ = 0, motion_revision_ = 0, select_revision_ = 0;
   int selected_ = -1;
-  std::vector<Outgoing> motion_;  ///< as it is sent; empty: there is none
+  std::vector<Outgoing> motion_;  ///< encoded; empty: no motion
   std::optional<ShownRun> run_;
   std::uint64_t run_revision_ = 0;
   PageCamera camera_;
-  Look look_;
+  Appearance appearance_;
   int events_ = 0;
   bool cursor_ = false, digits_ = false;
-  std::shared_ptr<const std::string> near_;                  ///< as it is sent
-  std::map<int, std::pair<std::uint64_t, Outgoing>> quads_;  ///< by id: since when, and as it is sent
-  std::vector<SceneNote> notes_;
-  std::uint64_t look_revision_ = 0, near_revision_ = 0, notes_revision_ = 0;
+  std::shared_ptr<const std::string> near_;                  ///< encoded
+  std::map<int, std::pair<std::uint64_t, Outgoing>> quads_;  ///< by id: revision and encoded message
+  std::vector<SceneWarning> warnings_;
+  std::uint64_t appearance_revision_ = 0, near_revision_ = 0, warnings_revision_ = 0;
 };
 
 }  // namespace kinegraph

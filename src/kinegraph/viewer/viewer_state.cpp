@@ -30,7 +30,7 @@ void ViewerState::moveCursor(const CursorCommand& command) {
   cursor = {command.frame, Vector3d(command.point.data()), Vector3d(command.normal.data())};
 }
 
-/// Numbers that are no camera's are ignored.
+/// Sets the camera; invalid cameras are ignored.
 void ViewerState::moveCamera(const ViewpointCommand& command) {
   const auto isFinite = [](double x) { return std::isfinite(x); };
   if (command.pose.size() != 7 || !std::all_of(command.pose.begin(), command.pose.end(), isFinite)) return;
@@ -54,7 +54,7 @@ void ViewerState::steerRun(const RunCommand& command) {
   changed.notify_all();
 }
 
-void ViewerState::pull(const PerturbCommand& command) {
+void ViewerState::perturb(const PerturbCommand& command) {
   {
     const std::lock_guard lock(mutex);
     if (!run.apply(command)) return;
@@ -72,7 +72,7 @@ void ViewerState::addClient() {
 
 void ViewerState::removeClient() {
   const std::lock_guard lock(mutex);
-  if (--clients == 0) run.pull.reset();  // nobody holds it any more
+  if (--clients == 0) run.perturbation.reset();  // no browser is left to drag the point
 }
 
 std::vector<Outgoing> ViewerState::messagesSince(ShownScene::Seen& seen) const {

@@ -11,19 +11,19 @@
 
 namespace kinegraph {
 
-/// What the program's threads and the server's thread share. The methods lock; whoever touches the fields locks
-/// `mutex`.
+/// The state that the program's threads share with the server's thread. The methods lock; direct access to the fields
+/// requires a lock on `mutex`.
 struct ViewerState {
   mutable std::mutex mutex;
-  std::condition_variable changed;  ///< a key was pressed, a client came
+  std::condition_variable changed;  ///< a key was pressed, or a browser connected
   ShownScene scene;
   int key = 0;
-  bool key_releases = false;  ///< it ends the waiting for a key
+  bool key_releases = false;  ///< the key ends waitKey
   int clients = 0;
   InputEvents events;
   std::optional<Cursor> cursor;
-  std::optional<PageCamera> camera;  ///< where pages look from: as the program said, or where a person turned one to
-  bool camera_moved = false;         ///< by a person, since the program was told
+  std::optional<PageCamera> camera;  ///< camera of the pages: set by the program, or moved by a user
+  bool camera_moved = false;         ///< by a user, since the program read it
   RunRequests run;
 
   void press(const KeyCommand& key);
@@ -31,14 +31,14 @@ struct ViewerState {
   void moveCursor(const CursorCommand& cursor);
   void moveCamera(const ViewpointCommand& viewpoint);
   void steerRun(const RunCommand& command);
-  void pull(const PerturbCommand& command);
+  void perturb(const PerturbCommand& command);
   void addClient();
   void removeClient();
 
-  /// The messages that bring a browser to the present.
+  /// Returns the messages that update a browser to the present.
   std::vector<Outgoing> messagesSince(ShownScene::Seen& seen) const;
 
-  /// The page with all that is shown now.
+  /// Returns a page with everything shown now.
   std::string recording() const;
 };
 

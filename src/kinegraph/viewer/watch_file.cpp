@@ -12,63 +12,62 @@ namespace kinegraph {
 
 namespace {
 
-/// A scene file as it was at one time: its frames, or what is wrong with it.
-struct Reading {
+/// The content of a scene file at one time: its frames, or the error.
+struct LoadedScene {
   Config config;
   std::string error;
   FileStamps stamps;
-  bool torn = false;  ///< somebody wrote while it was read
+  bool torn = false;  ///< it was written while it was read
 };
 
-/// The file and those that it includes, as far as they can be found.
+/// Returns the stamps of the file and all files that it includes, as far as they exist.
 FileStamps stampsOfScene(const std::string& path) {
   const std::vector<std::string> files = sourceFiles(path);
   return stampsOf(files.empty() ? std::vector{path} : files);
 }
 
-Reading readScene(const std::string& path) {
-  Reading reading;
-  reading.stamps = stampsOfScene(path);
+LoadedScene readScene(const std::string& path) {
+  LoadedScene loaded;
+  loaded.stamps = stampsOfScene(path);
   try {
-    reading.config.addFile(path);
+    loaded.config.addFile(path);
   } catch (const Error& error) {
-    reading.error = error.what();
+    loaded.error = error.what();
   }
-  reading.torn = stampsOfScene(path) != reading.stamps;
-  return reading;
+  loaded.torn = stampsOfScene(path) != loaded.stamps;
+  return loaded;
 }
 
 }  // namespace
 
 void watchFile(Config& config, ConfigViewer& viewer, const std::string& path,
-               const std::function<void(const std::string&)>& report, const std::function<bool()>& stop) {
+               const std::function<void(const std::string&)>& report, const CancellationToken& cancellation) {
   FileChanges changes;
   const auto load = [&] {
-    Reading reading = readScene(path);
-    if (reading.torn) return;  // the change is seen at the next look
-    if (reading.error.empty()) {
+    LoadedScene loaded = readScene(path);
+    if (loaded.torn) return;  // the next check sees the change
+    if (loaded.error.empty()) {
       config.clear();
-      config.addConfigurationCopy(reading.config);
+      config.addConfigurationCopy(loaded.config);
       viewer.setError("");
       viewer.setMessage(cat(path, "\nwaiting for changes of the file; h: help, q: quit"));
       report(config.report());
-      for (const std::string& warning : reading.config.takeWarnings()) report(warning);
+      for (const std::string& warning : loaded.config.takeWarnings()) report(warning);
     } else {
-      viewer.setError(reading.error);
-      viewer.setMessage(
-          cat(path, "\nthe last scene without a mistake; waiting for the file to be mended; h: help, q: quit"));
-      report(reading.error);
+      viewer.setError(loaded.error);
+      viewer.setMessage(cat(path, "\nthe last valid scene; waiting for a corrected file; h: help, q: quit"));
+      report(loaded.error);
     }
     viewer.update(config);
-    changes.setRead(std::move(reading.stamps));
+    changes.setRead(std::move(loaded.stamps));
   };
   viewer.setTitle(cat("ConfigView <", path, ">"));
-  changes.setRead({{path, {}}});  // as if it had been missing so far
+  changes.setRead({{path, {}}});  // as if the file had not existed before
   load();
-  viewer.server().cursor();  // so that browsers tell where the pointer is
-  WatchKeys keys(config, viewer, report, stop);
+  viewer.server().cursor();  // lets browsers report the pointer's position
+  WatchKeys keys(config, viewer, report, cancellation);
   viewer.server().requestDigits(true);
-  while (viewer.waits() && !stop()) {
+  while (viewer.waits() && !cancellation()) {
     if (viewer.takeEdits(config)) viewer.update(config);
     keys.logEvents();
     const int key = viewer.takeKey();

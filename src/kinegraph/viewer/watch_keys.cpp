@@ -11,15 +11,15 @@
 namespace kinegraph {
 
 std::string WatchKeys::help() {
-  return "h: this help\na: every joint through its limits; any key stops it\ni: what the scene contains, and the "
-         "camera\nc: collisions\n"
-         "r: random joints\nx: write z.g, z.urdf, z.ply, z.dae\nspace: what the pointer is on\n6: log mouse and keys, "
+  return "h: this help\na: moves every joint through its limits; any key stops it\ni: content of the scene and "
+         "the camera\nc: collisions\n"
+         "r: random joints\nx: write z.g, z.urdf, z.ply, z.dae\nspace: frame under the pointer\n6: log mouse and keys, "
          "or stop it\n"
          "1, 2, 3, 4, 7: shapes, markers, axes, distances, names on or off\n"
          "Enter: load again\nq, Escape: quit";
 }
 
-void WatchKeys::say(const std::string& text) {
+void WatchKeys::report(const std::string& text) {
   viewer_.setMessage(text);
   report_(text);
 }
@@ -28,7 +28,7 @@ bool WatchKeys::press(int key) {
   try {
     switch (key) {
       case 'h':
-        say(help());
+        report(help());
         return true;
       case 'i':
         reportScene();
@@ -44,9 +44,9 @@ bool WatchKeys::press(int key) {
         return true;
       case 'a':
         viewer_.showMotion(config_, jointSweep(config_), false, "every joint through its limits [any key stops it]",
-                           stop_);
+                           cancellation_);
         viewer_.update(config_);
-        say("the joints are where they were");
+        report("the joints are back at their values");
         return true;
       case 'r':
         config_.setJointState(randomJointState(config_, random_));
@@ -56,13 +56,13 @@ bool WatchKeys::press(int key) {
         logs_ = !logs_;
         viewer_.server().requestEvents(false);
         viewer_.server().takeEvents();
-        say(logs_ ? "mouse and keys are logged" : "mouse and keys are not logged");
+        report(logs_ ? "mouse and keys are logged" : "mouse and keys are not logged");
         return true;
       default:
         return false;
     }
   } catch (const Error& error) {
-    say(error.what());
+    report(error.what());
     return true;
   }
 }
@@ -76,14 +76,14 @@ void WatchKeys::reportScene() {
   std::string text = cat(config_.report(), "\njoints:");
   for (const std::string& name : config_.getJointNames()) text += " " + name;
   if (const std::optional<PageCamera> camera = viewer_.server().camera()) {
-    text += cat("\nthe page looks from\ncamera_init: { X: [", camera->pose.numbers().transpose(), "]");
+    text += cat("\nthe camera of the page\ncamera_init: { X: [", camera->pose.numbers().transpose(), "]");
     if (camera->ortho_height > 0.)
       text += cat(", orthoAbsHeight: ", camera->ortho_height);
     else if (camera->focal_length > 0.)
       text += cat(", focalLength: ", camera->focal_length);
     text += " }";
   }
-  say(text);
+  report(text);
 }
 
 void WatchKeys::reportCollisions() {
@@ -92,7 +92,7 @@ void WatchKeys::reportCollisions() {
   std::string text = cat(lines.size(), " pairs nearer than 5 cm");
   for (const NearLine& line : lines) text += cat("\n", line.names, "  ", line.distance, " m");
   viewer_.server().setNear(lines);
-  say(text);
+  report(text);
 }
 
 void WatchKeys::writeFiles() {
@@ -102,17 +102,17 @@ void WatchKeys::writeFiles() {
   saveWorldMesh(config_, "z.ply");
   saveCollada(config_, "z.dae");
   for (const std::string& warning : warnings) report_(warning);
-  say("written: z.g, z.urdf, z.ply, z.dae");
+  report("written: z.g, z.urdf, z.ply, z.dae");
 }
 
 void WatchKeys::reportPicked() {
   const std::optional<Cursor> cursor = viewer_.server().cursor();
   if (!cursor || cursor->frame < 0 || cursor->frame >= config_.getFrameDimension()) {
-    return say("the pointer is on no shape; move it and press space again");
+    return report("there is no shape under the pointer; move it and press space again");
   }
   const FrameData& frame = *config_.scene()->frames()[std::size_t(cursor->frame)];
   const Vector3d& p = cursor->point;
-  say(cat(frame.name, " (", frame.id, ") at ", p.x(), " ", p.y(), " ", p.z(), "\n{ ", detailsOf(frame), " }"));
+  report(cat(frame.name, " (", frame.id, ") at ", p.x(), " ", p.y(), " ", p.z(), "\n{ ", detailsOf(frame), " }"));
 }
 
 }  // namespace kinegraph

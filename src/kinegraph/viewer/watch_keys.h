@@ -7,25 +7,25 @@
 
 namespace kinegraph {
 
-/// What keys do while a file is watched: h help, a animate the joints, i a report with the camera, c collisions, r
-/// random joints, x write the scene as z.g, z.urdf, z.ply and z.dae, space tell what the pointer is on, 6 log mouse and
-/// keys.
+/// Handles keys while a file is watched: h shows help, a animates the joints, i reports the scene and the camera, c
+/// collisions, r samples random joints, x writes the scene as z.g, z.urdf, z.ply and z.dae, space describes the frame
+/// under the pointer, 6 logs mouse and keys.
 class WatchKeys {
  public:
   using Report = std::function<void(const std::string&)>;
-  WatchKeys(Config& config, ConfigViewer& viewer, Report report, ConfigViewer::Stop stop)
-      : config_(config), viewer_(viewer), report_(std::move(report)), stop_(std::move(stop)) {}
+  WatchKeys(Config& config, ConfigViewer& viewer, Report report, CancellationToken cancellation)
+      : config_(config), viewer_(viewer), report_(std::move(report)), cancellation_(std::move(cancellation)) {}
 
-  /// True if the key means something. Mistakes are reported.
+  /// Handles a key. Returns whether the key has a function. Errors are reported.
   bool press(int key);
 
-  /// Reports events, if they are logged.
+  /// Reports events, if logging is on.
   void logEvents();
 
   static std::string help();
 
  private:
-  void say(const std::string& text);
+  void report(const std::string& text);
   void reportScene();
   void reportCollisions();
   void writeFiles();
@@ -34,7 +34,7 @@ class WatchKeys {
   Config& config_;
   ConfigViewer& viewer_;
   Report report_;
-  ConfigViewer::Stop stop_;
+  CancellationToken cancellation_;
   Rng random_;
   bool logs_ = false;
 };

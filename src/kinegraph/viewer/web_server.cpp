@@ -21,12 +21,12 @@ using tcp = asio::ip::tcp;
 
 namespace {
 
-constexpr auto kPause = std::chrono::milliseconds(12);  ///< after each batch: more pictures than that nobody sees
+constexpr auto kPause = std::chrono::milliseconds(12);  ///< after each batch; a higher rate is not visible
 
 using HttpRequest = http::request<http::string_body>;
 
-/// One browser tab: sends what has changed since it was last told, one batch after the other, with a pause in between, so
-/// that a program that changes much does not drown it. On the server's thread.
+/// The session of one browser tab: sends all changes since its last update in batches, with a pause between them, so
+/// that many changes do not flood it. Runs on the server's thread.
 class BrowserSession : public std::enable_shared_from_this<BrowserSession> {
  public:
   BrowserSession(tcp::socket socket, std::shared_ptr<ViewerState> state, WebServer::OnCommand on_command)
@@ -37,7 +37,7 @@ class BrowserSession : public std::enable_shared_from_this<BrowserSession> {
 
   void start(HttpRequest request);
 
-  /// Call when something has changed.
+  /// Call after each change.
   void wake();
   void close();
 
@@ -72,7 +72,7 @@ void BrowserSession::start(HttpRequest request) {
 }
 
 void BrowserSession::wake() {
-  if (!open_ || pauses_ || !sending_.empty()) return;  // it gets the latest state when it is done
+  if (!open_ || pauses_ || !sending_.empty()) return;  // the next batch contains the latest state
   for (Outgoing& message : state_->messagesSince(seen_)) sending_.push_back(std::move(message));
   if (!sending_.empty()) write();
 }
@@ -93,7 +93,7 @@ void BrowserSession::read() {
   });
 }
 
-/// Anything but a command is ignored.
+/// Receives commands; anything else is ignored.
 void BrowserSession::receive() {
   if (!socket_.got_binary()) return;
   if (const auto command = readCommand(beast::buffers_to_string(buffer_.data()))) on_command_(*command);
@@ -122,7 +122,7 @@ void BrowserSession::leave() {
   if (std::exchange(open_, false)) state_->removeClient();
 }
 
-/// A connection before it is known what it wants: the page, or a websocket.
+/// A connection before its kind is known: the page, or a websocket.
 class PageConnection : public std::enable_shared_from_this<PageConnection> {
  public:
   using OnUpgrade = std::function<void(tcp::socket, HttpRequest)>;
@@ -173,18 +173,18 @@ void PageConnection::answer() {
   response_.set(http::field::server, "kinegraph");
   response_.set(http::field::cache_control, "no-store");
   response_.set("X-Content-Type-Options", "nosniff");
-  response_.set("Referrer-Policy", "no-referrer");          // addresses may carry a token
-  response_.set("Content-Security-Policy", framePolicy());  // what the page may load is said in the page itself
+  response_.set("Referrer-Policy", "no-referrer");          // addresses may contain a token
+  response_.set("Content-Security-Policy", framePolicy());  // the page itself restricts its sources
   response_.keep_alive(false);
   if (!trusted) {
     response_.result(http::status::forbidden);
-    response_.body() = "This viewer answers pages of its own only, at the address that it printed.";
+    response_.body() = "This viewer accepts requests of its own pages only, at the address that it printed.";
   } else if (request.method() == http::verb::get && (path == "/" || path == "/scene.html")) {
     response_.set(http::field::content_type, "text/html; charset=utf-8");
     response_.body() = path == "/" ? std::string(clientPage()) : state_->recording();
   } else {
     response_.result(http::status::not_found);
-    response_.body() = "There is nothing here.";
+    response_.body() = "Page not found.";
   }
   response_.prepare_payload();
   http::async_write(stream_, response_, [self = shared_from_this()](beast::error_code, std::size_t) {
@@ -193,8 +193,8 @@ void PageConnection::answer() {
   });
 }
 
-/// What browsers elsewhere call this machine, if it listens on all of its addresses: the address that packets to the
-/// outside would have (none is sent), else the machine's name.
+/// Returns the name of this machine for other ones if the server listens on all addresses: the source address of
+/// packets to the outside (none is sent), else the machine's name.
 std::string nameElsewhere(const asio::ip::address& listening) {
   if (!listening.is_unspecified()) return listening.to_string();
   asio::io_context context;
@@ -208,7 +208,7 @@ std::string nameElsewhere(const asio::ip::address& listening) {
   return error || name.empty() ? "localhost" : name;
 }
 
-/// As it stands in an address of a page.
+/// Formats a host for a URL.
 std::string hostInUrl(const asio::ip::address& listening) {
   if (listening.is_loopback()) return "localhost";
   const std::string name = nameElsewhere(listening);
@@ -225,9 +225,9 @@ class WebServer::Impl {
     const asio::ip::address address = asio::ip::make_address(options.host, error);
     if (error)
       throw ValueError(
-          cat("the viewer's host is '", options.host, "'; expected an IP address, for instance 127.0.0.1 or 0.0.0.0"));
+          cat("viewer: host is '", options.host, "'; expected an IP address, for instance 127.0.0.1 or 0.0.0.0"));
     if (options.port < 0 || options.port > 65535)
-      throw ValueError(cat("the viewer's port is ", options.port, "; expected 0 to 65535"));
+      throw ValueError(cat("viewer: port is ", options.port, "; expected 0 to 65535"));
     access_.loopback_only = address.is_loopback();
     access_.token = options.token.empty() && !access_.loopback_only ? randomToken() : options.token;
     listen(address, options.port);
@@ -264,13 +264,13 @@ class WebServer::Impl {
       acceptor_.open(endpoint.protocol(), error);
       if (!error)
         acceptor_.set_option(asio::socket_base::reuse_address(true),
-                             error);  // a program that is started again gets its port back
+                             error);  // a restarted program gets its port back
       if (!error) acceptor_.bind(endpoint, error);
       if (!error) acceptor_.listen(asio::socket_base::max_listen_connections, error);
       if (!error) return;
     }
     throw Error(
-        cat("the viewer finds no free port from ", first_port, " on at ", address.to_string(), ": ", error.message()));
+        cat("viewer: no free port from ", first_port, " upwards at ", address.to_string(), ": ", error.message()));
   }
 
   void accept() {
@@ -282,8 +282,7 @@ class WebServer::Impl {
             std::move(socket), access_, state_,
             [this](tcp::socket upgraded, HttpRequest request) {
               auto session = std::make_shared<BrowserSession>(std::move(upgraded), state_, on_command_);
-              sessions_.remove_if(
-                  [](const auto& old) { return old.use_count() == 1; });  // those whose browser has gone
+              sessions_.remove_if([](const auto& old) { return old.use_count() == 1; });  // sessions of closed browsers
               sessions_.push_back(session);
               session->start(std::move(request));
             })
@@ -299,7 +298,7 @@ class WebServer::Impl {
   tcp::acceptor acceptor_;
   Access access_;
   std::string url_;
-  std::list<std::shared_ptr<BrowserSession>> sessions_;  ///< touched by the server's thread only
+  std::list<std::shared_ptr<BrowserSession>> sessions_;  ///< accessed by the server's thread only
   std::thread thread_;
 };
 

@@ -8,21 +8,21 @@
 
 namespace kinegraph {
 
-/// Serves the page by HTTP, and each browser that shows it by a websocket, on a thread of its own. Nothing else knows of
-/// the network, and only the implementation of Boost.Beast, which is slow to compile.
+/// Serves the page by HTTP, and each browser by a websocket, on a thread of its own. Only the implementation includes
+/// Boost.Beast, which is slow to compile.
 class WebServer {
  public:
   using OnCommand = std::function<void(const Command&)>;
 
-  /// `on_command` is called on the server's thread. Throws ValueError for a host or port that cannot be, Error if no port
-  /// can be had.
+  /// `on_command` is called on the server's thread. Throws ValueError for an invalid host or port, and Error if no port
+  /// is available.
   WebServer(const ViewerOptions& options, std::shared_ptr<ViewerState> state, OnCommand on_command);
   ~WebServer();
   WebServer(const WebServer&) = delete;
 
   const std::string& url() const;
 
-  /// Lets browsers look what has changed. From any thread.
+  /// Lets browsers fetch changes. Thread-safe.
   void wake();
 
  private:

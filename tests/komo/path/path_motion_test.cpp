@@ -138,7 +138,8 @@ TEST(PathMotion, IsJudgedAfterASolve) {
   EXPECT_TRUE(result.feasible) << "no slice is in the wall";
   ASSERT_TRUE(result.free().has_value());
   EXPECT_FALSE(*result.free());
-  EXPECT_NE(result.summary().find("the motion is not free: 'ball' and 'wall' overlap by 115 mm at phase time"),
+  EXPECT_NE(result.summary().find(
+                "the solution is invalid between slices: 'ball' and 'wall' overlap by 115 mm at phase time"),
             std::string::npos)
       << result.summary();
   EXPECT_EQ(result.message.find("free"), std::string::npos);

@@ -17,13 +17,13 @@ TEST(DynamicScene, AnObstacleGoesStraightBetweenItsPosesAndStandsBeforeAndAfter)
 
 TEST(DynamicScene, CopiesStandWhereTheObstacleIsAtTheTimesThatAreAsked) {
   const DynamicScene scene(discAndBox(), {moves("cart", {{0., poseAt(0., 0.)}, {2., poseAt(2., 0.)}})}, "test");
-  Config C = scene.standing({1.});
+  Config C = scene.staticScene({1.});
   C.setJointState(VectorXd{{1., 0.}});
   ASSERT_EQ(C.getCollisions().size(), 1u);
   EXPECT_TRUE(C.getFrame("box at 1 s").getPosition().isApprox(Vector3d(1., 0., 0.)));
   C.setJointState(VectorXd{{0., 0.}});
   EXPECT_TRUE(C.getCollisions().empty());
-  EXPECT_TRUE(scene.standing().getCollidablePairs().empty());
+  EXPECT_TRUE(scene.staticScene().getCollidablePairs().empty());
 }
 
 TEST(DynamicScene, WhatMakesNoSenseIsRefused) {
@@ -36,7 +36,7 @@ TEST(DynamicScene, WhatMakesNoSenseIsRefused) {
   EXPECT_THROW(made(moves("nothing", {{0., poseAt(0., 0.)}})), FrameNotFound);
 }
 
-/// Motions around corners and obstacles that turn, as random numbers say.
+/// Random motions around corners, and rotating obstacles.
 TEST(DynamicCheck, WhatItCallsFreeIsFreeAndWhatItMeetsIsNear) {
   const Config C = discAndBox();
   int free = 0, met = 0;
@@ -55,13 +55,13 @@ TEST(DynamicCheck, WhatItCallsFreeIsFreeAndWhatItMeetsIsNear) {
     const std::optional<DynamicContact> contact = check.contact(timed.curve(), timed.scaling(), limits.acceleration);
     MotionPlan plan;
     plan.status = PlanStatus::solved;
-    plan.timed = timed;
+    plan.timed_path = timed;
     const double least = leastOfTime(C, plan, obstacles, 1e-3, 0.);
     if (!contact) {
       EXPECT_GE(least, .01 - 1e-9) << seed;
       ++free;
     } else {
-      EXPECT_LE(least, .01 + 3. * DynamicCheck::kRoom) << seed;
+      EXPECT_LE(least, .01 + 3. * DynamicCheck::kLeastSlack) << seed;
       ++met;
     }
   }

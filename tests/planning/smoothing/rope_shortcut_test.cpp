@@ -17,13 +17,13 @@ TEST(TightenPath, LiesAroundCornersAsAStringDoes) {
     Asked asked{room(.5)};
     PathQuery request = asked.request(1, seed);
     request.constraints.clearance.guard = Clearance::kGuard;
-    const Way way = searchPath(request);
-    ASSERT_FALSE(way.points.empty());
+    const PathSearchResult found = searchPath(request);
+    ASSERT_FALSE(found.points.empty());
     Steering steering(request.constraints);
-    const std::vector<VectorXd> rough = shorten(steering, way.points, {.cuts = 10}),
+    const std::vector<VectorXd> rough = shortcutPath(steering, found.points, {.cuts = 10}),
                                 tightened = tightenPath(steering, rough);
-    EXPECT_EQ(tightened.front(), way.points.front());
-    EXPECT_EQ(tightened.back(), way.points.back());
+    EXPECT_EQ(tightened.front(), found.points.front());
+    EXPECT_EQ(tightened.back(), found.points.back());
     EXPECT_GE(leastDistance(asked.C, tightened), 0.);
     EXPECT_LE(lengthOf(asked.space, tightened), lengthOf(asked.space, rough));
     EXPECT_GT(lengthOf(asked.space, tightened), tightenedLength());
@@ -46,7 +46,7 @@ TEST(TightenPath, LengthMeansWhatTheWeightsSay) {
   Asked asked{room(.5)};
   PathQuery request = asked.request();
   request.constraints.clearance.guard = Clearance::kGuard;
-  const Way way = searchPath(request);
+  const PathSearchResult found = searchPath(request);
   Steering steering(request.constraints);
   const VectorXd weight{{1., 3.}};
   const auto cost = [&](const std::vector<VectorXd>& points) {
@@ -54,8 +54,8 @@ TEST(TightenPath, LengthMeansWhatTheWeightsSay) {
     for (std::size_t i = 1; i < points.size(); ++i) sum += (points[i] - points[i - 1]).cwiseProduct(weight).norm();
     return sum;
   };
-  const std::vector<VectorXd> plain = tightenPath(steering, way.points),
-                              weighted = tightenPath(steering, way.points, {.weight = weight});
+  const std::vector<VectorXd> plain = tightenPath(steering, found.points),
+                              weighted = tightenPath(steering, found.points, {.weight = weight});
   EXPECT_LT(cost(weighted), cost(plain));
   EXPECT_LT(lengthOf(asked.space, plain), lengthOf(asked.space, weighted));
 }
@@ -64,10 +64,10 @@ TEST(TightenPath, FinerCornersAreShorter) {
   Asked asked{room(.5)};
   PathQuery request = asked.request();
   request.constraints.clearance.guard = Clearance::kGuard;
-  const Way way = searchPath(request);
+  const PathSearchResult found = searchPath(request);
   Steering steering(request.constraints);
-  const std::vector<VectorXd> coarse = tightenPath(steering, way.points, {.refinements = 0}),
-                              fine = tightenPath(steering, way.points, {.refinements = 2});
+  const std::vector<VectorXd> coarse = tightenPath(steering, found.points, {.refinements = 0}),
+                              fine = tightenPath(steering, found.points, {.refinements = 2});
   const auto excess = [&](const std::vector<VectorXd>& path) {
     return lengthOf(asked.space, path) - tightenedLength();
   };
@@ -81,11 +81,11 @@ TEST(TightenPath, DoesNotDependOnWhatWasAskedBefore) {
   Asked asked{room(.5)};
   PathQuery request = asked.request();
   request.constraints.clearance.guard = Clearance::kGuard;
-  const Way way = searchPath(request);
+  const PathSearchResult found = searchPath(request);
   Steering fresh(request.constraints), used(request.constraints);
-  const std::vector<VectorXd> tightened = tightenPath(fresh, way.points);
+  const std::vector<VectorXd> tightened = tightenPath(fresh, found.points);
   for (const double y : {-1., 1.}) used.isFree(VectorXd{{-1., y}}, VectorXd{{1., y}});
-  const std::vector<VectorXd> again = tightenPath(used, way.points);
+  const std::vector<VectorXd> again = tightenPath(used, found.points);
   ASSERT_EQ(tightened.size(), again.size());
   for (std::size_t i = 0; i < tightened.size(); ++i) EXPECT_EQ(tightened[i], again[i]) << i;
 }

@@ -12,7 +12,7 @@ struct Checked {
   JointSpace space{*C.model()};
   State scene = C.state();
 
-  /// How many evaluations a look at a motion takes.
+  /// The evaluations of the check of an edge.
   long looksAt(const VectorXd& from, const VectorXd& to, bool expected, Clearance clearance = {}) {
     ClearanceCheck check(scene, space, std::move(clearance));
     EXPECT_EQ(check.seemsFree(from, to), expected);

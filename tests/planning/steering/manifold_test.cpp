@@ -8,7 +8,7 @@
 namespace kinegraph {
 namespace {
 
-/// Two links of 1 m and .8 m that turn, on a joint that slides; its tip, and a frame beside it.
+/// Two revolute links of 1 m and .8 m on a prismatic joint, its tip, and a frame beside it.
 Config arm() {
   Config C;
   C.addText(R"(
@@ -32,7 +32,7 @@ double violationAt(Config& C, const MotionConstraint& constraint, const VectorXd
   return manifold.violation(q);
 }
 
-/// What is said to hold at all times holds at many.
+/// Checks at many samples that constraints hold if holdsAlong says so.
 TEST(Manifold, NothingIsViolatedAlongAMotionAlongWhichItHolds) {
   Config C = arm();
   const JointSpace space(*C.model());

@@ -1,4 +1,4 @@
-"""Differential inverse kinematics: what is kept in each step, and what is said when it cannot be."""
+"""Differential inverse kinematics: constraints that hold in each step, and reports of relaxed ones."""
 
 import numpy as np
 import pytest
@@ -131,7 +131,7 @@ def test_a_step_is_the_answer_of_another_solver_to_the_program_of_the_manual(pan
     assert held >= 2
 
 
-def test_what_tasks_leave_open_goes_to_the_next_level(panda):
+def test_the_next_priority_uses_the_directions_that_tasks_leave_free(panda):
     wanted = panda.getJointState() + np.array([0.5, 0.4, -0.3, 0.2, 0.1, 0.2, 0.3])
 
     def along_what_is_open():

@@ -81,9 +81,9 @@ def test_a_push_at_the_arm_is_taken_up():
     loop = Loop()
     loop.run(40, still)
     assert loop.errors[-1] < 1e-3
-    loop.S.perturb("l_gripper", [0, 60, 0])
+    loop.S.applyForce("l_gripper", [0, 60, 0])
     loop.run(2, still)
-    loop.S.clearPerturbations()
+    loop.S.clearForces()
     assert loop.errors[-1] > 2e-3
     loop.run(40, still)
     assert loop.errors[-1] < 1e-3

@@ -45,12 +45,12 @@ def test_between_rows_positions_go_straight_and_rotations_turn_evenly(tmp_path):
     ("text", "said"),
     [
         ("0, 1, 2\n", r"csv:1:1: 3 numbers; expected t, x, y, z"),
-        ("0, 1, 2, 3\n1, 1, 2, 3, 1, 0, 0, 0\n", r"csv:2:1: 8 numbers; the rows before have 4"),
+        ("0, 1, 2, 3\n1, 1, 2, 3, 1, 0, 0, 0\n", r"csv:2:1: 8 numbers; the lines before have 4"),
         ("0, 1, 2, 3\n0, 1, 2, 3\n", r"csv:2:1: time 0 does not come after 0"),
         ("0, 1, 2, 3\n1, 1, 2, inf\n", r"csv:2:10: 'inf' is not finite"),
-        ("0, 1, two, 3\n", r"csv:1:7: 'two' is no number; expected t, x"),
+        ("0, 1, two, 3\n", r"csv:1:7: 'two' is not a number; expected t, x"),
         ("0, 1, 2, 3, 0, 0, 0, 0\n", r"csv:1:1: the quaternion is zero"),
-        ("t, x, y, z\n", r"no rows"),
+        ("t, x, y, z\n", r"the text has no poses"),
     ],
 )
 def test_a_file_that_is_not_as_expected_is_an_error_with_its_place(tmp_path, text, said):

@@ -1,4 +1,4 @@
-"""The same function for many items: results in order and equal to the bit, whatever computes them."""
+"""The same function for many items: results in order and equal to the bit for all engines."""
 
 import contextlib
 import itertools
@@ -66,7 +66,7 @@ def test_an_item_gets_the_same_seed_in_every_run_and_no_other_item_does() -> Non
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_what_a_function_keeps_is_forgotten_before_the_next_item(engine: str) -> None:
+def test_the_state_of_a_function_is_reset_before_the_next_item(engine: str) -> None:
     seen: list[int] = []
 
     def count(i: int) -> int:
@@ -108,8 +108,8 @@ def test_functions_and_methods_in_cpp_can_be_sent(arm: ry.Config, engine: str) -
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_an_item_that_raises_is_told_and_the_others_go_on(engine: str) -> None:
-    with pytest.warns(ry.KinegraphWarning, match="1 failed; the first: item 7: ZeroDivisionError"):
+def test_an_item_that_raises_is_reported_and_the_others_continue(engine: str) -> None:
+    with pytest.warns(ry.KinegraphWarning, match="1 failed, first item 7: ZeroDivisionError"):
         results = ry.map(lambda x: 1 / (x - 7), range(20), engine=engine)
     assert results[7] is None and results[8] == 1.0 and results.complete
     assert "lambda" in results.failures[7].traceback
@@ -152,11 +152,11 @@ def test_an_item_that_kills_workers_is_given_up_and_nothing_else_is_lost() -> No
         return x
 
     with pytest.warns(
-        ry.KinegraphWarning, match="2 failed; the first: item 0: 3 workers died of it: killed by SIGKILL"
+        ry.KinegraphWarning, match="2 failed, first item 0: 3 workers died while computing it: killed by SIGKILL"
     ):
         results = ry.map(deadly, range(2000), engine="processes", workers=2)
     assert [x for x in results if x is not None] == [x for x in range(2000) if x not in (0, 333)]
-    assert "workers died of it" in results.failures[333].message
+    assert "workers died while computing it" in results.failures[333].message
 
 
 def test_workers_that_are_killed_lose_nothing() -> None:
@@ -261,7 +261,7 @@ def test_nothing_is_lost_but_what_kills_also_where_answers_die_with_their_worker
     assert {i for i, result in enumerate(found) if isinstance(result, ItemFailure)} == deadly
 
 
-def test_mistakes_are_reported(tmp_path: Path) -> None:
+def test_errors_are_reported(tmp_path: Path) -> None:
     with pytest.raises(ry.ArgumentError, match="engine is 'thread'; expected 'threads', 'processes', 'ray'"):
         ry.map(square, [1], engine="thread")
     with pytest.raises(ry.ArgumentError, match="function is 3"):
@@ -296,7 +296,7 @@ print(results.finished, results.complete, all(x in (None, i) for i, x in enumera
 
 
 @pytest.mark.parametrize("engine", ENGINES)
-def test_control_c_gives_what_is_finished_also_from_a_script_without_main(tmp_path: Path, engine: str) -> None:
+def test_control_c_returns_finished_results_also_from_a_script_without_main(tmp_path: Path, engine: str) -> None:
     (tmp_path / "script.py").write_text(SCRIPT)
     with subprocess.Popen(
         [sys.executable, tmp_path / "script.py", engine], stdout=subprocess.PIPE, text=True
@@ -328,7 +328,7 @@ def test_a_run_that_was_killed_goes_on(tmp_path: Path) -> None:
     assert list(ry.readResults(tmp_path / "out")) == list(range(1500))
 
 
-def test_what_is_written_is_what_was_returned(tmp_path: Path) -> None:
+def test_files_contain_the_returned_values(tmp_path: Path) -> None:
     pa = pytest.importorskip("pyarrow")
     import pyarrow.dataset
 

@@ -1,4 +1,4 @@
-"""The line that says how far a long computation is."""
+"""Progress lines of long computations."""
 
 import io
 
@@ -24,7 +24,7 @@ def test_a_file_gets_no_bar():
     assert file.getvalue() == ""
 
 
-def test_the_line_of_a_solver_tells_its_state_and_is_removed_at_the_end():
+def test_the_line_of_a_solver_shows_its_state_and_is_removed_at_the_end():
     terminal, file = Terminal(), io.StringIO()
     for stream in (terminal, file):
         drawSolve("NLP_Solver", 120, 1.25, 3e-3, 2.0, stream)

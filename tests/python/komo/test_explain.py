@@ -43,8 +43,8 @@ def test_a_target_out_of_reach_is_named_with_the_distance_in_meters(panda):
     assert target["suffices"]
     assert target["by_meters"] == pytest.approx(target["meters"], rel=1e-3)
     text = ret.explain()
-    assert "positionDiff of l_gripper, target in slice 0 (eq) is missed by 2." in text
-    assert "gives way by 2." in text
+    assert "positionDiff of l_gripper, target in slice 0 (eq) is violated by 2." in text
+    assert "is relaxed by 2." in text
     np.testing.assert_allclose(komo.getPath(), path)
 
 
@@ -70,7 +70,7 @@ def test_an_active_joint_limit_is_named_in_radians(panda):
     assert limit["frames"] == [joint]
     assert limit["suffices"]
     assert limit["by_radians"] == pytest.approx(0.5 - upper, abs=1e-2)
-    assert "holds at" in komo.explain()
+    assert "is active at" in komo.explain()
 
 
 def test_shapes_that_overlap_are_named_in_millimeters(panda):

@@ -32,7 +32,7 @@ def test_a_path_that_jumps_over_a_wall_is_feasible_but_not_free() -> None:
     komo, result = across()
     assert result.feasible
     assert result.free is False
-    assert "the motion is not free: 'ball' and 'wall' overlap by 115 mm at phase time" in result.message
+    assert "the solution is invalid between slices: 'ball' and 'wall' overlap by 115 mm at phase time" in result.message
     assert not komo.isFree()
     contact = min(komo.checkMotion(), key=lambda c: c.distance)
     assert contact.frames == ("ball", "wall")
@@ -104,7 +104,7 @@ def benchmark() -> ModuleType:
     return module
 
 
-@pytest.mark.filterwarnings("ignore:.*overlap and no joint moves them apart")
+@pytest.mark.filterwarnings("ignore:.*overlap at a constant relative pose")
 def test_what_is_called_free_among_thin_walls_is_free() -> None:
     """Some problems of benchmarks/free_between_slices.py, started with a line through the obstacles."""
     problems = benchmark()
@@ -124,7 +124,7 @@ def test_what_is_called_free_among_thin_walls_is_free() -> None:
     assert free[True] >= 4 and free[True] >= free[False]
 
 
-@pytest.mark.filterwarnings("ignore:.*overlap.* and no joint moves them apart")
+@pytest.mark.filterwarnings("ignore:.*overlap.* at a constant relative pose")
 def test_a_spline_that_is_called_free_is_free() -> None:
     """Few slices, so that the spline is far from the lines between them."""
     problems = benchmark()

@@ -26,8 +26,8 @@ def test_a_plan_is_a_list_of_words_and_its_states_say_what_holds() -> None:
     assert plan == [["pick", "cup", "table", "hand"], ["place", "cup", "hand", "tray"]]
     states = plans.states(plan)
     assert "(on table cup)" in states[0] and "(on hand cup)" in states[1] and "(on tray cup)" in states[2]
-    assert plans.status == "found" and plans.expansions > 0
-    assert plans.next() is None and plans.status == "exhausted"
+    assert plans.status == ry.PlanSearchStatus.found and plans.expansions > 0
+    assert plans.next() is None and plans.status == ry.PlanSearchStatus.exhausted
 
 
 def test_an_action_is_added_from_python_and_written_as_pddl(tmp_path) -> None:
@@ -56,7 +56,7 @@ def test_what_is_forbidden_is_named_by_words() -> None:
     with pytest.raises(ry.ArgumentError, match="never changes, or can never hold"):
         plans.forbid(["pick", "cup", "table", "hand"], "(is_place table)")
     plans.forbid(["pick", "cup", "table", "hand"])
-    assert plans.next() is None and plans.status == "exhausted"
+    assert plans.next() is None and plans.status == ry.PlanSearchStatus.exhausted
 
 
 def test_errors_have_places_and_near_names(tmp_path) -> None:

@@ -1,4 +1,4 @@
-"""Arguments that no form of a compiled function takes: the error names the argument, and what may have been meant."""
+"""Arguments that match no signature of a compiled function: the error names the argument and suggests a correction."""
 
 from __future__ import annotations
 

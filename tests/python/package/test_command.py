@@ -126,7 +126,7 @@ def test_models_of_the_package_are_found_by_their_names(tmp_path):
     assert "#frames=1 " in kinegraph("info", "panda/panda.g", cwd=tmp_path).stdout  # one's own file comes first
     typo = kinegraph("info", "scenarios/pandaSingel.g", cwd=tmp_path)
     assert typo.returncode == 1
-    assert "models with similar names: scenarios/pandaSingle.g" in typo.stderr
+    assert "similar names: scenarios/pandaSingle.g" in typo.stderr
 
 
 @pytest.mark.parametrize("command, words", [("ry_info", "raiPath"), ("ry_view", "a scene")])

@@ -1,4 +1,5 @@
-"""The pages of docs/ and README are true: their code runs and finds what they say, and their tables name what there is."""
+"""The pages of docs/ and README are correct: their code runs with the documented results, and their tables name
+existing things."""
 
 import os
 import re
@@ -14,7 +15,7 @@ import kinegraph as ry
 DOCS = Path(__file__).parent.parent.parent.parent / "docs"
 PAGES = [DOCS.parent / "README.md", *sorted(page for page in DOCS.glob("*.md") if "```python" in page.read_text())]
 
-# What the code of each page prints.
+# Output of the code of each page.
 FOUND = {
     "README": [
         r"feasible: 1",
@@ -37,9 +38,14 @@ FOUND = {
     "solvers": [
         r"^True SolverStatus\.converged",
         r"SolverStatus\.infeasible the constraints contradict each other",
-        r"If positionDiff of l_gripper, target gives way by 3\.07 m, all others can hold",
+        r"If positionDiff of l_gripper, target is relaxed by 3\.07 m, all others can hold",
     ],
-    "planning": [r"^solved: \d+ postures, length", r"verify: .* evaluations", r"clearance: [\d.]+ mm", r"waits for \d"],
+    "planning": [
+        r"^solved: \d+ configurations, length",
+        r"verify: .* evaluations",
+        r"clearance: [\d.]+ mm",
+        r"waits for \d",
+    ],
     "operation": [
         r"2\.\d\d s, open by 0\.030 m",
         r"BotOp\.move: joint '\w+' would .*; take at least \d",
@@ -51,7 +57,7 @@ FOUND = {
     "timing": [
         r"<TimedPath 4 points in \d\.\d+ s>",
         r"^\[ True  True\]",
-        r"'arm' cannot be held at .* -3 to 3 N m are allowed",
+        r"'arm' cannot rest at .* the limits are -3 to 3 N m",
     ],
     "sensitivities": [r"^\(70, 7\) True", r"'position of box, x'", r"^True$", r"^4 .*shortest one"],
     "simulation": [r"\(64, 7\) \(64, 1, 7\)"],

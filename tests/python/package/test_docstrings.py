@@ -1,4 +1,4 @@
-"""The docstrings are a manual: each call says its arguments, what it returns, and what it raises."""
+"""The docstrings are a manual: each call documents its arguments, results and exceptions."""
 
 import builtins
 import inspect
@@ -15,7 +15,8 @@ NO_ARGUMENTS = {"self", "/", "*"}
 
 
 def public_callables():
-    """(name, callable, owner) of all functions and methods that the package exports, and of its classes' constructors."""
+    """(name, callable, owner) of all functions and methods that the package exports, and of its classes'
+    constructors."""
     for name in ry.__all__:
         value = getattr(ry, name)
         if inspect.isclass(value):
@@ -127,7 +128,7 @@ def test_what_the_docstring_of_a_call_names_is_there(name, member, owner):
     assert order == sorted(order, key=SECTIONS.index) or "Overloaded" in text, order
 
 
-def test_the_law_finds_what_is_missing():
+def test_the_check_finds_omissions():
     def moves(q, speed=1.0):
         """Moves.
 

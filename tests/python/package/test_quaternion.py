@@ -108,7 +108,7 @@ def test_numbers_of_a_script_may_be_a_row_or_flat() -> None:
         lambda q: q.applyOnPointArray({}),
     ],
 )
-def test_what_is_no_rotation_or_point_is_refused(call) -> None:
+def test_other_values_than_rotations_and_points_are_refused(call) -> None:
     with pytest.raises(ry.ArgumentError, match="expected a Quaternion|expected numbers"):
         call(ry.Quaternion())
     with pytest.raises(TypeError):

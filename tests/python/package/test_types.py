@@ -16,7 +16,7 @@ STUB = Path(kinegraph.__file__).parent / "_core.pyi"
 
 
 def mypy(*files: Path, folder: Path) -> list[str]:
-    """What `mypy --strict` says of files that use the package as it is installed here, a message per entry."""
+    """Returns the messages of `mypy --strict` for files that use the installed package."""
     pytest.importorskip("mypy", reason="needs mypy")
     command = [sys.executable, "-m", "mypy", "--strict", "--follow-imports=silent", f"--cache-dir={folder}"]
     package = Path(kinegraph.__file__).parent.parent

@@ -1,4 +1,4 @@
-"""What people mistype, and what the message says. Each was read as one who is new to the language would read it."""
+"""Typical typing errors and their messages, which were read with the eyes of a beginner."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_an_error_says_where_and_how_to_mend_it(line: str, tmp_path: Path) -> No
 
 
 @pytest.mark.parametrize("line", WARNINGS)
-def test_what_loads_but_is_hardly_meant_is_a_warning(line: str, tmp_path: Path) -> None:
+def test_suspicious_input_is_a_warning(line: str, tmp_path: Path) -> None:
     (tmp_path / "scene.g").write_text(f"world: {{}}\n{line}\n")
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")

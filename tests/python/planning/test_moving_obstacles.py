@@ -1,4 +1,4 @@
-"""planMotion among obstacles that move, from a running motion, and better with effort."""
+"""planMotion among dynamic obstacles, MotionPlan.replan, and planMotions."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def poseAt(times: np.ndarray, poses: np.ndarray, t: float) -> np.ndarray:
 
 
 def leastOfTime(C: ry.Config, plan: ry.MotionPlan, tracks: dict, step: float = 2e-3, after: float = 1.0) -> float:
-    """The least distance of parts that q moves and anything else, by looks at every `step` s."""
+    """The least distance of links that q moves to any other body, every `step` s."""
     scene = ry.Config()
     scene.addConfigurationCopy(C)
     least = 1.0
@@ -40,7 +40,7 @@ def leastOfTime(C: ry.Config, plan: ry.MotionPlan, tracks: dict, step: float = 2
                 scene.getFrame(name).setPose(poseAt(times, values, t))
             else:
                 scene.getFrame(name).setJointState(np.array([np.interp(t, times, column) for column in values.T]))
-        scene.setJointState(plan.at(t)[0])
+        scene.setJointState(plan.eval(t)[0])
         for a, b, distance in scene.getCollisions(0.1):
             robot = {a.startswith(("l_", "panda")), b.startswith(("l_", "panda"))}
             if True in robot:
@@ -63,7 +63,7 @@ def test_a_panda_keeps_clear_of_a_load_that_passes(cart: ry.Config, slower: floa
     assert leastOfTime(cart, plan, tracks) >= 0.01 - 1e-6
     assert any("waits for" in note for note in plan.warnings)
     np.testing.assert_allclose(plan.obstaclesAt(slower)["cart"], poseAt(slower * TIMES, POSES, slower))
-    assert plan.stages[-1]["name"] == "dynamic_obstacles"
+    assert plan.stages[-1]["name"] == "dynamic_timing"
 
 
 def test_another_arm_moves_as_its_joints_are_told() -> None:
@@ -87,7 +87,7 @@ def test_another_arm_moves_as_its_joints_are_told() -> None:
     for t in np.arange(0, plan.duration + 0.5, 2e-3):
         for name, (at, values) in tracks.items():
             scene.getFrame(name).setJointState([np.interp(t, at, values[:, 0])])
-        scene.setJointState(plan.at(t)[0])
+        scene.setJointState(plan.eval(t)[0])
         pairs = {(a[:2], b[:2]): d for a, b, d in scene.getCollisions(0.02)}
         assert pairs.get(("l_", "r_"), 1.0) >= 0.005 - 1e-6 and pairs.get(("r_", "l_"), 1.0) >= 0.005 - 1e-6
 
@@ -106,7 +106,7 @@ def test_tracks_that_make_no_sense_are_refused(cart: ry.Config) -> None:
     q = cart.getJointState()
     for moving, said in [
         ({"cart": ([0.0], [[0.0, 0, 0]])}, "expected 7"),
-        ({"cart": ([1.0, 0.0], np.tile(POSES[0], (2, 1)))}, "rising"),
+        ({"cart": ([1.0, 0.0], np.tile(POSES[0], (2, 1)))}, "increasing"),
         ({"cart": [0.0]}, "expected a dict"),
         ([1], "expected a dict"),
         ({"l_gripper": ([0.0], POSES[:1])}, "moves with q"),
@@ -129,10 +129,10 @@ def test_a_robot_on_its_way_goes_on_to_another_goal(cart: ry.Config) -> None:
         other = goal + np.array([-0.8, 0.2, 0, 0, 0, 0.1, 0])
         bend = plan.replan(cart, at=at, goal=other)
         assert bend.feasible, bend.message
-        q, velocity, _ = plan.at(at)
-        np.testing.assert_allclose(bend.at(0)[0], q, atol=1e-12)
-        np.testing.assert_allclose(bend.at(0)[1], velocity, atol=1e-9)
-        np.testing.assert_allclose(bend.at(bend.duration)[0], other, atol=1e-12)
+        q, velocity, _ = plan.eval(at)
+        np.testing.assert_allclose(bend.eval(0)[0], q, atol=1e-12)
+        np.testing.assert_allclose(bend.eval(0)[1], velocity, atol=1e-9)
+        np.testing.assert_allclose(bend.eval(bend.duration)[0], other, atol=1e-12)
         assert leastOfTime(cart, bend, {}, 4e-3, 0.0) >= 0.01 - 1e-6
     same = plan.replan(cart, at=0.5 * plan.duration)
     assert same.duration == pytest.approx(0.5 * plan.duration, abs=0.02)
@@ -155,11 +155,11 @@ def test_what_moves_lets_a_robot_go_on_with_its_acceleration(cart: ry.Config, sh
         bend = plan.replan(cart, at=at, goal=target, obstacle_trajectories=tracks)
         assert bend.feasible, bend.message
         assert not [note for note in bend.warnings if "without" in note]
-        for before, after, tolerance in zip(plan.at(at), bend.at(0), (1e-12, 1e-9, 1e-6), strict=True):
+        for before, after, tolerance in zip(plan.eval(at), bend.eval(0), (1e-12, 1e-9, 1e-6), strict=True):
             np.testing.assert_allclose(after, before, atol=tolerance)
         assert leastOfTime(cart, bend, tracks, 4e-3) >= 0.01 - 1e-6
         step = 1e-3
-        states = [bend.at(t) for t in np.arange(0, bend.duration, step)]
+        states = [bend.eval(t) for t in np.arange(0, bend.duration, step)]
         for values, limit in zip((1, 2), (1.5, 6.0), strict=True):
             assert np.abs([state[values] for state in states]).max() <= limit * (1 + 1e-9)
         assert np.abs(np.diff([state[2] for state in states], axis=0)).max() <= 40 * step * (1 + 1e-6)
@@ -174,7 +174,7 @@ def test_a_running_bot_takes_a_new_plan_without_a_stop(cart: ry.Config) -> None:
 
     def sampled(motion: ry.MotionPlan) -> tuple[np.ndarray, np.ndarray]:
         times = np.linspace(0, motion.duration, 120)[1:]
-        return np.array([motion.at(t)[0] for t in times]), times
+        return np.array([motion.eval(t)[0] for t in times]), times
 
     path, times = sampled(plan)
     bot.move(path, times)

@@ -1,4 +1,4 @@
-"""RRT_PathFinder: paths between two postures, as older scripts ask for them."""
+"""RRT_PathFinder: the path finder of the reference package."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ def barAroundBar() -> ry.Config:
 
 
 def denselyFree(C: ry.Config, path: np.ndarray, margin: float) -> bool:
-    """Looks at postures every milliradian, by a call that knows nothing of paths."""
+    """Checks configurations every milliradian, independently of edge checks."""
     for a, b in itertools.pairwise(path):
         count = max(2, int(np.linalg.norm(b - a) / 1e-3))
         if not C.isValid(a + np.linspace(0, 1, count)[:, None] * (b - a), margin=margin).all():
@@ -87,7 +87,7 @@ def test_an_end_in_collision_is_said_and_no_path_is_claimed(ends: tuple[list[flo
 
 def test_an_end_beyond_limits_is_said() -> None:
     ret = ry.RRT_PathFinder().setProblem(barAroundBar()).setStartGoal([-5.0, 0.0, 0.0], GOAL).solve(0)
-    assert not ret.feasible and "the start is out of limits: base:0 is at -5, 3.5 beyond" in ret.message
+    assert not ret.feasible and "the start is outside the limits: base:0 is at -5, 3.5 beyond" in ret.message
 
 
 def test_only_the_pairs_that_are_named_collide() -> None:
@@ -108,7 +108,7 @@ def test_a_path_that_is_not_there_is_told_with_what_is_in_the_way() -> None:
     C.getFrame("stick").setShape(ry.ST.box, [0.05, 4.0, 0.1])
     ret = finder(C).setOptions(maxIters=100).solve(0)
     assert not ret.feasible and ret.x.size == 0 and ret.status.name == "limit"
-    assert "most motions ended at 'stick' (100 %, by 'bar')" in ret.message
+    assert "most edges collided with 'stick' (100 %, by 'bar')" in ret.message
 
 
 def test_a_joint_without_limits_is_named() -> None:
@@ -133,7 +133,7 @@ def test_what_makes_no_sense_is_an_error() -> None:
         ry.RRT_PathFinder().setOptions(stepsize=0)
     with pytest.raises(ry.ArgumentError, match="similar names: stepsize"):
         ry.RRT_PathFinder().setOptions(stepsiz=0.1)
-    with pytest.raises(ry.ArgumentError, match="call solve before"):
+    with pytest.raises(ry.ArgumentError, match="call solve first"):
         finder(C).get_resampledPath(5)
     with pytest.raises(ry.ArgumentError, match="only q0"):
         ry.RRT_PathFinder().setProblem(C, START)

@@ -1,4 +1,4 @@
-"""Plans and roadmaps go from process to process: what comes out of copy and pickle is the same, and goes on the same."""
+"""Copied and pickled plans and roadmaps equal the originals and behave the same."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ COPIES: list[Callable] = [lambda thing: pickle.loads(pickle.dumps(thing)), copy.
 
 
 def states(plan: ry.MotionPlan) -> np.ndarray:
-    return np.array([np.concatenate(plan.at(t)) for t in np.linspace(0, plan.duration, 50)])
+    return np.array([np.concatenate(plan.eval(t)) for t in np.linspace(0, plan.duration, 50)])
 
 
 @pytest.mark.parametrize("copied", COPIES)
@@ -76,7 +76,7 @@ def test_a_plan_that_failed_keeps_what_it_says(column: ry.Config) -> None:
         assert again.obstacles == plan.obstacles and again.explain() == plan.explain()
         assert len(again.picture(column)) == len(plan.picture(column))
         with pytest.raises(ry.ArgumentError, match="there is no motion"):
-            again.at(0)
+            again.eval(0)
 
 
 def planned(job: tuple) -> ry.MotionPlan:
@@ -99,7 +99,7 @@ def test_a_copy_of_a_roadmap_grows_and_answers_as_it_does(column: ry.Config, cop
     ours = ry.Roadmap(column, 0.005, 3).grow(80)
     ours.findPath(q - TURN, q + TURN)
     theirs = copied(ours)
-    assert theirs.margin == ours.margin and theirs.motions == ours.motions
+    assert theirs.margin == ours.margin and theirs.edges == ours.edges
     answers = []
     for roadmap in (ours, theirs):
         roadmap.grow(20)
@@ -107,7 +107,7 @@ def test_a_copy_of_a_roadmap_grows_and_answers_as_it_does(column: ry.Config, cop
     np.testing.assert_array_equal(ours.configurations, theirs.configurations)
     np.testing.assert_array_equal(answers[0].path, answers[1].path)
     np.testing.assert_array_equal(copied(answers[0]).path, answers[0].path)
-    assert answers[0].checked == answers[1].checked
+    assert answers[0].evaluations == answers[1].evaluations
 
 
 def test_a_map_that_was_loaded_draws_other_postures_than_it_has(column: ry.Config, tmp_path) -> None:

@@ -1,13 +1,17 @@
-"""planMotion: from A to B, free at all times, and when it is where."""
+"""planMotion: collision-free, time-parameterized motions to a goal."""
 
 from __future__ import annotations
 
 import itertools
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 import kinegraph as ry
+from kinegraph import call_errors
+
+STUB = Path(ry.__file__).parent / "_core.pyi"
 
 DOOR = """
 world: {{}}
@@ -28,7 +32,7 @@ def room(door: float = 0.5) -> ry.Config:
 
 
 def leastDistance(C: ry.Config, Q: np.ndarray, step: float = 2e-3) -> float:
-    """Of all pairs that move, at postures every `step`, by a call that knows nothing of motions."""
+    """The least distance of all moving pairs at configurations every `step`, independently of edge checks."""
     rows = [
         a + np.linspace(0, 1, max(2, int(np.linalg.norm(b - a) / step)))[:, None] * (b - a)
         for a, b in itertools.pairwise(Q)
@@ -51,16 +55,60 @@ def test_a_box_on_wheels_goes_through_a_door() -> None:
     assert np.allclose(plan.path[0], START) and np.allclose(plan.path[-1], GOAL)
     assert leastDistance(C, plan.path) >= 0
     assert np.allclose(C.getJointState(), START)
-    assert [stage["name"] for stage in plan.stages] == ["ends", "search", "shorten", "tighten", "verify", "time"]
+    assert [stage["name"] for stage in plan.stages] == [
+        "endpoints",
+        "search",
+        "shortcut",
+        "rope_shortcut",
+        "verify",
+        "timing",
+    ]
     assert plan.length == pytest.approx(np.linalg.norm(np.diff(plan.path, axis=0), axis=1).sum())
     assert "trees of" in plan.explain() and plan.clearance() >= 0
+
+
+def parametersOf(call: object) -> list:
+    signature, _, defaults = call.__nb_signature__[0]
+    return [each for each in call_errors.parameters(signature, defaults or ()) if each.keyword_only]
+
+
+def test_every_option_is_a_keyword_with_its_default() -> None:
+    options = {each.name: each for each in parametersOf(ry.planMotion)}
+    assert {"margin", "optimize", "velocity", "constraints", "obstacle_trajectories", "seed"} <= set(options)
+    assert options["margin"].type == "float" and options["margin"].default == "0.0"
+    defaults = {name: eval(each.default, {"inf": np.inf}) for name, each in options.items()}
+    plan, same = ry.planMotion(room(), GOAL), ry.planMotion(room(), GOAL, **defaults)
+    assert np.array_equal(plan.path, same.path) and plan.duration == same.duration
+    assert [each.default for each in parametersOf(ry.MotionPlan.replan)] == ["None"] * (len(options) - 2)
+    assert not {"start_velocity", "obstacle_trajectories"} & {each.name for each in parametersOf(ry.planMotions)}
+    unchanged = plan.replan(room(), 0.0, **dict.fromkeys(each.name for each in parametersOf(ry.MotionPlan.replan)))
+    assert np.array_equal(unchanged.path[-1], plan.path[-1])
+
+
+@pytest.mark.skipif(not STUB.exists(), reason="the stub is generated when the wheel is built")
+def test_editors_see_the_options_in_the_stub() -> None:
+    stub = STUB.read_text()
+    for call in ("planMotion", "planMotions", "replan"):
+        signature = stub[stub.index(f"def {call}(") :].split("\n", 1)[0]
+        assert "*, margin: float" in signature and "**" not in signature
+
+
+def test_a_plan_is_a_trajectory() -> None:
+    plan = ry.planMotion(room(), GOAL)
+    assert isinstance(plan, ry.Trajectory)
+    times = np.linspace(0, plan.duration, 5)
+    for many, each in zip(plan.eval(times), zip(*map(plan.eval, times), strict=True), strict=True):
+        assert np.array_equal(many, each)
+    sampled, q, v, a = plan.sample(100.0)
+    assert sampled[0] == 0 and sampled[-1] == plan.duration and q.shape == v.shape == a.shape == (len(sampled), 3)
+    assert sum(search["samples"] for search in plan.searches) > 0
 
 
 def test_what_moves_in_time_is_free_and_keeps_the_limits() -> None:
     C = room()
     plan = ry.planMotion(C, GOAL, velocity=[0.5, 0.5, 1.0], acceleration=2.0)
     times = np.linspace(0, plan.duration, 4000)
-    q, v, a = (np.array(x) for x in zip(*(plan.at(t) for t in times), strict=True))
+    q, v, a = (np.array(x) for x in zip(*(plan.eval(t) for t in times), strict=True))
     assert leastDistance(C, q) >= 0  # roundings of corners included
     assert (np.abs(v) <= np.array([0.5, 0.5, 1.0]) + 1e-9).all() and (np.abs(a) <= 2 + 1e-9).all()
     assert np.allclose(q[0], START) and np.allclose(q[-1], GOAL) and np.allclose(v[[0, -1]], 0)
@@ -126,7 +174,7 @@ def test_a_constraint_holds_all_along(panda: ry.Config) -> None:
     z = panda.eval(ry.FS.vectorZ, ["l_gripper"])[0]
     worst = 0.0
     for t in np.linspace(0, plan.duration, 5000):
-        panda.setJointState(plan.at(t)[0])
+        panda.setJointState(plan.eval(t)[0])
         worst = max(worst, np.abs(panda.eval(ry.FS.vectorZ, ["l_gripper"])[0] - z).max())
     assert worst <= 1e-3
     assert plan.warnings == []
@@ -138,7 +186,7 @@ def test_a_constraint_that_is_looked_at_in_samples_alone_is_told() -> None:
     above = ry.MotionConstraint(ry.FS.distance, ["body", "left"], ry.OT.ineq)  # minus the distance
     plan = ry.planMotion(C, [1.0, 1.0, 1.57], constraints=[above])
     assert plan.feasible, plan.message
-    assert any("distance" in note and "every 0.02" in note for note in plan.warnings)
+    assert any("distance" in note and "samples 0.02 apart" in note for note in plan.warnings)
 
 
 def test_a_motion_is_planned_anew_without_a_jump_of_its_acceleration() -> None:
@@ -150,9 +198,9 @@ def test_a_motion_is_planned_anew_without_a_jump_of_its_acceleration() -> None:
         at = share * plan.duration
         bend = plan.replan(C, at=at, goal=[-1.0, -1.2, 1.0])
         assert bend.feasible, bend.message
-        for before, after in zip(plan.at(at), bend.at(0.0), strict=True):
+        for before, after in zip(plan.eval(at), bend.eval(0.0), strict=True):
             assert after == pytest.approx(before, abs=1e-6)
-    with pytest.raises(ry.ArgumentError, match="start_acceleration is for motions with limits of the jerk"):
+    with pytest.raises(ry.ArgumentError, match="start_acceleration needs jerk limits"):
         ry.planMotion(C, [1.0, 1.0, 1.57], start_velocity=[0.1, 0, 0], start_acceleration=[1.0, 0, 0])
 
 
@@ -162,9 +210,9 @@ def test_a_path_without_times_is_the_same_path() -> None:
     plan = ry.planMotion(C, [1.0, 1.0, 1.57], timing=False)
     assert plan.feasible and np.array_equal(plan.path, timed.path)
     assert len(plan.times) == 0 and plan.duration == 0
-    assert [stage["name"] for stage in plan.stages].count("time") == 0
+    assert [stage["name"] for stage in plan.stages].count("timing") == 0
     with pytest.raises(ry.ArgumentError, match="has no times"):
-        plan.at(0.0)
+        plan.eval(0.0)
     with pytest.raises(ry.ArgumentError, match="need timing"):
         ry.planMotion(C, [1.0, 1.0, 1.57], timing=False, start_velocity=[0.1, 0, 0])
     better = list(ry.planMotions(C, [1.0, 1.0, 1.57], timing=False, improvement_evaluations=2000))
@@ -192,8 +240,13 @@ box(cart): {shape: box, size: [0.2, 0.2, 0.2], Q: [0, 0, 0.0998], contact: 1}
 """)
     plan = ry.planMotion(C, [0.5, 0.5, 0.0], [-0.5, 0.5, 0.0])  # both 0.2 mm inside of the table
     assert plan.feasible, plan.message
-    assert "the start is in contact: 'table' and 'box' overlap by 200 um; the motion first leaves it" in plan.warnings
-    assert "the goal is in contact: 'table' and 'box' overlap by 200 um; the motion comes to it last" in plan.warnings
+    assert (
+        "the start is in contact: 'table' and 'box' overlap by 200 um; the motion begins with a retreat"
+        in plan.warnings
+    )
+    assert (
+        "the goal is in contact: 'table' and 'box' overlap by 200 um; the motion ends with a contact" in plan.warnings
+    )
     assert leastDistance(C, plan.path) >= -0.0002 - 1e-6
     assert leastDistance(C, plan.path[1:-1]) >= 0
 
@@ -202,7 +255,7 @@ box(cart): {shape: box, size: [0.2, 0.2, 0.2], Q: [0, 0, 0.0998], contact: 1}
     ("goal", "status", "words"),
     [
         ([0.0, 1.0, 1.57], "invalid_goal", "the goal collides: 'left' and 'body' overlap by"),
-        ([5.0, 1.0, 1.57], "invalid_goal", "the goal is out of limits: base:0 is at 5, 3 beyond"),
+        ([5.0, 1.0, 1.57], "invalid_goal", "the goal is outside the limits: base:0 is at 5, 3 beyond"),
         ({"body": [9.0, 0.0, 0.0]}, "goal_unreachable", "the goal is out of reach: .*body"),
     ],
 )
@@ -211,7 +264,7 @@ def test_a_goal_that_cannot_be_is_told(goal: object, status: str, words: str) ->
     assert not plan.feasible and plan.status.name == status and plan.path.size == 0
     assert __import__("re").search(words, plan.message), plan.message
     with pytest.raises(ry.ArgumentError, match="there is no motion"):
-        plan.at(0.0)
+        plan.eval(0.0)
 
 
 def test_a_start_that_collides_is_told() -> None:
@@ -222,7 +275,7 @@ def test_a_start_that_collides_is_told() -> None:
 def test_where_no_way_is_found_the_message_says_what_is_in_the_way() -> None:
     plan = ry.planMotion(room(0.31), GOAL, max_evaluations=3000)
     assert plan.status in (ry.PlanStatus.no_path_found, ry.PlanStatus.infeasible)
-    assert "most motions ended at 'left'" in plan.message or "most motions ended at 'right'" in plan.message
+    assert "most edges collided with 'left'" in plan.message or "most edges collided with 'right'" in plan.message
     assert len(plan.trees) == 2 and plan.trees[0][0].shape[1] == 3
 
 
@@ -231,7 +284,7 @@ def test_a_picture_has_the_trees_and_the_path() -> None:
     plan = ry.planMotion(C, GOAL)
     picture = plan.picture(C)
     names = [frame.name for frame in picture.getFrames()]
-    assert names[len(C.getFrames()) :] == ["start tree", "goal tree", "first way", "path"]
+    assert names[len(C.getFrames()) :] == ["start tree", "goal tree", "raw path", "path"]
     sampled = picture.getFrame("path").getMeshPoints()
     assert np.allclose(sampled[0, :2], START[:2]) and np.allclose(sampled[-1, :2], GOAL[:2])
     assert len(C.getFrames()) == 5 and plan.obstacles == []
@@ -274,7 +327,7 @@ def test_shortcut_and_smooth_are_free_and_say_where_a_path_is_not() -> None:
     turns = [np.diff(path, axis=0) / np.linalg.norm(np.diff(path, axis=0), axis=1)[:, None] for path in (short, round_)]
     sharpest = [min((a * b).sum() for a, b in itertools.pairwise(turn)) for turn in turns]
     assert sharpest[1] > sharpest[0] and leastDistance(C, round_) >= 0
-    with pytest.raises(ry.ArgumentError, match="not free between rows 0 and 1: '(left|right)' and 'body'"):
+    with pytest.raises(ry.ArgumentError, match="in collision between rows 0 and 1: '(left|right)' and 'body'"):
         ry.shortcut(C, [START, GOAL])
 
 

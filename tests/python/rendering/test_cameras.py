@@ -506,7 +506,7 @@ def test_pictures_look_as_parameters_say(monkeypatch):
     values["Render/renderPolygonLines"] = True
     assert (viewer.getRgb() == 255).all(axis=2).mean() > 0.5  # one sees through
     for name, value, expected in [
-        ("Render/lights", [1, 2], "3 for each light"),
+        ("Render/lights", [1, 2], "the 3 coordinates"),
         ("Render/lights", "sun", "list of numbers"),
         ("Render/flatColors", [1, 2], "True or False"),
     ]:

@@ -43,7 +43,7 @@ def test_poses_of_all_frames_are_a_motion_as_well(arm: ry.Config, tmp_path) -> N
     assert len(pictures(str(file))) == 5
 
 
-def test_what_makes_no_sense_is_told_and_leaves_no_file(arm: ry.Config, tmp_path) -> None:
+def test_invalid_arguments_are_reported_and_leave_no_file(arm: ry.Config, tmp_path) -> None:
     with pytest.raises(ry.ArgumentError, match=r"\.mp4 or \.webm"):
         ry.saveFilm(tmp_path / "film.gif", arm, [[0.0]])
     with pytest.raises(ry.ArgumentError, match="seconds is 0"):

@@ -1,4 +1,4 @@
-"""What students do in notebooks with their first robot, step by step: motions, following a target, grasping, seeing."""
+"""First notebooks with a robot, step by step: motions, following a target, grasping, cameras."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def test_the_first_motions_of_a_robot(C: ry.Config) -> None:
     bot.wait(C)
     assert C.getJointState() == pytest.approx(q_home, abs=1e-4)
     bot.hold(floating=True, damping=False)
-    bot.wait(C, forKeyPressed=True, forTimeToEnd=False)  # nobody is there to press one
+    bot.wait(C, forKeyPressed=True, forTimeToEnd=False)  # no viewer is open
     bot.hold(floating=False, damping=True)
     bot.home(C)
     del bot
@@ -55,7 +55,7 @@ def test_a_robot_that_follows_a_target(C: ry.Config) -> None:
     center = position.copy()
     rng = np.random.default_rng(0)
     for _ in range(30):
-        bot.sync(C, 0.1)  # C is where the robot is
+        bot.sync(C, 0.1)  # C has the state of the robot
         position = center + 0.98 * (position - center) + 0.02 * rng.normal(size=3)
         target.setPosition(position)
         q, ret = reach(C, position, bot.get_qHome())
@@ -114,7 +114,7 @@ def test_a_bot_without_a_gripper_says_so() -> None:
 
 
 def test_a_motion_that_is_too_fast_takes_longer_in_simulation_with_a_warning(C: ry.Config) -> None:
-    """Notebooks lift what they hold in .1 s; the reference's simulation knows no limits."""
+    """Notebooks lift an object in .1 s; the reference's simulation has no limits."""
     bot = ry.BotOp(C, False)
     q = bot.get_q()
     up, down = q + 0.4, q
@@ -124,17 +124,17 @@ def test_a_motion_that_is_too_fast_takes_longer_in_simulation_with_a_warning(C: 
         bot.move([up, down], [0.1, 0.3])
     assert 0.3 < bot.getTimeToEnd() < 3.0
     bot.sync(C, 0.5 * bot.getTimeToEnd())
-    assert abs(bot.get_qDot()).max() > 0.3  # it does go there
+    assert abs(bot.get_qDot()).max() > 0.3  # it moves there
     bot.wait(C)
     np.testing.assert_allclose(bot.get_q(), down, atol=2e-3)
-    with pytest.raises(ry.ArgumentError, match="its limits are"):  # that takes no time
+    with pytest.raises(ry.ArgumentError, match="its limits are"):  # no duration helps
         bot.move([q + 10.0], [1.0])
     with pytest.raises(ry.ArgumentError, match="take at least"):
         kinegraph.BotOp(C, False).move([up, down], [0.1, 0.3])
 
 
 def test_a_grasp_planned_by_the_helper_and_lifted_fast(C: ry.Config) -> None:
-    """Calls of the problem can be made on the helper."""
+    """The helper has the calls of the problem."""
     C.addFrame("obj").setPosition([-0.25, 0.1, 0.7]).setShape(ry.ST.ssBox, [0.04, 0.2, 0.1, 0.005]).setMass(0.1)
     C.getFrame("obj").setContact(1)
     ways = ry.KOMO_ManipulationHelper()

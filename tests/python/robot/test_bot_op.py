@@ -1,4 +1,4 @@
-"""BotOp from Python: scripts as they are written for it, Ctrl-C, parameters, pictures, and names of earlier years."""
+"""BotOp from Python: typical scripts, Ctrl-C, parameters, images, and earlier names."""
 
 from __future__ import annotations
 
@@ -97,7 +97,7 @@ def test_the_same_script_gives_the_same_bits_and_its_log_gives_them_again(panda:
     again = ry.BotOp(panda, False)
     again.replay(ry.CommandLog.load(tmp_path / "log.txt"))
     np.testing.assert_array_equal(again.get_q(), one.get_q())
-    with pytest.raises(ry.ParseError, match="no command 'dance'"):
+    with pytest.raises(ry.ParseError, match="unknown command 'dance'"):
         ry.CommandLog.fromText("kinegraph commands 1\nperiod 0.01\n3 dance\n")
 
 
@@ -115,7 +115,7 @@ def test_ctrl_c_holds_the_robot_then_raises(panda: ry.Config, realtime: bool) ->
     assert time.perf_counter() - interrupt.time < 0.5
     assert bot.getMode() == ry.LoopMode.hold
     log = bot.getLog().text().splitlines()
-    assert " hold " in log[-2]  # the last thing that the robot was told
+    assert " hold " in log[-2]  # the last command
     bot.sync(panda, 0.2)
     assert np.abs(bot.get_qDot()).max() < 1e-3
     bot.close()
@@ -126,16 +126,16 @@ def test_ctrl_c_holds_a_robot_in_real_time_whatever_the_script_does(panda: ry.Co
     q = bot.get_qHome().copy()
     for _ in range(200):
         bot.move([q + 0.2 * np.eye(7)[0], q], [2.0])
-    with pytest.raises(KeyboardInterrupt):  # no call of the robot's runs
+    with pytest.raises(KeyboardInterrupt):  # no call of BotOp runs
         signal.raise_signal(signal.SIGINT)
     end = time.monotonic() + 20.0
     while bot.getMode() != ry.LoopMode.hold and time.monotonic() < end:
         time.sleep(0.01)
     assert bot.getMode() == ry.LoopMode.hold
-    bot.moveTo(q + 0.1)  # it can be moved again
+    bot.moveTo(q + 0.1)  # it can move again
     assert bot.getMode() == ry.LoopMode.follow
     bot.close()
-    with pytest.raises(KeyboardInterrupt):  # the handler of before is back
+    with pytest.raises(KeyboardInterrupt):  # the previous handler is restored
         signal.raise_signal(signal.SIGINT)
 
 
@@ -202,12 +202,12 @@ def test_a_real_robot_needs_a_driver(panda: ry.Config) -> None:
 def test_what_a_robot_cannot_do_is_an_error_with_the_reason(panda: ry.Config, bot: ry.BotOp) -> None:
     q = bot.get_qHome()
     with pytest.raises(
-        ry.ArgumentError, match=r"'l_panda_joint1' would 3 /s .* limit is 2.175 /s; take at least 1.37931 times"
+        ry.ArgumentError, match=r"'l_panda_joint1' would have a velocity of 3 /s .* limit is 2.175 /s; take at least 1.37931 times"
     ):
         bot.move([q + 2.0 * np.eye(7)[0]], [1.0])
     with pytest.raises(ry.ArgumentError, match="would go to 9"):
         bot.moveTo(np.full(7, 9.0))
-    with pytest.raises(ry.ArgumentError, match="points of 3 numbers; the robot has 7 joints"):
+    with pytest.raises(ry.ArgumentError, match="points have 3 numbers; the robot has 7 joints"):
         bot.move([[0.0, 0.0, 0.0]], [1.0])
     with pytest.raises(ry.ArgumentError, match="there is no gripper 3; the robot has 1: l_gripper"):
         bot.gripperMove(3)
@@ -286,7 +286,7 @@ def test_the_robot_feels_what_touches_it_and_gives_way_where_it_shall(bench: ry.
     assert np.abs(bot.get_tauExternal()).max() < 1e-6
     bot.floating(0.1)
     bot.sync(bench, 0.5)
-    assert np.abs(bot.get_q() - bot.get_qHome()).max() < 1e-3  # its weight is borne
+    assert np.abs(bot.get_q() - bot.get_qHome()).max() < 1e-3  # it bears its weight
     bot.hold()
     bot.sync(bench, 0.1)
     J = bench.eval(ry.FS.positionRel, ["l_gripper", "table"])[1][2:]
@@ -294,7 +294,7 @@ def test_the_robot_feels_what_touches_it_and_gives_way_where_it_shall(bench: ry.
     bot.moveTo(bot.get_qHome() + 0.1)
     bot.wait(bench)
     bot.sync(bench, 1.0)
-    assert bot.get_q() == pytest.approx(bot.get_qHome() + 0.1, abs=5e-3)  # nothing pushes: it gets there
+    assert bot.get_q() == pytest.approx(bot.get_qHome() + 0.1, abs=5e-3)  # without contacts it arrives
 
 
 def test_what_is_added_to_the_configuration_later_is_part_of_the_world(bench: ry.Config) -> None:
@@ -312,7 +312,7 @@ def test_engines_are_chosen_by_parameter(bench: ry.Config) -> None:
     bot = ry.BotOp(bench)
     bench.getFrame("box").setPosition([0, 0, 3])
     bot.sync(bench, 0.5)
-    assert bench.getFrame("box").getPosition() == pytest.approx([-0.25, 0.1, 0.67])  # where it was: nothing falls
+    assert bench.getFrame("box").getPosition() == pytest.approx([-0.25, 0.1, 0.67])  # nothing falls
     bot.gripperCloseGrasp(0, "box", width=0.05)
     bot.wait(bench, forTimeToEnd=False, forGripper=True)
     bot.moveTo(bot.get_qHome() + 0.2)
@@ -352,9 +352,9 @@ def test_a_motion_that_takes_the_place_of_another_begins_where_something_holds_t
     bot.sync(C, 2.0)
     assert C.getJointState() == pytest.approx([0.25], abs=2e-3)  # at the wall
     for add in (bot.moveTo, lambda q: bot.move([q], [1.0])):
-        with pytest.raises(ry.RobotFault, match="from where the motion begins; call hold"):
+        with pytest.raises(ry.RobotFault, match="from the start of the motion; call hold"):
             add([0.4])
-    bot.moveTo([0.4], overwrite=True)  # as a loop does that follows a target
+    bot.moveTo([0.4], overwrite=True)  # as in a loop that follows a target
     assert bot.get_qDot() == pytest.approx([0.0], abs=1e-2)
     bot.sync(C, 1.0)
     bot.move([[-0.2]], [1.5], overwrite=True)

@@ -1,4 +1,4 @@
-"""Drivers of robots: those of vendors against stand-ins that speak the vendors' calls, and ones that users write."""
+"""Drivers of robots: vendors' drivers against stand-ins for the vendors' packages, and drivers in Python."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def ur_scene() -> ry.Config:
 
 
 class UrStandIn:
-    """What ur-rtde's two interfaces do, for a controller that follows at once."""
+    """Stand-in for the two interfaces of ur-rtde, with a controller that follows at once."""
 
     def __init__(self) -> None:
         self.q, self.qd, self.calls, self.stopped = [0.1] * 6, [0.0] * 6, [], False
@@ -108,7 +108,7 @@ def test_a_ur_is_moved_by_servoj_and_stopped_at_the_end(monkeypatch: pytest.Monk
     assert C.getJointState() == pytest.approx([0.3] * 6)
     with pytest.raises(ry.ArgumentError, match="limit is 3.14"):
         bot.move(np.full((1, 6), 3.0), [0.5])
-    with pytest.raises(ry.RobotFault, match="always stiff"):
+    with pytest.raises(ry.RobotFault, match="stiffness is fixed"):
         bot.floating()
     with pytest.raises(ry.ArgumentError, match="robot has none"):
         bot.gripperMove(0)
@@ -116,7 +116,7 @@ def test_a_ur_is_moved_by_servoj_and_stopped_at_the_end(monkeypatch: pytest.Monk
     assert arm.calls[-3:] == [("servoStop", 10.0), ("disconnect",), ("leave",)]
 
 
-def test_a_protective_stop_of_a_ur_is_told_and_mended(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_protective_stop_of_a_ur_is_reported_and_cleared(monkeypatch: pytest.MonkeyPatch) -> None:
     arm = UrStandIn()
     arm.install(monkeypatch)
     C = ur_scene()
@@ -140,7 +140,7 @@ def test_a_protective_stop_of_a_ur_is_told_and_mended(monkeypatch: pytest.Monkey
 
 
 class FrankaStandIn:
-    """What panda-python does, for an arm that follows at once and a hand that takes its time."""
+    """Stand-in for panda-python, with an arm that follows at once and a slow hand."""
 
     def __init__(self) -> None:
         self.q, self.dq, self.errors, self.time = np.array([0.0, -0.5, 0.0, -2.0, 0.0, 2.0, -0.5]), np.zeros(7), "", 0.0
@@ -232,7 +232,7 @@ def panda() -> ry.Config:
     return C
 
 
-def test_a_franka_follows_and_tells_what_it_feels(franka: FrankaStandIn, panda: ry.Config) -> None:
+def test_a_franka_follows_and_reports_its_torques(franka: FrankaStandIn, panda: ry.Config) -> None:
     bot = ry.BotOp(panda, driver=FrankaDriver(panda, "franka"))
     assert franka.calls == ["connect franka", "hand franka", "start"]
     q = bot.get_q() + 0.2 * np.eye(7)[0]
@@ -266,7 +266,7 @@ def test_a_franka_s_hand_moves_while_the_arm_does(franka: FrankaStandIn, panda: 
     bot.close()
 
 
-def test_a_reflex_of_a_franka_is_told_and_mended(franka: FrankaStandIn, panda: ry.Config) -> None:
+def test_a_reflex_of_a_franka_is_reported_and_cleared(franka: FrankaStandIn, panda: ry.Config) -> None:
     bot = ry.BotOp(panda, driver=FrankaDriver(panda, "franka", hand=False))
     franka.errors = "[cartesian_reflex]"
     with pytest.raises(ry.RobotFault, match="cartesian_reflex"):
@@ -280,7 +280,7 @@ def test_a_reflex_of_a_franka_is_told_and_mended(franka: FrankaStandIn, panda: r
 
 
 class OwnRobot(ry.RobotDriver):
-    """A robot of a user's own: goes where it is told."""
+    """A driver in Python, whose robot follows its commands exactly."""
 
     def __init__(self, config: ry.Config) -> None:
         super().__init__()
@@ -314,7 +314,7 @@ def test_a_driver_that_is_written_in_python_moves_a_robot(panda: ry.Config) -> N
     assert robot.q == pytest.approx(bot.get_qHome() + 0.1)
 
 
-def test_what_a_driver_raises_stops_the_robot_and_is_told(panda: ry.Config) -> None:
+def test_what_a_driver_raises_stops_the_robot_and_is_reported(panda: ry.Config) -> None:
     robot = OwnRobot(panda)
     bot = ry.BotOp(panda, driver=robot)
     robot.error = OSError("the cable is out")
@@ -324,7 +324,7 @@ def test_what_a_driver_raises_stops_the_robot_and_is_told(panda: ry.Config) -> N
     robot.error = None
     bot.recover()
     bot.sync(panda)
-    robot.error = KeyboardInterrupt()  # Ctrl-C is no fault of the robot
+    robot.error = KeyboardInterrupt()  # Ctrl-C is not a fault
     with pytest.raises(KeyboardInterrupt):
         bot.sync(panda)
     robot.error = None
@@ -343,7 +343,7 @@ def test_a_driver_without_its_methods_says_which(panda: ry.Config) -> None:
         def read(self):  # type: ignore[no-untyped-def]
             return "here"
 
-    with pytest.raises(ry.RobotFault, match=r"read\(\) returned something else"):
+    with pytest.raises(ry.RobotFault, match=r"read\(\) returned an object of a wrong type"):
         ry.BotOp(panda, driver=Wrong(panda))
 
 
@@ -353,14 +353,14 @@ def test_a_driver_in_python_runs_in_real_time_beside_the_script(panda: ry.Config
     bot.moveTo(bot.get_q() + 0.01, timeCost=100.0)
     end = time.monotonic() + 20.0
     while bot.getTimeToEnd() > 0.0 and time.monotonic() < end:
-        pass  # the thread gets the interpreter all the same
+        pass  # the thread still gets the interpreter
     assert robot.q == pytest.approx(bot.get_qHome() + 0.01)
     bot.close()
     with pytest.raises(ry.RobotFault, match="closed"):
         bot.get_q()
 
 
-def test_a_recorded_robot_says_what_it_was_given_and_notes_what_it_is_told(panda: ry.Config) -> None:
+def test_a_recorded_robot_returns_its_states_and_records_its_commands(panda: ry.Config) -> None:
     info = ry.RobotInfo.of(panda, "tape")
     q = panda.getJointState()
     tape = ry.RecordedDriver(info, [ry.RobotState(0.01 * i, q + 0.001 * i, np.zeros(7)) for i in range(5)])

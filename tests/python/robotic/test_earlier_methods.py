@@ -201,7 +201,7 @@ LAUNCHES: dict[str, Callable[[ry.BotOp], None]] = {
 def test_drivers_of_hardware_are_given_and_not_launched(panda: ry.Config, name: str) -> None:
     with pytest.raises(ry.NotFound) as refused:
         LAUNCHES[name](ry.BotOp(panda))
-    said = "give a driver of the hardware to BotOp(C, True, driver=...); see kinegraph.robots"
+    said = "pass a driver of the hardware to BotOp(C, True, driver=...); see kinegraph.robots"
     assert str(refused.value) == f"BotOp.{name}: {said}"
     robots = importlib.import_module("kinegraph.robots")
     assert robots.__doc__ and "driver=" in robots.__doc__  # what is said to be there is there

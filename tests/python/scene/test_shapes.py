@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
+from test_structure import TETRAHEDRON
 
 import kinegraph as ry
 from conftest import DATA
-from test_structure import TETRAHEDRON
 
 
 def sphere_grid(n: int = 20, radius: float = 0.5) -> np.ndarray:
@@ -60,7 +60,7 @@ def test_blurring_shrinks_a_ball_a_little(frame):
         (np.ones((3, 3)), [1, 1, 1], "2 dimensions"),
         (np.ones((1, 3, 3)), [1, 1, 1], "2 x 2 x 2"),
         (np.full((3, 3, 3), np.nan), [1, 1, 1], "finite"),
-        (sphere_grid(4), [1, 1], "size is 3 numbers"),
+        (sphere_grid(4), [1, 1], "expected 3 numbers for size"),
     ],
 )
 def test_grids_that_make_no_surface_are_refused(frame, grid, size, words):

@@ -130,7 +130,9 @@ def test_a_file_of_the_same_name_is_read_with_the_robot(folder: Path) -> None:
         C.addFile(folder / "robot" / "arm.urdf", "l_")
         assert C.getStateNames() == ["home", "ready", "away"] and C.getJointGroups()["arm"] == ["l_j1", "l_j2"]
         place.write_text("<robot>\n<group/></robot>")
-        with pytest.warns(ry.KinegraphWarning, match="arm.srdf:2:1: the SRDF file beside the robot's file is ignored: .*'name'"):
+        with pytest.warns(
+            ry.KinegraphWarning, match="arm.srdf:2:1: the SRDF file beside the robot's file is ignored: .*'name'"
+        ):
             ry.Config().addFile(folder / "robot" / "arm.urdf")
         place.unlink()
 

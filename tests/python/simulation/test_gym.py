@@ -1,4 +1,4 @@
-"""The environments for gymnasium keep its rules, and the same seed gives the same run."""
+"""Environments follow the rules of gymnasium, and equal seeds give equal runs."""
 
 import numpy as np
 import pytest
@@ -43,7 +43,7 @@ def test_many_at_once_give_the_same_with_two_threads():
     assert (runs[0] < 0).all()
 
 
-def test_a_box_is_pushed_and_the_reward_tells():
+def test_the_reward_grows_while_a_box_is_pushed():
     """The first joint turns towards the box: the stick pushes it, nearer to the target and then past it."""
     env = PushEnv(time_limit=4.0)
     rewards, is_over = [], False

@@ -1,4 +1,4 @@
-"""What the models, the features and an inverse kinematics give, against recorded numbers."""
+"""Models, features and inverse kinematics against recorded numbers."""
 
 import numpy as np
 import pytest
@@ -37,7 +37,7 @@ def test_every_frame_has_its_parent_its_pose_and_its_joint(model):
         assert ours[frame["name"]].getJointType() == getattr(ry.JT, frame.get("joint") or "none"), frame["name"]
 
 
-def test_joints_limits_and_the_home_posture_are_as_recorded(model):
+def test_joints_limits_and_the_home_configuration_are_as_recorded(model):
     C, numbers = model
     assert list(C.getJointNames()) == numbers["joint_names"]
     assert np.allclose(C.getJointState(), numbers["q_home"], atol=1e-9)

@@ -1,4 +1,4 @@
-"""Simulation from Python: what it holds, replays, measures and refuses."""
+"""Simulation in Python: grasps, replays, measurements and errors."""
 
 import pickle
 import re
@@ -45,7 +45,7 @@ def in_hand(C):
     return hand.getRotationMatrix().T @ (box.getPosition() - hand.getPosition())
 
 
-@pytest.mark.parametrize("side", [[1, 0, 0], [0, 1, 0]])  # fingers close across and along the radius of the turn
+@pytest.mark.parametrize("side", [[1, 0, 0], [0, 1, 0]])  # fingers close across and along the radius of the rotation
 def test_a_box_of_one_kilogram_does_not_slip_in_the_hand(side):
     start = np.array([0.0, 0.3, 0.68])
     above, at, up = (reach(start + np.array([0, 0, z]), side) for z in (0.12, 0.0, 0.2))
@@ -110,7 +110,7 @@ def test_velocities_and_accelerations_move_as_far_as_they_say(engine):
 
 
 @pytest.mark.parametrize("mode", [ry.ControlMode.velocity, ry.ControlMode.acceleration])
-def test_what_is_blocked_does_not_wind_up(mode):
+def test_a_blocked_joint_does_not_wind_up(mode):
     """A slide pushes against a wall for long; told to go back, it does at once, and nothing has jumped."""
     C = ry.Config()
     C.addText(
@@ -153,7 +153,7 @@ def test_torque_mode_accelerates_as_the_equation_of_motion_says():
     assert S.getJointTorques()[0] == pytest.approx(0.6)
 
 
-def test_a_state_holds_all_that_decides_what_happens():
+def test_a_state_is_complete():
     C = panda()
     add_box(C, [-0.3, 0.35, 0.75])
     S = ry.Simulation(C)
@@ -260,17 +260,17 @@ def test_a_force_sensor_weighs_the_hand_and_an_accelerometer_knows_down():
 def test_a_push_is_felt_by_the_joints():
     C = panda()
     S = ry.Simulation(C)
-    S.perturb("l_gripper", [0, 0, -10.0])
+    S.applyForce("l_gripper", [0, 0, -10.0])
     for _ in range(20):
         S.step()
     J = C.eval(ry.FS.position, ["l_gripper"])[1]
     assert np.allclose(S.getExternalTorques(), J.T @ [0, 0, -10.0], atol=1e-2)
-    S.clearPerturbations()
+    S.clearForces()
     S.step()
     assert np.abs(S.getExternalTorques()).max() < 1e-6
 
 
-def test_what_is_attached_goes_along_until_it_is_detached():
+def test_an_attached_object_moves_along_until_it_is_detached():
     C = panda()
     gripper = C.getFrame("l_gripper").getPosition()
     add_box(C, gripper - np.array([0, 0, 0.15]), 0.5)
@@ -297,9 +297,9 @@ def test_a_recording_is_repeated_bit_for_bit(tmp_path):
     S.setSplineRef(C.getJointState() + 0.1, [0.2])
     S.closeGripper("l_gripper", 0.01, 0.2, 5.0)
     S.multi_step(0.1)
-    S.perturb("box", [1, 0, 0])
+    S.applyForce("box", [1, 0, 0])
     S.step(S.get_q(), 0.02, ry.ControlMode.position)
-    S.clearPerturbations()
+    S.clearForces()
     S.pushConfigToSim()
     S.step()
     recording = S.stopRecording()
@@ -357,7 +357,7 @@ def normal(angle):
     return np.array([np.sin(angle), 0, np.cos(angle)])
 
 
-def test_mistakes_change_nothing_and_say_what_is_wrong():
+def test_errors_change_nothing_and_are_explained():
     C = panda()
     add_box(C, [-0.3, 0.35, 0.68])
     S = ry.Simulation(C)
@@ -437,7 +437,7 @@ def test_random_scenes_stay_finite():
         assert np.isfinite(C.getFrameState()).all()
 
 
-def test_a_camera_sees_what_falls():
+def test_a_camera_sees_falling_objects():
     C = panda()
     add_box(C, [0, 0.2, 1.2])
     S = ry.Simulation(C)
@@ -452,13 +452,13 @@ def test_a_camera_sees_what_falls():
     assert S.depthData2pointCloud(depth, S.getFxycxy()).shape == (360, 640, 3)
 
 
-def test_a_point_is_pulled_by_a_spring_that_is_part_of_the_state():
+def test_a_perturbation_is_a_spring_that_is_part_of_the_state():
     C = ry.Config()
     C.addFrame("ball").setShape(ry.ST.sphere, [0.1]).setPosition([0, 0, 1.0]).setMass(2.0)
     C.addFrame("wall").setShape(ry.ST.box, [0.1, 0.1, 0.1]).setPosition([1, 0, 1])
     S = ry.Simulation(C)
     assert S.getPerturbation() is None
-    S.pull("ball", [0, 0, 0], [0.3, 0, 1.2])
+    S.perturb("ball", [0, 0, 0], [0.3, 0, 1.2])
     for _ in range(50):
         S.step()
     state = S.getState()
@@ -469,7 +469,7 @@ def test_a_point_is_pulled_by_a_spring_that_is_part_of_the_state():
             simulation.step()
         positions.append(C.getFrame("ball").getPosition())
     assert np.array_equal(*positions)
-    # it hangs where the spring of 10 rad/s carries it: g / w^2 below the target
+    # it hangs at the equilibrium of the spring of 10 rad/s: g / w^2 below the target
     assert positions[0] == pytest.approx([0.3, 0, 1.2 - 9.81 / 100], abs=1e-4)
     assert S.getPerturbation()["force"] == pytest.approx([0, 0, 2 * 9.81], abs=1e-2)
     assert S.getPerturbation()["position"] == pytest.approx(positions[0], abs=1e-3)
@@ -478,7 +478,7 @@ def test_a_point_is_pulled_by_a_spring_that_is_part_of_the_state():
     assert S.getPerturbation() is None
     assert S.get_frameVelocities()[0, 0, 2] == pytest.approx(-0.981, abs=1e-3)  # it falls
     with pytest.raises(ry.ArgumentError, match="'wall' is fixed to the world"):
-        S.pull("wall", [0, 0, 0], [0, 0, 0])
+        S.perturb("wall", [0, 0, 0], [0, 0, 0])
 
 
 def test_a_recording_is_shown_with_its_fingers_and_saved_as_a_page(tmp_path):
@@ -526,7 +526,7 @@ def test_a_run_takes_as_many_steps_as_its_time_has_and_needs_an_end():
     other.setSplineRef(other.get_q() + 0.2, [0.5])
     other.multi_step(0.5)
     assert np.array_equal(S.get_q(), other.get_q()) and S.get_t() == pytest.approx(0.5)
-    with pytest.raises(ry.ArgumentError, match="say for how many seconds"):
+    with pytest.raises(ry.ArgumentError, match="seconds is None"):
         S.run()
     with pytest.raises(ry.ArgumentError, match="tau"):
         S.run(1.0, tau=0)

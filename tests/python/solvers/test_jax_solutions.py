@@ -81,7 +81,7 @@ def test_through_a_motion_problem(panda):
 
 def test_problems_without_answers_are_told_or_count_nothing(panda):
     far = np.array([[5.0, 5.0, 5.0], [0.3, 0.3, 1.1]])
-    with pytest.raises(Exception, match="1 of 2 targets have no answer"):
+    with pytest.raises(Exception, match="1 of 2 targets are unsolved"):
         solveIk(panda, ["l_gripper"], attempts=1)(far).block_until_ready()
     reach = solveIk(panda, ["l_gripper"], attempts=1, unsolved="zero")
     gradient = jax.grad(lambda p: reach(p).sum())(far)

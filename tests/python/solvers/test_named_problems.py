@@ -203,7 +203,7 @@ def test_words_are_numbers_and_only_two_say_how_fine_a_motion_is():
     assert [int(w) for w in (ry._left, ry._right, ry._sequence, ry._path)] == [0, 1, 2, 3]
     assert ry.ArgWord._path is ry._path and ry.ArgWord(2) is ry._sequence
     with pytest.raises(
-        ry.ArgumentError, match="OptBench_Skeleton_Pick: the word is .*_left.*; expected _sequence or _path"
+        ry.ArgumentError, match="OptBench_Skeleton_Pick: sequenceOrPath is .*_left.*; expected _sequence or _path"
     ):
         ry.OptBench_Skeleton_Pick(ry._left)
     with pytest.raises(ry.Error, match="nowhere"):

@@ -65,7 +65,7 @@ def test_the_scalar_function_of_a_problem_has_its_derivatives():
     assert value == 4 + 6 + 1
     np.testing.assert_allclose(gradient, [8 - 4, 3 + 2])
     np.testing.assert_allclose(hessian, [[8 + 8, -4], [-4, 2]])
-    with pytest.raises(ry.ArgumentError, match=r"f and sos only; row 1 \(eq\)"):
+    with pytest.raises(ry.ArgumentError, match=r"row 1 \(eq\) is of type eq; expected f or sos"):
         factory().eval_scalar([0, 0])
 
 

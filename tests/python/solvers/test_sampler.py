@@ -55,7 +55,7 @@ def test_postures_of_a_robot_that_hold_a_position(interior):
         if s.feasible:
             assert s.eq + s.ineq <= 1e-3 and (s.x >= low).all() and (s.x <= high).all()
         else:
-            assert s.status.name == "infeasible" and "violations sum up to" in s.message
+            assert s.status.name == "infeasible" and "sum of violations" in s.message
 
 
 def test_options_are_told_and_mistakes_named():

@@ -50,7 +50,7 @@ def test_a_method_without_constraints_finds_the_minimum_and_refuses_constraints(
     ret = solver(Free(), method).solve()
     assert ret.status.name == "converged"
     np.testing.assert_allclose(ret.x, [2, 1], atol=1e-3)
-    with pytest.raises(ry.ArgumentError, match=rf"{method} takes no constraints; row 2 \(ineq\)"):
+    with pytest.raises(ry.ArgumentError, match=rf"{method} does not support constraints, such as row 2 \(ineq\)"):
         solver(Circle(), method).solve()
 
 

@@ -54,7 +54,7 @@ def same(o, e):
 def test_the_first_plan_that_is_feasible_is_as_long_as_that_of_the_reference(name):
     C, tamp, _ = tool(name)
     lgp = robotic.LGP_Tool(C, tamp)
-    assert lgp.solve(verbose=0) and lgp.status == "solved"
+    assert lgp.solve(verbose=0) and lgp.status == ry.LgpStatus.solved
     assert len(lgp.getSolvedPlan()) == len(RECORDED[name]["plan"])
     assert lgp.getSolvedKOMO().getT() == len(lgp.getSolvedPlan())
 
@@ -143,7 +143,7 @@ def test_the_tutorials_problems_are_solved_whatever_is_drawn(scene, problem, req
 def test_a_push_up_a_step_is_not_called_feasible_but_by_the_reference():
     """The pad is 4 mm higher than the table that the disc slides over."""
     _, _, lgp = tool("push")
-    assert not lgp.solve(verbose=0) and lgp.status == "not found"
+    assert not lgp.solve(verbose=0) and lgp.status == ry.LgpStatus.no_plan_found
     assert "end_push g_gripper disc table pad" in lgp.message
 
 
@@ -155,7 +155,7 @@ def test_repeated_calls_give_further_plans_and_end():
         plans.append(lgp.getSolvedPlan())
         if len(plans) > 5:
             break
-    assert plans and lgp.status in ("solved", "not found", "proved impossible")
+    assert plans and lgp.status != ry.LgpStatus.not_started
 
 
 def test_an_abstraction_of_ones_own(tmp_path):
@@ -232,7 +232,7 @@ def test_an_abstraction_without_files_in_which_all_methods_are_python():
     assert result.feasible and lgp.path.shape[0] == lgp.motion.getT() == 5
     assert abs(lgp.path[-1] - lgp.path[-2]).max() < 1e-2
     assert lgp.solve(0) and lgp.getSolvedPlan() == [["reach", "1.1"]]
-    assert not lgp.solve(0) and lgp.status == "not found" and lgp.message == "no further plan in logic"
+    assert not lgp.solve(0) and lgp.status == ry.LgpStatus.no_plan_found and lgp.message == "no further plan in logic"
 
 
 def test_what_an_abstraction_cannot_do_is_forbidden_and_told():
@@ -243,7 +243,7 @@ def test_what_an_abstraction_cannot_do_is_forbidden_and_told():
     assert tamp.forbidden == [[["reach", "50.0"]]]
     assert not lgp.solve(0) and "(reach 50.0): position of hand is missed by 4" in lgp.message
     nothing = ry.LGP_Tool(C, Reaches(C, []))
-    assert not nothing.solve(0) and (nothing.status, nothing.message) == ("proved impossible", "no plan in logic")
+    assert not nothing.solve(0) and (nothing.status, nothing.message) == (ry.LgpStatus.infeasible, "no plan in logic")
 
 
 def test_plans_that_failed_are_tried_again_when_there_is_no_further_one():
@@ -281,7 +281,7 @@ def test_mistakes_in_an_abstraction_are_told():
         ry.LGP_Tool(C, Broken(C, [1.0])).solve(0)
     with pytest.raises(ry.ArgumentError, match="getNewActionSequence returned a str; expected a list of actions"):
         ry.LGP_Tool(C, NoPlan(C, [1.0])).solve(0)
-    with pytest.raises(ry.ArgumentError, match=r"no constraints are known for action \(reach up\)"):
+    with pytest.raises(ry.ArgumentError, match=r"action \(reach up\) has no constraints"):
         ry.LGP_TAMP_Abstraction(C).add_action_constraints(ry.KOMO(C, 1, 1, 1, False), 1.0, [], ["reach", "up"])
     odd = Reaches(C, [1.0])
     odd.explicitCollisions = ["red"]
@@ -319,7 +319,7 @@ def test_an_action_of_ones_own_that_takes_something_along():
     assert lgp.getSolvedKOMO().getConfiguration(0).getFrame("blue").getParent().name == "mine_1"
     assert lgp.solveFullMotion(0).feasible
     assert lgp.get_fullMotionProblem().getT() == 120 and tamp.seen == (30, False)
-    assert tamp.domain.actions[0] == "pick_touch" and tamp.search.status == "found"
+    assert tamp.domain.actions[0] == "pick_touch" and tamp.search.status == ry.PlanSearchStatus.found
 
 
 def test_functions_of_ones_own_in_problems_are_called_from_threads_too():
@@ -385,7 +385,7 @@ def test_mistakes_in_files_are_told_with_their_place(tmp_path):
 
     with pytest.raises(ry.FileError, match="nowhere.lgp"):
         ry.default_LGP_TAMP_Abstraction(C, "nowhere.lgp")
-    with pytest.raises(ry.ParseError, match="there is no `terminal:`"):
+    with pytest.raises(ry.ParseError, match="missing `terminal:`"):
         problem("fol: <a.fol>")
     with pytest.raises(ry.FrameNotFound, match="redd.*red"):
         problem('fol: <a.fol>\nterminal: "(on padA red)"\ncoll: [redd blue]')

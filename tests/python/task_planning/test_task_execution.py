@@ -56,7 +56,7 @@ def test_mistakes_are_told_before_anything_moves(tower) -> None:
     with pytest.raises(ry.ArgumentError, match="the robot is not where the plan begins"):
         plan.execute(ry.BotOp(away))
     with pytest.raises(ry.ArgumentError, match="was not made by planTask"):
-        ry.TaskPlan("solved", "").repair(C)
+        ry.TaskPlan(plan.actions, plan.path, plan.times, plan.segments).repair(C)
 
 
 def test_a_drawer_is_opened_in_simulation_and_a_box_put_into_it() -> None:

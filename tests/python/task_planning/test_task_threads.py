@@ -13,10 +13,31 @@ THREADS = (1, 2, 8)
 DATA = Path(__file__).parent.parent.parent / "data" / "lgp"
 
 
-def told(plan: ry.TaskPlan) -> dict[str, Any]:
-    """All that a plan says, arrays as their bytes."""
-    whole = {name: value for name, value in vars(plan).items() if name not in ("again", "scenes", "tree")}
-    whole["tree"] = [(branch.actions, branch.why, bits(branch.ghost)) for branch in plan.tree]
+FIELDS = [
+    "status",
+    "message",
+    "warnings",
+    "actions",
+    "waypoints",
+    "path",
+    "times",
+    "limits",
+    "segments",
+    "causes",
+    "violations",
+    "evaluations",
+    "expansions",
+    "attachments",
+    "goal",
+    "start",
+    "duration",
+]
+
+
+def contents(plan: ry.TaskPlan) -> dict[str, Any]:
+    """All fields of a plan, arrays as their bytes."""
+    whole = {name: getattr(plan, name) for name in FIELDS}
+    whole["tree"] = [(branch.actions, branch.cause, bits(branch.failed_configuration)) for branch in plan.tree]
     whole["scenes"] = [bits(scene) for scene in plan.scenes]
     return {name: value.tobytes() if isinstance(value, np.ndarray) else value for name, value in whole.items()}
 
@@ -39,7 +60,7 @@ def test_a_plan_does_not_depend_on_threads(family: str) -> None:
     problems = [families.FAMILIES[family](1) for _ in THREADS]
     plans = [ry.planTask(p.C, p.goal, threads=n, seed=5) for p, n in zip(problems, THREADS, strict=True)]
     assert plans[0].status == problems[0].expect or plans[0].feasible
-    assertAllSame([told(plan) for plan in plans])
+    assertAllSame([contents(plan) for plan in plans])
 
 
 def test_a_plan_of_a_panda_does_not_depend_on_threads() -> None:
@@ -48,14 +69,16 @@ def test_a_plan_of_a_panda_does_not_depend_on_threads() -> None:
         problem = panda_tasks.tower(3, 3)
         plans.append(ry.planTask(problem.C, problem.goal, threads=threads))
     assert plans[0].feasible and len(plans[0].actions) >= 4
-    assertAllSame([told(plan) for plan in plans])
+    assertAllSame([contents(plan) for plan in plans])
 
 
 def test_better_plans_do_not_depend_on_threads() -> None:
     found = []
     for threads in THREADS:
         problem = families.tower(0)
-        found.append([told(plan) for plan in ry.planTasks(problem.C, problem.goal, evaluations=1500, threads=threads)])
+        found.append(
+            [contents(plan) for plan in ry.planTasks(problem.C, problem.goal, max_evaluations=1500, threads=threads)]
+        )
     assert len(found[0]) > 1
     assertAllSame(found)
 
@@ -87,7 +110,7 @@ def test_waypoints_that_fail_are_the_same_with_threads() -> None:
         C.addFile(DATA / "push.g")
         lgp = ry.LGP_Tool(C, ry.default_LGP_TAMP_Abstraction(C, str(DATA / "push.lgp")), threads=threads)
         answers.append((lgp.solve(verbose=0), lgp.status, lgp.message, lgp.solves))
-    assert answers[0][1] == "not found"
+    assert answers[0][1] == ry.LgpStatus.no_plan_found
     assertAllSame(answers)
 
 

@@ -43,7 +43,7 @@ def panda() -> ry.Config:
 def test_families_are_solved_and_the_checker_agrees(family) -> None:
     problem = families.FAMILIES[family](0)
     plan = ry.planTask(problem.C, problem.goal)
-    assert plan.status == "solved", plan
+    assert plan.status == ry.TaskStatus.solved, plan
     assert len(plan.actions) >= problem.least
     assert ry.checkTaskPlan(problem.C, plan) == []
     assert plan.path.shape == (plan.segments[-1].stop, problem.C.getJointDimension())
@@ -55,8 +55,8 @@ def test_a_tray_is_carried_with_what_stands_on_it_level_and_slowly() -> None:
     plan = ry.planTask(problem.C, problem.goal)
     assert [a[0] for a in plan.actions[:2]] == ["lift", "place"] and len(plan.actions) == problem.least
     assert plan.frames(problem.C, 10.0).shape == (round(10 * plan.duration), problem.C.getFrameDimension(), 7)
-    plan.limits, plan.times = None, 0.5 * plan.times
-    assert any("'cup0' is accelerated too much for what carries it" in w for w in ry.checkTaskPlan(problem.C, plan))
+    hasty = ry.TaskPlan(plan.actions, plan.path, 0.5 * plan.times, plan.segments, start=plan.start)
+    assert any("'cup0' is accelerated too much for what carries it" in w for w in ry.checkTaskPlan(problem.C, hasty))
 
 
 @pytest.mark.parametrize(
@@ -73,7 +73,7 @@ def test_what_is_too_wide_for_the_hand_is_told_with_the_widths() -> None:
     C = panda()
     C.getFrame("cup").setShape(ry.ST.ssBox, [0.12, 0.12, 0.12, 0.005])
     plan = ry.planTask(C, "(on tray cup)")
-    assert plan.status == "proved impossible"
+    assert plan.status == ry.TaskStatus.infeasible
     assert "'cup' is wider than 'l_gripper' opens (0.080 m)" in plan.message
 
 
@@ -126,7 +126,7 @@ def test_an_action_of_ones_own_with_variants() -> None:
     plan = ry.planTask(C, "(shown cup)", domain=domain, rules=rules)
     assert plan.feasible and [a[0] for a in plan.actions] == ["pick", "show"]
     assert plan.scenes[-1].getFrame("cup").getPosition()[2] > 0  # the scene in which it is held
-    with pytest.raises(ry.ArgumentError, match="nothing is known of what the actions show ask"):
+    with pytest.raises(ry.ArgumentError, match="no TaskRule for the actions show; pass rules="):
         ry.planTask(C, "(shown cup)", domain=domain)
 
 
@@ -135,22 +135,22 @@ def test_the_checker_finds_what_is_wrong_with_a_plan() -> None:
     plan = ry.planTask(C, "(on tray cup)")
     states = [["(on table cup)"], [], ["(on table cup)"]]
     assert "the goal (on tray cup) does not hold" in ry.checkTaskPlan(C, plan, states)[0]
-    good = plan.path.copy()
-    limits, plan.limits = plan.limits, None
-    plan.path[plan.segments[0].stop - 1 :] += 0.3  # the hand is not where the cup is
-    assert any("away from what it takes" in w or "overlap" in w for w in ry.checkTaskPlan(C, plan))
-    plan.limits = limits
-    plan.path[:] = good
-    plan.path[0, 0] = 9.0
-    assert "jumps" in ry.checkTaskPlan(C, plan)[0]
-    plan.path[:] = good
-    plan.path[1:, 0] += 9.0
-    plan.limits = None
-    assert "beyond its limits" in ry.checkTaskPlan(C, plan)[0]
-    plan.limits = limits
-    plan.path[:] = good
-    plan.path[plan.segments[1].stop - 1, 5] += 0.1  # it is let go in the air
-    assert ry.checkTaskPlan(C, plan) != []
+
+    def violations(path, limits=None):
+        return ry.checkTaskPlan(C, ry.TaskPlan(plan.actions, path, plan.times, plan.segments, limits=limits))
+
+    path = plan.path
+    path[plan.segments[0].stop - 1 :] += 0.3  # the hand is not at the cup
+    assert any("away from what it takes" in w or "overlap" in w for w in violations(path))
+    path = plan.path
+    path[0, 0] = 9.0
+    assert "jumps" in violations(path, plan.limits)[0]
+    path = plan.path
+    path[1:, 0] += 9.0
+    assert "beyond its limits" in violations(path)[0]
+    path = plan.path
+    path[plan.segments[1].stop - 1, 5] += 0.1  # the cup is released in the air
+    assert violations(path, plan.limits) != []
 
 
 def test_mistakes_and_goals_that_hold() -> None:
@@ -158,15 +158,15 @@ def test_mistakes_and_goals_that_hold() -> None:
     with pytest.raises(ry.ParseError, match="unknown symbol 'tary' in the goal.*similar names: tray"):
         ry.planTask(C, "(on tary cup)")
     plan = ry.planTask(C, "(on table cup)")
-    assert plan.feasible and plan.actions == [] and "holds already" in plan.message
-    assert ry.planTask(C, "(on cup tray)").status == "proved impossible"
+    assert plan.feasible and plan.actions == [] and plan.warnings == ["the goal already holds"] and plan.message == ""
+    assert ry.planTask(C, "(on cup tray)").status == ry.TaskStatus.infeasible
 
 
 def test_effort_ends_it() -> None:
     problem = families.crowded(0)
-    plan = ry.planTask(problem.C, problem.goal, evaluations=1)
-    assert plan.status == "not found" and "no plan within the effort" in plan.message
-    assert plan.why()
+    plan = ry.planTask(problem.C, problem.goal, max_evaluations=1)
+    assert plan.status == ry.TaskStatus.no_plan_found and "no plan within max_evaluations" in plan.message
+    assert "branch" in plan.explain()
 
 
 def test_what_is_in_a_drawer_is_shown_moving_with_it() -> None:
@@ -188,3 +188,9 @@ def test_doors_and_their_states() -> None:
         C.getFrame("drawer").setJointState([at])
         assert ry.doorStates(C) == {"drawer": state}
     assert ry.doorStates(panda()) == {}
+
+
+def test_plans_are_made_with_keywords_alone() -> None:
+    with pytest.raises(TypeError):
+        ry.planTask(panda(), "(on tray cup)", ry.defaultDomain())
+    assert str(ry.TaskStatus.no_plan_found) == "TaskStatus.no_plan_found"

@@ -1,4 +1,4 @@
-"""Motions as B-splines: what the bindings of BSpline can break."""
+"""The bindings of BSpline."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""view() and watchFile() without a browser: they never wait where nobody can answer, and Ctrl-C ends them where they do."""
+"""view() and watchFile() without a browser: they do not wait without a user, and Ctrl-C ends them otherwise."""
 
 import os
 import signal
@@ -146,7 +146,7 @@ def test_what_cannot_be_shown_is_an_error_that_says_why():
     C = ry.Config()
     C.addFrame("one")
     for frame in (-1, 1):
-        with pytest.raises(ry.ArgumentError, match=f"no frame has the ID {frame}; the viewer shows 1"):
+        with pytest.raises(ry.ArgumentError, match=f"no frame has the ID {frame}; expected 0 to 0"):
             C.viewer().select(frame)
     with pytest.raises(ry.ArgumentError, match=r"shape \(3, 5, 4\); expected \(height, width, 3\)"):
         ry.ImageViewer().view(np.zeros((3, 5, 4), np.uint8))

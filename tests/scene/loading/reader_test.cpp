@@ -155,7 +155,7 @@ TEST(Reader, ErrorsNameThePlaceTheFrameAndTheNearestWord) {
   expectMessage("a: {} b(a): { joint: hingeX, mimic: a }", "'a' has no joint");
   expectMessage("a(b): {} b(a): {}", "one of its descendants");
   expectMessage("a: { shape: box, size: [1 1 1] ", "no error");
-  expectMessage("a: 3", "at the top of a scene stand frames");
+  expectMessage("a: 3", "expected a frame 'name (parent)");
   expectMessage("Include: <nope.g>", "scene file");
   expectMessage("a: { shape: box, color: red, size: [1 1 1] }", "expected numbers [r g b] in 0..1, got the text 'red'");
   const std::string several = messageOf("a: { shape: bax }\nb: { shape: spher }");
@@ -239,7 +239,7 @@ TEST(Reader, SuspiciousEntriesCauseWarnings) {
   expectWarning("a: { joints: 3 }", "did you mean 'joint'");
   expectWarning("a: { Mass: 3 }", "did you mean 'mass'");
   expectWarning("a: { contact: 1 }", "'contact' has no effect without a shape");
-  expectWarning("a: {} a: {}", "there is a frame named 'a' already");
+  expectWarning("a: {} a: {}", "a frame named 'a' already exists");
   expectWarning("edit a: {}", "did you mean 'Edit'?");
   expectWarning("Edit tabel: {} table: {}", "no frame 'tabel'; similar names: table");
   expectWarning("Delete: a", "no frame 'a' before this line");

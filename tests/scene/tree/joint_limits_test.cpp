@@ -21,7 +21,7 @@ TEST(LimitsError, SuggestsSwappedLimitsInTheRightOrder) {
             "the lower limit 1 is above the upper limit -1; expected [lower, upper]: [-1 1]");
   EXPECT_EQ(limitsError(std::vector<double>{2., -1., 1., 3.}),
             "a lower limit is above its upper limit: that of dof 0 is 2, and 1; all lower limits come first, then all "
-            "upper ones: [1 -1 2 3] if only these are the wrong way around");
+            "upper ones: [1 -1 2 3] if only these are swapped");
   EXPECT_EQ(limitsError(std::vector<double>{-1., 1.}), "");
   EXPECT_EQ(limitsError(std::vector<double>{1., -1., 2., 3.}), "");  // the advice
 }

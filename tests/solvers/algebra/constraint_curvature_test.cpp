@@ -35,14 +35,14 @@ TEST(ConstraintCurvature, KnowsInWhichDirectionsItSawNothing) {
   const Rows rows;
   ConstraintCurvature curvature;
   curvature.reset({0, 1}, 3);
-  EXPECT_EQ(curvature.seen(Eigen::Vector2d(1., 1.)).rows(), 0);
+  EXPECT_EQ(curvature.observed(Eigen::Vector2d(1., 1.)).rows(), 0);
   const VectorXd x = VectorXd::Zero(3), s = Eigen::Vector3d(0., 1., 0.);
   curvature.update(s, rows.at(x), rows.at(x + s));
-  const MatrixXd seen = curvature.seen(Eigen::Vector2d(1., 1.));
+  const MatrixXd observed = curvature.observed(Eigen::Vector2d(1., 1.));
   const Eigen::Vector3d along = rows.C * s, across(3., 2., 0.);  // the estimate has rank one
-  EXPECT_GT((seen * along).norm(), .1);
-  EXPECT_NEAR((seen * across).norm(), 0., 1e-12);
-  EXPECT_EQ(curvature.seen(Eigen::Vector2d(0., 1.)).rows(), 0);  // the other row is linear
+  EXPECT_GT((observed * along).norm(), .1);
+  EXPECT_NEAR((observed * across).norm(), 0., 1e-12);
+  EXPECT_EQ(curvature.observed(Eigen::Vector2d(0., 1.)).rows(), 0);  // the other row is linear
 }
 
 }  // namespace

@@ -72,8 +72,8 @@ TEST(Indefinite, NegativeCurvatureIsFoundWhereRowsAdmitIt) {
   Restriction rows{(MatrixXd(1, 3) << 0., 0., 1.).finished(), (MatrixXd(1, 3) << 0., 1., 0.).finished()};
   const std::optional<VectorXd> d = negativeCurvature(W, rows, 1e-9);
   ASSERT_TRUE(d.has_value());
-  EXPECT_NEAR((*d - Eigen::Vector3d(0., -1., 0.)).norm(), 0., 1e-12);  // away from the row that is touched
-  appendRow(rows.held, rows.touched.row(0));
+  EXPECT_NEAR((*d - Eigen::Vector3d(0., -1., 0.)).norm(), 0., 1e-12);  // away from the row that is tight
+  appendRow(rows.fixed, rows.tight.row(0));
   EXPECT_FALSE(negativeCurvature(W, rows, 1e-9).has_value());
 }
 

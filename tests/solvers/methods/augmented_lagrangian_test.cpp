@@ -413,6 +413,6 @@ TEST(AugmentedLagrangian, NamesTheResidualThatIsNotFiniteWhereverItTriesToGo) {
 
 TEST(AugmentedLagrangian, StartsThatDoNotFitAreErrors) {
   CallbackNlp nlp = kOne.nlp(eq);
-  expectError<ValueError>([&] { solveAugmentedLagrangian(nlp, vec({1.}), {}); }, {"1 numbers", "3 variables"});
+  expectError<ValueError>([&] { solveAugmentedLagrangian(nlp, vec({1.}), {}); }, {"1 entries", "3 variables"});
   expectError<ValueError>([&] { solveAugmentedLagrangian(nlp, vec({1., NAN, 0.}), {}); }, {"not finite"});
 }

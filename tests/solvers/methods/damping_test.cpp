@@ -71,9 +71,9 @@ TEST(Damping, MakesUpForCurvatureThatAModelLacks) {
     const double ratio = (g * d - .5 * a * d * d) / (g * d - .5 * m * d * d);
     const double lacking = Damping::lacking(ratio, m);
     EXPECT_NEAR(lacking, Damping::kLackingPart * (a - m), 1e-9);
-    Damping damping(1., Damping::kLeast);
+    Damping damping(1., Damping::kMin);
     damping.meet(ratio, lacking);
-    EXPECT_EQ(damping.value(), ratio < Damping::kOvershot ? lacking : Damping::kLeast);
+    EXPECT_EQ(damping.value(), ratio < Damping::kOvershot ? lacking : Damping::kMin);
     if (ratio >= Damping::kOvershot) continue;
     damping.accept(1., false);
     EXPECT_EQ(damping.value(), Damping::kWaryFall * lacking) << "it would overshoot again";
@@ -81,12 +81,12 @@ TEST(Damping, MakesUpForCurvatureThatAModelLacks) {
 }
 
 TEST(Damping, AfterARefusalIsNoMoreThanTheModelLacks) {
-  Damping known(1., Damping::kLeast), unknown(1., Damping::kLeast);
+  Damping known(1., Damping::kMin), unknown(1., Damping::kMin);
   known.refuse(1e6, .5);
   unknown.refuse(1e6);
   EXPECT_EQ(known.value(), .5);
-  EXPECT_EQ(unknown.value(), Damping::kLeastRefusedOfCurvature * 1e6);
+  EXPECT_EQ(unknown.value(), Damping::kMinRefusedShare * 1e6);
   known.refuse(1e6, .5);
   EXPECT_EQ(known.value(), 2. * Damping::kFirstGrowth * .5) << "refused again, it grows all the same";
-  EXPECT_EQ(Damping::lacking(-1e6, 1.), Damping::kLackingPart * Damping::kMostLacking) << "as at a kink";
+  EXPECT_EQ(Damping::lacking(-1e6, 1.), Damping::kLackingPart * Damping::kMaxLacking) << "as at a non-smooth point";
 }

@@ -21,8 +21,8 @@ TEST(Penalty, GrowsByItsFactorUpToItsLargestValue) {
 TEST(Penalty, IsMuchAThousandTimesItsFirstValue) {
   const SolverOptions options;
   Penalty penalty(options, 3.);
-  while (!penalty.isMuch()) penalty.grow();
-  EXPECT_DOUBLE_EQ(penalty.value(), Penalty::kMuch * 3. * options.muInit);
+  while (!penalty.isLarge()) penalty.grow();
+  EXPECT_DOUBLE_EQ(penalty.value(), Penalty::kLarge * 3. * options.muInit);
 }
 
 TEST(Penalty, RestartsHigherAfterEachRestoration) {

@@ -27,39 +27,39 @@ TEST(InnerTest, AsksForLessFromRoundToRoundWhereThereAreManyVariables) {
 
 TEST(InnerTest, TakesALagrangianThatHardlyFallsAsSolved) {
   InnerTest test(false);
-  test.sawStep(10., 10. * (1. - 1.01 * InnerTest::kFirstDecrease));
+  test.addStep(10., 10. * (1. - 1.01 * InnerTest::kFirstDecrease));
   EXPECT_FALSE(test.isSolved(1., false));
-  test.sawStep(10., 10. * (1. - .99 * InnerTest::kFirstDecrease));
+  test.addStep(10., 10. * (1. - .99 * InnerTest::kFirstDecrease));
   EXPECT_TRUE(test.isSolved(1., true));
   test.tighten(1e-4, false);
   EXPECT_TRUE(test.isSolved(1., true)) << "where constraints do not hold, it stays rough";
   test.tighten(1e-4, true);
   EXPECT_FALSE(test.isSolved(1., true));
-  test.sawStep(10., 10.);
+  test.addStep(10., 10.);
   test.beginRound();
   EXPECT_FALSE(test.isSolved(1., true)) << "a new round has its own steps";
 }
 
-TEST(CreepTest, NeedsRefusedStepsAndCostsThatHardlyFall) {
+TEST(StagnationTest, NeedsRefusedStepsAndCostsThatHardlyFall) {
   SolverOptions options;
   options.stopTolerance = 1e-2;
   options.stopFTolerance = 1e-3;
-  const auto creepsAfter = [&](double cost, int refused, bool holds) {
-    CreepTest test(options);
-    EXPECT_FALSE(test.creeps(CreepTest::kWindow, 1., holds)) << "the first window has nothing to compare with";
-    for (int i = 0; i < refused; ++i) test.refuse();
-    return test.creeps(2 * CreepTest::kWindow, cost, holds);
+  const auto stagnatesAfter = [&](double cost, int refused, bool holds) {
+    StagnationTest test(options);
+    EXPECT_FALSE(test.stagnates(StagnationTest::kWindow, 1., holds)) << "the first window has nothing to compare with";
+    for (int i = 0; i < refused; ++i) test.addRefusal();
+    return test.stagnates(2 * StagnationTest::kWindow, cost, holds);
   };
-  const double least = CreepTest::kWindow * options.stopFTolerance;  // the lesser of both tolerances
-  EXPECT_TRUE(creepsAfter(1. - .9 * least, CreepTest::kRefused, true));
-  EXPECT_FALSE(creepsAfter(1. - 1.1 * least, CreepTest::kRefused, true));
-  EXPECT_FALSE(creepsAfter(1., CreepTest::kRefused - 1, true));
-  EXPECT_FALSE(creepsAfter(1., CreepTest::kRefused, false));
+  const double least = StagnationTest::kWindow * options.stopFTolerance;  // the lesser of both tolerances
+  EXPECT_TRUE(stagnatesAfter(1. - .9 * least, StagnationTest::kRefused, true));
+  EXPECT_FALSE(stagnatesAfter(1. - 1.1 * least, StagnationTest::kRefused, true));
+  EXPECT_FALSE(stagnatesAfter(1., StagnationTest::kRefused - 1, true));
+  EXPECT_FALSE(stagnatesAfter(1., StagnationTest::kRefused, false));
 }
 
 TEST(ViolationTest, IsStuckAfterTwoBadRoundsUnderALargePenalty) {
   ViolationTest test;
-  test.sawRound(1.);
+  test.addRound(1.);
   EXPECT_FALSE(test.isStuck(.9, true));
   EXPECT_TRUE(test.isStuck(.9, true));
   EXPECT_FALSE(test.isStuck(.5, true)) << "a good round ends the series";
@@ -77,7 +77,7 @@ TEST(ViolationTest, IsHopelessWithoutProgressOnly) {
   for (int i = 0; i < 20; ++i) EXPECT_FALSE(test.isHopeless(violation, cost *= .99)) << "the costs fall";
   int times = 1;
   while (!test.isHopeless(violation, cost)) ++times;
-  EXPECT_EQ(times, ViolationTest::kMostFailures - 1);
+  EXPECT_EQ(times, ViolationTest::kMaxFailures - 1);
 }
 
 TEST(CorrectionTest, PausesLongerAndLongerWhereCorrectionsFail) {
@@ -88,9 +88,9 @@ TEST(CorrectionTest, PausesLongerAndLongerWhereCorrectionsFail) {
     return steps;
   };
   for (const int expected : {0, 8, 16, 32, 32}) {
-    test.saw(false);
+    test.addCorrection(false);
     EXPECT_EQ(pause(), expected);
   }
-  test.saw(true);
+  test.addCorrection(true);
   EXPECT_EQ(pause(), 0);
 }

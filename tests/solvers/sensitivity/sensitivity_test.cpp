@@ -125,15 +125,15 @@ TEST(Sensitivity, IsOneWhereAConstraintIsNotTouchedAndZeroWhereItPresses) {
   }
 }
 
-TEST(Sensitivity, SaysThatASolutionHasAKinkAndTellsEachSide) {
+TEST(Sensitivity, ReportsANonSmoothSolutionWithBothOneSidedDerivatives) {
   for (const bool as_bound : {true, false}) {
     Sensitivity right = atZeroOrAbove(0., as_bound), left = atZeroOrAbove(0., as_bound, true);
-    EXPECT_NEAR(right.jacobian()(0, 0), 1., 1e-12) << "the side on which it does not hold";
+    EXPECT_NEAR(right.jacobian()(0, 0), 1., 1e-12) << "without the constraint";
     EXPECT_NEAR(left.jacobian()(0, 0), 0., 1e-12);
     for (Sensitivity* side : {&right, &left}) {
       EXPECT_FALSE(side->isRegular());
       ASSERT_EQ(side->weak().size(), 1u);
-      EXPECT_NE(side->message().find("kink"), std::string::npos);
+      EXPECT_NE(side->message().find("not differentiable"), std::string::npos);
       EXPECT_NE(side->message().find(side->weak()[0]), std::string::npos);
     }
   }

@@ -27,8 +27,8 @@ TEST(DefaultLgpAbstraction, MistakesInFilesAreToldWithTheirPlace) {
   const auto problem = [&](const std::string& text) { DefaultLgpAbstraction(C, writtenFile("mistakes.lgp", text)); };
   expectError<FileError>([&] { DefaultLgpAbstraction(C, "nowhere.lgp"); }, {"cannot read 'nowhere.lgp'"});
   expectError<FileError>([&] { problem("fol: <gone.fol>\nterminal: \"(on padA red)\""); }, {"gone.fol"});
-  expectError<ParseError>([&] { problem(fol); }, {"mistakes.lgp:1:1: there is no `terminal:`"});
-  expectError<ParseError>([&] { problem(fol + "terminal: 3"); }, {"mistakes.lgp:2:1: there is no `terminal:`"});
+  expectError<ParseError>([&] { problem(fol); }, {"mistakes.lgp:1:1: missing `terminal:`"});
+  expectError<ParseError>([&] { problem(fol + "terminal: 3"); }, {"mistakes.lgp:2:1: missing `terminal:`"});
   expectError<ParseError>([&] { problem(fol + "terminal: \"(on padA red) (on padC red)\""); },
                           {"mistakes.lgp:2:26: ", "unknown symbol 'padC' in the goal", "similar names: padA"});
   expectError<ParseError>([&] { problem(fol + "terminal: \"(on padA red)\n  (on padA\""); }, {"mistakes.lgp:3:"});

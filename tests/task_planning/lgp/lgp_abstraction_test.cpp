@@ -21,7 +21,7 @@ TEST(LgpAbstraction, WithoutActionsItHasNoPlansAndProblemsOfTheRightSize) {
       [&] {
         tamp.add_all(waypoints, {{"dance", "red"}}, false);
       },
-      {"no constraints are known for action (dance red)"});
+      {"action (dance red) has no constraints"});
 }
 
 TEST(LgpAbstraction, ItSeesWhatIsChangedInTheSceneLater) {

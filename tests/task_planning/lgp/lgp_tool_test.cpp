@@ -94,7 +94,7 @@ TEST(LgpTool, RepeatedCallsGiveFurtherPlansAndEnd) {
     ASSERT_LT(plans.size(), 10u);
   }
   EXPECT_FALSE(plans.empty());
-  EXPECT_EQ(lgp.status, "not found");
+  EXPECT_EQ(lgp.status, LgpStatus::no_plan_found);
   EXPECT_TRUE(lgp.hasPlan());
 }
 
@@ -102,7 +102,7 @@ TEST(LgpTool, APushUpAStepIsNotFeasibleAndTheMessageSaysWhatIsMissed) {
   const LgpProblem problem("push");
   LgpTool lgp(problem.C, problem.tamp);
   EXPECT_FALSE(lgp.solve(0));
-  EXPECT_EQ(lgp.status, "not found");
+  EXPECT_EQ(lgp.status, LgpStatus::no_plan_found);
   EXPECT_NE(lgp.message.find("(end_push g_gripper disc table pad): "), std::string::npos) << lgp.message;
 }
 
@@ -144,9 +144,9 @@ TEST(LgpTool, PlansThatFailedAreTriedAgainWhenThereIsNoFurtherOne) {
 TEST(LgpTool, WithoutAPlanInLogicItIsProvedImpossible) {
   const LgpProblem problem("unblock");
   LgpTool lgp(problem.C, std::make_shared<LgpAbstraction>(problem.C));
-  EXPECT_EQ(lgp.status, "not started");
+  EXPECT_EQ(lgp.status, LgpStatus::not_started);
   EXPECT_FALSE(lgp.solve(0));
-  EXPECT_EQ(lgp.status, "proved impossible");
+  EXPECT_EQ(lgp.status, LgpStatus::infeasible);
   EXPECT_EQ(lgp.message, "no plan in logic");
   EXPECT_FALSE(lgp.hasPlan());
 }
@@ -155,7 +155,7 @@ TEST(LgpTool, EffortEndsASearchAndItGoesOn) {
   const LgpProblem problem("unblock");
   LgpTool lgp(problem.C, problem.tamp);
   EXPECT_FALSE(lgp.solve(0, 1));
-  EXPECT_EQ(lgp.status, "not found");
+  EXPECT_EQ(lgp.status, LgpStatus::no_plan_found);
   EXPECT_TRUE(lgp.solve(0));
 }
 

@@ -63,7 +63,7 @@ TEST(PlanTask, APlanDoesNotDependOnThreads) {
 
 TEST(PlanTask, PlansGetFasterAsLongAsEffortIsGiven) {
   const Config C = cubesOnATable(2);
-  TaskPlans plans = planTasks(C, "(on b0 b1)", {.evaluations = 1500});
+  TaskPlans plans = planTasks(C, "(on b0 b1)", {.max_evaluations = 1500});
   double before = std::numeric_limits<double>::infinity();
   int count = 0;
   while (const auto plan = plans.next()) {
@@ -155,7 +155,8 @@ TEST(PlanTask, ADrawerIsOpenedBecauseTheGeometrySaysSo) {
   ASSERT_TRUE(plan.feasible()) << plan.str();
   EXPECT_EQ(namesOf(plan), (std::vector<std::string>{"hold", "open", "pick", "place", "hold", "close"}));
   EXPECT_TRUE(checkTaskPlan(C, plan).empty());
-  EXPECT_NE(plan.why().find("while (closed drawer): (place cup gripper floor)"), std::string::npos) << plan.why();
+  EXPECT_NE(plan.explain().find("while (closed drawer): (place cup gripper floor)"), std::string::npos)
+      << plan.explain();
   const Eigen::Index drawer = 4;
   const RowRange opening = plan.segments[1];
   EXPECT_LE(plan.path(opening.end - 1, drawer), -.8 * .3);
@@ -204,7 +205,7 @@ TEST(PlanTask, WhyADoorCannotBeMovedIsProved) {
   C.getFrame("handle").setShape(ShapeType::ssBox, {.1, .1, .1, .004});
   EXPECT_EQ(message(C, "(opened drawer)"), "'handle' is wider than 'gripper' opens (0.090 m) along all of its axes");
   C.getFrame("handle").editAttributes().nodes.clear();
-  EXPECT_EQ(message(C, "(opened drawer)"), "'drawer' has no part that is called is_handle");
+  EXPECT_EQ(message(C, "(opened drawer)"), "'drawer' has no part labeled is_handle");
   EXPECT_NE(message(C, "(opened table)").find("'table' is no door or drawer"), std::string::npos);
 }
 
@@ -217,17 +218,19 @@ TEST(PlanTask, WhatIsInADrawerIsNotTheDrawer) {
   const TaskPlan plan = planTask(C, "(on tray cup) (closed drawer)");
   ASSERT_TRUE(plan.feasible()) << plan.str();
   EXPECT_EQ(namesOf(plan), (std::vector<std::string>{"pick", "place", "hold", "close"}));
-  const TaskPlan within = planTask(C, "(on floor cup) (closed drawer)", {.evaluations = 3000});
-  EXPECT_EQ(within.status, TaskStatus::not_found) << "that is no proof";
+  const TaskPlan within = planTask(C, "(on floor cup) (closed drawer)", {.max_evaluations = 3000});
+  EXPECT_EQ(within.status, TaskStatus::no_plan_found) << "that is no proof";
 }
 
 TEST(PlanTask, AGoalThatHoldsAndEffortThatEnds) {
   const Config C = cubesOnATable(2);
   const TaskPlan done = planTask(C, "(on table b0)");
-  EXPECT_TRUE(done.feasible() && done.actions.empty());
+  EXPECT_TRUE(done.feasible() && done.actions.empty() && done.message.empty());
+  EXPECT_EQ(done.warnings, std::vector<std::string>{"the goal already holds"});
   EXPECT_EQ(done.path, MatrixXd(C.getJointState().transpose()));
-  const TaskPlan none = planTask(C, "(on b0 b1)", {.seconds = 0.});
-  EXPECT_TRUE(none.feasible() || none.status == TaskStatus::not_found);
+  const TaskPlan none = planTask(C, "(on b0 b1)", {.time_limit = 0.});
+  EXPECT_EQ(none.status, TaskStatus::timeout);
+  EXPECT_NE(none.message.find("no plan within time_limit"), std::string::npos) << none.message;
 }
 
 TEST(PlanTask, ItGoesOnFromAnotherScene) {

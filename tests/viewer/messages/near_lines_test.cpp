@@ -38,7 +38,7 @@ TEST(NearLines, OfAFrameWithoutAShapeBeginAtItsOrigin) {
   EXPECT_LT((line.b - Vector3d(.05, 0., 0.)).norm(), 1e-6);
 }
 
-TEST(NearLines, ComeWithEveryEditOnceABrowserHasAskedForThem) {
+TEST(NearLines, ComeWithEveryEditAfterARequest) {
   const Config config = balls({0., .12});
   SceneEdits edits;
   edits.setScene(config.scene()->snapshot(), 1);

@@ -6,7 +6,7 @@
 
 using namespace kinegraph;
 
-TEST(RunRequests, PauseLastsAndResetIsAskedForOnce) {
+TEST(RunRequests, PauseLastsAndResetIsReturnedOnce) {
   RunRequests requests;
   EXPECT_TRUE(requests.apply(RunCommand{1}));
   EXPECT_TRUE(requests.apply(RunCommand{4}));
@@ -28,21 +28,21 @@ TEST(RunRequests, EachStepIsTakenOnceAndPauses) {
   EXPECT_TRUE(rest.paused);
 }
 
-TEST(RunRequests, APullLastsUntilItIsLetGo) {
+TEST(RunRequests, APerturbationLastsUntilItEnds) {
   RunRequests requests;
   EXPECT_TRUE(requests.apply(PerturbCommand{7, 3, {.1, .2, .3}, {1., 2., 3.}}));
-  ASSERT_TRUE(requests.take().pull);
-  EXPECT_EQ(*requests.take().pull, (RunRequests::Pull{7, 3, {.1, .2, .3}, {1., 2., 3.}}));
+  ASSERT_TRUE(requests.take().perturbation);
+  EXPECT_EQ(*requests.take().perturbation, (RunRequests::Perturbation{7, 3, {.1, .2, .3}, {1., 2., 3.}}));
   EXPECT_TRUE(requests.apply(PerturbCommand{7, -1, {}, {}}));
-  EXPECT_FALSE(requests.take().pull);
+  EXPECT_FALSE(requests.take().perturbation);
 }
 
-TEST(RunRequests, WhatMeansNothingChangesNothing) {
+TEST(RunRequests, InvalidCommandsChangeNothing) {
   RunRequests requests;
   EXPECT_FALSE(requests.apply(RunCommand{0}));
   EXPECT_FALSE(requests.apply(RunCommand{5}));
   EXPECT_FALSE(requests.apply(PerturbCommand{1, 1, {0., 0.}, {0., 0., 0.}}));
   EXPECT_FALSE(requests.apply(PerturbCommand{1, 1, {0., 0., 0.}, {0., 1e9, 0.}}));
   const RunRequests now = requests.take();
-  EXPECT_FALSE(now.paused || now.reset || now.steps > 0 || now.pull);
+  EXPECT_FALSE(now.paused || now.reset || now.steps > 0 || now.perturbation);
 }

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "kinegraph/komo/collision/tree_way.h"
+#include "kinegraph/komo/collision/rrt_path.h"
 
 namespace kinegraph {
 
@@ -133,17 +133,18 @@ std::vector<VectorXd> subdivide(const std::vector<VectorXd>& corners, int count)
 }
 
 /// Returns the bounds between which configurations are sampled.
-TreeBounds roomAround(const KinematicModel& model, std::vector<int> dofs, const VectorXd& from, const VectorXd& to) {
-  TreeBounds room{std::move(dofs), {}, {}};
-  room.lower = model.lower(room.dofs), room.upper = model.upper(room.dofs);
+SampleBounds boundsAround(const KinematicModel& model, std::vector<int> dofs, const VectorXd& from,
+                          const VectorXd& to) {
+  SampleBounds bounds{std::move(dofs), {}, {}};
+  bounds.lower = model.lower(bounds.dofs), bounds.upper = model.upper(bounds.dofs);
   const double around = std::max((to - from).norm(), .1);
-  for (std::size_t i = 0; i < room.dofs.size(); ++i) {
-    double &lower = room.lower[Eigen::Index(i)], &upper = room.upper[Eigen::Index(i)];
-    const auto [least, most] = std::minmax(from[room.dofs[i]], to[room.dofs[i]]);
+  for (std::size_t i = 0; i < bounds.dofs.size(); ++i) {
+    double &lower = bounds.lower[Eigen::Index(i)], &upper = bounds.upper[Eigen::Index(i)];
+    const auto [least, most] = std::minmax(from[bounds.dofs[i]], to[bounds.dofs[i]]);
     if (!std::isfinite(lower)) lower = least - around;
     if (!std::isfinite(upper)) upper = most + around;
   }
-  return room;
+  return bounds;
 }
 
 /// Returns the configurations of the slices from `begin` to the end of a phase, on a path that trees find.
@@ -152,10 +153,10 @@ std::vector<VectorXd> freeLeg(const Path& path, EdgeChecker& checker, double apa
   const double most = 20. * apart,
                kept = std::min(checker.clearance(from.data(), most), checker.clearance(to.data(), most));
   if (kept <= 0.) return {};
-  const TreeBounds room = roomAround(*path.initial().model, variableDofs(path), from, to);
+  const SampleBounds bounds = boundsAround(*path.initial().model, variableDofs(path), from, to);
   const auto keeping = [&](double margin, int growths) {
     checker.setMargin(margin);
-    const std::vector<VectorXd> way = treePath(checker, room, from, to, rng, growths);
+    const std::vector<VectorXd> way = rrtPath(checker, bounds, from, to, rng, growths);
     return way.empty() ? way : subdivide(way, end - begin);
   };
   for (const double more : kRoom) {

@@ -15,9 +15,9 @@ GuessKind guessKindOf(SliceMotions& motions, int from, int to) {
     const SliceMotion motion = motions.motionInto(slice);
     if (slice == from || motion.to.size() != begin.size()) begin = motion.from;
     moves = moves || (motion.to - begin).lpNorm<Eigen::Infinity>() > kStill;
-    if (motions.tooNear(slice, 0.)) return GuessKind::blocked;
+    if (motions.tooNear(slice, 0.)) return GuessKind::invalid;
   }
-  return moves ? GuessKind::free : GuessKind::still;
+  return moves ? GuessKind::valid : GuessKind::stationary;
 }
 
 }  // namespace kinegraph

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "kinegraph/collision/motion_bounds.h"
+#include "kinegraph/collision/displacement_bound.h"
 #include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/common/text.h"
 
@@ -27,19 +27,17 @@ class PairDistance {
 
   /// Bound on the relative speed of points of the two bodies, m per unit of s.
   double speed() const {
-    MotionBounds bounds(state_);
-    bounds.setMotion(motion_.from.data(), motion_.to.data());
+    DisplacementBound bounds(state_);
+    bounds.setEdge(motion_.from.data(), motion_.to.data());
     const auto [a, b] = pair_.pairs[0];
-    return bounds.relative(linkOf(a), reachOf(a), linkOf(b), reachOf(b)).speed;
+    return bounds.relativeRates(linkOf(a), reachOf(a), linkOf(b), reachOf(b)).speed;
   }
 
  private:
   int linkOf(int body) const { return state_.link(pair_.frames[std::size_t(body)]); }
 
   double reachOf(int body) const {
-    const CollisionBody& shape = *pair_.bodies[std::size_t(body)];
-    const RigidTransform& X_LF = state_.parameters().frame_offset[std::size_t(pair_.frames[std::size_t(body)])];
-    return (X_LF * shape.boundCenter()).norm() + shape.boundRadius();
+    return bodyReach(state_, pair_.frames[std::size_t(body)], *pair_.bodies[std::size_t(body)]);
   }
 
   const SliceMotion& motion_;

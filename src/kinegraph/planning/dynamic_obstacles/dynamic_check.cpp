@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kinegraph/collision/travel_bound.h"
+#include "kinegraph/collision/displacement_bound.h"
 
 namespace kinegraph {
 
 namespace {
 
-constexpr double kLongest = .1;     // s, of a piece that is looked at as a whole
+constexpr double kLongest = .1;     // s, of a piece that is checked as a whole
 constexpr double kBriefest = 1e-6;  // s
 
 }  // namespace
@@ -47,29 +47,30 @@ DynamicCheck::Moment DynamicCheck::momentOf(const Piece& piece, double time) con
   return moment;
 }
 
-/// How far points of the robot may be from where they are on the chord between two moments.
-double DynamicCheck::roomOf(const Piece& piece, const Moment& from, const Moment& to) {
+/// Bounds the distance of points of the robot from their places on the chord between two moments.
+double DynamicCheck::slackOf(const Piece& piece, const Moment& from, const Moment& to) {
   const double share = (to.time - from.time) * (to.time - from.time) / 8.;
-  const double most = std::max(std::abs(from.speedup), std::abs(to.speedup));  // between them s'' is monotone
+  const double most = std::max(std::abs(from.acceleration), std::abs(to.acceleration));  // between them s'' is monotone
   const VectorXd deviation = share * (piece.tangent.size() > 0 ? VectorXd(most * piece.tangent) : piece.acceleration);
   if (deviation.isZero(0.)) return 0.;
-  const VectorXd spread = .5 * (to.q - from.q).cwiseAbs() + deviation;  // from the nearer moment
-  double travel = 0.;
+  const VectorXd spread = .5 * (to.q - from.q).cwiseAbs() + deviation;  // from the closer moment
+  double displacement = 0.;
   for (const Moment* moment : {&from, &to}) {
     const VectorXd all = scene_->at(moment->q, 0.);
     state_.setJoints(all.data());
-    travel = std::max(travel, travelOf(state_, scene_->changeOf(deviation), scene_->changeOf(spread)));
+    displacement =
+        std::max(displacement, displacementBound(state_, scene_->changeOf(deviation), scene_->changeOf(spread)));
   }
-  return travel;
+  return displacement;
 }
 
 std::optional<DynamicContact> DynamicCheck::contactIn(const Piece& piece, const Moment& from, const Moment& to) {
-  const double room = roomOf(piece, from, to);
+  const double slack = slackOf(piece, from, to);
   ++evaluations;
-  edges_.setMargin(margin_ + room);
+  edges_.setMargin(margin_ + slack);
   const VectorXd begin = scene_->at(from.q, piece.start + from.time), end = scene_->at(to.q, piece.start + to.time);
   if (edges_.isFree(begin.data(), end.data())) return std::nullopt;
-  if (room < kRoom || to.time - from.time < kBriefest) {
+  if (slack < kLeastSlack || to.time - from.time < kBriefest) {
     const MotionContact& hit = *edges_.lastHit();
     return DynamicContact{piece.start + from.time, hit.a, hit.b, from.place};
   }

@@ -10,64 +10,65 @@
 
 namespace kinegraph {
 
-/// Where a motion meets an obstacle that moves.
+/// The first contact of a motion with a dynamic obstacle.
 struct DynamicContact {
-  double time = 0.;   ///< s: until then the motion is free
+  double time = 0.;   ///< s: until then the motion is collision-free
   int a = 0, b = 0;   ///< frame ids of the scene
-  double place = 0.;  ///< s of the curve
+  double place = 0.;  ///< path parameter s of the curve
 };
 
-/// Keeps a motion of the robot that is timed the margin away from moving obstacles, at all times?
+/// Checks continuously whether a timed motion of the robot keeps the margin to dynamic obstacles.
 ///
-/// Times are divided where an obstacle changes its motion and where the law has another phase. In between, a motion whose
-/// second derivative is at most a leaves the chord from time t to t + h by h^2 / 8 a at most: the chord is checked as
-/// EdgeChecker does, with so much more room as points of the robot may move meanwhile. Where that is not free, h is
-/// halved, until the room is less than kRoom.
+/// The time is divided at the waypoints of obstacles and at the phases of the time scaling. In between, a motion whose
+/// second derivative is at most a deviates from its chord over a time h by at most h^2 / 8 a. EdgeChecker checks the
+/// chord with a margin that includes the displacement of the robot by this deviation. If that fails, h is halved, until
+/// the added margin is below kLeastSlack.
 class DynamicCheck {
  public:
-  static constexpr double kTolerance = 1e-5;  ///< m
-  static constexpr double kRoom = 1e-4;       ///< m
+  static constexpr double kTolerance = 1e-5;   ///< m
+  static constexpr double kLeastSlack = 1e-4;  ///< m
 
-  /// `scene` must stay. The margin is in m.
+  /// `scene` must outlive the check. The margin is in m.
   DynamicCheck(const DynamicScene& scene, double margin);
 
   const DynamicScene& scene() const { return *scene_; }
   double margin() const { return margin_; }
   void setMargin(double margin) { margin_ = margin; }
 
-  /// Is the robot at q free at t s?
+  /// Whether the robot at q is collision-free at time t (s).
   bool isFree(const VectorXd& q, double t);
 
-  /// And from `begin` to `end`, between which no obstacle changes its motion?
+  /// Whether it is so from `begin` to `end`, between which no obstacle has a waypoint.
   bool staysFree(const VectorXd& q, double begin, double end);
 
-  /// The least distance of a pair at q and t s, m, or `most`.
+  /// The least distance of a pair at q and time t (s), m; `most` if no pair is closer.
   double clearance(const VectorXd& q, double t, double most);
 
-  /// What the motion of a law along a curve meets first, if it begins at `start` s. `acceleration`, (n,), is what it keeps.
+  /// Returns the first contact of a time scaling along a curve that begins at time `start` (s). The motion keeps the
+  /// limits `acceleration`, (n,).
   std::optional<DynamicContact> contact(const PathCurve& curve, const TimeScaling& scaling,
                                         const VectorXd& acceleration, double start = 0.);
 
-  /// The pair of the last question that was answered no, ids of frames of the scene.
+  /// The pair in collision of the last check that failed, frame ids of the scene.
   std::pair<int, int> lastPair() const;
 
-  long evaluations = 0;  ///< motions and postures that were looked at
+  long evaluations = 0;  ///< edges and configurations that were checked
 
  private:
   struct Moment {
-    double time;  ///< of the law
+    double time;  ///< of the time scaling
     VectorXd q;
-    double place, speedup;  ///< s, s''
+    double place, acceleration;  ///< s, s''
   };
   struct Piece {
     const PathCurve& curve;
     const ScalingPhase& phase;
     const VectorXd& acceleration;
     double start;
-    VectorXd tangent = {};  ///< dq/ds of a line; empty on what is curved
+    VectorXd tangent = {};  ///< |dq/ds| of a line; empty on curved pieces
   };
   Moment momentOf(const Piece& piece, double time) const;
-  double roomOf(const Piece& piece, const Moment& from, const Moment& to);
+  double slackOf(const Piece& piece, const Moment& from, const Moment& to);
   std::optional<DynamicContact> contactIn(const Piece& piece, const Moment& from, const Moment& to);
 
   const DynamicScene* scene_;

@@ -11,7 +11,7 @@ namespace kinegraph {
 namespace {
 
 constexpr int kPose = 7;
-constexpr const char* kCarrier = "moving obstacles of a plan";
+constexpr const char* kCarrier = "dynamic obstacles of a plan";
 
 void requireTrack(const ObstacleTrajectory& obstacle, const std::string& what) {
   const Eigen::Index count = obstacle.times.size();
@@ -24,10 +24,10 @@ void requireTrack(const ObstacleTrajectory& obstacle, const std::string& what) {
   for (Eigen::Index i = 1; i < count; ++i)
     if (!(obstacle.times[i] > obstacle.times[i - 1]))
       throw ValueError(cat(what, ": time ", i, " is ", obstacle.times[i], ", after ", obstacle.times[i - 1],
-                           "; expected rising times"));
+                           "; expected increasing times"));
 }
 
-/// Unit quaternions, of which each is nearer to the one before than its negative.
+/// Normalizes quaternions and flips signs so that each is closer to the one before than its negative.
 void alignQuaternions(MatrixXd& poses, const std::string& what) {
   for (Eigen::Index i = 0; i < poses.rows(); ++i) {
     auto q = poses.row(i).tail<4>();
@@ -39,7 +39,7 @@ void alignQuaternions(MatrixXd& poses, const std::string& what) {
 
 void makeInvisible(FrameData& frame) {
   if (!frame.shape || frame.shape->contact == 0) return;
-  frame.shape = std::make_shared<Shape>(*frame.shape);  // it may be that of other frames, too
+  frame.shape = std::make_shared<Shape>(*frame.shape);  // other frames may share the shape
   frame.shape->contact = 0;
 }
 
@@ -56,7 +56,7 @@ DynamicScene::DynamicScene(const Config& config, std::vector<ObstacleTrajectory>
 }
 
 void DynamicScene::addTrack(ObstacleTrajectory& obstacle, const char* who) {
-  const std::string what = cat(who, ": the moving obstacle '", obstacle.frame, "'");
+  const std::string what = cat(who, ": the dynamic obstacle '", obstacle.frame, "'");
   const Frame frame = config_.getFrame(obstacle.frame);
   requireTrack(obstacle, what);
   std::vector<Frame> parts = frame.getSubtree();
@@ -101,7 +101,7 @@ void DynamicScene::addTrack(ObstacleTrajectory& obstacle, const char* who) {
   tracks_.push_back(std::move(track));
 }
 
-/// What neither moves with q nor by itself is left out, and so are pairs of parts of the robot and pairs of obstacles.
+/// Excludes static frames, pairs of two parts of the robot, and pairs of two obstacles.
 void DynamicScene::keepPairsWithObstacles() {
   std::vector<FrameData*> robot, moving;
   const KinematicModel& model = *config_.model();
@@ -165,19 +165,19 @@ VectorXd DynamicScene::changeOf(const VectorXd& change) const {
   return all;
 }
 
-Config DynamicScene::standing(const std::vector<double>& times) const {
+Config DynamicScene::staticScene(const std::vector<double>& times) const {
   Config scene(config_);
   for (std::size_t id = 0; id < belongs_.size(); ++id)
     if (belongs_[id]) makeInvisible(scene.getFrame(int(id)).data());
   scene.scene()->structureChanged();
-  State place(moving_.state());
+  State state(moving_.state());
   for (const double time : times) {
     const VectorXd all = at(config_.getJointState(), time);
-    place.setJoints(all.data());
+    state.setJoints(all.data());
     for (std::size_t id = 0; id < belongs_.size(); ++id) {
       const FrameData& original = config_.getFrame(int(id)).data();
       if (!belongs_[id] || !original.shape || original.shape->contact == 0) continue;
-      const RigidTransform X = place.pose(int(id));
+      const RigidTransform X = state.pose(int(id));
       Frame copy(scene.scene(), scene.scene()->add(cat(original.name, " at ", time, " s"), nullptr));
       copy.data().shape = original.shape;
       copy.setPose(Pose{X.p, Quaterniond(X.R)});

@@ -7,55 +7,53 @@
 
 namespace kinegraph {
 
-/// What moves by itself while a robot moves: a frame of the scene, with all that hangs on it, and where it is at which
-/// time. Between two times it goes straight (a quaternion the shorter way, and normalized); before the first and after
-/// the last one it stands still. It is no part of q, and nothing of q moves it.
+/// The known trajectory of a dynamic obstacle: a frame of the scene with its subtree. Values are interpolated linearly
+/// (quaternions along the shorter arc, normalized) and constant before the first and after the last time. The frame is
+/// independent of q.
 struct ObstacleTrajectory {
   std::string frame;
-  VectorXd times;  ///< (K,), rising, s
+  VectorXd times;  ///< (K,), increasing, s
 
   /// (K, 7): poses in the world, x y z qw qx qy qz, m; or (K, d): positions of the frame's joint of d dofs.
   MatrixXd values;
 };
 
-/// A scene in which obstacles move while time goes on.
+/// A scene with dynamic obstacles.
 ///
-/// Where they are is part of a longer joint vector, of which the robot's q is the other part, so that a straight motion
-/// of q during a time in which each obstacle goes straight is one of that vector. The pairs that count are those of a
-/// part of the robot and of an obstacle.
+/// Its joint vector consists of the robot's q and the values of the obstacles. If the robot and the obstacles move
+/// along straight lines during an interval, so does this vector. Only pairs of the robot and an obstacle count.
 class DynamicScene {
  public:
-  /// Throws FrameNotFound, and ValueError for what makes no sense, with `who` in front.
+  /// Throws FrameNotFound, and ValueError for invalid trajectories; `who` names the caller.
   DynamicScene(const Config& config, std::vector<ObstacleTrajectory> obstacles, const char* who);
 
   const std::vector<ObstacleTrajectory>& obstacles() const { return obstacles_; }
   const State& state() const { return moving_.state(); }
 
-  /// When something begins, changes or ends its motion, ascending from 0 on; 0 is the first of them.
+  /// Times at which an obstacle has a waypoint, increasing from 0, which is the first of them, s.
   const std::vector<double>& breaks() const { return breaks_; }
-  double end() const { return breaks_.back(); }  ///< from when on everything stands still, s
+  double end() const { return breaks_.back(); }  ///< from then on all obstacles are static, s
 
-  /// Is a frame part of an obstacle?
+  /// Whether a frame is part of an obstacle.
   bool isObstacle(int frame) const { return belongs_[std::size_t(frame)]; }
 
-  /// The joint vector of `state()` for the robot's q at t s.
+  /// The joint vector of `state()` for the robot's q at time t (s).
   VectorXd at(const VectorXd& q, double t) const;
 
-  /// The change of that joint vector where q changes by so much.
+  /// The change of that joint vector for a change of q.
   VectorXd changeOf(const VectorXd& change) const;
 
-  /// The values of an obstacle at t s: of a pose with a quaternion of length 1.
+  /// The values of an obstacle at time t (s); quaternions have length 1.
   VectorXd valuesAt(int obstacle, double t) const;
 
-  /// The scene without the obstacles; where `times` are given, with copies of them that stand where they are at these
-  /// times.
-  Config standing(const std::vector<double>& times = {}) const;
+  /// Returns the scene without the obstacles, and with static copies of them at their poses at `times`.
+  Config staticScene(const std::vector<double>& times = {}) const;
 
  private:
   struct Track {
-    int first_dof = 0;  ///< of the longer joint vector
+    int first_dof = 0;  ///< in the joint vector of the scene
     bool is_pose = true;
-    MatrixXd rows;  ///< values with quaternions of one sign from row to row
+    MatrixXd rows;  ///< values; consecutive quaternions have one sign
   };
 
   void addTrack(ObstacleTrajectory& obstacle, const char* who);
@@ -66,9 +64,9 @@ class DynamicScene {
   std::vector<ObstacleTrajectory> obstacles_;
   std::vector<Track> tracks_;
   Config config_, moving_;
-  std::vector<char> belongs_;  ///< per frame of config_: whether it is part of an obstacle
+  std::vector<char> belongs_;  ///< per frame of config_: it is part of an obstacle
   std::vector<int> carrier_;   ///< frame of moving_ that carries the dofs of an obstacle
-  std::vector<int> dof_;       ///< place of each entry of q in the longer vector
+  std::vector<int> dof_;       ///< index of each entry of q in the joint vector
   std::vector<double> breaks_ = {0.};
 };
 

@@ -11,17 +11,19 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kStations = 16, kSmoothStations = 8;   // besides the start; fewer where limits of the jerk make legs dear
-constexpr double kSlower[] = {1., 1.4, 2., 3., 5.};  // what a leg takes, as a multiple of the least
-constexpr double kStepShare = 1. / 40., kLeastStep = .02, kMostStep = .1;  // of departures: of the duration; s
+constexpr int kStations = 16,
+              kSmoothStations = 8;  // besides the start; fewer with jerk limits, which make legs expensive
+constexpr double kSlower[] = {1., 1.4, 2., 3., 5.};  // durations of a leg, as multiples of the shortest
+constexpr double kStepShare = 1. / 40., kLeastStep = .02,
+                 kMostStep = .1;  // between departures: share of the duration; s
 constexpr long kMostTries = 20000;
 constexpr double kStill = 1e-9;  // 1/s
 constexpr double kSame = 1e-12;  // of the curve
-constexpr double kSnap = 1e-6;   // of the curve: a station so near to a knot is there
+constexpr double kSnap = 1e-6;   // of the curve: a station so close to a knot moves there
 constexpr double kForever = std::numeric_limits<double>::infinity();
 
-/// The robot may stand at a station.
-struct FreeTime {
+/// An interval during which the robot may stand at a station.
+struct SafeInterval {
   double begin, end;
 };
 
@@ -44,12 +46,12 @@ class TimeSearch {
 
   DynamicTiming run() {
     placeStations();
-    const std::vector<FreeTime>& at_goal = freeTimes(last());
+    const std::vector<SafeInterval>& at_goal = safeIntervals(last());
     result_.met = check_.contact(curve_, fastest_, limits_.acceleration);
     if (at_goal.empty() || at_goal.back().end < kForever) {
       const double end = check_.scene().end();
       const auto [a, b] = blockers(last(), end, end);
-      result_.message = cat("at the goal, ", words(a, b), ", which stays there");
+      result_.message = cat("at the goal, ", describeContact(a, b), ", which stays there");
       return std::move(result_);
     }
     const bool stays = fastest_.duration() >= at_goal.back().begin;
@@ -58,7 +60,7 @@ class TimeSearch {
       result_.scaling = fastest_;
       return std::move(result_);
     }
-    if (!result_.met) {  // it comes to the goal later
+    if (!result_.met) {  // an obstacle comes to the goal later
       const double free_from = at_goal.back().begin;
       const auto [a, b] = blockers(last(), std::max(0., free_from - step_), free_from);
       result_.met = DynamicContact{at_goal.back().begin, a, b, curve_.length()};
@@ -72,12 +74,12 @@ class TimeSearch {
   struct Node {
     int station, interval;
     double arrival;
-    int before = -1;  ///< the node that it was reached from,
-    int slower = 0;   ///< by a leg that takes kSlower[slower] times as long
+    int before = -1;  ///< the previous node
+    int slower = 0;   ///< the leg from there takes kSlower[slower] times its shortest duration
     double departure = 0.;
   };
   struct Entry {
-    double least;  ///< no motion that goes on from here arrives at the goal earlier
+    double least;  ///< lower bound of the arrival at the goal
     long order;
     int node, to, slower;
     double departure;
@@ -88,7 +90,7 @@ class TimeSearch {
   struct Leg {
     bool was_made = false, is_possible = false;
     TimeScaling scaling;
-    double suspect = 0.;  ///< when, after its beginning, it met something the last time
+    double suspect = 0.;  ///< time after the departure of its last contact
   };
 
   int last() const { return int(places_.size()) - 1; }
@@ -105,27 +107,27 @@ class TimeSearch {
     std::sort(places_.begin(), places_.end());
     places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
     for (const double place : places_) {
-      postures_.push_back(curve_.eval(place));
+      configurations_.push_back(curve_.eval(place));
       passes_.push_back(fastest_.timeOf(place));
     }
-    free_times_.resize(places_.size());
+    safe_intervals_.resize(places_.size());
     legs_.resize(places_.size() * places_.size());
   }
 
-  // --- where it may stand ------------------------------------------------------------------------------------------
+  // --- safe intervals ----------------------------------------------------------------------------------------------
 
-  const std::vector<FreeTime>& freeTimes(int station) {
-    std::optional<std::vector<FreeTime>>& known = free_times_[std::size_t(station)];
+  const std::vector<SafeInterval>& safeIntervals(int station) {
+    std::optional<std::vector<SafeInterval>>& known = safe_intervals_[std::size_t(station)];
     if (known) return *known;
     known.emplace();
-    const VectorXd& q = postures_[std::size_t(station)];
+    const VectorXd& q = configurations_[std::size_t(station)];
     const std::vector<double>& breaks = check_.scene().breaks();
-    for (std::size_t i = 1; i < breaks.size(); ++i) addFreeTimes(q, breaks[i - 1], breaks[i], *known);
+    for (std::size_t i = 1; i < breaks.size(); ++i) addSafeIntervals(q, breaks[i - 1], breaks[i], *known);
     if (check_.isFree(q, breaks.back())) add({breaks.back(), kForever}, *known);
     return *known;
   }
 
-  static void add(FreeTime more, std::vector<FreeTime>& times) {
+  static void add(SafeInterval more, std::vector<SafeInterval>& times) {
     if (!times.empty() && times.back().end == more.begin) {
       times.back().end = more.end;
     } else {
@@ -133,20 +135,20 @@ class TimeSearch {
     }
   }
 
-  void addFreeTimes(const VectorXd& q, double begin, double end, std::vector<FreeTime>& times) {
+  void addSafeIntervals(const VectorXd& q, double begin, double end, std::vector<SafeInterval>& times) {
     if (check_.staysFree(q, begin, end)) {
       add({begin, end}, times);
     } else if (end - begin > .5 * step_) {
       const double middle = .5 * (begin + end);
-      addFreeTimes(q, begin, middle, times);
-      addFreeTimes(q, middle, end, times);
+      addSafeIntervals(q, begin, middle, times);
+      addSafeIntervals(q, middle, end, times);
     }
   }
 
-  /// The first free time of a station that ends after t, or their number.
+  /// The index of the first safe interval of a station that ends after t.
   int intervalAfter(int station, double t) {
-    const std::vector<FreeTime>& times = freeTimes(station);
-    return int(std::partition_point(times.begin(), times.end(), [&](const FreeTime& f) { return f.end < t; }) -
+    const std::vector<SafeInterval>& times = safeIntervals(station);
+    return int(std::partition_point(times.begin(), times.end(), [&](const SafeInterval& f) { return f.end < t; }) -
                times.begin());
   }
 
@@ -178,13 +180,13 @@ class TimeSearch {
     if (leg.is_possible) {
       leg.scaling = part.onWhole(timed.scaling());
     } else if (from == 0. && std::abs(to - first_stop_) <= kSame * curve_.length()) {
-      leg.scaling = part.onWhole(part.restOf(fastest_, 0.));  // the law that is known stops there
+      leg.scaling = part.onWhole(part.restOf(fastest_, 0.));  // the fastest scaling stops there
       leg.is_possible = true;
     }
     return leg;
   }
 
-  /// The least time from rest at a station to the goal.
+  /// The shortest duration from rest at a station to the goal.
   double restOf(int station) {
     if (station == last()) return 0.;
     const Leg& leg = legOf(station, last());
@@ -222,9 +224,9 @@ class TimeSearch {
   void search() {
     const int interval = intervalAfter(0, 0.);
     const bool moves = start_speed_ > 0.;
-    if (!moves && (interval == int(freeTimes(0).size()) || freeTimes(0)[std::size_t(interval)].begin > 0.)) {
+    if (!moves && (interval == int(safeIntervals(0).size()) || safeIntervals(0)[std::size_t(interval)].begin > 0.)) {
       const auto [a, b] = blockers(0, 0., 0.);
-      result_.message = cat("at the start, from the beginning, ", words(a, b));
+      result_.message = cat("at the start and at time 0, ", describeContact(a, b));
       return;
     }
     nodes_.push_back({0, interval, 0.});
@@ -240,44 +242,44 @@ class TimeSearch {
     }
   }
 
-  /// True if it arrives at the goal.
+  /// Expands an entry of the queue. True if it reaches the goal.
   bool take(Entry entry) {
     const Node node = nodes_[std::size_t(entry.node)];
     Leg& leg = legOf(node.station, entry.to);
     if (!leg.is_possible) return false;
-    const double takes = kSlower[entry.slower] * leg.scaling.duration(), arrival = entry.departure + takes,
+    const double duration = kSlower[entry.slower] * leg.scaling.duration(), arrival = entry.departure + duration,
                  least = arrival + restOf(entry.to);
-    if (least > entry.least) {  // what it really takes was not known
+    if (least > entry.least) {  // `least` used an estimate of the duration
       entry.least = least;
       push(entry);
       return false;
     }
     const int interval = intervalAfter(entry.to, arrival);
-    const std::vector<FreeTime>& times = freeTimes(entry.to);
+    const std::vector<SafeInterval>& times = safeIntervals(entry.to);
     if (interval == int(times.size())) return false;
-    const FreeTime there = times[std::size_t(interval)];
+    const SafeInterval there = times[std::size_t(interval)];
     const bool stays = entry.to != last() || there.end == kForever;
     if (there.begin > arrival) {
-      later(entry, node, there.begin - arrival);
+      delay(entry, node, there.begin - arrival);
     } else if (!stays || wasVisited(entry.to, interval)) {
-      later(entry, node, there.end - arrival);
+      delay(entry, node, there.end - arrival);
     } else if (!isFree(leg, entry.slower, entry.departure)) {
-      later(entry, node, 0.);
+      delay(entry, node, 0.);
     } else {
       nodes_.push_back({entry.to, interval, arrival, entry.node, entry.slower, entry.departure});
       if (entry.to == last()) return true;
       expand(int(nodes_.size()) - 1);
-      later(entry, node, there.end - arrival);
+      delay(entry, node, there.end - arrival);
     }
     return false;
   }
 
-  /// Tries it again at a later departure, by `least` at least.
-  void later(Entry entry, const Node& node, double least) {
+  /// Pushes the entry again with a departure that is later by at least `least`.
+  void delay(Entry entry, const Node& node, double least) {
     const bool moves = node.station == 0 && start_speed_ > 0., changes = entry.departure < check_.scene().end();
     if (moves || !changes || least == kForever) return;
     const double by = std::max(step_, least);
-    if (entry.departure + by > freeTimes(node.station)[std::size_t(node.interval)].end) return;
+    if (entry.departure + by > safeIntervals(node.station)[std::size_t(node.interval)].end) return;
     entry.departure += by;
     entry.least += by;
     push(entry);
@@ -300,15 +302,15 @@ class TimeSearch {
     }
   }
 
-  // --- words -------------------------------------------------------------------------------------------------------
+  // --- messages ----------------------------------------------------------------------------------------------------
 
-  /// The pair for which it cannot stand at a station from one time to another.
+  /// The pair in collision at a station during an interval.
   std::pair<int, int> blockers(int station, double begin, double end) {
-    check_.staysFree(postures_[std::size_t(station)], begin, end);
+    check_.staysFree(configurations_[std::size_t(station)], begin, end);
     return check_.lastPair();
   }
 
-  std::string words(int a, int b) const {
+  std::string describeContact(int a, int b) const {
     const KinematicModel& model = check_.scene().state().model();
     if (check_.scene().isObstacle(a)) std::swap(a, b);
     return cat("'", model.frame_name[std::size_t(a)], "' meets '", model.frame_name[std::size_t(b)], "'");
@@ -317,9 +319,9 @@ class TimeSearch {
   std::string failure() const {
     if (cancellation_ && cancellation_()) return "stopped before a timing was found";
     const DynamicContact& met = *result_.met;
-    return cat("no timing along the way was found in ", result_.tries, " tries: without waiting, ", words(met.a, met.b),
-               " at ", met.time, " s, ", std::lround(100. * met.place / std::max(curve_.length(), 1e-300)),
-               " % of the way");
+    return cat("no timing along the path was found in ", result_.tries, " tries; without waiting, ",
+               describeContact(met.a, met.b), " at ", met.time, " s, at ",
+               std::lround(100. * met.place / std::max(curve_.length(), 1e-300)), " % of the path");
   }
 
   const PathCurve& curve_;
@@ -327,11 +329,11 @@ class TimeSearch {
   const MotionLimits& limits_;
   DynamicCheck& check_;
   const CancellationToken& cancellation_;
-  const double step_;  ///< of departures, s
+  const double step_;  ///< between departures, s
   double start_speed_, first_stop_;
-  std::vector<double> places_, passes_;  ///< of stations: s, and when the fastest law passes
-  std::vector<VectorXd> postures_;
-  std::vector<std::optional<std::vector<FreeTime>>> free_times_;
+  std::vector<double> places_, passes_;  ///< of stations: s, and the time of the fastest scaling
+  std::vector<VectorXd> configurations_;
+  std::vector<std::optional<std::vector<SafeInterval>>> safe_intervals_;
   std::vector<Leg> legs_;
   std::vector<Node> nodes_;
   std::priority_queue<Entry> queue_;

@@ -7,31 +7,31 @@
 
 namespace kinegraph {
 
-/// When a robot is where on a curve, so that it meets no moving obstacle.
+/// A time scaling along a curve that avoids dynamic obstacles.
 struct DynamicTiming {
-  /// It stands still.
+  /// A stop of the robot.
   struct Wait {
     double begin, seconds;  ///< s
-    double place;           ///< s of the curve
+    double place;           ///< path parameter s of the curve
   };
   bool was_found = false;
-  bool is_fastest = false;  ///< nothing is in the way of the fastest law
+  bool is_fastest = false;  ///< the fastest time scaling is collision-free
   TimeScaling scaling;
   std::vector<Wait> waits;
-  std::optional<DynamicContact> met;  ///< what the fastest law meets first
-  std::string message;                ///< where none was found: why
-  long tries = 0;                     ///< motions from one stop to another that were checked
+  std::optional<DynamicContact> met;  ///< first contact of the fastest time scaling
+  std::string message;                ///< why no timing was found
+  long tries = 0;                     ///< number of legs that were checked
 };
 
-/// Times a curve whose fastest law is known; it is kept where nothing is in its way. At its end the robot stays, and
-/// nothing comes there later.
+/// Computes a time scaling along a curve whose fastest scaling is known. If the fastest one is collision-free, it
+/// stays. At the end the robot stands still, and no obstacle may come there later.
 ///
-/// Otherwise the curve gets stations at which the robot may stop, also where it has to. A leg is the fastest motion from one
-/// to a later one, or that motion slowed down. The robot may wait at a station while that is free: between two times at
-/// which it is not, coming there early is best, so that a search by arrival (A*) visits each station once per free time. A
-/// leg that is not free at a departure is tried at later ones. Source: Phillips, Likhachev, SIPP: Safe interval path
-/// planning for dynamic environments, 2011; Kant, Zucker, Toward efficient trajectory planning: the path-velocity
-/// decomposition, 1986.
+/// Otherwise stations along the curve, the stops of the curve among them, allow the robot to wait. A leg is the fastest
+/// motion from a station to a later one, or the same motion slowed down. Within one safe interval of a station the
+/// earliest arrival is best, so that A* over arrival times visits each station once per safe interval. A leg that
+/// collides at one departure is tried at later ones. Sources: Phillips, Likhachev, SIPP: Safe interval path planning
+/// for dynamic environments, 2011; Kant, Zucker, Toward efficient trajectory planning: the path-velocity decomposition,
+/// 1986.
 DynamicTiming timeAmongObstacles(const TimedPath& fastest, const MotionLimits& limits, DynamicCheck& check,
                                  const CancellationToken& cancellation = {});
 

@@ -1,55 +1,51 @@
 #include "kinegraph/planning/search/path_search.h"
 
 #include <algorithm>
+#include <atomic>
 #include <numeric>
 #include <optional>
 
 #include "kinegraph/common/parallel.h"
+#include "kinegraph/rrt/rrt_connect.h"
 
 namespace kinegraph {
 
 namespace {
 
-constexpr long kFirstEffort = 100000;  // of an attempt
-constexpr double kGrowth = 1.5;        // from one attempt to the next
+constexpr long kFirstBudget = 100000;  // evaluations of the first tree search
+constexpr double kGrowth = 1.5;        // of the budget, from one search to the next
 
-/// Efforts of the attempts, which add up to all that may be spent.
-std::vector<long> efforts(long all) {
-  std::vector<long> list;
-  for (double next = double(kFirstEffort); all > 0; next *= kGrowth) {
-    list.push_back(std::min(all, long(next)));
-    all -= list.back();
+/// Budgets of the searches, which add up to `all`.
+std::vector<long> searchBudgets(long all) {
+  std::vector<long> budgets;
+  for (double next = double(kFirstBudget); all > 0; next *= kGrowth) {
+    budgets.push_back(std::min(all, long(next)));
+    all -= budgets.back();
   }
-  return list;
+  return budgets;
 }
 
-/// Seeds of attempts differ as those of other calls do.
-std::uint64_t attemptSeed(std::uint64_t seed, int attempt) {
-  return Rng(seed * 0x9E3779B97F4A7C15ull + std::uint64_t(attempt)).bits();
+std::uint64_t seedOfSearch(std::uint64_t seed, int search) {
+  return Rng(seed * 0x9E3779B97F4A7C15ull + std::uint64_t(search)).bits();
 }
 
-/// Attempts of all threads, and the first one that succeeded.
-class Attempts {
+/// Runs the tree searches on all threads until the first one that succeeds.
+class RestartedSearch {
  public:
-  Attempts(const PathQuery& request, std::vector<long> efforts)
-      : request_(request), efforts_(std::move(efforts)), results_(efforts_.size()), first_(int(efforts_.size())) {}
+  RestartedSearch(const PathQuery& query, std::vector<long> budgets)
+      : query_(query), budgets_(std::move(budgets)), results_(budgets_.size()), first_(int(budgets_.size())) {}
 
-  Way run() {
+  PathSearchResult run() {
     parallelFor(
-        int(efforts_.size()), 1, request_.threads, [&](int worker, int i, int) { attempt(i, worker == 0); },
-        [&] { askWatch(); });
+        int(budgets_.size()), 1, query_.threads, [&](int worker, int i, int) { search(i, worker == 0); },
+        [&] { isCancelled(); });
     return collect();
   }
 
  private:
-  struct Result {
-    bool found = false;
-    Way way;
-  };
-
-  bool askWatch() {
+  bool isCancelled() {
     try {
-      if (request_.cancellation && request_.cancellation()) stopped_ = true;
+      if (query_.cancellation && query_.cancellation()) stopped_ = true;
     } catch (...) {
       stopped_ = true;
       throw;
@@ -57,39 +53,41 @@ class Attempts {
     return stopped_;
   }
 
-  void attempt(int i, bool asks) {
+  void search(int i, bool on_calling_thread) {
     if (stopped_ || first_ < i) return;
     std::optional<Steering> own;
-    Steering& steering = asks && request_.steering ? *request_.steering : own.emplace(request_.constraints);
+    Steering& steering = on_calling_thread && query_.steering ? *query_.steering : own.emplace(query_.constraints);
     steering.check().forget();
-    TreeSearch search(steering, request_.starts, request_.goals,
-                      {request_.range, attemptSeed(request_.seed, i), efforts_[std::size_t(i)]});
-    Result& result = results_[std::size_t(i)];
-    result.found = search.run([&] { return (asks && askWatch()) || stopped_ || first_ < i; });
-    Way& way = result.way;
-    if (result.found) {
-      way.points = search.path();
-      way.start = search.start();
-      way.goal = search.goal();
+    RrtConnectOptions options;
+    options.range = query_.range;
+    options.seed = seedOfSearch(query_.seed, i);
+    options.max_evaluations = budgets_[std::size_t(i)];
+    RrtConnect trees(steering, query_.starts, query_.goals, options);
+    const bool found = trees.run([&] { return (on_calling_thread && isCancelled()) || stopped_ || first_ < i; });
+    PathSearchResult& result = results_[std::size_t(i)];
+    if (found) {
+      result.points = trees.path();
+      result.start = trees.start();
+      result.goal = trees.goal();
       for (int first = first_; i < first && !first_.compare_exchange_weak(first, i);) {
       }
     }
-    way.attempts = {{search.samples(), search.evaluations(), search.nodes(false), search.nodes(true)}};
-    way.hits = steering.check().hits();
-    way.trees = {search.tree(false), search.tree(true)};
+    result.searches = {{trees.samples(), trees.evaluations(), trees.tree(false).size(), trees.tree(true).size()}};
+    result.hits = steering.check().hits();
+    result.trees = {trees.tree(false), trees.tree(true)};
   }
 
-  /// All attempts up to the first that succeeded; where it was stopped, those that were made.
-  Way collect() {
-    Way all;
+  /// Merges the searches up to the first that succeeded, or those that ran before a cancellation.
+  PathSearchResult collect() {
+    PathSearchResult all;
     all.was_stopped = stopped_;
     for (int i = 0; i < int(results_.size()) && i <= first_; ++i) {
-      Way& one = results_[std::size_t(i)].way;
-      for (const SearchReport& report : one.attempts) {
+      PathSearchResult& one = results_[std::size_t(i)];
+      for (const SearchReport& report : one.searches) {
         all.evaluations += report.evaluations;
-        all.attempts.push_back(report);
+        all.searches.push_back(report);
       }
-      if (results_[std::size_t(i)].found) {
+      if (!one.points.empty()) {
         all.points = std::move(one.points);
         all.start = one.start;
         all.goal = one.goal;
@@ -101,54 +99,54 @@ class Attempts {
     return all;
   }
 
-  const PathQuery& request_;
-  const std::vector<long> efforts_;
-  std::vector<Result> results_;
+  const PathQuery& query_;
+  const std::vector<long> budgets_;
+  std::vector<PathSearchResult> results_;
   std::atomic<int> first_;
   std::atomic<bool> stopped_ = false;
 };
 
-/// The straight motions, the shortest first.
-std::optional<Way> straightWay(const PathQuery& request, Steering& steering) {
-  const JointSpace& space = *request.constraints.space;
+/// Returns the shortest straight edge that is valid.
+std::optional<PathSearchResult> straightPath(const PathQuery& query, Steering& steering) {
+  const JointSpace& space = *query.constraints.space;
   std::vector<std::pair<double, std::pair<int, int>>> lines;
-  for (int s = 0; s < int(request.starts.size()); ++s)
-    for (int g = 0; g < int(request.goals.size()); ++g)
-      lines.push_back({space.distance(request.starts[std::size_t(s)], request.goals[std::size_t(g)]), {s, g}});
+  for (int s = 0; s < int(query.starts.size()); ++s)
+    for (int g = 0; g < int(query.goals.size()); ++g)
+      lines.push_back({space.distance(query.starts[std::size_t(s)], query.goals[std::size_t(g)]), {s, g}});
   std::sort(lines.begin(), lines.end());
   for (const auto& [length, ends] : lines) {
-    const VectorXd &start = request.starts[std::size_t(ends.first)], &goal = request.goals[std::size_t(ends.second)];
-    if (request.cancellation && request.cancellation()) break;
+    const VectorXd &start = query.starts[std::size_t(ends.first)], &goal = query.goals[std::size_t(ends.second)];
+    if (query.cancellation && query.cancellation()) break;
     if (!steering.isFree(start, goal)) continue;
-    Way way;
-    way.points = {start, goal};
-    way.start = ends.first;
-    way.goal = ends.second;
-    way.is_line = true;
-    return way;
+    PathSearchResult result;
+    result.points = {start, goal};
+    result.start = ends.first;
+    result.goal = ends.second;
+    result.is_line = true;
+    return result;
   }
   return std::nullopt;
 }
 
 }  // namespace
 
-Way searchPath(const PathQuery& request) {
-  request.constraints.space->requireRanges("planMotion");
+PathSearchResult searchPath(const PathQuery& query) {
+  query.constraints.space->requireRanges("planMotion");
   long spent = 0;
-  if (request.tries_line) {
+  if (query.tries_line) {
     std::optional<Steering> own;
-    Steering& steering = request.steering ? *request.steering : own.emplace(request.constraints);
+    Steering& steering = query.steering ? *query.steering : own.emplace(query.constraints);
     const long before = steering.evaluations();
-    std::optional<Way> line = straightWay(request, steering);
+    std::optional<PathSearchResult> line = straightPath(query, steering);
     spent = steering.evaluations() - before;
     if (line) {
       line->evaluations = spent;
       return std::move(*line);
     }
   }
-  Way way = Attempts(request, efforts(request.evaluations - spent)).run();
-  way.evaluations += spent;
-  return way;
+  PathSearchResult result = RestartedSearch(query, searchBudgets(query.max_evaluations - spent)).run();
+  result.evaluations += spent;
+  return result;
 }
 
 }  // namespace kinegraph

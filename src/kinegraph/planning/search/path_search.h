@@ -1,46 +1,48 @@
 #pragma once
 
-#include <atomic>
+#include <cstdint>
 
 #include "kinegraph/common/cancellation.h"
-#include "kinegraph/planning/search/tree_search.h"
+#include "kinegraph/planning/steering/steering.h"
+#include "kinegraph/rrt/search_tree.h"
 
 namespace kinegraph {
 
-/// What is asked of searchPath.
+/// A query of searchPath.
 struct PathQuery {
   PlanningConstraints constraints;
-  std::vector<VectorXd> starts, goals;  ///< free, at least one each
-  double range = 1.;                    ///< longest motion that trees grow by, in joint space
+  std::vector<VectorXd> starts, goals;  ///< collision-free configurations, at least one each
+  double range = 1.;                    ///< longest edge by which trees are extended, in joint space
   std::uint64_t seed = 0;
-  long evaluations = 1000000;  ///< postures drawn, and evaluations of Steering, in all attempts together, at most
+  long max_evaluations = 1000000;  ///< samples and evaluations of Steering, in all tree searches together
   int threads = 1;
-  bool tries_line = true;  ///< first the straight motions, from each start to each goal
+  bool tries_line = true;  ///< first checks the straight edge from each start to each goal
   CancellationToken cancellation = {};
-  Steering* steering = nullptr;  ///< of the same demands, for the calling thread; must stay. None: it makes its own
+  Steering* steering = nullptr;  ///< of the same constraints, for the calling thread; null: constructed here
 };
 
-/// How one attempt with trees ended.
+/// Statistics of one tree search.
 struct SearchReport {
   long samples = 0, evaluations = 0;
   int start_nodes = 0, goal_nodes = 0;
 };
 
-/// What searchPath found.
-struct Way {
-  std::vector<VectorXd> points;  ///< empty: none. Straight motions between them are free at all times
-  int start = 0, goal = 0;       ///< which ones it joins
+/// The answer of searchPath. Tree searches count up to the first that succeeded.
+struct PathSearchResult {
+  std::vector<VectorXd> points;  ///< of the path; empty: none was found. Edges are continuously collision-free
+  int start = 0, goal = 0;       ///< numbers of the start and the goal that the path connects
   bool is_line = false;
-  bool was_stopped = false;            ///< by the watch
-  long evaluations = 0;                ///< of the attempts that count
-  std::vector<SearchReport> attempts;  ///< those that count: up to the one that succeeded
-  PairCounts hits;                     ///< what their motions ran into
-  std::vector<MotionTree> trees;       ///< of the last attempt that counts: of the starts and of the goals
+  bool was_stopped = false;  ///< by the cancellation token
+  long evaluations = 0;
+  std::vector<SearchReport> searches;
+  PairCounts hits;                ///< pairs that their edges collided with
+  std::vector<SearchTree> trees;  ///< of the last search: of the starts, of the goals
 };
 
-/// A way from one of the starts to one of the goals: the straight one if it is free, else by attempts with trees
-/// (TreeSearch), each with random numbers of its own and more effort than the one before. The way of the first attempt
-/// that succeeds counts, so that threads, which make several attempts at once, change nothing but the time.
-Way searchPath(const PathQuery& request);
+/// Searches a path from one of the starts to one of the goals: a straight edge if one is free, else by RRT-Connect with
+/// restarts. Each restart has its own random numbers and a larger budget than the one before. The path of the first
+/// search that succeeds counts, so that the result does not depend on the number of threads, which run several
+/// searches at once.
+PathSearchResult searchPath(const PathQuery& query);
 
 }  // namespace kinegraph

@@ -10,8 +10,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr long kTryEffort = 4;  // of a further try, in efforts of the first
-constexpr int kCuts = 30;       // random ones
+constexpr long kFurtherBudget = 4;  // of a further search, in evaluations of the first
+constexpr int kCuts = 30;           // random shortcuts of a path that is tightened later
 
 double costOf(const JointSpace& space, const VectorXd& weight, const std::vector<VectorXd>& points) {
   double sum = 0.;
@@ -22,54 +22,54 @@ double costOf(const JointSpace& space, const VectorXd& weight, const std::vector
 
 }  // namespace
 
-ShortcutResult improvePath(const Way& first, const PathQuery& request, const ImprovePathOptions& options,
+ShortcutResult improvePath(const PathSearchResult& first, const PathQuery& query, const ImprovePathOptions& options,
                            SteeringContexts& contexts) {
-  std::vector<ShortcutResult> candidates(std::size_t(first.is_line ? 1 : options.tries));
-  const auto pull = [&](Steering& steering, ShortcutResult& candidate) {
+  std::vector<ShortcutResult> candidates(std::size_t(first.is_line ? 1 : options.paths));
+  const auto tightenCandidate = [&](Steering& steering, ShortcutResult& candidate) {
     std::vector<VectorXd> points =
         tightenPath(steering, candidate.points,
                     {.weight = options.weight, .refinements = options.refinements, .cancellation = options.late});
-    const double cost = costOf(*request.constraints.space, options.weight, points);
+    const double cost = costOf(*query.constraints.space, options.weight, points);
     if (cost >= candidate.cost) return;
     candidate.points = std::move(points);
     candidate.cost = cost;
   };
-  const auto attempt = [&](int worker, int i) {
-    const int number = options.first_try + i;
+  const auto runCandidate = [&](int worker, int i) {
+    const int number = options.first_number + i;
     ShortcutResult& candidate = candidates[std::size_t(i)];
-    Steering& steering = contexts.of(worker, request.constraints);
+    Steering& steering = contexts.of(worker, query.constraints);
     const long before = steering.evaluations();
-    const CancellationToken cancellation = worker == 0 ? request.cancellation : options.late;
+    const CancellationToken cancellation = worker == 0 ? query.cancellation : options.late;
     if (number == 0) {
-      candidate.way = first;
+      candidate.found = first;
     } else {
-      PathQuery other = request;
-      other.seed = Rng(request.seed + std::uint64_t(number)).bits();
-      other.evaluations = std::min(request.evaluations, kTryEffort * (first.evaluations + 1000));
+      PathQuery other = query;
+      other.seed = Rng(query.seed + std::uint64_t(number)).bits();
+      other.max_evaluations = std::min(query.max_evaluations, kFurtherBudget * (first.evaluations + 1000));
       other.threads = 1;
       other.tries_line = false;
       other.cancellation = cancellation;
       other.steering = &steering;
       if (cancellation && cancellation()) return;
-      candidate.way = searchPath(other);
+      candidate.found = searchPath(other);
       candidate.evaluations = steering.evaluations() - before;
-      if (candidate.way.points.empty()) return;
+      if (candidate.found.points.empty()) return;
     }
-    ShortcutOptions shortening{
-        .weight = options.weight, .seed = request.seed + std::uint64_t(number), .cancellation = cancellation};
-    if (!steering.isConstrained()) {  // what is pulled taut needs little more than that its postures are joined
-      shortening.cuts = kCuts;
-      shortening.corners = false;
+    ShortcutOptions shortcut_options{
+        .weight = options.weight, .seed = query.seed + std::uint64_t(number), .cancellation = cancellation};
+    if (!steering.isConstrained()) {  // tightening does the rest
+      shortcut_options.cuts = kCuts;
+      shortcut_options.corners = false;
     }
-    candidate.points = shorten(steering, candidate.way.points, shortening);
-    candidate.cost = costOf(*request.constraints.space, options.weight, candidate.points);
-    if (candidate.cost < options.taut_below) pull(steering, candidate);
+    candidate.points = shortcutPath(steering, candidate.found.points, shortcut_options);
+    candidate.cost = costOf(*query.constraints.space, options.weight, candidate.points);
+    if (candidate.cost < options.tighten_below) tightenCandidate(steering, candidate);
     candidate.evaluations = steering.evaluations() - before;
   };
   parallelFor(
-      int(candidates.size()), 1, request.threads, [&](int worker, int i, int) { attempt(worker, i); },
+      int(candidates.size()), 1, query.threads, [&](int worker, int i, int) { runCandidate(worker, i); },
       [&] {
-        if (request.cancellation) request.cancellation();
+        if (query.cancellation) query.cancellation();
       });
   long evaluations = 0;
   for (const ShortcutResult& candidate : candidates) evaluations += candidate.evaluations;
@@ -78,13 +78,13 @@ ShortcutResult improvePath(const Way& first, const PathQuery& request, const Imp
   return best;
 }
 
-void tighten(ShortcutResult& best, const PathQuery& request, const VectorXd& weight, int refinements,
+void tighten(ShortcutResult& best, const PathQuery& query, const VectorXd& weight, int refinements,
              SteeringContexts& contexts) {
-  Steering& steering = contexts.of(0, request.constraints);
+  Steering& steering = contexts.of(0, query.constraints);
   const long before = steering.evaluations();
   std::vector<VectorXd> points = tightenPath(
-      steering, best.points, {.weight = weight, .refinements = refinements, .cancellation = request.cancellation});
-  const double cost = costOf(*request.constraints.space, weight, points);
+      steering, best.points, {.weight = weight, .refinements = refinements, .cancellation = query.cancellation});
+  const double cost = costOf(*query.constraints.space, weight, points);
   best.evaluations = steering.evaluations() - before;
   if (cost >= best.cost) return;
   best.points = std::move(points);

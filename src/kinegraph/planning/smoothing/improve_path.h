@@ -5,30 +5,30 @@
 
 namespace kinegraph {
 
-/// A way, and what it was shortened to.
+/// A path that a search found, and its shortened version.
 struct ShortcutResult {
-  Way way;
-  std::vector<VectorXd> points;
-  double cost = std::numeric_limits<double>::infinity();  ///< weighted length
+  PathSearchResult found;
+  std::vector<VectorXd> points;                           ///< of the shortened path
+  double cost = std::numeric_limits<double>::infinity();  ///< its weighted length
   long evaluations = 0;
 };
 
 struct ImprovePathOptions {
-  int tries = 4;
-  int first_try = 0;  ///< number of the first of them, of which its random numbers come; try 0 is the way that is given
-  VectorXd weight = {};         ///< per dof, what length means
-  CancellationToken late = {};  ///< true ends further tries; any thread may ask
-  double taut_below = 0.;       ///< ways that are shortened to less than this are pulled taut, each of them
-  int refinements = 0;          ///< of their corners (RopeShortcutOptions)
+  int paths = 4;                ///< that are searched and shortened
+  int first_number = 0;         ///< of these paths; the number selects the random numbers. Number 0 is the given path
+  VectorXd weight = {};         ///< per dof, of the weighted length
+  CancellationToken late = {};  ///< ends further searches; called from any thread
+  double tighten_below = 0.;    ///< shortened paths of less cost are tightened, too
+  int refinements = 0;          ///< RopeShortcutOptions
 };
 
-/// Shortens a way, and others that are searched as `request` says, each with random numbers of its own. The best one
-/// counts, at any number of threads; it has no points if no way was found.
-ShortcutResult improvePath(const Way& first, const PathQuery& request, const ImprovePathOptions& options,
+/// Shortens a path, and further paths that are searched by the query with other random numbers. Returns the best one,
+/// independent of the number of threads; it has no points if no path was found.
+ShortcutResult improvePath(const PathSearchResult& first, const PathQuery& query, const ImprovePathOptions& options,
                            SteeringContexts& contexts);
 
-/// Pulls it taut, around corners of so many refinements (RopeShortcutOptions).
-void tighten(ShortcutResult& best, const PathQuery& request, const VectorXd& weight, int refinements,
+/// Tightens the shortened path around obstacles (tightenPath).
+void tighten(ShortcutResult& best, const PathQuery& query, const VectorXd& weight, int refinements,
              SteeringContexts& contexts);
 
 }  // namespace kinegraph

@@ -11,29 +11,29 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kPieces = 20;          // of a path, about
+constexpr int kPieces = 20;          // of a path, approximately
 constexpr double kShortest = .05;    // piece
-constexpr double kLeastGain = 3e-3;  // of a round, as a share of the length
-constexpr double kFiner = .25;       // is what a refinement gains, of what the one before did
-constexpr double kFinest = .01;      // piece that is refined
-constexpr double kSpare = 1e-3;      // m, that rows keep above what is needed, where the path does
-constexpr double kNearRow = .25;     // pieces: a new row of the same pair as near as that takes the old one's place
-constexpr double kDeepest = .03;     // m: what overlaps more has a direction that says little
-constexpr int kTrials = 4;           // of a round, each with what the one before met
-constexpr int kKept = 4;             // rounds that a row stays without a pull
+constexpr double kLeastGain = 3e-3;  // least relative gain of a round
+constexpr double kGainRatio = .25;   // of the least gain, from one refinement to the next
+constexpr double kFinest = .01;      // shortest piece that is refined
+constexpr double kSpare = 1e-3;      // m, that rows keep beyond the margin if the path does
+constexpr double kNearRow = .25;     // pieces: a new row of the same pair within this distance replaces the old one
+constexpr double kDeepest = .03;     // m: the normal of a deeper penetration is not reliable
+constexpr int kTrials = 4;           // of a round, each with the rows that the one before added
+constexpr int kKept = 4;             // rounds that an inactive row stays
 constexpr double kFirstStep = .5, kLongestStep = 4., kShortestStep = .03;  // of a point in a round
 constexpr int kSweeps = 200;
-constexpr double kPullAccuracy = 1e-3;  // of the largest pull
-constexpr double kStraight = 1e-3;      // rad or m that a path may change by where a posture is left out
+constexpr double kForceAccuracy = 1e-3;  // of the largest force
+constexpr double kStraight = 1e-3;       // rad or m: largest change of the path when a point is removed
 
-/// What keeps the path from being shorter: at one place of it, a pair of bodies.
+/// A constraint on the path: the linearized distance of a pair at one place.
 struct Row {
   int a, b;             ///< frames
   double place;         ///< in pieces
   VectorXd slope = {};  ///< slope . x(place) >= least
   double least = 0.;
-  double pull = 0.;  ///< >= 0
-  int idle = 0;      ///< rounds without a pull
+  double force = 0.;  ///< >= 0
+  int idle = 0;       ///< rounds without a force
 };
 
 class RopeShortcut {
@@ -47,7 +47,7 @@ class RopeShortcut {
   std::vector<VectorXd> run() {
     settle();
     for (int i = 0; i < options_.refinements && !stopped() && refine(); ++i) {
-      least_gain_ *= kFiner;
+      least_gain_ *= kGainRatio;
       step_ = kFirstStep;
       settle();
     }
@@ -67,7 +67,7 @@ class RopeShortcut {
     return sum;
   }
 
-  /// Rounds until little is gained.
+  /// Iterates until the gains are small.
   void settle() {
     int small = 0;  // gains in a row
     for (; rounds_ < options_.rounds && !stopped(); ++rounds_) {
@@ -80,12 +80,12 @@ class RopeShortcut {
     }
   }
 
-  /// Halves the pieces at which something pulls: around a corner the path is a polygon, and the more sides it has, the
-  /// shorter it may be. False if there are none.
+  /// Halves the pieces with active rows: around a corner the path is a polygon, and with more sides it may be shorter.
+  /// False if there are none.
   bool refine() {
     std::vector<char> touches(points_.size() - 1, false);
     for (const Row& row : rows_)
-      if (row.pull > 0.) touches[std::min(std::size_t(row.place), touches.size() - 1)] = true;
+      if (row.force > 0.) touches[std::min(std::size_t(row.place), touches.size() - 1)] = true;
     Points finer = {points_.front()};
     std::vector<double> places;  // of the old points among the new ones
     for (std::size_t i = 0; i < touches.size(); ++i) {
@@ -103,7 +103,7 @@ class RopeShortcut {
     return is_finer;
   }
 
-  /// Postures of the path become points, with others between them such that no piece is long.
+  /// Divides the edges of the path into pieces of similar length.
   void divide(const Points& path) {
     const Points corners = unrolled(path);
     const double piece = std::max(length(corners) / kPieces, kShortest);
@@ -121,10 +121,10 @@ class RopeShortcut {
     return points[i] + (place - double(i)) * (points[i + 1] - points[i]);
   }
 
-  // --- the string between its rows ---------------------------------------------------------------------------------
+  // --- minimum of the energy under the rows ------------------------------------------------------------------------
 
-  /// How far the string goes at place u when it is pulled with 1 at place v.
-  double give(double u, double v) const {
+  /// The displacement of the rope at place u under a unit force at place v.
+  double compliance(double u, double v) const {
     double sum = 0.;
     for (const auto& [i, of_i] : ends(u)) {
       for (const auto& [j, of_j] : ends(v))
@@ -145,8 +145,8 @@ class RopeShortcut {
     return pairGradient(state_, row.a, row.b);
   }
 
-  /// The row as it is where a path has its place: the distance there, linearized, is to be what is needed, and a little
-  /// more where the path that is free has more.
+  /// Linearizes a row at its place of a path. The distance has to be the margin, and slightly more if the present path
+  /// has more.
   void linearize(Row& row, const Points& path) {
     const VectorXd q = at(path, row.place);
     PairGradient pair = gradientAt(row, q);
@@ -157,31 +157,32 @@ class RopeShortcut {
     row.least = row.slope.dot(q) + needed + std::clamp(free - needed, 0., kSpare) - pair.distance;
   }
 
-  /// The string of least energy, by one pull after the other.
+  /// Returns the path of least energy under the rows.
   Points solve() {
     along_.assign(1, 0.);
     for (std::size_t i = 1; i < points_.size(); ++i)
       along_.push_back(along_.back() + std::max(distance(points_[i - 1], points_[i]), 1e-9));
-    const VectorXd compliance = weight_.cwiseAbs2().cwiseInverse();
+    const VectorXd inverse_weight = weight_.cwiseAbs2().cwiseInverse();
     const VectorXd all = points_.back() - points_.front();
     const auto count = Eigen::Index(rows_.size());
     MatrixXd G(count, count);
-    VectorXd missing(count);  // of what a row needs, on the straight line
+    VectorXd missing(count);  // violations on the straight line
     for (Eigen::Index r = 0; r < count; ++r) {
       const Row& row = rows_[std::size_t(r)];
       double share = 0.;
       for (const auto& [i, of_i] : ends(row.place)) share += of_i * along_[i] / along_.back();
       missing[r] = row.least - row.slope.dot(points_.front() + share * all);
-      const VectorXd pulled = row.slope.cwiseProduct(compliance);
+      const VectorXd direction = row.slope.cwiseProduct(inverse_weight);
       for (Eigen::Index c = 0; c <= r; ++c)
-        G(r, c) = G(c, r) = pulled.dot(rows_[std::size_t(c)].slope) * give(row.place, rows_[std::size_t(c)].place);
+        G(r, c) = G(c, r) =
+            direction.dot(rows_[std::size_t(c)].slope) * compliance(row.place, rows_[std::size_t(c)].place);
     }
-    pull(G, missing);
+    findForces(G, missing);
     Points points;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       VectorXd q = points_.front() + along_[i] / along_.back() * all;
       for (const Row& row : rows_)
-        if (row.pull > 0.) q += row.pull * give(double(i), row.place) * row.slope.cwiseProduct(compliance);
+        if (row.force > 0.) q += row.force * compliance(double(i), row.place) * row.slope.cwiseProduct(inverse_weight);
       points.push_back(std::move(q));
     }
     points.front() = points_.front();
@@ -189,21 +190,21 @@ class RopeShortcut {
     return points;
   }
 
-  /// G pull >= missing, pull >= 0, and one of both is an equality.
-  void pull(const MatrixXd& G, const VectorXd& missing) {
+  /// Solves the complementarity problem G f >= missing, f >= 0, by Gauss-Seidel sweeps.
+  void findForces(const MatrixXd& G, const VectorXd& missing) {
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
       double most = 0., change = 0.;
       for (std::size_t r = 0; r < rows_.size(); ++r) {
         const auto row = Eigen::Index(r);
         if (!(G(row, row) > 1e-12)) continue;
-        double given = 0.;
-        for (std::size_t c = 0; c < rows_.size(); ++c) given += G(row, Eigen::Index(c)) * rows_[c].pull;
-        const double old = rows_[r].pull;
-        rows_[r].pull = std::max(0., old + (missing[row] - given) / G(row, row));
-        change = std::max(change, std::abs(rows_[r].pull - old));
-        most = std::max(most, rows_[r].pull);
+        double sum = 0.;
+        for (std::size_t c = 0; c < rows_.size(); ++c) sum += G(row, Eigen::Index(c)) * rows_[c].force;
+        const double old = rows_[r].force;
+        rows_[r].force = std::max(0., old + (missing[row] - sum) / G(row, row));
+        change = std::max(change, std::abs(rows_[r].force - old));
+        most = std::max(most, rows_[r].force);
       }
-      if (change <= kPullAccuracy * most) return;
+      if (change <= kForceAccuracy * most) return;
     }
   }
 
@@ -211,9 +212,9 @@ class RopeShortcut {
 
   enum class Outcome { whole, part, blocked, nothing_to_gain };
 
-  /// One round: a shorter path near this one, if that is free.
+  /// Takes one step towards the minimum, if it is collision-free.
   Outcome improve(double before) {
-    for (Row& row : rows_) row.idle = row.pull > 0. ? 0 : row.idle + 1;
+    for (Row& row : rows_) row.idle = row.force > 0. ? 0 : row.idle + 1;
     std::erase_if(rows_, [](const Row& row) { return row.idle > kKept; });
     for (Row& row : rows_) linearize(row, points_);
     double size = 0.;
@@ -233,7 +234,7 @@ class RopeShortcut {
     return Outcome::blocked;
   }
 
-  /// The points, that share of the way to others.
+  /// Moves the points by a share of their distance to the target.
   Points moved(const Points& target, double share) const {
     const JointSpace& space = steering_.space();
     Points trial = points_;
@@ -245,7 +246,7 @@ class RopeShortcut {
     return unrolled(std::move(trial));
   }
 
-  /// Straight motions add what `difference` says, so that endless dofs count turns.
+  /// Unrolls endless dofs, so that edges are differences of points.
   Points unrolled(Points points) const {
     if (steering_.space().isPlain()) return points;
     const MatrixXd rows = steering_.space().unroll(points);
@@ -253,7 +254,7 @@ class RopeShortcut {
     return points;
   }
 
-  /// Are all motions of a path free? What is met becomes a row.
+  /// Checks the edges of a path. Every contact becomes a row.
   bool isFree(const Points& path) {
     bool is_free = true;
     for (std::size_t i = 1; i < path.size(); ++i) {
@@ -265,7 +266,7 @@ class RopeShortcut {
     return is_free;
   }
 
-  /// A row for a contact on one piece of a path, at the place of it where the pair is nearest.
+  /// Adds a row for a contact on a piece of a path, at the place where the pair is closest.
   void addRow(const Points& path, std::size_t piece, const MotionContact& contact) {
     Row row{contact.a, contact.b, 0.};
     double nearest = std::numeric_limits<double>::infinity();
@@ -277,14 +278,14 @@ class RopeShortcut {
     }
     std::erase_if(rows_, [&](const Row& other) {
       const bool replaced = other.a == row.a && other.b == row.b && std::abs(other.place - row.place) < kNearRow;
-      if (replaced) row.pull = other.pull;
+      if (replaced) row.force = other.force;
       return replaced;
     });
     linearize(row, nearest > -kDeepest ? path : points_);
     rows_.push_back(std::move(row));
   }
 
-  /// Leaves out postures where the path is straight.
+  /// Removes points at which the path is nearly straight.
   void dropStraight() {
     for (std::size_t i = 1; i + 1 < points_.size();) {
       const VectorXd chord = points_[i + 1] - points_[i - 1], side = points_[i] - points_[i - 1];
@@ -314,7 +315,7 @@ class RopeShortcut {
 std::vector<VectorXd> tightenPath(Steering& steering, const std::vector<VectorXd>& path,
                                   const RopeShortcutOptions& options) {
   if (steering.isConstrained() || path.size() < 3) return path;
-  steering.check().forget();  // which pair is met first must not depend on what was asked before
+  steering.check().forget();  // results must not depend on earlier checks
   return RopeShortcut(steering, path, options).run();
 }
 

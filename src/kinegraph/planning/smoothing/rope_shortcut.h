@@ -6,21 +6,21 @@
 namespace kinegraph {
 
 struct RopeShortcutOptions {
-  VectorXd weight = {};  ///< per dof, what length means; empty: ones
-  int rounds = 20;       ///< at most
-  int refinements = 2;   ///< of pieces that touch something: a shorter path, with more corners
+  VectorXd weight = {};  ///< per dof, of the weighted length; empty: ones
+  int rounds = 20;       ///< maximum
+  int refinements = 2;   ///< halvings of the pieces in contact: a shorter path with more corners
   CancellationToken cancellation = {};
 };
 
-/// Pulls a path taut, as a string that is drawn around the obstacles that it touches: shorter, with the same ends, and
-/// free at all times as the path itself is. Where there are constraints, the path is returned as it is.
+/// Tightens a path like a rope around the obstacles that it touches. The result is shorter, has the same ends, and is
+/// continuously collision-free, as the path itself must be. Constrained paths are returned unchanged.
 ///
-/// The path is divided into pieces of lengths h_i. Of all paths x_0 ... x_K the sum of |x_i+1 - x_i|^2 / h_i is
-/// made least, while the distances of pairs that were met, linearized, stay large enough. A step towards that path, of a
-/// length that is learnt, is checked at all times. What it meets is linearized where the pair is nearest, and it is solved
-/// again. Without such rows the answer is the straight line; each row pulls at one place, and how far the others follow is
-/// known in closed form. So only the pulls are unknown, few numbers >= 0. Around a corner the path is a polygon: a
-/// refinement halves its sides and pulls again.
+/// The path is divided into pieces of lengths h_i. Each iteration minimizes the sum of |x_i+1 - x_i|^2 / h_i over all
+/// paths x_0 ... x_K, subject to linearized distances of the pairs in contact. A step of adaptive length towards the
+/// minimum is checked continuously. A pair in collision becomes a constraint row, linearized where the pair is closest,
+/// and the problem is solved again. Without rows the minimum is the straight line. A row acts as a force at one place,
+/// and the response of the other points is known in closed form, so that only the forces >= 0 are unknown. Around a
+/// corner the path is a polygon; a refinement halves its sides.
 std::vector<VectorXd> tightenPath(Steering& steering, const std::vector<VectorXd>& path,
                                   const RopeShortcutOptions& options = {});
 

@@ -60,8 +60,8 @@ bool ClearanceCheck::seemsFree(const VectorXd& from, const VectorXd& to) {
   return true;
 }
 
-/// Are the postures at these places of a motion, in parts of it, free? Those that follow one another and have one margin
-/// are looked at side by side.
+/// Checks the configurations at these multiples of 1 / parts of an edge. Consecutive ones with equal margins are
+/// checked side by side.
 bool ClearanceCheck::areFree(const VectorXd& from, const VectorXd& change, int parts, const Places& places, int count) {
   const double* rows[EdgeChecker::kLanes];
   double margins[EdgeChecker::kLanes];
@@ -82,11 +82,11 @@ bool ClearanceCheck::areFree(const VectorXd& from, const VectorXd& change, int p
   return true;
 }
 
-/// Where margins differ along the motion, it is cut there, and each piece has one margin.
-std::optional<MotionContact> ClearanceCheck::contact(const VectorXd& from, const VectorXd& to, double room) {
+/// If margins differ along the edge, it is cut into pieces of one margin each.
+std::optional<MotionContact> ClearanceCheck::contact(const VectorXd& from, const VectorXd& to, double slack) {
   const VectorXd change = space_->difference(from, to);
   std::vector<double> cuts = {0., 1.};
-  for (const Clearance::Tight& tight : clearance_.tight) {  // where the straight motion enters and leaves the ball
+  for (const Clearance::Tight& tight : clearance_.tight) {  // where the edge enters and leaves the ball
     const VectorXd away = space_->difference(tight.q, from);
     const double a = change.squaredNorm(), b = away.dot(change),
                  c = away.squaredNorm() - Clearance::kAround * Clearance::kAround;
@@ -100,7 +100,7 @@ std::optional<MotionContact> ClearanceCheck::contact(const VectorXd& from, const
     const double begin = cuts[i - 1], end = cuts[i];
     const VectorXd first = from + begin * change, last = from + end * change;
     ++evaluations;
-    edges_.setMargin(marginAt(.5 * (first + last)) + room);
+    edges_.setMargin(marginAt(.5 * (first + last)) + slack);
     if (edges_.isFree(first.data(), last.data())) continue;
     countHit();
     MotionContact contact = *edges_.lastHitPair();
@@ -113,13 +113,13 @@ std::optional<MotionContact> ClearanceCheck::contact(const VectorXd& from, const
 std::vector<ClearanceCheck::Nearest> ClearanceCheck::nearerThan(const VectorXd& q, double up_to) {
   ++evaluations;
   edges_.setMargin(up_to);
-  if (edges_.isFree(q.data())) return {};  // takes less
+  if (edges_.isFree(q.data())) return {};  // faster
   if (!pairs_) pairs_.emplace(state_.sharedModel());
   state_.setJoints(q.data());
   pairs_->place(state_);
   std::vector<Nearest> near;
   pairs_->forDistances(up_to, [&](int a, int b, double distance) {
-    const bool moves = state_.link(a) != state_.link(b);  // else it says nothing about q
+    const bool moves = state_.link(a) != state_.link(b);  // else q does not change the distance
     if (moves && distance < up_to) near.push_back({distance, a, b});
   });
   std::stable_sort(near.begin(), near.end(),

@@ -11,72 +11,74 @@
 
 namespace kinegraph {
 
-/// What counts as free: all collidable pairs keep `margin` apart, or, near a posture that is itself closer to contact,
-/// what that posture keeps.
+/// The distance that all collidable pairs have to keep: a margin, and a smaller one around configurations that do not
+/// keep it.
 struct Clearance {
-  /// A start or goal that keeps less than the margin.
+  /// A start or goal closer to contact than the margin.
   struct Tight {
     VectorXd q;
-    double margin;  ///< m, that holds around it
+    double margin;  ///< m, around q
   };
-  static constexpr double kAround = .25;      ///< how far around it, in joint space
-  static constexpr double kTolerance = 1e-5;  ///< m, of the check at all times
-  static constexpr double kGuard = 2e-5;  ///< m, by which searches keep more, so that pieces of what is free are free
+  static constexpr double kAround = .25;      ///< radius around it, in joint space
+  static constexpr double kTolerance = 1e-5;  ///< m, of the continuous check
+  static constexpr double kGuard = 2e-5;      ///< m, added by searches, so that parts of a free edge are free
 
   double margin = 0.;             ///< m
   double guard = 0.;              ///< m, in addition to all margins
   std::vector<Tight> tight = {};  ///< few
-  double resolution = 1. / 32.;   ///< between postures that are looked at first, in joint space
+  double resolution = 1. / 32.;   ///< between samples of an edge, in joint space
 };
 
 using PairCounts = std::map<std::pair<int, int>, long>;
 
-/// One thread's answers to whether postures and straight motions between them are free.
+/// Collision checks of configurations and edges. Every thread has its own.
 class ClearanceCheck {
  public:
-  /// `space` must stay.
+  /// `space` must outlive the check.
   ClearanceCheck(const State& scene, const JointSpace& space, Clearance clearance);
 
   const JointSpace& space() const { return *space_; }
   const State& scene() const { return edges_.scene(); }
 
-  /// Replaces what counts as free.
+  /// Replaces the clearance to keep.
   void setClearance(Clearance clearance) { clearance_ = std::move(clearance); }
 
-  /// What a posture has to keep: the margin that holds there, and the guard, m.
+  /// The distance to keep at a configuration, guard included, m.
   double marginAt(const VectorXd& q) const;
 
-  /// All collidable pairs far enough apart? Limits are not looked at.
+  /// Whether all collidable pairs keep the clearance. Does not check joint limits.
   bool isFree(const VectorXd& q);
 
-  /// Are the postures of the motion free that are looked at, every `resolution` of it? First some that are spread over
-  /// it, where what is not free comes to light soon; then the others. What seems free nearly always is, at all times.
+  /// Whether samples of the edge, `resolution` apart, are free. Checks some that are spread over the edge first, which
+  /// finds most collisions soon. If all samples are free, the edge nearly always is.
   bool seemsFree(const VectorXd& from, const VectorXd& to);
 
-  /// Is it free at all times? A contact is one of those on the way, its time that on the way from `from` to `to`.
-  /// `room` (m) is kept beyond all margins. Its distance is NaN, see lastDistance.
-  std::optional<MotionContact> contact(const VectorXd& from, const VectorXd& to, double room = 0.);
-  bool isMotionFree(const VectorXd& from, const VectorXd& to, double room = 0.) { return !contact(from, to, room); }
+  /// Checks an edge continuously, with `slack` (m) beyond all margins. Returns one of its contacts with the time in [0,
+  /// 1] along the edge, or none. The distance of the contact is NaN; see lastDistance.
+  std::optional<MotionContact> contact(const VectorXd& from, const VectorXd& to, double slack = 0.);
+  bool isMotionFree(const VectorXd& from, const VectorXd& to, double slack = 0.) { return !contact(from, to, slack); }
 
-  /// Of the last contact, m.
+  /// Distance of the last contact, m.
   double lastDistance() const { return edges_.lastHit()->distance; }
 
-  /// The least distance of a collidable pair at q, if it is less than `up_to`, and that pair.
+  /// A pair and its distance.
   struct Nearest {
     double distance;
     int a, b;  ///< frame ids
   };
+  /// The closest pair at q, if its distance is less than `up_to` (m).
   std::optional<Nearest> nearest(const VectorXd& q, double up_to);
-  /// All pairs nearer than that.
+
+  /// All pairs closer than `up_to` (m), the closest first.
   std::vector<Nearest> nearerThan(const VectorXd& q, double up_to);
 
-  /// Questions to the kinematics: each is up to EdgeChecker::kLanes postures side by side, wherever the first of them
-  /// is not free, or a motion at all times, or one of its pieces where margins differ.
+  /// Number of checks so far. One check is up to EdgeChecker::kLanes configurations side by side, also if it exits
+  /// early, or the continuous check of an edge, or of each of its pieces if margins differ along it.
   long evaluations = 0;
 
-  /// How often a pair of frames (ids) was what a posture or motion ran into.
+  /// Number of collisions per pair of frames (ids).
   const PairCounts& hits() const { return hits_; }
-  /// Forgets these counts, and what was hit last.
+  /// Resets these counts and the pair that is checked first.
   void forget();
 
  private:
@@ -88,7 +90,7 @@ class ClearanceCheck {
   Clearance clearance_;
   EdgeChecker edges_;
   State state_;
-  std::optional<NearPairs> pairs_;  ///< made when it is first needed
+  std::optional<NearPairs> pairs_;  ///< constructed on first use
   PairCounts hits_;
   VectorXd samples_[EdgeChecker::kLanes];
 };

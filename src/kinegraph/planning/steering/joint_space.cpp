@@ -10,23 +10,23 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kTurn = 2. * M_PI;
+constexpr double kFullRotation = 2. * M_PI;
 
-/// Which dofs nothing but turns follow, such that whole turns change nothing.
-std::vector<char> wholeTurns(const KinematicModel& model) {
-  std::vector<char> turns(std::size_t(model.dofs), 1);
+/// Flags the dofs that only rotate, so that whole rotations change nothing.
+std::vector<char> onlyRotations(const KinematicModel& model) {
+  std::vector<char> rotates(std::size_t(model.dofs), 1);
   for (const KinematicModel::Link& link : model.links) {
     int dof = link.dof;
     for (int s = link.first_step; s < link.first_step + link.steps; ++s) {
       const MotionStep& step = model.steps[std::size_t(s)];
       const bool whole = step.rotates() && link.scale == std::round(link.scale);
-      for (int i = 0; i < step.dofs(); ++i, ++dof) turns[std::size_t(dof)] &= whole;
+      for (int i = 0; i < step.dofs(); ++i, ++dof) rotates[std::size_t(dof)] &= whole;
     }
   }
-  return turns;
+  return rotates;
 }
 
-/// Which dofs move something.
+/// Flags the dofs that move a frame.
 std::vector<char> movingDofs(const KinematicModel& model) {
   std::vector<char> moving(std::size_t(model.dofs), 0);
   for (const KinematicModel::Link& link : model.links) {
@@ -47,7 +47,7 @@ std::vector<std::string> dofNames(const KinematicModel& model) {
     const KinematicModel::DofRange range = model.frame_dofs[frame];
     for (int i = 0; i < range.count; ++i) {
       std::string& name = names[std::size_t(range.first + i)];
-      if (!name.empty()) continue;  // the frame of a joint that mimics it
+      if (!name.empty()) continue;  // the frame is that of a mimic joint
       name = range.count == 1 ? model.frame_name[frame] : cat(model.frame_name[frame], ":", i);
     }
   }
@@ -57,12 +57,12 @@ std::vector<std::string> dofNames(const KinematicModel& model) {
 JointSpace::JointSpace(const KinematicModel& model)
     : lower_(model.lower),
       upper_(model.upper),
-      draw_lower_(model.lower),
-      draw_upper_(model.upper),
+      sample_lower_(model.lower),
+      sample_upper_(model.upper),
       kinds_(std::size_t(model.dofs), Kind::ranged),
       directions_(model.unit_norms),
       names_(dofNames(model)) {
-  const std::vector<char> turns = wholeTurns(model), moving = movingDofs(model);
+  const std::vector<char> rotates = onlyRotations(model), moving = movingDofs(model);
   for (const KinematicModel::DofRange& range : directions_) {
     for (int i = 0; i < range.count; ++i) kinds_[std::size_t(range.first + i)] = Kind::direction;
     plain_ = false;
@@ -71,8 +71,8 @@ JointSpace::JointSpace(const KinematicModel& model)
     const auto dof = Eigen::Index(i);
     if (kinds_[i] == Kind::direction) continue;
     if (!moving[i] || lower_[dof] == upper_[dof]) {
-      kinds_[i] = Kind::still;
-    } else if (!std::isfinite(lower_[dof]) && !std::isfinite(upper_[dof]) && turns[i]) {
+      kinds_[i] = Kind::fixed;
+    } else if (!std::isfinite(lower_[dof]) && !std::isfinite(upper_[dof]) && rotates[i]) {
       kinds_[i] = Kind::endless;
       plain_ = false;
     } else if (!std::isfinite(lower_[dof]) || !std::isfinite(upper_[dof])) {
@@ -84,15 +84,14 @@ JointSpace::JointSpace(const KinematicModel& model)
 void JointSpace::requireRanges(const char* who) const {
   if (without_range_.empty()) return;
   throw ValueError(cat(who, ": no limits are known for ", join(without_range_),
-                       ", so that no postures can be drawn; give them limits, as in {limits: [-1, 1]}, or leave out "
-                       "their joints with selectJoints"));
+                       "; sampling needs limits, as in {limits: [-1, 1]}, or exclude these joints with selectJoints"));
 }
 
 VectorXd JointSpace::difference(const VectorXd& from, const VectorXd& to) const {
   VectorXd change = to - from;
   if (plain_) return change;
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
-    if (kinds_[i] == Kind::endless) change[Eigen::Index(i)] = std::remainder(change[Eigen::Index(i)], kTurn);
+    if (kinds_[i] == Kind::endless) change[Eigen::Index(i)] = std::remainder(change[Eigen::Index(i)], kFullRotation);
   }
   for (const KinematicModel::DofRange& range : directions_) {
     const auto a = from.segment(range.first, range.count), b = to.segment(range.first, range.count);
@@ -106,7 +105,7 @@ double JointSpace::squaredDistanceOfKinds(const double* a, const double* b) cons
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
     if (kinds_[i] == Kind::direction) continue;
     double change = b[i] - a[i];
-    if (kinds_[i] == Kind::endless && std::abs(change) > M_PI) change = std::remainder(change, kTurn);
+    if (kinds_[i] == Kind::endless && std::abs(change) > M_PI) change = std::remainder(change, kFullRotation);
     square += change * change;
   }
   for (const KinematicModel::DofRange& range : directions_) {
@@ -121,15 +120,15 @@ double JointSpace::squaredDistanceOfKinds(const double* a, const double* b) cons
 }
 
 void JointSpace::sampleWithin(const VectorXd& lower, const VectorXd& upper) {
-  draw_lower_ = lower_.cwiseMax(lower);
-  draw_upper_ = upper_.cwiseMin(upper);
+  sample_lower_ = lower_.cwiseMax(lower);
+  sample_upper_ = upper_.cwiseMin(upper);
 }
 
 VectorXd JointSpace::sample(Rng& rng, const VectorXd& like) const {
   VectorXd q = like;
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
     const auto dof = Eigen::Index(i);
-    if (kinds_[i] == Kind::ranged) q[dof] = rng.uniform(draw_lower_[dof], draw_upper_[dof]);
+    if (kinds_[i] == Kind::ranged) q[dof] = rng.uniform(sample_lower_[dof], sample_upper_[dof]);
     if (kinds_[i] == Kind::endless) q[dof] = rng.uniform(-M_PI, M_PI);
     if (kinds_[i] == Kind::direction) q[dof] = rng.normal();
   }
@@ -140,7 +139,7 @@ VectorXd JointSpace::sample(Rng& rng, const VectorXd& like) const {
 void JointSpace::normalize(VectorXd& q) const {
   if (plain_) return;
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
-    if (kinds_[i] == Kind::endless) q[Eigen::Index(i)] = std::remainder(q[Eigen::Index(i)], kTurn);
+    if (kinds_[i] == Kind::endless) q[Eigen::Index(i)] = std::remainder(q[Eigen::Index(i)], kFullRotation);
   }
   for (const KinematicModel::DofRange& range : directions_) {
     auto part = q.segment(range.first, range.count);
@@ -157,7 +156,7 @@ void JointSpace::normalize(VectorXd& q) const {
 void JointSpace::clamp(VectorXd& q) const {
   for (std::size_t i = 0; i < kinds_.size(); ++i) {
     const auto dof = Eigen::Index(i);
-    if (kinds_[i] == Kind::ranged || kinds_[i] == Kind::still) q[dof] = std::clamp(q[dof], lower_[dof], upper_[dof]);
+    if (kinds_[i] == Kind::ranged || kinds_[i] == Kind::fixed) q[dof] = std::clamp(q[dof], lower_[dof], upper_[dof]);
   }
 }
 

@@ -13,15 +13,15 @@ namespace kinegraph {
 namespace {
 
 constexpr int kProjections = 30;
-constexpr double kLongestProjection = .3;  // of a dof
-constexpr double kAim = 1e-2;              // projections go for this share of the tolerance
-constexpr int kDeepest = 10;               // times that an interval is halved
+constexpr double kLongestProjection = .3;  // of a dof, rad or m
+constexpr double kAim = 1e-2;              // target of projections, as a share of the tolerance
+constexpr int kDeepest = 10;               // halvings of an interval
 
 }  // namespace
 
 Manifold::Manifold(const State& scene, const JointSpace& space, const std::vector<MotionConstraint>& constraints,
                    double tolerance)
-    : space_(&space), tolerance_(tolerance), state_(scene), motion_(scene) {
+    : space_(&space), tolerance_(tolerance), state_(scene), edge_(scene) {
   for (const MotionConstraint& constraint : constraints) {
     const std::string name = cat(constraint.feature.name(), "(", join(constraint.frames), ")");
     if (constraint.type != ObjectiveType::eq && constraint.type != ObjectiveType::ineq)
@@ -29,7 +29,7 @@ Manifold::Manifold(const State& scene, const JointSpace& space, const std::vecto
     Residual residual = makeResidual(scene, constraint.feature, constraint.frames, constraint.scale, constraint.target);
     if (residual.order() != 0)
       throw ValueError(
-          cat("planMotion: the constraint ", name, " needs several configurations; expected one of positions"));
+          cat("planMotion: the constraint ", name, " needs several configurations; expected a feature of one"));
     const bool is_equality = constraint.type == ObjectiveType::eq;
     is_equality_.insert(is_equality_.end(), std::size_t(residual.rows()), is_equality);
     ConstraintBounds bounds(scene, residual);
@@ -39,7 +39,7 @@ Manifold::Manifold(const State& scene, const JointSpace& space, const std::vecto
   const auto rows = Eigen::Index(is_equality_.size());
   y_.resize(rows);
   J_.resize(rows, scene.dofs());
-  bend_.resize(rows), stray_.resize(rows);
+  curvature_.resize(rows), deviation_.resize(rows);
 }
 
 /// Calls visit(row, first, count) for each constraint.
@@ -53,7 +53,7 @@ void Manifold::forRows(const Visit& visit) {
   }
 }
 
-/// Values of all rows into y_.
+/// Evaluates all rows into y_.
 void Manifold::evalRows(const VectorXd& q, JacobianRows* J) {
   ++evaluations;
   state_.setJoints(q.data());
@@ -120,24 +120,24 @@ std::vector<std::string> Manifold::sampled() const {
   return names;
 }
 
-/// Sets bend_ and stray_ for a straight motion.
-void Manifold::boundRates(const VectorXd& from, const VectorXd& change, double stray) {
+/// Sets curvature_ and deviation_ for an edge.
+void Manifold::boundRates(const VectorXd& from, const VectorXd& change, double deviation) {
   const VectorXd to = from + change;
-  VectorXd unused(bend_.size());
-  bend_.setZero(), stray_.setZero();
-  const auto bound = [&](const VectorXd& moves, VectorXd& speed, VectorXd& bend) {
+  VectorXd unused(curvature_.size());
+  curvature_.setZero(), deviation_.setZero();
+  const auto bound = [&](const VectorXd& change, VectorXd& speed, VectorXd& curvature) {
     forRows([&](Row& row, int first, int count) {
-      if (row.is_bounded) row.bounds.eval(motion_, moves, speed.segment(first, count), bend.segment(first, count));
+      if (row.is_bounded) row.bounds.eval(edge_, change, speed.segment(first, count), curvature.segment(first, count));
     });
   };
-  motion_.setMotion(from.data(), to.data());
-  bound(change, unused, bend_);
-  if (stray == 0.) return;
-  const VectorXd away = VectorXd::Constant(from.size(), stray), farthest = from.cwiseAbs().cwiseMax(to.cwiseAbs()),
+  edge_.setEdge(from.data(), to.data());
+  bound(change, unused, curvature_);
+  if (deviation == 0.) return;
+  const VectorXd away = VectorXd::Constant(from.size(), deviation), farthest = from.cwiseAbs().cwiseMax(to.cwiseAbs()),
                  beyond = farthest + away;
-  motion_.setMotion(farthest.data(), beyond.data());
+  edge_.setEdge(farthest.data(), beyond.data());
   unused.setZero();
-  bound(away, stray_, unused);
+  bound(away, deviation_, unused);
 }
 
 Manifold::Moment Manifold::momentAt(const VectorXd& from, const VectorXd& change, double time) {
@@ -145,35 +145,35 @@ Manifold::Moment Manifold::momentAt(const VectorXd& from, const VectorXd& change
   return {time, y_};
 }
 
-/// Are all rows within the tolerance, with room?
-bool Manifold::keep(const VectorXd& values, const VectorXd& room) const {
+/// Whether all rows are within the tolerance, less the slack.
+bool Manifold::keep(const VectorXd& values, const VectorXd& slack) const {
   for (Eigen::Index i = 0; i < values.size(); ++i) {
     const double violation = is_equality_[std::size_t(i)] ? std::abs(values[i]) : values[i];
-    if (!(violation + room[i] <= tolerance_)) return false;
+    if (!(violation + slack[i] <= tolerance_)) return false;
   }
   return true;
 }
 
 bool Manifold::holdsBetween(const VectorXd& from, const VectorXd& change, const Moment& a, const Moment& b, int depth) {
   const double width = b.time - a.time;
-  const VectorXd room = stray_ + .125 * width * width * bend_;
-  if (keep(a.values, room) && keep(b.values, room)) return true;
+  const VectorXd slack = deviation_ + .125 * width * width * curvature_;
+  if (keep(a.values, slack) && keep(b.values, slack)) return true;
   if (depth == kDeepest) return false;
   const Moment middle = momentAt(from, change, .5 * (a.time + b.time));
-  return keep(middle.values, stray_) && holdsBetween(from, change, a, middle, depth + 1) &&
+  return keep(middle.values, deviation_) && holdsBetween(from, change, a, middle, depth + 1) &&
          holdsBetween(from, change, middle, b, depth + 1);
 }
 
-bool Manifold::holdsAlong(const VectorXd& from, const VectorXd& to, double spacing, double stray) {
+bool Manifold::holdsAlong(const VectorXd& from, const VectorXd& to, double spacing, double deviation) {
   if (isEmpty()) return true;
   const VectorXd change = space_->difference(from, to);
   const int parts = std::max(2, int(std::ceil(space_->distance(from, to) / spacing)));
-  boundRates(from, change, stray);
+  boundRates(from, change, deviation);
   Moment before = momentAt(from, change, 0.);
-  if (!keep(before.values, stray_)) return false;
+  if (!keep(before.values, deviation_)) return false;
   for (int i = 1; i <= parts; ++i) {
     Moment now = momentAt(from, change, double(i) / parts);
-    if (!keep(now.values, stray_) || !holdsBetween(from, change, before, now, 0)) return false;
+    if (!keep(now.values, deviation_) || !holdsBetween(from, change, before, now, 0)) return false;
     before = std::move(now);
   }
   return true;

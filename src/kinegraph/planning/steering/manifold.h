@@ -10,7 +10,7 @@
 
 namespace kinegraph {
 
-/// A condition on postures: scale * (feature - target) is zero (eq), or not positive (ineq).
+/// A constraint on configurations: scale * (feature - target) is zero (eq), or not positive (ineq).
 struct MotionConstraint {
   FeatureSource feature;
   std::vector<std::string> frames;
@@ -19,36 +19,37 @@ struct MotionConstraint {
   Target target = {};
 };
 
-/// The postures at which constraints hold, each row to within a tolerance. Every thread has its own.
+/// The configurations at which constraints hold, every row to within a tolerance. Every thread has its own.
 class Manifold {
  public:
-  /// `space` must stay. Throws ValueError for types other than eq and ineq, and for features of several configurations.
+  /// `space` must outlive it. Throws ValueError for types other than eq and ineq, and for features of several
+  /// configurations.
   Manifold(const State& scene, const JointSpace& space, const std::vector<MotionConstraint>& constraints,
            double tolerance);
 
   bool isEmpty() const { return residuals_.empty(); }
   double tolerance() const { return tolerance_; }
 
-  /// By how much the worst row is violated at q, in its own (scaled) unit.
+  /// The violation of the most violated row at q, in its own (scaled) unit.
   double violation(const VectorXd& q);
 
-  /// The feature of that row, with its frames.
+  /// The feature of that row with its frames, for messages.
   std::string worst(const VectorXd& q);
 
-  /// Moves q to the manifold by damped Gauss-Newton steps within the limits. False, and q anywhere, if that fails.
+  /// Projects q onto the manifold by damped Gauss-Newton steps within the limits. If it returns false, q is undefined.
   bool project(VectorXd& q);
 
-  /// Do they hold along a straight motion, at all times, and at postures that differ from one of it by `stray` at most in
-  /// every dof? Of rows whose rates have no bound (`sampled`), as far as postures of the motion tell.
+  /// Whether the constraints hold continuously along an edge, and at configurations that deviate from it by at most
+  /// `deviation` in every dof. Rows whose rates have no bound (`sampled`) are checked at samples only.
   ///
-  /// Postures every `spacing` are looked at. Between two of them, w apart, a row is above its chord by no more than w^2 / 8
-  /// of the bound of its second derivative; where that is too much, the interval is halved.
-  bool holdsAlong(const VectorXd& from, const VectorXd& to, double spacing, double stray = 0.);
+  /// Evaluates the constraints at samples `spacing` apart. Between two samples at a distance w, a row exceeds its chord
+  /// by at most w^2 / 8 times the bound of its second derivative; if that is too much, the interval is halved.
+  bool holdsAlong(const VectorXd& from, const VectorXd& to, double spacing, double deviation = 0.);
 
-  /// The features whose rates have no bound, with their frames.
+  /// The features whose rates have no bound, with their frames, for messages.
   std::vector<std::string> sampled() const;
 
-  long evaluations = 0;  ///< postures at which the constraints were computed
+  long evaluations = 0;  ///< configurations at which the constraints were evaluated
 
  private:
   struct Row {
@@ -58,7 +59,7 @@ class Manifold {
     ConstraintBounds bounds;
     bool is_bounded;
   };
-  /// A time of a motion, and the rows there.
+  /// The values of the rows at a time of an edge.
   struct Moment {
     double time;
     VectorXd values;
@@ -67,9 +68,9 @@ class Manifold {
   void measure(const VectorXd& q, bool with_jacobian);
   template <class Visit>
   void forRows(const Visit& visit);
-  void boundRates(const VectorXd& from, const VectorXd& change, double stray);
+  void boundRates(const VectorXd& from, const VectorXd& change, double deviation);
   Moment momentAt(const VectorXd& from, const VectorXd& change, double time);
-  bool keep(const VectorXd& values, const VectorXd& room) const;
+  bool keep(const VectorXd& values, const VectorXd& slack) const;
   bool holdsBetween(const VectorXd& from, const VectorXd& change, const Moment& a, const Moment& b, int depth);
 
   const JointSpace* space_;
@@ -79,8 +80,8 @@ class Manifold {
   std::vector<char> is_equality_;  ///< per row
   VectorXd y_;                     ///< violations: 0 where an inequality holds
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J_;
-  MotionBounds motion_;
-  VectorXd bend_, stray_;  ///< per row, of the present motion: of its second derivative, and what straying may add
+  DisplacementBound edge_;
+  VectorXd curvature_, deviation_;  ///< per row, bounds on the present edge: second derivative; change by deviations
 };
 
 }  // namespace kinegraph

@@ -4,13 +4,13 @@
 
 namespace kinegraph {
 
-/// How far two bodies are apart, and how that changes with q.
+/// The distance of two bodies and its gradient.
 struct PairGradient {
-  double distance;    ///< m, negative where they overlap
+  double distance;    ///< m, negative if they overlap
   VectorXd gradient;  ///< (dofs), m per rad or m
 };
 
-/// Of two frames (ids) with bodies, at the q of a State.
+/// Computes the distance of two frames (ids) with bodies, at the q of a State.
 PairGradient pairGradient(const State& state, int a, int b);
 
 }  // namespace kinegraph

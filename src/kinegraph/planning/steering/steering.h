@@ -2,23 +2,26 @@
 
 #include "kinegraph/planning/steering/clearance_check.h"
 #include "kinegraph/planning/steering/manifold.h"
+#include "kinegraph/rrt/search_space.h"
 
 namespace kinegraph {
 
-/// What a motion has to keep to: one value for all threads.
+/// The constraints that a motion has to satisfy: one value for all threads.
 struct PlanningConstraints {
-  const State* scene;       ///< any State of it; must stay
-  const JointSpace* space;  ///< must stay
+  const State* scene;       ///< any State of the scene; must outlive its users
+  const JointSpace* space;  ///< must outlive its users
   Clearance clearance = {};
   std::vector<MotionConstraint> constraints = {};
-  double constraint_tolerance = 1e-3;  ///< of each row, in its own unit
+  double constraint_tolerance = 1e-3;  ///< of each constraint row, in its own unit
 };
 
-/// How planners move from posture to posture: on straight motions, which are checked, and where there are constraints
-/// on short ones from one posture at which they hold to the next. Every thread has its own.
+/// The search space of the planners (SearchSpace): samples, distances, and checked connections of configurations.
+/// Unconstrained connections are straight edges; under constraints they are short edges along the manifold. Every
+/// thread has its own.
 class Steering {
  public:
-  static constexpr double kSpacing = .02;  ///< between postures at which constraints are looked at first
+  static constexpr bool kVerifiesExtensions = false;
+  static constexpr double kSpacing = .02;  ///< between configurations at which constraints are evaluated first
 
   explicit Steering(const PlanningConstraints& constraints)
       : check_(*constraints.scene, *constraints.space, constraints.clearance),
@@ -28,37 +31,48 @@ class Steering {
   ClearanceCheck& check() { return check_; }
   Manifold& manifold() { return manifold_; }
   bool isConstrained() const { return !manifold_.isEmpty(); }
-  /// Of the check, and of the constraints: what effort means.
+
+  /// Evaluations of the collision check and of the constraints so far; budgets count them.
   long evaluations() const { return check_.evaluations + manifold_.evaluations; }
 
-  /// Postures on the way towards `target`, up to `range` away, each of which seems to be reached freely from the one
-  /// before. The last one is `target` if `reached`.
-  struct Way {
-    std::vector<VectorXd> points;
-    bool reached = false;
-  };
-  Way towards(const VectorXd& from, const VectorXd& target, double range);
+  int dofs() const { return space().dofs(); }
+  double squaredDistance(const double* a, const double* b) const { return space().squaredDistance(a, b); }
+  VectorXd difference(const VectorXd& from, const VectorXd& to) const { return space().difference(from, to); }
+  void normalize(VectorXd& q) const { space().normalize(q); }
 
-  /// Is the straight motion free at all times, and do the constraints hold at all times (see Manifold::holdsAlong)?
+  /// Samples uniformly, and projects onto the constraints. None if the projection fails.
+  std::optional<VectorXd> sample(Rng& rng, const VectorXd& like);
+
+  /// Samples at most `radius` away from a configuration.
+  std::optional<VectorXd> sampleNear(Rng& rng, const VectorXd& center, double radius);
+
+  /// Extends from a configuration towards `target` by at most `range`. Edges are checked at samples only.
+  Extension extend(const VectorXd& from, const VectorXd& target, double range);
+
+  /// Whether the straight edge is continuously collision-free. Does not evaluate constraints.
+  bool isEdgeFree(const VectorXd& from, const VectorXd& to) { return check_.isMotionFree(from, to); }
+
+  /// Whether the straight edge is continuously collision-free and satisfies the constraints (Manifold::holdsAlong).
   bool isFree(const VectorXd& from, const VectorXd& to);
 
-  /// Postures between two: none if their straight motion is free; with constraints, on the manifold. Nothing if there
-  /// is no such way. All motions between the postures are free at all times.
-  std::optional<std::vector<VectorXd>> between(const VectorXd& from, const VectorXd& to);
+  /// Connects two configurations, and returns those between them: none if the straight edge is valid, else
+  /// configurations on the manifold. All edges are continuously collision-free. None if it fails.
+  std::optional<std::vector<VectorXd>> connect(const VectorXd& from, const VectorXd& to);
 
  private:
-  Way onManifold(const VectorXd& from, const VectorXd& target, double range);
+  std::optional<VectorXd> projected(VectorXd q);
+  Extension alongManifold(const VectorXd& from, const VectorXd& target, double range);
 
   ClearanceCheck check_;
   Manifold manifold_;
 };
 
-/// A Steering for each worker, made when it is first asked for.
+/// A Steering per worker, constructed on first use.
 class SteeringContexts {
  public:
   explicit SteeringContexts(int workers) : of_(std::size_t(workers)) {}
 
-  /// For demands that differ from those before by no more than the clearance.
+  /// The worker's Steering. From call to call, constraints may differ in their clearance only.
   Steering& of(int worker, const PlanningConstraints& constraints) {
     std::unique_ptr<Steering>& steering = of_[std::size_t(worker)];
     if (!steering) steering = std::make_unique<Steering>(constraints);

@@ -47,7 +47,7 @@ int BandAlgebra::firstColumn(int j) const {
   return first;
 }
 
-/// matrix += weight J_row^T J_row, in columns from `from` on.
+/// Adds weight J_row^T J_row to columns from `from` on.
 void BandAlgebra::addRow(BandedMatrix& matrix, int row, double weight, int from) {
   runs_.clear();
   for (const Jacobian::Segment& segment : J_->row_segments(row)) {

@@ -8,8 +8,8 @@
 
 namespace kinegraph {
 
-/// The linear algebra of a SemismoothModel of any size: matrices are bands with a border, in an order of the variables
-/// that makes the band narrow, and rows are those of the Jacobian.
+/// The linear algebra of a SemismoothModel of any size. Matrices are banded with a border, in an order of the variables
+/// that makes the band narrow. Rows are those of the Jacobian.
 class BandAlgebra {
  public:
   using Vector = VectorXd;
@@ -19,19 +19,19 @@ class BandAlgebra {
   int size() const { return n_; }
   Vector zeroVector() const { return VectorXd::Zero(n_); }
 
-  /// Room for the box of a step: entries that are no variables are inside.
+  /// Copies the box of a step; padding entries are inside.
   void takeBox(const VectorXd& low, const VectorXd& high, Vector& to_low, Vector& to_high) const {
     to_low = low, to_high = high;
   }
 
-  // Rows. `j` counts constraints.
+  // Rows of the Jacobian. `j` is the index of a constraint.
   void setJacobian(const Jacobian& J) { J_ = &J; }
   double rowTimes(int j, const Vector& d) const { return J_->rowTimes(constraints_[std::size_t(j)], d); }
   void addRowTo(int j, double factor, Vector& x) const { J_->addRowTo(constraints_[std::size_t(j)], factor, x); }
-  double largestRise(int j, const Vector& low, const Vector& high) const;  ///< of J_j d for d in the box
-  int firstColumn(int j) const;                                            ///< of the factor that a row changes
+  double largestRise(int j, const Vector& low, const Vector& high) const;  ///< largest J_j d for d in the box
+  int firstColumn(int j) const;  ///< first column of the factor that a row changes
 
-  // The Hessian H: of costs that are linear, which is kept, and what is added to a copy.
+  // The Hessian H. That of linear costs is kept; other terms are added to a copy.
   void setLinearCosts(const std::vector<int>& rows);
   void addLinearCostGradient(const std::vector<int>& rows, const VectorXd& phi, Vector& g) const;
   void useLinearCosts() { H_ = &H_linear_; }
@@ -46,27 +46,27 @@ class BandAlgebra {
   double diagonal(int i) const { return H_->at(place_[i], place_[i]); }
   void addHessianProduct(const Vector& d, Vector& sum);
 
-  /// A symmetric matrix among consecutive variables, which H has in addition until blocks are dropped. `addTo(M)` adds
-  /// its lower triangle to a matrix; `room` has its size and stays meanwhile.
+  /// Adds a symmetric block of consecutive variables to H, until dropBlocks. `addTo(M)` adds its lower triangle to a
+  /// matrix; `storage` has the size of the block and must outlive it.
   template <class AddTo>
-  void addBlock(int column, MatrixXd& room, const AddTo& addTo) {
-    room.setZero();
-    addTo(room);
-    blocks_.push_back({column, &room});
+  void addBlock(int column, MatrixXd& storage, const AddTo& addTo) {
+    storage.setZero();
+    addTo(storage);
+    blocks_.push_back({column, &storage});
   }
   void dropBlocks() { blocks_.clear(); }
 
-  /// Makes K = H + damping I + sum_active mu J_j^T J_j, with the rows of fixed variables replaced by the identity, and
-  /// factorizes it. Just columns from `first` on have changed since the last time. False if it is not positive
+  /// Computes K = H + damping I + sum_active mu J_j^T J_j, with the rows of fixed variables replaced by the identity,
+  /// and factorizes it. Only columns from `first` on have changed since the last call. False if K is not positive
   /// definite.
   bool factorize(double damping, double mu, const std::vector<int>& active, const std::vector<char>& fixed, int first);
   void solve(Vector& x);  ///< x <- K^-1 x
 
-  /// What the factorization left of the diagonal entry of a variable: near zero where K is nearly singular.
+  /// Returns the pivot of a variable: close to zero if K is nearly singular.
   double pivot(int i) const { return K_.at(place_[std::size_t(i)], place_[std::size_t(i)]); }
 
  private:
-  /// Part of a row of J whose columns follow one another in the matrices.
+  /// Part of a row of J with consecutive columns in the matrices.
   struct Run {
     const double* values;
     int place, width;
@@ -81,7 +81,7 @@ class BandAlgebra {
   int n_;
   const Jacobian* J_ = nullptr;
   const std::vector<int>& constraints_;
-  std::vector<int> place_;  ///< of each variable in H and K
+  std::vector<int> place_;  ///< index of each variable in H and K
   bool reordered_ = false;
   std::vector<Run> runs_;
   std::vector<Block> blocks_;

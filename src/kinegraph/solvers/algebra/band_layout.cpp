@@ -7,7 +7,7 @@ namespace kinegraph {
 
 namespace {
 
-/// Has the row the same columns as the one before?
+/// Whether the row has the same columns as the one before.
 bool repeatsColumns(const Jacobian& pattern, int row) {
   if (row == 0) return false;
   const auto segments = pattern.row_segments(row), before = pattern.row_segments(row - 1);

@@ -7,16 +7,16 @@
 
 namespace kinegraph {
 
-/// Where each variable goes in a matrix J^T J, and how many are at its end: those that rows connect to others much
-/// farther on than is usual (dofs that many slices of a path share). The matrix is then a band with a border, and its
-/// factor has no other entries.
+/// The order of variables in a matrix J^T J: a band followed by a border. The border holds variables that residuals
+/// connect to unusually distant ones, such as dofs that many slices of a path share. The factor of the matrix has the
+/// same pattern.
 struct BandLayout {
-  std::vector<int> place;  ///< of each variable
-  int shared = 0;          ///< at the end
+  std::vector<int> place;  ///< index of each variable in the matrix
+  int shared = 0;          ///< number of variables in the border
 };
 BandLayout bandLayout(int variables, const Jacobian& pattern);
 
-/// A matrix of that layout, with room for the products of entries of the same row.
+/// Creates a matrix of that layout, with entries for all products within a residual.
 BandedMatrix bandedMatrix(const BandLayout& layout, const Jacobian& pattern);
 
 }  // namespace kinegraph

@@ -6,8 +6,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kRounding = 1e-12;    ///< a change of a gradient below this part of the gradient is none
-constexpr double kLeastCosine = 1e-8;  ///< of step and error, for an update that can be trusted
+constexpr double kNoChange = 1e-12;    ///< relative change of a gradient that counts as none
+constexpr double kLeastCosine = 1e-8;  ///< of step and error, for a reliable update
 
 }  // namespace
 
@@ -28,7 +28,7 @@ void ConstraintCurvature::update(const VectorXd& s, const Jacobian& before, cons
     MatrixXd& B = B_[j];
     if (B.size() > 0) r_.noalias() -= B * s;
     const double rs = r_.dot(s);
-    if (!r_.allFinite() || r_.norm() <= kRounding * size || std::abs(rs) <= kLeastCosine * r_.norm() * length) continue;
+    if (!r_.allFinite() || r_.norm() <= kNoChange * size || std::abs(rs) <= kLeastCosine * r_.norm() * length) continue;
     if (B.size() == 0) B.setZero(s.size(), s.size());
     B.noalias() += r_ * r_.transpose() / rs;
   }
@@ -40,7 +40,7 @@ void ConstraintCurvature::addTo(MatrixXd& H, const VectorXd& multipliers) const 
   }
 }
 
-MatrixXd ConstraintCurvature::seen(const VectorXd& multipliers) const {
+MatrixXd ConstraintCurvature::observed(const VectorXd& multipliers) const {
   MatrixXd rows(0, r_.size());
   for (std::size_t j = 0; j < B_.size(); ++j) {
     if (B_[j].size() == 0 || multipliers[Eigen::Index(j)] == 0.) continue;

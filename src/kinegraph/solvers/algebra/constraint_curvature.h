@@ -6,32 +6,32 @@
 
 namespace kinegraph {
 
-/// Estimates of the second derivatives of constraints, one matrix each, from how their gradients change. They are
-/// symmetric and may be indefinite, as the truth; those of linear rows stay zero, and those of quadratic rows are exact
-/// after n independent steps, whatever the multipliers are.
+/// Estimates the second derivatives of constraints from changes of their gradients (SR1), one matrix per constraint.
+/// The estimates are symmetric and may be indefinite. They stay zero for linear constraints and are exact for quadratic
+/// ones after n independent steps, for any multipliers.
 /// Source: Nocedal & Wright, Numerical Optimization, 2nd ed., ch. 6.2 (SR1).
 class ConstraintCurvature {
  public:
-  static constexpr double kMostEntries = 4e6;  ///< of all matrices; a larger problem is none for this
+  static constexpr double kMaxEntries = 4e6;  ///< limit on the entries of all matrices
 
-  static bool canHold(std::size_t rows, int n) { return double(rows) * n * n <= kMostEntries; }
+  static bool canHold(std::size_t rows, int n) { return double(rows) * n * n <= kMaxEntries; }
 
-  /// Forgets everything. `rows` are those of the Jacobian.
+  /// Resets all estimates. `rows` are indices of the Jacobian.
   void reset(const std::vector<int>& rows, int n);
 
-  /// The Jacobian was `before`, and is `after` after the step `s`.
+  /// Updates the estimates from the Jacobians before and after the step `s`.
   void update(const VectorXd& s, const Jacobian& before, const Jacobian& after);
 
   /// H += sum_j multipliers_j B_j
   void addTo(MatrixXd& H, const VectorXd& multipliers) const;
 
-  /// Rows that are orthogonal to the directions along which curved constraints with a multiplier were never seen; none
-  /// if all of them look linear.
-  MatrixXd seen(const VectorXd& multipliers) const;
+  /// Returns rows that span the directions in which the curvature of constraints with multipliers was observed; none if
+  /// no curvature was observed.
+  MatrixXd observed(const VectorXd& multipliers) const;
 
  private:
   std::vector<int> rows_;
-  std::vector<MatrixXd> B_;  ///< empty where nothing but zero was seen
+  std::vector<MatrixXd> B_;  ///< empty for constraints without observed curvature
   VectorXd r_;
 };
 

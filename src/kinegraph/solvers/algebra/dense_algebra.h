@@ -8,9 +8,8 @@
 
 namespace kinegraph {
 
-/// The linear algebra of a SemismoothModel of at most N variables, see BandAlgebra: vectors and matrices have the size
-/// N, which the compiler knows. Entries that are no variables are zero in vectors and rows; H and K have those of the
-/// identity there.
+/// The linear algebra of a SemismoothModel of at most N variables (see BandAlgebra): vectors and matrices have the
+/// fixed size N. Padding entries are zero in vectors and rows, and those of the identity in H and K.
 template <int N>
 class DenseAlgebra {
  public:
@@ -119,7 +118,7 @@ class DenseAlgebra {
       K_(i, i) = 1.;
     }
 #pragma GCC unroll 16
-    for (int j = 0; j < N; ++j) {  // L D L^T; columns keep L D below the diagonal
+    for (int j = 0; j < N; ++j) {  // L D L^T; columns hold L D below the diagonal
       if (!(K_(j, j) > 0.) || !std::isfinite(K_(j, j))) return false;
       inverse_[j] = 1. / K_(j, j);
 #pragma GCC unroll 16
@@ -183,7 +182,7 @@ class DenseAlgebra {
   const Jacobian* J_ = nullptr;
   const std::vector<int>& constraints_;
   Eigen::Matrix<double, N, Eigen::Dynamic> rows_, cost_rows_;  ///< of J: constraints, linear costs
-  Matrix H_linear_, H_own_, H_curved_, K_;                     ///< with both triangles, but K
+  Matrix H_linear_, H_own_, H_curved_, K_;                     ///< both triangles, except for K
   Matrix *H_ = &H_linear_, *before_blocks_ = &H_linear_;
   Vector inverse_;  ///< of D
 };

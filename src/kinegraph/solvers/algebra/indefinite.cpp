@@ -10,9 +10,9 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kLeastRelative = 1e-8;  ///< curvature that counts as some, as a part of the largest entry
-constexpr double kRowWeight = 10.;       ///< curvature across rows, in units of the largest entry of W, and more
-constexpr double kAdmitted = 1e-9;       ///< of a^T d, for rows of length 1
+constexpr double kLeastRelative = 1e-8;  ///< smallest relevant curvature, in units of the largest entry
+constexpr double kRowWeight = 10.;       ///< curvature across constraints, in units of the largest entry of W
+constexpr double kAdmitted = 1e-9;       ///< largest a^T d of a feasible direction, for rows of length 1
 
 bool isConvex(const MatrixXd& W, double least) {
   MatrixXd shifted = W;
@@ -20,7 +20,7 @@ bool isConvex(const MatrixXd& W, double least) {
   return Eigen::LLT<MatrixXd>(shifted).info() == Eigen::Success;
 }
 
-std::vector<Eigen::Index> rowsInTheWay(const MatrixXd& rows, const VectorXd& d) {
+std::vector<Eigen::Index> blockingRows(const MatrixXd& rows, const VectorXd& d) {
   std::vector<Eigen::Index> found;
   for (Eigen::Index j = 0; j < rows.rows(); ++j) {
     if (rows.row(j).dot(d) > kAdmitted) found.push_back(j);
@@ -36,12 +36,12 @@ QuadraticFunction convexified(const MatrixXd& W, const VectorXd& g, const Matrix
   QuadraticFunction out{W, g};
   if (isConvex(W, some)) return out;
   const MatrixXd Z = nullSpace(A);
-  MatrixXd left = out.H;  // the curvature across the rows that remains at the least value along them
+  MatrixXd left = out.H;  // curvature across the constraints after minimization along them
   if (Z.cols() > 0) {
     const Eigen::SelfAdjointEigenSolver<MatrixXd> principal(Z.transpose() * W * Z);
     VectorXd curvatures = principal.eigenvalues();
     const MatrixXd along = Z * principal.eigenvectors();
-    if (!(curvatures[0] > some)) {  // some negative curvature is not held by rows
+    if (!(curvatures[0] > some)) {  // negative curvature along the constraints
       curvatures = curvatures.cwiseAbs().cwiseMax(std::max(some, least));
       out.H += along * (curvatures - principal.eigenvalues()).asDiagonal() * along.transpose();
     }
@@ -71,21 +71,21 @@ MatrixXd nullSpace(const MatrixXd& rows) {
 }
 
 std::optional<VectorXd> negativeCurvature(const MatrixXd& W, Restriction rows, double least) {
-  for (Eigen::Index pass = 0; pass <= rows.touched.rows(); ++pass) {
-    const MatrixXd Z = nullSpace(rows.held);
+  for (Eigen::Index pass = 0; pass <= rows.tight.rows(); ++pass) {
+    const MatrixXd Z = nullSpace(rows.fixed);
     if (Z.cols() == 0) return std::nullopt;
     const Eigen::SelfAdjointEigenSolver<MatrixXd> principal(Z.transpose() * W * Z);
     std::vector<Eigen::Index> fewest;
     for (Eigen::Index k = 0; k < Z.cols() && principal.eigenvalues()[k] < -least; ++k) {
       for (const double sign : {1., -1.}) {
         const VectorXd d = (sign * Z * principal.eigenvectors().col(k)).normalized();
-        std::vector<Eigen::Index> in_the_way = rowsInTheWay(rows.touched, d);
-        if (in_the_way.empty()) return d;
-        if (fewest.empty() || in_the_way.size() < fewest.size()) fewest = std::move(in_the_way);
+        std::vector<Eigen::Index> blocking = blockingRows(rows.tight, d);
+        if (blocking.empty()) return d;
+        if (fewest.empty() || blocking.size() < fewest.size()) fewest = std::move(blocking);
       }
     }
     if (fewest.empty()) return std::nullopt;
-    for (const Eigen::Index j : fewest) appendRow(rows.held, rows.touched.row(j));
+    for (const Eigen::Index j : fewest) appendRow(rows.fixed, rows.tight.row(j));
   }
   return std::nullopt;
 }

@@ -12,27 +12,27 @@ struct QuadraticFunction {
   VectorXd g;
 };
 
-/// A strictly convex function in place of 1/2 d^T W d + g^T d. As long as W is convex where A d + b = 0, it is the same
-/// there, up to a constant, so that least values with these rows active are the same, and so are their multipliers: it
-/// is W itself, or W with a multiple of the squared distance from where A d + b = 0. Otherwise negative curvatures along
-/// the rows have their sign changed, so that steps lead away from saddles, and none of those is less than `least`.
+/// Returns a strictly convex replacement of 1/2 d^T W d + g^T d. If W is convex on A d + b = 0, the replacement is
+/// equal there up to a constant, so that minima with these active constraints and their multipliers stay the same: it
+/// is W itself, or W plus a multiple of the squared distance from A d + b = 0. Otherwise negative curvatures along the
+/// constraints change their sign, so that steps lead away from saddles, and each of them is at least `least`.
 /// Sources: Nocedal & Wright, Numerical Optimization, 2nd ed., ch. 3.4 and 18.4; Dauphin et al., Identifying and
 /// attacking the saddle point problem, 2014.
 QuadraticFunction convexified(const MatrixXd& W, const VectorXd& g, const MatrixXd& A, const VectorXd& b, double least);
 
-/// Rows that restrict where one can go: a^T d = 0 for those of `held`, a^T d <= 0 for those of `touched`.
+/// Constraints on directions d: a^T d = 0 for the rows of `fixed`, a^T d <= 0 for those of `tight`.
 struct Restriction {
-  MatrixXd held, touched;
+  MatrixXd fixed, tight;
 };
 
 void appendRow(MatrixXd& rows, const Eigen::RowVectorXd& row);
 
-/// An orthonormal basis of the vectors that all rows are orthogonal to, in columns.
+/// Returns an orthonormal basis of the null space of the rows, in columns.
 MatrixXd nullSpace(const MatrixXd& rows);
 
-/// A direction of length 1 that the rows admit, with d^T W d < -`least`; none if there is none among the directions of
-/// principal curvature, with touched rows held as far as they are in the way. (Whether any direction exists at all is an
-/// NP-hard question where rows are touched.)
+/// Returns a feasible direction of length 1 with d^T W d < -`least`, or none. The function searches the principal
+/// directions and fixes tight constraints that block them. (Whether any such direction exists is NP-hard for tight
+/// constraints.)
 std::optional<VectorXd> negativeCurvature(const MatrixXd& W, Restriction rows, double least);
 
 }  // namespace kinegraph

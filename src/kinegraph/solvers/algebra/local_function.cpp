@@ -36,7 +36,7 @@ LocalFunction<Algebra>::LocalFunction(const Nlp& nlp, const Jacobian& pattern, c
 template <class Algebra>
 void LocalFunction<Algebra>::setJacobian(const Jacobian& J) {
   algebra_.setJacobian(J);
-  leaveOutCurvature();
+  omitCurvature();
   is_new_ = true;
   inequalities_.clear();
   for (int j = int(equalities_.size()); j < int(constraints_.size()); ++j) {
@@ -84,7 +84,7 @@ void LocalFunction<Algebra>::addCurvature(Nlp& nlp, const VectorXd& multipliers)
 }
 
 template <class Algebra>
-void LocalFunction<Algebra>::leaveOutCurvature() {
+void LocalFunction<Algebra>::omitCurvature() {
   is_curved_ = false;
   algebra_.dropBlocks();
 }
@@ -93,7 +93,7 @@ template <class Algebra>
 void LocalFunction<Algebra>::setNoCosts(double weight) {
   is_new_ = true;
   g_.setZero();
-  leaveOutCurvature();
+  omitCurvature();
   algebra_.setMultipleOfIdentity(weight);
 }
 

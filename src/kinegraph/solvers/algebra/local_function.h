@@ -7,9 +7,8 @@
 
 namespace kinegraph {
 
-/// What a LocalModel consists of, taken from a problem around a point: costs, constraints, and their curvature. Vectors
-/// and matrices are those of an `Algebra`: BandAlgebra or DenseAlgebra. It is defined in local_function.cpp, for these
-/// two; SemismoothModel minimizes it.
+/// The terms of a LocalModel at a point: costs, constraints, and their curvature, with the vectors and matrices of an
+/// `Algebra`: BandAlgebra or DenseAlgebra. local_function.cpp instantiates it for both; SemismoothModel minimizes it.
 template <class Algebra>
 class LocalFunction : public LocalModel {
  public:
@@ -25,40 +24,40 @@ class LocalFunction : public LocalModel {
  protected:
   using Vector = typename Algebra::Vector;
 
-  static constexpr int kSmall = 16;  ///< problems up to this size are taken as dense
+  static constexpr int kSmall = 16;  ///< problems up to this size are dense
 
   int size() const { return algebra_.size(); }
-  void leaveOutCurvature();
+  void omitCurvature();
   double multiplier(int j, double value, const Problem& problem) const {
     const double t = problem.lambda[j] + problem.mu * value;
     return is_equality_[std::size_t(j)] ? t : std::max(0., t);
   }
 
-  const int n_;                         ///< variables
-  const std::vector<int> constraints_;  ///< rows
+  const int n_;                         ///< number of variables
+  const std::vector<int> constraints_;  ///< residuals
   const bool has_f_;
-  bool knows_f_ = false;  ///< does the problem tell the Hessian of its f terms? It may be indefinite.
+  bool knows_f_ = false;  ///< whether the problem knows the Hessian of its f terms, which may be indefinite
   Algebra algebra_;
   std::vector<char> is_equality_;
-  std::vector<int> equalities_, inequalities_;  ///< constraints; of the latter those that depend on x here
+  std::vector<int> equalities_, inequalities_;  ///< constraints; inequalities only if they depend on x here
   Vector g_;
-  bool is_curved_ = false;  ///< does H have the curvature of constraints?
-  bool is_new_ = true;      ///< something has changed since it was minimized
+  bool is_curved_ = false;  ///< whether H has the curvature of constraints
+  bool is_new_ = true;      ///< whether the model has changed since its minimization
 
  private:
-  /// Rows whose curvature the problem tells.
+  /// Residuals with known curvature.
   struct Curved {
-    int index;       ///< among Nlp::curvedRows
-    int constraint;  ///< that of the first row
+    int index;       ///< index in Nlp::curvedRows
+    int constraint;  ///< constraint of the first residual
     int rows, column;
-    MatrixXd H;  ///< room for the lower triangle, among the variables from `column` on
+    MatrixXd H;  ///< lower triangle, for the variables from `column` on
   };
 
   static bool hasRowsOfTypeF(const Nlp& nlp) {
     return std::find(nlp.types().begin(), nlp.types().end(), ObjectiveType::f) != nlp.types().end();
   }
 
-  std::vector<int> linear_costs_;  ///< rows whose squares are in H, of which J is the same everywhere
+  std::vector<int> linear_costs_;  ///< residuals in H with a constant Jacobian
   std::vector<int> other_costs_;
   bool knows_linear_costs_ = false;
   std::vector<Curved> curved_;

@@ -8,7 +8,7 @@ namespace kinegraph {
 
 std::unique_ptr<LocalModel> makeLocalModel(const Nlp& nlp, const Jacobian& pattern, const std::vector<int>& costs,
                                            std::vector<int> constraints) {
-  constexpr int kFew = 8;  // the joints of one arm
+  constexpr int kFew = 8;  // covers the joints of one arm
   if (nlp.dimension() <= kFew)
     return std::make_unique<SemismoothModel<DenseAlgebra<kFew>>>(nlp, pattern, costs, std::move(constraints));
   return std::make_unique<SemismoothModel<BandAlgebra>>(nlp, pattern, costs, std::move(constraints));

@@ -7,32 +7,32 @@
 
 namespace kinegraph {
 
-/// The augmented Lagrangian around a point, with linearized residuals, as a function of a step d in a box:
+/// A local model of the augmented Lagrangian, with linearized residuals, as a function of a step d in a box:
 ///
 ///     m(d) = g^T d + 1/2 d^T (H + damping I) d + 1/(2 mu) sum_j t_j(d)^2,     t_j = lambda_j + mu (c_j + J_j d)
 ///
-/// with t_j cut off at zero for inequalities. It is piecewise quadratic, and minimized by a semismooth Newton method,
-/// which goes on from the last step where only multipliers, weights or constraints have changed since. Holds all its
-/// memory; minimizing requests none. It is of use at many points, and for several solutions of a problem.
+/// with t_j clipped at zero for inequalities. A semismooth Newton method minimizes this piecewise quadratic function.
+/// It starts from the last step if only multipliers, weights or constraint values have changed. Minimization does not
+/// allocate. One model serves many points, and several solves of a problem.
 class LocalModel {
  public:
   virtual ~LocalModel() = default;
 
-  /// Takes the rows of J at a point. `J` must stay as it is while this is used.
+  /// Sets the Jacobian at a point. `J` must not change while the model is used.
   virtual void setJacobian(const Jacobian& J) = 0;
 
-  /// Takes g and H = 2 Js^T Js (+ the Hessian of the f terms, or where the problem has none to offer `curvature`, if
-  /// given) from residuals at the same point. False if the Hessian of the f terms would be needed and is missing.
+  /// Sets g and H = 2 Js^T Js from residuals at the same point. H also has the Hessian of the f terms, or `curvature`
+  /// if the problem does not know it. False if that Hessian is needed and missing.
   virtual bool setCosts(Nlp& nlp, const VectorXd& x, const VectorXd& phi, const MatrixXd* curvature = nullptr) = 0;
 
-  /// Adds the second derivatives of the constraints times `multipliers` to H, as far as the problem tells them at the
-  /// point where it stands. They are left out where the model is not convex with them.
+  /// Adds the known second derivatives of the constraints times `multipliers` to H, at the point of the problem. The
+  /// model omits them if it is not convex with them.
   virtual void addCurvature(Nlp& nlp, const VectorXd& multipliers) = 0;
 
-  /// No costs, H = weight I: the model of the violation alone.
+  /// Sets costs of zero and H = weight I: a model of the violation only.
   virtual void setNoCosts(double weight) = 0;
 
-  virtual double largestCurvature() const = 0;  ///< of the costs: largest diagonal entry of H
+  virtual double largestCurvature() const = 0;  ///< largest diagonal entry of H
 
   struct Problem {
     const VectorXd& c;       ///< per constraint
@@ -44,11 +44,11 @@ class LocalModel {
     int max_passes;
   };
 
-  /// About how long the minimizing step is, by the factor of the model before: for points next to each other. Infinite
-  /// where other rows are active now, or bounds are touched.
+  /// Estimates the length of the minimizing step from the factorization of the last model, for close points. Infinite
+  /// if the active set differs or bounds are active.
   virtual double estimateStep(const Problem& problem) = 0;
 
-  /// The minimizing step; its parts can be asked for then. Counts factorizations.
+  /// Computes the minimizing step. The methods below refer to it.
   virtual const VectorXd& minimize(const Problem& problem) = 0;
   virtual double decrease(const Problem& problem) const = 0;  ///< m(0) - m(d), without the damping
   const VectorXd& step() const { return step_; }
@@ -60,8 +60,7 @@ class LocalModel {
   int factorizations_ = 0;
 };
 
-/// `pattern` is that of the problem's Jacobian, `costs` are the rows whose squares are in H, `constraints` those of the
-/// sum.
+/// Creates a model. `pattern` is that of the Jacobian; `costs` are the residuals in H, `constraints` those of the sum.
 std::unique_ptr<LocalModel> makeLocalModel(const Nlp& nlp, const Jacobian& pattern, const std::vector<int>& costs,
                                            std::vector<int> constraints);
 

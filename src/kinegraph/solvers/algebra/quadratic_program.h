@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kinegraph/math/pose.h"
+#include "kinegraph/solvers/algebra/dual_active_set.h"
 
 namespace kinegraph {
 
@@ -13,18 +14,15 @@ struct QuadraticProgram {
   int equalities = 0;
 };
 
-enum class QuadraticStatus { solved, infeasible, notConvex, stalled };
-
 struct QuadraticSolution {
   VectorXd x;
   VectorXd multipliers;  ///< of the rows of A: H x + g + A^T multipliers = 0
   QuadraticStatus status = QuadraticStatus::solved;
 };
 
-/// Solves a small dense convex quadratic program exactly, by the dual active-set method: it starts at the minimum
-/// without constraints and takes in violated ones, one by one, while the multipliers keep their sign. Of rows that
-/// depend on others it takes those that it needs. Source: Goldfarb & Idnani, A numerically stable dual method for
-/// solving strictly convex quadratic programs, 1983.
+/// Solves the program with `workspace`, after scaling the rows of A to length 1. Inequalities without variables (rows
+/// of zeros) are ignored.
+QuadraticSolution solve(const QuadraticProgram& program, DualActiveSet& workspace);
 QuadraticSolution solve(const QuadraticProgram& program);
 
 }  // namespace kinegraph

@@ -4,24 +4,24 @@
 
 namespace kinegraph {
 
-/// An estimate of a Hessian from changes of the gradient: damped BFGS, which stays positive definite.
+/// Estimates a Hessian from changes of the gradient by damped BFGS, which keeps it positive definite.
 /// Source: Nocedal & Wright, Numerical Optimization, 2nd ed., procedure 18.2.
 class QuasiNewton {
  public:
   void reset(int n) { reset(VectorXd::Ones(n)); }
 
-  /// In these units, the first estimate is a multiple of the identity.
+  /// Resets the estimate; in these units, the first one is a multiple of the identity.
   void reset(const VectorXd& unit) {
     unit_ = unit;
     B_.setZero(unit.size(), unit.size());
     empty_ = true;
   }
 
-  /// The gradient changed by `y` over the step `s`.
+  /// Updates the estimate: the gradient changed by `y` over the step `s`.
   void update(const VectorXd& s, const VectorXd& y);
 
   const MatrixXd& matrix() const { return B_; }
-  bool empty() const { return empty_; }  ///< nothing is known yet; the matrix is zero
+  bool empty() const { return empty_; }  ///< whether there was no update; the matrix is zero
 
  private:
   MatrixXd B_;

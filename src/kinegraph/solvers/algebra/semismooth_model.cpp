@@ -29,8 +29,7 @@ void SemismoothModel<Algebra>::linearize(const Vector& d, const Problem& problem
   for (int j : within_reach_) linear[j] = problem.c[j] + algebra_.rowTimes(j, d);
 }
 
-/// An inequality of which the multiplier is zero all over the box does not matter, nor does one that is the same all
-/// over it.
+/// Finds the constraints that matter in the box: inequalities whose multiplier is zero in the whole box do not.
 template <class Algebra>
 void SemismoothModel<Algebra>::findWithinReach(const Problem& problem) {
   within_reach_.assign(equalities_.begin(), equalities_.end());
@@ -56,7 +55,8 @@ double SemismoothModel<Algebra>::value(const Vector& d, const Vector& Hd, const 
   return sum;
 }
 
-/// Rows out of reach have the multiplier zero before and after, zero rows one that stays.
+/// Inequalities out of reach contribute nothing: their multipliers are zero at both ends. Those of zero rows do not
+/// change.
 template <class Algebra>
 double SemismoothModel<Algebra>::decrease(const Problem& problem) const {
   double sum = 0.;
@@ -67,8 +67,8 @@ double SemismoothModel<Algebra>::decrease(const Problem& problem) const {
   return sum / (2. * problem.mu) - g_.dot(d_) - .5 * d_.dot(Hd_);
 }
 
-/// The first column of the factor that the active rows, the fixed variables and the weights change; the size if none
-/// is.
+/// Returns the first column of the factor that changes with the active constraints, fixed variables and weights; the
+/// size if none does.
 template <class Algebra>
 int SemismoothModel<Algebra>::firstChange(const Problem& problem) const {
   if (!factored_ || problem.mu != factored_mu_ || problem.damping != factored_damping_ || fixed_ != factored_fixed_)
@@ -95,17 +95,17 @@ bool SemismoothModel<Algebra>::factorize(const Problem& problem, int first) {
     if (algebra_.factorize(problem.damping + extra, problem.mu, active_list_, fixed_, attempt == 0 ? first : 0))
       return true;
     if (is_curved_) return false;
-    const double magnitude = std::max(1e-6, algebra_.largestEntry());  // of the curvatures, which may be negative
+    const double magnitude = std::max(1e-6, algebra_.largestEntry());  // curvatures may be negative
     extra = extra == 0. ? 1e-3 * magnitude : 4. * extra;
   }
   return false;
 }
 
-/// s = -K^-1 r among the variables that are free. One that sits at a bound and would be pushed out is fixed as well.
+/// Computes s = -K^-1 r for the free variables. Variables at a bound that s would move outside are also fixed.
 template <class Algebra>
 bool SemismoothModel<Algebra>::newtonStep(const Problem& problem) {
   const bool inside = isInside();
-  for (bool pushed_out = true; pushed_out;) {
+  for (bool leaves_box = true; leaves_box;) {
     if (const int first = firstChange(problem); first < size()) {
       factored_ = factorize(problem, first);
       if (!factored_) return false;
@@ -120,17 +120,17 @@ bool SemismoothModel<Algebra>::newtonStep(const Problem& problem) {
     }
     algebra_.solve(s_);
     if (knows_f_ && !factored_as_is_) addNegativeCurvature(problem);
-    pushed_out = false;
+    leaves_box = false;
     for (int i = 0; !inside && i < n_; ++i) {
       if (fixed_[i] || !((d_[i] <= low_[i] && s_[i] < 0.) || (d_[i] >= high_[i] && s_[i] > 0.))) continue;
-      fixed_[i] = any_fixed_ = pushed_out = true;
+      fixed_[i] = any_fixed_ = leaves_box = true;
     }
   }
   return true;
 }
 
-/// Where the least value is at the edge of the box, as curvature is negative: adds the direction in which it is most
-/// so to s, as far as the box is wide. Powers of the inverse of the matrix with more on its diagonal find it.
+/// Adds the direction of most negative curvature to s, as far as the box is wide, because the minimum is then at the
+/// boundary. Inverse iteration with the shifted matrix finds the direction.
 /// Source: More & Sorensen, Computing a trust region step, 1983.
 template <class Algebra>
 void SemismoothModel<Algebra>::addNegativeCurvature(const Problem& problem) {
@@ -155,7 +155,8 @@ void SemismoothModel<Algebra>::addNegativeCurvature(const Problem& problem) {
   s_ += std::min(width, kWidest) * v;
 }
 
-/// J s and H s. Where no variable is fixed, K s = -r tells the latter; for small problems, that is not exact enough.
+/// Computes J s and H s. If no variable is fixed, H s follows from K s = -r, which is not exact enough for small
+/// problems.
 template <class Algebra>
 void SemismoothModel<Algebra>::findChangesAlongStep(const Problem& problem) {
   for (int j : within_reach_) step_linear_[j] = algebra_.rowTimes(j, s_);
@@ -169,9 +170,9 @@ void SemismoothModel<Algebra>::findChangesAlongStep(const Problem& problem) {
   }
 }
 
-/// The part of the step s that leads to the first bound, at most `most`.
+/// Returns the share of the step s up to the first bound, at most `most`.
 template <class Algebra>
-double SemismoothModel<Algebra>::roomAlong(double most) const {
+double SemismoothModel<Algebra>::lengthToBound(double most) const {
   const auto end = d_ + most * s_;
   if ((end - low_).cwiseMin(high_ - end).minCoeff() >= 0.) return most;
   double room = most;
@@ -182,9 +183,8 @@ double SemismoothModel<Algebra>::roomAlong(double most) const {
   return room;
 }
 
-/// The part of the step s, at most `most`, that leads to the least value: where the slope, which is piecewise linear
-/// and grows, is zero. Newton's method finds it in a few steps; halves of the interval make it safe. Exactly 1 if the
-/// step is.
+/// Returns the share of the step s, at most `most`, that minimizes the model: the zero of its slope, which is piecewise
+/// linear and increasing. Newton's method with bisection as safeguard. The result is exactly 1 if that is the minimum.
 template <class Algebra>
 double SemismoothModel<Algebra>::lengthAlong(const Problem& problem, double most) const {
   const double slope = g_.dot(s_) + d_.dot(Hs_) + problem.damping * d_.dot(s_);
@@ -210,7 +210,7 @@ double SemismoothModel<Algebra>::lengthAlong(const Problem& problem, double most
   return alpha;
 }
 
-/// Adds the part alpha of the step s.
+/// Adds alpha s to d.
 template <class Algebra>
 void SemismoothModel<Algebra>::move(double alpha) {
   d_ += alpha * s_;
@@ -219,13 +219,13 @@ void SemismoothModel<Algebra>::move(double alpha) {
   putOnBounds(d_);
 }
 
-/// Is no entry of d at a bound?
+/// Whether no entry of d is at a bound.
 template <class Algebra>
 bool SemismoothModel<Algebra>::isInside() const {
   return (d_ - low_).cwiseMin(high_ - d_).minCoeff() > 0.;
 }
 
-/// Entries that are outside, or next to a bound, go there.
+/// Moves entries of d that are outside or close to a bound onto the bound.
 template <class Algebra>
 void SemismoothModel<Algebra>::putOnBounds(Vector& d) const {
   if ((d - low_).cwiseMin(high_ - d).minCoeff() > 2. * kAtBound) return;
@@ -235,7 +235,7 @@ void SemismoothModel<Algebra>::putOnBounds(Vector& d) const {
   }
 }
 
-/// Adds the whole step s and goes back into the box. False, and nothing done, if the value does not fall enough.
+/// Adds s and projects to the box. False, without a change, if the value does not decrease enough.
 template <class Algebra>
 bool SemismoothModel<Algebra>::moveIntoBox(const Problem& problem, double& moved) {
   trial_ = d_ + s_;
@@ -252,7 +252,7 @@ bool SemismoothModel<Algebra>::moveIntoBox(const Problem& problem, double& moved
   return true;
 }
 
-/// Are the inequalities that matter at d those of the factor?
+/// Whether the active inequalities at d are those of the factor.
 template <class Algebra>
 bool SemismoothModel<Algebra>::keepsActiveSet(const Problem& problem) const {
   for (int j : within_reach_) {
@@ -261,7 +261,7 @@ bool SemismoothModel<Algebra>::keepsActiveSet(const Problem& problem) const {
   return true;
 }
 
-/// From zero in a new model, else from where it ended the last time if that is better.
+/// Starts at zero, or at the last minimum if the model is not new and that is better.
 template <class Algebra>
 void SemismoothModel<Algebra>::begin(const Problem& problem) {
   linear_ = problem.c;
@@ -283,8 +283,8 @@ void SemismoothModel<Algebra>::begin(const Problem& problem) {
   Hd_.setZero();
 }
 
-/// The gradient r at d, which rows are active there, and which variables sit at bounds that hold them. The largest
-/// entry of r among the others.
+/// Computes the gradient r, the active constraints and the fixed variables at d. Returns the largest entry of r for
+/// free variables.
 template <class Algebra>
 double SemismoothModel<Algebra>::findGradient(const Problem& problem) {
   r_ = g_ + problem.damping * d_ + Hd_;
@@ -330,25 +330,25 @@ const VectorXd& SemismoothModel<Algebra>::minimize(const Problem& problem) {
   for (int pass = 0; pass < problem.max_passes; ++pass) {
     const double remaining = findGradient(problem);
     if (pass == 0) reference = std::max(remaining, 1e-30);
-    if (remaining <= 1e-11 * reference && !(knows_f_ && pass == 0)) break;  // it may be a saddle
+    if (remaining <= 1e-11 * reference && !(knows_f_ && pass == 0)) break;  // d may be a saddle
     if (!newtonStep(problem)) {
       if (!is_curved_) break;
-      leaveOutCurvature();
+      omitCurvature();
       Hd_.setZero();
       algebra_.addHessianProduct(d_, Hd_);
       continue;
     }
-    const double room = roomAlong(kLongest);
+    const double to_bound = lengthToBound(kLongest);
     double moved = 0.;
-    if (room < 1. && moveIntoBox(problem, moved)) {
+    if (to_bound < 1. && moveIntoBox(problem, moved)) {
       if (moved < 1e-10) break;
       continue;
     }
     findChangesAlongStep(problem);
-    const double alpha = room >= 1. && isQuadratic() ? 1. : lengthAlong(problem, room);
+    const double alpha = to_bound >= 1. && isQuadratic() ? 1. : lengthAlong(problem, to_bound);
     move(alpha);
     const bool is_solved = alpha == 1. && !any_fixed_ && keepsActiveSet(problem);
-    const bool reaches_bound = alpha == room && room < 1.;  // the next pass goes along it
+    const bool reaches_bound = alpha == to_bound && to_bound < 1.;  // the next pass follows the bound
     if (is_solved || (alpha * s_.template lpNorm<Eigen::Infinity>() < 1e-10 && !reaches_bound)) break;
   }
   for (int j : out_of_reach_) linear_[j] += algebra_.rowTimes(j, d_);

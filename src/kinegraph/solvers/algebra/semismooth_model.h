@@ -6,8 +6,8 @@
 
 namespace kinegraph {
 
-/// A LocalModel whose vectors and matrices are those of an `Algebra`: BandAlgebra or DenseAlgebra. It is defined in
-/// semismooth_model.cpp, for these two.
+/// A LocalModel that a semismooth Newton method minimizes, with the vectors and matrices of an `Algebra`: BandAlgebra
+/// or DenseAlgebra. semismooth_model.cpp instantiates it for both.
 /// Source: Qi & Sun, A nonsmooth version of Newton's method, 1993.
 template <class Algebra>
 class SemismoothModel final : public LocalFunction<Algebra> {
@@ -25,12 +25,12 @@ class SemismoothModel final : public LocalFunction<Algebra> {
   using Vector = typename Algebra::Vector;
   using Flags = std::vector<char>;
 
-  static constexpr double kAtBound = 1e-14;  ///< an entry of the step this near to a bound is put on it
-  static constexpr double kLongest = 4.;     ///< most that a Newton step is lengthened
+  static constexpr double kAtBound = 1e-14;  ///< entries of the step this close to a bound move onto it
+  static constexpr double kLongest = 4.;     ///< largest factor of a Newton step
 
   using Function::algebra_, Function::n_, Function::size, Function::kSmall, Function::multiplier;
   using Function::constraints_, Function::equalities_, Function::inequalities_, Function::is_equality_;
-  using Function::g_, Function::is_curved_, Function::is_new_, Function::knows_f_, Function::leaveOutCurvature;
+  using Function::g_, Function::is_curved_, Function::is_new_, Function::knows_f_, Function::omitCurvature;
   using Function::step_, Function::linear_, Function::factorizations_;
 
   double value(const Vector& d, const Vector& Hd, const VectorXd& linear, const Problem& problem) const;
@@ -44,8 +44,8 @@ class SemismoothModel final : public LocalFunction<Algebra> {
   bool newtonStep(const Problem& problem);
   void addNegativeCurvature(const Problem& problem);
   void findChangesAlongStep(const Problem& problem);
-  double roomAlong(double most) const;
-  /// Is the model the same quadratic function all over the box, and the Newton step exact?
+  double lengthToBound(double most) const;
+  /// Whether the model is one quadratic function in the whole box, and the Newton step exact.
   bool isQuadratic() const { return n_ <= kSmall && factored_as_is_ && within_reach_.size() == equalities_.size(); }
   double lengthAlong(const Problem& problem, double most) const;
   void move(double alpha);
@@ -53,14 +53,14 @@ class SemismoothModel final : public LocalFunction<Algebra> {
   void putOnBounds(Vector& d) const;
   bool keepsActiveSet(const Problem& problem) const;
 
-  std::vector<int> within_reach_;  ///< constraints that can matter in the box
-  std::vector<int> out_of_reach_;  ///< those that cannot, and change with d all the same
+  std::vector<int> within_reach_;  ///< constraints that may matter in the box
+  std::vector<int> out_of_reach_;  ///< constraints that do not, but depend on d
   std::vector<int> active_list_;   ///< workspace
   Flags active_, factored_active_, fixed_, factored_fixed_;
   bool any_fixed_ = false;
   Vector low_, high_, d_, trial_, r_, s_, Hd_, Hs_, trial_Hd_;
   VectorXd trial_linear_, step_linear_;
-  bool factored_ = false, factored_as_is_ = true;  ///< without more on the diagonal than the damping
+  bool factored_ = false, factored_as_is_ = true;  ///< without additions to the diagonal beyond the damping
   double factored_mu_ = 0., factored_damping_ = 0.;
 };
 

@@ -21,7 +21,7 @@ SolverResult BestSoFar::result(int evals) const {
   result.evals = evals;
   result.setSums(nlp_.types(), phi_, tolerance_);
   result.status = SolverStatus::cancelled;
-  result.message = "an evaluation was cancelled; this is the best point before";
+  result.message = "an evaluation was cancelled; x is the best point before";
   return result;
 }
 

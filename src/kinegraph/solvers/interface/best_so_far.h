@@ -4,17 +4,17 @@
 
 namespace kinegraph {
 
-/// Remembers the best point that a solver has seen, for where it ends without a result: one that meets the constraints
-/// before one that does not, then the least cost, or the least violation.
+/// Keeps the best point of a solver, as the result of a solve that an exception ends: feasible points before infeasible
+/// ones, then the least cost, or the least violation.
 class BestSoFar {
  public:
   /// `tolerance` of the constraints.
   BestSoFar(const Nlp& nlp, double tolerance) : nlp_(nlp), tolerance_(tolerance) {}
 
-  void see(const VectorXd& x, const VectorXd& phi);  ///< without effect where phi is not finite
+  void see(const VectorXd& x, const VectorXd& phi);  ///< no effect unless phi is finite
   bool isKnown() const { return x_.size() > 0; }
 
-  /// With status cancelled, and no multipliers.
+  /// Returns a result with status cancelled and without multipliers.
   SolverResult result(int evals) const;
 
  private:

@@ -29,39 +29,39 @@ enum class OptMethod : int {
   ES = 20,
 };
 
-/// A row of the table of methods.
+/// An entry of the table of methods.
 struct OptMethodName {
   OptMethod method;
   const char* name;
-  const char* doc;  ///< a line
+  const char* doc;  ///< one line
 };
 
-/// All methods, and what is to be known of them.
+/// All methods with their names and descriptions.
 inline constexpr OptMethodName kOptMethods[] = {
-    {OptMethod::none, "none", "Of older scripts; an error."},
+    {OptMethod::none, "none", "Not available; an error."},
     {OptMethod::gradientDescent, "gradientDescent", "Steps along the gradient. No constraints."},
     {OptMethod::rprop, "rprop", "Steps by the signs of the gradient. No constraints."},
-    {OptMethod::LBFGS, "LBFGS", "Quasi-Newton with little memory. No constraints."},
+    {OptMethod::LBFGS, "LBFGS", "Limited-memory quasi-Newton (BFGS). No constraints."},
     {OptMethod::newton, "newton", "Damped Gauss-Newton steps. No constraints."},
     {OptMethod::augmentedLag, "augmentedLag", "The default: the augmented Lagrangian. Constraints."},
-    {OptMethod::logBarrier, "logBarrier", "A log barrier, from a start inside. Constraints."},
+    {OptMethod::logBarrier, "logBarrier", "A log barrier, from a strictly feasible start. Constraints."},
     {OptMethod::slackGN_logBarrier, "slackGN_logBarrier", "slackGN, then logBarrier. Constraints."},
-    {OptMethod::squaredPenalty, "squaredPenalty", "Squared penalties that grow. Constraints."},
-    {OptMethod::singleSquaredPenalty, "singleSquaredPenalty", "One squared penalty. Constraints."},
-    {OptMethod::slackGN, "slackGN", "Gauss-Newton steps to the constraints; no costs."},
+    {OptMethod::squaredPenalty, "squaredPenalty", "Squared penalties of growing weight. Constraints."},
+    {OptMethod::singleSquaredPenalty, "singleSquaredPenalty", "Squared penalties of one weight. Constraints."},
+    {OptMethod::slackGN, "slackGN", "Gauss-Newton on the violation of the constraints; ignores costs."},
     {OptMethod::NLopt, "NLopt", "NLopt, with the extra kinegraph[nlopt]. Constraints."},
     {OptMethod::Ipopt, "Ipopt", "IPOPT, with the extra kinegraph[ipopt]. Constraints."},
     {OptMethod::slackGN_Ipopt, "slackGN_Ipopt", "slackGN, then Ipopt. Constraints."},
-    {OptMethod::Ceres, "Ceres", "Of older scripts; an error."},
-    {OptMethod::LSBO, "LSBO", "Of older scripts; an error."},
-    {OptMethod::greedy, "greedy", "Of older scripts; an error."},
-    {OptMethod::NelderMead, "NelderMead", "A simplex, without derivatives. No constraints."},
-    {OptMethod::CMA, "CMA", "Evolution of a covariance, without derivatives. No constraints."},
-    {OptMethod::LS_CMA, "LS_CMA", "Of older scripts; an error."},
-    {OptMethod::ES, "ES", "Of older scripts; an error."},
+    {OptMethod::Ceres, "Ceres", "Not available; an error."},
+    {OptMethod::LSBO, "LSBO", "Not available; an error."},
+    {OptMethod::greedy, "greedy", "Not available; an error."},
+    {OptMethod::NelderMead, "NelderMead", "The simplex method, without derivatives. No constraints."},
+    {OptMethod::CMA, "CMA", "Covariance matrix adaptation, without derivatives. No constraints."},
+    {OptMethod::LS_CMA, "LS_CMA", "Not available; an error."},
+    {OptMethod::ES, "ES", "Not available; an error."},
 };
 
-/// Its number where it is none of the table.
+/// Returns the name, or the number of a method that is not in the table.
 std::string optMethodName(OptMethod method);
 
 }  // namespace kinegraph

@@ -5,8 +5,8 @@
 
 namespace kinegraph {
 
-/// Settings of a solver; solverOptionTable() says what each one means. Names and roles are those that scripts know; where
-/// a default differs from older packages, it is because the method converges where theirs stopped.
+/// Options of a solver; solverOptionTable() documents each field. Names and meanings are those of the package robotic.
+/// Some defaults differ, because they let the methods converge.
 struct SolverOptions {
   int verbose = 1;
   double stopTolerance = 1e-4;
@@ -31,14 +31,14 @@ struct SolverOptions {
   double finiteDifference = -1.;
   OptMethod method = OptMethod::augmentedLag;
 
-  /// The violation that counts as none: stopGTolerance, or stopTolerance, at most 1e-4, where that is negative.
+  /// Returns the largest accepted violation: stopGTolerance or, if that is negative, stopTolerance, at most 1e-4.
   double constraintTolerance() const;
 
-  /// Throws ValueError naming the first field that makes no sense.
+  /// Throws ValueError with the first invalid field.
   void validate() const;
 };
 
-/// Name, unit, meaning and range of each field, for messages, bindings and documents.
+/// Returns name, unit, meaning and range of each field, for messages, bindings and documents.
 const OptionTable<SolverOptions, OptMethod>& solverOptionTable();
 
 }  // namespace kinegraph

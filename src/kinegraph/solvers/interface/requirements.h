@@ -4,10 +4,10 @@
 
 namespace kinegraph {
 
-/// Throws ValueError if `x0` has another size than the problem, or numbers that are not finite.
+/// Throws ValueError unless `x0` has the size of the problem and finite entries.
 void requireStart(const Nlp& nlp, const VectorXd& x0);
 
-/// Throws ValueError if there are constraints, naming the method and the first of them.
+/// Throws ValueError with the method and the first constraint if the problem has constraints.
 void requireNoConstraints(const Nlp& nlp, const char* method);
 
 }  // namespace kinegraph

@@ -34,13 +34,13 @@ void SolverResult::setSums(const std::vector<ObjectiveType>& types, const Vector
 }
 
 std::optional<bool> SolverResult::free(const CancellationToken& cancellation) const {
-  if (!motion) return std::nullopt;
-  return motion->get(cancellation).free;
+  if (!validity) return std::nullopt;
+  return validity->get(cancellation).valid;
 }
 
 std::string SolverResult::summary(const CancellationToken& cancellation) const {
-  if (!motion || !feasible || motion->get(cancellation).free) return message;
-  return cat(message, "; the motion is not free: ", motion->get().message);
+  if (!validity || !feasible || validity->get(cancellation).valid) return message;
+  return cat(message, "; the solution is invalid between slices: ", validity->get().message);
 }
 
 std::string SolverResult::str() const {

@@ -3,17 +3,17 @@
 
 #include "kinegraph/solvers/methods/augmented_lagrangian_method.h"
 
-// The augmented Lagrangian as a function: its value, multipliers, errors and the model of it around a point.
+// The augmented Lagrangian as a function: value, multipliers, errors and local model.
 
 namespace kinegraph {
 
-/// lambda + mu c, cut off at zero for inequalities.
+/// Computes lambda + mu c, clipped at zero for inequalities.
 void AugmentedLagrangian::findMultipliers(const VectorXd& c, VectorXd& t) const {
   t = lambda_ + penalty_.value() * c;
   t.tail(t.size() - equalities_) = t.tail(t.size() - equalities_).cwiseMax(0.);
 }
 
-/// Sum of the squares of lambda + mu c, cut off at zero for inequalities.
+/// Returns the sum of the squares of lambda + mu c, clipped at zero for inequalities.
 double AugmentedLagrangian::squaredMultipliers(const VectorXd& c) const {
   const Eigen::Index inequalities = c.size() - equalities_;
   const double mu = penalty_.value();
@@ -21,12 +21,12 @@ double AugmentedLagrangian::squaredMultipliers(const VectorXd& c) const {
          (lambda_.tail(inequalities) + mu * c.tail(inequalities)).cwiseMax(0.).squaredNorm();
 }
 
-/// Without the constant -lambda^2 / (2 mu).
+/// Returns the augmented Lagrangian without the constant -lambda^2 / (2 mu).
 double AugmentedLagrangian::lagrangian(const EvaluatedPoint& point) const {
   return point.finite ? point.cost + squaredMultipliers(point.c) / (2. * penalty_.value()) : kInfinity;
 }
 
-/// The violation that the model expects after its step.
+/// Returns the violation that the model predicts after its step.
 double AugmentedLagrangian::linearizedViolation() const {
   const VectorXd& c = model_.linearized();
   const Eigen::Index inequalities = c.size() - equalities_;
@@ -35,12 +35,12 @@ double AugmentedLagrangian::linearizedViolation() const {
   return worst;
 }
 
-/// Sum of squares of violations.
+/// Returns the sum of squared violations.
 double AugmentedLagrangian::squaredViolation(const VectorXd& c) const {
   return c.head(equalities_).squaredNorm() + c.tail(c.size() - equalities_).cwiseMax(0.).squaredNorm();
 }
 
-/// Largest entry of the gradient of the Lagrangian, as far as the bounds leave room to go down.
+/// Returns the largest entry of the projected gradient of the Lagrangian.
 double AugmentedLagrangian::gradientNorm(const EvaluatedPoint& point) {
   function_.costGradient(point.phi, point.J, gradient_);
   findMultipliers(point.c, multipliers_);
@@ -48,7 +48,8 @@ double AugmentedLagrangian::gradientNorm(const EvaluatedPoint& point) {
   return ((point.x - gradient_).cwiseMax(lower_).cwiseMin(upper_) - point.x).lpNorm<Eigen::Infinity>();
 }
 
-/// Violation and failure of complementarity: the largest |c| of equalities and |max(c, -lambda / mu)| of inequalities.
+/// Returns the error of feasibility and complementarity: the largest |c| of equalities and |max(c, -lambda / mu)| of
+/// inequalities.
 double AugmentedLagrangian::constraintError() const {
   const Eigen::Index inequalities = here_.c.size() - equalities_;
   double worst = equalities_ > 0 ? here_.c.head(equalities_).lpNorm<Eigen::Infinity>() : 0.;
@@ -60,7 +61,7 @@ double AugmentedLagrangian::constraintError() const {
   return worst;
 }
 
-/// Of the costs at the start; 0 for sums of squares.
+/// Returns the largest entry of the gradient of general costs; 0 for sums of squares.
 double AugmentedLagrangian::steepness() {
   if (!function_.hasGeneralCosts()) return 0.;
   function_.generalGradient(here_.J, VectorXd(), gradient_);
@@ -72,14 +73,14 @@ void AugmentedLagrangian::linearize() {
   learns_curvature_ = !model_.setCosts(nlp_, here_.x, here_.phi, &curvature_.matrix());
 }
 
-/// Of the constraints, where the problem tells it.
+/// Adds the curvature of the constraints to the model, if the problem knows it.
 void AugmentedLagrangian::addCurvature() {
   if (learns_curvature_ || nlp_.curvedRows().empty()) return;
   function_.moveTo(here_);
   model_.addCurvature(nlp_, lambda_);
 }
 
-/// Where the problem does not tell the curvature of its f terms, that of the Lagrangian is learnt from accepted steps.
+/// Estimates the curvature of the Lagrangian from accepted steps if the problem does not know that of its f terms.
 void AugmentedLagrangian::learnCurvature(const EvaluatedPoint& before) {
   if (!learns_curvature_) return;
   findMultipliers(model_.linearized(), next_lambda_);
@@ -89,7 +90,7 @@ void AugmentedLagrangian::learnCurvature(const EvaluatedPoint& before) {
   curvature_.update(here_.x - before.x, gradient_ - old_gradient);
 }
 
-/// What steps may be: within the bounds and the radius.
+/// Sets the box of the step from the bounds and the radius.
 void AugmentedLagrangian::makeBox() {
   low_ = (lower_ - here_.x).cwiseMax(-radius_.value());
   high_ = (upper_ - here_.x).cwiseMin(radius_.value());

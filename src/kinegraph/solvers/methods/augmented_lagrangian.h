@@ -2,13 +2,13 @@
 
 #include <memory>
 
-#include "kinegraph/solvers/interface/evaluation_hook.h"
+#include "kinegraph/solvers/interface/evaluation_callback.h"
 #include "kinegraph/solvers/interface/options.h"
 #include "kinegraph/solvers/interface/result.h"
 
 namespace kinegraph {
 
-/// What a solution of a problem requests memory for, and the next one of the same problem can use again.
+/// The memory and state of a solve, which further solves of the same problem reuse.
 class AugmentedLagrangianMemory {
  public:
   AugmentedLagrangianMemory();
@@ -19,15 +19,15 @@ class AugmentedLagrangianMemory {
 
 /// Minimizes the costs of `nlp` subject to its constraints and bounds, from `x0` (clipped to the bounds).
 ///
-/// An augmented Lagrangian whose inner steps minimize a piecewise quadratic Gauss-Newton model in a box, with Levenberg
-/// damping that is adapted to how well the model predicts. Multipliers are those of the model, updated when an inner
-/// problem is nearly solved. A step that reduces neither cost nor violation ends it with the reason; where no step
-/// reduces the linearized violation, the constraints are locally infeasible, and the least violation is sought. `dual`
-/// (empty, or one multiplier per residual) starts it warm. Sources: Nocedal & Wright, Numerical Optimization, 2nd ed.,
+/// Inner steps of the augmented Lagrangian method minimize a piecewise quadratic Gauss-Newton model in a box. Levenberg
+/// damping adapts to the accuracy of the model. The multipliers are those of the model, updated when an inner problem
+/// is nearly solved. If no step reduces cost or violation, the solve ends with the reason. If no step reduces the
+/// linearized violation, the constraints are locally infeasible, and the method minimizes the violation. `dual` (empty,
+/// or one multiplier per residual) is a warm start. Sources: Nocedal & Wright, Numerical Optimization, 2nd ed.,
 /// ch. 17.4; Qi & Sun, A nonsmooth version of Newton's method, 1993; Nielsen, Damping parameter in Marquardt's method,
-/// 1999. `memory`, where given, is of this problem alone.
+/// 1999. `memory` must belong to this problem.
 SolverResult solveAugmentedLagrangian(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
-                                      const VectorXd& dual = {}, const EvaluationHook& hook = {},
+                                      const VectorXd& dual = {}, const EvaluationCallback& callback = {},
                                       AugmentedLagrangianMemory* memory = nullptr);
 
 }  // namespace kinegraph

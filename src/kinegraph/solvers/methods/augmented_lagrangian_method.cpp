@@ -24,7 +24,7 @@ AugmentedLagrangian::AugmentedLagrangian(Nlp& nlp, Memory& memory, const VectorX
       damping_(options.damping, options.damping),
       radius_(options.stepMax),
       inner_(has_many_variables_),
-      creep_(options) {
+      stagnation_(options) {
   here_.x = start_ = x0.cwiseMax(lower_).cwiseMin(upper_);
   lambda_.setZero();
 }
@@ -43,13 +43,13 @@ void AugmentedLagrangian::search(const VectorXd& dual) {
   evaluate(here_);
   function_.requireFiniteStart(here_);
   function_.remember(here_);
-  // Penalty and damping are in units of how steep the costs are; a warm start goes on with the damping that it had.
+  // Penalty and damping are in units of the steepness of the costs; a warm start continues with its last damping.
   const double cost_weight = Penalty::costWeight(steepness()), first_damping = cost_weight * options_.damping;
   penalty_ = Penalty(options_, cost_weight);
   damping_ = Damping(first_damping,
                      is_warm && memory_.damping > 0. ? std::min(memory_.damping, first_damping) : first_damping);
   if (nlp_.dimension() == 0) {
-    stop(holds(here_.violation) ? SolverStatus::converged : SolverStatus::infeasible, "there is nothing to vary");
+    stop(holds(here_.violation) ? SolverStatus::converged : SolverStatus::infeasible, "the problem has no variables");
   } else if (!solvedInOneStep()) {
     memory_.damping = 0.;
     iterate();
@@ -57,7 +57,7 @@ void AugmentedLagrangian::search(const VectorXd& dual) {
   memory_.penalty = penalty_.value();
 }
 
-/// Goes to the solution of the linearized problem, if that is the solution of the problem.
+/// Moves to the solution of the linearized problem, if that solves the problem.
 bool AugmentedLagrangian::solvedInOneStep() {
   if (options_.stopEvals < 2 || !nlp_.mayBeQuadratic()) return false;
   std::optional<QuadraticStep> step = quadraticStep(function_, here_.x, here_.phi, here_.J);
@@ -78,23 +78,23 @@ bool AugmentedLagrangian::solvedInOneStep() {
   return true;
 }
 
-/// Steps towards the least Lagrangian, in rounds. docs/architecture.md describes it in the same order.
+/// Minimizes the Lagrangian in outer iterations (rounds). docs/architecture.md describes it in the same order.
 void AugmentedLagrangian::iterate() {
   for (int steps = 0; !stopped_ && !reachedLimit(steps); ++steps) {
-    // 1. Model. At a new point the factor of the last model already tells whether a step would be tiny: most solutions
-    //    end here, without the cost of another factor.
+    // 1. Model. At a new point the factorization of the last model already predicts whether a step would be tiny: most
+    //    solves end here, without another factorization.
     const bool is_new_point = model_is_stale_;
     if (is_new_point) linearize();
     Step step = startStep();
     Problem problem = modelProblem();
     if (is_new_point && steps > 0 && needsNoStep(step, problem)) {
-      if (takesUpConstraints(true)) continue;
+      if (activatesConstraints(true)) continue;
       return converge();
     }
     if (is_new_point) addCurvature();
     model_is_stale_ = false;
 
-    // 2. Step: the least value of the model in a box.
+    // 2. Step: minimizes the model in a box.
     findStep(problem, step);
     if (has_many_variables_ && round_just_ended_) {
       raisePenalty(step);
@@ -104,25 +104,28 @@ void AugmentedLagrangian::iterate() {
       std::printf("    step %3d  evals %3d  |d| %.3g  predicted %.3g  violation %.3g  mu %.3g  damping %.3g\n", steps,
                   function_.evals(), step.size, step.predicted, step.error, problem.mu, problem.damping);
 
-    // 3. Convergence. Costs that creep along a kink would do so for hundreds of evaluations; and a tiny step proves
-    //    nothing while it may be the damping that keeps it short.
-    if (!constraints_.empty() && creep_.creeps(function_.evals(), here_.cost, holds(step.error)))
-      return stop(SolverStatus::stalled, cat("the costs hardly fall any more, as along a kink", trouble_));
+    // 3. Convergence. At non-smooth points costs may stagnate for hundreds of evaluations. A tiny step proves nothing
+    // if
+    //    damping keeps it short.
+    if (!constraints_.empty() && stagnation_.stagnates(function_.evals(), here_.cost, holds(step.error)))
+      return stop(SolverStatus::stalled,
+                  cat("the relative decrease of the costs per evaluation is below stopFTolerance", refusal_));
     if (step.is_tiny && triesLessDamping(step)) continue;
     if (step.is_tiny && holds(step.error)) {
       endAt(step);
       continue;
     }
 
-    // 4. Round. With an inner problem that is solved, multipliers and penalty are updated. The step at hand is tried
-    //    all the same if it serves the constraints, as it then often does better than what the new model would say.
-    if (roundIsOver(step) && !goesOnAfterRound(problem, step)) continue;
+    // 4. Outer iteration. If the inner problem is solved, multipliers and penalty are updated. The current step is
+    // still
+    //    tried if it improves the constraints: it is then often better than the step of the new model.
+    if (roundIsOver(step) && !continuesAfterRound(problem, step)) continue;
 
-    // 5. Trial. What the model promised and what came of it decide on the step, and on the damping of the next one.
+    // 5. Trial. The ratio of actual and predicted decrease decides on the step, and on the damping of the next one.
     if (!tryStep(step)) return;
     if (step.ratio > options_.wolfe) {
       accept(step);
-      if (function_.takesUpAtEachStep()) takesUpConstraints(false);
+      if (function_.activatesAtEachStep()) activatesConstraints(false);
     } else {
       refuse(step);
     }
@@ -132,13 +135,13 @@ void AugmentedLagrangian::iterate() {
 bool AugmentedLagrangian::reachedLimit(int steps) {
   const int most_steps = kStepsPerInner * options_.stopInners;
   if (function_.evals() >= options_.stopEvals) {
-    char text[64];  // loops end here at every call, and request no memory
+    char text[64];  // control loops end here at every call, without allocations
     std::snprintf(text, sizeof text, "limit of %d evaluations", options_.stopEvals);
     stop(SolverStatus::limit, text);
   } else if (steps >= most_steps)
     stop(SolverStatus::limit, cat("limit of ", most_steps, " steps, ", kStepsPerInner, " times stopInners"));
   else if (rounds_ >= options_.stopOuters)
-    stop(SolverStatus::limit, cat("limit of ", options_.stopOuters, " rounds"));
+    stop(SolverStatus::limit, cat("limit of ", options_.stopOuters, " outer iterations"));
   return stopped_;
 }
 
@@ -152,24 +155,24 @@ AugmentedLagrangian::Problem AugmentedLagrangian::modelProblem() {
 }
 
 bool AugmentedLagrangian::needsNoStep(const Step& step, const Problem& problem) {
-  return holds(step.error) && damping_.isSmall(step.curvature) && trouble_.empty() &&
+  return holds(step.error) && damping_.isSmall(step.curvature) && refusal_.empty() &&
          model_.estimateStep(problem) <= options_.stopTolerance;
 }
 
 void AugmentedLagrangian::findStep(const Problem& problem, Step& step) {
-  const double tolerance = options_.stopTolerance, scale = std::max(std::abs(here_.cost), kLeastScale);
+  const double tolerance = options_.stopTolerance, scale = std::max(std::abs(here_.cost), kMinScale);
   step.size = model_.minimize(problem).lpNorm<Eigen::Infinity>();
   step.predicted = model_.decrease(problem);
-  step.is_tiny = step.size <= tolerance || step.predicted <= std::max(tolerance * tolerance, kLeastDecrease) * scale;
+  step.is_tiny = step.size <= tolerance || step.predicted <= std::max(tolerance * tolerance, kMinDecrease) * scale;
 }
 
-/// Where even the model's step would leave much of the violation, a round of evaluations under this penalty would only show
-/// that it must grow: the next penalty is taken at once, if the model does better with it; not beyond what is much, which
-/// only rounds in vain tell to be needed. Source: Curtis, Jiang & Robinson, An adaptive augmented Lagrangian method for
-/// large-scale constrained optimization, 2015 (steering).
+/// Raises the penalty at once if even the step of the model leaves much of the violation and the next penalty leaves
+/// less. This saves an outer iteration. It does not raise large penalties further; only failed outer iterations do.
+/// Source: Curtis, Jiang & Robinson, An adaptive augmented Lagrangian method for large-scale constrained optimization,
+/// 2015 (steering).
 void AugmentedLagrangian::raisePenalty(Step& step) {
   const double left = linearizedViolation();
-  if (step.is_tiny || damping_.isLost() || penalty_.isMuch() || holds(step.violation) ||
+  if (step.is_tiny || damping_.isLost() || penalty_.isLarge() || holds(step.violation) ||
       left <= Penalty::kSteering * step.violation)
     return;
   const Penalty before = penalty_;
@@ -180,70 +183,69 @@ void AugmentedLagrangian::raisePenalty(Step& step) {
   findStep(modelProblem(), step);
 }
 
-/// A tiny step may be due to the damping. Once after a refusal, and as long as steps are accepted, it is worth a look
-/// how long it is with less.
+/// Reduces the damping if it may be the reason of a tiny step: as long as steps are accepted, and once after a refusal.
 bool AugmentedLagrangian::triesLessDamping(const Step& step) {
-  if (damping_.isSmall(step.curvature) || damping_.isHigh() || (tried_less_damping_ && !trouble_.empty())) return false;
+  if (damping_.isSmall(step.curvature) || damping_.isHigh() || (tried_less_damping_ && !refusal_.empty())) return false;
   damping_.relax(step.curvature);
   tried_less_damping_ = true;
-  trouble_.clear();
+  refusal_.clear();
   return true;
 }
 
-/// The constraints hold and the step is tiny: a solution, unless it is tiny only since longer ones were refused, though
-/// the slope is steep.
+/// Ends the solve at a feasible point with a tiny step. It is a solution, unless the slope is steep and the step is
+/// tiny only because longer ones were refused.
 void AugmentedLagrangian::endAt(const Step& step) {
-  const double scale = std::max(std::abs(here_.cost), kLeastScale);
-  const bool is_steep = step.predicted > kSteepSlope * step.size * std::max(scale, kLeastSlopeScale);
-  if (!damping_.isSmall(step.curvature) && !trouble_.empty() && is_steep)
-    return stop(SolverStatus::stalled, cat("no step decreases the objective as predicted", trouble_));
-  if (!takesUpConstraints(true)) converge();
+  const double scale = std::max(std::abs(here_.cost), kMinScale);
+  const bool is_steep = step.predicted > kSteepSlope * step.size * std::max(scale, kMinSlopeScale);
+  if (!damping_.isSmall(step.curvature) && !refusal_.empty() && is_steep)
+    return stop(SolverStatus::stalled, cat("no step decreases the objective as predicted", refusal_));
+  if (!activatesConstraints(true)) converge();
 }
 
-/// Where the problem finds constraints that this point violates, or soon may, it goes on with them, and with all that
-/// is known of the others. False if there are none.
-bool AugmentedLagrangian::takesUpConstraints(bool is_solution) {
-  if (refinements_ == kMostRefinements) return false;
-  const Refinement found = function_.takeUpConstraints(here_, is_solution, filled_rows_);
+/// Activates lazy constraints that this point violates or may violate soon. The multipliers of all others stay. False
+/// if there are none.
+bool AugmentedLagrangian::activatesConstraints(bool is_solution) {
+  if (activations_ == kMaxActivations) return false;
+  const Refinement found = function_.activateConstraints(here_, is_solution, activated_);
   if (found == Refinement::much && is_solution) {
-    stop(SolverStatus::stalled, "constraints that were not known before are violated by much");
+    stop(SolverStatus::stalled, "lazy constraints are violated by much");
     return true;
   }
-  if (filled_rows_.empty()) return false;
-  ++refinements_;
+  if (activated_.empty()) return false;
+  ++activations_;
   if (options_.verbose > 1)
-    std::printf("  evals %d  %zu rows taken up  violation %.3g\n", function_.evals(), filled_rows_.size(),
+    std::printf("  evals %d  %zu constraints activated  violation %.3g\n", function_.evals(), activated_.size(),
                 here_.violation);
   for (std::size_t j = 0; j < constraints_.size(); ++j)
-    if (std::ranges::find(filled_rows_, constraints_[j]) != filled_rows_.end()) lambda_[Eigen::Index(j)] = 0.;
+    if (std::ranges::find(activated_, constraints_[j]) != activated_.end()) lambda_[Eigen::Index(j)] = 0.;
   violation_.restart();
   tried_less_damping_ = false;
-  trouble_.clear();
+  refusal_.clear();
   model_is_stale_ = true;
   return true;
 }
 
-/// Do the constraints hold, or are they nearer to it after the step, to first order?
-bool AugmentedLagrangian::helps(const Step& step) const {
-  return holds(step.error) || (!holds(step.violation) && linearizedViolation() < kHelps * step.violation);
+/// Whether the constraints hold, or the step reduces their violation to first order.
+bool AugmentedLagrangian::improvesConstraints(const Step& step) const {
+  return holds(step.error) || (!holds(step.violation) && linearizedViolation() < kImproves * step.violation);
 }
 
-/// Is the inner problem solved? Right after a round a step that helps comes first, so that multipliers do not run away
-/// from where they were computed.
+/// Whether the inner problem is solved. Directly after an outer iteration, a step that improves the constraints comes
+/// first, so that multipliers stay consistent with their point.
 bool AugmentedLagrangian::roundIsOver(const Step& step) const {
   const bool is_solved = inner_.isSolved(step.size, !damping_.isSmall(step.curvature)) || step.is_tiny ||
                          damping_.isLost() || step.predicted <= 0.;
-  return is_solved && !(round_just_ended_ && step.predicted > 0. && !damping_.isLost() && helps(step));
+  return is_solved && !(round_just_ended_ && step.predicted > 0. && !damping_.isLost() && improvesConstraints(step));
 }
 
-/// Ends the round. True if the step is still to be tried: it helps and nearly meets the linearized constraints, the
-/// penalty is the same, and with the new multipliers it is expected to go down, too.
-bool AugmentedLagrangian::goesOnAfterRound(const Problem& problem, Step& step) {
-  const bool helped = helps(step);
+/// Ends the outer iteration. True if the step shall still be tried: it nearly fulfills the linearized constraints, the
+/// penalty has not changed, and the model predicts a decrease with the new multipliers.
+bool AugmentedLagrangian::continuesAfterRound(const Problem& problem, Step& step) {
+  const bool helped = improvesConstraints(step);
   if (damping_.isLost()) {
     damping_.restart();
-    if (++times_lost_ == kMostLost) {
-      stop(SolverStatus::stalled, cat("no step decreases the objective as predicted", trouble_));
+    if (++times_lost_ == kMaxLost) {
+      stop(SolverStatus::stalled, cat("no step decreases the objective as predicted", refusal_));
       return false;
     }
   }
@@ -256,7 +258,7 @@ bool AugmentedLagrangian::goesOnAfterRound(const Problem& problem, Step& step) {
   return step.predicted > 0.;
 }
 
-/// New multipliers, and a larger penalty if the violation has not fallen enough.
+/// Updates the multipliers, and raises the penalty after an insufficient decrease of the violation.
 void AugmentedLagrangian::endRound(const Step& step) {
   ++rounds_;
   round_just_ended_ = true;
@@ -266,26 +268,26 @@ void AugmentedLagrangian::endRound(const Step& step) {
   if (!holds(step.error) && meetsContradiction(step)) return;
   updateMultipliers(step.size);
   if (!holds(step.error) && !violation_.fellEnough(step.error)) penalty_.grow();
-  violation_.sawRound(step.error);
+  violation_.addRound(step.error);
   inner_.tighten(options_.stopTolerance, holds(step.error));
-  takesUpConstraints(false);
+  activatesConstraints(false);
 }
 
-/// Where the violation does not fall under a large penalty, constraints may contradict each other. True if that ends
-/// it: from here and from a point of least violation there is no way on, or going on has been in vain too often.
+/// Checks for contradicting constraints if the violation does not fall under a large penalty. True if the solve ends:
+/// neither this point nor one of least violation allows progress, or progress failed too often.
 bool AugmentedLagrangian::meetsContradiction(const Step& step) {
-  if (!violation_.isStuck(step.error, penalty_.isMuch())) return false;
+  if (!violation_.isStuck(step.error, penalty_.isLarge())) return false;
   if (locallyInfeasible() && !restored()) {
-    if (stopped_) return true;  // by the caller
-    stop(SolverStatus::infeasible,
-         cat("the constraints contradict each other here; least violation found ", function_.best().violation));
+    if (stopped_) return true;  // by the callback
+    stop(SolverStatus::infeasible, cat("the constraints contradict each other locally; the least violation found is ",
+                                       function_.best().violation));
   } else if (violation_.isHopeless(step.error, here_.cost)) {
-    stop(SolverStatus::stalled, cat("the violation no longer falls; it is ", step.error));
+    stop(SolverStatus::stalled, cat("the violation ", step.error, " no longer falls"));
   }
   return stopped_;
 }
 
-/// To those of the model, unless the box kept its step short.
+/// Sets the multipliers to those of the model, unless the box limited its step.
 void AugmentedLagrangian::updateMultipliers(double step_size) {
   if (!radius_.leavesFree(step_size)) return;
   findMultipliers(model_.linearized(), next_lambda_);
@@ -293,14 +295,14 @@ void AugmentedLagrangian::updateMultipliers(double step_size) {
   if (options_.lambdaMax > 0.) lambda_ = lambda_.cwiseMin(options_.lambdaMax).cwiseMax(-options_.lambdaMax);
 }
 
-/// Evaluates the end of the step, or of its correction, and compares with what was predicted. False if the caller stops
-/// it.
+/// Evaluates the end of the step, or of its correction, and compares it with the prediction. False if the callback
+/// cancels the solve.
 bool AugmentedLagrangian::tryStep(Step& step) {
   trial_.x = (here_.x + model_.step()).cwiseMax(lower_).cwiseMin(upper_);
   step.before = lagrangian(here_);
   if (!evaluate(trial_)) return false;
   step.after = lagrangian(trial_);
-  const double rounding = std::max(kLeastRounding, kRounding * std::abs(step.before));
+  const double rounding = std::max(kMinRounding, kRounding * std::abs(step.before));
   was_corrected_ = false;
   const bool is_poor = trial_.finite && step.before - step.after < kPoor * step.predicted && step.predicted > rounding;
   if (is_poor && function_.evals() < options_.stopEvals && (!has_many_variables_ || isSpoiltByPenalties()) &&
@@ -309,13 +311,13 @@ bool AugmentedLagrangian::tryStep(Step& step) {
   }
   step.ratio = (step.before - step.after) / step.predicted;
   if (std::abs(step.before - step.after) < rounding &&
-      step.predicted < rounding)  // only gradients tell which is better
+      step.predicted < rounding)  // only gradients show which point is better
     step.ratio = gradientNorm(trial_) < gradientNorm(here_) ? kFair : -1.;
   return true;
 }
 
-/// What the constraints at the trial point add to what the model said, is it due to their squares? That a correction can
-/// take back. What multipliers make of it is curvature of the Lagrangian, which asks for shorter steps.
+/// Whether the squares of the constraints cause the error of the model, so that a correction can reduce it. The
+/// contribution of the multipliers is curvature of the Lagrangian, which needs shorter steps.
 bool AugmentedLagrangian::isSpoiltByPenalties() {
   findMultipliers(model_.linearized(), next_lambda_);
   findMultipliers(trial_.c, multipliers_);
@@ -323,9 +325,9 @@ bool AugmentedLagrangian::isSpoiltByPenalties() {
   return multipliers_.squaredNorm() > 2. * next_lambda_.cwiseProduct(multipliers_).lpNorm<1>();
 }
 
-/// Where constraints are curved, a long step along their linearization leaves them. Solves the model again with the
-/// constraints as they are at the trial point, and takes the corrected point as the trial if it is better. False if the
-/// caller stops it. Source: Nocedal & Wright, ch. 18.3 (second-order correction).
+/// Corrects the trial point for curved constraints: solves the model again with their values at the trial point, and
+/// accepts the corrected point if it is better. False if the callback cancels the solve. Source: Nocedal & Wright, ch.
+/// 18.3 (second-order correction).
 bool AugmentedLagrangian::correctTrial(Step& step) {
   corrected_.x = trial_.x - here_.x;
   corrected_.c = trial_.c;
@@ -343,11 +345,11 @@ bool AugmentedLagrangian::correctTrial(Step& step) {
       std::swap(trial_, corrected_);
     }
   }
-  correction_.saw(was_corrected_);
+  correction_.addCorrection(was_corrected_);
   return true;
 }
 
-/// Of the model, along a step to its least value.
+/// Returns the curvature of the model along its minimizing step.
 double AugmentedLagrangian::curvatureAlong(const Step& step) const {
   return 2. * step.predicted / model_.step().squaredNorm();
 }
@@ -356,24 +358,24 @@ void AugmentedLagrangian::accept(const Step& step) {
   std::swap(here_, trial_);
   damping_.accept(step.ratio, was_corrected_);
   if (has_many_variables_) damping_.meet(step.ratio, Damping::lacking(step.ratio, curvatureAlong(step)));
-  // Close to the solution, where the error falls as fast as Newton's method lets it, multipliers need no round.
+  // Close to the solution, with the convergence of Newton's method, the multipliers are updated at once.
   if (step.ratio > kGood && damping_.isSmall(step.curvature) && constraintError() <= kFastFall * step.error)
     updateMultipliers(step.size);
-  inner_.sawStep(step.before, step.after);
+  inner_.addStep(step.before, step.after);
   learnCurvature(trial_);
   radius_.accept(step.size, step.ratio > kVeryGood);
   tried_less_damping_ = round_just_ended_ = false;
-  trouble_.clear();
+  refusal_.clear();
   model_is_stale_ = true;
   function_.remember(here_);
 }
 
-/// The model stays, its next step is shorter.
+/// Keeps the model for a shorter step.
 void AugmentedLagrangian::refuse(const Step& step) {
-  creep_.refuse();
+  stagnation_.addRefusal();
   radius_.refuse();
-  trouble_ =
-      trial_.finite ? ", as at a kink" : cat(": where it would go, ", describeNotFinite(nlp_, trial_.phi, &trial_.J));
+  refusal_ = trial_.finite ? ", possibly at a non-smooth point"
+                           : cat(": at the trial point, ", describeNotFinite(nlp_, trial_.phi, &trial_.J));
   damping_.refuse(step.curvature, has_many_variables_ && trial_.finite
                                       ? Damping::lacking(step.ratio, curvatureAlong(step))
                                       : kInfinity);

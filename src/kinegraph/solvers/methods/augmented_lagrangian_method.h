@@ -14,8 +14,8 @@
 
 namespace kinegraph {
 
-/// What solutions of a problem hand on to the next. It stays below the 1032 bytes up to which glibc keeps freed memory at
-/// hand: above, solving a small problem that is made anew takes 3 % more instructions.
+/// The memory that solves of a problem share. It stays below 1032 bytes, up to which glibc caches freed memory; above,
+/// the solve of a new small problem takes 3 % more instructions.
 struct AugmentedLagrangianMemory::Parts {
   explicit Parts(Nlp& nlp)
       : function(nlp),
@@ -32,13 +32,13 @@ struct AugmentedLagrangianMemory::Parts {
   EvaluatedPoint here, trial, corrected;
   std::unique_ptr<LocalModel> model;
   VectorXd start, lambda, next_lambda, multipliers, low, high, gradient;
-  double damping = 0.;  ///< at the end of the last solution; 0 where it did not converge
-  double penalty = 0.;  ///< at its end
-  std::string message;  ///< why it ended
+  double damping = 0.;  ///< at the end of the last solve; 0 if it did not converge
+  double penalty = 0.;  ///< at the end of the last solve
+  std::string message;  ///< the reason of its end
 };
 
-/// The method of solveAugmentedLagrangian, on its way. Where Nocedal & Wright, ch. 17.4, write h, f and L, there are
-/// `c` (constraints, equalities first), `cost` and `lagrangian`; lambda and mu are theirs.
+/// The implementation of solveAugmentedLagrangian. `c` (constraints, equalities first), `cost` and `lagrangian` are h,
+/// f and L of Nocedal & Wright, ch. 17.4; lambda and mu are theirs.
 class AugmentedLagrangian {
  public:
   using Memory = AugmentedLagrangianMemory::Parts;
@@ -47,7 +47,7 @@ class AugmentedLagrangian {
 
   SolverResult run(const VectorXd& dual);
 
-  /// The same without a result: where it ended is in the memory, as `here` and `lambda`.
+  /// Solves without creating a result: the memory holds the last point and multipliers as `here` and `lambda`.
   void search(const VectorXd& dual);
   SolverStatus status() const { return status_; }
   const std::string& message() const { return message_; }
@@ -56,37 +56,37 @@ class AugmentedLagrangian {
   using Problem = LocalModel::Problem;
 
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  static constexpr int kStepsPerInner = 20;        ///< steps that are allowed for each of stopInners
-  static constexpr int kManyVariables = 100;       ///< from here on, penalties are steered, and steps
-  static constexpr int kPassesOfMany = 3;          ///< minimize the model in so many passes at most,
-  static constexpr int kPasses = 12;               ///< else in so many
-  static constexpr double kLeastScale = 1e-4;      ///< least costs that predicted decreases are relative to
-  static constexpr double kLeastDecrease = 1e-16;  ///< relative decrease that no step has to predict
-  static constexpr double kRounding = 1e-10;       ///< part of the Lagrangian that may be rounding,
-  static constexpr double kLeastRounding = 1e-12;  ///< and at least so much
-  static constexpr double kHelps = .5;  ///< part of the violation that a step which helps leaves, to first order
-  static constexpr double kNearlyFeasible = .02;  ///< the same for one that is worth trying with new multipliers
-  static constexpr double kFair = .3;             ///< ratio of a step that only gradients tell to be good
+  static constexpr int kStepsPerInner = 20;      ///< number of steps per stopInners
+  static constexpr int kManyVariables = 100;     ///< problems with more variables steer penalties
+  static constexpr int kPassesOfMany = 3;        ///< and limit the passes of the model to this number,
+  static constexpr int kPasses = 12;             ///< others to this number
+  static constexpr double kMinScale = 1e-4;      ///< least magnitude of the cost for relative decreases
+  static constexpr double kMinDecrease = 1e-16;  ///< smaller relative decreases count as none
+  static constexpr double kRounding = 1e-10;     ///< share of the Lagrangian that may be a rounding error,
+  static constexpr double kMinRounding = 1e-12;  ///< and its least value
+  static constexpr double kImproves = .5;  ///< share of the violation, to first order, after a step that improves it
+  static constexpr double kNearlyFeasible = .02;  ///< the same for a step to try with new multipliers
+  static constexpr double kFair = .3;             ///< ratio of a step that only gradients show to be good
   static constexpr double kPoor = .5;             ///< ratio below which a correction is tried
   static constexpr double kGood = .7;             ///< ratio above which multipliers may be updated at once
   static constexpr double kVeryGood = .75;        ///< ratio above which steps may become longer
-  static constexpr double kFastFall = .25;        ///< factor of the error at which multipliers are updated at once
-  static constexpr double kNearCorrection = .5;   ///< part of a step that its correction may have
-  static constexpr double kSteepSlope = .1, kLeastSlopeScale = .01;  ///< a tiny step that predicts more was kept short
-  static constexpr int kMostLost = 3;                                ///< times that damping may be lost
-  static constexpr int kMostRestorations = 5;
-  static constexpr int kMostRefinements = 40;  ///< times that constraints are taken up
+  static constexpr double kFastFall = .25;        ///< factor of the error for an immediate update of multipliers
+  static constexpr double kNearCorrection = .5;   ///< largest share of a step that its correction may have
+  static constexpr double kSteepSlope = .1, kMinSlopeScale = .01;  ///< a tiny step with a larger slope is too short
+  static constexpr int kMaxLost = 3;                               ///< number of failures of the damping
+  static constexpr int kMaxRestorations = 5;
+  static constexpr int kMaxActivations = 40;  ///< number of activations of lazy constraints
 
-  /// A step of the model, and what is known where it starts.
+  /// A step of the model, with properties of its start.
   struct Step {
-    double curvature;                ///< largest of the costs, what damping is compared with
-    double error;                    ///< of the constraints, see constraintError
+    double curvature;                ///< largest curvature of the costs, the scale of damping
+    double error;                    ///< constraintError()
     double violation;                ///< of the worst constraint
     double size = 0.;                ///< largest entry of the step
     double predicted = 0.;           ///< decrease of the Lagrangian that the model expects
-    bool is_tiny = false;            ///< no more than the tolerances
-    double ratio = 0.;               ///< of the actual and the predicted decrease, once it has been tried
-    double before = 0., after = 0.;  ///< the Lagrangian at both ends, once it has been tried
+    bool is_tiny = false;            ///< within the tolerances
+    double ratio = 0.;               ///< actual by predicted decrease, after the trial
+    double before = 0., after = 0.;  ///< the Lagrangian at both ends, after the trial
   };
 
   bool solvedInOneStep();
@@ -99,12 +99,12 @@ class AugmentedLagrangian {
   void raisePenalty(Step& step);
   bool triesLessDamping(const Step& step);
   void endAt(const Step& step);
-  bool helps(const Step& step) const;
+  bool improvesConstraints(const Step& step) const;
   bool roundIsOver(const Step& step) const;
-  bool goesOnAfterRound(const Problem& problem, Step& step);
+  bool continuesAfterRound(const Problem& problem, Step& step);
   void endRound(const Step& step);
   bool meetsContradiction(const Step& step);
-  bool takesUpConstraints(bool is_solution);
+  bool activatesConstraints(bool is_solution);
   void updateMultipliers(double step_size);
   bool tryStep(Step& step);
   bool isSpoiltByPenalties();
@@ -151,25 +151,26 @@ class AugmentedLagrangian {
   VectorXd &low_ = memory_.low, &high_ = memory_.high, &gradient_ = memory_.gradient;
   const double tolerance_;  ///< of the constraints
   const bool has_many_variables_;
-  const int passes_;  ///< of the model's minimization
+  const int passes_;  ///< of the minimization of the model
 
   Penalty penalty_;
   Damping damping_;
   StepRadius radius_;
   InnerTest inner_;
-  CreepTest creep_;
+  StagnationTest stagnation_;
   ViolationTest violation_;
   CorrectionTest correction_;
-  int rounds_ = 0, restorations_ = 0, times_lost_ = 0, refinements_ = 0;
-  std::vector<int> filled_rows_;     ///< workspace
-  bool model_is_stale_ = true;       ///< the point is new since it was made
-  bool tried_less_damping_ = false;  ///< since the last step that was accepted
-  bool round_just_ended_ = false;    ///< no step was accepted since
-  bool was_corrected_ = false;       ///< the trial point
+  int rounds_ = 0,  ///< outer iterations
+      restorations_ = 0, times_lost_ = 0, activations_ = 0;
+  std::vector<int> activated_;       ///< workspace
+  bool model_is_stale_ = true;       ///< the point has changed since
+  bool tried_less_damping_ = false;  ///< since the last accepted step
+  bool round_just_ended_ = false;    ///< no step was accepted since then
+  bool was_corrected_ = false;       ///< whether the trial point is corrected
   bool stopped_ = false;
   SolverStatus status_ = SolverStatus::stalled;
   std::string& message_ = memory_.message;
-  std::string trouble_;  ///< why the last step was refused; empty if it was not
+  std::string refusal_;  ///< reason why the last step was refused; empty if accepted
 };
 
 }  // namespace kinegraph

@@ -13,7 +13,7 @@ namespace kinegraph {
 
 namespace {
 
-/// A first spread that the bounds leave room for.
+/// Returns an initial spread that fits the bounds.
 double firstSpread(const CostFunction& cost, int n) {
   double spread = .5;
   for (int i = 0; i < n; ++i) {
@@ -24,10 +24,11 @@ double firstSpread(const CostFunction& cost, int n) {
 
 }  // namespace
 
-SolverResult solveNelderMead(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
-  CostFunction cost(nlp, x0, options, hook, "NelderMead", false);
+SolverResult solveNelderMead(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                             const EvaluationCallback& callback) {
+  CostFunction cost(nlp, x0, options, callback, "NelderMead", false);
   const int n = int(x0.size());
-  if (n == 0) return cost.result(SolverStatus::converged, "there is nothing to vary");
+  if (n == 0) return cost.result(SolverStatus::converged, "the problem has no variables");
   const double expand = 1. + 2. / n, contract = .75 - .5 / n, shrink = n == 1 ? .5 : 1. - 1. / n;
   std::vector<std::pair<double, VectorXd>> simplex;
   const auto byValue = [](const auto& a, const auto& b) { return a.first < b.first; };
@@ -54,7 +55,7 @@ SolverResult solveNelderMead(Nlp& nlp, const VectorXd& x0, const SolverOptions& 
     const double range = simplex.back().first - simplex[0].first;
     if (size <= .1 * options.stopTolerance ||
         (size <= 10. * options.stopTolerance && range <= 1e-14 * std::max(1., std::abs(simplex[0].first)))) {
-      // a simplex may collapse where there is no minimum: a new one must not get any further
+      // a simplex may collapse away from a minimum: a new one must not improve the value
       const bool improved = value_at_restart - cost.bestValue() > 1e-9 * std::max(1., std::abs(value_at_restart));
       if (restarts > 0 && !improved)
         return cost.result(SolverStatus::converged, cat("a simplex of size ", size, " after a restart"));
@@ -94,10 +95,10 @@ SolverResult solveNelderMead(Nlp& nlp, const VectorXd& x0, const SolverOptions& 
   return cost.result(SolverStatus::stalled, "");
 }
 
-SolverResult solveCma(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
-  CostFunction cost(nlp, x0, options, hook, "CMA", false);
+SolverResult solveCma(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationCallback& callback) {
+  CostFunction cost(nlp, x0, options, callback, "CMA", false);
   const int n = int(x0.size());
-  if (n == 0) return cost.result(SolverStatus::converged, "there is nothing to vary");
+  if (n == 0) return cost.result(SolverStatus::converged, "the problem has no variables");
   const int population = 4 + int(3. * std::log(n)), parents = population / 2;
   VectorXd weights(parents);
   for (int i = 0; i < parents; ++i) weights[i] = std::log(.5 * (population + 1)) - std::log(i + 1.);
@@ -126,7 +127,7 @@ SolverResult solveCma(Nlp& nlp, const VectorXd& x0, const SolverOptions& options
       outside[k] = (x - inside).squaredNorm();
     }
     if (cost.ended()) break;
-    // points beyond the bounds count as those at the bounds, and worse the further out they are
+    // a point outside counts as its projection to the bounds, plus a penalty that grows with the distance
     double low = values[0], high = values[0];
     for (double value : values) low = std::min(low, value);
     for (double value : values) high = std::isfinite(value) ? std::max(high, value) : high;
@@ -151,7 +152,7 @@ SolverResult solveCma(Nlp& nlp, const VectorXd& x0, const SolverOptions& options
     scales = eigen.eigenvalues().cwiseMax(1e-20).cwiseSqrt();
     const double size = sigma * scales.maxCoeff();
     if (size <= .1 * options.stopTolerance)
-      return cost.result(SolverStatus::converged, cat("the population has shrunk to ", size));
+      return cost.result(SolverStatus::converged, cat("the population has shrunk to the size ", size));
     if (!std::isfinite(size) || scales.maxCoeff() > 1e7 * scales.minCoeff()) {
       return cost.result(SolverStatus::stalled, "the covariance of the population has become singular");
     }

@@ -13,7 +13,7 @@ namespace {
 
 std::string smallStep(double size) { return cat("step ", size, " is within its tolerance"); }
 
-/// Changes of x and of the gradient, the newest last.
+/// The last changes of x and of the gradient, the newest last.
 class Memory {
  public:
   void add(const VectorXd& s, const VectorXd& y) {
@@ -24,7 +24,7 @@ class Memory {
   void clear() { pairs_.clear(); }
   bool empty() const { return pairs_.empty(); }
 
-  /// -H g by the two loops.
+  /// Returns -H g by the two-loop recursion.
   VectorXd direction(const VectorXd& g) const {
     VectorXd q = g;
     std::vector<double> alpha(pairs_.size());
@@ -48,8 +48,8 @@ class Memory {
 }  // namespace
 
 SolverResult solveGradientDescent(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
-                                  const EvaluationHook& hook) {
-  CostFunction cost(nlp, x0, options, hook, "gradientDescent", true);
+                                  const EvaluationCallback& callback) {
+  CostFunction cost(nlp, x0, options, callback, "gradientDescent", true);
   VectorXd x = cost.start(), g = cost.startGradient(), next_g;
   double value = cost.startValue(), length = options.stepMax;
   while (!cost.ended()) {
@@ -57,7 +57,7 @@ SolverResult solveGradientDescent(Nlp& nlp, const VectorXd& x0, const SolverOpti
     if (free.isZero(0.)) return cost.result(SolverStatus::converged, "the gradient is zero");
     const VectorXd next = cost.clip(x - length / free.lpNorm<Eigen::Infinity>() * free);
     const double size = (next - x).lpNorm<Eigen::Infinity>(), after = cost.value(next, next_g);
-    // a step along the gradient is short in a valley far from the minimum, so only very short ones count as converged
+    // in a valley, steps are short far from the minimum, too, so that only very short ones count as converged
     const bool tiny = size <= .1 * options.stopTolerance;
     if (after <= value + options.wolfe * g.dot(next - x)) {
       x = next;
@@ -72,8 +72,9 @@ SolverResult solveGradientDescent(Nlp& nlp, const VectorXd& x0, const SolverOpti
   return cost.result(SolverStatus::stalled, "");
 }
 
-SolverResult solveRprop(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
-  CostFunction cost(nlp, x0, options, hook, "rprop", true);
+SolverResult solveRprop(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                        const EvaluationCallback& callback) {
+  CostFunction cost(nlp, x0, options, callback, "rprop", true);
   VectorXd x = cost.start(), g = cost.startGradient(), last = VectorXd::Zero(x.size());
   VectorXd step = VectorXd::Constant(x.size(), .1 * options.stepMax);
   while (!cost.ended()) {
@@ -82,13 +83,13 @@ SolverResult solveRprop(Nlp& nlp, const VectorXd& x0, const SolverOptions& optio
     double largest = 0.;
     VectorXd next = x;
     for (int i = 0; i < x.size(); ++i) {
-      if (g[i] == 0.) continue;  // pressed on a bound
+      if (g[i] == 0.) continue;  // at an active bound
       const double agreement = g[i] * last[i];
       if (agreement > 0.) step[i] = std::min(1.2 * step[i], options.stepMax);
       if (agreement < 0.) step[i] *= .5;
       largest = std::max(largest, step[i]);
       if (agreement < 0.) {
-        g[i] = 0.;  // waits for a step
+        g[i] = 0.;  // skips one step
       } else {
         next[i] -= g[i] > 0. ? step[i] : -step[i];
       }
@@ -96,7 +97,7 @@ SolverResult solveRprop(Nlp& nlp, const VectorXd& x0, const SolverOptions& optio
     if (largest <= options.stopTolerance) return cost.result(SolverStatus::converged, smallStep(largest));
     last = g;
     x = cost.clip(next);
-    if (!std::isfinite(cost.value(x, g))) {  // back, by smaller steps
+    if (!std::isfinite(cost.value(x, g))) {  // returns to the best point, with smaller steps
       x = cost.best();
       step *= .5;
       if (cost.ended() || !std::isfinite(cost.value(x, g))) break;
@@ -106,8 +107,9 @@ SolverResult solveRprop(Nlp& nlp, const VectorXd& x0, const SolverOptions& optio
   return cost.result(SolverStatus::stalled, "");
 }
 
-SolverResult solveLbfgs(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
-  CostFunction cost(nlp, x0, options, hook, "LBFGS", true);
+SolverResult solveLbfgs(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                        const EvaluationCallback& callback) {
+  CostFunction cost(nlp, x0, options, callback, "LBFGS", true);
   VectorXd x = cost.start(), g = cost.startGradient(), next_g;
   double value = cost.startValue();
   Memory memory;
@@ -138,7 +140,7 @@ SolverResult solveLbfgs(Nlp& nlp, const VectorXd& x0, const SolverOptions& optio
     if (!accepted) {
       if (cost.ended()) break;
       if (memory.empty()) return cost.result(SolverStatus::converged, smallStep(size));
-      memory.clear();  // once more along the gradient
+      memory.clear();  // tries the gradient once more
       continue;
     }
     const bool tiny = size <= .1 * options.stopTolerance && !memory.empty();

@@ -4,19 +4,21 @@
 
 namespace kinegraph {
 
-/// Methods for problems without constraints that need the gradient only. They take bounds by projection, converge when
-/// the step is below stopTolerance, and throw ValueError for problems with constraints.
+/// First-order methods for problems without constraints. They project to the bounds, converge when the step is below
+/// stopTolerance, and throw ValueError for problems with constraints.
 
-/// Steps along the gradient, their length adapted by stepInc and stepDec.
+/// Minimizes by steps along the gradient, whose length stepInc and stepDec adapt.
 SolverResult solveGradientDescent(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
-                                  const EvaluationHook& hook = {});
+                                  const EvaluationCallback& callback = {});
 
-/// Every variable has a step of its own, which grows while the sign of its derivative stays and shrinks when it
-/// changes. Source: Igel & Huesken, Improving the Rprop learning algorithm, 2000 (iRprop-).
-SolverResult solveRprop(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook = {});
+/// Minimizes by Rprop: each variable has its own step, which grows while the sign of its derivative stays and shrinks
+/// if it changes. Source: Igel & Huesken, Improving the Rprop learning algorithm, 2000 (iRprop-).
+SolverResult solveRprop(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                        const EvaluationCallback& callback = {});
 
-/// Quasi-Newton with the last ten changes of the gradient, on the variables that are not at a bound.
+/// Minimizes by limited-memory BFGS with the last ten changes of the gradient, for variables that are not at a bound.
 /// Source: Nocedal & Wright, Numerical Optimization, 2nd ed., alg. 7.4, with projection on the bounds.
-SolverResult solveLbfgs(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook = {});
+SolverResult solveLbfgs(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                        const EvaluationCallback& callback = {});
 
 }  // namespace kinegraph

@@ -7,36 +7,36 @@
 #include "kinegraph/solvers/methods/quadratic_step.h"
 #include "kinegraph/solvers/methods/sequential_quadratic_method.h"
 
-// What the sequence of quadratic programs does with a Hessian that the problem tells, and that may be indefinite.
+// Sequential quadratic programming with a known, possibly indefinite Hessian of the costs.
 
 namespace kinegraph {
 
 namespace {
 
-constexpr double kLongestStep = 1.;  ///< a direction without curvature is followed so far, in units of |x| and 1
+constexpr double kLongestStep = 1.;  ///< length of a step in a direction without curvature, in units of |x| and 1
 constexpr double kRegularization =
-    1e-8;  ///< of a Hessian with which no step was found, as a part of its largest entry,
-constexpr double kMoreRegularization = 100.;  ///< times this for every time that none was
-constexpr double kTouching = 1e-7;            ///< distance at which a row counts as touched
-constexpr double kStrong = 1e-7;              ///< multiplier that holds a row, as a part of the gradient
-constexpr double kSaddle = 1e-6;              ///< negative curvature that is worth a look, as a part of the largest
+    1e-8;  ///< added to a Hessian without a successful step, in units of its largest entry,
+constexpr double kMoreRegularization = 100.;  ///< times this factor per failure
+constexpr double kTight = 1e-7;               ///< distance at which a constraint counts as tight
+constexpr double kStrong = 1e-7;              ///< multiplier that makes a constraint active, in units of the gradient
+constexpr double kSaddle = 1e-6;              ///< relevant negative curvature, in units of the largest
 constexpr double kFirstLength = .5;           ///< of a step away from a saddle, in units of |x| and 1
-constexpr double kShorter = .1;               ///< its factor where the costs do not fall
-constexpr int kLengths = 5;                   ///< so many are tried
-constexpr double kFall = .1;                  ///< part of the decrease that the curvature promises, to be taken
-constexpr int kMostSaddles = 30;
-constexpr double kLook = .01;  ///< of a step that only looks how constraints are curved, in units of |x| and 1
-constexpr int kMostLooks = 3;
+constexpr double kShorter = .1;               ///< factor of this length if the costs do not decrease
+constexpr int kLengths = 5;                   ///< number of lengths
+constexpr double kFall = .1;                  ///< accepted share of the decrease that the curvature predicts
+constexpr int kMaxSaddles = 30;
+constexpr double kProbeLength = .01;  ///< of a step that probes the curvature of constraints, in units of |x| and 1
+constexpr int kMaxProbes = 3;
 
-constexpr double kNoRadius = 1e10;        ///< in place of one that is infinite
+constexpr double kNoRadius = 1e10;        ///< replaces an infinite one
 constexpr double kFirstRadius = 1.;       ///< of steps, in units of |x| and 1,
 constexpr double kLeastRadius = 1e-4;     ///< and the least one
-constexpr double kPoor = .1, kGood = .7;  ///< ratios of the actual and the promised decrease: less, or more radius
+constexpr double kPoor = .1, kGood = .7;  ///< ratios of actual and predicted decrease that shrink or grow the radius
 constexpr double kAtEdge = .9, kRadiusGrowth = 2., kRadiusFall = .5;
 
 }  // namespace
 
-/// Goes to the solution of the quadratic program here, if that is the solution of the problem.
+/// Moves to the solution of the quadratic program at x, if that solves the problem.
 bool SequentialQuadratic::solvedInOneStep() {
   if (!knows_curvature_) return false;
   radius_ = kFirstRadius;
@@ -53,7 +53,7 @@ bool SequentialQuadratic::solvedInOneStep() {
   return true;
 }
 
-/// Of the Lagrangian, here.
+/// Computes the Hessian of the Lagrangian at x.
 void SequentialQuadratic::findHessian(const VectorXd& multipliers) {
   W_.setZero(nlp_.dimension(), nlp_.dimension());
   nlp_.addCostHessian(here_.x, W_);
@@ -63,17 +63,18 @@ void SequentialQuadratic::findHessian(const VectorXd& multipliers) {
   H_ = W_;
 }
 
-/// Where there is less curvature, steps would be too long to say anything: by the slope that is left to go down, with
-/// variables in their units.
+/// Returns the least curvature that limits steps to a useful length, from the projected slope with variables in their
+/// units.
 double SequentialQuadratic::leastCurvature() { return std::max(1e-10, slopeInUnits(lambda_) / kLongestStep); }
 
-/// Rows that hold the step are those that were active in the last program; only touched ones, where others led uphill.
+/// Convexifies the Hessian along the active constraints of the last program, or only the tight ones of these if the
+/// step led uphill.
 void SequentialQuadratic::makeConvex(QuadraticProgram& program) {
   MatrixXd A(0, here_.x.size());
   VectorXd b(Eigen::Index(active_.size()));
   for (int j : active_) {
-    if (holds_touched_only_ && j >= equalities_ &&
-        program.b[j] < -kTouching * std::max(1., here_.x.lpNorm<Eigen::Infinity>()))
+    if (holds_tight_only_ && j >= equalities_ &&
+        program.b[j] < -kTight * std::max(1., here_.x.lpNorm<Eigen::Infinity>()))
       continue;
     const Eigen::RowVectorXd row = program.A.row(j).cwiseProduct(unit_.transpose());
     b[A.rows()] = program.b[j] / row.norm();
@@ -89,7 +90,7 @@ void SequentialQuadratic::makeConvex(QuadraticProgram& program) {
   program.g = inverse.cwiseProduct(convex.g);
 }
 
-/// Do costs and violations, weighted by the multipliers, fall along the step at first?
+/// Whether costs and violations, weighted by the multipliers, decrease along the step to first order.
 bool SequentialQuadratic::leadsDown(const Step& step) const {
   double slope = gradient_.dot(step.d);
   for (int j = 0; j < step.lambda.size(); ++j)
@@ -97,7 +98,7 @@ bool SequentialQuadratic::leadsDown(const Step& step) const {
   return slope < 0.;
 }
 
-/// Only the bounds limit the step then.
+/// Removes the radius, so that only the bounds limit the step.
 void SequentialQuadratic::leaveRadius(QuadraticProgram& program) const {
   for (int i = 0, row = int(constraints_.size()); i < int(here_.x.size()); ++i) {
     program.b[row++] = std::max(lower_[i] - here_.x[i], -kNoRadius * unit_[i]);
@@ -105,7 +106,7 @@ void SequentialQuadratic::leaveRadius(QuadraticProgram& program) const {
   }
 }
 
-/// Steps may be as long as they do what the model says.
+/// Adapts the radius to the accuracy of the model.
 void SequentialQuadratic::adaptRadius(const Step& step, double alpha, double ratio) {
   const double size = step.d.cwiseQuotient(unit_).lpNorm<Eigen::Infinity>();
   if (alpha < 1. || ratio < kPoor)
@@ -114,47 +115,47 @@ void SequentialQuadratic::adaptRadius(const Step& step, double alpha, double rat
     radius_ *= kRadiusGrowth;
 }
 
-/// What the merit function may count on: at least a little.
+/// Returns the curvature along a step for the merit function, at least a small positive number.
 double SequentialQuadratic::curvatureAlong(const VectorXd& d) const {
   return std::max(d.dot(W_ * d), 1e-8 * d.dot(H_ * d));
 }
 
-/// What limits directions at a point that fulfills the first-order conditions.
+/// Returns the constraints on directions at a point that fulfills the first-order conditions.
 Restriction SequentialQuadratic::restriction(const Step& step) const {
   const QuadraticProgram program = makeModel(here_.c);
   const double strong = kStrong * std::max(1e-3, gradient_.lpNorm<Eigen::Infinity>()),
                room = std::max(1., here_.x.lpNorm<Eigen::Infinity>());
-  VectorXd rest = gradient_;  // what bounds have to hold
+  VectorXd rest = gradient_;  // balanced by bounds
   function_.addConstraintGradient(here_.J, step.lambda, rest);
   Restriction rows{MatrixXd(0, here_.x.size()), MatrixXd(0, here_.x.size())};
   for (int j = 0; j < int(program.b.size()); ++j) {
     const bool is_constraint = j < int(constraints_.size());
-    if (j >= equalities_ && program.b[j] < -kTouching * room) continue;
+    if (j >= equalities_ && program.b[j] < -kTight * room) continue;
     const double multiplier = is_constraint ? step.lambda[j] / row_scale_[j] : -program.A.row(j).dot(rest);
-    appendRow(j < equalities_ || multiplier > strong ? rows.held : rows.touched, program.A.row(j));
+    appendRow(j < equalities_ || multiplier > strong ? rows.fixed : rows.tight, program.A.row(j));
   }
   return rows;
 }
 
-/// Looks at the constraints in directions in which they were never seen, a little.
-void SequentialQuadratic::lookAround(const Step& step) {
+/// Probes the curvature of the constraints by short steps in directions without observations.
+void SequentialQuadratic::probeConstraints(const Step& step) {
   Restriction rows = restriction(step);
-  MatrixXd seen = constraint_curvature_.seen(step.lambda);
-  if (seen.rows() == 0) return;
-  for (Eigen::Index k = 0; k < rows.held.rows(); ++k) appendRow(seen, rows.held.row(k));
-  const MatrixXd unseen = nullSpace(seen);
-  const double length = kLook * std::max(1., here_.x.lpNorm<Eigen::Infinity>());
-  for (Eigen::Index k = 0; k < std::min<Eigen::Index>(unseen.cols(), kMostLooks); ++k) {
+  MatrixXd observed = constraint_curvature_.observed(step.lambda);
+  if (observed.rows() == 0) return;
+  for (Eigen::Index k = 0; k < rows.fixed.rows(); ++k) appendRow(observed, rows.fixed.row(k));
+  const MatrixXd unobserved = nullSpace(observed);
+  const double length = kProbeLength * std::max(1., here_.x.lpNorm<Eigen::Infinity>());
+  for (Eigen::Index k = 0; k < std::min<Eigen::Index>(unobserved.cols(), kMaxProbes); ++k) {
     if (function_.evals() >= options_.stopEvals) return;
-    VectorXd d = length * unseen.col(k);
+    VectorXd d = length * unobserved.col(k);
     if ((function_.clip(here_.x + d) - here_.x).norm() < .5 * length) d = -d;
     tryStep(d);
     if (stopped_) return;
-    if (trial_.finite) learnCurvature(here_, trial_);
+    if (trial_.finite) updateCurvature(here_, trial_);
   }
 }
 
-/// The shortest step that brings the active constraints, which are c now, back to zero, to first order.
+/// Returns the shortest step that brings the active constraints, now at c, back to zero, to first order.
 VectorXd SequentialQuadratic::onActiveRows(const VectorXd& c, const Step& step) const {
   std::vector<int> rows;
   for (int j = 0; j < int(c.size()); ++j) {
@@ -166,8 +167,8 @@ VectorXd SequentialQuadratic::onActiveRows(const VectorXd& c, const Step& step) 
   return -A.completeOrthogonalDecomposition().solve(b);
 }
 
-/// Follows a direction with negative curvature until the merit function is less by part of what the curvature promises,
-/// and takes the step. False if it is not; what was seen of the constraints is learnt in any case.
+/// Tries steps along a direction of negative curvature, and accepts one that decreases the merit function by a share of
+/// the prediction. False if there is none. The evaluations update the curvature of the constraints in any case.
 bool SequentialQuadratic::descendsAlong(const VectorXd& direction, const Step& step) {
   const QuadraticProgram program = makeModel(here_.c);
   double length = kFirstLength * std::max(1., here_.x.lpNorm<Eigen::Infinity>());
@@ -181,30 +182,30 @@ bool SequentialQuadratic::descendsAlong(const VectorXd& direction, const Step& s
     double after = tryStep(length * direction);
     if (stopped_) return false;
     if (!trial_.finite) continue;
-    learnCurvature(here_, trial_);
+    updateCurvature(here_, trial_);
     findHessian(step.lambda);
     const double curvature = direction.dot(W_ * direction);
     if (!(curvature < 0.)) return false;
     const double most = before + .5 * kFall * curvature * length * length;
     if (after > most && !constraints_.empty() && function_.evals() < options_.stopEvals) {
       const VectorXd back = onActiveRows(trial_.c, step);
-      if (back.norm() > kTouching * length) after = tryStep(trial_.x - here_.x + back);
+      if (back.norm() > kTight * length) after = tryStep(trial_.x - here_.x + back);
       if (stopped_) return false;
     }
     if (after > most) continue;
     std::swap(here_, trial_);
-    learnCurvature(trial_, here_);
+    updateCurvature(trial_, here_);
     function_.remember(here_);
     return true;
   }
   return false;
 }
 
-/// True if a step away was taken, as the point is a saddle or a maximum where the first-order conditions hold.
-bool SequentialQuadratic::leavesSaddle(const Step& step) {
+/// Leaves a saddle or maximum at which the first-order conditions hold. True if a step was accepted.
+bool SequentialQuadratic::escapesSaddle(const Step& step) {
   weights_ = weights_.cwiseMax(2. * step.lambda.cwiseAbs());
-  lookAround(step);
-  for (; saddles_ < kMostSaddles && !stopped_; ++saddles_) {
+  probeConstraints(step);
+  for (; saddles_ < kMaxSaddles && !stopped_; ++saddles_) {
     findHessian(step.lambda);
     const MatrixXd before = W_;
     const double least = kSaddle * std::max(1e-10, W_.cwiseAbs().maxCoeff());

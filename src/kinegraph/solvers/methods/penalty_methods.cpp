@@ -1,7 +1,6 @@
 #include "kinegraph/solvers/methods/penalty_methods.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "kinegraph/common/errors.h"
@@ -14,25 +13,26 @@ namespace kinegraph {
 
 namespace {
 
-/// Solves a sequence of other problems on behalf of `nlp`: counts, limits, and what the caller's hook sees.
+/// Solves a sequence of auxiliary problems for `nlp`; the callback and the limits refer to `nlp`.
 class Sequence {
  public:
-  Sequence(Nlp& nlp, const SolverOptions& options, const EvaluationHook& hook)
-      : nlp_(nlp), options_(options), hook_(hook), phi_(Eigen::Index(nlp.types().size())) {
+  Sequence(Nlp& nlp, const SolverOptions& options, const EvaluationCallback& callback)
+      : nlp_(nlp), options_(options), callback_(callback), phi_(Eigen::Index(nlp.types().size())) {
     options.validate();
     options_.verbose = std::max(0, options.verbose - 1);
   }
 
   SolverOptions& options() { return options_; }
 
-  /// False if the limit is reached or the caller stops it.
+  /// False if the limit is reached or the callback cancels the solve.
   bool solve(Nlp& other, VectorXd& x) {
     options_.stopEvals = limit_ - evals_;
-    const auto hook = [&](const VectorXd& at, const VectorXd&) {
+    const auto callback = [&](const VectorXd& at, const VectorXd&) {
       nlp_.evaluate(at, phi_, nullptr);
-      return hook_(at, phi_);
+      return callback_(at, phi_);
     };
-    last_ = solveAugmentedLagrangian(other, x, options_, last_.dual, hook_ ? EvaluationHook(hook) : EvaluationHook());
+    last_ = solveAugmentedLagrangian(other, x, options_, last_.dual,
+                                     callback_ ? EvaluationCallback(callback) : EvaluationCallback());
     evals_ += last_.evals;
     x = last_.x;
     nlp_.evaluate(x, phi_, nullptr);
@@ -42,7 +42,7 @@ class Sequence {
   const VectorXd& phi() const { return phi_; }
   const SolverResult& last() const { return last_; }
 
-  /// As of the original problem. Where a round was ended from outside, that is the status.
+  /// Returns the result for the original problem. The status of a cancelled or limited solve comes first.
   SolverResult result(const VectorXd& x, double tolerance, SolverStatus status, std::string message) {
     SolverResult out;
     out.x = x;
@@ -60,7 +60,7 @@ class Sequence {
  private:
   Nlp& nlp_;
   SolverOptions options_;
-  const EvaluationHook& hook_;
+  const EvaluationCallback& callback_;
   VectorXd phi_;
   SolverResult last_;
   int evals_ = 0, limit_ = options_.stopEvals;
@@ -72,17 +72,17 @@ double violationAfter(const Nlp& nlp, const Sequence& sequence) {
 
 }  // namespace
 
-SolverResult solveSquaredPenalty(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook,
-                                 bool single) {
+SolverResult solveSquaredPenalty(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                                 const EvaluationCallback& callback, bool single) {
   const double tolerance = options.constraintTolerance();
-  Sequence sequence(nlp, options, hook);
+  Sequence sequence(nlp, options, callback);
   PenaltyNlp penalized(nlp);
   VectorXd x = x0;
   double mu = options.muInit;
-  bool going = true;
-  for (int round = 0; going && round < options.stopOuters; ++round) {
+  bool continues = true;
+  for (int round = 0; continues && round < options.stopOuters; ++round) {
     penalized.setWeight(mu);
-    going = sequence.solve(penalized, x);
+    continues = sequence.solve(penalized, x);
     if (single || violationAfter(nlp, sequence) <= tolerance || mu >= options.muMax) break;
     mu = std::min(options.muMax, options.muInc * mu);
   }
@@ -92,51 +92,53 @@ SolverResult solveSquaredPenalty(Nlp& nlp, const VectorXd& x0, const SolverOptio
   return sequence.result(x, tolerance, SolverStatus::stalled, message);
 }
 
-SolverResult solveLogBarrier(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
+SolverResult solveLogBarrier(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                             const EvaluationCallback& callback) {
   requireStart(nlp, x0);
   VectorXd x = x0, phi(Eigen::Index(nlp.types().size()));
   if (options.boundedNewton) x = x.cwiseMax(nlp.lower()).cwiseMin(nlp.upper());
   nlp.evaluate(x, phi, nullptr);
   for (int row = 0; row < phi.size(); ++row) {
     if (!isInequality(nlp.types()[row]) || phi[row] < 0. || !std::isfinite(phi[row])) continue;
-    throw ValueError(cat("OptMethod::logBarrier starts strictly inside of all inequalities; ", nlp.rowName(row), " is ",
-                         phi[row], " at the start; use slackGN_logBarrier, which finds such a point first"));
+    throw ValueError(cat("OptMethod::logBarrier needs a start that strictly fulfills all inequalities; ",
+                         nlp.rowName(row), " is ", phi[row], "; use slackGN_logBarrier, which finds such a start"));
   }
-  Sequence sequence(nlp, options, hook);
+  Sequence sequence(nlp, options, callback);
   BarrierNlp barrier(nlp);
   const double tolerance = options.constraintTolerance();
   const bool needs_barrier = std::any_of(nlp.types().begin(), nlp.types().end(), isInequality);
   double mu = options.muLBInit;
-  bool going = true;
-  for (int round = 0; going && round < options.stopOuters; ++round) {
+  bool continues = true;
+  for (int round = 0; continues && round < options.stopOuters; ++round) {
     barrier.setWeight(mu);
-    going = sequence.solve(barrier, x);
+    continues = sequence.solve(barrier, x);
     if (!needs_barrier || mu <= .01 * options.stopTolerance) break;
     mu *= options.muLBDec;
   }
   SolverStatus status = sequence.last().status;
   if (status == SolverStatus::stalled && sequence.last().violation <= tolerance)
-    status = SolverStatus::converged;  // at the barrier's own rounding
+    status = SolverStatus::converged;  // stalled at the rounding of the barrier
   return sequence.result(x, tolerance, status, cat("barrier weight ", mu, "; ", sequence.last().message));
 }
 
-SolverResult solveSlack(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
-  Sequence sequence(nlp, options, hook);
+SolverResult solveSlack(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                        const EvaluationCallback& callback) {
+  Sequence sequence(nlp, options, callback);
   const double tolerance = options.constraintTolerance();
   sequence.options().stopTolerance = std::min(options.stopTolerance, tolerance);
   RelaxedNlp slack(nlp, std::vector<bool>(nlp.types().size(), true));
   slack.setPadding(options.interiorPadding);
   VectorXd x = x0;
-  bool going = sequence.solve(slack, x);
-  if (going && violationAfter(nlp, sequence) > tolerance && options.interiorPadding > 0.) {
-    slack.setPadding(0.);  // there may be no interior
+  bool continues = sequence.solve(slack, x);
+  if (continues && violationAfter(nlp, sequence) > tolerance && options.interiorPadding > 0.) {
+    slack.setPadding(0.);  // the interior may be empty
     sequence.solve(slack, x);
   }
   const double violation = violationAfter(nlp, sequence);
   const bool holds = violation <= tolerance;
   return sequence.result(
       x, tolerance, holds ? SolverStatus::converged : SolverStatus::infeasible,
-      holds ? cat("all constraints hold to ", violation) : cat("no step reduces the violation; it is ", violation));
+      holds ? cat("all constraints hold to ", violation) : cat("no step reduces the violation ", violation));
 }
 
 }  // namespace kinegraph

@@ -4,17 +4,20 @@
 
 namespace kinegraph {
 
-/// Constraints as squared penalties, whose weight grows from muInit by muInc until they hold to the tolerance or the
-/// weight reaches muMax. `single`: one problem, with weight muInit. Without multipliers, so `dual` is zero.
-SolverResult solveSquaredPenalty(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook,
-                                 bool single);
+/// Solves a sequence of problems with squared penalties for the constraints. Their weight grows from muInit by muInc
+/// until the constraints hold within the tolerance or the weight reaches muMax. `single`: one problem with weight
+/// muInit. The method has no multipliers, so `dual` is zero.
+SolverResult solveSquaredPenalty(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                                 const EvaluationCallback& callback, bool single);
 
-/// Inequalities as barriers -mu log(-phi), whose weight falls from muLBInit by muLBDec; equalities by an augmented
-/// Lagrangian. Throws ValueError if the start is not strictly inside of all inequalities.
-SolverResult solveLogBarrier(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook);
+/// Solves a sequence of problems with barriers -mu log(-phi) for inequalities, whose weight falls from muLBInit by
+/// muLBDec. An augmented Lagrangian handles equalities. Throws ValueError if the start does not strictly fulfill all
+/// inequalities.
+SolverResult solveLogBarrier(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                             const EvaluationCallback& callback);
 
-/// Gauss-Newton on the violation of the constraints alone, until they hold; costs do not matter. Inequalities are
-/// wanted below -interiorPadding.
-SolverResult solveSlack(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook);
+/// Minimizes the violation of the constraints by Gauss-Newton until they hold, and ignores the costs. The target for
+/// inequalities is -interiorPadding.
+SolverResult solveSlack(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationCallback& callback);
 
 }  // namespace kinegraph

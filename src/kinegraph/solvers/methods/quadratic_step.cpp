@@ -10,15 +10,15 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kMostVariables = 200, kMostRows = 1000;
+constexpr int kMaxVariables = 200, kMaxConstraints = 1000;
 constexpr double kRelative = 1e-10;
 
-/// The problem around a point, in the step d.
+/// The quadratic model of the problem at a point, as a function of the step d.
 struct Model {
   MatrixXd H, A;
   VectorXd g, b;
-  std::vector<int> bound;  ///< of the rows after those of the constraints: 1 + i for an upper bound of variable i, -1 -
-                           ///< i for a lower
+  std::vector<int> bound;  ///< per row of A after the constraints: 1 + i for an upper bound of variable i,
+                           ///< -1 - i for a lower one
 };
 
 std::optional<Model> modelAt(const ConstrainedFunction& function, const VectorXd& x, const VectorXd& phi,
@@ -50,7 +50,7 @@ std::optional<Model> modelAt(const ConstrainedFunction& function, const VectorXd
     if (std::isfinite(function.upper()[i])) model.bound.push_back(1 + i);
   }
   const int rows = constraints + int(model.bound.size());
-  if (rows > kMostRows) return std::nullopt;
+  if (rows > kMaxConstraints) return std::nullopt;
   model.A = MatrixXd::Zero(rows, n);
   model.b = VectorXd::Zero(rows);
   for (int j = 0; j < constraints; ++j) {
@@ -67,7 +67,7 @@ std::optional<Model> modelAt(const ConstrainedFunction& function, const VectorXd
   return model;
 }
 
-/// Improves d and the multipliers of the rows that hold it, as the solution of a linear system.
+/// Refines d and the multipliers of the active constraints by the solution of their linear system.
 void polish(const Model& model, int equalities, VectorXd& d, VectorXd& multipliers) {
   std::vector<int> active;
   for (int j = 0; j < int(model.b.size()); ++j) {
@@ -97,18 +97,19 @@ void polish(const Model& model, int equalities, VectorXd& d, VectorXd& multiplie
 
 std::optional<QuadraticStep> quadraticStep(const ConstrainedFunction& function, const VectorXd& x, const VectorXd& phi,
                                            const Jacobian& J) {
-  if (x.size() > kMostVariables || !function.nlp().mayBeQuadratic()) return std::nullopt;
+  if (x.size() > kMaxVariables || !function.nlp().mayBeQuadratic()) return std::nullopt;
   const std::optional<Model> model = modelAt(function, x, phi, J);
   if (!model || !model->H.allFinite() || !model->A.allFinite()) return std::nullopt;
-  // Where H is singular the step is the limit of those with ever less regularization, each around the one before.
+  // Proximal iterations: each regularizes around the step before, so that a singular H is no problem in the limit.
   const double largest = model->H.diagonal().cwiseAbs().maxCoeff(), regularization = largest > 0. ? 1e-7 * largest : 1.;
   QuadraticProgram program{model->H, model->g, model->A, model->b, function.equalities()};
   program.H.diagonal().array() += regularization;
   VectorXd d = VectorXd::Zero(x.size());
   QuadraticSolution solution;
+  DualActiveSet workspace;
   for (int pass = 0; pass < 20; ++pass) {
     program.g = model->g - regularization * d;
-    solution = solve(program);
+    solution = solve(program, workspace);
     if (solution.status != QuadraticStatus::solved || !solution.x.allFinite()) return std::nullopt;
     const double moved = (solution.x - d).lpNorm<Eigen::Infinity>();
     d = solution.x;
@@ -122,7 +123,7 @@ bool isSolution(const ConstrainedFunction& function, const VectorXd& x, const Ve
                 const VectorXd& multipliers) {
   VectorXd gradient;
   function.costGradient(phi, J, gradient);
-  VectorXd magnitude = VectorXd::Ones(x.size());  // of the terms that must cancel
+  VectorXd magnitude = VectorXd::Ones(x.size());  // sum of the magnitudes of the terms that cancel
   const auto addMagnitude = [&](int row, double factor) {
     for (const Jacobian::Segment& segment : J.row_segments(row)) {
       for (int i = 0; i < segment.width; ++i)

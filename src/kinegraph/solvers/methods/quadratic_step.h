@@ -6,18 +6,18 @@
 
 namespace kinegraph {
 
-/// A point that would be the solution if residuals were linear, with the multipliers of the constraints there.
+/// The solution of the problem with linearized residuals, with the multipliers of the constraints.
 struct QuadraticStep {
   VectorXd x, multipliers;
 };
 
-/// Solves the problem with residuals linearized at x (and the Hessian of f terms, if the problem knows it) exactly, as
-/// a quadratic program, and checks nothing. None if the problem is too large, not convex or infeasible, has costs of
-/// other kinds, or says that it is not quadratic.
+/// Solves the problem with residuals linearized at x (and the Hessian of f terms, if it is known) exactly, as a
+/// quadratic program, without checking the result. None if the problem is too large, not convex or infeasible, has
+/// costs of other types, or is known not to be quadratic.
 std::optional<QuadraticStep> quadraticStep(const ConstrainedFunction& function, const VectorXd& x, const VectorXd& phi,
                                            const Jacobian& J);
 
-/// Do x and the multipliers fulfil the first-order conditions to nearly the precision of the numbers?
+/// Whether x and the multipliers fulfill the first-order conditions up to rounding errors.
 bool isSolution(const ConstrainedFunction& function, const VectorXd& x, const VectorXd& phi, const Jacobian& J,
                 const VectorXd& multipliers);
 

@@ -3,27 +3,27 @@
 
 #include "kinegraph/solvers/methods/augmented_lagrangian_method.h"
 
-// What the method does where constraints seem to contradict each other.
+// The restoration phase, for constraints that may contradict each other.
 
 namespace kinegraph {
 
 namespace {
 
-constexpr double kRegularization = 1e-6;  ///< of the least squares of the violation, by the largest squared entry of J
-constexpr double kCannotFall = .9;  ///< part of the violation that is left where constraints contradict each other
-constexpr double kMuchLess = .5;    ///< part of the violation with which a restoration has succeeded
-constexpr double kNegligible = .1;  ///< part of the tolerance that counts as no violation
+constexpr double kRegularization = 1e-6;  ///< of the squared violation, in units of the largest squared entry of J
+constexpr double kCannotFall = .9;  ///< remaining share of the linearized violation that proves local infeasibility
+constexpr double kMuchLess = .5;    ///< remaining share of the violation after a successful restoration
+constexpr double kNegligible = .1;  ///< share of the tolerance that counts as no violation
 
-constexpr int kMostSteps = 30;          ///< of the search for the least violation
+constexpr int kMaxSteps = 30;           ///< of the minimization of the violation
 constexpr double kFirstDamping = 1e-4;  ///< its Levenberg damping,
 constexpr double kDampingGrowth = 10.;  ///< factor after a refused step,
 constexpr double kDampingFall = .1;     ///< and after an accepted one
-constexpr double kGoodRatio = .5;       ///< of the actual and the expected fall of a step that does what it should
-constexpr double kHardlyFalls = 1e-4;   ///< relative fall of the squared violation that is not worth a step
+constexpr double kGoodRatio = .5;       ///< actual by expected decrease of a good step
+constexpr double kHardlyFalls = 1e-4;   ///< relative decrease of the squared violation that does not justify a step
 
 }  // namespace
 
-/// True if no step reduces the linearized violation by a tenth.
+/// Whether no step reduces the linearized violation by a tenth.
 bool AugmentedLagrangian::locallyInfeasible() {
   next_lambda_.setZero();
   double largest_row = kRegularization;
@@ -36,8 +36,8 @@ bool AugmentedLagrangian::locallyInfeasible() {
   return std::sqrt(after) >= kCannotFall * std::sqrt(before);
 }
 
-/// Goes to a point of least violation, from here or else from the start. True if the violation is much less there, so
-/// that it can go on, with a larger penalty.
+/// Moves to a point of least violation, from here or else from the start. True if the violation is much smaller there,
+/// so that the solve continues with a larger penalty.
 bool AugmentedLagrangian::restored() {
   const double before = here_.violation, enough = std::max(kMuchLess * before, kNegligible * tolerance_);
   reduceViolation();
@@ -49,7 +49,7 @@ bool AugmentedLagrangian::restored() {
     if (!stopped_ && here_.violation > enough && found.violation <= here_.violation) here_ = found;
   }
   function_.forceBest(here_);
-  if (stopped_ || restorations_ > kMostRestorations || function_.best().violation > enough) return false;
+  if (stopped_ || restorations_ > kMaxRestorations || function_.best().violation > enough) return false;
   lambda_.setZero();
   penalty_.restart(restorations_);
   violation_.restart();
@@ -57,11 +57,11 @@ bool AugmentedLagrangian::restored() {
   return true;
 }
 
-/// Gauss-Newton steps on the violation alone, so that the answer is the least one and no compromise with the costs.
+/// Minimizes the violation by Gauss-Newton steps, without the costs.
 void AugmentedLagrangian::reduceViolation() {
   next_lambda_.setZero();
   double damping = kFirstDamping;
-  for (int step = 0; step < kMostSteps && function_.evals() < options_.stopEvals; ++step) {
+  for (int step = 0; step < kMaxSteps && function_.evals() < options_.stopEvals; ++step) {
     model_.setJacobian(here_.J);
     model_.setNoCosts(0.);
     makeBox();
@@ -70,7 +70,7 @@ void AugmentedLagrangian::reduceViolation() {
                    .cwiseMin(upper_);
     if (!evaluate(trial_)) return;
 
-    // The radius follows what steps achieve, as it does on the way to the solution.
+    // The radius adapts to the steps as in the main iteration.
     const double before = squaredViolation(here_.c), after = squaredViolation(trial_.c),
                  expected = squaredViolation(model_.linearized());
     const bool at_edge = radius_.isAtEdge(model_.step().lpNorm<Eigen::Infinity>()),
@@ -78,7 +78,7 @@ void AugmentedLagrangian::reduceViolation() {
     if (at_edge && good) radius_.growRestoring();
     if (!good) radius_.shrink();
 
-    // The least violation: even the linearized one would hardly fall, and nothing keeps the step short.
+    // Minimum: even the linearized violation would hardly decrease, and nothing limits the step.
     if (before - expected < kHardlyFalls * before && !at_edge && damping <= kFirstDamping * (1. + before)) return;
     if (!(after < before) || !trial_.finite) {
       damping *= kDampingGrowth;

@@ -12,13 +12,13 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kLargestDimension = 200;  ///< of problems whose curvature is a full matrix
-constexpr int kActivePasses = 3;        ///< quadratic programs of a step, to find what is active
-constexpr double kLeastSlope = 1e-4;    ///< in units of the variables: less counts as level, whatever the tolerance
-constexpr int kMostTinySteps = 50;      ///< where it is not level
+constexpr int kLargestDimension = 200;  ///< of problems with full matrices
+constexpr int kActivePasses = 3;        ///< number of quadratic programs per step, to find the active set
+constexpr double kMinSlope = 1e-4;      ///< smallest slope, in units of the variables, for any tolerance
+constexpr int kMaxTinySteps = 50;       ///< at points with a larger slope
 
-/// The program with one more variable, in [0, 1]: the part of what the first `rows` are violated by at 0 that may
-/// remain, at the price of half of `weight` times its square. It has a solution wherever 0 fulfils the other rows.
+/// Relaxes a program by one more variable in [0, 1]: the share of the violation at 0 that the first `rows` constraints
+/// keep. The cost is half of `weight` times its square. The program is feasible if 0 fulfills the other constraints.
 QuadraticProgram relax(const QuadraticProgram& program, int rows, double weight) {
   const Eigen::Index n = program.g.size(), m = program.b.size();
   QuadraticProgram out{MatrixXd::Zero(n + 1, n + 1), VectorXd::Zero(n + 1), MatrixXd::Zero(m + 2, n + 1),
@@ -40,10 +40,10 @@ QuadraticProgram relax(const QuadraticProgram& program, int rows, double weight)
 }  // namespace
 
 SequentialQuadratic::SequentialQuadratic(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
-                                         const EvaluationHook& hook)
+                                         const EvaluationCallback& callback)
     : nlp_(nlp),
       options_(options),
-      function_(nlp, x0, options, hook),
+      function_(nlp, x0, options, callback),
       constraints_(function_.constraints()),
       equalities_(function_.equalities()),
       lower_(function_.lower()),
@@ -69,9 +69,9 @@ SolverResult SequentialQuadratic::run(const VectorXd& dual) {
   return function_.result(status_ == SolverStatus::converged ? here_ : function_.best(), lambda_, status_, message_);
 }
 
-/// Gradient and Hessian of the costs, and the constraints' rows. While nothing is known of the curvature of the f rows,
-/// it is such that a step without constraints would be a tenth of `room`, or of the variables' units.
-void SequentialQuadratic::linearize(double room) {
+/// Computes gradient and Hessian of the costs, and the constraints. Without any information on the curvature of the f
+/// costs, the Hessian makes an unconstrained step a tenth of `scale`, or of the units of the variables.
+void SequentialQuadratic::linearize(double scale) {
   const int n = nlp_.dimension();
   function_.costGradient(here_.phi, here_.J, gradient_);
   if (knows_curvature_) {
@@ -82,7 +82,7 @@ void SequentialQuadratic::linearize(double room) {
       function_.generalGradient(here_.J, VectorXd(), old_gradient_);
       const double slope = learning_unit_.cwiseProduct(old_gradient_).lpNorm<Eigen::Infinity>();
       H_.diagonal() =
-          std::max(1e-8, 10. * slope / (learns_in_units_ ? 1. : room)) * learning_unit_.array().inverse().square();
+          std::max(1e-8, 10. * slope / (learns_in_units_ ? 1. : scale)) * learning_unit_.array().inverse().square();
     }
     addSquaredRows(H_);
   }
@@ -96,7 +96,7 @@ void SequentialQuadratic::linearize(double room) {
   }
 }
 
-/// Gauss-Newton's part of the costs: sos rows, and ineqP only where violated.
+/// Adds the Gauss-Newton Hessian of the sos costs and violated ineqP costs.
 void SequentialQuadratic::addSquaredRows(MatrixXd& H) const {
   VectorXd row_of_J = VectorXd::Zero(nlp_.dimension());
   for (int row : function_.costs()) {
@@ -128,22 +128,23 @@ QuadraticProgram SequentialQuadratic::makeModel(const VectorXd& c) const {
   return program;
 }
 
-/// min g^T d + 1/2 d^T H d  with c + J d = 0 or <= 0, in the bounds. Where these contradict each other, they are
-/// relaxed: a part of their violation, as small as possible, remains.
+/// Solves min g^T d + 1/2 d^T H d  subject to c + J d = 0 or <= 0 and the bounds. If these contradict each other, the
+/// smallest possible share of the violation remains.
 SequentialQuadratic::Step SequentialQuadratic::solveQuadratic(const VectorXd& c) {
   const int n = nlp_.dimension(), m = int(constraints_.size());
   QuadraticProgram program = makeModel(c);
   if (knows_curvature_) makeConvex(program);
   Step step;
-  QuadraticSolution solution = solve(program);
-  if (knows_curvature_ && solution.status == QuadraticStatus::infeasible) {  // constraints come before the radius
+  QuadraticSolution solution = solve(program, workspace_);
+  if (knows_curvature_ &&
+      solution.status == QuadraticStatus::infeasible) {  // constraints have priority over the radius
     leaveRadius(program);
-    solution = solve(program);
+    solution = solve(program, workspace_);
   }
   double weight = 1e3 * std::max(1., std::abs(here_.cost));
   for (int attempt = 0; attempt < 4 && m > 0 && (solution.status != QuadraticStatus::solved || step.relaxed >= .9);
        ++attempt) {
-    QuadraticSolution relaxed = solve(relax(program, m, weight));
+    QuadraticSolution relaxed = solve(relax(program, m, weight), relaxed_workspace_);
     weight *= 100.;
     if (relaxed.status != QuadraticStatus::solved) continue;
     solution = std::move(relaxed);
@@ -159,7 +160,7 @@ SequentialQuadratic::Step SequentialQuadratic::solveQuadratic(const VectorXd& c)
   return step;
 }
 
-/// Moves along the step, or a correction of it, until the merit function has decreased enough. False if it does not.
+/// Shortens the step, or a correction of it, until the merit function decreases enough. False if it does not.
 bool SequentialQuadratic::lineSearch(const Step& step) {
   double slope = gradient_.dot(step.d), reduction = 0.;
   for (int j = 0; j < weights_.size(); ++j) {
@@ -170,7 +171,7 @@ bool SequentialQuadratic::lineSearch(const Step& step) {
     slope -= weights_[j] * reduces;
   }
   const double curvature = knows_curvature_ ? curvatureAlong(step.d) : step.d.dot(H_ * step.d);
-  if (slope > -.5 * curvature && reduction > 0.) {  // feasibility must weigh more for this to be a descent
+  if (slope > -.5 * curvature && reduction > 0.) {  // larger weights of the violation make this a descent direction
     const double more = (slope + curvature) / reduction;
     for (int j = 0; j < weights_.size(); ++j) weights_[j] += more * row_scale_[j];
     slope = -curvature;
@@ -200,7 +201,7 @@ bool SequentialQuadratic::lineSearch(const Step& step) {
   return false;
 }
 
-void SequentialQuadratic::learnCurvature(const EvaluatedPoint& before, const EvaluatedPoint& after) {
+void SequentialQuadratic::updateCurvature(const EvaluatedPoint& before, const EvaluatedPoint& after) {
   if (knows_curvature_) return constraint_curvature_.update(after.x - before.x, before.J, after.J);
   function_.generalGradient(before.J, lambda_, old_gradient_);
   function_.generalGradient(after.J, lambda_, gradient_);
@@ -212,9 +213,9 @@ void SequentialQuadratic::iterate() {
     if (function_.evals() >= options_.stopEvals)
       return stop(SolverStatus::limit, cat("limit of ", options_.stopEvals, " evaluations"));
     if (count >= options_.stopInners) return stop(SolverStatus::limit, cat("limit of ", options_.stopInners, " steps"));
-    const double room = std::max(1., here_.x.lpNorm<Eigen::Infinity>());
+    const double x_scale = std::max(1., here_.x.lpNorm<Eigen::Infinity>());
     unit_ = here_.x.cwiseAbs().cwiseMax(1.);
-    linearize(room);
+    linearize(x_scale);
     const Step step = findStep();
     const double violation = here_.violation, size = step.d.lpNorm<Eigen::Infinity>();
     double promised = std::abs(gradient_.dot(step.d));
@@ -228,20 +229,20 @@ void SequentialQuadratic::iterate() {
                                       : "");
     }
     const bool is_tiny = violation <= tolerance_ && step.found &&
-                         ((size <= options_.stopTolerance * room &&
+                         ((size <= options_.stopTolerance * x_scale &&
                            promised <= std::max(std::pow(options_.stopTolerance, 2), 1e-12) * scale) ||
                           promised <= 1e-14 * scale);
     if (is_tiny && fulfillsFirstOrder(step.lambda, scale)) {
-      if (knows_curvature_ && leavesSaddle(step)) continue;
+      if (knows_curvature_ && escapesSaddle(step)) continue;
       if (stopped_) return;
       lambda_ = step.lambda;
       return stop(SolverStatus::converged, cat("step ", size, ", its predicted decrease ", promised, ", and violation ",
                                                violation, " are within tolerances"));
     }
-    if (is_tiny && learnsAnewInUnits()) continue;
-    if (is_tiny && ++tiny_steps_ > kMostTinySteps)
-      return stop(SolverStatus::stalled, "steps are tiny where the objective is not level yet");
-    if (!step.found || size <= 1e-15 * room || !lineSearch(step)) {
+    if (is_tiny && restartsCurvatureInUnits()) continue;
+    if (is_tiny && ++tiny_steps_ > kMaxTinySteps)
+      return stop(SolverStatus::stalled, "steps are tiny although the projected gradient is not");
+    if (!step.found || size <= 1e-15 * x_scale || !lineSearch(step)) {
       if (stopped_) return;
       if (function_.evals() >= options_.stopEvals) continue;
       if ((curvature_.empty() && !knows_curvature_) || ++resets_ > 5)
@@ -252,14 +253,14 @@ void SequentialQuadratic::iterate() {
     }
     if (step.relaxed < .1) lambda_ = step.lambda;
     std::swap(here_, trial_);
-    learnCurvature(trial_, here_);
+    updateCurvature(trial_, here_);
     function_.remember(here_);
   }
 }
 
-/// Is the Lagrangian level here, where bounds do not hold x, with variables in their units?
+/// Whether the projected gradient of the Lagrangian, with variables in their units, is within the tolerance.
 bool SequentialQuadratic::fulfillsFirstOrder(const VectorXd& multipliers, double scale) {
-  return slopeInUnits(multipliers) <= std::max(options_.stopTolerance, kLeastSlope) * scale;
+  return slopeInUnits(multipliers) <= std::max(options_.stopTolerance, kMinSlope) * scale;
 }
 
 double SequentialQuadratic::slopeInUnits(const VectorXd& multipliers) {
@@ -270,8 +271,8 @@ double SequentialQuadratic::slopeInUnits(const VectorXd& multipliers) {
       .lpNorm<Eigen::Infinity>();
 }
 
-/// Where a tiny step is due to a curvature that was learnt of small variables and taken for that of large ones. Once.
-bool SequentialQuadratic::learnsAnewInUnits() {
+/// Restarts the curvature estimate in the units of the variables, if a wrong scale may cause tiny steps. Only once.
+bool SequentialQuadratic::restartsCurvatureInUnits() {
   if (knows_curvature_ || learns_in_units_) return false;
   learns_in_units_ = true;
   learning_unit_ = unit_;
@@ -280,16 +281,16 @@ bool SequentialQuadratic::learnsAnewInUnits() {
 }
 
 SequentialQuadratic::Step SequentialQuadratic::findStep() {
-  holds_touched_only_ = false;
+  holds_tight_only_ = false;
   Step step = solveQuadratic(here_.c);
   if (!knows_curvature_) return step;
-  // What is expected to be active decides how an indefinite Hessian is made convex.
+  // The expected active set decides how an indefinite Hessian is convexified.
   for (int pass = 0; pass < kActivePasses && step.found && step.active != active_; ++pass) {
     active_ = step.active;
     step = solveQuadratic(here_.c);
   }
   if (step.found && !leadsDown(step)) {
-    holds_touched_only_ = true;
+    holds_tight_only_ = true;
     step = solveQuadratic(here_.c);
   }
   return step;
@@ -307,8 +308,8 @@ CostCurvature costCurvature(Nlp& nlp, const VectorXd& x) {
 }
 
 SolverResult solveSequentialQuadratic(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
-                                      const EvaluationHook& hook, const VectorXd& dual) {
-  return SequentialQuadratic(nlp, x0, options, hook).run(dual);
+                                      const EvaluationCallback& callback, const VectorXd& dual) {
+  return SequentialQuadratic(nlp, x0, options, callback).run(dual);
 }
 
 }  // namespace kinegraph

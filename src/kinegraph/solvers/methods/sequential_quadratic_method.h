@@ -11,37 +11,36 @@
 
 namespace kinegraph {
 
-/// The method of solveSequentialQuadratic, on its way. What it does with a Hessian that the problem tells is in
-/// known_curvature.cpp.
+/// The implementation of solveSequentialQuadratic. known_curvature.cpp handles problems with a known Hessian of the
+/// costs.
 class SequentialQuadratic {
  public:
-  SequentialQuadratic(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook);
+  SequentialQuadratic(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationCallback& callback);
 
   SolverResult run(const VectorXd& dual);
 
  private:
-  /// A step that solves a quadratic program, and what it promises.
+  /// A step that solves a quadratic program, with its predictions.
   struct Step {
     VectorXd d, lambda, linear;  ///< linear: constraints after the step, to first order
-    double relaxed =
-        0.;  ///< part of the violation that the linearized constraints had to keep; 0 if they are consistent
+    double relaxed = 0.;         ///< remaining share of the violation; 0 if the linearized constraints are consistent
     bool found = false;
-    std::vector<int> active;  ///< rows of the program with a multiplier
+    std::vector<int> active;  ///< constraints of the program with a multiplier
   };
 
   void iterate();
-  void linearize(double room);
+  void linearize(double scale);
   void addSquaredRows(MatrixXd& H) const;
   QuadraticProgram makeModel(const VectorXd& c) const;
   Step findStep();
   Step solveQuadratic(const VectorXd& c);
   bool lineSearch(const Step& step);
-  void learnCurvature(const EvaluatedPoint& before, const EvaluatedPoint& after);
+  void updateCurvature(const EvaluatedPoint& before, const EvaluatedPoint& after);
   bool fulfillsFirstOrder(const VectorXd& multipliers, double scale);
   double slopeInUnits(const VectorXd& multipliers);
-  bool learnsAnewInUnits();
+  bool restartsCurvatureInUnits();
 
-  // Where the problem tells the Hessian of its costs.
+  // For a known Hessian of the costs.
   bool solvedInOneStep();
   void findHessian(const VectorXd& multipliers);
   void makeConvex(QuadraticProgram& program);
@@ -50,13 +49,13 @@ class SequentialQuadratic {
   double leastCurvature();
   void leaveRadius(QuadraticProgram& program) const;
   void adaptRadius(const Step& step, double alpha, double ratio);
-  bool leavesSaddle(const Step& step);
+  bool escapesSaddle(const Step& step);
   Restriction restriction(const Step& step) const;
-  void lookAround(const Step& step);
+  void probeConstraints(const Step& step);
   bool descendsAlong(const VectorXd& direction, const Step& step);
   VectorXd onActiveRows(const VectorXd& c, const Step& step) const;
 
-  /// Evaluates there; the merit function, infinite where numbers are not finite.
+  /// Evaluates the end of a step and returns the merit function, infinite for numbers that are not finite.
   double tryStep(const VectorXd& d) {
     trial_.x = function_.clip(here_.x + d);
     evaluate(trial_);
@@ -89,26 +88,27 @@ class SequentialQuadratic {
   const VectorXd &lower_, &upper_;
   QuasiNewton curvature_;
   EvaluatedPoint here_, trial_;
+  DualActiveSet workspace_, relaxed_workspace_;
   MatrixXd H_, A_;      ///< of the quadratic program; A with rows of length 1
-  VectorXd row_scale_;  ///< one over their length in J
+  VectorXd row_scale_;  ///< inverse norms of these rows in J
   VectorXd lambda_, weights_, gradient_, old_gradient_;
-  VectorXd unit_;           ///< of each variable: its size here, at least 1
-  VectorXd learning_unit_;  ///< those in which curvature is learnt: ones, or as they were where it was learnt anew
+  VectorXd unit_;           ///< scale of each variable: its magnitude, at least 1
+  VectorXd learning_unit_;  ///< scale of the curvature estimate: ones, or unit_ at its last reset
   bool learns_in_units_ = false;
   double tolerance_;
   bool stopped_ = false;
   SolverStatus status_ = SolverStatus::stalled;
   std::string message_;
-  int resets_ = 0;      ///< times that no step was found
-  int tiny_steps_ = 0;  ///< where the first-order conditions did not hold
+  int resets_ = 0;      ///< number of failed steps
+  int tiny_steps_ = 0;  ///< tiny steps at points that violate the first-order conditions
 
   const bool knows_curvature_;
   ConstraintCurvature constraint_curvature_;
-  MatrixXd W_;               ///< Hessian of the Lagrangian, as far as it is known
-  std::vector<int> active_;  ///< rows of the program that are expected to be active
-  bool holds_touched_only_ = false;
+  MatrixXd W_;               ///< Hessian of the Lagrangian, as far as known
+  std::vector<int> active_;  ///< constraints of the program that are expected to be active
+  bool holds_tight_only_ = false;
   int saddles_ = 0;
-  double radius_ = std::numeric_limits<double>::infinity();  ///< of steps, where the Hessian is known
+  double radius_ = std::numeric_limits<double>::infinity();  ///< of steps, if the Hessian is known
 };
 
 }  // namespace kinegraph

@@ -4,29 +4,29 @@
 
 namespace kinegraph {
 
-/// The largest entry that a step may have: stepMax at first, more where long steps keep their promises.
+/// The largest entry of a step: stepMax at first, and more after accurate long steps.
 class StepRadius {
  public:
-  static constexpr double kAtEdge = .99;          ///< part of the radius from which on a step counts as stopped by it
-  static constexpr int kStepsToGrow = 2;          ///< such steps in a row, before it grows
-  static constexpr double kGrowth = 2.;           ///< its factor then,
-  static constexpr double kRestoringGrowth = 4.;  ///< and where only the violation is reduced
+  static constexpr double kAtEdge = .99;          ///< share of the radius beyond which it limits a step
+  static constexpr int kStepsToGrow = 2;          ///< number of consecutive limited steps before the radius grows
+  static constexpr double kGrowth = 2.;           ///< factor of growth,
+  static constexpr double kRestoringGrowth = 4.;  ///< and in restorations
   static constexpr double kFall = .25;            ///< factor after a refused step
-  static constexpr double kMost = 1e6;            ///< largest value, in units of the first one
-  static constexpr double kFree = .5;             ///< part of the radius up to which a step is the model's own
+  static constexpr double kMax = 1e6;             ///< largest value, in units of the initial one
+  static constexpr double kFree = .5;             ///< share of the radius below which it does not affect a step
 
   explicit StepRadius(double first) : first_(first), value_(first) {}
 
   double value() const { return value_; }
   bool isAtEdge(double size) const { return size >= kAtEdge * value_; }
 
-  /// Is a step of this size short enough that the radius had no part in it?
+  /// Whether a step of this size is too short for the radius to affect it.
   bool leavesFree(double size) const { return size <= kFree * value_; }
 
-  /// After an accepted step of this size; `good`: it did what was predicted.
+  /// Adapts after an accepted step of this size; `good`: its decrease was as predicted.
   void accept(double size, bool good) {
     steps_at_edge_ = good && isAtEdge(size) ? steps_at_edge_ + 1 : 0;
-    if (steps_at_edge_ >= kStepsToGrow) value_ = std::min(kGrowth * value_, kMost * first_);
+    if (steps_at_edge_ >= kStepsToGrow) value_ = std::min(kGrowth * value_, kMax * first_);
   }
 
   void refuse() {

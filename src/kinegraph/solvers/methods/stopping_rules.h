@@ -8,17 +8,18 @@
 
 namespace kinegraph {
 
-/// When an inner problem (the least Lagrangian for these multipliers and this penalty) is solved well enough for new
-/// multipliers: roughly at first, and more exactly from round to round.
+/// Decides whether an inner problem (minimize the Lagrangian for given multipliers and penalty) is solved well enough
+/// to update the multipliers. Each outer iteration is more accurate than the one before.
 class InnerTest {
  public:
-  static constexpr double kFirstStep = .1;       ///< largest entry of a step that counts as none, in the first round
-  static constexpr double kStepFall = .3;        ///< its factor from round to round,
-  static constexpr double kStepFallOfMany = .5;  ///< and where there are many variables
-  static constexpr double kFirstDecrease = .02;  ///< relative decrease that counts as none, in the first round
-  static constexpr double kDecreaseFall = .5;    ///< its factor from round to round where constraints hold
-  static constexpr double kLeastDecrease = 1e-6;
-  static constexpr double kLeastValue = .01;  ///< least value of the Lagrangian that decreases are relative to
+  static constexpr double kFirstStep = .1;       ///< step tolerance of the first outer iteration
+  static constexpr double kStepFall = .3;        ///< factor of the step tolerance per outer iteration,
+  static constexpr double kStepFallOfMany = .5;  ///< and for many variables
+  static constexpr double kFirstDecrease = .02;  ///< tolerance of the relative decrease in the first outer iteration
+  static constexpr double kDecreaseFall =
+      .5;  ///< factor of that tolerance per outer iteration, if the constraints hold
+  static constexpr double kMinDecrease = 1e-6;
+  static constexpr double kMinValue = .01;  ///< least magnitude of the Lagrangian for relative decreases
 
   explicit InnerTest(bool has_many_variables) : step_fall_(has_many_variables ? kStepFallOfMany : kStepFall) {}
 
@@ -26,14 +27,14 @@ class InnerTest {
     return (step_size <= step_ && !is_damped) || last_decrease_ <= decrease_;
   }
 
-  /// The Lagrangian before and after an accepted step.
-  void sawStep(double before, double after) {
-    last_decrease_ = (before - after) / std::max(std::abs(before), kLeastValue);
+  /// Records the Lagrangian before and after an accepted step.
+  void addStep(double before, double after) {
+    last_decrease_ = (before - after) / std::max(std::abs(before), kMinValue);
   }
 
   void tighten(double least_step, bool constraints_hold) {
     step_ = std::max(step_fall_ * step_, least_step);
-    if (constraints_hold) decrease_ = std::max(kDecreaseFall * decrease_, kLeastDecrease);
+    if (constraints_hold) decrease_ = std::max(kDecreaseFall * decrease_, kMinDecrease);
   }
   void beginRound() { last_decrease_ = 1.; }
 
@@ -41,24 +42,25 @@ class InnerTest {
   double step_fall_, step_ = kFirstStep, decrease_ = kFirstDecrease, last_decrease_ = 1.;
 };
 
-/// Do the costs creep: do the constraints hold, are steps refused again and again, and do those that are not hardly
-/// decrease the costs, as along a kink?
-class CreepTest {
+/// Detects stagnation: the constraints hold, many steps are refused, and accepted steps hardly decrease the cost, as at
+/// non-smooth points.
+class StagnationTest {
  public:
-  static constexpr int kWindow = 10;          ///< evaluations that are looked at together
-  static constexpr int kRefused = 3;          ///< steps among them that are refused, at least
-  static constexpr double kLeastCost = 1e-4;  ///< least costs that a decrease is relative to
+  static constexpr int kWindow = 10;        ///< number of evaluations per check
+  static constexpr int kRefused = 3;        ///< least number of refused steps among them
+  static constexpr double kMinCost = 1e-4;  ///< least magnitude of the cost for relative decreases
 
-  /// Costs creep if they fall by less than the lesser of stopTolerance and stopFTolerance an evaluation.
-  explicit CreepTest(const SolverOptions& options)
+  /// The solve stagnates if the relative decrease of the cost per evaluation is less than stopTolerance and
+  /// stopFTolerance.
+  explicit StagnationTest(const SolverOptions& options)
       : least_decrease_(kWindow * std::min(options.stopTolerance, options.stopFTolerance)) {}
 
-  void refuse() { ++refused_; }
+  void addRefusal() { ++refused_; }
 
-  bool creeps(int evals, double cost, bool constraints_hold) {
+  bool stagnates(int evals, double cost, bool constraints_hold) {
     if (constraints_hold && evals < first_ + kWindow) return false;
-    const bool slow = constraints_hold && refused_ >= kRefused &&
-                      cost_ - cost < least_decrease_ * std::max(std::abs(cost), kLeastCost);
+    const bool slow =
+        constraints_hold && refused_ >= kRefused && cost_ - cost < least_decrease_ * std::max(std::abs(cost), kMinCost);
     first_ = evals;
     refused_ = 0;
     cost_ = cost;
@@ -71,63 +73,64 @@ class CreepTest {
   double cost_ = std::numeric_limits<double>::infinity();
 };
 
-/// Does the violation fall from round to round?
+/// Observes the decrease of the violation over outer iterations.
 class ViolationTest {
  public:
-  static constexpr double kEnough = .25;     ///< factor that a round should reach, or the penalty grows
-  static constexpr double kHardly = .7;      ///< factor of a bad round, if the penalty is large
-  static constexpr int kBadRounds = 2;       ///< in a row: constraints may contradict each other
-  static constexpr int kMostFailures = 6;    ///< times in a row that this came without progress: give up
-  static constexpr double kHalf = .5;        ///< factor that is progress of the violation,
-  static constexpr double kCostFall = 1e-4;  ///< and part of the costs that is progress as well
+  static constexpr double kSufficient = .25;   ///< factor of a sufficient decrease; otherwise the penalty grows
+  static constexpr double kInsufficient = .7;  ///< factor of an insufficient decrease under a large penalty
+  static constexpr int kBadRounds = 2;         ///< consecutive ones suggest that constraints contradict each other
+  static constexpr int kMaxFailures = 6;       ///< the solve ends after as many of these without progress
+  static constexpr double kHalf = .5;          ///< factor of the violation that counts as progress,
+  static constexpr double kCostFall = 1e-4;    ///< and relative decrease of the cost that does
 
-  bool fellEnough(double violation) const { return violation <= kEnough * least_; }
+  bool fellEnough(double violation) const { return violation <= kSufficient * least_; }
 
-  /// Ends a round in which constraints do not hold. True after bad rounds.
+  /// Ends an outer iteration with violated constraints. True after several insufficient decreases.
   bool isStuck(double violation, bool penalty_is_much) {
-    bad_rounds_ = violation > kHardly * least_ && penalty_is_much ? bad_rounds_ + 1 : 0;
+    bad_rounds_ = violation > kInsufficient * least_ && penalty_is_much ? bad_rounds_ + 1 : 0;
     return bad_rounds_ >= kBadRounds;
   }
 
-  /// Where it is stuck, though constraints do not contradict each other: true if that has happened too often.
+  /// Called if the violation is stuck although the constraints do not contradict each other. True if that happened too
+  /// often.
   bool isHopeless(double violation, double cost) {
     bad_rounds_ = 0;
     const bool falls = violation < kHalf * violation_, is_first = cost_ == kInfinity;
-    if (falls || is_first || cost < cost_ - kCostFall * std::abs(cost_)) {  // slow, but it goes on
+    if (falls || is_first || cost < cost_ - kCostFall * std::abs(cost_)) {  // slow progress
       if (falls) violation_ = violation;
       cost_ = cost;
       failures_ = 0;
     }
-    return ++failures_ == kMostFailures;
+    return ++failures_ == kMaxFailures;
   }
 
-  void sawRound(double violation) { least_ = std::min(least_, violation); }
+  void addRound(double violation) { least_ = std::min(least_, violation); }
 
-  /// Elsewhere: forgets what fell, not how often it was in vain.
+  /// Forgets violations and costs, after a move to another point, but not the number of failures.
   void restart() { least_ = violation_ = cost_ = kInfinity; }
 
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-  double least_ = kInfinity;                         ///< of all rounds
-  double violation_ = kInfinity, cost_ = kInfinity;  ///< where it was stuck, and there was progress
+  double least_ = kInfinity;                         ///< over all outer iterations
+  double violation_ = kInfinity, cost_ = kInfinity;  ///< when it was stuck last with progress
   int bad_rounds_ = 0, failures_ = 0;
 };
 
-/// Whether to try second-order corrections, which cost an evaluation each: seldom where they do not help.
+/// Decides whether to try a second-order correction, which costs one evaluation. They become rare if they do not help.
 class CorrectionTest {
  public:
-  static constexpr int kFailures = 2;  ///< in a row, before steps go without
-  static constexpr int kLongest = 32;  ///< steps without, at most
+  static constexpr int kFailures = 2;  ///< consecutive failures before corrections are skipped
+  static constexpr int kLongest = 32;  ///< largest number of skipped corrections
 
-  /// Counts a step that a correction might help.
+  /// Whether a step that a correction may improve shall be corrected.
   bool isDue() {
     if (wait_ == 0) return true;
     --wait_;
     return false;
   }
 
-  void saw(bool helped) {
+  void addCorrection(bool helped) {
     failures_ = helped ? 0 : failures_ + 1;
     if (failures_ >= kFailures) wait_ = std::min(2 << std::min(failures_, 4), kLongest);
   }

@@ -11,7 +11,7 @@ namespace kinegraph {
 
 ConstrainedFunction::ConstrainedFunction(Nlp& nlp)
     : nlp_(nlp),
-      room_(dynamic_cast<LazyConstraints*>(&nlp)),
+      lazy_(nlp.lazyConstraints()),
       lower_(nlp.lower()),
       upper_(nlp.upper()),
       last_x_(lower_),
@@ -45,10 +45,10 @@ ConstrainedFunction::ConstrainedFunction(Nlp& nlp)
       std::all_of(costs_.begin(), costs_.end(), [this](int row) { return types()[row] == ObjectiveType::sos; });
 }
 
-void ConstrainedFunction::begin(const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook) {
+void ConstrainedFunction::begin(const VectorXd& x0, const SolverOptions& options, const EvaluationCallback& callback) {
   options.validate();
   requireStart(nlp_, x0);
-  hook_ = &hook;
+  callback_ = &callback;
   tolerance_ = options.constraintTolerance();
   lower_ = nlp_.lower();
   upper_ = nlp_.upper();
@@ -74,10 +74,10 @@ bool ConstrainedFunction::evaluate(EvaluatedPoint& point) {
   last_x_ = point.x;
   ++evals_;
   summarize(point);
-  return !*hook_ || (*hook_)(point.x, point.phi);
+  return !*callback_ || (*callback_)(point.x, point.phi);
 }
 
-/// What follows from phi and J.
+/// Computes the members that follow from phi and J.
 void ConstrainedFunction::summarize(EvaluatedPoint& point) const {
   for (std::size_t j = 0; j < constraints_.size(); ++j) point.c[Eigen::Index(j)] = point.phi[constraints_[j]];
   point.cost = cost(point.phi);
@@ -88,12 +88,13 @@ void ConstrainedFunction::summarize(EvaluatedPoint& point) const {
   point.finite = describeNotFinite(nlp_, point.phi, &point.J).empty();
 }
 
-Refinement ConstrainedFunction::takeUpConstraints(EvaluatedPoint& point, bool is_solution, std::vector<int>& rows) {
-  rows.clear();
-  if (!room_ || !room_->hasRoom()) return Refinement::none;
-  const Refinement found = room_->takeUp(point.x, is_solution, point.phi, point.J, rows);
+Refinement ConstrainedFunction::activateConstraints(EvaluatedPoint& point, bool is_solution,
+                                                    std::vector<int>& activated) {
+  activated.clear();
+  if (!lazy_ || !lazy_->hasCapacity()) return Refinement::none;
+  const Refinement found = lazy_->activate(point.x, is_solution, point.phi, point.J, activated);
   last_x_ = point.x;
-  if (rows.empty()) return found;
+  if (activated.empty()) return found;
   summarize(point);
   forceBest(point);
   return found;

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kinegraph/nlp/lazy_constraints.h"
-#include "kinegraph/solvers/interface/evaluation_hook.h"
+#include "kinegraph/solvers/interface/evaluation_callback.h"
 #include "kinegraph/solvers/interface/options.h"
 #include "kinegraph/solvers/interface/result.h"
 
@@ -17,82 +17,84 @@ struct PointValues {
   double violation = 0.;  ///< of the worst constraint
 };
 
-/// A point and all that is known there.
+/// A point with values and derivatives.
 struct EvaluatedPoint : PointValues {
   Jacobian J;
   VectorXd c;          ///< phi of the constraints
-  bool finite = true;  ///< are phi and J?
+  bool finite = true;  ///< whether phi and J are
 };
 
-/// A problem as methods for constraints see it: costs, constraints c (rows of type eq, ineq, ineqB) and a box.
-/// Counts evaluations, asks the hook, keeps the best point.
+/// The view of a problem for constrained methods: costs, constraints c (residuals of type eq, ineq, ineqB) and bounds.
+/// Counts evaluations, calls the callback, and keeps the best point.
 class ConstrainedFunction {
  public:
   explicit ConstrainedFunction(Nlp& nlp);
-  ConstrainedFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook)
+  ConstrainedFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationCallback& callback)
       : ConstrainedFunction(nlp) {
-    begin(x0, options, hook);
+    begin(x0, options, callback);
   }
 
-  /// Forgets what was evaluated. `hook` must stay. Throws ValueError if the options make no sense or `x0` does not fit.
-  void begin(const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook);
+  /// Starts anew, without evaluations. `callback` must outlive the solve. Throws ValueError for invalid options or an
+  /// `x0` of another size.
+  void begin(const VectorXd& x0, const SolverOptions& options, const EvaluationCallback& callback);
 
   Nlp& nlp() const { return nlp_; }
   const std::vector<ObjectiveType>& types() const { return nlp_.types(); }
-  const std::vector<int>& costs() const { return costs_; }              ///< rows of type f, sos, ineqP
-  const std::vector<int>& constraints() const { return constraints_; }  ///< rows, equalities first
+  const std::vector<int>& costs() const { return costs_; }              ///< indices of residuals of type f, sos, ineqP
+  const std::vector<int>& constraints() const { return constraints_; }  ///< indices of residuals, equalities first
   int equalities() const { return equalities_; }
-  bool hasGeneralCosts() const { return has_f_; }   ///< of type f
-  const VectorXd& lower() const { return lower_; }  ///< infinite if the options say so
+  bool hasGeneralCosts() const { return has_f_; }   ///< costs of type f
+  const VectorXd& lower() const { return lower_; }  ///< infinite without options.boundedNewton
   const VectorXd& upper() const { return upper_; }
   VectorXd clip(const VectorXd& x) const { return x.cwiseMax(lower_).cwiseMin(upper_); }
 
-  /// A point with memory for all its parts.
+  /// Returns a point with allocated members.
   EvaluatedPoint makePoint() const;
 
-  /// Fills in what is known at point.x. False if the caller wants it to end.
+  /// Computes all values at point.x. False if the callback cancels the solve.
   bool evaluate(EvaluatedPoint& point);
   int evals() const { return evals_; }
 
-  /// Lets the problem take up constraints (LazyConstraints) that are violated at a point. `rows` were empty before;
-  /// where there are any, the best point so far is this one, as nothing is known of the others.
-  Refinement takeUpConstraints(EvaluatedPoint& point, bool is_solution, std::vector<int>& rows);
-  bool takesUpAtEachStep() const { return room_ && room_->isAskedAtEachStep(); }
+  /// Activates lazy constraints that a point violates (see LazyConstraints::activate). If there are any, this point
+  /// becomes the best one, since the others were evaluated without these constraints.
+  Refinement activateConstraints(EvaluatedPoint& point, bool is_solution, std::vector<int>& activated);
+  bool activatesAtEachStep() const { return lazy_ && lazy_->activatesAtEachStep(); }
 
-  /// Throws ValueError, naming the row, if numbers are not finite.
+  /// Throws ValueError, naming the residual, if numbers are not finite.
   void requireFiniteStart(const EvaluatedPoint& point) const;
 
   double cost(const VectorXd& phi) const;
   void costGradient(const VectorXd& phi, const Jacobian& J, VectorXd& gradient) const;
 
-  /// Gradient of the f rows and of the constraints times `multipliers` (empty: zero): what Gauss-Newton has no
-  /// curvature of.
+  /// Computes the gradient of the f costs and of the constraints times `multipliers` (empty: zero): the terms of the
+  /// Lagrangian without a Gauss-Newton Hessian.
   void generalGradient(const Jacobian& J, const VectorXd& multipliers, VectorXd& gradient) const;
   void addConstraintGradient(const Jacobian& J, const VectorXd& multipliers, VectorXd& gradient) const;
 
-  /// Lets the problem stand at a point that was evaluated, though maybe not as the last one.
+  /// Moves the problem to a point that was evaluated before.
   void moveTo(const PointValues& point);
 
-  /// Takes the point as the best so far if it is: among those within the tolerance the one of least cost, else of least
-  /// violation.
+  /// Keeps the point if it is the best so far: the one of least cost among those within the tolerance, else the one of
+  /// least violation.
   void remember(const PointValues& point);
   void forceBest(const PointValues& point);
   const PointValues& best() const { return best_; }
 
-  /// How it ended at a point; leaves the problem there. `multipliers` are those of the constraints.
+  /// Returns the result of a solve that ended at a point, and leaves the problem there. `multipliers` belong to the
+  /// constraints.
   SolverResult result(const PointValues& point, const VectorXd& multipliers, SolverStatus status, std::string message);
 
  private:
   void summarize(EvaluatedPoint& point) const;
 
   Nlp& nlp_;
-  LazyConstraints* room_;  ///< the problem, if it is one
-  const EvaluationHook* hook_ = nullptr;
+  LazyConstraints* lazy_;  ///< of the problem; may be null
+  const EvaluationCallback* callback_ = nullptr;
   double tolerance_ = 0.;
   std::vector<int> costs_, constraints_;
   int equalities_ = 0, evals_ = 0;
   bool has_f_ = false, has_best_ = false;
-  bool only_squares_ = true;  ///< are all costs of type sos?
+  bool only_squares_ = true;  ///< whether all costs are of type sos
   VectorXd lower_, upper_, last_x_, moved_phi_;
   PointValues best_;
 };

@@ -9,9 +9,13 @@
 
 namespace kinegraph {
 
-CostFunction::CostFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook,
-                           const char* method, bool with_gradient)
-    : nlp_(nlp), options_(options), hook_(hook), phi_(Eigen::Index(nlp.types().size())), J_(nlp.makeJacobian()) {
+CostFunction::CostFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& options,
+                           const EvaluationCallback& callback, const char* method, bool with_gradient)
+    : nlp_(nlp),
+      options_(options),
+      callback_(callback),
+      phi_(Eigen::Index(nlp.types().size())),
+      J_(nlp.makeJacobian()) {
   options.validate();
   requireNoConstraints(nlp, method);
   requireStart(nlp, x0);
@@ -27,7 +31,7 @@ CostFunction::CostFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& op
 double CostFunction::evaluate(const VectorXd& x, VectorXd* gradient) {
   nlp_.evaluate(x, phi_, gradient ? &J_ : nullptr);
   ++evals_;
-  if (hook_ && !hook_(x, phi_)) cancelled_ = true;
+  if (callback_ && !callback_(x, phi_)) cancelled_ = true;
   trouble_ = describeNotFinite(nlp_, phi_, gradient ? &J_ : nullptr);
   if (!trouble_.empty()) return std::numeric_limits<double>::infinity();
   if (gradient) gradient->setZero(x.size());
@@ -68,7 +72,7 @@ SolverResult CostFunction::result(SolverStatus status, std::string message) {
     out.status = SolverStatus::limit;
     out.message = cat("limit of ", options_.stopEvals, " evaluations");
   }
-  if (out.status == SolverStatus::stalled && !trouble_.empty()) out.message += cat("; where it would go, ", trouble_);
+  if (out.status == SolverStatus::stalled && !trouble_.empty()) out.message += cat("; at the next point, ", trouble_);
   nlp_.evaluate(best_x_, phi_, nullptr);
   out.setSums(nlp_.types(), phi_, options_.constraintTolerance());
   return out;

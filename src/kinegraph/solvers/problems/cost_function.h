@@ -2,20 +2,20 @@
 
 #include <string>
 
-#include "kinegraph/solvers/interface/evaluation_hook.h"
+#include "kinegraph/solvers/interface/evaluation_callback.h"
 #include "kinegraph/solvers/interface/options.h"
 #include "kinegraph/solvers/interface/result.h"
 
 namespace kinegraph {
 
-/// A problem without constraints, as one function of x in a box:  F = sum_f phi + sum_sos phi^2 + sum_ineqP max(0,
-/// phi)^2. Counts evaluations, asks the hook, keeps the best point. A value that is not finite counts as infinitely
-/// bad.
+/// A problem without constraints as one function of x within bounds:
+///     F = sum_f phi + sum_sos phi^2 + sum_ineqP max(0, phi)^2
+/// Counts evaluations, calls the callback, and keeps the best point. Values that are not finite count as infinite.
 class CostFunction {
  public:
-  /// Throws ValueError if the problem has constraints, naming `method` and the first of them, if `x0` does not fit, or
-  /// if F or its gradient is not finite there.
-  CostFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationHook& hook,
+  /// Throws ValueError if the problem has constraints (with `method` and the first of them), if `x0` has another size,
+  /// or if F or its gradient is not finite at x0.
+  CostFunction(Nlp& nlp, const VectorXd& x0, const SolverOptions& options, const EvaluationCallback& callback,
                const char* method, bool with_gradient);
 
   const VectorXd& start() const { return start_; }  ///< x0, clipped to the bounds
@@ -26,18 +26,18 @@ class CostFunction {
   double value(const VectorXd& x, VectorXd& gradient) { return evaluate(x, &gradient); }
 
   VectorXd clip(const VectorXd& x) const { return x.cwiseMax(lower_).cwiseMin(upper_); }
-  double width(int i) const { return upper_[i] - lower_[i]; }  ///< of the box; may be infinite
+  double width(int i) const { return upper_[i] - lower_[i]; }  ///< distance of the bounds; may be infinite
 
-  /// The gradient without the entries whose descent a bound blocks.
+  /// Returns the gradient without entries whose descent direction an active bound blocks.
   VectorXd freeGradient(const VectorXd& x, const VectorXd& gradient) const;
 
-  /// True if the caller or the limit of evaluations ends it.
+  /// Whether the callback or the limit of evaluations ended the solve.
   bool ended() const { return cancelled_ || evals_ >= options_.stopEvals; }
 
   const VectorXd& best() const { return best_x_; }
   double bestValue() const { return best_value_; }
 
-  /// The best point. If ended() the status says so, else it is as given.
+  /// Returns the best point. If ended(), the status says why; else it is the given one.
   SolverResult result(SolverStatus status, std::string message);
 
  private:
@@ -45,7 +45,7 @@ class CostFunction {
 
   Nlp& nlp_;
   const SolverOptions& options_;
-  const EvaluationHook& hook_;
+  const EvaluationCallback& callback_;
   VectorXd lower_, upper_, start_, start_gradient_, phi_, best_x_;
   Jacobian J_;
   double start_value_ = 0., best_value_ = 0.;

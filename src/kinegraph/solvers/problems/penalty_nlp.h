@@ -6,7 +6,7 @@
 
 namespace kinegraph {
 
-/// Another problem with its constraints as costs: eq -> mu phi^2, ineq -> mu max(0, phi)^2.
+/// Replaces the constraints of a problem by costs: eq -> mu phi^2, ineq -> mu max(0, phi)^2.
 class PenaltyNlp final : public Nlp {
  public:
   explicit PenaltyNlp(Nlp& nlp);
@@ -26,7 +26,8 @@ class PenaltyNlp final : public Nlp {
   double root_ = 1.;  ///< of mu
 };
 
-/// Another problem with its inequalities as costs -mu log(-phi); equalities stay. Not a number outside.
+/// Replaces the inequalities of a problem by costs -mu log(-phi), which are NaN outside of the interior. Equalities
+/// stay.
 class BarrierNlp final : public Nlp {
  public:
   explicit BarrierNlp(Nlp& nlp);
@@ -35,7 +36,7 @@ class BarrierNlp final : public Nlp {
   Jacobian makeJacobian() const override { return nlp_.makeJacobian(); }
   void evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) override;
 
-  /// With mu / phi^2 J^T J of each inequality.
+  /// Adds the Hessian of the costs, and mu / phi^2 J^T J for each inequality.
   bool addCostHessian(const VectorXd& x, MatrixXd& H) override;
   bool mayBeQuadratic() const override { return false; }
   bool mayBeCancelled() const override { return nlp_.mayBeCancelled(); }
@@ -51,8 +52,8 @@ class BarrierNlp final : public Nlp {
 
 bool isInequality(ObjectiveType type);
 
-/// `nlp` with its inequalities as barriers of weight `barrier`, and what constraints remain as penalties of weight
-/// `mu`; each is left as it is where the weight is negative. It keeps `nlp` alive.
+/// Returns `nlp` with barriers of weight `barrier` instead of inequalities, and penalties of weight `mu` instead of the
+/// remaining constraints. A negative weight leaves the constraints unchanged. The result keeps `nlp` alive.
 std::shared_ptr<Nlp> makePenalized(std::shared_ptr<Nlp> nlp, double mu, double barrier);
 
 }  // namespace kinegraph

@@ -4,14 +4,14 @@
 
 namespace kinegraph {
 
-/// Another problem's constraints without its costs, some of them as penalties: what is relaxed becomes the cost,
-/// squared. With everything relaxed, its solution is the point of least violation.
+/// The constraints of a problem without its costs; squared penalties replace the relaxed ones. If all are relaxed, the
+/// solution is the point of least violation.
 class RelaxedNlp final : public Nlp {
  public:
-  /// `relaxed` has an entry per residual. `variable`: its bounds are relaxed too, to a penalty; -1: none.
+  /// `relaxed` has one entry per residual. The bounds of `variable` are also relaxed; -1: none.
   RelaxedNlp(Nlp& nlp, const std::vector<bool>& relaxed, int variable = -1);
 
-  /// Relaxed inequalities count as violated from -padding on.
+  /// Sets the value -padding above which relaxed inequalities count as violated.
   void setPadding(double padding) { padding_ = padding; }
 
   Jacobian makeJacobian() const override;

@@ -12,13 +12,12 @@ namespace {
 
 constexpr double kOnSurface = 1e-9;  ///< |eq| of a projected point
 
-/// The line x + t d within an interval of t, for the points of which the set is asked.
+/// Hit-and-run: samples uniformly on random lines x + t d through the feasible set.
 class HitAndRun {
  public:
   HitAndRun(SampledProblem& problem, Rng& rng) : problem_(problem), rng_(rng) {}
 
-  /// A uniform point of the line's part in the set, by cutting the interval at each point that is outside (Neal 2003,
-  /// sec. 4.2).
+  /// Samples a point of the line within the set: each infeasible sample shrinks the interval (Neal 2003, sec. 4.2).
   void step(SampledPoint& point) {
     VectorXd d = normalVector(point.x.size(), rng_);
     for (Eigen::Index i = 0; i < d.size(); ++i) {
@@ -52,7 +51,8 @@ class HitAndRun {
     return slack <= problem_.options().tolerance + problem_.options().eps;
   }
 
-  /// Where the line leaves the bounds; where there is none, by steps until it leaves the set (Neal 2003, fig. 3).
+  /// Returns the interval of t in which the line is within the bounds. If there are no bounds, steps extend the
+  /// interval until it leaves the set (Neal 2003, fig. 3).
   std::pair<double, double> interval(const SampledPoint& point, const VectorXd& d) {
     double low = -std::numeric_limits<double>::infinity(), high = -low;
     for (Eigen::Index i = 0; i < d.size(); ++i) {
@@ -77,8 +77,8 @@ class HitAndRun {
   Rng& rng_;
 };
 
-/// Metropolis steps along the tangents of the equalities, each projected back along their normals; they are refused
-/// unless the way back is as possible.
+/// Metropolis steps along the tangents of the equalities, projected back along their normals. A step is rejected if the
+/// reverse step does not lead back to its start.
 class SurfaceWalk {
  public:
   SurfaceWalk(SampledProblem& problem, bool with_gradient, Rng& rng)
@@ -88,10 +88,10 @@ class SurfaceWalk {
                                                           : .5 * std::pow(options.interiorNoiseSigma, 2);
   }
 
-  /// The way down ends near the surface; steps start on it.
+  /// Projects a point near the surface onto it.
   void begin(SampledPoint& point) {
     if (!problem_.hasEqualities()) return;
-    if (std::optional<SampledPoint> on = project(point.x, placeAt(point)); on && problem_.good(*on))
+    if (std::optional<SampledPoint> on = project(point.x, placeAt(point)); on && problem_.isFeasible(*on))
       point = std::move(*on);
   }
 
@@ -103,7 +103,7 @@ class SurfaceWalk {
     const VectorXd v =
         here_->drift + std::sqrt(2. * tau_) * (here_->tangents * normalVector(here_->tangents.cols(), rng_));
     std::optional<SampledPoint> next = project(point.x + v, *here_);
-    if (!next || !problem_.good(*next)) return;
+    if (!next || !problem_.isFeasible(*next)) return;
     const Place there = placeAt(*next);
     const VectorXd back = there.tangents * (there.tangents.transpose() * (point.x - next->x));
     double log_ratio = point.energy - next->energy;
@@ -141,7 +141,7 @@ class SurfaceWalk {
     return place;
   }
 
-  /// The point on the surface that the normals of a place lead to.
+  /// Moves x along the normals of a place to the surface.
   std::optional<SampledPoint> project(VectorXd x, const Place& place) {
     for (int step = 0; step < 12 && !problem_.cancelled(); ++step) {
       SampledPoint point = problem_.at(x);
@@ -164,8 +164,7 @@ class SurfaceWalk {
   VectorXd here_x_;
 };
 
-/// A tree that grows from the nearest of its points towards random ones, each new point brought back to the
-/// constraints.
+/// A tree that grows from its nearest point towards random ones. Each new point is projected to the constraints.
 class Tree {
  public:
   Tree(SampledProblem& problem, Rng& rng, const SampledPoint& root) : problem_(problem), rng_(rng), points_{root} {}
@@ -176,9 +175,9 @@ class Tree {
     for (const SampledPoint& known : points_) {
       if ((known.x - target).norm() < (nearest->x - target).norm()) nearest = &known;
     }
-    const VectorXd way = target - nearest->x;
+    const VectorXd offset = target - nearest->x;
     SampledPoint next =
-        problem_.at(nearest->x + std::min(1., problem_.options().interiorNoiseSigma / way.norm()) * way);
+        problem_.at(nearest->x + std::min(1., problem_.options().interiorNoiseSigma / offset.norm()) * offset);
     if (!std::isfinite(next.slack) || !problem_.goDownhill(next, rng_, false)) return;
     points_.push_back(next);
     point = std::move(next);
@@ -205,7 +204,7 @@ SampledPoint walkInside(SampledProblem& problem, const SampledPoint& start, int 
     walk(surface);
   }
   if (method == "manifoldRRT") walk(Tree(problem, rng, start));
-  if (problem.good(point) || problem.goDownhill(point, rng, false)) return point;
+  if (problem.isFeasible(point) || problem.goDownhill(point, rng, false)) return point;
   return start;
 }
 

@@ -4,7 +4,7 @@
 
 namespace kinegraph {
 
-/// Moves a good point some steps within the constraints, by options().interiorMethod. The result is good.
+/// Moves a feasible point some steps within the constraints, by options().interiorMethod. The result is feasible.
 SampledPoint walkInside(SampledProblem& problem, const SampledPoint& start, int steps, Rng& rng);
 
 }  // namespace kinegraph

@@ -26,8 +26,8 @@ VectorXd normalVector(Eigen::Index n, Rng& rng) {
   return z;
 }
 
-SampledProblem::SampledProblem(Nlp& nlp, const SamplerOptions& options, const EvaluationHook& hook)
-    : nlp_(nlp), options_(options), hook_(hook), J_(nlp.makeJacobian()) {
+SampledProblem::SampledProblem(Nlp& nlp, const SamplerOptions& options, const EvaluationCallback& callback)
+    : nlp_(nlp), options_(options), callback_(callback), J_(nlp.makeJacobian()) {
   for (int row = 0; row < int(nlp.types().size()); ++row) {
     if (nlp.types()[row] == ObjectiveType::eq) equalities_.push_back(row);
   }
@@ -37,7 +37,7 @@ SampledPoint SampledProblem::at(const VectorXd& x) {
   SampledPoint point{x, VectorXd(Eigen::Index(nlp_.types().size()))};
   nlp_.evaluate(x, point.phi, nullptr);
   ++evals_;
-  if (hook_ && !hook_(x, point.phi)) cancelled_ = true;
+  if (callback_ && !callback_(x, point.phi)) cancelled_ = true;
   const std::string trouble = describeNotFinite(nlp_, point.phi, nullptr);
   if (!trouble.empty() && evals_ == 1) throw ValueError(cat("at the first point, ", trouble));
   if (!trouble.empty() || (x.array() < nlp_.lower().array()).any() || (x.array() > nlp_.upper().array()).any()) {
@@ -91,7 +91,8 @@ VectorXd SampledProblem::energyGradient(const SampledPoint& point) {
   return gradient;
 }
 
-/// -alpha (2 mu J_s^T J_s + lambda I)^-1 2 mu J_s^T s among the variables that bounds do not hold, and noise.
+/// Returns -alpha (2 mu J_s^T J_s + lambda I)^-1 2 mu J_s^T s, among the variables that are not at active bounds, plus
+/// noise.
 VectorXd SampledProblem::downhillStep(const SampledPoint& point, double alpha, Rng& rng, bool noisy,
                                       double& predicted) {
   differentiate(point);
@@ -108,8 +109,8 @@ VectorXd SampledProblem::downhillStep(const SampledPoint& point, double alpha, R
     H.selfadjointView<Eigen::Lower>().rankUpdate(row, 2. * options_.penaltyMu);
   }
   for (Eigen::Index i = 0; i < n; ++i) {
-    const bool held = (point.x[i] <= nlp_.lower()[i] && g[i] > 0.) || (point.x[i] >= nlp_.upper()[i] && g[i] < 0.);
-    if (!held) continue;
+    const bool is_fixed = (point.x[i] <= nlp_.lower()[i] && g[i] > 0.) || (point.x[i] >= nlp_.upper()[i] && g[i] < 0.);
+    if (!is_fixed) continue;
     g[i] = 0.;
     H.row(i).setZero();
     H.col(i).setZero();
@@ -130,7 +131,7 @@ VectorXd SampledProblem::downhillStep(const SampledPoint& point, double alpha, R
 
 bool SampledProblem::goDownhill(SampledPoint& point, Rng& rng, bool noisy) {
   double alpha = options_.slackStepAlpha;
-  for (int step = 0; step < options_.downhillMaxSteps && !good(point) && !cancelled_; ++step) {
+  for (int step = 0; step < options_.downhillMaxSteps && !isFeasible(point) && !cancelled_; ++step) {
     if (alpha < 1e-6 * options_.slackStepAlpha) return false;
     double predicted = 0.;
     const VectorXd d = downhillStep(point, alpha, rng, noisy, predicted);
@@ -144,7 +145,7 @@ bool SampledProblem::goDownhill(SampledPoint& point, Rng& rng, bool noisy) {
     alpha = accepted ? std::min(options_.slackStepAlpha, 2. * alpha) : .5 * alpha;
     if (accepted) point = std::move(next);
   }
-  return good(point);
+  return isFeasible(point);
 }
 
 }  // namespace kinegraph

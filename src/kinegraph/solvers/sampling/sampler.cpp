@@ -1,10 +1,10 @@
 #include "kinegraph/solvers/sampling/sampler.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <limits>
 
+#include "kinegraph/common/stopwatch.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/solvers/interface/best_so_far.h"
 #include "kinegraph/solvers/sampling/interior_walk.h"
@@ -27,15 +27,15 @@ VectorXd NlpSampler::seed(Rng& rng) {
     return candidates[std::size_t(std::max_element(distances.begin(), distances.end()) - distances.begin())];
   double sum = 0.;
   for (double distance : distances) sum += distance;
-  double drawn = rng.uniform() * sum;
+  double remaining = rng.uniform() * sum;
   for (std::size_t i = 0; i + 1 < candidates.size(); ++i) {
-    if ((drawn -= distances[i]) < 0.) return candidates[i];
+    if ((remaining -= distances[i]) < 0.) return candidates[i];
   }
   return candidates.back();
 }
 
-SolverResult NlpSampler::draw(Rng& rng, const EvaluationHook& hook) {
-  SampledProblem problem(*problem_, options, hook);
+SolverResult NlpSampler::samplePoint(Rng& rng, const EvaluationCallback& callback) {
+  SampledProblem problem(*problem_, options, callback);
   SampledPoint point;
   bool found = false;
   for (int attempt = 0; attempt < options.seedAttempts && !found && !problem.cancelled(); ++attempt) {
@@ -53,33 +53,33 @@ SolverResult NlpSampler::draw(Rng& rng, const EvaluationHook& hook) {
   result.dual = VectorXd::Zero(point.phi.size());
   result.evals = result.totalEvals = problem.evals();
   result.setSums(problem_->types(), point.phi, 0.);
-  result.feasible = problem.good(point);
+  result.feasible = problem.isFeasible(point);
   result.status = problem.cancelled() ? SolverStatus::cancelled
                   : result.feasible   ? SolverStatus::converged
                                       : SolverStatus::infeasible;
   result.message = problem.cancelled() ? "cancelled by the caller"
-                   : result.feasible   ? cat("a sample whose violations sum up to ", point.slack)
-                                       : cat("the way down ended where violations sum up to ", point.slack);
+                   : result.feasible   ? cat("a sample with a sum of violations of ", point.slack)
+                                       : cat("the descent ended at a sum of violations of ", point.slack);
   VectorXd phi(point.phi.size());
   problem_->evaluate(point.x, phi, nullptr);  // leaves the problem at the sample
   if (result.feasible && !problem.cancelled()) samples_.push_back(result.x);
   return result;
 }
 
-SolverResult NlpSampler::sample(Rng& rng, const EvaluationHook& hook) {
+SolverResult NlpSampler::sample(Rng& rng, const EvaluationCallback& callback) {
   options.validate();
-  const auto start = std::chrono::steady_clock::now();
+  const Stopwatch stopwatch;
   const bool may_be_cancelled = problem_->mayBeCancelled();
   BestSoFar best(*problem_, options.tolerance);
   int calls = 0;
-  const EvaluationHook seen = [&](const VectorXd& x, const VectorXd& phi) {
+  const EvaluationCallback seen = [&](const VectorXd& x, const VectorXd& phi) {
     ++calls;
     best.see(x, phi);
-    return !hook || hook(x, phi);
+    return !callback || callback(x, phi);
   };
   SolverResult result;
   try {
-    result = draw(rng, may_be_cancelled ? seen : hook);
+    result = samplePoint(rng, may_be_cancelled ? seen : callback);
   } catch (const EvaluationCancelled&) {
     if (!best.isKnown()) throw;
     result = best.result(calls);
@@ -87,7 +87,7 @@ SolverResult NlpSampler::sample(Rng& rng, const EvaluationHook& hook) {
     problem_->leaveAt(result.x);
   }
   result.problem = problem_;
-  result.time = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  result.time = stopwatch.seconds();
   if (options.verbose > 0) std::printf("==sampler== %s  %s\n", result.message.c_str(), result.str().c_str());
   return result;
 }

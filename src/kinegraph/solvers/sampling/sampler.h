@@ -6,36 +6,36 @@
 
 namespace kinegraph {
 
-/// Draws points that satisfy the constraints of a problem: from a seed downhill to the constraints, and then some steps
-/// within them. What the steps converge to with their number, whatever the seed:
+/// Samples points that satisfy the constraints of a problem. Descent steps lead from a seed to the constraints;
+/// interior steps then move within them. With their number, the distribution of the samples converges, for any seed, to
+/// the following:
 ///
-///   HR           hit-and-run: the uniform distribution on the feasible set (equalities as thin shells, projected at
-///                the end)
-///   MCMC         Metropolis steps: exp(-costs), on the surface of the equalities where there are any
-///   Langevin     the same, with steps that follow the gradient of the costs
-///   manifoldRRT  spreads over the surface like a tree that grows towards random points; no distribution is promised
+///   HR           hit-and-run: uniform on the feasible set (equalities as thin shells, projected at the end)
+///   MCMC         Metropolis steps: proportional to exp(-costs), on the surface of the equalities, if any
+///   Langevin     as MCMC, with steps along the gradient of the costs
+///   manifoldRRT  a tree that grows over the surface towards random points: no defined distribution
 ///
-/// costs = sum f + sum sos. The same random numbers give the same samples.
+/// Here costs = sum f + sum sos. The same random numbers give the same samples.
 /// Source: Toussaint, Braun & Ortiz-Haro, NLP Sampling, 2024; Neal, Slice sampling, 2003 (HR along a line);
 /// Zappa, Holmes-Cerfon & Goodman, Monte Carlo on manifolds, 2018.
 class NlpSampler {
  public:
   explicit NlpSampler(std::shared_ptr<Nlp> problem) : problem_(std::move(problem)) {}
 
-  /// The status is `converged` for a feasible sample, `infeasible` if the way down did not reach the constraints,
-  /// `cancelled` by the hook. Throws ValueError for options that make no sense, EvaluationCancelled where that came
-  /// before the first value; later, the result is the best point seen.
-  SolverResult sample(Rng& rng, const EvaluationHook& hook = {});
+  /// Samples a point. The status is `converged` for a feasible sample, `infeasible` if the descent did not reach the
+  /// constraints, `cancelled` after the callback. Throws ValueError for invalid options. Throws EvaluationCancelled if
+  /// an evaluation does so before the first value; later the result is the best point so far.
+  SolverResult sample(Rng& rng, const EvaluationCallback& callback = {});
 
   const std::shared_ptr<Nlp>& problem() const { return problem_; }
-  const std::vector<VectorXd>& samples() const { return samples_; }  ///< the feasible ones so far
+  const std::vector<VectorXd>& samples() const { return samples_; }  ///< all feasible samples so far
   void clear() { samples_.clear(); }
 
   SamplerOptions options;
 
  private:
   VectorXd seed(Rng& rng);
-  SolverResult draw(Rng& rng, const EvaluationHook& hook);
+  SolverResult samplePoint(Rng& rng, const EvaluationCallback& callback);
 
   std::shared_ptr<Nlp> problem_;
   std::vector<VectorXd> samples_;

@@ -6,7 +6,7 @@
 
 namespace kinegraph {
 
-/// Settings of NlpSampler; samplerOptionTable() says what each one means. Names are those that scripts know.
+/// Options of NlpSampler; samplerOptionTable() documents each field. The names are those of the package robotic.
 struct SamplerOptions {
   std::string seedMethod = "uni";
   int seedCandidates = 10;
@@ -31,11 +31,11 @@ struct SamplerOptions {
   double langevinTauPrime = -1.;
   int verbose = 0;
 
-  /// Throws ValueError naming the first field that makes no sense.
+  /// Throws ValueError with the first invalid field.
   void validate() const;
 };
 
-/// Name, unit, meaning and range of each field, for messages, bindings and documents.
+/// Returns name, unit, meaning and range of each field, for messages, bindings and documents.
 const OptionTable<SamplerOptions>& samplerOptionTable();
 
 }  // namespace kinegraph

@@ -9,13 +9,14 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kPenalty = 1e3;       // mu, relative to the largest curvature
-constexpr double kSingular = 1e-13;    // a pivot relative to its diagonal entry: rounding
-constexpr double kDamping = 1e-10;     // relative to the largest curvature, where it is singular
-constexpr double kFree = 1e-6;         // a pivot relative to the largest curvature that damping alone made
-constexpr double kFlat = 1e-4;         // of the longest row: shorter ones say little, and are not to say it loudly
-constexpr int kMostRefinements = 200;  // they stop when they stop helping
-constexpr int kLargestDense = 1200;    // variables and rows
+constexpr double kPenalty = 1e3;     // mu, relative to the largest curvature
+constexpr double kSingular = 1e-13;  // largest ratio of pivot and diagonal entry that counts as rounding
+constexpr double kDamping = 1e-10;   // of a singular system, relative to the largest curvature
+constexpr double kFree = 1e-6;       // largest pivot of a free direction, relative to the largest curvature
+constexpr double kFlat =
+    1e-4;  // least divisor of a row, relative to the longest one, so that short rows keep little weight
+constexpr int kMaxRefinementSteps = 200;  // refinement ends earlier without progress
+constexpr int kLargestDense = 1200;       // largest number of variables and rows
 
 std::vector<int> upTo(std::size_t count) {
   std::vector<int> list(count);
@@ -72,7 +73,7 @@ int KktSystem::pivotsBelow(double least) const {
   return count;
 }
 
-/// Without costs the shortest dx is asked for.
+/// Without costs, H becomes the identity, which leads to the shortest dx.
 bool KktSystem::factorize(const std::vector<int>& active, const std::vector<char>& fixed) {
   active_ = active;
   fixed_ = fixed;
@@ -123,7 +124,7 @@ bool KktSystem::factorize(const std::vector<int>& active, const std::vector<char
   return factorizeDense();
 }
 
-/// H from its products with the axes.
+/// Computes a dense H from its products with unit vectors.
 bool KktSystem::factorizeDense() {
   const Eigen::Index m = Eigen::Index(active_.size());
   is_indefinite_ = true;
@@ -157,7 +158,7 @@ bool KktSystem::factorizeDense() {
   return true;
 }
 
-/// Of what remains to be solved, r1 and r2; returns their size relative to that of what they consist of.
+/// Computes the residuals r1 and r2. Returns their size relative to that of their terms.
 double KktSystem::setResiduals(const VectorXd& dx, const VectorXd& dl) {
   product_.setZero(n_);
   algebra_.addHessianProduct(dx, product_);
@@ -184,7 +185,7 @@ double KktSystem::refined(VectorXd& dx, VectorXd& dl, double accuracy) {
   VectorXd best_dx = dx, best_dl = dl;
   double best = error;
   int slow = 0;
-  for (int i = 0; i < kMostRefinements && best > accuracy && slow < 3; ++i) {
+  for (int i = 0; i < kMaxRefinementSteps && best > accuracy && slow < 3; ++i) {
     step_ = r1_;
     for (std::size_t k = 0; k < active_.size(); ++k) {
       if (norms_[active_[k]] > 0.) J_.addRowTo(active_[k], mu_ * r2_[Eigen::Index(k)], step_);
@@ -211,14 +212,14 @@ double KktSystem::refined(VectorXd& dx, VectorXd& dl, double accuracy) {
 
 void KktSystem::solveDense(VectorXd& dx, VectorXd& dl) const {
   VectorXd right(n_ + b_.size());
-  VectorXd given = VectorXd::Zero(n_);
+  VectorXd fixed_dx = VectorXd::Zero(n_);
   for (int i = 0; i < n_; ++i) {
-    if (fixed_[std::size_t(i)]) given[i] = dx[i];
+    if (fixed_[std::size_t(i)]) fixed_dx[i] = dx[i];
   }
-  right.head(n_) = a_ - dense_H_ * given;
-  right.tail(b_.size()) = b_ - dense_A_ * given;
+  right.head(n_) = a_ - dense_H_ * fixed_dx;
+  right.tail(b_.size()) = b_ - dense_A_ * fixed_dx;
   for (int i = 0; i < n_; ++i) {
-    if (fixed_[std::size_t(i)]) right[i] = given[i];
+    if (fixed_[std::size_t(i)]) right[i] = fixed_dx[i];
   }
   const VectorXd solved = dense_.solve(right);
   dx = solved.head(n_);

@@ -8,14 +8,14 @@
 
 namespace kinegraph {
 
-/// The conditions of a solution, linearized: for rows A of the Jacobian that are active and variables that are fixed,
+/// The linearized optimality conditions (KKT system), for active rows A of the Jacobian and fixed variables:
 ///
 ///     [ H  A^T ] [dx]   [a]
 ///     [ A   0  ] [dl] = [b],     dx_i given for fixed i
 ///
-/// It is solved by the factor of H + mu A^T A, which is a band for paths, and refined until both residuals vanish:
-/// rows that say the same do no harm. Where H leaves directions free, the shortest dx is found; where it is indefinite
-/// there, a dense factorization takes over.
+/// The factor of H + mu A^T A, a band for paths, solves it with iterative refinement of both residuals, so that A may
+/// have dependent rows. If H leaves directions free, the result is the shortest dx. If H is indefinite on the null
+/// space of A, a dense factorization replaces the factor.
 /// Source: Golub, Greif, On solving block-structured indefinite linear systems, 2003.
 class KktSystem {
  public:
@@ -23,24 +23,24 @@ class KktSystem {
   KktSystem(const KktSystem&) = delete;
   KktSystem& operator=(const KktSystem&) = delete;
 
-  /// Begins a new H, with 2 J_i^T J_i for these rows; what it gives takes further entries.
+  /// Starts a new H with 2 J_i^T J_i for the given residuals. The caller adds further entries to the result.
   BandAlgebra& begin(const Jacobian& J, const std::vector<int>& squared);
 
   double largestCurvature() const;                    ///< largest diagonal entry of H
-  double norm(int row) const { return norms_[row]; }  ///< of a row of J; 0 of one that is known to be zero
+  double norm(int row) const { return norms_[row]; }  ///< of a row of J; 0 for a zero row
 
-  /// False where the problem is too large to be treated as indefinite.
+  /// Factorizes the system. False if it is indefinite and too large for a dense factorization.
   bool factorize(const std::vector<int>& active, const std::vector<char>& fixed);
 
-  /// `dx` comes with the entries of fixed variables; `b` and `dl` have an entry per active row. Ends at a
-  /// relative residual of `accuracy`, and returns it: much more than rounding where there is no solution.
+  /// Solves the system; `dx` contains the entries of fixed variables, `b` and `dl` have one entry per active row.
+  /// Returns the relative residual, at best `accuracy`; a large one means that there is no solution.
   double solve(const VectorXd& a, const VectorXd& b, VectorXd& dx, VectorXd& dl, double accuracy = 1e-12);
 
-  /// v - H w - A^T u: what a solution for (v, 0) leaves at fixed variables.
+  /// Returns v - H w - A^T u: the residual of a solution for (v, 0) at fixed variables.
   VectorXd leftBy(const VectorXd& v, const VectorXd& w, const VectorXd& u);
 
-  int freeDirections() const { return free_; }          ///< about how many are determined neither by H nor by A
-  bool isIndefinite() const { return is_indefinite_; }  ///< is it no minimum, but a saddle?
+  int freeDirections() const { return free_; }  ///< estimated number of directions that neither H nor A determines
+  bool isIndefinite() const { return is_indefinite_; }  ///< whether the point is a saddle and not a minimum
 
  private:
   bool factorizeDense();
@@ -50,16 +50,16 @@ class KktSystem {
   int pivotsBelow(double least) const;
 
   int n_;
-  std::vector<int> rows_;        ///< all, as the algebra's constraints
-  std::vector<char> is_linear_;  ///< per row: is its J always the same?
+  std::vector<int> rows_;        ///< all rows, as constraints of the algebra
+  std::vector<char> is_linear_;  ///< per row: whether it is constant
   std::vector<int> linear_costs_, linear_now_;
   BandAlgebra algebra_;
-  Jacobian J_;      ///< active rows have norm one, unless they are flat
+  Jacobian J_;      ///< active rows have norm one, except for small ones
   VectorXd norms_;  ///< per row of J
-  VectorXd units_;  ///< per active row: what it was divided by
+  VectorXd units_;  ///< per active row: its divisor
   std::vector<int> active_;
   std::vector<char> fixed_;
-  double mu_ = 1., damping_ = 0., largest_ = 1.;  ///< the last: curvature
+  double mu_ = 1., damping_ = 0., largest_ = 1.;  ///< largest_: curvature
   int free_ = 0;
   bool is_indefinite_ = false;
   VectorXd a_, b_, r1_, r2_, step_, product_;

@@ -7,44 +7,44 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kStep = 3e-5;         // central differences: what they miss is the square of it
-constexpr double kNegligible = 1e-14;  // of a weight, relative to the largest one
+constexpr double kStep = 3e-5;         // of central differences, whose error is its square
+constexpr double kNegligible = 1e-14;  // smallest relevant weight, relative to the largest one
 
 }  // namespace
 
-LagrangianCurvature::LagrangianCurvature(Nlp& nlp) : nlp_(nlp), is_told_(nlp.types().size(), false) {
-  for (const Nlp::CurvedRows& told : nlp.curvedRows())
-    std::fill_n(is_told_.begin() + told.first, std::size_t(told.rows), true);
+LagrangianCurvature::LagrangianCurvature(Nlp& nlp) : nlp_(nlp), is_known_(nlp.types().size(), false) {
+  for (const Nlp::CurvedRows& known : nlp.curvedRows())
+    std::fill_n(is_known_.begin() + known.first, std::size_t(known.rows), true);
 }
 
 void LagrangianCurvature::addTo(BandAlgebra& H, const VectorXd& x, const VectorXd& weights, const Jacobian& J,
-                                bool tells_costs) {
-  addTold(H, weights);
+                                bool knows_costs) {
+  addKnown(H, weights);
   const double least = kNegligible * weights.lpNorm<Eigen::Infinity>();
   unknown_.clear();
   for (int row = 0; row < int(weights.size()); ++row) {
-    const bool is_told =
-        is_told_[std::size_t(row)] || (tells_costs && nlp_.types()[std::size_t(row)] == ObjectiveType::f);
-    if (is_told || nlp_.isLinear(row) || J.zero_row[std::size_t(row)] || std::abs(weights[row]) <= least) continue;
+    const bool is_known =
+        is_known_[std::size_t(row)] || (knows_costs && nlp_.types()[std::size_t(row)] == ObjectiveType::f);
+    if (is_known || nlp_.isLinear(row) || J.zero_row[std::size_t(row)] || std::abs(weights[row]) <= least) continue;
     unknown_.push_back(row);
   }
   if (!unknown_.empty()) addDifferences(H, x, weights, J);
 }
 
-void LagrangianCurvature::addTold(BandAlgebra& H, const VectorXd& weights) {
-  const auto told = nlp_.curvedRows();
-  for (std::size_t k = 0; k < told.size(); ++k) {
-    const auto own = weights.segment(told[k].first, told[k].rows);
+void LagrangianCurvature::addKnown(BandAlgebra& H, const VectorXd& weights) {
+  const auto known = nlp_.curvedRows();
+  for (std::size_t k = 0; k < known.size(); ++k) {
+    const auto own = weights.segment(known[k].first, known[k].rows);
     if (own.isZero(0.)) continue;
-    block_.setZero(told[k].width, told[k].width);
+    block_.setZero(known[k].width, known[k].width);
     nlp_.addCurvature(int(k), {own.data(), std::size_t(own.size())}, block_);
-    for (int j = 0; j < told[k].width; ++j) {
-      for (int i = j; i < told[k].width; ++i) H.addEntry(told[k].column + i, told[k].column + j, block_(i, j));
+    for (int j = 0; j < known[k].width; ++j) {
+      for (int i = j; i < known[k].width; ++i) H.addEntry(known[k].column + i, known[k].column + j, block_(i, j));
     }
   }
 }
 
-/// Gives each variable the first color that no other variable of its rows has.
+/// Colors the variables greedily, so that variables with a common residual have different colors.
 void LagrangianCurvature::color(const Jacobian& J) {
   std::vector<std::vector<int>> rows_of(std::size_t(J.columns));
   for (const int row : unknown_) {
@@ -90,7 +90,7 @@ void LagrangianCurvature::addDifferences(BandAlgebra& H, const VectorXd& x, cons
         const double factor = sign * weights[row] / (2. * kStep);
         for (const Jacobian::Segment& segment : segments) {
           for (int i = 0; i < segment.width; ++i) {
-            const int other = segment.column + i;  // both derivatives of a pair are taken, half of each
+            const int other = segment.column + i;  // mean of both mixed derivatives
             const double value = factor * moved_J_.values[std::size_t(segment.offset + i)];
             H.addEntry(std::max(moved, other), std::min(moved, other), moved == other ? value : .5 * value);
           }

@@ -7,26 +7,26 @@
 
 namespace kinegraph {
 
-/// The second derivatives of sum_i weights_i phi_i: as the problem tells them, else as differences of its Jacobian, in
-/// which one evaluation moves all variables that no row has in common.
+/// Computes the second derivatives of sum_i weights_i phi_i: those that the problem knows, and differences of its
+/// Jacobian for the others. One evaluation moves all variables that have no residual in common.
 /// Source: Curtis, Powell, Reid, On the estimation of sparse Jacobian matrices, 1974.
 class LagrangianCurvature {
  public:
   explicit LagrangianCurvature(Nlp& nlp);
 
-  /// Adds them at x, at which the problem was evaluated last, with Jacobian J. It may stand elsewhere then. With
-  /// `tells_costs` the Hessian of the f residuals is the problem's.
-  void addTo(BandAlgebra& H, const VectorXd& x, const VectorXd& weights, const Jacobian& J, bool tells_costs);
+  /// Adds the derivatives to H at x, the last evaluated point, with Jacobian J. The problem may be at another point
+  /// afterwards. With `knows_costs` the caller adds the Hessian of the f residuals.
+  void addTo(BandAlgebra& H, const VectorXd& x, const VectorXd& weights, const Jacobian& J, bool knows_costs);
 
  private:
-  void addTold(BandAlgebra& H, const VectorXd& weights);
+  void addKnown(BandAlgebra& H, const VectorXd& weights);
   void addDifferences(BandAlgebra& H, const VectorXd& x, const VectorXd& weights, const Jacobian& J);
   void color(const Jacobian& J);
 
   Nlp& nlp_;
-  std::vector<char> is_told_;  ///< per row, by curvedRows
-  std::vector<int> unknown_;   ///< rows that are differenced, ascending
-  std::vector<int> color_;     ///< per variable; -1: in none of these rows
+  std::vector<char> is_known_;  ///< per residual: whether curvedRows contains it
+  std::vector<int> unknown_;    ///< residuals with differences, ascending
+  std::vector<int> color_;      ///< per variable; -1: in none of these residuals
   int colors_ = 0;
   Jacobian moved_J_;
   VectorXd moved_x_, moved_phi_, step_;

@@ -16,15 +16,15 @@ namespace {
 
 using enum ObjectiveType;
 
-constexpr double kSettled = 1e-7;        // of a step: the next one would be of the size of its square
-constexpr double kSettledPull = 1e-6;    // of multipliers, relative to the largest gradient
-constexpr double kShort = 1e-2;          // the way that costs go before they count as forces
-constexpr double kStepAccuracy = 1e-10;  // relative, of the linear system
-constexpr int kMostSteps = 15;
-constexpr double kNear = 1e-3;      // of a constraint per length of its gradient: it may be active
-constexpr double kTouching = 1e-6;  // the same: it is
-constexpr double kNoForce = 1e-6;   // of a multiplier, relative to the gradients that it balances
-constexpr double kTight = 1e-8;     // tolerances of the solver that helps
+constexpr double kSettled = 1e-7;        // length of a step: the error is then of the size of its square
+constexpr double kSettledPull = 1e-6;    // change of multipliers, relative to the largest gradient
+constexpr double kShort = 1e-2;          // distance over which curvature counts as a gradient
+constexpr double kStepAccuracy = 1e-10;  // of the linear system, relative
+constexpr int kMaxSteps = 15;
+constexpr double kNear = 1e-3;      // distance (residual by norm of its gradient) at which a constraint may be active
+constexpr double kTouching = 1e-6;  // distance at which it is active
+constexpr double kNoForce = 1e-6;   // multiplier that counts as zero, relative to the gradients
+constexpr double kTight = 1e-8;     // tolerances of the additional solve
 
 bool isCost(ObjectiveType type) { return type == f || type == sos || type == ineqP; }
 bool isInequality(ObjectiveType type) { return type == ineq || type == ineqB; }
@@ -51,23 +51,24 @@ PolishedSolution::PolishedSolution(Nlp& nlp, const VectorXd& given, const Vector
       is_near_(is_near),
       holds_weak_(holds_weak),
       has_costs_(std::ranges::any_of(nlp.types(), isCost)),
-      tells_costs_(offersCostHessian(nlp, x)),
-      system_(nlp, J, tells_costs_),
+      knows_costs_(offersCostHessian(nlp, x)),
+      system_(nlp, J, knows_costs_),
       curvature_(nlp),
-      bound_pull_(VectorXd::Zero(nlp.dimension())) {
+      bound_multipliers_(VectorXd::Zero(nlp.dimension())) {
   if (dual.size() == 0) {
     dual.setZero(phi.size());
     is_near_.assign(nlp.types().size(), true);
   }
-  if (!has_costs_) dual.setZero();  // nothing presses
+  if (!has_costs_) dual.setZero();  // all constraints are weakly active
   const VectorXd start = x;
   if (!converge()) {
     x = start;
     solveTightly();
     if (!converge())
       throw Error(
-          "the solution cannot be found exactly: Newton's method on its conditions does not converge from the result, "
-          "nor after further steps of the solver; its derivatives are not known");
+          "the derivatives of the solution are not known: Newton's method on the optimality conditions converges "
+          "neither "
+          "from the result nor after further steps of the solver");
   }
   classify();
 }
@@ -75,10 +76,10 @@ PolishedSolution::PolishedSolution(Nlp& nlp, const VectorXd& given, const Vector
 void PolishedSolution::evaluate() {
   nlp_.evaluate(x, phi, &J);
   ++evals;
-  if (!phi.allFinite()) throw Error("residuals are not finite at the solution; it has no derivatives");
+  if (!phi.allFinite()) throw Error("the solution has no derivatives: its residuals are not finite");
 }
 
-/// The weights of the gradients, and the Lagrangian's gradient.
+/// Computes the weights of the gradients and the gradient of the Lagrangian.
 void PolishedSolution::weigh() {
   squared_.clear();
   gradient_.setZero(x.size());
@@ -98,25 +99,26 @@ void PolishedSolution::weigh() {
   }
 }
 
-/// H at the present point, at which the problem was evaluated last.
+/// Computes H at the last evaluated point.
 void PolishedSolution::linearize() {
   BandAlgebra& H = system_.begin(J, squared_);
-  if (tells_costs_) {
+  if (knows_costs_) {
     MatrixXd costs = MatrixXd::Zero(x.size(), x.size());
     nlp_.addCostHessian(x, costs);
     for (int j = 0; j < costs.cols(); ++j) {
       for (int i = j; i < costs.rows(); ++i) H.addEntry(i, j, costs(i, j));
     }
   }
-  curvature_.addTo(H, x, weights, J, tells_costs_);
+  curvature_.addTo(H, x, weights, J, knows_costs_);
   curvature_scale_ = system_.largestCurvature();
   if (curvature_scale_ == 0.) curvature_scale_ = 1.;
 }
 
-/// What presses, or would be violated; at first also what may. False if nothing has changed.
+/// Selects the active constraints: those with positive multipliers or violations, and at first also those that may be
+/// active. False if the set has not changed.
 bool PolishedSolution::chooseActive(bool is_first) {
   std::vector<int> now;
-  let_go_ = false;
+  deactivated_ = false;
   for (int row = 0; row < int(phi.size()); ++row) {
     const ObjectiveType type = nlp_.types()[std::size_t(row)];
     const double norm = system_.norm(row);
@@ -127,7 +129,7 @@ bool PolishedSolution::chooseActive(bool is_first) {
     if (may_be || force + curvature_scale_ * slack > 0.)
       now.push_back(row);
     else
-      let_go_ = std::exchange(dual[row], 0.) != 0. || let_go_;
+      deactivated_ = std::exchange(dual[row], 0.) != 0. || deactivated_;
   }
   std::vector<char> held(fixed.size());
   for (int i = 0; i < int(x.size()); ++i) {
@@ -141,7 +143,7 @@ bool PolishedSolution::chooseActive(bool is_first) {
   return changed;
 }
 
-/// One step of Newton's method; true if there will be no further one of any size.
+/// Makes one step of Newton's method. False if it is not finite.
 bool PolishedSolution::step() {
   VectorXd b(active.size()), dx = VectorXd::Zero(x.size()), change(active.size());
   for (std::size_t k = 0; k < active.size(); ++k) b[Eigen::Index(k)] = -phi[active[k]];
@@ -151,7 +153,7 @@ bool PolishedSolution::step() {
     const bool is_upper = pull + curvature_scale_ * (x[i] - nlp_.upper()[i]) > 0.;
     dx[i] = (is_upper ? nlp_.upper()[i] : nlp_.lower()[i]) - x[i];
   }
-  if (let_go_) weigh();
+  if (deactivated_) weigh();
   system_.solve(-gradient_, b, dx, change, kStepAccuracy);
   moved_ = dx.size() > 0 ? dx.lpNorm<Eigen::Infinity>() : 0.;
   if (!std::isfinite(moved_)) return false;
@@ -167,14 +169,14 @@ bool PolishedSolution::step() {
   for (int row = 0; row < int(phi.size()); ++row)
     force_scale_ = std::max(force_scale_, std::abs(weights[row]) * system_.norm(row));
   force_scale_ = std::max(force_scale_, kShort * curvature_scale_);
-  pulls_settled_ = changed <= kSettledPull * force_scale_;
+  multipliers_settled_ = changed <= kSettledPull * force_scale_;
   return true;
 }
 
 bool PolishedSolution::converge() {
   double before = std::numeric_limits<double>::infinity();
   int worse = 0;
-  for (int i = 0; i < kMostSteps; ++i) {
+  for (int i = 0; i < kMaxSteps; ++i) {
     evaluate();
     weigh();
     linearize();
@@ -182,13 +184,13 @@ bool PolishedSolution::converge() {
     if (!system_.factorize(active, fixed)) return false;
     if (!step()) return false;
     const double size = 1. + x.lpNorm<Eigen::Infinity>();
-    if (moved_ <= kSettled * size && pulls_settled_ && (!changed || i == 0)) {
-      // what was taken as active for once may have turned out to pull
-      const auto pulls = [&](int row) {
+    if (moved_ <= kSettled * size && multipliers_settled_ && (!changed || i == 0)) {
+      // constraints that were only assumed to be active may have negative multipliers
+      const auto isNegative = [&](int row) {
         return isInequality(nlp_.types()[std::size_t(row)]) &&
                dual[row] * system_.norm(row) < -kSettledPull * force_scale_;
       };
-      if (std::ranges::none_of(active, pulls)) return true;
+      if (std::ranges::none_of(active, isNegative)) return true;
     }
     worse = !changed && moved_ > before ? worse + 1 : 0;
     if (worse > 3 || moved_ > 10. * size) return false;
@@ -211,7 +213,7 @@ void PolishedSolution::solveTightly() {
   std::fill(fixed.begin(), fixed.end(), false);
 }
 
-/// Parts what presses from what merely touches. The conditions are as the last step found them, which led here.
+/// Separates strongly from weakly active constraints, at the conditions of the last step.
 void PolishedSolution::classify() {
   const double no_force = kNoForce * force_scale_;
   for (int row = 0; row < int(phi.size()); ++row) {
@@ -220,7 +222,7 @@ void PolishedSolution::classify() {
     const bool is_active = std::ranges::binary_search(active, row);
     if ((is_active || phi[row] / norm > -kTouching) && dual[row] * norm <= no_force) weak_rows.push_back(row);
   }
-  for (int row = 0; row < int(phi.size()); ++row) {  // the last step was so short that this is exact
+  for (int row = 0; row < int(phi.size()); ++row) {  // exact for such a short step
     if (!J.zero_row[std::size_t(row)]) phi[row] += J.rowTimes(row, last_step_);
   }
   weigh();
@@ -230,20 +232,20 @@ void PolishedSolution::classify() {
     if (x[i] - low <= kTouching) weak_lower.push_back(i);
     if (high - x[i] <= kTouching) weak_upper.push_back(i);
   }
-  std::vector<int> pressing;
-  std::ranges::copy_if(active, std::back_inserter(pressing),
+  std::vector<int> strong;
+  std::ranges::copy_if(active, std::back_inserter(strong),
                        [&](int row) { return holds_weak_ || !std::ranges::binary_search(weak_rows, row); });
   if (holds_weak_) {
-    pressing.insert(pressing.end(), weak_rows.begin(), weak_rows.end());
-    std::ranges::sort(pressing);
-    pressing.erase(std::unique(pressing.begin(), pressing.end()), pressing.end());
+    strong.insert(strong.end(), weak_rows.begin(), weak_rows.end());
+    std::ranges::sort(strong);
+    strong.erase(std::unique(strong.begin(), strong.end()), strong.end());
   }
   std::vector<char> held = fixed;
   for (const std::vector<int>* weak : {&weak_lower, &weak_upper}) {
     for (const int i : *weak) held[std::size_t(i)] = holds_weak_;
   }
-  if (pressing == active && held == fixed) return;
-  active = std::move(pressing);
+  if (strong == active && held == fixed) return;
+  active = std::move(strong);
   fixed = std::move(held);
   linearize();
   system_.factorize(active, fixed);

@@ -9,30 +9,30 @@
 
 namespace kinegraph {
 
-/// A solution to rounding: from one as solvers give it, a few Newton steps on its conditions, with a set of active
-/// constraints that follows from them. The linearized conditions are left factorized.
+/// A solution up to rounding errors: a primal-dual active set method refines the result of a solver by a few Newton
+/// steps on the optimality conditions. The linearized conditions stay factorized.
 /// Source: Hintermüller, Ito, Kunisch, The primal-dual active set strategy as a semismooth Newton method, 2003.
 class PolishedSolution {
  public:
-  /// From x, with a multiplier per residual; `is_near` says of which residuals it is not known whether they are active
-  /// where they are nearly zero. `holds_weak`: are constraints that touch without pressing taken as active? Throws
-  /// Error if it does not converge.
+  /// Starts at x, with one multiplier per residual. `is_near` marks residuals that may be active if they are nearly
+  /// zero. `holds_weak`: whether weakly active constraints count as active. Throws Error if the method does not
+  /// converge.
   PolishedSolution(Nlp& nlp, const VectorXd& x, const VectorXd& dual, const std::vector<char>& is_near,
                    bool holds_weak);
 
   VectorXd x, phi;
   VectorXd dual;     ///< multiplier per residual
-  VectorXd weights;  ///< per residual: that of its gradient in the gradient of the Lagrangian
+  VectorXd weights;  ///< per residual: weight of its gradient in that of the Lagrangian
   Jacobian J;
 
-  std::vector<int> active;                  ///< residuals that are held at zero
-  std::vector<char> fixed;                  ///< per variable: is it held at a bound?
-  std::vector<int> weak_rows;               ///< inequalities that touch and do not press
-  std::vector<int> weak_lower, weak_upper;  ///< variables whose bound does
+  std::vector<int> active;                  ///< active residuals
+  std::vector<char> fixed;                  ///< per variable: whether it is fixed at a bound
+  std::vector<int> weak_rows;               ///< weakly active inequalities
+  std::vector<int> weak_lower, weak_upper;  ///< variables with a weakly active bound
   int evals = 0;
 
   KktSystem& system() { return system_; }
-  const std::vector<int>& squared() const { return squared_; }  ///< residuals whose squares count here
+  const std::vector<int>& squared() const { return squared_; }  ///< residuals with squares in H
 
  private:
   bool converge();
@@ -47,18 +47,18 @@ class PolishedSolution {
   Nlp& nlp_;
   std::vector<char> is_near_;
   bool holds_weak_;
-  bool has_costs_, tells_costs_;
+  bool has_costs_, knows_costs_;
   KktSystem system_;
   LagrangianCurvature curvature_;
   std::vector<int> squared_;
-  VectorXd gradient_;    ///< of the Lagrangian
-  bool let_go_ = false;  ///< of a residual that pressed, since the last weighing
+  VectorXd gradient_;         ///< of the Lagrangian
+  bool deactivated_ = false;  ///< of an active residual, since the last call of weigh
   VectorXd last_step_;
   double curvature_scale_ = 1.;
-  double force_scale_ = 0.;     ///< the largest gradient of a residual with its weight
-  double moved_ = 0.;           ///< by the last step
-  bool pulls_settled_ = false;  ///< did the last step leave the multipliers as they were?
-  VectorXd bound_pull_;         ///< multiplier of the bounds, positive at upper ones
+  double force_scale_ = 0.;           ///< largest weighted gradient of a residual
+  double moved_ = 0.;                 ///< length of the last step
+  bool multipliers_settled_ = false;  ///< whether the last step left the multipliers unchanged
+  VectorXd bound_multipliers_;        ///< multipliers of the bounds, positive at upper ones
 };
 
 }  // namespace kinegraph

@@ -5,23 +5,23 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/solvers/sensitivity/doubled_limits.h"
 #include "kinegraph/solvers/sensitivity/polished_solution.h"
+#include "kinegraph/solvers/sensitivity/redundant_bounds.h"
 
 namespace kinegraph {
 
 namespace {
 
-constexpr double kSolved = 1e-7;  // relative residual of the linear system
+constexpr double kSolved = 1e-7;  // largest relative residual of the linear system
 constexpr std::size_t kNamed = 4;
 
 const SolverResult& requireSolution(const SolverResult& result) {
   if (!result.problem)
-    throw ValueError("the result knows no problem, as one that was loaded or made by hand: solve it here, then ask");
+    throw ValueError("the result has no problem, because it was loaded or made by hand; solve the problem first");
   if (!result.feasible)
     throw ValueError(cat("the result violates its constraints (the worst by ", result.violation,
-                         ", scaled), so that it is no solution that could move: ", solverStatusName(result.status),
-                         ", ", result.message));
+                         ", scaled); expected a feasible solution: ", solverStatusName(result.status), ", ",
+                         result.message));
   return result;
 }
 
@@ -31,7 +31,7 @@ std::string listed(std::vector<std::string> names) {
   return cat(join(names, "; "), more > 0 ? cat("; and ", more, " more") : "");
 }
 
-/// Terms of sums of which the multiplier was told as one are active or not; that is to be found out.
+/// Marks the terms of sums with a positive multiplier: it is not known which of them are active.
 std::vector<char> unknownRows(const Separation& separation, const VectorXd& dual) {
   std::vector<char> unknown(separation.row_of.size(), false);
   for (std::size_t i = 0; i < unknown.size(); ++i)
@@ -58,9 +58,9 @@ Sensitivity::Sensitivity(std::shared_ptr<Nlp> problem, const VectorXd& x, const 
     : problem_(std::move(problem)), parameters_(std::move(parameters)), holds_weak_(options.hold_weak) {
   const auto rows = Eigen::Index(problem_->types().size());
   if (x.size() != problem_->dimension())
-    throw ValueError(cat("x has ", x.size(), " numbers; the problem has ", problem_->dimension(), " variables"));
+    throw ValueError(cat("x has ", x.size(), " entries; the problem has ", problem_->dimension(), " variables"));
   if (dual.size() != 0 && dual.size() != rows)
-    throw ValueError(cat("there are ", dual.size(), " multipliers; the problem has ", rows, " residuals"));
+    throw ValueError(cat("dual has ", dual.size(), " multipliers; the problem has ", rows, " residuals"));
   for (const auto& parameter : parameters_)
     names_.insert(names_.end(), parameter->names().begin(), parameter->names().end());
   separation_ = problem_->separation();
@@ -79,7 +79,7 @@ Sensitivity::Sensitivity(std::shared_ptr<Nlp> problem, const VectorXd& x, const 
     problem_->leaveAt(x);
     throw;
   }
-  doubled_ = std::make_unique<DoubledLimits>(*solution_);
+  redundant_ = std::make_unique<RedundantBounds>(*solution_);
   problem_->leaveAt(solution_->x);
 }
 
@@ -93,7 +93,7 @@ int Sensitivity::evals() const { return solution_->evals; }
 int Sensitivity::freeDirections() const { return solution_->system().freeDirections(); }
 bool Sensitivity::isSaddle() const { return solution_->system().isIndefinite(); }
 
-/// The derivatives of the conditions by each number.
+/// Computes the derivatives of the conditions with respect to each parameter.
 void Sensitivity::differentiate() {
   if (is_differentiated_) return;
   PolishedSolution& at = *solution_;
@@ -116,7 +116,7 @@ void Sensitivity::differentiate() {
       of_gradient_.col(column) = gradient;
       for (std::size_t k = 0; k < at.active.size(); ++k) of_rows_(Eigen::Index(k), column) = phi[at.active[k]];
       const auto bound = parameter->bound(number);
-      doubled_->move(at, *nlp_, phi, bound);
+      redundant_->move(at, *nlp_, phi, bound);
       if (!bound || !at.fixed[std::size_t(bound->variable)]) continue;
       const double value = bound->is_upper ? nlp_->upper()[bound->variable] : nlp_->lower()[bound->variable];
       if (at.x[bound->variable] == value) moved_bound_[std::size_t(column)] = bound->variable;
@@ -126,7 +126,7 @@ void Sensitivity::differentiate() {
   is_differentiated_ = true;
 }
 
-void Sensitivity::note(double residual) { is_solvable_ = is_solvable_ && residual < kSolved; }
+void Sensitivity::checkResidual(double residual) { is_solvable_ = is_solvable_ && residual < kSolved; }
 
 const MatrixXd& Sensitivity::jacobian() {
   if (has_jacobian_) return jacobian_;
@@ -137,7 +137,7 @@ const MatrixXd& Sensitivity::jacobian() {
   for (int column = 0; column < size(); ++column) {
     dx.setZero();
     if (const int variable = moved_bound_[std::size_t(column)]; variable >= 0) dx[variable] = 1.;
-    note(at.system().solve(-of_gradient_.col(column), -of_rows_.col(column), dx, dl));
+    checkResidual(at.system().solve(-of_gradient_.col(column), -of_rows_.col(column), dx, dl));
     jacobian_.col(column) = dx;
   }
   has_jacobian_ = true;
@@ -147,11 +147,11 @@ const MatrixXd& Sensitivity::jacobian() {
 VectorXd Sensitivity::gradient(const VectorXd& v) {
   PolishedSolution& at = *solution_;
   if (v.size() != at.x.size())
-    throw ValueError(cat("the gradient has ", v.size(), " numbers; the solution has ", at.x.size()));
-  if (!v.allFinite()) throw ValueError("the gradient has numbers that are not finite");
+    throw ValueError(cat("the gradient has ", v.size(), " entries; the solution has ", at.x.size()));
+  if (!v.allFinite()) throw ValueError("the gradient has entries that are not finite");
   differentiate();
   VectorXd w = VectorXd::Zero(v.size()), u;
-  note(at.system().solve(v, VectorXd::Zero(Eigen::Index(at.active.size())), w, u));
+  checkResidual(at.system().solve(v, VectorXd::Zero(Eigen::Index(at.active.size())), w, u));
   VectorXd sum = -(of_gradient_.transpose() * w) - of_rows_.transpose() * u;
   if (std::ranges::all_of(moved_bound_, [](int variable) { return variable < 0; })) return sum;
   const VectorXd left = at.system().leftBy(v, w, u);
@@ -192,21 +192,20 @@ bool Sensitivity::isRegular() { return message().empty(); }
 
 std::string Sensitivity::message() {
   std::vector<std::string> sentences;
-  if (const auto touching = weak(); !touching.empty())
-    sentences.push_back(
-        cat("the solution has a kink: constraints touch without pressing, and the derivative is that of "
-            "the side on which they ",
-            holds_weak_ ? "hold" : "do not", ": ", listed(touching)));
+  if (const auto weak_names = weak(); !weak_names.empty())
+    sentences.push_back(cat("the solution is not differentiable: the one-sided derivative ",
+                            holds_weak_ ? "with" : "without",
+                            " these weakly active constraints is given: ", listed(weak_names)));
   if (freeDirections() > 0)
     sentences.push_back(cat("costs and constraints leave ", freeDirections(),
                             freeDirections() == 1 ? " direction" : " directions",
                             " free: the derivative is the shortest one"));
   if (isSaddle())
-    sentences.push_back("the costs fall in a direction that the constraints leave: it is a saddle, not a minimum");
+    sentences.push_back("the solution is a saddle, not a minimum: the costs decrease in a feasible direction");
   if (!is_solvable_)
     sentences.push_back(
-        "for some parameters there is no solution nearby: constraints that say the same move apart, or a free "
-        "direction is pushed");
+        "some parameters have no solution nearby: they separate redundant constraints or change the slope in a free "
+        "direction");
   return join(sentences, ". ");
 }
 

@@ -17,11 +17,11 @@ namespace kinegraph {
 
 namespace {
 
-/// What a .lgp file says.
+/// The contents of a .lgp file.
 struct LgpFile {
   std::string fol;                ///< path
-  std::string terminal;           ///< literals, at the place that they have in the file
-  std::vector<std::string> coll;  ///< two by two
+  std::string terminal;           ///< literals, at their position in the file
+  std::vector<std::string> coll;  ///< pairs of names
 };
 
 std::string textOf(const std::string& path) {
@@ -36,7 +36,7 @@ const Node& required(const Graph& entries, const char* key, const std::string& p
   const Node* node = entries.find(key);
   if (node && (node->value.as<std::string>() || node->value.as<AngleText>())) return *node;
   const SourcePosition where = node ? node->where : SourcePosition{path, 1, 1};
-  throw ParseError(where, cat("there is no `", key, ":`; expected fol: <file> and terminal: \"(on tray cup)\""));
+  throw ParseError(where, cat("missing `", key, ":`; expected fol: <file> and terminal: \"(on tray cup)\""));
 }
 
 std::string wordsOf(const Value& value) {
@@ -44,7 +44,7 @@ std::string wordsOf(const Value& value) {
   return angle ? angle->text : *value.as<std::string>();
 }
 
-/// A text behind as many lines and blanks as there are before it in its file, so that it is told where mistakes are.
+/// Pads a text with the lines and blanks before it in its file, so that errors have the right position.
 std::string inPlace(const Value& value) {
   return std::string(std::size_t(value.where.line - 1), '\n') + std::string(std::size_t(value.where.column), ' ') +
          wordsOf(value);
@@ -56,7 +56,7 @@ std::vector<std::string> pairs(const Config& C, const Node& node) {
     names = *list;
   else if (const NumberArray* none = node.value.as<NumberArray>(); !none || !none->numbers.empty())
     throw ParseError(node.where, cat("coll is ", describe(node.value), "; expected pairs of frames: [a b, c d]"));
-  for (const std::string& name : names) C.getFrame(name);  // throws, with names that are near
+  for (const std::string& name : names) C.getFrame(name);  // throws, with similar names
   if (names.size() % 2 != 0) throw ParseError(node.where, cat("coll has ", names.size(), " names; expected pairs"));
   return names;
 }
@@ -82,13 +82,13 @@ DefaultLgpAbstraction::DefaultLgpAbstraction(const Config& scene, const std::str
   LogicProblem problem{"problem", domain, {}, domain.start, readLiterals(file.terminal, lgp_file)};
   for (Literal& fact : sceneFacts(C)) problem.start.push_back(std::move(fact));
   PlanSearch::Options options;
-  options.keep_going = [this, cancellation = std::move(cancellation)] {
+  options.cancellation = [this, cancellation = std::move(cancellation)] {
     try {
       cancellation.check();
     } catch (...) {
       interruption_ = std::current_exception();
     }
-    return !interruption_;
+    return bool(interruption_);
   };
   search_ = std::make_shared<PlanSearch>(ground(std::move(problem)), options);
   if (!search_->problem().unreachable.empty()) {
@@ -130,7 +130,7 @@ void DefaultLgpAbstraction::switchTo(ManipulationHelper& m, double time, const s
     m.komo->addObjective({time}, F::poseRel, {obj, held->second}, ObjectiveType::eq, 1e1, {}, 1);
   else
     m.komo->addObjective({time}, F::pose, {obj}, ObjectiveType::eq, 1e1, {}, 1);
-  if (const int slices = steps(*m.komo); slices > 1 && time < count_)  // accelerations tell of two velocities
+  if (const int slices = steps(*m.komo); slices > 1 && time < count_)  // an acceleration spans two velocities
     m.komo->addObjective({time + 1. / slices}, F::linangVel, {obj}, ObjectiveType::eq, 1., {}, 2);
   held_[obj] = frame;
 }

@@ -20,19 +20,19 @@ namespace kinegraph {
 ///     terminal: "(on tray cup) (on table jug)"
 ///     coll: [cup jug]          # pairs of frames that do not overlap, also in waypoints
 ///
-/// They are pick_touch, pick_box, handover, place_straightOn, place_box, poseEq, gripper_push, end_push; pick and place, as
-/// files of earlier years call the first and the fourth. Actions of other names need a subclass. Python has it as
+/// The actions are pick_touch, pick_box, handover, place_straightOn, place_box, poseEq, gripper_push and end_push.
+/// Older files call the first pick and the fourth place. Other actions need a subclass. In Python it is
 /// default_LGP_TAMP_Abstraction.
 class DefaultLgpAbstraction : public LgpAbstraction {
  public:
-  /// Reads the files, and what the scene says in logic. `cancellation` is asked now and then while logic is searched, and may
-  /// throw to end it. Throws FileError; ParseError, with the place, for files that are wrong, words of the goal that are
-  /// not known, and goals that no action leads to; FrameNotFound for a pair.
+  /// Reads the files and the facts of the scene. `cancellation` is queried during the search in logic, and may throw.
+  /// Throws FileError; ParseError with the position for invalid files, unknown words of the goal, and goals that no
+  /// action reaches; FrameNotFound for a pair.
   DefaultLgpAbstraction(const Config& C, const std::string& lgp_file, CancellationToken cancellation = {});
 
   const LogicDomain& domain() const { return search_->problem().problem.domain; }
 
-  /// The search that plans come from.
+  /// The search that enumerates the plans.
   const std::shared_ptr<PlanSearch>& search() const { return search_; }
 
   /// The next plan in logic, the shortest first.
@@ -44,14 +44,14 @@ class DefaultLgpAbstraction : public LgpAbstraction {
 
   // --- for actions of your own -------------------------------------------------------------------------------------
 
-  /// From a time on (in phases) an object sits at a frame; it does not jump there. Python calls it `switch`. Throws
+  /// Attaches an object to a frame from a time on (in phases), without a jump. In Python it is `switch`. Throws
   /// FrameNotFound.
   void switchTo(ManipulationHelper& m, double time, const std::string& frame, const std::string& obj);
 
-  /// Slices per action of a problem that was set up: 1 for waypoints.
+  /// Slices per action of a problem: 1 for waypoints.
   int steps(const Komo& komo) const;
 
-  /// Does the plan end at that time, of the problem that was set up last?
+  /// Whether the plan of the last problem ends at a time.
   bool is_last(double time) const;
 
  protected:
@@ -59,9 +59,9 @@ class DefaultLgpAbstraction : public LgpAbstraction {
 
  private:
   std::shared_ptr<PlanSearch> search_;
-  std::exception_ptr interruption_;          ///< by `cancellation`, while logic was searched
-  std::map<std::string, std::string> held_;  ///< what each object sits at, in the problem that was set up last
-  int count_ = 1;                            ///< of its actions
+  std::exception_ptr interruption_;          ///< thrown by `cancellation` during a search
+  std::map<std::string, std::string> held_;  ///< by object: the frame it is attached to, in the last problem
+  int count_ = 1;                            ///< number of its actions
 };
 
 }  // namespace kinegraph

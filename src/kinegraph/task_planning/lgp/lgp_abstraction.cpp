@@ -21,8 +21,7 @@ std::shared_ptr<Komo> LgpAbstraction::setup_motion(const Config& scene, int K) {
 
 void LgpAbstraction::add_action_constraints(const std::shared_ptr<Komo>&, double, const TaskAction&,
                                             const TaskAction& action) {
-  throw ValueError(
-      cat("no constraints are known for action ", planText({action}), "; override add_action_constraints"));
+  throw ValueError(cat("action ", planText({action}), " has no constraints; override add_action_constraints"));
 }
 
 void LgpAbstraction::add_action_constraints_motion(const std::shared_ptr<Komo>& komo, double time,

@@ -10,8 +10,8 @@
 
 namespace kinegraph {
 
-/// What LgpTool asks of a domain: plans in logic, and what their actions ask of bodies. Python has it as
-/// LGP_TAMP_Abstraction. Subclass it, or DefaultLgpAbstraction, for actions of your own:
+/// The domain of an LgpTool: plans in logic, and the constraints of their actions. In Python it is
+/// LGP_TAMP_Abstraction. Subclass it, or DefaultLgpAbstraction, for your own actions:
 ///
 ///     class Visits : public DefaultLgpAbstraction {
 ///       using DefaultLgpAbstraction::DefaultLgpAbstraction;
@@ -26,49 +26,49 @@ class LgpAbstraction {
  public:
   static constexpr int kSteps = 30;  ///< slices per action of a motion
 
-  /// An abstraction of a scene, without actions. It sees what is changed in the scene later.
+  /// An abstraction without actions. It shares the scene, later changes included.
   explicit LgpAbstraction(const Config& C) : C(C.scene()) {}
   LgpAbstraction(const LgpAbstraction&) = delete;
   LgpAbstraction& operator=(const LgpAbstraction&) = delete;
   virtual ~LgpAbstraction() = default;
 
   const Config C;                               ///< the scene
-  std::vector<std::string> explicitCollisions;  ///< names of frames, two by two, that do not overlap in any slice
+  std::vector<std::string> explicitCollisions;  ///< pairs of names of frames that overlap in no slice
 
   /// The next plan in logic; none if there is no further one.
   virtual std::optional<std::vector<TaskAction>> getNewActionSequence() { return std::nullopt; }
 
-  /// Whether those were all plans that there are; false where the search for them was given up.
+  /// Whether all plans were enumerated; false if the search reached a limit.
   virtual bool hasAllPlans() const { return true; }
 
-  /// No further plan shall begin like that: it was found infeasible. An abstraction may ignore it.
+  /// Excludes plans that begin with these actions, which are infeasible. An abstraction may ignore it.
   virtual void forbidBeginning(const std::vector<TaskAction>& plan) { (void)plan; }
 
-  /// The waypoint problem of K actions, a slice each, without what the actions ask.
+  /// Returns the waypoint problem of K actions, a slice each, without the constraints of the actions.
   virtual std::shared_ptr<Komo> setup_sequence(const Config& C, int K);
 
-  /// The motion problem of K actions, kSteps slices each, free of collisions, that ends at rest; without what the actions
-  /// ask.
+  /// Returns the motion problem of K actions, kSteps slices each, collision-free and with rest at the end, without the
+  /// constraints of the actions.
   virtual std::shared_ptr<Komo> setup_motion(const Config& C, int K);
 
-  /// Adds what an action asks of the waypoints. `time` is when it is done, in phases; `prev_action` is the action before
-  /// it, empty if there is none. Throws ValueError for an action that is not known.
+  /// Adds the constraints of an action to a waypoint problem. `time` is the end of the action in phases, `prev_action`
+  /// the action before it, empty if there is none. Throws ValueError for an unknown action.
   virtual void add_action_constraints(const std::shared_ptr<Komo>& komo, double time, const TaskAction& prev_action,
                                       const TaskAction& action);
 
-  /// Adds what an action asks of the motion; by default what it asks of the waypoints.
+  /// Adds the constraints of an action to a motion problem; by default those of the waypoints.
   virtual void add_action_constraints_motion(const std::shared_ptr<Komo>& komo, double time,
                                              const TaskAction& prev_action, const TaskAction& action);
 
-  /// Adds what the actions of a plan ask, of the motion or of the waypoints, then that the explicit pairs do not overlap.
-  /// Throws ValueError for an action that is not known, and an odd number of names.
+  /// Adds the constraints of all actions of a plan to a motion or waypoint problem, then those of the explicit pairs.
+  /// Throws ValueError for an unknown action and for an odd number of names.
   virtual void add_all(const std::shared_ptr<Komo>& komo, const std::vector<TaskAction>& plan, bool motion);
 
-  /// Makes the problems.
+  /// Returns a helper that makes problems.
   virtual std::shared_ptr<ManipulationHelper> newHelper() const { return std::make_shared<ManipulationHelper>(); }
 
  protected:
-  /// A problem of that many actions is set up.
+  /// Called before a problem of that many actions is set up.
   virtual void begin(int actions) { (void)actions; }
 };
 

@@ -14,9 +14,9 @@ using O = ObjectiveType;
 using Tamp = DefaultLgpAbstraction;
 using M = ManipulationHelper;
 
-constexpr double kInside = .02;  ///< m: how far inside of a box a gripper is
+constexpr double kInside = .02;  ///< m: distance of a gripper from the sides of a box
 
-/// The name of a frame that an action brings.
+/// The name of a frame that an action adds.
 std::string frameName(const char* kind, const std::string& parent, const std::string& obj, double time) {
   return cat(kind, "_", parent, "_", obj, "_", std::lround(time));
 }
@@ -27,7 +27,7 @@ void pickFrame(Tamp& tamp, M& m, double time, const std::string& hand, const std
   tamp.switchTo(m, time, name, obj);
 }
 
-/// (pick_touch obj from hand), (handover obj hand to): the hand that has it then touches it.
+/// (pick_touch obj from hand), (handover obj hand to): the hand that holds it afterwards touches it.
 void pickTouch(Tamp& tamp, M& m, double time, const TaskAction& action) {
   const std::string &obj = action[1], &hand = action[3];
   pickFrame(tamp, m, time, hand, obj);
@@ -39,7 +39,7 @@ std::string palmOf(const std::string& hand) {
   return (hand.ends_with(kGripper) ? hand.substr(0, hand.size() - kGripper.size()) : hand) + "palm";
 }
 
-/// (pick_box obj from hand): the fingers close along the y axis of a box, whose center the hand is near.
+/// (pick_box obj from hand): the fingers close along the y axis of a box, close to its center.
 void pickBox(Tamp& tamp, M& m, double time, const TaskAction& action) {
   const std::string &obj = action[1], &hand = action[3];
   const std::vector<double> size = tamp.C.getFrame(obj).getSize();
@@ -57,7 +57,7 @@ void pickBox(Tamp& tamp, M& m, double time, const TaskAction& action) {
   m.komo->addObjective({time}, F::distance, {obj, hand}, O::ineq, -1e1);
 }
 
-/// (place_straightOn obj hand to): it stands there, its center within the edges.
+/// (place_straightOn obj hand to): the object stands there, with its center within the edges.
 void placeStraightOn(Tamp& tamp, M& m, double time, const TaskAction& action) {
   const std::string &obj = action[1], &to = action[3];
   const std::string name = frameName("placePose", to, obj, time);
@@ -65,7 +65,7 @@ void placeStraightOn(Tamp& tamp, M& m, double time, const TaskAction& action) {
   tamp.switchTo(m, time, name, obj);
 }
 
-/// (place_box obj hand to): its x axis is up.
+/// (place_box obj hand to): the x axis of the box is up.
 void placeBox(Tamp& tamp, M& m, double time, const TaskAction& action) {
   const std::string &obj = action[1], &hand = action[2], &to = action[3];
   if (!tamp.is_last(time)) {
@@ -82,10 +82,10 @@ void poseEqual(Tamp&, M& m, double time, const TaskAction& action) {
   m.komo->addObjective({time}, F::poseDiff, {action[1], action[2]}, O::eq, 1e1);
 }
 
-/// (gripper_push obj floor hand): from now on, until the next action is done.
+/// (gripper_push obj floor hand): pushes until the end of the next action.
 void gripperPush(Tamp& tamp, M& m, double time, const TaskAction& action) {
   const std::string &obj = action[1], &floor = action[2], &hand = action[3];
-  if (tamp.is_last(time)) return;  // it begins, and nothing says where to
+  if (tamp.is_last(time)) return;  // a push without a destination
   const std::string name = frameName("pushPose", hand, obj, time);
   m.add_stable_frame(JointType::free, hand, name, obj);
   tamp.switchTo(m, time, name, obj);
@@ -110,7 +110,7 @@ constexpr LgpAction kActions[] = {
     {"handover", 4, pickTouch},       {"place_straightOn", 4, placeStraightOn},
     {"place_box", 4, placeBox},       {"poseEq", 3, poseEqual},
     {"gripper_push", 4, gripperPush}, {"end_push", 5, endPush},
-    {"pick", 4, pickTouch},           {"place", 4, placeStraightOn},  // as files of earlier years call them
+    {"pick", 4, pickTouch},           {"place", 4, placeStraightOn},  // names in older files
 };
 
 }  // namespace

@@ -4,8 +4,8 @@
 
 namespace kinegraph {
 
-/// Adds what an action of DefaultLgpAbstraction asks of waypoints or of a motion. `time` is when it is done, in phases.
-/// Throws ValueError for an action that is not known, or has too few words.
+/// Adds the constraints of an action of DefaultLgpAbstraction to a waypoint or motion problem. `time` is the end of the
+/// action, in phases. Throws ValueError for an unknown action, or one with too few words.
 void addLgpAction(DefaultLgpAbstraction& tamp, ManipulationHelper& m, double time, const TaskAction& action);
 
 }  // namespace kinegraph

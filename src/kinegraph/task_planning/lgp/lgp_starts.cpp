@@ -11,16 +11,16 @@ std::string LgpOptions::describe(const SolverResult& result) const {
   return describes ? describes(result) : result.summary(cancellation);
 }
 
-void LgpOptions::tell(const std::string& line) const {
-  if (tells)
-    tells(line);
+void LgpOptions::printLine(const std::string& line) const {
+  if (print)
+    print(line);
   else
     std::cout << line << std::endl;
 }
 
 namespace {
 
-/// From a start, or from the problem's initial point where there is none.
+/// Solves from a guess, or from the initial point of the problem if the guess is empty.
 SolverResult solveOnce(const std::shared_ptr<Komo>& komo, const VectorXd& start, const SolverOptions& options,
                        std::uint64_t seed, const CancellationToken& stopped) {
   NlpSolver solver(makeNlp(komo), 0);

@@ -13,37 +13,38 @@
 
 namespace kinegraph {
 
-/// How LgpTool solves, and what it takes for solved.
+/// Options of LgpTool.
 struct LgpOptions {
-  int threads = 1;         ///< that solve side by side: what is found is the same, to the bit
-  std::uint64_t seed = 0;  ///< of the starts that are drawn
+  int threads = 1;         ///< that solve in parallel; results are bit-identical
+  std::uint64_t seed = 0;  ///< of sampled initial guesses
   SolverOptions solver = {.verbose = 0};
-  std::function<bool(const SolverResult&)> accepts = {};           ///< none: SolverResult::feasible
-  std::function<std::string(const SolverResult&)> describes = {};  ///< how a solve ended; none: SolverResult::summary
-  std::function<void(const std::string& line)> tells = {};         ///< none: lines go to the standard output
-  CancellationToken cancellation = {};  ///< asked now and then on the calling thread; may throw to end it
+  std::function<bool(const SolverResult&)> accepts =
+      {};  ///< whether a result is a solution; none: SolverResult::feasible
+  std::function<std::string(const SolverResult&)> describes = {};  ///< describes a result; none: SolverResult::summary
+  std::function<void(const std::string& line)> print = {};         ///< none: the standard output
+  CancellationToken cancellation = {};                             ///< queried on the calling thread; may throw
 
   bool isSolved(const SolverResult& result) const { return accepts ? accepts(result) : result.feasible; }
   std::string describe(const SolverResult& result) const;
-  void tell(const std::string& line) const;
+  void printLine(const std::string& line) const;
 };
 
-/// How a problem was solved from several starts.
+/// The result of solving a problem from several initial guesses.
 struct LgpSolve {
-  SolverResult result;  ///< of the first start that led to a solution; else of the last one
+  SolverResult result;  ///< of the first guess that led to a solution, else of the last one
   bool is_solved = false;
-  int solves = 0;  ///< starts that were tried
+  int solves = 0;  ///< number of guesses that were tried
   long evaluations = 0;
 };
 
-/// Tries starts in turn, or side by side, until one leads to a solution; leaves the problem where that ended.
+/// Solves from guesses in turn, or in parallel, until one leads to a solution, and leaves the problem there.
 LgpSolve solveFrom(const std::shared_ptr<Komo>& komo, const std::vector<VectorXd>& starts, const LgpOptions& options);
 
-/// The same with other tolerances.
+/// The same with other solver options.
 LgpSolve solveFrom(const std::shared_ptr<Komo>& komo, const std::vector<VectorXd>& starts, const LgpOptions& options,
                    const SolverOptions& solver);
 
-/// Solves problems of which each is one, from near where they are, side by side. `take` is called for each, in order.
+/// Solves independent problems from their current paths, in parallel. `take` is called for each, in order.
 void solveEach(const std::vector<std::shared_ptr<Komo>>& problems, const LgpOptions& options,
                const std::function<void(int problem, SolverResult result)>& take);
 

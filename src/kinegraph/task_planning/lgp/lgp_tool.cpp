@@ -12,28 +12,28 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kRounds = 3;         ///< in which plans that failed are tried from other starts
-constexpr int kMotionStarts = 3;   ///< of the motion over all actions
-constexpr double kNear = .02;      ///< how far each further one is from the waypoints
-constexpr double kCoarse = 1e-3;   ///< tolerance of the motion that starts at waypoints that do not overlap
-constexpr double kOverlap = 1e-3;  ///< m: how deep shapes may
-constexpr std::size_t kToldCauses = 5;
+constexpr int kRounds = 3;         ///< of failed plans, from other guesses
+constexpr int kMotionStarts = 3;   ///< guesses of the motion of all actions
+constexpr double kNear = .02;      ///< standard deviation of the perturbation per further guess
+constexpr double kCoarse = 1e-3;   ///< tolerance of the motion that starts at collision-free waypoints
+constexpr double kOverlap = 1e-3;  ///< m: allowed depth of overlaps
+constexpr std::size_t kReportedCauses = 5;
 
-/// Does nothing overlap in any slice?
+/// Whether nothing overlaps in any slice.
 bool isFree(const Komo& komo) {
   for (int t = 0; t < komo.slices(); ++t)
     if (!sliceCollisions(komo, t, -kOverlap).empty()) return false;
   return true;
 }
 
-/// Puts a motion where waypoints of the same plan are; `x` are their variables.
+/// Initializes a motion with waypoints of the same plan; `x` are their variables.
 void startAlong(Komo& motion, const Komo& waypoints, const VectorXd& x) {
   const MatrixXd rows = waypoints.getPath();
   std::vector<VectorXd> configurations;
   for (Eigen::Index i = 0; i < rows.rows(); ++i) configurations.push_back(rows.row(i));
   motion.setWaypoints(configurations, {1, true, 0.});
 
-  // What all slices share is as it was found; it comes first in both problems.
+  // Dofs shared by all slices are copied; they come first in both problems.
   const auto sharedIn = [](const Komo& komo, const VectorXd& all) {
     Eigen::Index count = all.size();
     for (int t = 0; t < komo.slices(); ++t) count -= komo.path().ownDofs(t).size();
@@ -41,12 +41,25 @@ void startAlong(Komo& motion, const Komo& waypoints, const VectorXd& x) {
   };
   VectorXd start = motion.path().variables();
   const Eigen::Index shared = sharedIn(waypoints, x);
-  if (sharedIn(motion, start) != shared) return;  // an abstraction whose motions have other frames
+  if (sharedIn(motion, start) != shared) return;  // the motions of the abstraction have other frames
   start.head(shared) = x.head(shared);
   motion.path().setVariables(start);
 }
 
 }  // namespace
+
+std::string lgpStatusName(LgpStatus status) {
+  switch (status) {
+    case LgpStatus::not_started:
+      return "not_started";
+    case LgpStatus::solved:
+      return "solved";
+    case LgpStatus::infeasible:
+      return "infeasible";
+    default:
+      return "no_plan_found";
+  }
+}
 
 LgpTool::LgpTool(const Config& scene, std::shared_ptr<LgpAbstraction> abstraction, LgpOptions given)
     : C(scene.scene()), tamp(std::move(abstraction)), options(std::move(given)), waypoints_(C, *tamp, options) {
@@ -56,8 +69,8 @@ LgpTool::LgpTool(const Config& scene, std::shared_ptr<LgpAbstraction> abstractio
 
 bool LgpTool::solve(int verbose, int maxSolves) {
   const int most = solves() + maxSolves;
-  const auto tell = [&](const Plan& plan, bool is_feasible) {
-    if (verbose > 0) options.tell(cat("-- ", is_feasible ? "feasible" : "infeasible", ": ", planText(plan)));
+  const auto report = [&](const Plan& plan, bool is_feasible) {
+    if (verbose > 0) options.printLine(cat("-- ", is_feasible ? "feasible" : "infeasible", ": ", planText(plan)));
     return is_feasible;
   };
   while (solves() < most) {
@@ -65,14 +78,14 @@ bool LgpTool::solve(int verbose, int maxSolves) {
     if (!plan) break;
     has_plans_ = true;
     const std::optional<std::size_t> failing = waypoints_.failing(*plan);
-    if (tell(*plan, !failing)) return found(*plan);
+    if (report(*plan, !failing)) return found(*plan);
     failed_.push_back(*plan);
     tamp->forbidBeginning({plan->begin(), plan->begin() + std::ptrdiff_t(*failing)});
   }
   for (; solves() < most && round_ <= kRounds; ++round_, next_ = 0) {
     while (solves() < most && next_ < failed_.size()) {
       const Plan plan = failed_[next_];
-      if (tell(plan, waypoints_.tryAgain(plan, round_))) {
+      if (report(plan, waypoints_.tryAgain(plan, round_))) {
         failed_.erase(failed_.begin() + std::ptrdiff_t(next_));
         return found(plan);
       }
@@ -88,16 +101,17 @@ bool LgpTool::found(const Plan& plan) {
   plan_ = plan;
   komo_ = waypoints_.komo;
   x_ = waypoints_.x;
-  status = "solved";
+  status = LgpStatus::solved;
   message.clear();
   return true;
 }
 
 void LgpTool::conclude(bool is_spent) {
-  status = is_spent || has_plans_ || !tamp->hasAllPlans() ? "not found" : "proved impossible";
+  const bool is_proved = !is_spent && !has_plans_ && tamp->hasAllPlans();
+  status = is_proved ? LgpStatus::infeasible : LgpStatus::no_plan_found;
   message.clear();
   const auto causes = waypoints_.causes();
-  for (std::size_t i = 0; i < std::min(causes.size(), kToldCauses); ++i)
+  for (std::size_t i = 0; i < std::min(causes.size(), kReportedCauses); ++i)
     message += cat(i > 0 ? "; " : "", causes[i].first, " (", causes[i].second, " plans)");
   if (!message.empty()) return;
   message = !tamp->hasAllPlans() ? "the search in logic was given up"
@@ -135,8 +149,8 @@ std::shared_ptr<Komo> LgpTool::get_fullMotionProblem(bool initWithWaypoints) con
   return problem;
 }
 
-/// Waypoints may overlap where no pair is named. Then the motion starts at waypoints of the same plan that do not, and that
-/// is done coarsely, as it is near.
+/// Waypoints may overlap, except for named pairs. Then the motion starts at waypoints of the same plan that do not
+/// overlap, and a coarse tolerance suffices, because the guess is close.
 LgpSolve LgpTool::solveFromFreeWaypoints(const std::shared_ptr<Komo>& problem) {
   const Plan& plan = getSolvedPlan();
   const std::shared_ptr<Komo> waypoints = tamp->setup_sequence(C, int(plan.size()));
@@ -164,7 +178,7 @@ std::vector<SolverResult> LgpTool::solvePiecewiseMotions(int verbose) {
   std::vector<SolverResult> results;
   solveEach(pieces, options, [&](int i, SolverResult result) {
     paths.push_back(pieces[std::size_t(i)]->getPath());
-    if (verbose > 0) options.tell(cat("-- ", planText({plan[std::size_t(i)]}), ": ", options.describe(result)));
+    if (verbose > 0) options.printLine(cat("-- ", planText({plan[std::size_t(i)]}), ": ", options.describe(result)));
     results.push_back(std::move(result));
   });
   return results;
@@ -185,7 +199,7 @@ SolverResult LgpTool::solveFullMotion(int verbose) {
   }
   motion = problem;
   path = motion->getPath();
-  if (verbose > 0) options.tell(cat("-- full motion: ", options.describe(solved.result)));
+  if (verbose > 0) options.printLine(cat("-- full motion: ", options.describe(solved.result)));
   return solved.result;
 }
 

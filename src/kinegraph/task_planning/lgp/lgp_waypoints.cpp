@@ -11,9 +11,9 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kStarts = 4;                    ///< of a waypoint problem before another plan is tried
-constexpr double kNoise = .3;                 ///< each further start is that much farther away
-constexpr std::uint64_t kSeedStep = 1000003;  ///< from problem to problem: none fails as others do
+constexpr int kStarts = 4;                    ///< guesses of a waypoint problem before another plan is tried
+constexpr double kNoise = .3;                 ///< increase of the standard deviation per further guess
+constexpr std::uint64_t kSeedStep = 1000003;  ///< between problems, so that their guesses differ
 
 }  // namespace
 
@@ -52,8 +52,8 @@ bool LgpWaypoints::solve(const Plan& plan, int round) {
   return solved.is_solved;
 }
 
-/// The first is where the problem is. Others draw what all slices share, grasps and placements; in further rounds, joints,
-/// too.
+/// The first guess is the current path. The others sample the dofs shared by all slices, grasps and placements; in
+/// further rounds also joints.
 std::vector<VectorXd> LgpWaypoints::starts(const std::shared_ptr<Komo>& problem, int round) {
   const auto nlp = makeNlp(problem);
   const Path& path = problem->path();

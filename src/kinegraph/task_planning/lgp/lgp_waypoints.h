@@ -12,7 +12,7 @@
 
 namespace kinegraph {
 
-/// Solves the waypoint problems of plans in logic, and remembers which could be solved. What it is made of must outlive it.
+/// Solves the waypoint problems of plans in logic, and caches the results. Its arguments must outlive it.
 class LgpWaypoints {
  public:
   using Plan = std::vector<TaskAction>;
@@ -20,22 +20,23 @@ class LgpWaypoints {
   LgpWaypoints(const Config& C, LgpAbstraction& tamp, const LgpOptions& options)
       : C_(C), tamp_(tamp), options_(options) {}
 
-  /// How many of the first actions cannot be carried out together; none if all can.
+  /// Returns the length of the shortest infeasible prefix; none if the plan is feasible.
   std::optional<std::size_t> failing(const Plan& plan);
 
-  /// A plan that has failed, from other starts, others in each round from 1 on. Are there waypoints?
+  /// Solves a failed plan from other guesses, which differ in each round from 1 on. Returns whether there are
+  /// waypoints.
   bool tryAgain(const Plan& plan, int round) { return solve(plan, round); }
 
-  /// Where the problem of a plan is tried from, others for each problem and in each round.
+  /// Returns the initial guesses of a problem, which differ for each problem and round.
   std::vector<VectorXd> starts(const std::shared_ptr<Komo>& problem, int round);
 
-  /// Why problems failed, and how often, the most frequent first.
+  /// Returns the causes of failures and their counts, the most frequent first.
   std::vector<std::pair<std::string, int>> causes() const;
 
-  std::shared_ptr<Komo> komo;  ///< that was solved last, at its solution
+  std::shared_ptr<Komo> komo;  ///< the last problem, at its solution
   VectorXd x;                  ///< its variables
-  int solves = 0;              ///< starts that were tried so far
-  long evaluations = 0;        ///< of them
+  int solves = 0;              ///< guesses that were tried so far
+  long evaluations = 0;        ///< spent by them
 
  private:
   bool isFeasible(const Plan& plan);
@@ -43,9 +44,9 @@ class LgpWaypoints {
   const Config& C_;
   LgpAbstraction& tamp_;
   const LgpOptions& options_;
-  int problems_ = 0;  ///< so far: starts of each are others
+  int problems_ = 0;  ///< so far; each has other guesses
   std::map<Plan, bool> known_;
-  std::vector<std::pair<std::string, int>> causes_;  ///< in the order in which they came
+  std::vector<std::pair<std::string, int>> causes_;  ///< in the order of occurrence
 };
 
 }  // namespace kinegraph

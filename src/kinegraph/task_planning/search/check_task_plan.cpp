@@ -21,28 +21,29 @@ namespace {
 using Lines = std::vector<std::string>;
 using Pairs = std::set<std::pair<std::string, std::string>>;
 
-constexpr double kEdge = 5e-3;   ///< m: how far inside of the edges the center of what stands there is
-constexpr double kJump = 1e-9;   ///< rad or m
-constexpr double kShare = 1e-6;  ///< of a limit of velocity or acceleration: rounding
+constexpr double kEdge = 5e-3;   ///< m: distance of the center of an object from the edges of its place
+constexpr double kJump = 1e-9;   ///< rad or m: larger steps without time are jumps
+constexpr double kShare = 1e-6;  ///< relative tolerance of limits, for rounding
 
 double cosineOf(double degrees) { return std::cos(degrees * std::numbers::pi / 180.); }
 
-/// What is wrong with the velocities and accelerations of a motion from rest to rest; they are those of its chords, which
-/// no motion that keeps the limits exceeds.
-std::string badTiming(const MatrixXd& path, const VectorXd& times, const VectorXd& q, const MatrixXd& limits) {
-  if ((path.row(0).transpose() - q).cwiseAbs().maxCoeff() > kJump) return "the motion jumps where it begins";
+/// Returns the violation of velocity and acceleration limits of a motion from rest to rest, or "". Chords of the motion
+/// are
+/// checked: a motion within the limits has chords within them.
+std::string timingViolation(const MatrixXd& path, const VectorXd& times, const VectorXd& q, const MatrixXd& limits) {
+  if ((path.row(0).transpose() - q).cwiseAbs().maxCoeff() > kJump) return "the motion jumps at its beginning";
   std::vector<double> steps;
   std::vector<VectorXd> velocity;
   bool jumps = false;
   for (Eigen::Index i = 0; i + 1 < path.rows(); ++i) {
     const double step = times[i + 1] - times[i];
-    const VectorXd way = path.row(i + 1) - path.row(i);
+    const VectorXd chord = path.row(i + 1) - path.row(i);
     if (step < 0.) return "time goes back";
     if (step > 0.) {
       steps.push_back(step);
-      velocity.push_back(way / step);
+      velocity.push_back(chord / step);
     } else {
-      jumps = jumps || way.cwiseAbs().maxCoeff() > kJump;
+      jumps = jumps || chord.cwiseAbs().maxCoeff() > kJump;
     }
   }
   if (jumps) return "the motion jumps";
@@ -59,7 +60,7 @@ std::string badTiming(const MatrixXd& path, const VectorXd& times, const VectorX
   return is_hasty ? "a joint accelerates more than its limit" : "";
 }
 
-/// How far an axis (x, y, z, xNeg, ...) points up, of 1.
+/// The vertical component of an axis (x, y, z, xNeg, ...); 1 if it points up.
 double shareOf(const Vector3d& heights, const std::string& face) {
   const std::size_t axis = std::string_view("xyz").find(face.empty() ? '?' : face[0]);
   if (axis == std::string_view::npos)
@@ -74,10 +75,10 @@ Pairs overlaps(const Config& scene) {
   return pairs;
 }
 
-/// A plan as it is played.
-class Played {
+/// Plays a plan, action by action.
+class PlanPlayer {
  public:
-  Played(const Config& C, const TaskPlan& plan)
+  PlanPlayer(const Config& C, const TaskPlan& plan)
       : scene_(C),
         plan_(plan),
         doors_(doorsOf(C)),
@@ -87,7 +88,7 @@ class Played {
     ignorePairs(scene_, wedged_);
   }
 
-  Lines wrong() {
+  Lines violations() {
     VectorXd q = scene_.getJointState();
     for (std::size_t i = 0; i < plan_.actions.size(); ++i) {
       const TaskAction& action = plan_.actions[i];
@@ -95,28 +96,28 @@ class Played {
       const MatrixXd path = plan_.path.middleRows(rows.begin, rows.size());
       const VectorXd times = plan_.times.segment(rows.begin, rows.size());
       const std::string text = planText({action});
-      if (const std::string broken = brokenMotion(action, path, times, q); !broken.empty()) {
-        wrong_.push_back(cat(text, ": ", broken));
-        return wrong_;
+      if (const std::string broken = motionViolation(action, path, times, q); !broken.empty()) {
+        violations_.push_back(cat(text, ": ", broken));
+        return violations_;
       }
       q = path.row(path.rows() - 1);
       scene_.setJointState(q);
-      if (is_freed_) mind(text);
-      happen(action, text);
+      if (is_freed_) endWedges(text);
+      apply(action, text);
       for (const auto& [a, b] : overlaps(scene_))
-        if (!ignored_.contains({a, b})) say(text, cat(a, " and ", b, " overlap where they are left"));
+        if (!ignored_.contains({a, b})) report(text, cat(a, " and ", b, " overlap at rest"));
     }
-    lookAtFaces();
-    lookAtDoors();
-    return wrong_;
+    checkFaces();
+    checkDoors();
+    return violations_;
   }
 
  private:
-  /// What was held at first and overlapped the hand has been put down, and the hand has gone away from it.
-  void mind(const std::string& text) {
-    mindPairs(scene_, wedged_);
+  /// Ends the exemption of initial overlaps, after the object has been put down and the hand has left it.
+  void endWedges(const std::string& text) {
+    includePairs(scene_, wedged_);
     for (const auto& [a, b] : wedged_)
-      if (-gapOf(scene_, a, b) > kOverlap) say(text, cat(a, " and ", b, " overlap still"));
+      if (-gapOf(scene_, a, b) > kOverlap) report(text, cat(a, " and ", b, " overlap still"));
     wedged_.clear();
     is_freed_ = false;
   }
@@ -126,8 +127,8 @@ class Played {
     return std::ranges::any_of(wedged_, [&](const auto& pair) { return isPart(pair.first) || isPart(pair.second); });
   }
 
-  /// What overlaps where it is held must not do so more than it did.
-  std::string badWedges(const MatrixXd& path) {
+  /// Initial overlaps of held objects must not become deeper.
+  std::string wedgeViolation(const MatrixXd& path) {
     for (std::size_t i = 0; i < wedged_.size(); ++i) {
       for (Eigen::Index row = 0; row < path.rows(); ++row) {
         scene_.setJointState(path.row(row));
@@ -139,29 +140,29 @@ class Played {
     return "";
   }
 
-  void say(const std::string& action, const std::string& what) { wrong_.push_back(cat(action, ": ", what)); }
+  void report(const std::string& action, const std::string& what) { violations_.push_back(cat(action, ": ", what)); }
 
-  std::string brokenMotion(const TaskAction& action, const MatrixXd& path, const VectorXd& times, const VectorXd& q) {
-    std::string broken = badTiming(path, times, q, plan_.limits);
+  std::string motionViolation(const TaskAction& action, const MatrixXd& path, const VectorXd& times,
+                              const VectorXd& q) {
+    std::string broken = timingViolation(path, times, q, plan_.limits);
     if (broken.empty()) broken = firstContact(scene_, path);
-    if (broken.empty()) broken = badWedges(path);
-    if (broken.empty()) broken = badSliding(action, path);
-    if (broken.empty()) broken = badDoors(action, path);
-    if (broken.empty()) broken = badCarrying(action, path, times);
+    if (broken.empty()) broken = wedgeViolation(path);
+    if (broken.empty()) broken = slidingViolation(action, path);
+    if (broken.empty()) broken = doorViolation(action, path);
+    if (broken.empty()) broken = carryingViolation(action, path, times);
     return broken;
   }
 
-  /// What is wrong with how things that are touched move: only in a push, straight, away from what pushes, without turning
-  /// or being lifted.
-  std::string badSliding(const TaskAction& action, const MatrixXd& path) {
-    static const double kAway = cosineOf(30.);   // of the motion of what is pushed, from what pushes it
-    static const double kPress = cosineOf(45.);  // of that motion, from where the surfaces touch: friction does no more
+  /// Touched objects move only in a push: straight, away from the pusher, without rotation and without being lifted.
+  std::string slidingViolation(const TaskAction& action, const MatrixXd& path) {
+    static const double kAway = cosineOf(30.);   // of the motion with the direction from the pusher to the object
+    static const double kPress = cosineOf(45.);  // of the motion with the contact normal: the friction cone
     for (const auto& [obj, pusher] : pushed_) {
       const std::vector<Vector3d> at = positionsAlong(scene_, path, obj);
       const Vector3d here = at.front(), moved = at.back() - here;
       if (!endsSliding(action) || action[1] != obj) {
         if (std::ranges::any_of(at, [&](const Vector3d& p) { return (p - here).norm() > kOffPlace; }))
-          return cat("'", obj, "' moves, and is not pushed");
+          return cat("'", obj, "' moves without being pushed");
         continue;
       }
       if (!slidesStraight(scene_, path, obj)) return cat("'", obj, "' does not slide straight");
@@ -177,12 +178,12 @@ class Played {
     return "";
   }
 
-  /// What is wrong with how doors move: only where an action says so, with a hand that has taken the handle and holds it.
-  std::string badDoors(const TaskAction& action, const MatrixXd& path) {
+  /// Doors move only in actions that open or close them, while a hand holds the handle.
+  std::string doorViolation(const TaskAction& action, const MatrixXd& path) {
     for (const TaskDoor& door : doors_) {
       const bool is_moved = isGuided(action) && action[1] == door.name;
       const double most = path.col(door.dof).maxCoeff(), least = path.col(door.dof).minCoeff();
-      if (!is_moved && most - least > kJump) return cat("'", door.name, "' moves, and nobody opens or closes it");
+      if (!is_moved && most - least > kJump) return cat("'", door.name, "' moves without being opened or closed");
       const auto held = held_.find(door.name);
       if (held == held_.end()) {
         if (is_moved) return cat("'", action[3], "' does not hold '", door.name, "'");
@@ -199,8 +200,9 @@ class Played {
     return "";
   }
 
-  /// What only stands on something that a hand holds, or in a drawer that is moved, and tilts or is accelerated too much; looked at in each row.
-  std::string badCarrying(const TaskAction& action, const MatrixXd& path, const VectorXd& times) {
+  /// Objects that stand on a held object, or in a moving drawer, must not tilt or accelerate much. Each waypoint is
+  /// checked.
+  std::string carryingViolation(const TaskAction& action, const MatrixXd& path, const VectorXd& times) {
     static const double kUpright = cosineOf(5.);
     const Lines objects = wordsOf(plan_.start, "is_object");
     Lines carried = carriedBy(scene_, wordsOf(plan_.start, "is_gripper"), objects);
@@ -220,112 +222,113 @@ class Played {
     return "";
   }
 
-  /// What an action changes in the scene, and what is wrong with it.
-  void happen(const TaskAction& action, const std::string& text) {
+  /// Applies the effect of an action to the scene, and reports its violations.
+  void apply(const TaskAction& action, const std::string& text) {
     if (action[0] == "hook_start" && holderOf(scene_, action[3], {action[5]}).empty())
-      say(text, cat("'", action[5], "' does not hold '", action[4], "'"));
+      report(text, cat("'", action[5], "' does not hold '", action[4], "'"));
     if (isPick(action) || action[0] == "handover" || startsSliding(action)) {
       if (const double apart = gapOf(scene_, action[1], action[3]); apart > kOffPlace)
-        say(text, cat("the hand is ", fixed(apart, 4), " m away from what it takes"));
+        report(text, cat("the hand is ", fixed(apart, 4), " m away from what it takes"));
       hang(scene_, action[1], action[3]);
       is_freed_ = is_freed_ || (action[0] == "handover" && isWedged(action[1]));
       if (startsSliding(action)) pushed_[action[1]] = action[3];
     } else if (isPlace(action) || endsSliding(action)) {
       hang(scene_, action[1], action[3]);
-      lookAtStanding(action[1], action[3], action[0] == "lay" ? action[4] : "", text);
+      checkStanding(action[1], action[3], action[0] == "lay" ? action[4] : "", text);
       pushed_.erase(action[1]);
       is_freed_ = is_freed_ || (isPlace(action) && isWedged(action[1]));
     } else if (isHold(action)) {
       const auto is_door = [&](const TaskDoor& door) { return door.name == action[1]; };
       if (std::ranges::none_of(doors_, is_door) || holderOf(scene_, action[2], {action[1]}).empty())
-        say(text, cat("'", action[2], "' is no handle of a door"));
+        report(text, cat("'", action[2], "' is no handle of a door"));
       if (const double apart = gapOf(scene_, action[2], action[3]); apart > kOffPlace)
-        say(text, cat("the hand is ", fixed(apart, 4), " m away from what it takes"));
+        report(text, cat("the hand is ", fixed(apart, 4), " m away from what it takes"));
       held_.insert_or_assign(action[1], Held{action[2], action[3], scene_});
     } else if (isGuided(action)) {
-      lookAtDoor(action[1], action[0] == "open" ? "opened" : "closed", text);
+      checkDoor(action[1], action[0] == "open" ? "opened" : "closed", text);
       held_.erase(action[1]);
     } else if (action[0] == "pose") {
-      lookAtPose(action[1], action[3], text);
+      checkPose(action[1], action[3], text);
     }
   }
 
-  void lookAtStanding(const std::string& obj, const std::string& to, const std::string& face, const std::string& text) {
+  void checkStanding(const std::string& obj, const std::string& to, const std::string& face, const std::string& text) {
     const Frame thing = scene_.getFrame(obj), place = scene_.getFrame(to);
     const Vector3d above = place.getRotationMatrix().col(2);
     const Vector3d axes = thing.getRotationMatrix().transpose() * above * (above.z() < 0. ? -1. : 1.);
     const std::string with_face = face.empty() ? "" : cat(", with ", face, " up");
     if (axes.cwiseAbs().maxCoeff() < levelCosine() || (!face.empty() && shareOf(axes, face) < levelCosine()))
-      say(text, cat("it does not stand level", with_face));
+      report(text, cat("it does not stand level", with_face));
     if (const double gap = gapOf(scene_, obj, to); std::abs(gap) > kOffPlace)
-      say(text, cat("it is ", fixed(gap, 4), " m above its place"));
+      report(text, cat("it is ", fixed(gap, 4), " m above its place"));
     const Vector3d relative = place.getRotationMatrix().transpose() * (thing.getPosition() - place.getPosition());
     const Eigen::Vector2d sides = placeSides(place);
     const double inside = (.5 * sides - relative.head<2>().cwiseAbs()).minCoeff();
     if (inside < std::min(kEdge, .25 * sides.minCoeff()) - 1e-6)
-      say(text, cat("its center is ", fixed(inside, 4), " m inside the edge"));
+      report(text, cat("its center is ", fixed(inside, 4), " m inside the edge"));
     else if (!isSupported(thing, place))
-      say(text, "it falls over: its center of mass is not above what it stands on");
+      report(text, "it falls over: its center of mass is not above what it stands on");
   }
 
-  void lookAtPose(const std::string& obj, const std::string& goal, const std::string& text) {
+  void checkPose(const std::string& obj, const std::string& goal, const std::string& text) {
     const Frame thing = scene_.getFrame(obj), wanted = scene_.getFrame(goal);
     const double apart = (thing.getPosition() - wanted.getPosition()).norm();
     const double cosine = .5 * ((thing.getRotationMatrix().transpose() * wanted.getRotationMatrix()).trace() - 1.);
     if (apart <= kOffPlace && cosine >= levelCosine()) return;
     const double degrees = std::acos(std::clamp(cosine, -1., 1.)) * 180. / std::numbers::pi;
-    say(text, cat("it is ", fixed(apart, 4), " m and ", fixed(degrees, 2), " degrees from the pose"));
+    report(text, cat("it is ", fixed(apart, 4), " m and ", fixed(degrees, 2), " degrees from the pose"));
   }
 
-  void lookAtDoor(const std::string& name, const std::string& wanted, const std::string& text) {
+  void checkDoor(const std::string& name, const std::string& wanted, const std::string& text) {
     const auto door = std::ranges::find(doors_, name, &TaskDoor::name);
     if (door == doors_.end()) return;
     const double q = scene_.getJointState()[door->dof];
     if (door->stateAt(q) != wanted)
-      say(text, cat("'", name, "' is not ", wanted, ": it is at ", fixed(100. * door->share(q), 1), " % of its range"));
+      report(text,
+             cat("'", name, "' is not ", wanted, ": it is at ", fixed(100. * door->share(q), 1), " % of its range"));
   }
 
-  /// What the goal says of doors, and is not so.
-  void lookAtDoors() {
+  /// Checks the goals about doors.
+  void checkDoors() {
     for (const Literal& literal : plan_.goal) {
       if (literal.arguments.size() != 1) continue;
       const auto door = std::ranges::find(doors_, literal.arguments[0], &TaskDoor::name);
       const bool is_state = literal.predicate == "opened" || literal.predicate == "closed";
       if (door == doors_.end() || !is_state) continue;
       if ((door->stateAt(scene_.getJointState()[door->dof]) == literal.predicate) == literal.negated)
-        wrong_.push_back(cat("at the end ", literal.str(), " does not hold"));
+        violations_.push_back(cat("at the end ", literal.str(), " does not hold"));
     }
   }
 
-  /// What the goal says of faces, and is not so.
-  void lookAtFaces() {
+  /// Checks the goals about faces.
+  void checkFaces() {
     for (const Literal& literal : plan_.goal) {
       if (literal.predicate != "up" || literal.arguments.size() != 2) continue;
       const Vector3d heights = scene_.getFrame(literal.arguments[1]).getRotationMatrix().row(2);
       if ((shareOf(heights, literal.arguments[0]) >= levelCosine()) == literal.negated)
-        wrong_.push_back(cat("at the end ", literal.str(), " does not hold"));
+        violations_.push_back(cat("at the end ", literal.str(), " does not hold"));
     }
   }
 
   struct Held {
     std::string handle, hand;
-    Config taken;  ///< as it was then
+    Config taken;  ///< the scene at that time
   };
 
   Config scene_;
   const TaskPlan& plan_;
   const std::vector<TaskDoor> doors_;
-  std::map<std::string, Held> held_;           ///< doors that a hand has taken
-  FramePairs wedged_;                          ///< that overlap where something is held at first
-  std::vector<double> depth_;                  ///< by how much, m
-  bool is_freed_ = false;                      ///< that was put down
-  const Pairs ignored_;                        ///< what the scene itself has
-  std::map<std::string, std::string> pushed_;  ///< by what
-  Lines wrong_;
+  std::map<std::string, Held> held_;           ///< by door: the handle and its hand
+  FramePairs wedged_;                          ///< pairs that overlap initially because of a held object
+  std::vector<double> depth_;                  ///< their initial depths, m
+  bool is_freed_ = false;                      ///< the held object was put down
+  const Pairs ignored_;                        ///< overlaps of the initial scene
+  std::map<std::string, std::string> pushed_;  ///< by object: its pusher
+  Lines violations_;
 };
 
-/// Literals of a goal that do not hold in a state.
-Lines missing(const std::vector<Literal>& goal, const std::vector<Literal>& state) {
+/// Returns the literals of a goal that do not hold in a state.
+Lines unmetGoals(const std::vector<Literal>& goal, const std::vector<Literal>& state) {
   Lines wrong;
   for (const Literal& literal : goal) {
     Literal fact = literal;
@@ -336,7 +339,7 @@ Lines missing(const std::vector<Literal>& goal, const std::vector<Literal>& stat
   return wrong;
 }
 
-/// Throws ValueError for what is no plan of the scene.
+/// Throws ValueError if the plan does not fit the scene.
 void requirePlan(const Config& C, const TaskPlan& plan) {
   const int dofs = C.getJointDimension();
   if (plan.segments.size() != plan.actions.size())
@@ -359,8 +362,8 @@ void requirePlan(const Config& C, const TaskPlan& plan) {
 std::vector<std::string> checkTaskPlan(const Config& C, const TaskPlan& plan,
                                        const std::vector<std::vector<Literal>>& states) {
   requirePlan(C, plan);
-  Lines wrong = states.empty() ? Lines() : missing(plan.goal, states.back());
-  const Lines more = Played(C, plan).wrong();
+  Lines wrong = states.empty() ? Lines() : unmetGoals(plan.goal, states.back());
+  const Lines more = PlanPlayer(C, plan).violations();
   wrong.insert(wrong.end(), more.begin(), more.end());
   return wrong;
 }

@@ -7,9 +7,9 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kStep = .02;       ///< rad or m: between postures, of each dof
-constexpr double kFarther = 8.;     ///< times a step: two postures that are farther apart jump
-constexpr double kFine = 1e-3;      ///< to which constraints hold
+constexpr double kStep = .02;       ///< rad or m: between configurations, per dof
+constexpr double kFarther = 8.;     ///< steps: configurations that are farther apart count as a jump
+constexpr double kFine = 1e-3;      ///< tolerance of constraints
 constexpr double kPerMeter = 10.;   ///< scale of positions
 constexpr double kDirections = 1.;  ///< scale of axes
 
@@ -60,7 +60,7 @@ MatrixXd guidedConfigurations(const Config& C, const VectorXd& q0, const VectorX
   MatrixXd rows(count, q0.size());
   rows.row(0) = q0;
   rows.row(count - 1) = q1;
-  VectorXd moved = VectorXd::Zero(q0.size());  // by which the last posture was off the line
+  VectorXd moved = VectorXd::Zero(q0.size());  // offset of the last configuration from the line
   for (int i = 1; i + 1 < count; ++i) {
     const double share = double(i) / double(count - 1);
     VectorXd q = q0 + share * way + moved;
@@ -68,7 +68,7 @@ MatrixXd guidedConfigurations(const Config& C, const VectorXd& q0, const VectorX
       q = q0 + share * way;
       if (!held.project(q)) return {};
     }
-    moved = (q - q0 - share * way) * (1. - 1. / double(count - i));  // fades, so that it ends at q1
+    moved = (q - q0 - share * way) * (1. - 1. / double(count - i));  // fades to 0 at q1
     rows.row(i) = q;
   }
   for (int i = 1; i < count; ++i)

@@ -12,9 +12,9 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kStraight = 1e-10;  ///< rad or m: what is off a line by less than that does not turn
+constexpr double kStraight = 1e-10;  ///< rad or m: deviation up to which three waypoints are collinear
 
-/// The cosine of the turn between two orientations.
+/// The cosine of the angle of the rotation between two orientations.
 double turnCosine(const Matrix3d& a, const Matrix3d& b) { return .5 * ((a.transpose() * b).trace() - 1.); }
 
 double lengthOf(const Vector3d& v) { return std::sqrt(v.x() * v.x() + v.y() * v.y() + v.z() * v.z()); }

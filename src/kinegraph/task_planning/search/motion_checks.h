@@ -7,36 +7,36 @@
 
 namespace kinegraph {
 
-/// What only stands on something that is carried is accelerated by no more, m/s^2.
+/// Maximum acceleration of objects that stand on a carried object, m/s^2.
 inline constexpr double kSteady = 2.;
 
-/// How deep shapes may overlap in a plan, and by how much things may miss where they should be, m.
+/// Maximum overlap of shapes in a plan, and tolerance of the positions of objects, m.
 inline constexpr double kOverlap = 1e-3, kOffPlace = 1e-3;
 
-/// Between the surfaces of two frames, m; negative where they overlap.
+/// Returns the signed distance between the surfaces of two frames, m.
 double gapOf(const Config& scene, const std::string& a, const std::string& b);
 
-/// Hangs an object below a frame where it is, as what is held or stands there.
+/// Attaches an object to a frame in its current pose, as a held or standing object.
 void hang(Config& scene, const std::string& obj, const std::string& parent);
 
-/// What is level: the cosine of half a degree.
+/// The cosine of half a degree, the tolerance of level axes.
 double levelCosine();
 
-/// What the straight motions between rows of a path (T x n) first run into: the limits of a joint, or a pair that overlaps
-/// by more than 1 mm; looked at at all times. "" if nothing. The scene's q does not matter.
+/// Returns the first violation along the piecewise linear path (T, n): a joint limit, or a pair that overlaps by more
+/// than 1 mm, checked continuously; "" if there is none. The scene's q does not matter.
 std::string firstContact(const Config& scene, const MatrixXd& path);
 bool isFree(const Config& scene, const MatrixXd& path);
 
-/// The rows of a path at which it turns, with its ends: those inside of a straight piece are left out.
+/// Returns the corners of a path, (K, n), ends included: waypoints inside of straight pieces are dropped.
 MatrixXd cornersOf(const MatrixXd& path);
 
-/// Where a frame is in each row.
+/// Returns the position of a frame at each waypoint.
 std::vector<Vector3d> positionsAlong(const Config& scene, const MatrixXd& path, const std::string& frame);
 
-/// Does an object move on a level line to 1 mm, without going back or turning, as rows tell?
+/// Whether an object moves along a level line to 1 mm, without reversal or rotation, at the waypoints.
 bool slidesStraight(const Config& scene, const MatrixXd& path, const std::string& obj);
 
-/// The largest acceleration of a frame in a motion that starts and ends at rest, m/s^2, as rows tell.
+/// Returns the largest acceleration of a frame in a motion from rest to rest, m/s^2, by differences of waypoints.
 double accelerationOf(const Config& scene, const MatrixXd& path, const VectorXd& times, const std::string& frame);
 
 }  // namespace kinegraph

@@ -87,20 +87,20 @@ std::string standsOnItself(const std::vector<std::vector<Literal>>& states) {
 }
 
 std::string neededProofs(const GroundProblem& ground, const std::vector<ImpossibleAction>& proofs) {
-  std::vector<std::string> whys;
+  std::vector<std::string> causes;
   for (const ImpossibleAction& proof : proofs)
-    if (!isAmong(whys, proof.why)) whys.push_back(proof.why);
-  const std::vector<std::string> all = whys;
-  for (const std::string& why : all) {
-    std::vector<std::string> rest = whys;
-    std::erase(rest, why);
+    if (!isAmong(causes, proof.cause)) causes.push_back(proof.cause);
+  const std::vector<std::string> all = causes;
+  for (const std::string& cause : all) {
+    std::vector<std::string> rest = causes;
+    std::erase(rest, cause);
     PlanSearch search(ground);
     for (const ImpossibleAction& proof : proofs)
-      if (isAmong(rest, proof.why))
+      if (isAmong(rest, proof.cause))
         search.forbid(actionNumber(ground, proof.action), changingFacts(ground, proof.facts));
-    if (!search.next()) whys = rest;
+    if (!search.next()) causes = rest;
   }
-  return join(whys, "; ");
+  return join(causes, "; ");
 }
 
 std::string contradiction(const LogicProblem& problem) {

@@ -16,24 +16,24 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kBack = .07;   ///< m: a hand comes to what it takes, and leaves what it puts down, along its own axis
-constexpr double kUp = .04;     ///< m: what is held is lifted first, and comes down to its place
-constexpr double kAside = .04;  ///< m: a hook comes from behind to what it pulls, and goes back from it
-constexpr double kPulled = 1.;  ///< m/s^2: what is pulled is accelerated by no more, so that it does not tip
-constexpr double kTurn = .8;  ///< rad or m: a joint that would move farther on these few centimeters is led another way
-constexpr double kSame = 1e-7;       ///< rad or m: postures that differ by less are one
-constexpr double kPeriod = .01;      ///< s between two rows
-constexpr double kMargin = .01;      ///< m, that motions keep where their ends do, and there is room
-constexpr double kHeld = 4.;         ///< m/s^2: what is held by friction is accelerated by no more
-constexpr double kBlend = .05;       ///< rad or m, by which corners may be missed
-constexpr double kTenths = 10.;      ///< per m: scale of positions that are kept to a tenth of a millimeter
-constexpr double kFineBlend = 2e-3;  ///< the same, where a hand holds what only a joint moves
-constexpr double kUnhurried = 1.02;  ///< of the least time: a spline keeps its limits where they are looked at
+constexpr double kBack = .07;        ///< m: length of the approach and retreat of a hand along its own axis
+constexpr double kUp = .04;          ///< m: by which held objects are lifted first, and lowered to their place
+constexpr double kAside = .04;       ///< m: length of the approach and retreat of a hook behind an object
+constexpr double kPulled = 1.;       ///< m/s^2: maximum acceleration of pulled objects, so that they do not tip
+constexpr double kLargeMotion = .8;  ///< rad or m: an approach or retreat that moves a joint farther is dropped
+constexpr double kSame = 1e-7;       ///< rad or m: closer configurations are equal
+constexpr double kPeriod = .01;      ///< s between two waypoints
+constexpr double kMargin = .01;      ///< m: tried before margin 0
+constexpr double kHeld = 4.;         ///< m/s^2: maximum acceleration of objects held by friction
+constexpr double kBlend = .05;       ///< rad or m: tolerance of rounded corners
+constexpr double kTenths = 10.;      ///< per m: scale of positions that hold to .1 mm
+constexpr double kFineBlend = 2e-3;  ///< the same for doors
+constexpr double kUnhurried = 1.02;  ///< factor on the minimum time: a spline keeps its limits only at gridpoints
 constexpr double kSpeedIn = .5;      ///< s to full speed
-constexpr int kTries = 2;
-constexpr int kSearch = 200000;  ///< evaluations of one search for a way
+constexpr int kRestarts = 2;
+constexpr int kSearch = 200000;  ///< evaluations of one search for a path
 constexpr int kSearchBehindDoors = 40000;
-constexpr int kPushRows = 50;  ///< by which a straight push is looked at
+constexpr int kPushRows = 50;  ///< samples at which a straight push is checked
 
 double farthest(const VectorXd& a, const VectorXd& b) { return (a - b).cwiseAbs().maxCoeff(); }
 
@@ -52,8 +52,9 @@ MatrixXd line(const VectorXd& a, const VectorXd& b, int count) {
   return rows;
 }
 
-/// What leaves a place as an action comes there: who puts something down comes from above, who takes it along its axis.
-TaskAction coming(const TaskAction& action) {
+/// The action whose retreat, reversed, is the approach of an action: placing approaches from above, picking along the
+/// axis of the hand.
+TaskAction reversedAction(const TaskAction& action) {
   if (isPick(action)) return {"place", action[1], action[3], action[2]};
   if (isHold(action)) return {"open", action[1], action[2], action[3]};
   if (isPlace(action)) return {"pick", action[1], action[3], action[2]};
@@ -61,20 +62,20 @@ TaskAction coming(const TaskAction& action) {
   return {};
 }
 
-/// A motion in rows; the first and the last are those of the postures, to the bit.
+/// Samples a motion; its ends are bit-identical to those of the path.
 TimedRows rowsOf(const TimedPath& timed, const MatrixXd& configurations) {
   const int count = std::max(int(std::ceil(timed.duration() / kPeriod)) + 1, 2);
   TimedRows rows{MatrixXd(count, configurations.cols()), VectorXd(count)};
   const double step = timed.duration() / double(count - 1);
   for (int i = 0; i < count; ++i) rows.times[i] = double(i) * step;
   rows.times[count - 1] = timed.duration();
-  for (int i = 0; i < count; ++i) rows.path.row(i) = timed.at(rows.times[i]).q;
+  for (int i = 0; i < count; ++i) rows.path.row(i) = timed.eval(rows.times[i]).q;
   rows.path.row(0) = configurations.row(0);
   rows.path.row(count - 1) = configurations.row(configurations.rows() - 1);
   return rows;
 }
 
-/// The rows at which postures change; it ends where the next motion begins.
+/// Drops repeated configurations; the last one stays, because the next motion begins there.
 MatrixXd withoutRepeats(const MatrixXd& configurations) {
   std::vector<Eigen::Index> kept = {0};
   for (Eigen::Index k = 1; k < configurations.rows(); ++k)
@@ -94,9 +95,9 @@ VectorXd perDof(const char* name, const VectorXd& given, const VectorXd& otherwi
 
 }  // namespace
 
-TaskMotions::TaskMotions(SpeculativeExecutor& ahead, MatrixXd limits, const std::vector<Literal>& start,
+TaskMotions::TaskMotions(SpeculativeExecutor& executor, MatrixXd limits, const std::vector<Literal>& start,
                          std::uint64_t seed)
-    : ahead_(ahead),
+    : executor_(executor),
       limits_(std::move(limits)),
       has_doors_(!wordsOf(start, "is_guided").empty()),
       hands_(wordsOf(start, "is_gripper")),
@@ -116,14 +117,14 @@ TaskMotions::Found TaskMotions::between(const Config& C, const VectorXd& q0, con
 
 TaskMotions::Found TaskMotions::search(const Config& C, const VectorXd& q0, const VectorXd& q1,
                                        const TaskAction& action, const TaskAction& before) {
-  if (!has_doors_) return among(C, q0, q1, action, before);
-  if (isGuided(action)) return guided(C, q0, q1, action);
+  if (!has_doors_) return planFree(C, q0, q1, action, before);
+  if (isGuided(action)) return planGuided(C, q0, q1, action);
   Config all = C;
   all.setJointState(q0);
   const StillDoors still = withStillDoors(all, doorsOf(all));
   TaskMotions motions = *this;
   motions.limits_ = limits_(Eigen::all, still.dofs);
-  Found found = motions.among(still.scene, q0(still.dofs), q1(still.dofs), action, before);
+  Found found = motions.planFree(still.scene, q0(still.dofs), q1(still.dofs), action, before);
   evaluations_ = motions.evaluations_;
   if (found.motion) {
     MatrixXd path = q0.transpose().replicate(found.motion->path.rows(), 1);
@@ -133,16 +134,17 @@ TaskMotions::Found TaskMotions::search(const Config& C, const VectorXd& q0, cons
   return found;
 }
 
-/// A hand moves a door by its handle: along the straight line of the joints, as near as its grip allows, or another way.
-TaskMotions::Found TaskMotions::guided(const Config& C, const VectorXd& q0, const VectorXd& q1,
-                                       const TaskAction& action) {
+/// A hand moves a door by its handle: along the straight line of the joints projected to the grip, or along another
+/// path.
+TaskMotions::Found TaskMotions::planGuided(const Config& C, const VectorXd& q0, const VectorXd& q1,
+                                           const TaskAction& action) {
   const std::string &handle = action[2], &hand = action[3];
   Config taken = C;
   taken.setJointState(q0);
   const std::vector<MotionConstraint> grip = gripConstraints(taken, hand, handle);
   MatrixXd configurations = guidedConfigurations(C, q0, q1, grip);
   if (configurations.rows() == 0 || !isFree(C, configurations)) {
-    const MotionPlan found = way(C, q0, q1, grip);
+    const MotionPlan found = findPath(C, q0, q1, grip);
     if (!found.feasible()) return {std::nullopt, cat("no motion was found that holds '", handle, "': ", found.message)};
     configurations = found.path;
   }
@@ -163,11 +165,11 @@ TaskMotions::Found TaskMotions::guided(const Config& C, const VectorXd& q0, cons
   return {std::nullopt, cat("'", hand, "' slips on '", handle, "'")};
 }
 
-TaskMotions::Found TaskMotions::among(const Config& C, const VectorXd& q0, const VectorXd& q1, const TaskAction& action,
-                                      const TaskAction& before) {
+TaskMotions::Found TaskMotions::planFree(const Config& C, const VectorXd& q0, const VectorXd& q1,
+                                         const TaskAction& action, const TaskAction& before) {
   const std::vector<std::string> carried = carriedBy(C, hands_, objects_);
   if (endsSliding(action)) {
-    Found found = pushed(C, q0, q1, action[1]);
+    Found found = planPush(C, q0, q1, action[1]);
     if (found.motion) found.motion = steady(C, std::move(*found.motion), carried);
     if (found.motion && action[0] == "hook_end")
       found.motion = slower(C, std::move(*found.motion), {action[1]}, kPulled);
@@ -178,14 +180,14 @@ TaskMotions::Found TaskMotions::among(const Config& C, const VectorXd& q0, const
     const Vector3d up = C.getFrame(obj).getRotationMatrix().col(2);
     level.push_back({.feature = FeatureSymbol::vectorZ, .frames = {obj}, .target = up});
   }
-  Speculative<Way> direct;  // without leaving and coming along an axis
+  Speculative<PathResult> direct;  // without retreat and approach
   if (level.empty()) {
-    std::vector<VectorXd> configurations = piece(C, q0, leaving(C, q0, before));
-    const std::vector<VectorXd> tail = piece(C, q1, leaving(C, q1, coming(action)));
+    std::vector<VectorXd> configurations = retreatPiece(C, q0, retreat(C, q0, before));
+    const std::vector<VectorXd> tail = retreatPiece(C, q1, retreat(C, q1, reversedAction(action)));
     if (configurations.size() + tail.size() > 2) {
-      const MotionPlan found = way(C, configurations.back(), tail.back(), {}, [&] {
+      const MotionPlan found = findPath(C, configurations.back(), tail.back(), {}, [&] {
         direct = pathSpeculatively(C, q0, q1);
-        direct.begin(Priority::likely);
+        direct.begin(Priority::normal);
       });
       if (found.feasible()) {
         for (Eigen::Index i = 0; i < found.path.rows(); ++i) configurations.push_back(found.path.row(i));
@@ -194,14 +196,15 @@ TaskMotions::Found TaskMotions::among(const Config& C, const VectorXd& q0, const
       }
     }
   }
-  const MotionPlan found = direct ? taken(direct.get()) : way(C, q0, q1, level);
+  const MotionPlan found = direct ? countedPlan(direct.get()) : findPath(C, q0, q1, level);
   if (!found.feasible()) return {std::nullopt, cat("no motion was found: ", found.message)};
   return {steady(C, timed(C, found.path), carried), ""};
 }
 
-/// A straight motion of an object over what it stands on: the straight one of the joints, or one on that line.
-TaskMotions::Found TaskMotions::pushed(const Config& C, const VectorXd& q0, const VectorXd& q1,
-                                       const std::string& obj) {
+/// A straight motion of an object on its ground: the straight motion of the joints, or one that keeps the object on the
+/// line.
+TaskMotions::Found TaskMotions::planPush(const Config& C, const VectorXd& q0, const VectorXd& q1,
+                                         const std::string& obj) {
   const MatrixXd straight = rowsOf({q0, q1});
   if (slidesStraight(C, line(q0, q1, kPushRows), obj) && isFree(C, straight)) return {timed(C, straight), ""};
   const std::vector<Vector3d> ends = positionsAlong(C, straight, obj);
@@ -215,8 +218,8 @@ TaskMotions::Found TaskMotions::pushed(const Config& C, const VectorXd& q0, cons
       {.feature = FeatureSymbol::position, .frames = {obj}, .scale = aside, .target = ends[0]},
       {.feature = FeatureSymbol::vectorX, .frames = {obj}, .target = Vector3d(R.col(0))},
       {.feature = FeatureSymbol::vectorZ, .frames = {obj}, .target = Vector3d(R.col(2))}};
-  const MotionPlan found = way(C, q0, q1, line);
-  if (!found.feasible()) {  // what slides touches what it slides on, which planMotion takes for a collision
+  const MotionPlan found = findPath(C, q0, q1, line);
+  if (!found.feasible()) {  // planMotion takes the contact with the ground for a collision
     line[0].scale = MatrixXd(kTenths * aside);
     const MatrixXd configurations = guidedConfigurations(C, q0, q1, line);
     if (configurations.rows() > 0 && isFree(C, configurations)) {
@@ -234,19 +237,19 @@ TaskMotions::Found TaskMotions::pushed(const Config& C, const VectorXd& q0, cons
   return {timed(C, found.path), ""};
 }
 
-MotionPlan TaskMotions::way(const Config& C, const VectorXd& start, const VectorXd& goal,
-                            const std::vector<MotionConstraint>& constraints,
-                            const std::function<void()>& at_first_failure) {
+MotionPlan TaskMotions::findPath(const Config& C, const VectorXd& start, const VectorXd& goal,
+                                 const std::vector<MotionConstraint>& constraints,
+                                 const std::function<void()>& at_first_failure) {
   PlanOptions options;
-  options.restarts = has_doors_ ? 1 : kTries;
+  options.restarts = has_doors_ ? 1 : kRestarts;
   options.seed = seed_;
   options.constraints = constraints;
   options.timing = false;
   MotionPlan found;
   for (const double margin : {kMargin, 0.}) {
     options.margin = margin;
-    options.prove_infeasibility = margin == 0. && !at_first_failure;  // who has another way does not ask why
-    const int most = has_doors_ ? kSearchBehindDoors : kSearch;       // what is shut off is soon given up
+    options.prove_infeasibility = margin == 0. && !at_first_failure;  // not if there is an alternative
+    const int most = has_doors_ ? kSearchBehindDoors : kSearch;       // a closed door shall cost little
     options.max_evaluations = margin == 0. ? most : most / 10;
     options.threads = threads_();
     found = planMotion(C, MotionGoal(goal), options, start, stopped_);
@@ -257,34 +260,35 @@ MotionPlan TaskMotions::way(const Config& C, const VectorXd& start, const Vector
   return found;
 }
 
-/// The same, on another thread if one is free.
-Speculative<TaskMotions::Way> TaskMotions::pathSpeculatively(const Config& C, const VectorXd& start,
-                                                             const VectorXd& goal) const {
-  return ahead_.later<Way>([motions = *this, scene = std::make_shared<const Config>(C), start,
-                            goal](const CancellationToken& stopped) mutable {
+/// The same ahead of time, if a thread is free.
+Speculative<TaskMotions::PathResult> TaskMotions::pathSpeculatively(const Config& C, const VectorXd& start,
+                                                                    const VectorXd& goal) const {
+  return executor_.defer<PathResult>([motions = *this, scene = std::make_shared<const Config>(C), start,
+                                      goal](const CancellationToken& stopped) mutable {
     motions.evaluations_ = 0;
     motions.threads_ = [] { return 1; };
     motions.stopped_ = [stopped, outer = motions.stopped_] { return stopped() || (outer && outer()); };
-    MotionPlan plan = motions.way(*scene, start, goal);
-    return Way{std::move(plan), motions.evaluations_};
+    MotionPlan plan = motions.findPath(*scene, start, goal);
+    return PathResult{std::move(plan), motions.evaluations_};
   });
 }
 
-MotionPlan TaskMotions::taken(Way& way) {
-  evaluations_ += way.evaluations;
-  return std::move(way.plan);
+MotionPlan TaskMotions::countedPlan(PathResult& result) {
+  evaluations_ += result.evaluations;
+  return std::move(result.plan);
 }
 
-/// From q to a posture near it, if that is free; else q alone. The same is free the other way around.
-std::vector<VectorXd> TaskMotions::piece(const Config& C, const VectorXd& q,
-                                         const std::optional<VectorXd>& away) const {
-  if (away && farthest(*away, q) <= kTurn && isFree(C, rowsOf({q, *away}))) return {q, *away};
+/// The straight motion from q to a configuration near it, if that is collision-free; else q alone. It is also
+/// collision-free in reverse.
+std::vector<VectorXd> TaskMotions::retreatPiece(const Config& C, const VectorXd& q,
+                                                const std::optional<VectorXd>& away) const {
+  if (away && farthest(*away, q) <= kLargeMotion && isFree(C, rowsOf({q, *away}))) return {q, *away};
   return {q};
 }
 
-/// Joints a few centimeters away from where an action was done: a hand that has put something down goes back, one that has
-/// taken something lifts it, and a hook goes away from what it has pulled.
-std::optional<VectorXd> TaskMotions::leaving(const Config& C, const VectorXd& q, const TaskAction& action) const {
+/// The configuration a few centimeters away after an action: a hand retreats from a placed object, it lifts a picked
+/// one, and a hook retreats from a pulled object.
+std::optional<VectorXd> TaskMotions::retreat(const Config& C, const VectorXd& q, const TaskAction& action) const {
   const bool is_pulled = !action.empty() && action[0] == "hook_end";
   if (!isPick(action) && !isPlace(action) && !isGuided(action) && !is_pulled) return std::nullopt;
   const std::string& hand = is_pulled ? action[5] : isPlace(action) ? action[2] : action[3];
@@ -312,7 +316,7 @@ std::optional<VectorXd> TaskMotions::leaving(const Config& C, const VectorXd& q,
   return result.feasible() ? std::optional(result.q) : std::nullopt;
 }
 
-/// The same motion, so slow that what is held does not slip, and what only stands on that stays there.
+/// Slows a motion down so that held objects do not slip, and objects that stand on them stay in place.
 TimedRows TaskMotions::steady(const Config& C, TimedRows rows, const std::vector<std::string>& carried) const {
   double share = 1.;
   for (const std::string& obj : objects_) {
@@ -324,7 +328,7 @@ TimedRows TaskMotions::steady(const Config& C, TimedRows rows, const std::vector
   return rows;
 }
 
-/// The same motion, so slow that objects are accelerated by no more than `most` m/s^2.
+/// Slows a motion down so that objects are accelerated by at most `most` m/s^2.
 TimedRows TaskMotions::slower(const Config& C, TimedRows rows, const std::vector<std::string>& objects,
                               double most) const {
   double share = 1.;

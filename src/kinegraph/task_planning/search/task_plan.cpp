@@ -9,7 +9,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr std::size_t kCauses = 8;  ///< that are told by `str`
+constexpr std::size_t kShownCauses = 8;  ///< in `str`
 
 }  // namespace
 
@@ -18,60 +18,86 @@ std::string taskStatusName(TaskStatus status) {
     case TaskStatus::solved:
       return "solved";
     case TaskStatus::infeasible:
-      return "proved impossible";
+      return "infeasible";
+    case TaskStatus::timeout:
+      return "timeout";
     default:
-      return "not found";
+      return "no_plan_found";
   }
 }
 
 void TaskPlan::requireMotion(const char* call) const {
-  if (path.rows() == 0 || times.size() != path.rows()) throw ValueError(cat(call, ": there is no motion; ", message));
+  if (path.rows() == 0 || times.size() != path.rows())
+    throw ValueError(cat("TaskPlan.", call, ": the plan has no motion", message.empty() ? "" : "; ", message));
 }
 
-VectorXd TaskPlan::at(double t) const {
-  requireMotion("at");
+void TaskPlan::requireScenes(const char* call) const {
+  requireMotion(call);
+  if (scenes.size() != actions.size() || segments.size() != actions.size())
+    throw ValueError(cat("TaskPlan.", call, ": the plan has ", actions.size(), " actions, ", scenes.size(),
+                         " scenes and ", segments.size(), " segments; expected one scene and one segment per action"));
+}
+
+void TaskPlan::evalTo(double t, double* q, double* velocity, double* acceleration) const {
+  requireMotion("eval");
+  const Eigen::Index n = path.cols();
+  Eigen::Map<Eigen::RowVectorXd> position(q, n), slope(velocity, n);
+  slope.setZero();
+  std::fill_n(acceleration, n, 0.);
   const double* const begin = times.data();
   const Eigen::Index after = std::upper_bound(begin, begin + times.size(), t) - begin;
-  if (after == 0) return path.row(0);
-  if (after == times.size()) return path.row(after - 1);
-  const double share = (t - times[after - 1]) / (times[after] - times[after - 1]);
-  return path.row(after - 1) + share * (path.row(after) - path.row(after - 1));
+  if (after == 0) {
+    position = path.row(0);
+  } else if (after == times.size()) {
+    position = path.row(after - 1);
+  } else {
+    const double seconds = times[after] - times[after - 1], share = (t - times[after - 1]) / seconds;
+    position = path.row(after - 1) + share * (path.row(after) - path.row(after - 1));
+    if (t > times[0]) slope = (path.row(after) - path.row(after - 1)) / seconds;
+  }
 }
 
-std::string TaskPlan::why() const {
-  if (causes.empty()) return message;
-  std::vector<std::string> lines;
-  for (const auto& [cause, count] : causes) lines.push_back(cat(cause, " (", count, " branches)"));
-  return join(lines, "\n");
+std::string TaskPlan::summary() const {
+  if (!feasible()) return message;
+  if (actions.empty()) return "the goal already holds";
+  return cat(actions.size(), actions.size() == 1 ? " action, " : " actions, ", fixed(duration(), 2), " s");
+}
+
+std::string TaskPlan::explain() const {
+  std::string text = cat(taskStatusName(status), ": ", summary(), "\n", evaluations,
+                         " evaluations of motion problems, ", expansions, " expansions of states in logic");
+  for (const auto& [cause, count] : causes)
+    text += cat("\n", cause, " (", count, count == 1 ? " branch)" : " branches)");
+  return text;
 }
 
 std::string TaskPlan::searchTree() const { return treeText(tree); }
 
 TaskPlan TaskPlan::repair(const Config& C) const {
-  if (!again) throw ValueError("repair: this plan was not made by planTask, and has no goal to go on to");
-  return again(C);
+  if (!replanner) throw ValueError("TaskPlan.repair: the plan was not made by planTask, and has no goal and options");
+  return replanner(C);
 }
 
 std::string TaskPlan::str() const {
-  std::string text = cat(taskStatusName(status), ": ", message);
+  std::string text = cat(taskStatusName(status), ": ", summary());
   for (std::size_t i = 0; i < actions.size(); ++i) text += cat("\n  ", i + 1, ". ", planText({actions[i]}));
-  for (std::size_t i = 0; i < std::min(kCauses, causes.size()); ++i)
+  for (std::size_t i = 0; i < std::min(kShownCauses, causes.size()); ++i)
     text += cat("\n  ", causes[i].second, " x ", causes[i].first);
   return text;
 }
 
 std::string treeText(const std::vector<TaskBranch>& branches) {
   std::vector<std::string> lines;
-  std::vector<TaskAction> shown;
+  std::vector<TaskAction> previous;
   for (const TaskBranch& branch : branches) {
     const std::size_t count = branch.actions.size();
     std::size_t common = 0;
-    while (common < std::min(count, shown.size()) && branch.actions[common] == shown[common]) ++common;
+    while (common < std::min(count, previous.size()) && branch.actions[common] == previous[common]) ++common;
     if (common == count && common > 0) --common;
     for (std::size_t depth = common; depth < count; ++depth)
       lines.push_back(std::string(2 * depth, ' ') + planText({branch.actions[depth]}));
-    if (!lines.empty()) lines.back() += branch.why.empty() ? ": found" : ": " + branch.why;
-    shown = branch.actions;
+    if (!lines.empty()) lines.back() += branch.cause.empty() ? ": plan" : ": " + branch.cause;
+    previous = branch.actions;
   }
   return join(lines, "\n");
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kinegraph/task_planning/task_actions.h"
+#include "kinegraph/trajectories/trajectory.h"
 
 namespace kinegraph {
 
@@ -14,89 +15,104 @@ class BotOp;
 struct TaskExecution;
 
 enum class TaskStatus {
-  solved,      ///< the plan passed checkTaskPlan
-  infeasible,  ///< no motion can do it
-  not_found,   ///< within the effort: that is no proof
+  solved,         ///< there is a plan, and checkTaskPlan accepted it
+  infeasible,     ///< proved: no motion reaches the goal
+  no_plan_found,  ///< no plan was found within the budget of evaluations; this proves nothing
+  timeout,        ///< no plan was found within the time limit
 };
 
-/// "solved", "proved impossible" or "not found"
+/// The enumerator's spelling: "no_plan_found".
 std::string taskStatusName(TaskStatus status);
 
-/// A sequence of actions that was tried, and why it was given up.
+/// A sequence of actions that the search tried.
 struct TaskBranch {
   std::vector<TaskAction> actions;
-  std::string why;                      ///< "" where it was not given up
-  std::shared_ptr<const Config> ghost;  ///< the scene at the waypoint that it failed at, as near as was found; or null
+  std::string cause;  ///< the reason for which the search gave the branch up; "" for a plan
+
+  /// The scene at the waypoint that failed, as close to the demands of the last action as the solver came; null if no
+  /// waypoint failed.
+  std::shared_ptr<const Config> failed_configuration;
 };
 
-/// Rows of a matrix.
+/// Consecutive rows of a matrix: begin <= row < end.
 struct RowRange {
   Eigen::Index begin = 0, end = 0;
   Eigen::Index size() const { return end - begin; }
 };
 
-/// What planTask found, or why it found nothing.
-struct TaskPlan {
-  TaskStatus status = TaskStatus::not_found;
-  std::string message;
+/// The result of planTask: actions with their timed motion, or the causes for which there is none.
+///
+/// As a Trajectory, the plan is piecewise linear in time between the rows of `path`. Its velocity is constant between
+/// two rows and 0 before the start and after the end; its acceleration is 0. Grippers take no time.
+struct TaskPlan : Trajectory {
+  TaskStatus status = TaskStatus::no_plan_found;
+  std::string message;                ///< "" if solved, else the reason for which there is no plan
+  std::vector<std::string> warnings;  ///< caveats of a plan
   std::vector<TaskAction> actions;
-  MatrixXd waypoints;              ///< K x n: q after each action
-  MatrixXd path;                   ///< T x n, rad or m; no rows without a motion. Between two rows it is straight
+  MatrixXd waypoints;              ///< (K, n): q after each action
+  MatrixXd path;                   ///< (T, n), rad or m; no rows without a motion. It is straight between two rows
   VectorXd times;                  ///< (T,), s
-  MatrixXd limits;                 ///< 2 x n: velocities and accelerations that it keeps; empty: not known
-  std::vector<RowRange> segments;  ///< of each action; the motion is at rest where one begins
-  std::vector<std::pair<std::string, int>> causes;  ///< why branches were given up, the most frequent first
-  std::vector<TaskBranch> tree;
-  std::vector<std::string> violations;  ///< of the checker
-  long evaluations = 0, expansions = 0;
-  std::vector<std::pair<std::string, std::string>> attachments;  ///< what objects hang below after their action
-  std::vector<Config> scenes;                                    ///< of each action, with what is held attached
-  std::vector<Literal> goal, start;                              ///< what shall hold, what holds at first
-  std::function<TaskPlan(const Config&)> again;                  ///< the same call for another scene
+  MatrixXd limits;                 ///< (2, n): the velocity and acceleration limits of the motion; empty: unknown
+  std::vector<RowRange> segments;  ///< rows of each action; the motion is at rest at the beginning of each
+  std::vector<std::pair<std::string, int>> causes;  ///< of branches that were given up, the most frequent first
+  std::vector<TaskBranch> tree;                     ///< all branches, in the order in which they were tried
+  std::vector<std::string> violations;              ///< found by checkTaskPlan
+  long evaluations = 0;                             ///< of motion problems
+  long expansions = 0;                              ///< of states in logic
+  std::vector<std::pair<std::string, std::string>> attachments;  ///< (parent, object) after each action that moves one
+  std::vector<Config> scenes;                        ///< the scene of each action, with held objects attached to hands
+  std::vector<Literal> goal, start;                  ///< literals of the goal, and facts that hold initially
+  std::function<TaskPlan(const Config&)> replanner;  ///< plans to the same goal with the same options in another scene
 
   bool feasible() const { return status == TaskStatus::solved; }
 
-  /// Of the motion, s, without the time that grippers take; 0 without a motion.
-  double duration() const { return times.size() == 0 ? 0. : times[times.size() - 1]; }
+  int dimension() const override { return int(path.cols()); }
+  double duration() const override { return times.size() == 0 ? 0. : times[times.size() - 1]; }
+  void evalTo(double t, double* q, double* velocity, double* acceleration) const override;
 
-  /// Where the motion is at t (s, held within 0 and duration): (n,). Throws ValueError if there is none.
-  VectorXd at(double t) const;
+  /// "4 actions, 12.31 s" for a plan, else the message.
+  std::string summary() const;
 
-  /// Why there is no plan, or what stood in the way of others: a line per cause.
-  std::string why() const;
+  /// Several lines: the status, the spent evaluations, and all causes for which branches were given up.
+  std::string explain() const;
 
-  /// What was tried, as a tree: a line per action, causes behind the last one of a branch.
+  /// The branches as a tree: a line per action, with the cause behind the last action of each branch.
   std::string searchTree() const;
 
-  /// Shows the plan: its motion, or, where there is none, the tree of the search and the failedConfiguration. C is the scene that was
-  /// planned in, and ends as it was. Returns the key pressed, or 0.
+  /// Shows the plan in the browser: its motion or, without a motion, the search tree and the failedConfiguration. `C`
+  /// is the scene of the call to planTask; it is restored afterwards. Returns the key pressed, or 0.
   int view(Config& C, bool pause = true) const;
 
-  /// Shows the motion of each action, with what is held moving along; `pause` waits for a key before each. C ends as after
-  /// the plan. Throws ValueError if there is no motion.
+  /// Shows the motion of each action, with held objects moving along; `pause` waits for a key before each action. `C`
+  /// ends in the final scene. Throws ValueError if there is no motion.
   void play(Config& C, bool pause = false) const;
 
-  /// Where all frames are (frames x 7) at equal steps of time, `rate` per second. Throws ValueError if there is no motion.
+  /// Poses of all frames, (frames, 7) each, at equal time steps of 1 / `rate` s. Throws ValueError if there is no
+  /// motion.
   std::vector<MatrixXd> frames(const Config& C, double rate = 25.) const;
 
-  /// A copy of the scene in which the waypoint that the farthest branch failed at stands as a red ghost. Throws ValueError
-  /// where no branch failed at one.
+  /// A copy of the scene with a translucent red copy of the waypoint that failed in the longest branch. Throws
+  /// ValueError if no branch failed at a waypoint.
   Config failedConfiguration(const Config& C) const;
 
-  /// Moves a robot along the plan; see kinegraph::execute in api/task_execution.h.
+  /// Executes the plan on a robot; see kinegraph::execute in api/task_execution.h.
   TaskExecution execute(BotOp& bot) const;
 
-  /// Throws ValueError if there is no motion; `call` is what asks.
+  /// Throws ValueError, in the name of `call`, if there is no motion.
   void requireMotion(const char* call) const;
 
-  /// Plans what is left to do: to the same goal, from a scene as it is now. Throws ValueError for plans that planTask did
-  /// not make.
+  /// The same, also if there is not one scene and one segment per action.
+  void requireScenes(const char* call) const;
+
+  /// Plans the remaining actions to the same goal from the current scene `C`. Throws ValueError for plans without a
+  /// replanner; planTask and planTasks set it.
   TaskPlan repair(const Config& C) const;
 
-  std::string str() const;  ///< the status, actions, and causes
+  /// The status and summary, the actions, and the most frequent causes.
+  std::string str() const;
 };
 
-/// The branches as a tree: actions that several begin with stand once.
+/// Branches as a tree: a common prefix of consecutive branches is written once.
 std::string treeText(const std::vector<TaskBranch>& branches);
 
 }  // namespace kinegraph

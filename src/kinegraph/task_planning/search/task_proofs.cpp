@@ -19,7 +19,7 @@ namespace {
 
 using Body = ShapeKind::Body;
 
-constexpr double kDeep = 1.1e-3;  ///< m: what overlaps by more is in no plan
+constexpr double kDeep = 1.1e-3;  ///< m: plans have no deeper overlaps
 constexpr double kStep = 2.5e-3;  ///< m: two millimeters of tolerance of plans, and rounding
 constexpr double kInf = std::numeric_limits<double>::infinity();
 
@@ -43,12 +43,12 @@ std::vector<int> slidesAlong(JointType type) {
   }
 }
 
-bool turns(JointType type) {
+bool isRotational(JointType type) {
   return type == JointType::hingeX || type == JointType::hingeY || type == JointType::hingeZ ||
          type == JointType::hinge || type == JointType::quatBall;
 }
 
-void goThroughJoint(const Frame& frame, Reach& reach) {
+void addJoint(const Frame& frame, Reach& reach) {
   const Joint& joint = *frame.data().joint;
   if (const std::vector<int> axes = slidesAlong(joint.type); !axes.empty()) {
     if (joint.lower.size() != Eigen::Index(axes.size())) {
@@ -60,7 +60,7 @@ void goThroughJoint(const Frame& frame, Reach& reach) {
       reach.center[axes[k]] += .5 * (low + high);
       reach.half[axes[k]] += .5 * (high - low);
     }
-  } else if (turns(joint.type)) {
+  } else if (isRotational(joint.type)) {
     reach.radius += (reach.center.cwiseAbs() + reach.half).norm();
     reach.center = reach.half = Vector3d::Zero();
   } else {  // mobile bases and free joints have no bound
@@ -68,7 +68,7 @@ void goThroughJoint(const Frame& frame, Reach& reach) {
   }
 }
 
-/// The pose of a frame in its parent where its joint is at zero.
+/// The pose of a frame in its parent with its joint at zero.
 RigidTransform offsetOf(const Config& C, const Frame& frame) {
   Config D = C;
   Frame same = D.getFrame(frame.getName());
@@ -81,7 +81,7 @@ RigidTransform offsetOf(const Config& C, const Frame& frame) {
   return same.getRelativePose().transform();
 }
 
-/// Of a ball around a frame's origin that has its shape in it, m.
+/// Radius of a ball around the origin of a frame that contains its shape, m.
 double radiusOf(const Config& C, const std::string& name) {
   const Frame frame = C.getFrame(name);
   if (frame.getShapeType() == ShapeType::none || frame.getShapeType() == ShapeType::marker) return 0.;
@@ -103,7 +103,7 @@ double radiusOf(const Config& C, const std::string& name) {
   }
 }
 
-/// Half of the least horizontal width of what stands upright, m; none if it is not known.
+/// Half of the smallest horizontal width of an upright object, m; none if it is unknown.
 std::optional<double> innerRadius(const Config& C, const std::string& name) {
   const Frame frame = C.getFrame(name);
   if (frame.getShapeType() == ShapeType::none) return std::nullopt;
@@ -133,32 +133,32 @@ class Proofs {
   std::vector<ImpossibleAction> of(const std::vector<TaskAction>& actions) {
     for (const TaskAction& action : actions) {
       if (isPick(action)) {
-        lookAtPick(action);
+        provePick(action);
       } else if (action[0] == "place") {
         const double half = .5 * diagonalOf(C_.getFrame(action[3]), 3);
         if (const auto travel = travelOf(action[3]))
-          lookAtReach(action, action[2], action[3],
-                      *travel + half + 2. * radiusOf(C_, action[1]) + radiusOf(C_, action[2]));
+          proveReach(action, action[2], action[3],
+                     *travel + half + 2. * radiusOf(C_, action[1]) + radiusOf(C_, action[2]));
       } else if (isHold(action)) {
         if (graspVariants(C_, action[2], action[3]).empty()) addTooWide(action, action[2]);
         if (const auto travel = travelOf(action[2]))
-          lookAtReach(action, action[3], action[2], *travel + radiusOf(C_, action[2]) + radiusOf(C_, action[3]));
+          proveReach(action, action[3], action[2], *travel + radiusOf(C_, action[2]) + radiusOf(C_, action[3]));
       } else if (isGuided(action)) {
-        lookAtWay(action);
+        proveDoorMotion(action);
       } else if (action[0] == "hook_start") {
-        lookAtHook(action);
+        proveHook(action);
       } else if (endsSliding(action)) {
-        lookAtHeights(actions, action);
+        proveHeights(actions, action);
       } else if (action[0] == "handover" && graspVariants(C_, action[1], action[3]).empty()) {
         addTooWide(action, action[1]);
       }
     }
-    lookAtRoom(actions);
+    proveRoom(actions);
     return std::move(found_);
   }
 
  private:
-  void lookAtPick(const TaskAction& action) {
+  void provePick(const TaskAction& action) {
     const std::string &obj = action[1], &place = action[2], &hand = action[3];
     if (graspVariants(C_, obj, hand).empty()) return addTooWide(action, obj);
     const std::optional<double> travel = travelOf(place);
@@ -166,11 +166,11 @@ class Proofs {
     const double half = .5 * diagonalOf(C_.getFrame(place), 2);
     const double far = (C_.getFrame(obj).getPosition() - C_.getFrame(place).getPosition()).norm();
     const double room = 2. * radiusOf(C_, obj) + radiusOf(C_, hand);
-    lookAtReach(action, hand, place, *travel + std::max(half, far) + room);
-    if (staysThere(obj, place)) lookAtReach(action, hand, obj, room, {Literal{"fresh", {obj}}});
+    proveReach(action, hand, place, *travel + std::max(half, far) + room);
+    if (staysInPlace(obj, place)) proveReach(action, hand, obj, room, {Literal{"fresh", {obj}}});
   }
 
-  /// How far doors and drawers can take a frame from where it is, m; none for what moves otherwise.
+  /// The distance by which doors and drawers can move a frame, m; none for a frame that moves by other joints.
   std::optional<double> travelOf(const std::string& name) const {
     const Vector3d at = C_.getFrame(name).getPosition();
     double travel = 0.;
@@ -179,27 +179,28 @@ class Proofs {
       const auto door = std::ranges::find(doors_, up->getName(), &TaskDoor::name);
       if (door == doors_.end()) return std::nullopt;
       const double range = std::abs(door->open - door->closed) * std::abs(up->data().joint->scale);
-      // what hangs below a further joint was moved before by no more than `travel`
-      travel += turns(up->getJointType()) ? std::min(range, 2.) * ((at - up->getPosition()).norm() + travel) : range;
+      // Joints further up rotate a point that lower joints have moved by at most `travel`.
+      travel +=
+          isRotational(up->getJointType()) ? std::min(range, 2.) * ((at - up->getPosition()).norm() + travel) : range;
     }
     return travel;
   }
 
-  /// What stands still and is where a door has to pass, whatever hangs in it or stands on it.
-  void lookAtWay(const TaskAction& action) {
+  /// A static obstacle that a door has to pass through, whatever stands in or on the door.
+  void proveDoorMotion(const TaskAction& action) {
     const auto door = std::ranges::find(doors_, action[1], &TaskDoor::name);
     if (door == doors_.end()) return;
     const double now = C_.getJointState()[door->dof];
     const bool opens = action[0] == "open", is_ajar = door->stateAt(now) == "ajar";
-    const auto look = [&](const char* state, double from, double to) {
+    const auto prove = [&](const char* state, double from, double to) {
       const std::string what = blockedBetween(*door, from, to);
       if (!what.empty()) found_.push_back({action, {Literal{state, {door->name}}}, cat("'", door->name, "' ", what)});
     };
-    look(opens ? "closed" : "opened", kClosed, kOpened);
-    if (is_ajar) look("ajar", opens ? door->share(now) : kClosed, opens ? kOpened : door->share(now));
+    prove(opens ? "closed" : "opened", kClosed, kOpened);
+    if (is_ajar) prove("ajar", opens ? door->share(now) : kClosed, opens ? kOpened : door->share(now));
   }
 
-  /// "meets 'post' at 40 % of its range", where shares of its range are passed; "" if it meets nothing.
+  /// Returns "meets 'post' at 40 % of its range" if a door collides between two shares of its range, else "".
   std::string blockedBetween(const TaskDoor& door, double from, double to) const {
     constexpr int kSamples = 40;
     const std::vector<std::string> parts = partsOf(C_, door.name);
@@ -212,39 +213,38 @@ class Proofs {
       scene.setJointState(q);
       for (const Config::NearPair& pair : scene.getCollisions(-kDeep)) {
         const Frame a = scene.getFrame(pair.a), b = scene.getFrame(pair.b);
-        if (is_part(a) == is_part(b) || !standsStill(is_part(a) ? b : a)) continue;
+        if (is_part(a) == is_part(b) || !isStatic(is_part(a) ? b : a)) continue;
         return cat("meets '", (is_part(a) ? b : a).getName(), "' at ", fixed(100. * share, 0), " % of its range");
       }
     }
     return "";
   }
 
-  static bool standsStill(const Frame& frame) {
+  static bool isStatic(const Frame& frame) {
     for (std::optional<Frame> up = frame; up; up = up->getParent())
       if (up->getJointType() != JointType::none) return false;
     return true;
   }
 
-  /// Is it where it was at the start, on something that nothing moves, as long as it is called fresh?
-  bool staysThere(const std::string& obj, const std::string& place) const {
-    return contains(start_, {"fresh", {obj}}) && contains(start_, {"on", {place, obj}}) &&
-           standsStill(C_.getFrame(place));
+  /// Whether an object stays at its initial place, on a static frame, as long as it is `fresh`.
+  bool staysInPlace(const std::string& obj, const std::string& place) const {
+    return contains(start_, {"fresh", {obj}}) && contains(start_, {"on", {place, obj}}) && isStatic(C_.getFrame(place));
   }
 
-  /// What is too far away for the hook of a tool, wherever the hand holds that.
-  void lookAtHook(const TaskAction& action) {
+  /// An object that is too far away for the hook of a tool, however the hand holds the tool.
+  void proveHook(const TaskAction& action) {
     const std::string &obj = action[1], &tool = action[4], &hand = action[5];
-    if (!staysThere(obj, action[2])) return;
+    if (!staysInPlace(obj, action[2])) return;
     double size = radiusOf(C_, tool);
     const Frame root = C_.getFrame(tool);
     for (const Frame& part : root.getSubtree())
       size = std::max(size, part.getPose(root).p.norm() + radiusOf(C_, part.getName()));
     const double room = 2. * size + radiusOf(C_, obj) + radiusOf(C_, hand);
-    lookAtReach(action, hand, obj, room, {Literal{"fresh", {obj}}}, cat(", with '", tool, "', too"));
+    proveReach(action, hand, obj, room, {Literal{"fresh", {obj}}}, cat(", with '", tool, "', too"));
   }
 
-  /// What is pushed or pulled stays at its height, so that it comes to no place at another one.
-  void lookAtHeights(const std::vector<TaskAction>& actions, const TaskAction& action) {
+  /// Pushed and pulled objects stay at their height, so that they reach no place at another height.
+  void proveHeights(const std::vector<TaskAction>& actions, const TaskAction& action) {
     const std::optional<double> there = topOf(action[3]);
     std::set<std::string> from;
     for (const TaskAction& other : actions)
@@ -259,18 +259,18 @@ class Proofs {
     }
   }
 
-  /// The height of a level box that nothing moves, m.
+  /// The height of a static, level box, m.
   std::optional<double> topOf(const std::string& place) const {
     const Frame frame = C_.getFrame(place);
-    if (!standsStill(frame)) return std::nullopt;
+    if (!isStatic(frame)) return std::nullopt;
     const double level = std::abs(frame.getRotationMatrix()(2, 2));
     if (!isBox(frame) || level < 1. - 1e-9) return std::nullopt;
     return frame.getPosition().z() + .5 * frame.getSize()[2];
   }
 
-  /// A place that is farther than `room` (m) beyond what a hand reaches.
-  void lookAtReach(const TaskAction& action, const std::string& hand, const std::string& place, double room,
-                   const std::vector<Literal>& facts = {}, const std::string& with = {}) {
+  /// A place that is more than `room` (m) beyond the reach of a hand.
+  void proveReach(const TaskAction& action, const std::string& hand, const std::string& place, double room,
+                  const std::vector<Literal>& facts = {}, const std::string& with = {}) {
     if (!reach_.contains(hand)) reach_[hand] = reachOf(C_, hand);
     const double beyond = reach_[hand].distance(C_.getFrame(place).getPosition()) - room;
     if (beyond > 0.)
@@ -287,8 +287,8 @@ class Proofs {
          cat("'", obj, "' is wider than '", action[3], "' opens (", fixed(width, 3), " m) along all of its axes")});
   }
 
-  /// Two objects whose centers are on a place cannot be nearer than their inner radii, nor farther than its diagonal.
-  void lookAtRoom(const std::vector<TaskAction>& actions) {
+  /// The centers of two objects on a place are at least the sum of their inner radii apart, and at most its diagonal.
+  void proveRoom(const std::vector<TaskAction>& actions) {
     std::vector<std::pair<std::string, std::vector<std::string>>> onto;
     for (const TaskAction& action : actions) {
       if (action[0] != "place") continue;
@@ -299,21 +299,21 @@ class Proofs {
     for (const auto& [to, objects] : onto)
       for (const std::string& a : objects)
         for (const std::string& b : objects)
-          if (a != b) lookAtPair(actions, to, a, b);
+          if (a != b) provePair(actions, to, a, b);
   }
 
-  void lookAtPair(const std::vector<TaskAction>& actions, const std::string& to, const std::string& a,
-                  const std::string& b) {
+  void provePair(const std::vector<TaskAction>& actions, const std::string& to, const std::string& a,
+                 const std::string& b) {
     const std::optional<double> one = innerRadius(C_, a), other = innerRadius(C_, b);
     const double most = diagonalOf(C_.getFrame(to), 2);
     if (!one || !other || *one + *other <= most || !mayCollide(C_, a) || !mayCollide(C_, b)) return;
     const auto& [first, second] = std::minmax(a, b);
-    const std::string why =
+    const std::string cause =
         cat("'", first, "' and '", second, "' do not fit on '", to, "' together: their centers are ",
             fixed(*one + *other, 3), " m apart or more, and ", fixed(most, 3), " m at most there");
     for (const TaskAction& action : actions)
       if (action[0] == "place" && action[1] == a && action[3] == to)
-        found_.push_back({action, {Literal{"on", {to, b}}}, why});
+        found_.push_back({action, {Literal{"on", {to, b}}}, cause});
   }
 
   const Config& C_;
@@ -333,7 +333,7 @@ double Reach::distance(const Vector3d& point) const {
 Reach reachOf(const Config& C, const std::string& name) {
   Reach reach;
   for (std::optional<Frame> frame = C.getFrame(name); frame; frame = frame->getParent()) {
-    if (!isFixed(frame->getJointType())) goThroughJoint(*frame, reach);
+    if (!isFixed(frame->getJointType())) addJoint(*frame, reach);
     if (!frame->getParent()) break;
     const RigidTransform X = offsetOf(C, *frame);
     reach.center = X * reach.center;

@@ -7,28 +7,29 @@
 
 namespace kinegraph {
 
-/// An action that is impossible where some facts hold, and why.
+/// An action that is impossible while all of the facts hold.
 struct ImpossibleAction {
   TaskAction action;
   std::vector<Literal> facts;
-  std::string why;
+  std::string cause;
 };
 
-/// Where a frame can be at most: a box in the world, swept by a ball.
+/// A bound on the positions of a frame: a box in the world, enlarged by a ball.
 struct Reach {
   Vector3d center = Vector3d::Zero(), half = Vector3d::Zero();
   double radius = 0.;
 
-  /// How far a point is outside, m; at most 0 where it may be inside.
+  /// The distance of a point from the bound, m; not positive if the point may be reached.
   double distance(const Vector3d& point) const;
 };
 
-/// What a frame cannot leave, by the lengths and limits of what moves it; infinite where something moves without limits.
+/// Returns the bound on the positions of a frame, from the lengths and limits of the joints above it. It is infinite if
+/// a joint has no limits.
 Reach reachOf(const Config& C, const std::string& name);
 
-/// Of all these actions the default ones that no motion can carry out, whatever comes before them, found without any
-/// motion problem: by reach, size, room and height. `start`: what holds at first, of which `fresh` says what stays where it
-/// is until it is put or slid elsewhere.
+/// Returns the default actions that no motion can carry out, whatever precedes them. The proofs use reach, size, room
+/// and height, and solve no motion problem. `start` has the initial facts; a `fresh` object stays in place until an
+/// action puts or slides it elsewhere.
 std::vector<ImpossibleAction> impossibleActions(const Config& C, const std::vector<TaskAction>& actions,
                                                 const std::vector<Literal>& start = {});
 

@@ -6,7 +6,6 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/logic/action_words.h"
 #include "kinegraph/logic/fol_reader.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/search/task_conflicts.h"
@@ -18,17 +17,17 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kMotionStarts = 3;   ///< sets of waypoints whose motions are tried
-constexpr int kBetterStarts = 16;  ///< the same, where they have motions, and better ones are wanted
-constexpr double kNone = std::numeric_limits<double>::infinity();
+constexpr int kSeeds = 3;         ///< sets of waypoints that are tried for the first plan of a sequence
+constexpr int kBetterSeeds = 16;  ///< sets of waypoints that are tried for better plans
+constexpr double kNoPlan = std::numeric_limits<double>::infinity();
 
 Clock::time_point deadlineAfter(double seconds) {
-  constexpr double kLong = 1e9;  // s: more than that never ends
+  constexpr double kLong = 1e9;  // s; longer limits count as none
   if (!(seconds < kLong)) return Clock::time_point::max();
   return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
 }
 
-bool speaksOfFaces(const std::vector<Literal>& goal) {
+bool mentionsFaces(const std::vector<Literal>& goal) {
   return std::ranges::any_of(goal, [](const Literal& literal) { return literal.predicate == "up"; });
 }
 
@@ -38,7 +37,7 @@ TaskRules rulesWith(const TaskRules& own, bool upright) {
   return rules;
 }
 
-/// A scene in which what a hand holds may overlap the robot where it does so now, until it is put down.
+/// A scene in which held objects may overlap the robot as they do now, until they are put down.
 Config withoutWedges(const Config& C) {
   const std::vector<Literal> facts = taskFacts(C);
   const FramePairs pairs = wedgedPairs(C, wordsOf(facts, "is_gripper"), wordsOf(facts, "is_object"), kOverlap);
@@ -55,129 +54,71 @@ int requireThreads(int threads) {
 }  // namespace
 
 TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptions& options)
-    : given_(std::make_shared<const Config>(C)),
+    : original_(std::make_shared<const Config>(C)),
       C_(withoutWedges(C)),
       doors_(doorsOf(C)),
       options_(options),
-      domain_(options.domain ? *options.domain : defaultDomain()),
       goal_text_(goal),
-      goal_(readLiterals(goal, "goal")),
+      logic_(options.domain ? *options.domain : defaultDomain(), readLiterals(goal, "goal"),
+             taskFacts(C_, readLiterals(goal, "goal")), options.cancellation),
       limits_(taskMotionLimits(C, options.velocity, options.acceleration)),
-      deadline_(deadlineAfter(options.seconds)),
-      settings_{rulesWith(options.rules, speaksOfFaces(goal_)), options.seed, requireThreads(options.threads),
+      deadline_(deadlineAfter(options.time_limit)),
+      settings_{rulesWith(options.rules, mentionsFaces(logic_.goal())), options.seed, requireThreads(options.threads),
                 [this] { return isLate(); }, options.helper},
-      proves_(!options.rules.contains("pick")),
       may_regrasp_(!options.domain),
-      best_(kNone),
+      best_(kNoPlan),
       scene_(std::make_shared<const Config>(C_)),
-      ahead_(options.threads, options.cancellation) {
-  begin(taskFacts(C_, goal_));
+      executor_(options.threads, options.cancellation),
+      waypoints_(executor_, settings_, scene_, doors_),
+      learner_(executor_, C_, doors_, logic_, waypoints_, log_) {
+  makeEvaluator();
   std::set<std::string> missing;
-  for (int a = 0; a < int(search_->problem().actions.size()); ++a) {
-    const TaskAction action = search_->problem().action(a);
+  for (const TaskAction& action : logic_.allActions()) {
     requireWords(action);
     if (!settings_.rules.contains(action[0])) missing.insert(action[0]);
   }
   if (!missing.empty())
-    throw ValueError(cat("planTask: nothing is known of what the actions ", join({missing.begin(), missing.end()}),
-                         " ask; give them in `rules`"));
+    throw ValueError(cat("planTask: no TaskRule for the actions ", join({missing.begin(), missing.end()}),
+                         "; pass rules={name: TaskRule}"));
 }
 
-// --- in logic --------------------------------------------------------------------------------------------------------
-
-void TaskSearch::begin(std::vector<Literal> start) {
-  start_ = std::move(start);
-  problem_ = {"problem", domain_, {}, domain_.start, goal_};
-  problem_.start.insert(problem_.start.end(), start_.begin(), start_.end());
-  trials_ = std::make_shared<const TaskTrials>(ahead_, settings_, scene_, given_, limits_, goal_, start_);
-  PlanSearch::Options limits;
-  limits.keep_going = [this] {
-    try {
-      options_.cancellation.check();
-    } catch (...) {
-      interruption_ = std::current_exception();
-    }
-    return !interruption_;
-  };
-  search_ = std::make_unique<PlanSearch>(ground(problem_), limits);
+void TaskSearch::makeEvaluator() {
+  evaluator_ = std::make_shared<const SequenceEvaluator>(executor_, settings_, scene_, original_, limits_,
+                                                         logic_.goal(), logic_.start());
 }
 
-void TaskSearch::exclude() {
-  for (const ImpossibleAction& proof : proofs_) forbid(proof.action, proof.facts);
-}
-
-void TaskSearch::forbid(const TaskAction& action, const std::vector<Literal>& facts) {
-  const GroundProblem& ground = search_->problem();
-  search_->forbid(actionNumber(ground, action), changingFacts(ground, facts));
-}
-
-void TaskSearch::forbidBeginning(const Actions& actions) {
-  search_->forbidBeginning(actionNumbers(search_->problem(), actions));
-}
-
-std::vector<std::vector<Literal>> TaskSearch::states(const Actions& actions) const {
-  return statesAlong(search_->problem(), actionNumbers(search_->problem(), actions));
-}
-
-std::optional<TaskSearch::Actions> TaskSearch::searchActions() {
-  const auto numbers = search_->next();
-  if (interruption_) std::rethrow_exception(interruption_);
-  if (!numbers) return std::nullopt;
-  return actionWords(search_->problem(), *numbers);
-}
-
-/// The next plan in logic. Where all fail, things may also be put down to be grasped in another way.
-std::optional<TaskSearch::Actions> TaskSearch::nextActions() {
-  auto actions = searchActions();
-  if (actions || hasPlan() || !guessed_ || !may_regrasp_ || search_->status() == PlanSearch::Status::limit)
-    return actions;
-  may_regrasp_ = false;
-  std::vector<Literal> start = start_;
-  for (const std::string& obj : wordsOf(start_, "is_object")) start.push_back({"fresh", {obj}});
-  begin(std::move(start));
-  exclude();
-  return searchActions();
-}
-
-bool TaskSearch::mayBeginTrial(const Actions& actions) {
-  const std::string cycle = standsOnItself(states(actions));
-  if (cycle.empty()) return true;
-  forbidBeginning(actions);
-  branches_.push_back({actions, cat("'", cycle, "' would stand on itself"), nullptr});
-  return false;
-}
-
-// --- the loop --------------------------------------------------------------------------------------------------------
-
-bool TaskSearch::hasPlan() const { return best_ < kNone; }
+bool TaskSearch::hasPlan() const { return best_ < kNoPlan; }
 
 std::optional<TaskPlan> TaskSearch::next() {
-  struct Rest {  // nobody works while nobody waits
+  struct Rest {  // threads work only while the caller waits
     TaskSearch& search;
     ~Rest() {
-      search.ahead_.rest();
-      search.expectNothing();
+      search.executor_.cancelAll();
+      search.waypoints_.dropPrefetched();
     }
   };
-  ahead_.rest();
+  executor_.cancelAll();
   const Rest rest{*this};
   return nextPlan();
 }
 
+/// Excludes actions that are proved to be impossible. Returns the answer if nothing in logic reaches the goal.
+std::optional<TaskPlan> TaskSearch::begin() {
+  has_begun_ = true;
+  if (!logic_.problem().unreachable.empty()) {
+    has_ended_ = true;
+    const std::string missing = missingDoorParts();
+    return answer(TaskStatus::infeasible, missing.empty() ? join(diagnostics(logic_.problem()), "; ") : missing);
+  }
+  if (!options_.rules.contains("pick"))  // the proofs assume the default rules
+    logic_.exclude(
+        impossibleActions(C_, logic_.allActions(), options_.domain ? std::vector<Literal>() : logic_.start()));
+  return std::nullopt;
+}
+
 std::optional<TaskPlan> TaskSearch::nextPlan() {
   if (!has_begun_) {
-    has_begun_ = true;
-    if (!search_->problem().unreachable.empty()) {
-      has_ended_ = true;
-      const std::string missing = missingOfDoors();
-      return end(TaskStatus::infeasible, missing.empty() ? join(diagnostics(search_->problem()), "; ") : missing);
-    }
-    if (proves_) {
-      Actions all;
-      for (int a = 0; a < int(search_->problem().actions.size()); ++a) all.push_back(search_->problem().action(a));
-      proofs_ = impossibleActions(C_, all, options_.domain ? std::vector<Literal>() : start_);
-    }
-    exclude();
+    if (std::optional<TaskPlan> plan = begin()) return plan;
   } else if (trial_ && isSpent()) {
     has_ended_ = true;
   }
@@ -186,13 +127,14 @@ std::optional<TaskPlan> TaskSearch::nextPlan() {
       const std::optional<Actions> actions = nextActions();
       if (!actions || actions->empty()) {
         has_ended_ = true;
-        if (!actions) return hasPlan() ? std::nullopt : std::optional(nothing());
-        TaskPlan plan = end(TaskStatus::solved, "the goal holds already");
+        if (!actions) return hasPlan() ? std::nullopt : std::optional(noSequenceLeft());
+        TaskPlan plan = answer(TaskStatus::solved, "");
+        plan.warnings = {"the goal already holds"};
         plan.path = C_.getJointState().transpose();
         plan.times = VectorXd::Zero(1);
         return plan;
       }
-      if (mayBeginTrial(*actions)) trial_.emplace(Trial{*actions, states(*actions)});
+      if (!standsOnItselfIn(*actions)) trial_.emplace(Trial{*actions, logic_.statesAlong(*actions)});
     }
     while (trial_ && !has_ended_) {
       std::optional<TaskPlan> plan = nextOf(*trial_);
@@ -207,205 +149,135 @@ std::optional<TaskPlan> TaskSearch::nextPlan() {
       }
     }
     has_ended_ = has_ended_ || isSpent();
-    if (has_ended_ && !hasPlan()) return end(TaskStatus::not_found, cat("no plan within the effort; ", firstCause()));
+    if (has_ended_ && !hasPlan())
+      return unsolved(isLate() ? "no plan within time_limit" : "no plan within max_evaluations");
   }
   return std::nullopt;
 }
 
-// --- waypoints -------------------------------------------------------------------------------------------------------
-
-std::shared_ptr<const Config> TaskSearch::sceneIn(const Circumstances& there) const {
-  if (there == Circumstances()) return scene_;
-  auto scene = std::make_shared<Config>(*scene_);
-  for (const std::string& name : there.without) scene->getFrame(name).setContact(0);
-  VectorXd q = scene->getJointState();  // which compiles it, for all copies
-  if (there.doors.empty()) return scene;
-  for (std::size_t i = 0; i < doors_.size(); ++i) q[doors_[i].dof] = there.doors[i];
-  scene->setJointState(q);
-  return scene;
+/// The next sequence in logic. If all fail, objects may also be put down to be grasped differently.
+std::optional<TaskSearch::Actions> TaskSearch::nextActions() {
+  auto actions = logic_.next();
+  if (actions || hasPlan() || !learner_.hasLearned() || !may_regrasp_ || logic_.isCutOff()) return actions;
+  may_regrasp_ = false;
+  logic_.allowRegrasps();
+  makeEvaluator();
+  return logic_.next();
 }
 
-/// Waypoints that may be asked for are looked for, where there are threads for that. Any thread may expect some.
-void TaskSearch::expect(const Actions& actions, const Circumstances& there, Priority first) {
-  if (options_.threads == 1) return;
-  const std::scoped_lock lock(expecting_);
-  auto known = expected_.find({actions, there});
-  if (known == expected_.end())
-    known = expected_.try_emplace({actions, there}, ahead_, settings_, sceneIn(there), actions, 0).first;
-  known->second.begin(first, Priority::maybe);
+bool TaskSearch::standsOnItselfIn(const Actions& actions) {
+  const std::string cycle = standsOnItself(logic_.statesAlong(actions));
+  if (cycle.empty()) return false;
+  logic_.forbidPrefix(actions);
+  log_.addDropped(actions, cat("'", cycle, "' would stand on itself"));
+  return true;
 }
 
-void TaskSearch::expectAll(const std::vector<Actions>& all, Priority first) {
-  for (const Actions& actions : all) expect(actions, {}, first);
-}
-
-/// Those that will say at which action a plan without waypoints fails.
-std::vector<TaskSearch::Actions> TaskSearch::unknownBeginnings(const Actions& actions) const {
-  std::vector<Actions> unknown;
-  for (std::size_t count = 1; count < actions.size(); ++count) {
-    Actions beginning(actions.begin(), actions.begin() + std::ptrdiff_t(count));
-    const auto known = known_.find({beginning, {}});
-    if (known == known_.end())
-      unknown.push_back(std::move(beginning));
-    else if (known->second)
-      break;
-  }
-  return unknown;
-}
-
-void TaskSearch::expectNothing() {
-  const std::scoped_lock lock(expecting_);
-  expected_.clear();
-}
-
-TaskAttempt::Found TaskSearch::waypointsOf(const Actions& actions, const Circumstances& there) {
-  std::optional<TaskAttempt> own;
-  TaskAttempt* attempt = nullptr;
-  {
-    const std::scoped_lock lock(expecting_);
-    const auto known = expected_.find({actions, there});
-    attempt = known != expected_.end() ? &known->second : &own.emplace(ahead_, settings_, sceneIn(there), actions, 0);
-  }
-  TaskAttempt::Found found = attempt->find();
-  evaluations_ += found.evaluations;
-  return found;
-}
-
-bool TaskSearch::isKnownToFail(const Actions& actions) const {
-  const auto known = known_.find({actions, {}});
-  return known != known_.end() && known->second;
-}
-
-// --- in geometry -----------------------------------------------------------------------------------------------------
-
-/// What comes of the waypoints of a seed.
-Speculative<TaskTrials::Outcome> TaskSearch::outcomeOf(const Trial& trial, int seed, Priority wanted) {
-  TaskTrials::Order order{trial.actions, trial.states, seed, wanted};
+/// Evaluates a sequence with the waypoints of one seed, ahead of time if a thread is free.
+Speculative<TaskSearch::Outcome> TaskSearch::outcomeOf(const Trial& trial, int seed, Priority priority) {
+  SequenceEvaluator::Request request{trial.actions, trial.states, seed, priority};
   if (seed == 0)
-    order.at_first_failure = [this, all = unknownBeginnings(trial.actions)] { expectAll(all, Priority::maybe); };
-  return ahead_.later<TaskTrials::Outcome>(
-      [trials = trials_, order = std::move(order)](const CancellationToken& stopped) {
-        return trials->run(order, stopped);
+    request.at_first_failure = [this, prefixes = waypoints_.unknownPrefixes(trial.actions)] {
+      waypoints_.prefetch(prefixes, Priority::low);
+    };
+  return executor_.defer<Outcome>(
+      [evaluator = evaluator_, request = std::move(request)](const CancellationToken& stopped) {
+        return evaluator->evaluate(request, stopped);
       });
 }
 
-/// A plan from the next waypoints that have one; none where there are no more.
+/// The plan of the next seed that has one; none if no seed is left.
 std::optional<TaskPlan> TaskSearch::nextOf(Trial& trial) {
-  auto& later = trial.later;
-  const auto seeds = [&] { return trial.found ? kBetterStarts : kMotionStarts; };
+  auto& outcomes = trial.outcomes;
+  const auto seeds = [&] { return trial.has_plan ? kBetterSeeds : kSeeds; };
   while (trial.seed < seeds()) {
     const int seed = trial.seed++;
-    if (seed == 0 && isKnownToFail(trial.actions)) break;
-    if (!later.contains(seed)) later[seed] = outcomeOf(trial, seed, Priority::surely);
-    const int ahead = trial.found || needs_seeds_ ? options_.threads - 1 : 0;
+    if (seed == 0 && waypoints_.isKnownToFail(trial.actions)) break;
+    if (!outcomes.contains(seed)) outcomes[seed] = outcomeOf(trial, seed, Priority::high);
+    const int ahead = trial.has_plan || needs_seeds_ ? options_.threads - 1 : 0;
     for (int next = seed + 1; next <= std::min(seed + ahead, seeds() - 1); ++next) {
-      if (later.contains(next)) continue;
-      later[next] = outcomeOf(trial, next, Priority::maybe);
-      later[next].begin(Priority::maybe);
+      if (outcomes.contains(next)) continue;
+      outcomes[next] = outcomeOf(trial, next, Priority::low);
+      outcomes[next].begin(Priority::low);
     }
-    TaskTrials::Outcome& outcome = later[seed].get();
+    Outcome& outcome = outcomes[seed].get();
     evaluations_ += outcome.evaluations;
-    if (outcome.cause) {
-      if (seed == 0) known_[{trial.actions, {}}] = outcome.cause;
-      trial.seed = kBetterStarts;
+    if (outcome.waypoint_failure) {
+      if (seed == 0) waypoints_.setFailure(trial.actions, outcome.waypoint_failure);
+      trial.seed = kBetterSeeds;
       break;
     }
     if (outcome.plan) {
-      branches_.push_back({trial.actions, "", nullptr});
-      trial.found = true;
+      log_.addPlan(trial.actions);
+      trial.has_plan = true;
       return completed(std::move(*outcome.plan));
     }
     needs_seeds_ = true;
-    trial.failure = outcome.failure;
-    if (!trial.found && !trial.failure->doors.empty()) break;
+    trial.motion_failure = outcome.motion_failure;
+    if (!trial.has_plan && !trial.motion_failure->doors.empty()) break;
   }
   return std::nullopt;
+}
+
+/// Forbids the sequence, or the part of it that fails.
+void TaskSearch::conclude(const Trial& trial) {
+  if (trial.has_plan) return logic_.forbidPrefix(trial.actions);
+  if (trial.motion_failure) return learner_.learnMotionFailure(trial.actions, *trial.motion_failure);
+  learner_.learnWaypointFailure(trial.actions);
 }
 
 // --- answers ---------------------------------------------------------------------------------------------------------
 
-TaskPlan TaskSearch::end(TaskStatus status, std::string message) {
+TaskPlan TaskSearch::answer(TaskStatus status, std::string message) {
   TaskPlan plan;
   plan.status = status;
   plan.message = std::move(message);
-  plan.goal = goal_;
-  plan.start = start_;
+  plan.goal = logic_.goal();
+  plan.start = logic_.start();
   return completed(std::move(plan));
 }
 
-/// With what is to tell of the search so far.
+/// An answer that proves nothing.
+TaskPlan TaskSearch::unsolved(const std::string& reason) {
+  const TaskStatus status = isLate() ? TaskStatus::timeout : TaskStatus::no_plan_found;
+  return answer(status, cat(reason, "; ", log_.mainCause()));
+}
+
+/// Adds the record of the search so far.
 TaskPlan TaskSearch::completed(TaskPlan plan) {
-  settle();
-  plan.causes = causesByCount();
-  plan.tree = tree_;
-  plan.evaluations = evaluations_;
-  plan.expansions = search_->expansions();
-  plan.again = [goal = goal_text_, options = options_](const Config& C) { return planTask(C, goal, options); };
+  plan.causes = log_.causes();
+  plan.tree = log_.tree();
+  plan.evaluations = evaluations();
+  plan.expansions = logic_.expansions();
+  plan.replanner = [goal = goal_text_, options = options_](const Config& C) { return planTask(C, goal, options); };
   return plan;
 }
 
-/// What a door of the goal needs, to be opened or closed, and does not have; "" if that is not the default domain's.
-std::string TaskSearch::missingOfDoors() const {
+/// The label or part that a door of the goal lacks to be opened or closed; "" with a domain other than the default one.
+std::string TaskSearch::missingDoorParts() const {
   if (options_.domain) return "";
-  for (const Literal& literal : goal_) {
+  const std::vector<Literal>& start = logic_.start();
+  for (const Literal& literal : logic_.goal()) {
     if ((literal.predicate != "opened" && literal.predicate != "closed") || literal.arguments.size() != 1) continue;
     const std::string& name = literal.arguments[0];
-    if (!contains(start_, {"is_guided", {name}}))
-      return cat("'", name,
-                 "' is no door or drawer; expected a frame that is called is_door or is_drawer, with a joint ",
-                 "of one dof that is active and has limits");
+    if (!contains(start, {"is_guided", {name}}))
+      return cat("'", name, "' is no door or drawer; expected a frame labeled is_door or is_drawer, with an active ",
+                 "joint of one dof with limits");
     const auto is_handle = [&](const Literal& fact) {
       return fact.predicate == "partOf" && fact.arguments[0] == name &&
-             contains(start_, {"is_handle", {fact.arguments[1]}});
+             contains(start, {"is_handle", {fact.arguments[1]}});
     };
-    if (std::ranges::none_of(start_, is_handle)) return cat("'", name, "' has no part that is called is_handle");
+    if (std::ranges::none_of(start, is_handle)) return cat("'", name, "' has no part labeled is_handle");
   }
   return "";
 }
 
-/// There is no plan left in logic.
-TaskPlan TaskSearch::nothing() {
-  if (search_->status() == PlanSearch::Status::limit)
-    return end(TaskStatus::not_found, "the search in logic is too large");
-  if (guessed_) return end(TaskStatus::not_found, cat("all plans in logic fail; ", firstCause()));
-  for (const ImpossibleAction& proof : proofs_) addCause(proof.why);
-  if (proofs_.empty() || !PlanSearch(search_->problem()).next())
-    return end(TaskStatus::infeasible, contradiction(problem_));
-  return end(TaskStatus::infeasible, neededProofs(search_->problem(), proofs_));
-}
-
-/// Finds the causes out that are not known yet.
-void TaskSearch::settle() {
-  for (const Branch& branch : std::exchange(branches_, {})) {
-    const TaskFailure failure = branch.cause ? branch.cause->get() : TaskFailure();
-    const std::string why = branch.words + failure.why;
-    const auto is_same = [&](const TaskBranch& b) { return b.actions == branch.actions && b.why == why; };
-    if (branch.is_given_up) {
-      if (std::ranges::any_of(tree_, is_same)) continue;  // tried before regrasps were allowed
-      addCause(why);
-    }
-    tree_.push_back({branch.actions, why, failure.ghost});
-  }
-}
-
-void TaskSearch::addCause(const std::string& why) {
-  const auto known = std::ranges::find(causes_, why, &std::pair<std::string, int>::first);
-  if (known == causes_.end())
-    causes_.emplace_back(why, 1);
-  else
-    ++known->second;
-}
-
-std::vector<std::pair<std::string, int>> TaskSearch::causesByCount() const {
-  auto sorted = causes_;
-  std::ranges::stable_sort(sorted, std::greater<>(), &std::pair<std::string, int>::second);
-  return sorted;
-}
-
-std::string TaskSearch::firstCause() {
-  settle();
-  const auto causes = causesByCount();
-  return causes.empty() ? "nothing was tried" : causes[0].first;
+TaskPlan TaskSearch::noSequenceLeft() {
+  if (logic_.isCutOff())
+    return answer(TaskStatus::no_plan_found, "the search in logic reached its limit of expansions");
+  if (learner_.hasLearned()) return unsolved("all sequences of actions fail");
+  for (const ImpossibleAction& proof : logic_.proofs()) log_.addCause(proof.cause);
+  return answer(TaskStatus::infeasible, logic_.infeasibility());
 }
 
 }  // namespace kinegraph

@@ -1,25 +1,20 @@
 #pragma once
 
 #include <chrono>
-#include <compare>
-#include <exception>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "kinegraph/logic/plan_search.h"
+#include "kinegraph/task_planning/search/conflict_learner.h"
 #include "kinegraph/task_planning/search/plan_task.h"
-#include "kinegraph/task_planning/search/task_proofs.h"
-#include "kinegraph/task_planning/search/task_trials.h"
-#include "kinegraph/task_planning/task_doors.h"
+#include "kinegraph/task_planning/search/sequence_evaluator.h"
 
 namespace kinegraph {
 
-/// One call of planTasks.
+/// The loop of planTasks: the logic proposes sequences of actions, geometry evaluates them, and failures become
+/// constraints of the logic.
 class TaskSearch {
  public:
   TaskSearch(const Config& C, const std::string& goal, const TaskOptions& options);
@@ -29,109 +24,59 @@ class TaskSearch {
 
  private:
   using Actions = std::vector<TaskAction>;
-  using Words = std::vector<std::string>;
+  using Outcome = SequenceEvaluator::Outcome;
 
-  /// In which actions are tried by themselves.
-  struct Circumstances {
-    Words without;              ///< objects that are not there
-    std::vector<double> doors;  ///< where doors are at first; empty: as they are at the start
-    auto operator<=>(const Circumstances&) const = default;
-  };
-
-  /// A plan in logic whose motions are looked for, from other waypoints each.
+  /// A sequence of actions that is evaluated with several seeds.
   struct Trial {
     Actions actions;
-    std::vector<std::vector<Literal>> states;                    ///< along them
-    int seed = 0;                                                ///< of the waypoints that come next
-    bool found = false;                                          ///< was there a plan?
-    std::optional<TaskFailure> failure = {};                     ///< of motions
-    std::map<int, Speculative<TaskTrials::Outcome>> later = {};  ///< by seed
+    std::vector<std::vector<Literal>> states;  ///< in logic, along the actions
+    int seed = 0;                              ///< the next one
+    bool has_plan = false;
+    std::optional<TaskFailure> motion_failure = {};     ///< of the last seed that failed
+    std::map<int, Speculative<Outcome>> outcomes = {};  ///< by seed
   };
 
-  /// What was tried; why it was given up is found out in the end.
-  struct Branch {
-    Actions actions;
-    std::string words;  ///< before the cause
-    TaskCause cause;    ///< null: there is nothing to find out
-    bool is_given_up = false;
-  };
-
-  // --- in logic
-  void begin(std::vector<Literal> start);
-  void exclude();
-  std::optional<Actions> nextActions();
-  std::optional<Actions> searchActions();
-  void forbid(const TaskAction& action, const std::vector<Literal>& facts);
-  void forbidBeginning(const Actions& actions);
-  std::vector<std::vector<Literal>> states(const Actions& actions) const;
-  bool mayBeginTrial(const Actions& actions);
-
-  // --- waypoints
-  std::shared_ptr<const Config> sceneIn(const Circumstances& there) const;
-  void expect(const Actions& actions, const Circumstances& there, Priority first);
-  void expectAll(const std::vector<Actions>& all, Priority first);
-  std::vector<Actions> unknownBeginnings(const Actions& actions) const;
-  void expectNothing();
-  TaskAttempt::Found waypointsOf(const Actions& actions, const Circumstances& there);
-  bool isKnownToFail(const Actions& actions) const;
-
-  // --- in geometry
-  Speculative<TaskTrials::Outcome> outcomeOf(const Trial& trial, int seed, Priority wanted);
-  std::optional<TaskPlan> nextOf(Trial& trial);
-  void conclude(const Trial& trial);
-  TaskCause causeOf(const TaskFailure& failure);
-  void giveUp(const Actions& actions, const std::string& words, TaskCause cause);
-  void forbidFailing(const Actions& actions);
-  void forbidLast(const Actions& beginning, const std::optional<std::vector<Literal>>& facts);
-  const TaskCause& failureOf(const Actions& actions, const Circumstances& there = {});
-  std::vector<Literal> withoutConstantDoors(std::vector<Literal> facts) const;
-  std::string missingOfDoors() const;
-  std::vector<Literal> doorsThatMatter(const Actions& actions, const Circumstances& there);
-
-  // --- answers
+  std::optional<TaskPlan> begin();
   std::optional<TaskPlan> nextPlan();
-  bool isSpent() const { return evaluations_ >= options_.evaluations || isLate(); }
+  std::optional<Actions> nextActions();
+  std::optional<TaskPlan> nextOf(Trial& trial);
+  Speculative<Outcome> outcomeOf(const Trial& trial, int seed, Priority priority);
+  void conclude(const Trial& trial);
+  bool standsOnItselfIn(const Actions& actions);
+  void makeEvaluator();
+
+  long evaluations() const { return evaluations_ + waypoints_.evaluations(); }
+  bool isSpent() const { return evaluations() >= options_.max_evaluations || isLate(); }
   bool isLate() const { return std::chrono::steady_clock::now() > deadline_; }
   bool hasPlan() const;
-  TaskPlan nothing();
-  TaskPlan end(TaskStatus status, std::string message);
-  TaskPlan completed(TaskPlan plan);
-  void settle();
-  std::vector<std::pair<std::string, int>> causesByCount() const;
-  std::string firstCause();
-  void addCause(const std::string& why);
 
-  const std::shared_ptr<const Config> given_;
-  const Config C_;  ///< in which what is held may overlap the robot as it does at the start
+  std::string missingDoorParts() const;
+  TaskPlan noSequenceLeft();
+  TaskPlan unsolved(const std::string& reason);
+  TaskPlan answer(TaskStatus status, std::string message);
+  TaskPlan completed(TaskPlan plan);
+
+  const std::shared_ptr<const Config> original_;
+  const Config C_;  ///< held objects may overlap the robot as they do at the start
   const std::vector<TaskDoor> doors_;
-  TaskOptions options_;
-  LogicDomain domain_;
-  std::string goal_text_;
-  std::vector<Literal> goal_, start_;
-  MatrixXd limits_;
-  std::chrono::steady_clock::time_point deadline_;
-  const TaskAttempt::Settings settings_;
-  long evaluations_ = 0;  ///< so far
-  LogicProblem problem_;
-  std::unique_ptr<PlanSearch> search_;
-  std::exception_ptr interruption_;  ///< by `options_.between` while logic was searched
-  std::vector<ImpossibleAction> proofs_;
-  bool proves_ = true;  ///< are there proofs that make actions impossible?
+  const TaskOptions options_;
+  const std::string goal_text_;
+  TaskLogic logic_;
+  const MatrixXd limits_;
+  const std::chrono::steady_clock::time_point deadline_;
+  const WaypointSolver::Settings settings_;
   bool has_begun_ = false, has_ended_ = false;
-  bool guessed_ = false;      ///< is anything forbidden that was not proved?
-  bool may_regrasp_ = false;  ///< not tried yet: things may be put down to be grasped in another way
+  bool may_regrasp_ = false;                   ///< regrasps are left to be tried
+  bool needs_seeds_ = false;                   ///< a sequence with waypoints had no motion
+  double best_;                                ///< duration of the last plan, s
+  long evaluations_ = 0;                       ///< spent by outcomes
+  const std::shared_ptr<const Config> scene_;  ///< a copy of C_ that threads share
   std::optional<Trial> trial_;
-  double best_;                   ///< s, of the plans so far
-  std::vector<Branch> branches_;  ///< of which the causes are not known yet; they come after those of tree_
-  std::vector<TaskBranch> tree_;
-  std::vector<std::pair<std::string, int>> causes_;
-  std::map<std::pair<Actions, Circumstances>, TaskCause> known_;  ///< why actions fail; null: they do not
-  bool needs_seeds_ = false;                                      ///< has a plan with waypoints had no motion?
-  const std::shared_ptr<const Config> scene_;                     ///< a copy of C_ that threads share
-  std::shared_ptr<const TaskTrials> trials_;
-  std::mutex expecting_;
-  SpeculativeExecutor ahead_;
-  std::map<std::pair<Actions, Circumstances>, TaskAttempt> expected_;  ///< that may be worked at
+  BranchLog log_;
+  std::shared_ptr<const SequenceEvaluator> evaluator_;
+  SpeculativeExecutor executor_;
+  WaypointCache waypoints_;
+  ConflictLearner learner_;
 };
 
 }  // namespace kinegraph

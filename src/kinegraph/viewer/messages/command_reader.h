@@ -9,8 +9,8 @@
 
 namespace kinegraph {
 
-/// Reads the fields of a command from a browser, one after the other: int32, float64, and arrays as their length and
-/// float64s. False for what is not there, and for numbers that are not finite.
+/// Reads the fields of a command from a browser in order: int32, float64, and arrays as length and float64s. Returns
+/// false for missing fields and for numbers that are not finite.
 class CommandReader {
  public:
   explicit CommandReader(std::string_view data) : rest_(data) {}
@@ -44,7 +44,7 @@ class CommandReader {
   std::string_view rest_;
 };
 
-/// A command of these fields, in this order; nothing if they are not all there is.
+/// Reads a command with these fields, in this order; returns nothing if the data has another size.
 template <class Command, class... Fields>
 std::optional<Command> readFields(CommandReader& reader, Fields Command::*... fields) {
   Command command;

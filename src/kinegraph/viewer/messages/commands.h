@@ -82,15 +82,15 @@ struct PerturbCommand {
   std::vector<double> target;
 };
 
-struct NotesCommand {
+struct WarningsCommand {
   static constexpr int kKind = 12;
   int structure = 0;
 };
 
-/// What a browser asks for.
-using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand, ViewpointCommand, RunCommand, PerturbCommand, NotesCommand>;
+/// A command of a browser.
+using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand, ViewpointCommand, RunCommand, PerturbCommand, WarningsCommand>;
 
-/// Reads a binary message from a browser; nothing if it is not exactly one command.
+/// Reads a binary message from a browser; returns nothing unless it is exactly one command.
 inline std::optional<Command> readCommand(std::string_view data) {
   CommandReader reader(data);
   int kind;
@@ -107,7 +107,7 @@ inline std::optional<Command> readCommand(std::string_view data) {
     case ViewpointCommand::kKind: return readFields<ViewpointCommand>(reader, &ViewpointCommand::pose, &ViewpointCommand::distance, &ViewpointCommand::focal, &ViewpointCommand::ortho);
     case RunCommand::kKind: return readFields<RunCommand>(reader, &RunCommand::what);
     case PerturbCommand::kKind: return readFields<PerturbCommand>(reader, &PerturbCommand::structure, &PerturbCommand::frame, &PerturbCommand::point, &PerturbCommand::target);
-    case NotesCommand::kKind: return readFields<NotesCommand>(reader, &NotesCommand::structure);
+    case WarningsCommand::kKind: return readFields<WarningsCommand>(reader, &WarningsCommand::structure);
   }
   return std::nullopt;
 }

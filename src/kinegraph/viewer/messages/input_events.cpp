@@ -57,11 +57,11 @@ std::string eventName(const EventCommand& event) {
 }
 
 void InputEvents::add(const EventCommand& event) {
-  constexpr std::size_t kMost = 1000;
+  constexpr std::size_t kMaxEvents = 1000;
   std::string name = eventName(event);
   if (name.empty()) return;
   names_.push_back(std::move(name));
-  if (names_.size() > kMost) names_.pop_front();
+  if (names_.size() > kMaxEvents) names_.pop_front();
 }
 
 std::vector<std::string> InputEvents::take() {

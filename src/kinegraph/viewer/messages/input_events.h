@@ -8,15 +8,15 @@
 
 namespace kinegraph {
 
-/// What people do with mouse and keyboard on a page, as the reference names it: "click down left", "key up a", "scroll
-/// up", "mod shift" (the modifiers that are held from now on; "mod" alone: none). Empty for what is none of these.
+/// Returns the reference's name of a mouse or keyboard event: "click down left", "key up a", "scroll up", "mod shift"
+/// (the pressed modifiers from now on; "mod" alone: none). Returns an empty name for an unknown event.
 std::string eventName(const EventCommand& event);
 
-/// The last 1000 events.
+/// A queue of the last 1000 events.
 class InputEvents {
  public:
   void add(const EventCommand& event);
-  std::vector<std::string> take();  ///< and forgets them
+  std::vector<std::string> take();  ///< returns the events and clears the queue
 
  private:
   std::deque<std::string> names_;

@@ -45,7 +45,7 @@ static boost::json::value jsonOf(const LinesMessage& m) {
   };
 }
 
-static boost::json::value jsonOf(const NoteMessage& m) {
+static boost::json::value jsonOf(const WarningMessage& m) {
   return boost::json::object{
       {"text", jsonOf(m.text)},
       {"frames", jsonOf(m.frames)},
@@ -99,9 +99,9 @@ static boost::json::value jsonOf(const CameraMessage& m) {
   };
 }
 
-static boost::json::value jsonOf(const LookMessage& m) {
+static boost::json::value jsonOf(const AppearanceMessage& m) {
   return boost::json::object{
-      {"kind", "look"},
+      {"kind", "appearance"},
       {"visualsOnly", jsonOf(m.visualsOnly)},
       {"background", jsonOf(m.background)},
       {"floor", jsonOf(m.floor)},
@@ -123,10 +123,10 @@ static boost::json::value jsonOf(const NearMessage& m) {
   };
 }
 
-static boost::json::value jsonOf(const NotesMessage& m) {
+static boost::json::value jsonOf(const WarningsMessage& m) {
   return boost::json::object{
-      {"kind", "notes"},
-      {"notes", jsonOf(m.notes)},
+      {"kind", "warnings"},
+      {"warnings", jsonOf(m.warnings)},
   };
 }
 
@@ -162,7 +162,7 @@ static boost::json::value jsonOf(const RunMessage& m) {
       {"factor", jsonOf(m.factor)},
       {"paused", jsonOf(m.paused)},
       {"contacts", jsonOf(m.contacts)},
-      {"pull", jsonOf(m.pull)},
+      {"perturbation", jsonOf(m.perturbation)},
   };
 }
 
@@ -174,11 +174,11 @@ std::string jsonText(const TextMessage& message) { return boost::json::serialize
 
 std::string jsonText(const CameraMessage& message) { return boost::json::serialize(jsonOf(message)); }
 
-std::string jsonText(const LookMessage& message) { return boost::json::serialize(jsonOf(message)); }
+std::string jsonText(const AppearanceMessage& message) { return boost::json::serialize(jsonOf(message)); }
 
 std::string jsonText(const NearMessage& message) { return boost::json::serialize(jsonOf(message)); }
 
-std::string jsonText(const NotesMessage& message) { return boost::json::serialize(jsonOf(message)); }
+std::string jsonText(const WarningsMessage& message) { return boost::json::serialize(jsonOf(message)); }
 
 std::string jsonText(const SelectMessage& message) { return boost::json::serialize(jsonOf(message)); }
 

@@ -50,7 +50,7 @@ struct LinesMessage {
   std::vector<std::string> names;
 };
 
-struct NoteMessage {
+struct WarningMessage {
   std::string text;
   std::vector<int> frames;
   int ignored = 0;
@@ -88,7 +88,7 @@ struct CameraMessage {
   double far = 0;
 };
 
-struct LookMessage {
+struct AppearanceMessage {
   int visualsOnly = 0;
   std::vector<double> background;
   std::vector<double> floor;
@@ -106,8 +106,8 @@ struct NearMessage {
   LinesMessage lines;
 };
 
-struct NotesMessage {
-  std::vector<NoteMessage> notes;
+struct WarningsMessage {
+  std::vector<WarningMessage> warnings;
 };
 
 struct SelectMessage {
@@ -134,17 +134,17 @@ struct RunMessage {
   double factor = 0;
   int paused = 0;
   std::vector<double> contacts;
-  std::vector<double> pull;
+  std::vector<double> perturbation;
 };
 
-/// Messages as the client reads them.
+/// Encodes messages for the client.
 std::string jsonText(const SceneMessage& message);
 std::string jsonText(const JointsMessage& message);
 std::string jsonText(const TextMessage& message);
 std::string jsonText(const CameraMessage& message);
-std::string jsonText(const LookMessage& message);
+std::string jsonText(const AppearanceMessage& message);
 std::string jsonText(const NearMessage& message);
-std::string jsonText(const NotesMessage& message);
+std::string jsonText(const WarningsMessage& message);
 std::string jsonText(const SelectMessage& message);
 std::string jsonText(const MotionMessage& message);
 std::string jsonText(const RunMessage& message);

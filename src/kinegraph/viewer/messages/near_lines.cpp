@@ -16,11 +16,11 @@ NearLine nearLine(const State& state, int a, int b) {
 }
 
 std::vector<NearLine> nearLines(const Config& config, double margin) {
-  constexpr std::size_t kMost = 500;
+  constexpr std::size_t kMaxLines = 500;
   const State& state = config.state();
   std::vector<NearLine> lines;
   config.scene()->nearPairs().forDistances(margin, [&](int a, int b, double) {
-    if (lines.size() < kMost) lines.push_back(nearLine(state, a, b));
+    if (lines.size() < kMaxLines) lines.push_back(nearLine(state, a, b));
   });
   return lines;
 }

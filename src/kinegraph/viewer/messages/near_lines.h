@@ -7,17 +7,17 @@
 
 namespace kinegraph {
 
-/// The shortest line between two shapes that may collide.
+/// The shortest line between two shapes of a collision pair.
 struct NearLine {
-  Vector3d a, b;      ///< its ends on the surfaces, world, m
+  Vector3d a, b;      ///< endpoints on the surfaces, world, m
   double distance;    ///< m, negative: penetration depth
   std::string names;  ///< of the frames
 };
 
-/// That of two frames, where `state` has them. A frame without a shape counts as a point.
+/// Returns the line of two frames at their poses in `state`. A frame without a shape counts as a point.
 NearLine nearLine(const State& state, int a, int b);
 
-/// Those of all pairs of `config` that are not farther apart than `margin`, m; the first 500.
+/// Returns the lines of all pairs of `config` within `margin`, m; at most the first 500.
 std::vector<NearLine> nearLines(const Config& config, double margin);
 
 }  // namespace kinegraph

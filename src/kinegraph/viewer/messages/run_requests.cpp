@@ -9,9 +9,9 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kPause = 1, kGoOn = 2, kStep = 3, kReset = 4;  // viewer/src/run.ts has the same
-constexpr int kMostSteps = 1000;                             ///< that wait
-constexpr double kFar = 1e6;                                 ///< m: nothing of use is there
+constexpr int kPause = 1, kGoOn = 2, kStep = 3, kReset = 4;  // as in viewer/src/run.ts
+constexpr int kMaxSteps = 1000;                              ///< pending
+constexpr double kFar = 1e6;                                 ///< m: positions beyond are rejected
 
 bool isPoint(const std::vector<double>& numbers) {
   return numbers.size() == 3 &&
@@ -31,7 +31,7 @@ bool RunRequests::apply(const RunCommand& command) {
       return true;
     case kStep:
       paused = true;
-      steps = std::min(steps + 1, kMostSteps);
+      steps = std::min(steps + 1, kMaxSteps);
       return true;
     case kReset:
       reset = true;
@@ -43,11 +43,11 @@ bool RunRequests::apply(const RunCommand& command) {
 
 bool RunRequests::apply(const PerturbCommand& command) {
   if (command.point.empty() && command.target.empty()) {
-    pull.reset();
+    perturbation.reset();
     return true;
   }
   if (!isPoint(command.point) || !isPoint(command.target)) return false;
-  pull = {command.structure, command.frame, Vector3d(command.point.data()), Vector3d(command.target.data())};
+  perturbation = {command.structure, command.frame, Vector3d(command.point.data()), Vector3d(command.target.data())};
   return true;
 }
 

@@ -9,23 +9,23 @@ namespace kinegraph {
 struct RunCommand;
 struct PerturbCommand;
 
-/// What people ask of a simulation on the page.
+/// Requests of users to a simulation on the page.
 struct RunRequests {
-  struct Pull {
-    int structure, frame;    ///< which frame, of the scene with that number
+  struct Perturbation {
+    int structure, frame;    ///< index of the frame, and the structure number of its scene
     Vector3d point, target;  ///< in the frame's axes, and in the world, m
-    bool operator==(const Pull&) const = default;
+    bool operator==(const Perturbation&) const = default;
   };
   bool paused = false;
-  int steps = 0;  ///< to take although it is paused
+  int steps = 0;  ///< pending single steps of a paused simulation
   bool reset = false;
-  std::optional<Pull> pull{};  ///< as long as somebody holds it
+  std::optional<Perturbation> perturbation{};  ///< while a user drags the point
 
-  /// False for a command that means nothing, which changes nothing.
+  /// Applies a command. Returns false for an invalid command, which changes nothing.
   bool apply(const RunCommand& command);
   bool apply(const PerturbCommand& command);
 
-  /// What is asked now. A reset, and a step, are asked for once.
+  /// Returns the present requests. A reset and each single step are returned once.
   RunRequests take();
 };
 

@@ -1,0 +1,96 @@
+#pragma once
+
+/// Docstrings of bind_task_plan.cpp and bind_task_execution.cpp.
+namespace kinegraph::python::docs::task_plan {
+
+inline constexpr char type[] =
+    R"(The result of planTask: actions with their timed motion, or the causes for which there is none.
+
+As a trajectory, the plan is piecewise linear in time between the rows of `path`. Its velocity is constant between two
+rows and 0 before the start and after the end; its acceleration is 0. Grippers take no time. Plans can be copied and
+pickled: a copy can be played, checked and repaired.)";
+
+inline constexpr char make[] =
+    R"(Makes a plan from a motion of your own, for checkTaskPlan. Plans of planTask have scenes and a goal, too.
+
+Args:
+    actions: Actions, each a list of words.
+    path: Shape (T, n), rad or m.
+    times: Shape (T,), s.
+    segments: The rows of path of each action, a slice each.
+    limits: Velocity and acceleration limits, shape (2, n); None: not checked.
+    goal: Literals that shall hold, as those of TaskPlan.goal.
+    start: Literals that hold initially, as those of TaskPlan.start. They name hands and objects: without them, carried
+        objects are not checked.
+Raises:
+    ArgumentError: The path is empty, the number of times differs from that of rows, or a segment has a step.
+    ParseError: A literal is invalid.)";
+
+inline constexpr char view[] =
+    R"(Shows the plan in the viewer of a scene: its motion. Without a motion, it shows the search tree and, in red, the
+waypoint that failed in the longest branch.
+
+Args:
+    C: The scene of the call to planTask; it is restored afterwards.
+    pause: Waits for a key.
+Returns:
+    The key that was pressed, 0 if none.
+Raises:
+    ArgumentError: There is neither a motion nor a waypoint that failed; the message has the reason.)";
+
+inline constexpr char play[] =
+    R"(Shows the motion of each action in the viewer of a scene, with held objects moving along.
+
+Args:
+    C: The scene; it ends in its final configuration.
+    pause: Waits for a key before each action.
+Raises:
+    ArgumentError: There is no motion.)";
+
+inline constexpr char frames[] =
+    R"(Returns the poses of all frames at equal time steps, as for saveFilm(file, C, plan.frames(C), plan.duration).
+
+Args:
+    C: The scene of the call to planTask; it is not changed.
+    rate: Steps per second, Hz.
+Returns:
+    Poses, shape (T, frames, 7).
+Raises:
+    ArgumentError: There is no motion, or rate is not positive.)";
+
+inline constexpr char failedConfiguration[] =
+    R"(Returns a copy of a scene with a translucent red copy of the waypoint that failed in the longest branch.
+
+Args:
+    C: The scene of the call to planTask.
+Returns:
+    The copy.
+Raises:
+    ArgumentError: No branch failed at a waypoint.)";
+
+inline constexpr char execute[] =
+    R"(Executes the plan on a robot, action by action. Grippers close and open. Before and after each motion it compares
+the world with the plan: held objects have to be in the hand, and all others where the plan has them.
+
+Args:
+    bot: A BotOp whose world is the scene of the plan. Objects that actions move need a mass there.
+Returns:
+    A TaskExecution: how many actions were executed, the reason for stopping, and the final scene for repair.
+Raises:
+    ArgumentError: There is no motion, `bot` is no BotOp, or the robot cannot begin the plan.
+    RobotFault: The robot was stopped.)";
+
+inline constexpr char repair[] =
+    R"(Plans the remaining actions to the same goal, with the same options, after an execution stopped.
+
+Args:
+    C: The current scene, as of TaskExecution.C. Held objects are attached to the hand, and objects that stand on
+        something to that.
+Returns:
+    A TaskPlan; not finding one is a status.
+Raises:
+    ArgumentError: The plan was not made by planTask.)";
+
+inline constexpr char execution[] = R"(The result of TaskPlan.execute.)";
+
+}  // namespace kinegraph::python::docs::task_plan

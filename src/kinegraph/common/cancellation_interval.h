@@ -1,0 +1,10 @@
+#pragma once
+
+#include <chrono>
+
+namespace kinegraph {
+
+/// How often a waiting thread asks its CancellationToken.
+inline constexpr std::chrono::milliseconds kCancellationInterval{20};
+
+}  // namespace kinegraph

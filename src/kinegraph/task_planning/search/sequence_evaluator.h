@@ -1,0 +1,64 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "kinegraph/common/cancellation.h"
+#include "kinegraph/komo/path/sub_problem.h"
+#include "kinegraph/task_planning/search/task_motions.h"
+#include "kinegraph/task_planning/search/task_plan.h"
+#include "kinegraph/task_planning/search/waypoint_solver.h"
+#include "kinegraph/task_planning/task_doors.h"
+
+namespace kinegraph {
+
+/// Evaluates sequences of actions in geometry: solves for waypoints, plans the motions between them, and checks the
+/// plan. The outcome depends on the actions and the seed only. Several threads may evaluate at the same time.
+class SequenceEvaluator {
+ public:
+  /// `scene` is planned in; checkTaskPlan gets `original`. Both are only copied. `limits`: velocity and acceleration of
+  /// each dof, (2, n). `executor` and `settings` must outlive the evaluator.
+  SequenceEvaluator(SpeculativeExecutor& executor, const WaypointSolver::Settings& settings,
+                    std::shared_ptr<const Config> scene, std::shared_ptr<const Config> original, MatrixXd limits,
+                    std::vector<Literal> goal, std::vector<Literal> start);
+
+  struct Request {
+    std::vector<TaskAction> actions;
+    std::vector<std::vector<Literal>> states;  ///< in logic, before and after each action
+    int seed = 0;
+    Priority priority = Priority::high;
+    std::function<void()> at_first_failure = {};  ///< called when the first guess has led to no waypoints
+  };
+  struct Outcome {
+    FutureFailure waypoint_failure;             ///< null if there are waypoints
+    std::optional<TaskFailure> motion_failure;  ///< of the motions, or of the check
+    std::optional<TaskPlan> plan;               ///< without the fields that describe the search
+    long evaluations = 0;
+  };
+  Outcome evaluate(const Request& request, const CancellationToken& stopped) const;
+
+ private:
+  struct Motion {
+    SubProblem part;
+    TaskAction action, before;
+  };
+  using Motions = std::vector<Motion>;
+
+  Motions motionsBetween(const Config& C, const TaskWaypoints& waypoints) const;
+  std::vector<TimedRows> planMotions(const Config& C, const std::shared_ptr<const Motions>& parts, Priority priority,
+                                     const CancellationToken& stopped, Outcome& outcome) const;
+  std::vector<Literal> blockingDoors(const Config& C, const Motion& motion, const CancellationToken& stopped,
+                                     Outcome& outcome) const;
+  TaskPlan assemble(const Config& C, const TaskWaypoints& waypoints, const std::vector<TimedRows>& rows) const;
+
+  SpeculativeExecutor& executor_;
+  const WaypointSolver::Settings& settings_;
+  const std::shared_ptr<const Config> scene_, original_;
+  const MatrixXd limits_;
+  const std::vector<Literal> goal_, start_;
+  const TaskMotions motions_;
+};
+
+}  // namespace kinegraph

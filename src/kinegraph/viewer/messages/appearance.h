@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinegraph/math/pose.h"
+
+namespace kinegraph {
+
+/// The appearance of the scene on pages.
+struct Appearance {
+  bool visuals_only = false;           ///< omits markers, transparent shapes and messages
+  std::optional<Vector3d> background;  ///< rgb in 0..1; without: light or dark, by the user's system
+  std::optional<Vector3d> floor;       ///< rgb of a solid floor; without: a grid
+  bool has_floor = true;
+  bool shadows = true;
+  bool text = true;                ///< messages
+  std::vector<Vector3d> lights{};  ///< positions, m; the first casts shadows; empty: the default lights
+  bool flat_colors = false;        ///< colors without shading
+  bool wireframe = false;          ///< edges of triangles only
+  bool operator==(const Appearance&) const = default;
+};
+
+/// The camera of a page. Its axes: x to the right of the picture, y down, z forward.
+struct PageCamera {
+  Pose pose{};
+  double distance = 2.;        ///< m along z, to the center of rotation
+  double focal_length = 0.;    ///< in heights of the picture; 0: the page's default
+  double ortho_height = 0.;    ///< if > 0: orthographic, this many m high
+  double aspect = 0.;          ///< width over height of the picture, which the page shows completely; 0: any
+  double near = 0., far = 0.;  ///< visible range, m along z; 0: the default
+};
+
+/// An image on top of the scene.
+struct Quad {
+  int id = 0;             ///< replaces the quad with the same id
+  double x = 0., y = 0.;  ///< of its top left corner, in heights of the window
+  double height = .2;     ///< in heights of the window; 0: `zoom` determines the size
+  double zoom = 0.;       ///< pixels of the page per pixel of the image, which then covers everything else
+  int columns = 0, rows = 0;
+  std::vector<std::uint8_t> rgb;  ///< rows x columns x 3
+};
+
+/// The point under the pointer.
+struct Cursor {
+  int frame = -1;
+  Vector3d point = Vector3d::Zero(), normal = Vector3d::Zero();  ///< of the surface, world
+};
+
+}  // namespace kinegraph
