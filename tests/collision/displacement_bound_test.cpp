@@ -22,7 +22,7 @@ VectorXd drawn(Rng& rng, Eigen::Index size, double scale) {
 }
 
 /// A crane with revolute and prismatic joints about arbitrary axes, and a long hook.
-Config crane() {
+Config slidingCrane() {
   Config C;
   C.addText(R"(
 world: {}
@@ -112,7 +112,7 @@ wall (base): { shape: box, size: [1 .02 1], X: [0 .8 0], contact: 1 }
 }
 
 TEST(DisplacementBound, BoundsHowFarPointsMoveAtAllConfigurationsNearby) {
-  const Config C = crane();
+  const Config C = slidingCrane();
   State state = C.state(), there = C.state();
   const int n = state.dofs(), hook = C.getFrame("hook").id();
   Rng rng(5);

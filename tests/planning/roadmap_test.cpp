@@ -22,7 +22,7 @@ wall(world): {shape: box, size: [0.1, 3, 1], contact: 1}
   return C;
 }
 
-const VectorXd kStart{{-1., 0.}}, kBehindTheWall{{1., 0.}};
+const VectorXd kBefore{{-1., 0.}}, kBehindTheWall{{1., 0.}};
 
 bool isFree(Config& C, const MatrixXd& path) {
   for (Eigen::Index k = 1; k < path.rows(); ++k)
@@ -36,13 +36,13 @@ TEST(Roadmap, FindsAFreePathAndKnowsItTheSecondTime) {
   Config C = roomWithWall();
   Roadmap map(C);
   map.grow(300);
-  const RoadmapPath first = map.findPath(kStart, kBehindTheWall);
+  const RoadmapPath first = map.findPath(kBefore, kBehindTheWall);
   ASSERT_TRUE(first.feasible()) << first.message;
   EXPECT_TRUE(isFree(C, first.path));
-  EXPECT_EQ(first.path.row(0).transpose(), kStart);
+  EXPECT_EQ(first.path.row(0).transpose(), kBefore);
   EXPECT_EQ(first.path.bottomRows(1).transpose(), kBehindTheWall);
   const int size = map.size();
-  const RoadmapPath second = map.findPath(kStart, kBehindTheWall);
+  const RoadmapPath second = map.findPath(kBefore, kBehindTheWall);
   EXPECT_EQ(second.path, first.path);
   EXPECT_LT(second.evaluations, first.evaluations);
   EXPECT_EQ(map.size(), size);
@@ -51,10 +51,10 @@ TEST(Roadmap, FindsAFreePathAndKnowsItTheSecondTime) {
 TEST(Roadmap, AWallThatHasMovedIsSeenAfterSetScene) {
   Roadmap map(roomWithWall());
   map.grow(300);
-  ASSERT_TRUE(map.findPath(kStart, kBehindTheWall).feasible());
+  ASSERT_TRUE(map.findPath(kBefore, kBehindTheWall).feasible());
   Config moved = roomWithWall(.5);
   map.setScene(moved);
-  const RoadmapPath answer = map.findPath(kStart, kBehindTheWall);
+  const RoadmapPath answer = map.findPath(kBefore, kBehindTheWall);
   ASSERT_TRUE(answer.feasible());
   EXPECT_TRUE(isFree(moved, answer.path));
 }
@@ -63,17 +63,17 @@ TEST(Roadmap, WhatIsSavedIsLoadedWithWhatIsKnown) {
   const Config C = roomWithWall();
   Roadmap map(C, .01, 5);
   map.grow(200);
-  const MatrixXd path = map.findPath(kStart, kBehindTheWall).path;
+  const MatrixXd path = map.findPath(kBefore, kBehindTheWall).path;
   const std::string file = scratch("kinegraph_roadmap_test.bin");
   map.save(file);
   Roadmap same(C, .01), other(roomWithWall(.5), .01);
   same.load(file);
   EXPECT_EQ(same.configurations(), map.configurations());
   EXPECT_EQ(same.edges(), map.edges());
-  const RoadmapPath answer = same.findPath(kStart, kBehindTheWall);
+  const RoadmapPath answer = same.findPath(kBefore, kBehindTheWall);
   EXPECT_EQ(answer.path, path);
   other.load(file);  // another scene: nothing is known
-  EXPECT_GT(other.findPath(kStart, kBehindTheWall).evaluations, answer.evaluations);
+  EXPECT_GT(other.findPath(kBefore, kBehindTheWall).evaluations, answer.evaluations);
   std::filesystem::remove(file);
 }
 
@@ -98,7 +98,7 @@ TEST(Roadmap, AStartThatCollidesIsToldAndAMapWithoutAWaySaysSo) {
   Roadmap map(roomWithWall());
   EXPECT_NE(map.findPath(VectorXd{{0., 0.}}, kBehindTheWall).message.find("the start collides: 'body' and 'wall'"),
             std::string::npos);
-  EXPECT_NE(map.findPath(kStart, kBehindTheWall).message.find("grow adds more"), std::string::npos);
+  EXPECT_NE(map.findPath(kBefore, kBehindTheWall).message.find("grow adds more"), std::string::npos);
   EXPECT_THROW(map.grow(-1), ValueError);
 }
 

@@ -14,7 +14,7 @@ using namespace kinegraph;
 
 namespace {
 
-struct Bench {
+struct FollowBench {
   Config C = twoJointArm();
   BotOp bot{C, std::make_shared<KinematicDriver>(C)};
 
@@ -49,7 +49,7 @@ class Line final : public Trajectory {
 };
 
 /// The robot is at the trajectory's state, `begin` s after the start of control time, at each period until `end`.
-void expectFollows(Bench& b, const Trajectory& motion, double begin, double end) {
+void expectFollows(FollowBench& b, const Trajectory& motion, double begin, double end) {
   while (b.now() < end - 1e-9) {
     b.stepOnce();
     const double t = b.now() - begin;
@@ -92,7 +92,7 @@ TEST(Follow, ARobotFollowsAnyTrajectoryAndRestsAtItsEnd) {
   const SplineTrajectory spline(BSpline(3, points, Eigen::Vector4d(1., 1.5, 2., 3.)));
   const TimedPath timed = corner();
   for (const Trajectory* motion : {static_cast<const Trajectory*>(&spline), static_cast<const Trajectory*>(&timed)}) {
-    Bench b;
+    FollowBench b;
     b.bot.follow(*motion);
     expectFollows(b, *motion, 0., motion->duration() + .1);
     EXPECT_LE(b.bot.getTimeToEnd(), 0.);
@@ -103,7 +103,7 @@ TEST(Follow, ARobotFollowsAnyTrajectoryAndRestsAtItsEnd) {
 
 TEST(Follow, StartsAfterThePresentMotionOrInsteadOfIt) {
   const TimedPath motion = corner();
-  Bench b;
+  FollowBench b;
   b.bot.follow(motion);
   MatrixXd back(2, 2);
   back << .4, .9, 0., 0.;
@@ -124,7 +124,7 @@ TEST(Follow, StartsAfterThePresentMotionOrInsteadOfIt) {
   b.bot.follow(takes_over, {.overwrite = true});
   expectFollows(b, takes_over, now, now + takes_over.duration() + .05);
 
-  Bench c;  // the same from a later time on, between two control periods
+  FollowBench c;  // the same from a later time on, between two control periods
   c.bot.follow(motion);
   const double later = .2537;
   options.start_velocity = motion.eval(later).velocity;
@@ -141,7 +141,7 @@ TEST(Follow, StartsAfterThePresentMotionOrInsteadOfIt) {
 
 TEST(Follow, LaterMotionsAreAppendedOrReplaceIt) {
   const TimedPath motion = corner();
-  Bench b;
+  FollowBench b;
   b.bot.follow(motion);
   b.bot.move(row(.4, .5), seconds(1.));
   EXPECT_NEAR(b.bot.getTimeToEnd(), motion.duration() + 1., 1e-9);
@@ -154,7 +154,7 @@ TEST(Follow, LaterMotionsAreAppendedOrReplaceIt) {
   b.bot.wait(b.C);
   EXPECT_LT((b.bot.get_q() - pair(.2, .2)).norm(), 1e-12);
 
-  Bench c;
+  FollowBench c;
   c.bot.follow(motion);
   const double cut = .505;
   c.bot.move(row(0., 0.), seconds(1.), true, cut);
@@ -168,7 +168,7 @@ TEST(Follow, LaterMotionsAreAppendedOrReplaceIt) {
         << c.now();  // the acceleration jumps near the cut
   }
 
-  Bench d;
+  FollowBench d;
   d.bot.follow(motion);
   d.bot.sync(d.C, .4);
   const VectorXd velocity = d.bot.get_qDot();
@@ -185,13 +185,13 @@ TEST(Follow, LaterMotionsAreAppendedOrReplaceIt) {
 }
 
 TEST(Follow, ATrajectoryThatEndsInMotionIsFollowedByAStop) {
-  Bench b;
+  FollowBench b;
   b.bot.setLimits({}, each(5.), {});
   const Line line(pair(0., 0.), pair(.5, -.2));
   expectError<ValueError>([&] { b.bot.follow(line); }, {"joint 'arm1' at a velocity of 0.5 /s, the robot's is 0 /s"});
   b.bot.follow(line, {.velocity_tolerance = .6});
   EXPECT_LE(b.bot.getTimeToEnd(), 1. + 1e-9);  // the tolerance counts at the end, too
-  Bench c;
+  FollowBench c;
   c.bot.setLimits({}, each(5.), {});
   const BSpline run_up(3, (MatrixXd(2, 2) << -.25, .1, 0., 0.).finished(), pair(0., 1.), {}, pair(.5, -.2));
   c.bot.moveTo(pair(-.25, .1));
@@ -217,7 +217,7 @@ TEST(Follow, ATrajectoryThatEndsInMotionIsFollowedByAStop) {
 }
 
 TEST(Follow, RefusesATrajectoryThatStartsElsewhereOrBreaksALimit) {
-  Bench b;
+  FollowBench b;
   const auto refused = [&](const Trajectory& motion, std::initializer_list<const char*> parts) {
     expectError<ValueError>([&] { b.bot.follow(motion); }, parts);
   };
@@ -246,8 +246,8 @@ TEST(Follow, RefusesATrajectoryThatStartsElsewhereOrBreaksALimit) {
 }
 
 TEST(Follow, ALogOfItGivesTheSameMotionToTheBit) {
-  Bench one, again;
-  const auto script = [](Bench& b) {
+  FollowBench one, again;
+  const auto script = [](FollowBench& b) {
     b.bot.follow(corner());
     b.bot.move(row(.2, 0.), seconds(1.));
     b.bot.sync(b.C, .7);

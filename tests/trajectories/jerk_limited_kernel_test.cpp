@@ -56,7 +56,7 @@ bool areEqual(const Work& a, const Work& b) {
   return std::memcmp(a.rows.data(), b.rows.data(), a.rows.size() * sizeof(JerkLimitedKernel::Rows)) == 0 &&
          std::memcmp(&a.falls, &b.falls, sizeof(a.falls)) == 0 && a.sums == b.sums &&
          std::memcmp(a.of.gap, b.of.gap, sizeof(a.of.gap)) == 0 &&
-         std::memcmp(a.of.missed, b.of.missed, sizeof(a.of.missed)) == 0;
+         std::memcmp(a.of.violation, b.of.violation, sizeof(a.of.violation)) == 0;
 }
 
 }  // namespace

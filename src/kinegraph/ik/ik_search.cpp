@@ -10,21 +10,21 @@ namespace kinegraph {
 IkSearch::IkSearch(std::shared_ptr<const IkProblem> problem)
     : problem_(std::move(problem)), iterate_(*problem_), step_(problem_->variables()) {}
 
-IkResult IkSearch::solve(const std::vector<IkTarget>& targets, const Stop& stop) {
+IkResult IkSearch::solve(const std::vector<IkTarget>& targets, const CancellationToken& cancellation) {
   IkJob job;
   open(job, targets);
   VectorXd x(problem_->variables());
   for (bool decided = false; !decided;) {
-    if (stop()) return finish(job, true, stop);
+    if (cancellation()) return finish(job, true, cancellation);
     job_ = &job;
     iterate_.select(job);
     iterate_.setStartingPoint(job.attempts);
     IkApproach made = approach();
     made.evals = 0;  // the iterate has counted them
     x = iterate_.x();
-    decided = assess(job, x, made, stop);
+    decided = assess(job, x, made, cancellation);
   }
-  return finish(job, false, stop);
+  return finish(job, false, cancellation);
 }
 
 void IkSearch::open(IkJob& job, const std::vector<IkTarget>& targets) {
@@ -37,7 +37,7 @@ void IkSearch::open(IkJob& job, const std::vector<IkTarget>& targets) {
   iterate_.setTargets(job, targets);
 }
 
-bool IkSearch::assess(IkJob& job, const VectorXd& x, const IkApproach& made, const Stop& stop) {
+bool IkSearch::assess(IkJob& job, const VectorXd& x, const IkApproach& made, const CancellationToken& cancellation) {
   job_ = &job;
   iterate_.select(job);
   job.evals += made.evals;
@@ -51,8 +51,8 @@ bool IkSearch::assess(IkJob& job, const VectorXd& x, const IkApproach& made, con
   // if it does not meet the targets exactly.
   if (made.met) {
     iterate_.evaluateTargets(false);
-    if (iterate_.targetsMet() || approach().met) outcome = avoidCollisions(stop);
-    if (outcome == Outcome::feasible && problem_->has_preference) outcome = approachPreferred(stop);
+    if (iterate_.targetsMet() || approach().met) outcome = avoidCollisions(cancellation);
+    if (outcome == Outcome::feasible && problem_->has_preference) outcome = approachPreferred(cancellation);
     error = iterate_.errors().sum();
   }
   job.cancelled = outcome == Outcome::cancelled;
@@ -69,7 +69,7 @@ bool IkSearch::assess(IkJob& job, const VectorXd& x, const IkApproach& made, con
   return done || (job.feasible && !problem_->options.best);
 }
 
-IkResult IkSearch::finish(IkJob& job, bool cancelled, const Stop& stop) {
+IkResult IkSearch::finish(IkJob& job, bool cancelled, const CancellationToken& cancellation) {
   job_ = &job;
   iterate_.select(job);
   job.cancelled = job.cancelled || cancelled;
@@ -78,7 +78,7 @@ IkResult IkSearch::finish(IkJob& job, bool cancelled, const Stop& stop) {
     iterate_.evaluate();
   }
   // A failure is described at the point of least error, because the reasons that are reported hold there.
-  if (!job.feasible && !job.cancelled) job.feasible = polish(stop);
+  if (!job.feasible && !job.cancelled) job.feasible = polish(cancellation);
   const IkIterate::Errors& errors = iterate_.errors();
   IkResult result;
   result.q = iterate_.q();
@@ -149,7 +149,7 @@ IkSearch::Outcome IkSearch::moveApart(int steps, const CancellationToken& cancel
 }
 
 /// Moves from a feasible x to the point in its neighborhood that is nearest to the preferred one.
-IkSearch::Outcome IkSearch::approachPreferred(const Stop& stop) {
+IkSearch::Outcome IkSearch::approachPreferred(const CancellationToken& cancellation) {
   if (problem_->pairs.empty()) iterate_.forgetNearPairs();
   const VectorXd& x = iterate_.x();
   best_ = x;
@@ -171,10 +171,10 @@ IkSearch::Outcome IkSearch::approachPreferred(const Stop& stop) {
     recordIfBetter();
     if (moved < 1e-5) break;
     if (costOf(x) > before) share = std::max(.5 * share, .05);
-    if (stop()) outcome = Outcome::cancelled;
+    if (cancellation()) outcome = Outcome::cancelled;
   }
   // The last step may have left the targets or collided; the next answer from there may still be the nearest.
-  if (outcome != Outcome::cancelled && !iterate_.feasible() && moveApart(10, stop) == Outcome::feasible)
+  if (outcome != Outcome::cancelled && !iterate_.feasible() && moveApart(10, cancellation) == Outcome::feasible)
     recordIfBetter();
   iterate_.setX(best_);
   iterate_.evaluate();
@@ -183,10 +183,10 @@ IkSearch::Outcome IkSearch::approachPreferred(const Stop& stop) {
 
 /// Reduces the error of the best failure as far as possible; true if that turned it into an answer. If the error is
 /// large, only sufficiently damped steps reduce it (Levenberg).
-bool IkSearch::polish(const Stop& stop) {
+bool IkSearch::polish(const CancellationToken& cancellation) {
   best_ = iterate_.x();
   double least = iterate_.squaredError(), damping = 0.;
-  for (int i = 0; i < 200 && !stop(); ++i) {
+  for (int i = 0; i < 200 && !cancellation(); ++i) {
     iterate_.stepApart(nullptr, damping);
     const double moved = iterate_.lastStep();
     iterate_.evaluate();

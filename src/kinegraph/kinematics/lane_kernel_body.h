@@ -42,16 +42,16 @@ struct BlockRows {
 
   template <class Formula>
   void evaluate(const Formula& formula) const {
-    const int rows = Formula::kRows < block.rows ? Formula::kRows : block.rows;
+    const int count = Formula::kRows < block.rows ? Formula::kRows : block.rows;
     Lane value[Formula::kRows];
     formula.value(value);
-    for (int r = 0; r < rows; ++r) memory.y[block.row + r] = value[r];
+    for (int r = 0; r < count; ++r) memory.y[block.row + r] = value[r];
     if (with_jacobian) addRates(formula);
   }
 
   template <class Formula>
   void addRates(const Formula& formula) const {
-    const int rows = Formula::kRows < block.rows ? Formula::kRows : block.rows;
+    const int count = Formula::kRows < block.rows ? Formula::kRows : block.rows;
     for (int e = block.first_entry; e < block.first_entry + block.entries; ++e) {
       const LaneRows::Entry& entry = rows.entry[e];
       const Lane* motion = memory.motion + entry.column * LaneMemory::kPerColumn;
@@ -59,9 +59,9 @@ struct BlockRows {
       formula.rate(ColumnMotion{entry.is_rotation, load(motion), load(motion + 3)}, entry.of_b, rate);
       Lane* to = memory.jacobian + long(block.row) * model.variables + entry.variable;
       if (entry.adds) {
-        for (int r = 0; r < rows; ++r) to[long(r) * model.variables] += rate[r];
+        for (int r = 0; r < count; ++r) to[long(r) * model.variables] += rate[r];
       } else {
-        for (int r = 0; r < rows; ++r) to[long(r) * model.variables] = rate[r];
+        for (int r = 0; r < count; ++r) to[long(r) * model.variables] = rate[r];
       }
     }
   }

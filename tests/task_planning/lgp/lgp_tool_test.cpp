@@ -13,7 +13,7 @@ TEST(LgpTool, TheTutorialWithOneArmFromWaypointsToMotions) {
   const LgpProblem problem("panda_unblock", "kitchen_single");
   LgpTool lgp(problem.C, problem.tamp);
   ASSERT_TRUE(lgp.solve(0)) << lgp.message;
-  EXPECT_EQ(lgp.status, "solved");
+  EXPECT_EQ(lgp.status, LgpStatus::solved);
   EXPECT_EQ(namesOf(lgp), (Words{"pick_touch", "place_straightOn", "pick_touch", "place_straightOn"}));
   const Config end = lgp.getSolvedKOMO()->configuration(3);
   for (const auto& [obj, tray] : {std::pair{"objG", "trayG"}, std::pair{"objB", "trayB"}}) {
@@ -174,7 +174,7 @@ TEST(LgpTool, LinesAreTold) {
   const LgpProblem problem("tower");
   std::vector<std::string> lines;
   LgpOptions options;
-  options.tells = [&](const std::string& line) { lines.push_back(line); };
+  options.print = [&](const std::string& line) { lines.push_back(line); };
   LgpTool lgp(problem.C, problem.tamp, options);
   ASSERT_TRUE(lgp.solve());
   lgp.solvePiecewiseMotions();
