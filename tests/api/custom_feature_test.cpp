@@ -74,7 +74,8 @@ TEST(CustomFeature, ResultsOfAnotherSizeAreReportedWithTheName) {
   int calls = 0;
   const FeatureSource growing =
       customFeature("growing", [&calls](Frames) { return FeatureValue(VectorXd(VectorXd::Zero(++calls))); });
-  expectError<ValueError>([&] { eval(config, growing, kEnd); }, {"feature growing", "returned 2 numbers", "time 1"});
+  expectError<ValueError>([&] { eval(config, growing, kEnd); },
+                          {"feature growing", "returned 2 numbers", "expected 1"});
 }
 
 }  // namespace

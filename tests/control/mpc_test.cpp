@@ -66,7 +66,7 @@ TEST(Mpc, TheHorizonIsTheMotionAsATrajectory) {
   EXPECT_EQ(horizon.dimension(), 3);
   EXPECT_NEAR(horizon.duration(), mpc.komo().slices() * mpc.komo().tau(), 1e-12);
   EXPECT_EQ(horizon.eval(-1.).q, q);
-  for (double t = .007; t < horizon.duration(); t += .013) {
+  for (double t = .0071; t < horizon.duration(); t += .013) {
     const MotionState state = horizon.eval(t), before = horizon.eval(t - 1e-6), after = horizon.eval(t + 1e-6);
     EXPECT_EQ(state.q, mpc.at(t).q) << t;
     EXPECT_EQ(state.velocity, mpc.at(t).velocity) << t;

@@ -155,8 +155,9 @@ TEST(IkTarget, WhatIsMissedIsNamedWithWhatItIsRelativeTo) {
 TEST(IkTarget, APoseThatIsTakenFromAFrameThatMovesIsAnErrorThatSaysWhatToDo) {
   Config config = twoPandas();
   config.setJointState(solveIk(config, {IkTarget::toPosition("r_gripper", {.1, .2, 1.1})}).q);
-  expectError<ValueError>([&] { solveIk(config, {IkTarget::toPose("l_gripper", config.getFrame("l_palm"))}); },
-                          {"is the pose of frame 'l_palm'", "moves with joint 'l_panda_joint7'", "relativeTo 'l_palm'"});
+  expectError<ValueError>(
+      [&] { solveIk(config, {IkTarget::toPose("l_gripper", config.getFrame("l_palm"))}); },
+      {"is the pose of frame 'l_palm'", "moves with joint 'l_panda_joint7'", "relativeTo 'l_palm'"});
   expectError<ValueError>(
       [&] {
         solveIk(config, {IkTarget::toPosition("l_gripper", config.getFrame("r_palm")),

@@ -187,7 +187,7 @@ TEST(BSpline, SaysWhatIsWrongAndStaysAsItWas) {
   expectError<ValueError>([&] { spline.append(two, numbers({1, .5})); }, {"times[1] = 0.5 is before 1"});
   expectError<ValueError>([&] { spline.append(two, numbers({-1, .5})); }, {"times[0] = -1 is before 0"});
   expectError<ValueError>([&] { spline.append(MatrixXd::Zero(1, 2), numbers({1})); },
-                          {"points of 2 numbers; expected 1"});
+                          {"points have 2 numbers; expected 1"});
   expectError<ValueError>([&] { spline.overwriteSmooth(two, numbers({1}), 0.); }, {"points"});
   expectError<ValueError>([&] { spline.eval(0., -1); }, {"derivative is -1"});
   expectError<ValueError>([] { BSpline().eval(0.); }, {"no control points yet"});

@@ -447,9 +447,9 @@ TEST(Retime, AStartAccelerationThatLeavesThePathIsRefused) {
   expectError<ValueError>([&] { retime(path, limits, options); }, {"start_acceleration", "leaves the path"});
   options.start_acceleration = VectorXd{{1., 0.}};
   EXPECT_NEAR(retime(path, limits, options).eval(0.).acceleration[0], 1., 1e-9);
-  expectError<ValueError>([&] { retime(path, limitsOf(2, 2., 4.), options); }, {"limits of the jerk"});
+  expectError<ValueError>([&] { retime(path, limitsOf(2, 2., 4.), options); }, {"requires jerk limits"});
   options.start_velocity = {};
-  expectError<ValueError>([&] { retime(path, limits, options); }, {"no start_velocity"});
+  expectError<ValueError>([&] { retime(path, limits, options); }, {"requires a start_velocity"});
 }
 
 TEST(Retime, MistakesAreNamed) {

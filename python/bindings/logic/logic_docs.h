@@ -12,13 +12,13 @@ namespace kinegraph::python::docs::logic {
   "Raises:\n"                           \
   "    FileError: It cannot be read.\n" \
   "    ParseError: The file is invalid; the message begins with file:line:column."
-#define KINEGRAPH_OF_TEXT              \
-  "Args:\n"                            \
-  "    text: The text.\n"              \
-  "    name: Its name in messages.\n"  \
-  "Returns:\n"                         \
-  "    The domain.\n"                  \
-  "Raises:\n"                          \
+#define KINEGRAPH_OF_TEXT             \
+  "Args:\n"                           \
+  "    text: The text.\n"             \
+  "    name: Its name in messages.\n" \
+  "Returns:\n"                        \
+  "    The domain.\n"                 \
+  "Raises:\n"                         \
   "    ParseError: The text is invalid; the message begins with name:line:column."
 
 inline constexpr char fromFol[] = R"(Reads a domain from a .fol file.

@@ -31,7 +31,7 @@ MotionGoal goalOf(const PyConfig& config, nb::handle goal) {
   Numbers numbers;
   if (nb::isinstance<nb::str>(goal)) return MotionGoal::named(nb::cast<std::string>(goal));
   if (nb::isinstance<nb::dict>(goal)) {
-    IkRequest request = readIkTargets(config, goal);
+    IkProblems request = readIkTargets(config, goal);
     if (request.is_batch) throw ValueError("planMotion: the goal has several rows of targets; expected one of each");
     return MotionGoal(std::move(request.problems[0]));
   }

@@ -188,8 +188,9 @@ void bindConditions(nb::class_<M>& helper) {
 }  // namespace
 
 void bindManipulation(nb::module_& m) {
-  nb::class_<M> helper(m, "ManipulationHelper", nb::dynamic_attr(),
-                       "Builds manipulation problems in a few calls; KOMO_ManipulationHelper also solves and shows them.");
+  nb::class_<M> helper(
+      m, "ManipulationHelper", nb::dynamic_attr(),
+      "Builds manipulation problems in a few calls; KOMO_ManipulationHelper also solves and shows them.");
   helper.def(nb::init<>(), "Without a problem; call one of the setups.")
       .def_prop_rw(
           "komo", &M::pyKomo, [](M& self, std::shared_ptr<PyKomo> komo) { self.komo = std::move(komo); },

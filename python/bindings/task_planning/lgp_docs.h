@@ -4,10 +4,10 @@
 namespace kinegraph::python::docs::lgp {
 
 // Shared parts.
-#define KINEGRAPH_LGP_ACTION                        \
-  "Args:\n"                                         \
-  "    komo: The problem.\n"                        \
-  "    time: The end of the action, in phases.\n"   \
+#define KINEGRAPH_LGP_ACTION                      \
+  "Args:\n"                                       \
+  "    komo: The problem.\n"                      \
+  "    time: The end of the action, in phases.\n" \
   "    prev_action: The action before it, [] if there is none.\n"
 #define KINEGRAPH_LGP_NO_PLAN \
   "Raises:\n"                 \

@@ -8,9 +8,9 @@ namespace kinegraph::python::docs::manipulation {
   "    accumulated_collisions: Nothing overlaps.\n"      \
   "    joint_limits: Joints stay within their limits.\n" \
   "    quaternion_norms: Quaternions have norm one.\n"
-#define KINEGRAPH_GRASP                                                                                      \
-  "    time: In phases; axes are aligned from 0.2 before it on, and the palm does not collide from 0.3 "    \
-  "before it on.\n"                                                                                          \
+#define KINEGRAPH_GRASP                                                                                  \
+  "    time: In phases; axes are aligned from 0.2 before it on, and the palm does not collide from 0.3 " \
+  "before it on.\n"                                                                                      \
   "    gripper: Name of the gripper frame.\n"
 #define KINEGRAPH_PALM "    palm: Name of the frame that does not touch the object; empty: none.\n"
 #define KINEGRAPH_HAND                         \

@@ -121,7 +121,8 @@ class ObjectiveScale final : public NlpParameter {
 class FramePoseParameter final : public FiniteDifferenceParameter {
  public:
   FramePoseParameter(const Nlp& nlp, const std::string& name, bool with_rotation)
-      : FiniteDifferenceParameter(cat(with_rotation ? "pose of " : "position of ", name), namesOf(name, with_rotation)) {
+      : FiniteDifferenceParameter(cat(with_rotation ? "pose of " : "position of ", name),
+                                  namesOf(name, with_rotation)) {
     const Path& path = requireKomo(nlp)->path();
     frame_ = frameId(path.state(0).model(), name, "sensitivity");
     std::string joint_of;

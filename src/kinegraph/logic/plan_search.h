@@ -26,7 +26,7 @@ class PlanSearch {
     cancelled,
   };
   struct Options {
-    long max_expansions = 2000000;       ///< total number of expanded states
+    long max_expansions = 2000000;     ///< total number of expanded states
     CancellationToken cancellation{};  ///< ends `next` with `cancelled`
   };
 

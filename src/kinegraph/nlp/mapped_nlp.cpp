@@ -25,8 +25,8 @@ MappedNlp::MappedNlp(std::shared_ptr<Nlp> inner, std::shared_ptr<const LinearMap
                      const VectorXd& upper)
     : inner_(std::move(inner)), map_(std::move(map)) {
   if (map_->M.rows() != inner_->dimension() || map_->offset.size() != inner_->dimension())
-    throw ValueError(cat("linear map: the map has ", map_->M.rows(), " rows and an offset of size ", map_->offset.size(),
-                         "; the problem has ", inner_->dimension(), " variables"));
+    throw ValueError(cat("linear map: the map has ", map_->M.rows(), " rows and an offset of size ",
+                         map_->offset.size(), "; the problem has ", inner_->dimension(), " variables"));
   if (lower.size() != map_->M.cols() || upper.size() != map_->M.cols())
     throw ValueError(cat("linear map: got ", lower.size(), " lower and ", upper.size(), " upper bounds; expected ",
                          map_->M.cols(), " of each"));

@@ -33,7 +33,7 @@ std::string planStatusName(PlanStatus status) {
 
 void MotionPlan::evalTo(double t, double* q, double* velocity, double* acceleration) const {
   if (!feasible()) throw ValueError(cat("MotionPlan.eval: there is no motion; ", message));
-  if (!options.timing) throw ValueError("MotionPlan.eval: the path has no times; it was planned with timing=False");
+  if (!options.timing) throw ValueError("MotionPlan.eval: the path has no times; it was planned without timing");
   timed_path.evalTo(t, q, velocity, acceleration);
 }
 

@@ -60,7 +60,7 @@ class MotionPlan : public Trajectory {
   /// s.
   const VectorXd& times() const { return timed_path.times; }
 
-  int dimension() const override { return space ? space->dofs() : 0; }
+  int dimension() const override { return space ? space->dofs() : timed_path.dimension(); }
   double duration() const override { return feasible() ? timed_path.duration() : 0.; }
   void evalTo(double t, double* q, double* velocity, double* acceleration) const override;
 

@@ -43,7 +43,8 @@ const OptionTable<PlanOptions>& planOptionTable() {
        {"optimize",
         &O::optimize,
         "",
-        "Objective: 'time', 'length', or 'clearance' (the largest margin for which a path is found, then the time).",
+        "Quantity to minimize: 'time', 'length', or 'clearance' (the largest margin for which a path is found, then "
+        "the time).",
         {"time", "length", "clearance"}},
        {"restarts", &O::restarts, "", "Number of paths that are searched and shortened; the best one counts.",
         Range::atLeastOne()},

@@ -52,9 +52,9 @@ std::shared_ptr<const SampledTrajectory> sampled(const Trajectory& trajectory, d
 }  // namespace
 
 void FollowOptions::validate() const {
-  if (!(tolerance >= 0.)) throw ValueError(cat("FollowOptions: tolerance is ", tolerance, "; expected 0 or more"));
+  if (!(tolerance >= 0.)) throw ValueError(cat("BotOp::follow: tolerance is ", tolerance, "; expected 0 or more"));
   if (!(velocity_tolerance >= 0.))
-    throw ValueError(cat("FollowOptions: velocity_tolerance is ", velocity_tolerance, "; expected 0 or more"));
+    throw ValueError(cat("BotOp::follow: velocity_tolerance is ", velocity_tolerance, "; expected 0 or more"));
 }
 
 /// The spline along a path after the present motion, or instead of it from the control time `cut` on.

@@ -177,7 +177,7 @@ void RobotLoop::execute(const FollowSpline& command) {
 }
 
 void RobotLoop::execute(const FollowTrajectory& command) {
-  if (!command.motion) throw ValueError("RobotLoop: FollowTrajectory has no trajectory");
+  if (!command.motion) throw ValueError("RobotLoop: the command to follow has no trajectory");
   requireDimension(command.motion->dimension());
   startFollowing();
   motion_.add(command.motion, command.begin, time(), period());

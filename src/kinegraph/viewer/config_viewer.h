@@ -21,7 +21,8 @@ class ConfigViewer {
   /// the key pressed since the last call, or 0. With `pause`, waits for a new key: in the browser, or Enter on the
   /// terminal. It does not wait if KINEGRAPH_HEADLESS is set, or for more than 5 s without a connected browser. At a
   /// terminal or over ssh, it waits without limit for the first browser.
-  int view(Config& config, bool pause, const std::optional<std::string>& message, const CancellationToken& cancellation);
+  int view(Config& config, bool pause, const std::optional<std::string>& message,
+           const CancellationToken& cancellation);
 
   /// Shows a message and, with `pause`, waits for a key like view. Changes nothing else.
   int wait(bool pause, const std::optional<std::string>& message, const CancellationToken& cancellation);

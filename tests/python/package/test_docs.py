@@ -34,6 +34,7 @@ FOUND = {
         r"\[.* 1\.962\d*e\+01\]",
         r"^True False",
     ],
+    "features": [r"sometimes|\[\]"],
     "ik": [r"^True $", r"\[ ?-?0\. +-?0\. +-0\.2\]"],
     "solvers": [
         r"^True SolverStatus\.converged",

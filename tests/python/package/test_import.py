@@ -21,7 +21,7 @@ def loaded(code: str) -> set[str]:
 @pytest.mark.parametrize("package", ["kinegraph", "robotic"])
 def test_an_import_loads_no_room_that_is_not_used(package: str) -> None:
     modules = loaded(f"import {package}")
-    assert not {f"kinegraph.{module}" for module in kinegraph._LATER} & modules
+    assert not {f"kinegraph.{module}" for module in kinegraph._LAZY} & modules
     assert "kinegraph.reachable" in loaded(f"import {package}; {package}.reachability")
 
 

@@ -121,7 +121,7 @@ def unconstrained(method: ry.OptMethod) -> ry.NLP_Solver:
 
 
 def test_messages_use_python_names() -> None:
-    with pytest.raises(ry.Error, match=r"^OptMethod\.newton takes no constraints"):
+    with pytest.raises(ry.Error, match=r"^OptMethod\.newton does not support constraints"):
         unconstrained(ry.OptMethod.newton).solve()
     with pytest.raises(ry.Error, match="^NLP_Solver: there is no problem to solve"):
         ry.NLP_Solver().solve()

@@ -202,7 +202,8 @@ def test_a_real_robot_needs_a_driver(panda: ry.Config) -> None:
 def test_what_a_robot_cannot_do_is_an_error_with_the_reason(panda: ry.Config, bot: ry.BotOp) -> None:
     q = bot.get_qHome()
     with pytest.raises(
-        ry.ArgumentError, match=r"'l_panda_joint1' would have a velocity of 3 /s .* limit is 2.175 /s; take at least 1.37931 times"
+        ry.ArgumentError,
+        match=r"'l_panda_joint1' would have a velocity of 3 /s .* limit is 2.175 /s; take at least 1.37931 times",
     ):
         bot.move([q + 2.0 * np.eye(7)[0]], [1.0])
     with pytest.raises(ry.ArgumentError, match="would go to 9"):

@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from test_mjcf import ARM as MJCF
-from test_urdf import ARM as URDF
 
 import kinegraph as ry
+from test_mjcf import ARM as MJCF
+from test_urdf import ARM as URDF
 
 SCENE = """
 base: { shape: ssBox, size: [1 .5 .1 .02], color: [.3 .4 .5], contact: 1, logical: { is_table } }

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from test_structure import TETRAHEDRON
 
 import kinegraph as ry
 from conftest import DATA
+from test_structure import TETRAHEDRON
 
 
 def sphere_grid(n: int = 20, radius: float = 0.5) -> np.ndarray:

@@ -111,7 +111,7 @@ def test_a_factory_says_what_is_missing_or_wrong():
     empty.setDimension(1)
     with pytest.raises(ry.Error, match="setEvalCallback"):
         empty.evaluate([0.0])
-    with pytest.raises(ry.ArgumentError, match="2 lower and 1 upper bounds; expected 1 each"):
+    with pytest.raises(ry.ArgumentError, match="2 lower and 1 upper bounds; expected 1 of each"):
         empty.setBounds([0, 0], [1])
 
 

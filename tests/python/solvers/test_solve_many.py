@@ -140,7 +140,7 @@ def test_mistakes_are_named(arm):
     komo = reachPoint(arm, 1, 1)
     with pytest.raises(ry.ArgumentError, match="problem 1 is a int; expected a KOMO, an NLP or an NLP_Solver"):
         ry.solveAll([komo, 3])
-    with pytest.raises(ry.ArgumentError, match=r"problems 0 and 1 are of the same KOMO; copy.copy"):
+    with pytest.raises(ry.ArgumentError, match=r"problems 0 and 1 belong to the same KOMO; copy.copy"):
         ry.solveAll([komo, komo.nlp()])
     with pytest.raises(ry.ArgumentError, match="no problems"):
         ry.solveAll([])

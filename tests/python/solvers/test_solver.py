@@ -75,7 +75,7 @@ def test_solvers_of_other_packages_solve_or_say_what_to_install(method, package,
 
 
 def test_methods_that_do_not_exist_are_refused_with_those_that_do():
-    with pytest.raises(ry.ArgumentError, match="Ceres is not available; there are augmentedLag, .*CMA"):
+    with pytest.raises(ry.ArgumentError, match="Ceres is not available; expected one of augmentedLag, .*CMA"):
         solver(Circle(), "Ceres").solve()
 
 

@@ -304,7 +304,7 @@ def test_explicit_collisions_and_lift_priors():
 
 def test_mistakes_are_explained():
     S = ry.Skeleton()
-    with pytest.raises(ry.Error, match="touch takes 2 frames, got 1"):
+    with pytest.raises(ry.Error, match="touch takes 2 frames; got 1"):
         S.addEntry([1], ry.SY.touch, ["a"])
     with pytest.raises(ry.Error, match=r"times of touch"):
         S.addEntry([], ry.SY.touch, ["a", "b"])

@@ -207,7 +207,7 @@ TEST(Reader, MoreMistakesAreExplained) {
   expectMessage("inclde: <f.g>", "similar names: Include");
   expectMessage("Include: 3", "Include takes a file: 'Include: <path>', not the number 3");
   expectMessage("Delete: 3", "Delete takes the name of a frame");
-  expectMessage("a: {} b(a): { joint: generic }", "'_xyc' moves along x, then y, then turns about z");
+  expectMessage("a: {} b(a): { joint: generic }", "'_xyc' moves along x, then y, then rotates about z");
   expectMessage("a: {} b(a): { joint: _xyd }", "'d' is not one of x y z a b c");
   expectMessage("a: {} b(a): { joint: 99 }", "joint type 99 does not exist");
   expectMessage("a: { shape: 99 }", "shape type 99 does not exist");

@@ -126,7 +126,8 @@ std::vector<VectorXd> subdivide(const std::vector<VectorXd>& corners, int count)
   }
   std::vector<VectorXd> points;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
-    for (int k = 1; k < parts[i]; ++k) points.push_back(corners[i] + double(k) / parts[i] * (corners[i + 1] - corners[i]));
+    for (int k = 1; k < parts[i]; ++k)
+      points.push_back(corners[i] + double(k) / parts[i] * (corners[i + 1] - corners[i]));
     points.push_back(corners[i + 1]);
   }
   return points;

@@ -1,6 +1,7 @@
 #include "kinegraph/komo/collision/rrt_path.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "kinegraph/rrt/rrt_connect.h"
 #include "kinegraph/rrt/shortcutter.h"
@@ -79,13 +80,16 @@ std::vector<VectorXd> rrtPath(EdgeChecker& checker, const SampleBounds& bounds, 
   const double range = kRange * (to - from).norm();
   RrtConnectOptions options;
   options.range = options.least_radius = range;
-  options.dynamic_radius = 4. * range;
+  options.dynamic_radius = std::numeric_limits<double>::infinity();  // few samples: every one extends a tree
   options.seed = rng.bits();
   options.max_evaluations = std::numeric_limits<long>::max();
   options.max_samples = max_samples;
   RrtConnect search(space, {from}, {to}, options);
   if (!search.run([] { return false; })) return {};
-  return Shortcutter(space, search.path(), {.cuts = kCuts, .corners = false, .seed = rng.bits()}).run();
+  std::vector<VectorXd> path =
+      Shortcutter(space, search.path(), {.cuts = kCuts, .corners = false, .seed = rng.bits()}).run();
+  // Random shortcuts add corners; every corner needs a slice.
+  return Shortcutter(space, std::move(path), {.cuts = 0, .corners = false}).run();
 }
 
 }  // namespace kinegraph

@@ -188,7 +188,7 @@ bool AugmentedLagrangian::triesLessDamping(const Step& step) {
   if (damping_.isSmall(step.curvature) || damping_.isHigh() || (tried_less_damping_ && !refusal_.empty())) return false;
   damping_.relax(step.curvature);
   tried_less_damping_ = true;
-  refusal_.clear();
+  refusal_ = {};
   return true;
 }
 
@@ -220,7 +220,7 @@ bool AugmentedLagrangian::activatesConstraints(bool is_solution) {
     if (std::ranges::find(activated_, constraints_[j]) != activated_.end()) lambda_[Eigen::Index(j)] = 0.;
   violation_.restart();
   tried_less_damping_ = false;
-  refusal_.clear();
+  refusal_ = {};
   model_is_stale_ = true;
   return true;
 }
@@ -365,7 +365,7 @@ void AugmentedLagrangian::accept(const Step& step) {
   learnCurvature(trial_);
   radius_.accept(step.size, step.ratio > kVeryGood);
   tried_less_damping_ = round_just_ended_ = false;
-  refusal_.clear();
+  refusal_ = {};
   model_is_stale_ = true;
   function_.remember(here_);
 }
@@ -374,8 +374,11 @@ void AugmentedLagrangian::accept(const Step& step) {
 void AugmentedLagrangian::refuse(const Step& step) {
   stagnation_.addRefusal();
   radius_.refuse();
-  refusal_ = trial_.finite ? ", possibly at a non-smooth point"
-                           : cat(": at the trial point, ", describeNotFinite(nlp_, trial_.phi, &trial_.J));
+  if (trial_.finite) {
+    refusal_ = ", possibly at a non-smooth point";
+  } else {
+    refusal_ = not_finite_ = cat(": at the trial point, ", describeNotFinite(nlp_, trial_.phi, &trial_.J));
+  }
   damping_.refuse(step.curvature, has_many_variables_ && trial_.finite
                                       ? Damping::lacking(step.ratio, curvatureAlong(step))
                                       : kInfinity);

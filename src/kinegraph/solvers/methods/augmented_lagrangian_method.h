@@ -170,7 +170,8 @@ class AugmentedLagrangian {
   bool stopped_ = false;
   SolverStatus status_ = SolverStatus::stalled;
   std::string& message_ = memory_.message;
-  std::string refusal_;  ///< reason why the last step was refused; empty if accepted
+  std::string not_finite_;    ///< that reason, if the trial point has numbers that are not finite
+  std::string_view refusal_;  ///< reason why the last step was refused; empty if accepted
 };
 
 }  // namespace kinegraph
