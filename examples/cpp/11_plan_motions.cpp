@@ -45,7 +45,7 @@ int main() try {
 
   // Through a door, and an impossible motion through a narrower one.
   for (const double width : {.5, .25}) {
-    const MotionPlan plan = planMotion(room(width), VectorXd{{1., 1., 1.57}}, {.evaluations = 20000});
+    const MotionPlan plan = planMotion(room(width), VectorXd{{1., 1., 1.57}}, {.max_evaluations = 20000});
     std::cout << plan.str() << "\n";
     if (plan.feasible() != (width > .3)) return 1;
     if (!plan.feasible()) std::cout << "most motions ended at " << plan.obstacles.front().name << "\n";

@@ -48,7 +48,7 @@ int main() try {
   MatrixXd poses(3, 7);
   poses << -.6, .35, 1.1, 1., 0., 0., 0., .6, .35, 1.1, 1., 0., 0., 0., .6, 1.5, 1.1, .7, 0., 0., .7;
   const std::vector<ObstacleTrajectory> moving = {{"cart", VectorXd{{0., 2., 4.}}, poses}};
-  const MotionPlan past = planMotion(C, goal, {.margin = .01, .moving = moving}, start);
+  const MotionPlan past = planMotion(C, goal, {.margin = .01, .obstacle_trajectories = moving}, start);
   std::cout << past.str() << "\n";
   for (const std::string& note : past.warnings) std::cout << note << "\n";
   if (!past.feasible() || !keepsClear(C, past)) return 1;
@@ -64,8 +64,9 @@ int main() try {
   if (!bend.feasible() || (bend.eval(0.).velocity - plan.eval(now).velocity).norm() > 1e-9) return 1;
 
   // The first path is seldom in the best homotopy class.
-  MotionPlans better = planMotions(twoWalls(), VectorXd{{1.5, .9}},
-                                   {.optimize = "length", .tries = 1, .improve = 20000}, VectorXd{{-1.5, -1.}});
+  MotionPlans better =
+      planMotions(twoWalls(), VectorXd{{1.5, .9}},
+                  {.optimize = "length", .restarts = 1, .improvement_evaluations = 20000}, VectorXd{{-1.5, -1.}});
   double length = 0.;
   while (const auto found = better.next()) std::cout << "length " << (length = found->length) << "\n";
   return length > 0. && length < 3.7 ? 0 : 1;
