@@ -134,7 +134,7 @@ def test_a_slice_of_a_komo_is_shown(komo: kg.KOMO, browser: Browser) -> None:
     assert komo.view_slice(-2) == 0
     browser.wait_for("kinegraph.slice() === -2")
     for t in (12, -3):
-        with pytest.raises(ValueError, match="slices 0 to 11, and before them -2 to -1"):
+        with pytest.raises(ValueError, match="expected 0 to 11, or -2 to -1 before the path"):
             komo.view_slice(t)
 
 
