@@ -34,7 +34,10 @@ FOUND = {
         r"\[.* 1\.962\d*e\+01\]",
         r"^True False",
     ],
-    "features": [r"sometimes|\[\]"],
+    "features": [
+        r"<SelfCollisionMatrix: \d+ pairs of frames in 2000 configurations: \d+ adjacent, \d+ always in collision, \d+ never",
+        r"^\[\('\w+', '\w+', 'sometimes', 0\.\d+\)",
+    ],
     "ik": [r"^True $", r"\[ ?-?0\. +-?0\. +-0\.2\]"],
     "solvers": [
         r"^True SolverStatus\.converged",
