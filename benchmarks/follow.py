@@ -91,25 +91,6 @@ def planned(kind: str, seed: int, margin: float) -> tuple[ry.Config, ry.MotionPl
             return C, plan, distances
 
 
-class PlanTrajectory(ry.Trajectory):
-    """A plan as a trajectory, for versions whose plans are none."""
-
-    def __init__(self, plan: ry.MotionPlan):
-        super().__init__()
-        self.plan = plan
-
-    @property
-    def duration(self) -> float:
-        return self.plan.duration
-
-    def eval(self, t: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        return self.plan.at(t)
-
-
-def trajectory(plan: ry.MotionPlan) -> ry.Trajectory:
-    return plan if isinstance(plan, ry.Trajectory) else PlanTrajectory(plan)
-
-
 def move(bot: ry.BotOp, plan: ry.MotionPlan) -> None:
     """Executes the path as control points, as slow as the limits require."""
     factor = 1.0
@@ -125,7 +106,7 @@ def execute(C: ry.Config, plan: ry.MotionPlan, driver: ry.RobotDriver, follows: 
     """q that the robot reports at each control period, from the start on."""
     bot, shown = ry.BotOp(C, driver=driver), C.copy()
     if follows:
-        bot.follow(trajectory(plan))
+        bot.follow(plan)
     else:
         move(bot, plan)
     Q = [bot.get_q()]
@@ -145,9 +126,8 @@ WAYS = {
 
 def measured(C: ry.Config, plan: ry.MotionPlan, distances: Distances, Q: np.ndarray) -> tuple[float, float]:
     """The least distance beyond the plan's margin, m, and the largest distance of q from the plan at the same time."""
-    motion = trajectory(plan)
     least = min(distances.least(q, plan.margin + 0.02) for q in Q) - plan.margin
-    return least, max(np.abs(q - motion.eval(PERIOD * k)[0]).max() for k, q in enumerate(Q))
+    return least, max(np.abs(q - plan.eval(PERIOD * k)[0]).max() for k, q in enumerate(Q))
 
 
 def main() -> None:
