@@ -9,53 +9,53 @@
 ///     C.addFile(modelPath("scenarios/pandaSingle.g"));
 ///     C.view();
 ///
-/// One header for all that Python's `import kinegraph as ry` has, under the same names; docs/cpp.md says how to build
-/// with it. Lengths are in m, angles in rad, quaternions (w, x, y, z), poses (x, y, z, qw, qx, qy, qz).
+/// This header declares everything that `import kinegraph as ry` has in Python, under the same names. docs/cpp.md
+/// explains how to build with it. Lengths are in m, angles in rad, quaternions (w, x, y, z), poses (x, y, z, qw, qx, qy, qz).
 
 #include "kinegraph/api/camera_view.h"          // CameraView: images
 #include "kinegraph/api/custom_feature.h"       // functions of frames as features
 #include "kinegraph/api/model_path.h"           // modelPath
 #include "kinegraph/api/names.h"                // FS, OT, ST, KOMO, NLP_Solver, ...
-#include "kinegraph/api/recorded_motion.h"      // recordedMotion: a simulated run as a page plays it
-#include "kinegraph/api/retime_robot.h"         // retime: a robot's path, by its limits
-#include "kinegraph/api/servo.h"                // drive: DiffIk along TargetFile, Gamepad, or by hand
-#include "kinegraph/api/solution_parameters.h"  // Sensitivity: how solutions move with targets, poses, scales
+#include "kinegraph/api/recorded_motion.h"      // recordedMotion: a simulated run for the page
+#include "kinegraph/api/retime_robot.h"         // retime: a path within the limits of a robot
+#include "kinegraph/api/servo.h"                // servo: DiffIk along a TargetFile, a Gamepad, or a dragged target
+#include "kinegraph/api/solution_parameters.h"  // Sensitivity: derivatives of solutions
 #include "kinegraph/api/solve_all.h"            // several problems at once
-#include "kinegraph/api/task_execution.h"       // a plan of a task carried out by a BotOp
-#include "kinegraph/collision/edge_check.h"     // EdgeChecker: is a q, is an edge free?
+#include "kinegraph/api/task_execution.h"       // execution of a task plan by a BotOp
+#include "kinegraph/collision/edge_check.h"     // EdgeChecker: collision checks of configurations and edges
 #include "kinegraph/collision/limit_check.h"    // withinLimits
-#include "kinegraph/common/errors.h"            // what is thrown
+#include "kinegraph/common/errors.h"            // exceptions
 #include "kinegraph/common/random.h"            // Rng
-#include "kinegraph/control/diff_ik.h"          // DiffIk: joint velocities, a step at a time
-#include "kinegraph/control/mpc.h"              // Mpc: a motion problem, solved while time goes on
+#include "kinegraph/control/diff_ik.h"          // DiffIk: joint velocities, one step at a time
+#include "kinegraph/control/mpc.h"              // Mpc: model predictive control
 #include "kinegraph/exporters/gltf_writer.h"    // scenes written as files
 #include "kinegraph/exporters/mesh_export.h"
 #include "kinegraph/exporters/mjcf_writer.h"
 #include "kinegraph/exporters/scene_writer.h"
 #include "kinegraph/exporters/urdf_writer.h"
 #include "kinegraph/features/batch.h"      // many configurations at once
-#include "kinegraph/features/eval.h"       // a feature's value and Jacobian
+#include "kinegraph/features/eval.h"       // value and Jacobian of a feature
 #include "kinegraph/ik/solve_ik.h"         // solveIk
 #include "kinegraph/komo/komo.h"           // Komo: motion problems
-#include "kinegraph/komo/report.h"         // how well a path does
+#include "kinegraph/komo/report.h"         // costs and violations of a path
 #include "kinegraph/komo/step_limit.h"     // addStepLimit
 #include "kinegraph/logic/action_words.h"  // statesAlong
 #include "kinegraph/logic/fol_reader.h"    // domains of actions
 #include "kinegraph/logic/pddl.h"
 #include "kinegraph/logic/plan_search.h"                      // PlanSearch
-#include "kinegraph/nlp/callback_nlp.h"                       // problems of your own
+#include "kinegraph/nlp/callback_nlp.h"                       // custom problems
 #include "kinegraph/nlp/test_problems.h"                      // named problems
-#include "kinegraph/planning/path_finder.h"                   // paths between two postures
+#include "kinegraph/planning/path_finder.h"                   // paths between two configurations
 #include "kinegraph/planning/plan_motion.h"                   // planMotion
-#include "kinegraph/planning/plan_motions.h"                  // MotionPlans: better and better ones
+#include "kinegraph/planning/plan_motions.h"                  // MotionPlans: ever better plans
 #include "kinegraph/planning/refine_path.h"                   // shortcut, smooth
 #include "kinegraph/planning/roadmap.h"                       // Roadmap
 #include "kinegraph/rendering/camera_renderer.h"              // images from any camera
 #include "kinegraph/rendering/depth_image.h"                  // points of a depth image
-#include "kinegraph/rendering/framing.h"                      // a camera that sees all
+#include "kinegraph/rendering/framing.h"                      // a camera that sees the whole scene
 #include "kinegraph/robot/bot_op.h"                           // BotOp
-#include "kinegraph/robot/kinematic_driver.h"                 // robots that go exactly where they are told
-#include "kinegraph/robot/recorded_driver.h"                  // robots whose answers are known
+#include "kinegraph/robot/kinematic_driver.h"                 // robots that follow commands exactly
+#include "kinegraph/robot/recorded_driver.h"                  // robots with known answers
 #include "kinegraph/robot/simulated_driver.h"                 // robots in a simulated world
 #include "kinegraph/scene/config.h"                           // Config, Frame
 #include "kinegraph/scene/config_dynamics.h"                  // rigidBodyDynamics, centroidalMomentumMatrix
@@ -63,24 +63,24 @@
 #include "kinegraph/scene/motor_limits.h"                     // getVelocityLimits, getEffortLimits
 #include "kinegraph/scene/self_collisions.h"                  // selfCollisionMatrix
 #include "kinegraph/simulation/simulation.h"                  // Simulation
-#include "kinegraph/simulation/simulation_batch.h"            // many of them
-#include "kinegraph/solvers/explanation.h"                    // why constraints do not hold
-#include "kinegraph/solvers/methods.h"                        // the methods of NlpSolver
+#include "kinegraph/simulation/simulation_batch.h"            // many simulations
+#include "kinegraph/solvers/explanation.h"                    // explanations of infeasibility
+#include "kinegraph/solvers/methods.h"                        // methods of NlpSolver
 #include "kinegraph/solvers/nlp_solver.h"                     // NlpSolver
 #include "kinegraph/solvers/sampling/sampler.h"               // NlpSampler
 #include "kinegraph/task_planning/lgp/lgp_tool.h"             // LGP_Tool, default_LGP_TAMP_Abstraction
 #include "kinegraph/task_planning/manipulation_helper.h"      // grasps, placements, pushes
-#include "kinegraph/task_planning/scene_facts.h"              // what a scene says in logic
+#include "kinegraph/task_planning/scene_facts.h"              // logical facts of a scene
 #include "kinegraph/task_planning/search/check_task_plan.h"   // checkTaskPlan
 #include "kinegraph/task_planning/search/plan_task.h"         // planTask, planTasks
 #include "kinegraph/trajectories/b_spline.h"                  // BSpline
 #include "kinegraph/trajectories/retime.h"                    // retime: the fastest motion along a path
 #include "kinegraph/trajectories/sampled_trajectory.h"        // a trajectory through given states
 #include "kinegraph/trajectories/spline_trajectory.h"         // a BSpline as a trajectory
-#include "kinegraph/trajectories/trajectory.h"                // Trajectory: what a robot follows
+#include "kinegraph/trajectories/trajectory.h"                // Trajectory: the interface of timed motions
 #include "kinegraph/trajectory_optimization/multi_start.h"    // one problem from many starts
-#include "kinegraph/trajectory_optimization/skeleton.h"       // what shall hold when, in words
+#include "kinegraph/trajectory_optimization/skeleton.h"       // sequences of modes and constraints
 #include "kinegraph/trajectory_optimization/spline_motion.h"  // motion problems in control points
 #include "kinegraph/viewer/config_viewer.h"                   // the viewer in the browser
-#include "kinegraph/viewer/motions.h"                         // motions to show there
-#include "kinegraph/viewer/watch_file.h"                      // a scene file shown whenever it changes
+#include "kinegraph/viewer/motions.h"                         // motions for the viewer
+#include "kinegraph/viewer/watch_file.h"                      // a scene file that is shown after each change
