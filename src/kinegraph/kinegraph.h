@@ -10,7 +10,8 @@
 ///     C.view();
 ///
 /// This header declares everything that `import kinegraph as ry` has in Python, under the same names. docs/cpp.md
-/// explains how to build with it. Lengths are in m, angles in rad, quaternions (w, x, y, z), poses (x, y, z, qw, qx, qy, qz).
+/// explains how to build with it. Lengths are in m, angles in rad, quaternions (w, x, y, z), poses
+/// (x, y, z, qw, qx, qy, qz).
 
 #include "kinegraph/api/camera_view.h"          // CameraView: images
 #include "kinegraph/api/custom_feature.h"       // functions of frames as features
