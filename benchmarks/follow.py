@@ -3,11 +3,12 @@
 
     python benchmarks/follow.py [--plans 200] [--seed 0] [--margin 0.01]
 
-A planar arm of four joints and a Panda on its table move between random free configurations among random boxes, half of the
-plans each. `planMotion` verifies a margin; a BotOp executes the plan in three ways: `follow(plan)` by the kinematic driver,
-`follow(plan)` in simulation, and `move(plan.path, times)` by the kinematic driver, as slow as the limits require. At each control
-period (10 ms) the distances of all pairs are computed anew at the q that the robot reports. The table shows the least
-distance beyond the margin (negative: the margin is violated by as much) and the largest distance of q from the plan.
+A planar arm of four joints and a Panda on its table move between random free configurations among random boxes, half of
+the plans each. `planMotion` verifies a margin; a BotOp executes the plan in three ways: `follow(plan)` by the kinematic
+driver, `follow(plan)` in simulation, and `move(plan.path, times)` by the kinematic driver, as slow as the limits
+require. At each control period (10 ms) the distances of all pairs are computed at the q that the robot reports.
+The table shows the least distance beyond the margin (negative: the margin is violated by as much) and the largest
+distance of q from the plan.
 """
 
 import argparse

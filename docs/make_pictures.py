@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Makes the pictures of the documentation: of the viewer's page in a headless Chromium, and by CameraView's renderer; and
-films of tasks.
+"""Makes the pictures of the documentation: of the viewer's page in a headless Chromium, and by CameraView's renderer;
+and films of tasks.
 
     python docs/make_pictures.py [FOLDER]
 
@@ -68,7 +68,7 @@ def gripperAxes(folder: Path) -> None:
 
 
 def taskFilm(file: Path, C: ry.Config, goal: str, view: list[float], at: list[float]) -> None:
-    """What planTask found for a goal, as a film."""
+    """Films a plan of planTask."""
     plan = ry.planTask(C, goal)
     assert plan.feasible, plan
     viewer = C.viewer()
@@ -80,8 +80,8 @@ def taskFilm(file: Path, C: ry.Config, goal: str, view: list[float], at: list[fl
 
 
 def taskFilms(folder: Path) -> None:
-    """Of the families of the benchmarks: a tower, two trays, a box that is turned over, a drawer that is opened for a
-    box, cups that are carried."""
+    """Problems of the benchmarks' families: a tower, two trays, a box that is turned over, a drawer that is opened for
+    a box, cups that are carried."""
     sys.path.append(str(HERE.parent / "benchmarks"))
     import panda_tasks
     import tasks
@@ -94,7 +94,7 @@ def taskFilms(folder: Path) -> None:
 
 
 def examplePictures(folder: Path) -> None:
-    """What examples draw: of planning, of simulations, and of how a policy learns."""
+    """Pictures that examples draw: of planning, of simulations, and of how a policy learns."""
 
     def example(name: str, *arguments: Path) -> None:
         # quiet, and with a shorter training than the example's own

@@ -1,6 +1,7 @@
 """Part 28: a motion problem whose variables are the control points of a B-spline.
 
-Ten control points for 60 slices: the motion is smooth, respects joint limits everywhere, and a robot can execute the spline directly.
+Ten control points for 60 slices: the motion is smooth, respects joint limits everywhere, and a robot can execute the
+spline directly.
 """
 
 import numpy as np

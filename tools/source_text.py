@@ -79,6 +79,9 @@ def plain_text(path: Path) -> str:
             stripped = re.sub(r"^\s*(///?<?|\*|#) ?", "", inspect.cleandoc(stripped), flags=re.MULTILINE)
             parts.append(("\n" if goes_on else "\n\n") + stripped)  # consecutive comments are one paragraph
             last = line + passage.count("\n")
-        text = re.sub(r"(?<=\n\n)( {4}[^\n]*\n?)+", "", "".join(parts))  # indented blocks: code, formulas, tables
+        text = "".join(parts)
+        text = re.sub(r"(?<=\n\n)( {4}[^\n]*\n?)+", "", text)  # indented blocks: code
+        if path.suffix == ".h" and "bindings" not in path.parts:  # rows of tables, and formulas
+            text = re.sub(r"^ {2,}(?![-*\d])[^\n]*( {2,}|\|)[^\n]*$", "\n", text, flags=re.MULTILINE)
     text = re.sub(r"^\s*([-*]|\d+\.)\s+", "\n\n", text, flags=re.MULTILINE)  # items of a list are sentences
     return re.sub(r"`+[^`\n]*`+", "X", text)

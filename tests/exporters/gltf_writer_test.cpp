@@ -13,7 +13,7 @@ using namespace kinegraph;
 
 namespace {
 
-/// What the mesh reader makes of the scene, z up again.
+/// Reads the written scene with the mesh reader, z up again.
 Mesh readAgain(const Config& config) {
   const TemporaryFolder folder;
   const std::string path = (folder / "scene.glb").string();

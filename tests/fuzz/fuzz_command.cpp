@@ -1,5 +1,5 @@
 // A libFuzzer target for what browsers say to the viewer: messages one after the other, each with its length in front.
-// Whatever the bytes are, they are a command or nothing, the joints of the scene stay within their limits, its poses
+// Any bytes are a command or nothing, the joints of the scene stay within their limits, its poses
 // finite, and the camera is one.
 #include <cmath>
 #include <cstdint>
@@ -36,7 +36,7 @@ void check(bool is_true) {
   if (!is_true) std::abort();
 }
 
-/// What the server does with a message.
+/// Handles a message as the server does.
 void receive(std::string_view message, SceneEdits& edits, ViewerState& state, Config& config) {
   Access{true, "token"}.allows(message, message, message);
   const std::optional<Command> command = readCommand(message);

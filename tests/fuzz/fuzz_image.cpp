@@ -1,4 +1,4 @@
-// A libFuzzer target for pictures. Whatever the bytes are, reading them gives as many pixels as they say, or an error
+// A libFuzzer target for pictures. Reading any bytes gives as many pixels as they say, or an error
 // of the library.
 #include <cstdint>
 #include <cstdlib>

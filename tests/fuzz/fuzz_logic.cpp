@@ -6,7 +6,7 @@
 #include "kinegraph/logic/grounding.h"
 #include "kinegraph/logic/pddl.h"
 
-/// Domains of both languages. What is read is written and grounded; all that may come of it is an Error.
+/// Domains of both languages. A domain that is read is also written and grounded; all that may come of it is an Error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace kinegraph;
   const std::string_view text(reinterpret_cast<const char*>(data), size);

@@ -1,4 +1,4 @@
-// A libFuzzer target for one kind of mesh file, that of the extension FUZZ_EXTENSION. Whatever the bytes are, reading
+// A libFuzzer target for one kind of mesh file, that of the extension FUZZ_EXTENSION. For any bytes, reading
 // them gives a mesh whose triangles name its vertices, or an error of the library.
 #include <unistd.h>
 

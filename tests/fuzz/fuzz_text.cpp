@@ -1,5 +1,5 @@
-// A libFuzzer target for one kind of scene file; FUZZ_FILE names one of that kind. Whatever the text is, reading it
-// gives a scene or an error of the library, and what is written of a scene reads back as a scene of the same size.
+// A libFuzzer target for one kind of scene file; FUZZ_FILE names one of that kind. For any text, reading it
+// gives a scene or an error of the library, and a written scene reads back as a scene of the same size.
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>

@@ -2,7 +2,8 @@
 
     python tests/fuzz/make_corpus.py build/fuzz/corpus
 
-Needs the package kinegraph. Start a fuzzer with its folder: build/fuzz/tests/fuzz/fuzz_g -max_len=4096 build/fuzz/corpus/g
+Needs the package kinegraph. Start a fuzzer with its folder: build/fuzz/tests/fuzz/fuzz_g -max_len=4096
+build/fuzz/corpus/g
 """
 
 import struct
@@ -51,7 +52,7 @@ def meshes() -> dict[str, list[bytes]]:
 
 
 def commands() -> dict[str, list[bytes]]:
-    """What a browser says: each message with its length in front."""
+    """Messages of a browser: each message with its length in front."""
     pose = struct.pack("<i7d", 7, 0.1, 0.2, 0.3, 1, 0, 0, 0)
     messages = [
         struct.pack("<3i", 1, ord("a"), 0),

@@ -23,7 +23,7 @@ class UrdfReader : public ::testing::Test {
     return config;
   }
 
-  /// What loading says, without the folder.
+  /// Returns the warnings of loading, without the folder.
   std::string messageOf(const std::string& inside) {
     try {
       load(inside);

@@ -13,7 +13,8 @@ import pytest
 
 import kinegraph as ry
 
-# A shell starts what runs in its background without Ctrl-C: Python then raises no KeyboardInterrupt, and the tests of that wait in vain.
+# A shell starts background programs without Ctrl-C: Python then raises no KeyboardInterrupt, and the tests of that wait
+# in vain.
 signal.signal(signal.SIGINT, signal.default_int_handler)
 
 DATA = Path(__file__).parent.parent / "data"
@@ -26,7 +27,7 @@ def recorded(name: str) -> dict:
 
 @pytest.fixture(autouse=True)
 def first_seed():
-    """What a test draws does not depend on the tests before it."""
+    """Seeds the generators, so no test depends on those before it."""
     yield
     ry.rnd_seed(0)
 

@@ -1,4 +1,4 @@
-"""Compares a scene with what MuJoCo makes of an MJCF file."""
+"""Compares the scene of an MJCF file with MuJoCo's model."""
 
 import mujoco
 import numpy as np

@@ -1,4 +1,4 @@
-"""Compares a scene with what Pinocchio makes of a URDF file."""
+"""Compares the scene of a URDF file with Pinocchio's model."""
 
 import xml.etree.ElementTree as ElementTree
 
@@ -46,7 +46,8 @@ class Comparison:
         ]
 
     def drawState(self) -> np.ndarray:
-        """Draws a state, sets it in the scene, and returns it as Pinocchio wants it: a mimic is a joint like others to it."""
+        """Draws a state, sets it in the scene, and returns it as Pinocchio wants it: a mimic is a joint like others to
+        it."""
         values = {}
         for name, joint in zip(list(self.model.names)[1:], self.model.joints[1:]):
             values[name] = self.drawJoint(name, joint)

@@ -1,8 +1,8 @@
-"""Writes tests/data/dynamics_pinocchio.json, with which test_dynamics.py compares: `python tests/python/record_dynamics.py`
-where the package pin (Pinocchio) is installed.
+"""Writes tests/data/dynamics_pinocchio.json, with which test_dynamics.py compares: `python
+tests/python/record_dynamics.py` with the package pin (Pinocchio).
 
 The scene, a floating base with a leg and a slider, is made by hand here and there. Pinocchio's model has a joint for
-translations before the spherical one of the base, so that its velocities are those of a free joint here.
+translations before the spherical one of the base. Its velocities are thus those of a free joint here.
 """
 
 import json

@@ -1,6 +1,7 @@
 """Records poses that Pinocchio computes, for test_robots.py: python tests/python/record_robots.py FOLDER_OF_ROBOTS
 
-FOLDER_OF_ROBOTS is .../share/example-robot-data/robots of the package example-robot-data 6.0.0; needs the packages pin and kinegraph.
+FOLDER_OF_ROBOTS is .../share/example-robot-data/robots of the package example-robot-data 6.0.0; needs the packages pin
+and kinegraph.
 """
 
 import json
@@ -48,7 +49,7 @@ DYNAMIC = ["panda_description/urdf/panda", "ur_description/urdf/ur5_robot", "icu
 
 
 def recordDynamics(file: Path) -> list[dict]:
-    """Forces of some motions; by joint, where a joint that mimics another counts for that one."""
+    """Forces of some motions by joint; a joint that mimics another counts for that one."""
     config = ry.Config()
     config.addFile(file)
     comparison = Comparison(str(file), config, seed=1)

@@ -1,4 +1,4 @@
-"""A script with types, for mypy --strict: what scripts do with scenes, features, motions and results."""
+"""A script with types, for mypy --strict: common uses of scenes, features, motions and results."""
 
 from __future__ import annotations
 

@@ -4,7 +4,8 @@
 
 namespace kinegraph {
 
-/// A planar arm of two joints with limits of position, velocity and effort, and a gripper of two fingers; a table with a box.
+/// A planar arm of two joints with limits of position, velocity and effort, and a gripper of two fingers; a table with
+/// a box.
 inline Config twoJointArm() {
   Config C;
   C.addText(R"(

@@ -29,7 +29,7 @@ inline void PrintTo(const KnownProblem& problem, std::ostream* out) { *out << pr
 /// and Rosenbrock's function. Inequalities g(x) >= 0 of the book are residuals -g(x).
 std::vector<KnownProblem> knownProblems();
 
-/// What a solver sees of it.
+/// The problem as a solver sees it.
 class KnownNlp final : public Nlp {
  public:
   explicit KnownNlp(KnownProblem problem) : problem_(std::move(problem)) {

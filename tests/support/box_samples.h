@@ -12,12 +12,12 @@
 namespace kinegraph::testing {
 
 constexpr double kRounding = 1e-12;
-constexpr double kIllConditioned = 1e-8;  ///< of the depth where edges are nearly parallel
-constexpr double kNearlyParallel = 1e-5;  ///< slack of points in the band where directions count as parallel
+constexpr double kIllConditioned = 1e-8;  ///< of the depth of nearly parallel edges
+constexpr double kNearlyParallel = 1e-5;  ///< slack of points while directions count as parallel
 
 struct BoxPairSample {
   BoxCore a, b;
-  std::string what;  ///< printed where a law fails
+  std::string what;  ///< printed if a law fails
 };
 
 /// The farthest reach of a box along a direction, m.
@@ -31,7 +31,7 @@ inline double distanceOutside(const BoxCore& box, const Vector3d& point) {
   return (local - local.cwiseMax(-box.half).cwiseMin(box.half)).norm();
 }
 
-/// Pairs at every distance, overlapping to far apart, of which many are parallel, nearly parallel, turned by right
+/// Pairs at every distance, overlapping to far apart, many of them parallel, nearly parallel, turned by right
 /// angles or flat; the first box moves in the frame of the second, and both are then moved together.
 inline std::vector<BoxPairSample> boxPairs(int count, std::uint64_t seed) {
   Rng rng(seed);

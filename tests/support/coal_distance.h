@@ -23,7 +23,8 @@ inline std::unique_ptr<coal::ShapeBase> coalShape(const CollisionBody& body) {
   }
 }
 
-/// The least distance of all pairs that joints move apart, by coal, at most 1 m; of scenes of spheres, capsules and boxes.
+/// The least distance of all pairs that joints move apart, by coal, at most 1 m; of scenes of spheres, capsules and
+/// boxes.
 inline double coalDistance(const State& state) {
   double least = 1.;
   for (const auto& [a, b] : state.model().movingPairs()) {

@@ -9,7 +9,7 @@
 
 namespace kinegraph::testing {
 
-/// Many shapes of several kinds, of which every fourth moves freely along three axes, and an arm between them.
+/// Many shapes of several kinds; every fourth moves freely along three axes, and an arm between them.
 inline Config crowd(int count, double spread, std::uint64_t seed) {
   constexpr const char* kShapes[] = {"shape: sphere, size: [.08]", "shape: capsule, size: [.2 .04]",
                                      "shape: ssBox, size: [.2 .1 .15 .02]", "shape: box, size: [.1 .2 .1]",

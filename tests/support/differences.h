@@ -12,8 +12,8 @@ namespace kinegraph {
 struct Differences {
   MatrixXd D;
 
-  /// False where the function is not differentiable as far as its own values tell: differences of two step sizes, or
-  /// those to the left and to the right, disagree. No analytic Jacobian is looked at, so a wrong one cannot hide here.
+  /// False if the function's own values show that it is not differentiable: differences of two step sizes, or
+  /// those to the left and to the right, disagree. No analytic Jacobian is read, so a wrong one cannot hide here.
   bool differentiable = true;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
-// Counts how often memory is asked for. Exactly one source of a test program may include it. Where it can be done, all of
-// malloc is counted, because Eigen's matrices do not ask operator new.
+// Counts how often memory is asked for. Exactly one source of a test program may include it. All of malloc is counted
+// if possible, because Eigen's matrices do not ask operator new.
 
 #include <atomic>
 #include <cstdlib>

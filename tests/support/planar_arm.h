@@ -4,7 +4,7 @@
 
 namespace kinegraph {
 
-/// A planar arm of three joints that turn about z: two capsules of .5 m and a ball, `tip`, of which the arm's own parts do not
+/// A planar arm of three joints that turn about z: two capsules of .5 m and a ball, `tip`. The arm's own parts do not
 /// collide with each other. A .g text.
 inline std::string planarArm() {
   return R"(

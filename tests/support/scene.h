@@ -6,7 +6,7 @@
 
 namespace kinegraph {
 
-/// Of the text of a .g file.
+/// Returns the scene of the text of a .g file.
 inline Config scene(const std::string& text) {
   Config config;
   config.addText(text);

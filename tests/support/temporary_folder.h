@@ -8,7 +8,7 @@
 
 namespace kinegraph {
 
-/// A folder of this test alone, whatever else runs at the same time; it disappears again.
+/// A folder of this test alone, also if others run at the same time; it disappears again.
 class TemporaryFolder {
  public:
   TemporaryFolder() {

@@ -9,7 +9,7 @@ struct Joints {
   const char* second;
 };
 
-/// Of all types.
+/// Objectives of all types.
 constexpr Joints kTwoJoints[] = {
     {"joint: hingeX", "joint: hingeY"},        {"joint: hingeZ, joint_scale: 1.7", "joint: hinge, axis: [1 2 -1]"},
     {"joint: transX", "joint: transZ"},        {"joint: transXYPhi", "joint: hingeX"},

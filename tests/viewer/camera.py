@@ -9,7 +9,7 @@ FIELD_OF_VIEW = np.deg2rad(40)  # vertical
 
 
 class Camera:
-    """A camera at `position` that looks at `target`, upright."""
+    """An upright camera at `position` that faces `target`."""
 
     def __init__(self, position: list[float], target: list[float]) -> None:
         self.position, self.target = np.array(position, float), np.array(target, float)

@@ -14,7 +14,7 @@ FileStamp stamp(int written, std::uintmax_t size) {
   return {std::filesystem::file_time_type(std::chrono::seconds(written)), size};
 }
 
-/// Looks at one file every 20 ms of a clock of its own.
+/// Checks one file every 20 ms of its own clock.
 class Watched {
  public:
   explicit Watched(FileStamp first) { changes_.setRead({{"scene.g", first}}); }

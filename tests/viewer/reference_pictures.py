@@ -1,7 +1,7 @@
 """Compares the page with reference pictures in `pictures/`.
 
 Means of 8 x 8 pixels are compared, because machines draw edges and shadows slightly differently: they may differ by 6
-of 255 on average over the picture, and by 40 in one place of a hundred. KINEGRAPH_RECORD=1 writes the pictures anew.
+of 255 on average over the picture, and by 40 in one place of a hundred. KINEGRAPH_RECORD=1 writes the pictures again.
 """
 
 from __future__ import annotations

@@ -196,7 +196,7 @@ def test_keys_do_things_while_a_file_is_watched(browser: Browser, start: Start, 
     browser.wait_for("kinegraph.slice() === null")
     x, y = browser.pixel([0.05, 0, 0])
     browser.call("Input.dispatchMouseEvent", type="mouseMoved", x=x, y=y)
-    browser.evaluate(TWO_PICTURES)  # with the second, the page has told where the pointer is
+    browser.evaluate(TWO_PICTURES)  # with the second, the page has sent the place of the pointer
     browser.press(" ")
     browser.wait_for("/ at /.test(kinegraph.message())")
     browser.press("q")

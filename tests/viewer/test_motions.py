@@ -225,7 +225,7 @@ def test_motions_and_shapes_are_saved(config: kg.Config, browser: Browser, tmp_p
     browser.wait_for("kinegraph.slice() === 2")
     browser.click_button("video")
     video = downloaded(tmp_path, "*.webm")
-    assert video.startswith(b"\x1a\x45\xdf\xa3")  # EBML, of which WebM is made
+    assert video.startswith(b"\x1a\x45\xdf\xa3")  # EBML, the container of WebM
     assert len(video) > 1000
     played = browser.evaluate(f"""(async () => {{
       const video = document.createElement("video");
@@ -233,7 +233,7 @@ def test_motions_and_shapes_are_saved(config: kg.Config, browser: Browser, tmp_p
       await new Promise((resolve, reject) => {{ video.onloadeddata = resolve; video.onerror = () => reject(new Error("no video")); }});
       return [video.videoWidth, video.videoHeight];
     }})()""")
-    assert played == [2 * 640, 2 * 480]  # as fine as a picture at rest, where the processor draws
+    assert played == [2 * 640, 2 * 480]  # as fine as a picture at rest if the processor draws
     browser.click_button("page")
     assert b"recording" in downloaded(tmp_path, "*.html")
 

@@ -20,7 +20,7 @@ LEAVES = "[...document.querySelectorAll('#tree .leaf, #tree summary')].filter((x
 
 @pytest.fixture
 def page(config: kg.Config, browser: Browser) -> Iterator[Browser]:
-    """Shows a table with a box and a ghost on it, and a marker."""
+    """Shows a table with a box and a transparent box on it, and a marker."""
     config.addFrame("table").setShape(kg.ST.ssBox, [1, 1, 0.1, 0.02]).setColor([0, 0.7, 0])
     config.addFrame("box", "table").setShape(kg.ST.box, [0.3, 0.3, 0.3]).setColor([1, 0, 0]).setRelativePosition(
         [0, 0, 0.5]

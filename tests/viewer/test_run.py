@@ -44,7 +44,7 @@ def test_time_contacts_and_forces_are_shown_with_each_step(config: kg.Config, br
     browser.open(config.viewer().url)
     for _ in range(50):
         S.step()
-    browser.wait_for(f"{TIME} === 0.5")  # the last step, also where many are taken at once
+    browser.wait_for(f"{TIME} === 0.5")  # the last step, also if many are taken at once
     arrows = sum("box" in contact["frames"] for contact in S.getContacts())
     assert arrows >= 4
     browser.wait_for(f"kinegraph.run().arrows === {arrows}")
@@ -90,7 +90,7 @@ print('end', S.get_t() < 1e9)
     assert browser.evaluate("kinegraph.position('box')[2]") < 1
     browser.click_button("reset")
     browser.wait_for(f"{TIME} === 0")
-    browser.wait_for("Math.abs(kinegraph.position('box')[2] - 0.65) < 1e-3")  # where it was when it was first shown
+    browser.wait_for("Math.abs(kinegraph.position('box')[2] - 0.65) < 1e-3")  # its place when it was first shown
     assert browser.evaluate(PAUSED)
     browser.press_alt("K")
     browser.wait_for(f"!{PAUSED} && {TIME} > 0.3")

@@ -16,7 +16,7 @@ BALLS = {
     "green": ([0, 1, 0], [0.5, 0.1, 0.6]),
     "blue": ([0, 0, 1], [-0.2, 0.4, 0.8]),
 }
-EDGE = 4  # pixels, where the page shows that it has the focus
+EDGE = 4  # pixels of the frame that shows the focus
 NEAR = 5  # pixels: the dark side of a ball does not count
 
 
@@ -28,7 +28,7 @@ def balls(config: kg.Config) -> kg.Config:
 
 
 def camera_frame(config: kg.Config, attributes: str, place: list[float], target: list[float], roll: float) -> kg.Frame:
-    """A frame that looks at a target: x to the right, y down, z forward, turned about z."""
+    """A camera frame that faces a target: x to the right, y down, z forward, turned about z."""
     forward = np.array(target) - place
     forward = forward / np.linalg.norm(forward)
     right = np.cross(forward, [0, 0, 1]) if np.linalg.norm(forward[:2]) > 1e-6 else np.array([1.0, 0, 0])
@@ -140,7 +140,7 @@ CTRL = 2
 
 
 def axes(browser: Browser) -> np.ndarray:
-    """Of the page's camera, as columns: x to the right, y down, z forward."""
+    """Returns the axes of the page's camera, as columns: x to the right, y down, z forward."""
     w, x, y, z = browser.evaluate("kinegraph.viewpoint()")["pose"][3:]
     return kg.Quaternion([w, x, y, z]).getMatrix()
 

@@ -44,7 +44,8 @@ const bytesOf = (base64: string): Uint8Array<ArrayBuffer> => Uint8Array.from(ato
 
 async function unpack(base64: string, bytes: number, stride: number): Promise<ArrayBuffer> {
   const stream = new Blob([bytesOf(base64)]).stream().pipeThrough(new DecompressionStream("deflate"));
-  const planes = new Uint8Array(await new Response(stream).arrayBuffer()); // all lowest bytes, then all second ones, ...
+  const planes = new Uint8Array(await new Response(stream).arrayBuffer()); // all lowest bytes, then all second ones,
+                                                                           // ...
   const count = planes.length / 4;
   const values = new Int32Array(count);
   for (let i = 0; i < count; ++i) {

@@ -14,7 +14,7 @@ export const find = <T extends HTMLElement>(id: string): T => document.getElemen
 
 const bars: HTMLElement[] = [];
 
-/** Keeps the panels above this bar while it is shown, whatever its height: see style.css. */
+/** Keeps the panels above this bar while it is shown, at any height: see style.css. */
 export function leaveRoomAbove(bar: HTMLElement): void {
   bars.push(bar);
   new ResizeObserver(() => {

@@ -2,7 +2,7 @@ import * as THREE from "three";
 
 const SIZE = 60,
   SOLID = 10; // large squares
-const DEPTH = 0.001; // large squares: depth of the floor below z = 0, so that it does not hide the bottoms of shapes
+const DEPTH = 0.001; // large squares: depth of the floor below z = 0; it must not hide the bottoms of shapes
 
 const GRID = /* glsl */ `
 uniform vec3 ink;

@@ -6,7 +6,7 @@ const LETTER = 6.4,
   AROUND = 8,
   HEIGHT = 17; // pixels: approximate height of a label
 
-/** Creates a label at a place of the scene. Of overlapping labels, only the one with the highest rank is shown, or else
+/** Creates a label at a place of the scene. If labels overlap, only the one with the highest rank is shown, or else
  * the nearest. */
 export function label(text: string, rank: number, className = "name"): CSS2DObject {
   const object = new CSS2DObject(make("span", { className, textContent: text }));

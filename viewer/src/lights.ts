@@ -62,7 +62,7 @@ export class Lights {
     this.fitShadows(this.center, this.radius);
   }
 
-  /** Lets the whole scene within a ball cast shadows, whatever its size and position. */
+  /** Lets the whole scene within a ball cast shadows of any size and position. */
   fitShadows(center: THREE.Vector3, radius: number): void {
     this.center.copy(center);
     this.radius = radius;

@@ -61,7 +61,7 @@ export class Quality {
     return !this.isFull && this.now < Math.min(devicePixelRatio, LARGEST);
   }
 
-  /** Draws all pictures in full resolution, whatever time they take; or resumes the usual choice. */
+  /** Draws all pictures in full resolution, however slow; or resumes the usual choice. */
   hold(on: boolean): void {
     this.isHeld = on;
     if (on) this.now = this.finest;
@@ -73,7 +73,7 @@ export class Quality {
     if (this.isHeld) return;
     if (this.rested) this.pictures = this.spent = 0;
     if (this.counted < COUNTED) this.disturb(time);
-    this.drew = !this.rested; // the first picture of a motion does not tell the drawing time
+    this.drew = !this.rested; // the first picture of a motion says nothing of the drawing time
     if (!this.rested || this.software) this.now = this.moving;
     this.changed = time;
     this.quiet = 0;

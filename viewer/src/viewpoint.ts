@@ -232,7 +232,7 @@ export class Viewpoint {
     return (0.5 / this.focal) * this.spread();
   }
 
-  /** Returns the factor by which the visible height grows so that the picture's width fits. */
+  /** Returns the factor by which the visible height grows until the picture's width fits. */
   private spread(): number {
     return Math.max(1, this.aspect / this.pageAspect);
   }

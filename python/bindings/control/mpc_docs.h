@@ -4,8 +4,8 @@
 namespace kinegraph::python::docs::mpc {
 
 inline constexpr char make[] =
-    R"(Copies a motion problem. Slice t lies (t + 1) tau after a call, and objectives keep their slices: an objective at the
-last slice is a terminal one.
+    R"(Copies a motion problem. Slice t lies (t + 1) tau after a call, and objectives keep their slices: an objective at
+the last slice is a terminal one.
 
 Args:
     komo: The problem, of order 1 or 2. Its path is the initial guess of the first call.

@@ -19,7 +19,7 @@ Args:
 Returns:
     The feature itself.
 Raises:
-    ArgumentError: By eval, if the size is wrong.)";
+    ArgumentError: Raised by eval if the size is wrong.)";
 
 inline constexpr char setTarget[] = R"(Sets the target, which is subtracted before scaling.
 
@@ -28,7 +28,7 @@ Args:
 Returns:
     The feature itself.
 Raises:
-    ArgumentError: By eval, if the size is wrong.)";
+    ArgumentError: Raised by eval if the size is wrong.)";
 
 inline constexpr char setOrder[] = R"(Sets the order of the time derivative.
 

@@ -51,8 +51,8 @@ Raises:
     ArgumentError: The phase does not exist.)";
 
 inline constexpr char getForceInteractions[] =
-    R"(Returns the contact forces, a dict per force and slice: `from` pushes `onto` at `poa` (m) with `force` (N), both of
-shape (3,), in the world.)";
+    R"(Returns the contact forces, a dict per force and slice: `from` pushes `onto` at `poa` (m) with `force` (N), both
+of shape (3,), in the world.)";
 
 inline constexpr char initWithConstant[] = R"(Initializes all slices with one joint vector.
 

@@ -120,7 +120,7 @@ inline constexpr char stepAction[] =
 limits.
 
 From the observation's time and reference, the robot accelerates by a = (delta - 2 xi lmbda qvel) / lmbda^2 for lmbda
-seconds, and comes to rest in the next lmbda seconds unless another step follows.
+seconds. It comes to rest in the next lmbda seconds unless another step follows.
 
 Args:
     delta: (n,) target relative to the present reference, rad or m.

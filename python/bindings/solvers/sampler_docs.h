@@ -16,6 +16,7 @@ Returns:
     The sampler itself.)";
 
 inline constexpr char sample[] =
-    R"(Samples a point. The SolverReturn is feasible, or its message describes the end of the descent. Ctrl-C ends the call.)";
+    R"(Samples a point. The SolverReturn is feasible, or its message describes the end of the descent. Ctrl-C ends the
+call.)";
 
 }  // namespace kinegraph::python::docs::sampler

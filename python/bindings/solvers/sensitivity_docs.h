@@ -26,8 +26,8 @@ Raises:
     Error: The refinement of the solution fails.)";
 
 inline constexpr char ofIkResult[] =
-    R"(Computes how the answer moves with its targets: by the shortest dq if they leave joints free, else with the posture that
-the answer stays close to. The answer is first refined to rounding errors.
+    R"(Computes how the answer moves with its targets: by the shortest dq if they leave joints free, else with the
+posture that the answer stays close to. The answer is first refined to rounding errors.
 
 Args:
     targets: Numbers or names of targets (of their frame or feature); none: all. A position or gaze has the parameters x

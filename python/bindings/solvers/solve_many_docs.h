@@ -4,8 +4,8 @@
 namespace kinegraph::python::docs::solve_many {
 
 inline constexpr char solveAll[] =
-    R"(Solves independent problems, such as the options of a discrete decision, on several threads. The number of threads does
-not change the results. After Ctrl-C the call returns the results so far.
+    R"(Solves independent problems, such as the options of a discrete decision, on several threads. The number of
+threads does not change the results. After Ctrl-C the call returns the results so far.
 
 Args:
     problems: KOMO, NLP or NLP_Solver objects, all different. A KOMO is left at its solution.
@@ -19,8 +19,8 @@ Raises:
     ArgumentError: An object of another class, or two problems of one KOMO.)";
 
 inline constexpr char solveFromMany[] =
-    R"(Solves from several initial guesses, and leaves the KOMO at the best solution. After Ctrl-C the call returns the results
-so far.
+    R"(Solves from several initial guesses, and leaves the KOMO at the best solution. After Ctrl-C the call returns the
+results so far.
 
 Args:
     starts: Number of guesses (the current path, then random ones), or paths, shape (K, T, n), rad or m.

@@ -9,8 +9,8 @@ Args:
     other: The result.)";
 
 inline constexpr char explain[] =
-    R"(Explains which objectives and limits contradict each other at this solution: in which slices, by how many m or rad, and
-which single relaxation helps most. Solves small problems; leaves a KOMO at this solution.
+    R"(Explains which objectives and limits contradict each other at this solution: in which slices, by how many m or
+rad, and which single relaxation helps most. Solves small problems; leaves a KOMO at this solution.
 
 Args:
     tolerance: Largest accepted violation.
@@ -91,8 +91,8 @@ Returns:
     The solver itself.)";
 
 inline constexpr char solve[] =
-    R"(Solves the problem from the last x or its initial point. After Ctrl-C the result is the best point so far, with status
-cancelled.
+    R"(Solves the problem from the last x or its initial point. After Ctrl-C the result is the best point so far, with
+status cancelled.
 
 Args:
     resampleInitialization: 1 starts from a new initial point of the problem.

@@ -18,7 +18,7 @@ from .worker import Answer, Batch, Worker
 
 
 class WorkerDied(Exception):
-    """A worker died. The message tells how."""
+    """A worker died. The message says how."""
 
 
 class Engine(Protocol):

@@ -1,7 +1,7 @@
 """Drivers of real robots, for BotOp(C, True, driver=...).
 
-The drivers are tested against stand-ins for the vendors' packages, and *not* on hardware: keep the emergency stop at hand.
-They import the vendors' packages when they connect.
+The drivers are tested against stand-ins for the vendors' packages, and *not* on hardware: keep the emergency stop at
+hand. They import the vendors' packages when they connect.
 """
 
 from .franka import FrankaDriver

@@ -73,8 +73,8 @@ class _Hand:
 class FrankaDriver(RobotDriver):
     """A Panda or FR3 with its hand. Untried on hardware.
 
-    The loop of 1 kHz runs in panda-python's thread; this driver passes it setpoints. Its controller has one stiffness per
-    joint, so that setCompliance uses the diagonal of the compliance only.
+    The loop of 1 kHz runs in panda-python's thread; this driver passes it setpoints. Its controller has one stiffness
+    per joint, so that setCompliance uses the diagonal of the compliance only.
     """
 
     def __init__(self, config: Config, host: str, hand: bool = True):

@@ -10,8 +10,8 @@ from .._core import Config, RobotCommand, RobotDriver, RobotInfo, RobotState
 class UrDriver(RobotDriver):
     """An arm of Universal Robots with six joints. Untried on hardware.
 
-    servoj moves the arm. Its limits are those of the scene's joints; a UR's controller has its own limits, and stops the arm
-    beyond them.
+    servoj moves the arm. Its limits are those of the scene's joints; a UR's controller has its own limits, and stops
+    the arm beyond them.
     """
 
     def __init__(

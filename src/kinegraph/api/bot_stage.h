@@ -15,8 +15,8 @@ std::vector<ShownRun::Contact> shownContacts(const std::vector<Contact>& contact
 /// Shows the robot of a BotOp on the page of the last synced configuration, if the page is open.
 class BotStage {
  public:
-  /// Starts with the page of the configuration that the BotOp was made from. `cancellation` is checked while the page is
-  /// updated.
+  /// Starts with the page of the configuration that the BotOp was made from. `cancellation` is checked while the page
+  /// is updated.
   BotStage(std::weak_ptr<ConfigViewer> viewer, CancellationToken cancellation)
       : viewer_(std::move(viewer)), cancellation_(std::move(cancellation)) {}
   ~BotStage();  ///< removes the contacts from the page

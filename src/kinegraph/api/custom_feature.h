@@ -35,8 +35,8 @@ class FrameView {
 /// Receives the frames in the order in which the objective names them. Several threads may call it at once.
 using FeatureFunction = std::function<FeatureValue(std::span<const FrameView> frames)>;
 
-/// Makes a feature from a function of frames. `name` is for messages. The function must always return the same number of
-/// values; otherwise, and for a Jacobian of a wrong size, evaluation throws ValueError.
+/// Makes a feature from a function of frames. `name` is for messages. The function must always return the same number
+/// of values; otherwise, and for a Jacobian of a wrong size, evaluation throws ValueError.
 FeatureSource customFeature(std::string name, FeatureFunction function);
 
 }  // namespace kinegraph

@@ -12,9 +12,10 @@ struct RobotLimits {
   bool torque = false;  ///< respects the model's effort limits (getEffortLimits), by its masses and gravity
 };
 
-/// The fastest motion of a robot along a path in its dofs q, rows of `path` (K, n): see `retime` (trajectories/retime.h).
-/// With `torque`, the generalized forces of inverse dynamics hold at the ends of all intervals (`options.constraints` is not
-/// used then). Throws ValueError if the path has another number of dofs, or the model does not have the limits asked for.
+/// The fastest motion of a robot along a path in its dofs q, rows of `path` (K, n): see `retime`
+/// (trajectories/retime.h). With `torque`, the generalized forces of inverse dynamics hold at the ends of all intervals
+/// (`options.constraints` is not used then). Throws ValueError if the path has another number of dofs, or the model
+/// does not have the limits asked for.
 TimedPath retime(const Config& config, const MatrixXd& path, const RobotLimits& limits,
                  const RetimeOptions& options = {});
 

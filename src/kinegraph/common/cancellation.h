@@ -19,9 +19,9 @@ class Cancelled : public Error {
 ///
 ///     planMotion(C, goal, {}, start, [&] { return stop_requested.load(); });
 ///
-/// A token is made of a function. If the function returns true, the computation ends with its best result so far. If the
-/// function throws, the computation stops and passes the exception on. A function that returns nothing never cancels; it
-/// can only throw. A default token never cancels.
+/// A token is made of a function. If the function returns true, the computation ends with its best result so far. If
+/// the function throws, the computation stops and passes the exception on. A function that returns nothing never
+/// cancels; it can only throw. A default token never cancels.
 class CancellationToken {
  public:
   CancellationToken() = default;
@@ -29,9 +29,7 @@ class CancellationToken {
   template <class Function>
   requires(std::is_invocable_v<Function&> && !std::is_same_v<std::remove_cvref_t<Function>, CancellationToken>)
       CancellationToken(Function function) {
-    if constexpr (std::is_constructible_v<bool, const Function&>) {
-      if (!bool(function)) return;  // an empty std::function
-    }
+    if (isEmpty(function)) return;
     if constexpr (std::is_void_v<std::invoke_result_t<Function&>>) {
       function_ = [function = std::move(function)]() mutable {
         function();
@@ -55,6 +53,19 @@ class CancellationToken {
   explicit operator bool() const { return bool(function_); }
 
  private:
+  template <class Result>
+  static bool isEmpty(const std::function<Result()>& function) {
+    return !function;
+  }
+  template <class Result>
+  static bool isEmpty(Result (*const& function)()) {
+    return !function;
+  }
+  template <class Function>
+  static bool isEmpty(const Function&) {  // an object that is always callable
+    return false;
+  }
+
   std::function<bool()> function_;
 };
 

@@ -88,7 +88,8 @@ class SpeculativeExecutor::Speculative {
 
   explicit operator bool() const { return bool(task_); }
 
-  /// Queues the work behind other work of the same priority. Another call changes the priority and queues it anew.
+  /// Queues the work behind other work of the same priority. Another call changes the priority and moves it to the end
+  /// of the queue.
   void begin(Priority priority = Priority::high) const { task_.begin(priority); }
 
   /// Executes the work or waits for it. Throws exceptions of the work.

@@ -43,7 +43,7 @@ enum class DiffIkStatus {
 ///   - a velocity damper, d' x >= -gain (d - margin), for each pair within the influence distance.
 /// Tasks of several priorities have one program per priority, in the directions that no earlier task depends on.
 ///
-/// Each step reads the scene anew, so that targets and obstacles may move. A step never throws because of limits: from
+/// Each step reads the scene again, so that targets and obstacles may move. A step never throws because of limits: from
 /// beyond a limit the joint returns as fast as velocities allow. If dampers contradict the limits, the dampers are
 /// relaxed as little as possible. After the first step nothing allocates.
 class DiffIk {

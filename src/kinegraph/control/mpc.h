@@ -55,7 +55,7 @@ struct MotionPoint {
 ///     }
 ///
 /// Slice t of the problem lies (t + 1) tau after the call. A call shifts the path and the multipliers by the time since
-/// the last call, sets the measured state as start of the motion, and improves the motion by steps of the augmented
+/// the last call, sets the measured state as start of the motion; then it improves the motion by steps of the augmented
 /// Lagrangian until a budget or tolerance is reached. Multipliers, penalty, damping and memory survive from call to
 /// call. If many steps found no feasible motion, the next call starts without these, from the last feasible motion.
 ///

@@ -22,9 +22,9 @@ struct FeatureValue {
 /// Computes a value from the frames with these ids at a state.
 using StateFunction = std::function<FeatureValue(const State& state, const std::vector<int>& frames)>;
 
-/// Makes a feature of order 0 from a function. If the function returns no Jacobian, it is computed by central differences
-/// over the dofs that move the frames, or over all dofs without frames. `name` is for messages. Evaluation throws
-/// ValueError if the number of values changes, and for a Jacobian of a wrong size.
+/// Makes a feature of order 0 from a function. If the function returns no Jacobian, it is computed by central
+/// differences over the dofs that move the frames, or over all dofs without frames. `name` is for messages. Evaluation
+/// throws ValueError if the number of values changes, and for a Jacobian of a wrong size.
 std::unique_ptr<Feature> makeCustomFeature(std::string name, StateFunction function, std::vector<int> frames,
                                            const State& scene);
 

@@ -92,10 +92,10 @@ void IkIterate::evaluate() {
   measureTargets(false);
 }
 
-/// Computes the errors of the targets, and their rows in `step_`; the rows of pairs stay. The kernels in lanes have rows
-/// of their own (ik_kernel_body.h). Their angles come from a polynomial that is accurate to 2e-8, which is the same in
-/// all lanes and good enough for an approach. Here angles are exact to rounding, because answers are accepted and
-/// reported by these errors.
+/// Computes the errors of the targets, and their rows in `step_`; the rows of pairs stay. The kernels in lanes have
+/// rows of their own (ik_kernel_body.h). Their angles come from a polynomial that is accurate to 2e-8, which is the
+/// same in all lanes and good enough for an approach. Here angles are exact to rounding, because answers are accepted
+/// and reported by these errors.
 void IkIterate::measureTargets(bool with_jacobian) {
   errors_.position = errors_.rotation = errors_.feature = square_ = 0.;
   features_met_ = true;
@@ -126,8 +126,8 @@ void IkIterate::placeGoal(const IkTask& task, IkGoal& goal, const Vector3d& p_WF
   }
 }
 
-/// Computes the rows of a pose, position, rotation, direction or gaze. The Jacobian holds the motion relative to the frame
-/// that carries the goal, so joints that move both alike contribute nothing.
+/// Computes the rows of a pose, position, rotation, direction or gaze. The Jacobian holds the motion relative to the
+/// frame that carries the goal, so joints that move both alike contribute nothing.
 void IkIterate::measureFrame(std::size_t target, int row, bool with_jacobian) {
   const KinematicModel& model = *problem_.model;
   const IkTask& task = problem_.tasks[target];

@@ -17,7 +17,8 @@ class IkSearch {
   /// Solves one problem; `targets` have the problem's frames and kinds.
   IkResult solve(const std::vector<IkTarget>& targets, const CancellationToken& cancellation);
 
-  // The stages of solve, for callers that compute the approaches themselves: open, assess until it returns true, finish.
+  // The stages of solve, for callers that compute the approaches themselves: open, assess until it returns true,
+  // finish.
   void open(IkJob& job, const std::vector<IkTarget>& targets);
 
   /// Completes attempt number `job.attempts`, whose approach ended at x, and records its result. Returns true if no

@@ -58,8 +58,8 @@ IkResult solveIk(const Config& config, const std::vector<IkTarget>& targets, con
 
 /// Solves one problem per entry of `problems`. All must have the frames and kinds of the first one's targets; otherwise
 /// throws ValueError. Each result equals that of `solveIk`, for any number of threads. The calling
-/// thread regularly calls `progress` with the number of solved problems and asks `cancellation`, which ends the search with
-/// the best answers so far.
+/// thread regularly calls `progress` with the number of solved problems and asks `cancellation`, which ends the search
+/// with the best answers so far.
 std::vector<IkResult> solveIkBatch(const Config& config, const std::vector<std::vector<IkTarget>>& problems,
                                    const IkOptions& options = {}, int threads = 1,
                                    const ProgressCallback& progress = {}, const CancellationToken& cancellation = {});

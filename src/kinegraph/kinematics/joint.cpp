@@ -191,7 +191,8 @@ Pose motionPose(const std::vector<MotionStep>& steps, const Vector3d& axis, doub
 
 namespace {
 
-/// Lets each step in rotate_about absorb its part of the pose. Exact for all types except generic ones with several rotations.
+/// Lets each step in rotate_about absorb its part of the pose. Exact for all types except generic ones with several
+/// rotations.
 VectorXd projectInSequence(const std::vector<MotionStep>& steps, const Vector3d& axis, double scale, const Pose& X) {
   VectorXd q = motionIdentity(steps);
   Pose rest = X;  // the pose that the remaining steps must produce

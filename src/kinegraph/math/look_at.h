@@ -4,7 +4,7 @@
 
 namespace kinegraph {
 
-/// Returns the pose of an upright camera at `position` that looks at `target`: x right, y down, z forward.
+/// Returns the pose of an upright camera at `position` that faces `target`: x right, y down, z forward.
 Pose lookAt(const Vector3d& position, const Vector3d& target);
 
 }  // namespace kinegraph

@@ -7,7 +7,7 @@
 namespace kinegraph {
 
 /// Returns the test problem MinimalConvexCore: 18 balls of radius r = .01 m cover the 18 corners v_i of an ellipsoid
-/// (half axes .08, .2 and .3 m, center (0, 0, .5)), and as many as possible of their centers x_i coincide.
+/// (half axes .08, .2 and .3 m, center (0, 0, .5)). As many as possible of their centers x_i coincide.
 ///
 /// The 54 variables are x_0 .. x_17; the residuals are
 ///     f      sum over the edges of each of 32 triangles of  y(|x_a - x_b| / 1e-4)

@@ -19,7 +19,7 @@ struct ValidityReport {
 /// A validity report that is computed when it is requested first. Safe to use from several threads.
 class LazyValidity {
  public:
-  /// If the check throws, as it may if it is cancelled, the next request starts it anew.
+  /// If the check throws, as it may if it is cancelled, the next request starts it again.
   using Check = std::function<ValidityReport(const CancellationToken& cancellation)>;
 
   explicit LazyValidity(Check check) : check_(std::move(check)) {}

@@ -122,7 +122,7 @@ class PlanAmongObstacles {
   }
 
   /// Samples refuges, and selects some that are apart: in turn the closest one to the start, and the one with the
-  /// smallest detour on the line to the goal.
+  /// smallest excess length over the line to the goal.
   std::vector<VectorXd> refuges(const VectorXd& goal) {
     const JointSpace space(*static_.model());
     const State state = static_.state();

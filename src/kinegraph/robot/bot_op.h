@@ -109,8 +109,8 @@ class BotOp {
   /// rests at the end; a trajectory that ends with a velocity is followed by a stopping segment. The trajectory is
   /// evaluated in this call, and not needed later.
   ///
-  /// Throws ValueError if the robot or its reference is not at the trajectory's start, within the tolerances, and if the
-  /// trajectory exceeds a limit of position, velocity, acceleration or effort.
+  /// Throws ValueError if the robot or its reference is not at the trajectory's start, within the tolerances, and if
+  /// the trajectory exceeds a limit of position, velocity, acceleration or effort.
   void follow(const Trajectory& trajectory, const FollowOptions& options = {});
 
   void hold();                         ///< stops at once, and stays there, at full stiffness

@@ -16,8 +16,8 @@ class ReferenceMotion {
   /// everything.
   void add(const BSpline& spline, double begin, double now);
 
-  /// Adds a trajectory whose t = 0 is the control time `begin` (s), in the same way. It has samples at all control periods,
-  /// multiples of `period` (s), so that the reference at each of them is a sample to the bit.
+  /// Adds a trajectory whose t = 0 is the control time `begin` (s), in the same way. It has samples at all control
+  /// periods, multiples of `period` (s), so that the reference at each of them is a sample to the bit.
   void add(std::shared_ptr<const SampledTrajectory> trajectory, double begin, double now, double period);
 
   /// Returns the time from `begin` to the next control period, s.

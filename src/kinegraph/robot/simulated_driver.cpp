@@ -70,7 +70,7 @@ void SimulatedDriver::stepStiff(double period) {
 }
 
 /// Applies the torques of springs and dampers, scaled by the mass matrix so that all stiff directions have the same
-/// natural frequency, anew in each inner step.
+/// natural frequency, computed in each inner step.
 void SimulatedDriver::stepCompliant(double period) {
   const Eigen::Index n = command_.q.size();
   const double w = kCompliantFrequency;

@@ -125,7 +125,7 @@ void World::innerStep(double h) {
 
 /// Corrects a drift of MuJoCo's contacts. MuJoCo omits the term dJ/dt v in the rows of contacts, so objects held by
 /// friction slip in a rotating hand; its step also lets positions drift by h^2/2 of that term. Both errors vanish with
-/// the tangential surface velocity v* = (1/b + h/2) t (a2 - a1), where t are the tangents, a_i is the acceleration of
+/// the tangential surface velocity v* = (1/b + h/2) t (a2 - a1): t are the tangents, a_i is the acceleration of
 /// the contact point of body i at zero joint acceleration, and b = 2 / (dmax timeconst). Along the normal a shifted
 /// distance does the same; it also includes the drift of a step, because MuJoCo computes the force for the distance at
 /// the end of the step.

@@ -80,7 +80,8 @@ JerkLimitedProgram::RowPlace JerkLimitedProgram::row(int r, int k) {
 /// Adds the rows of accelerations and, at both ends, of jerks. The last Bernstein coefficient of an acceleration is the
 /// first one of the next interval. With dq/ds = sum_k p_k B_k of degree m, (q' b'/2 + q'' b) w has the coefficients
 ///
-///     ((m + 1 - k) p_k (b1 - b0) + k p_k-1 (b2 - b1)) / (m + 1) + m sum_l C(2, l) C(m - 1, k - l) / C(m + 1, k) d_k-l b_l
+///     ((m + 1 - k) p_k (b1 - b0) + k p_k-1 (b2 - b1)) / (m + 1) + m sum_l C(2, l) C(m - 1, k - l) / C(m + 1, k) d_k-l
+///     b_l
 ///
 /// with d_k = p_k+1 - p_k.
 void JerkLimitedProgram::addMotionRows(const ScalingGrid& grid, const MotionLimits& limits) {

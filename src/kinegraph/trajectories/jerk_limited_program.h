@@ -99,8 +99,8 @@ class JerkLimitedProgram {
   Array width_, left_, right_;  ///< knot k = left_[k] c_(k-1) + right_[k] c_k
   Array middle_, knots_, middle_step_, knot_step_;
   Array roots_;  ///< 1 / sqrt(b) at the knots
-  std::vector<Kind>
-      kinds_;  ///< of the rows of a block: velocity, acceleration, constraint, jerk at the start and the end of intervals
+  /// Kinds of the rows of a block: velocity, acceleration, constraint, jerk at the start and the end of intervals.
+  std::vector<Kind> kinds_;
   int jerks_ = 0;  ///< number of dofs with a jerk limit
   std::vector<Rows> rows_;
   std::vector<JerkLimitedKernel::Block> blocks_;  ///< the last one has the rows at the end of the section

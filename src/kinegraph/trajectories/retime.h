@@ -87,7 +87,7 @@ class TimedPath final : public Trajectory {
 /// velocities. With jerk limits, s'' = 0 at both ends, unless `start_acceleration` = q' s'' + q'' s'^2 sets s'' at the
 /// start. Points that equal their predecessor take no time.
 ///
-/// Throws ValueError for a path without points, numbers that are not finite, limits that are not positive, a moving dof
+/// Throws ValueError for a path without points, numbers that are not finite, limits that are not positive; a moving dof
 /// without limits, velocities that do not point along the path, and a start acceleration that leaves it. A path that
 /// cannot be followed is a status.
 TimedPath retime(const MatrixXd& path, const MotionLimits& limits, const RetimeOptions& options = {});

@@ -7,7 +7,7 @@
 
 namespace kinegraph {
 
-/// Handles keys while a file is watched: h shows help, a animates the joints, i reports the scene and the camera, c
+/// Handles keys while a file is watched: h shows help, a animates the joints, i reports the scene and the camera; c
 /// collisions, r samples random joints, x writes the scene as z.g, z.urdf, z.ply and z.dae, space describes the frame
 /// under the pointer, 6 logs mouse and keys.
 class WatchKeys {

@@ -1,5 +1,4 @@
-// Where faces, edges, caps and side lines are parallel, witness points are in the middle of the contact, on hulls as on
-// boxes.
+// Witness points of parallel faces, edges, caps and side lines are in the middle of the contact, on hulls as on boxes.
 #include "kinegraph/geometry/distance/contact_patch.h"
 
 #include <gtest/gtest.h>
@@ -98,7 +97,7 @@ TEST(ContactPatch, CylindersStandOnTheMiddleOfWhatTheyTouch) {
     expectPoint(middle(post, at(.3, .4, .2 + gap), table, at(0, 0, 0)), {.3, .4, .1 + .5 * gap}, kPatchExact);
     expectPoint(middle(can, at(.3, .4, .2 + gap), can, at(.3, .4, 0)), {.3, .4, .1 + .5 * gap}, kPatchExact);
     expectPoint(middle(can, at(.1, 0, .2 + gap), can, at(0, 0, 0)), {.05, 0, .1 + .5 * gap},
-                1e-3);  // where two discs overlap
+                1e-3);  // in the overlap of two discs
   }
   const Matrix3d lying = axisRotation(0, M_PI / 2);
   expectPoint(middle(can, at(.3, .4, .22, lying), table, at(0, 0, 0)), {.3, .4, .11}, kPatchExact);

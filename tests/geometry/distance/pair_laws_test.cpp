@@ -1,4 +1,4 @@
-// Laws that distances of all pairs of shape types obey, at random and at degenerate poses, and what coal says of them.
+// Laws that distances of all pairs of shape types obey, at random and at degenerate poses, compared with coal.
 
 #include <coal/distance.h>
 #include <coal/shape/convex.h>
@@ -98,14 +98,14 @@ struct Sample {
   Proximity near() const { return proximity(*a.body, X_WA, *b.body, X_WB); }
   bool grid() const { return a.grid() || b.grid(); }
   bool bent() const { return a.bent() || b.bent(); }
-  /// Distances may differ by that where several pushes are equally short.
+  /// The tolerance of distances if several pushes are equally short.
   double slack(const Proximity& near) const {
     if (grid()) return 1e-6;
     return bent() && near.core_distance < 0. ? 2e-5 : kExact;
   }
 };
 
-/// Every pair of kinds at random poses, and at places where faces, edges and centers meet.
+/// Every pair of kinds at random poses, and with faces, edges and centers that meet.
 std::vector<Sample> samples(int random, std::uint64_t seed, bool degenerate) {
   Rng rng(seed);
   std::vector<Sample> list;
@@ -307,7 +307,7 @@ TEST(PairScalings, ADistanceGridOfABallIsTheBallToTheAccuracyOfTheGrid) {
     if (!sample.b.grid() || !sample.a.convex()) continue;
     const Proximity near = sample.near(), exact = proximity(*sample.a.body, sample.X_WA, *ball, sample.X_WB);
     const double deepest = std::max(exact.core_distance - .2, -.2);
-    if (deepest < -.1) continue;  // the middle of the ball is a kink that the grid cuts off
+    if (deepest < -.1) continue;  // the field is not smooth at the center, and the grid rounds it
     // Beyond the box the field stays below the distance.
     const auto outsideBox = [&](const Vector3d& p) {
       return ((sample.X_WB.inverse() * p).cwiseAbs().array() > .3).any();

@@ -16,7 +16,7 @@ namespace {
 using Body = std::shared_ptr<const CollisionBody>;
 
 constexpr double kProximityRounding = 1e-10;
-constexpr double kRoundDepth = 1e-4;  // where round sides overlap, which it approaches by facets
+constexpr double kRoundDepth = 1e-4;  // of overlapping round sides, which it approximates by facets
 constexpr double kGradient = 1e-4;    // of central differences with that accuracy
 
 Body body(ShapeType type, std::vector<double> size) { return makeCollisionBody({type, std::move(size), nullptr}); }
@@ -125,7 +125,7 @@ TEST(Proximity, BoxesThatOverlapByATenthOfAMeterAreMinusATenthApart) {
 }
 
 TEST(Proximity, RoundedBoxesAreAsFarApartAsTheirFaces) {
-  // A scene of the language's description: two rounded boxes of which one stands .1 above the other.
+  // A scene of the language's description: two rounded boxes, one .1 above the other.
   const auto a = body(ShapeType::ssBox, {.4, .4, .2, .05}), c = body(ShapeType::ssBox, {.2, .2, .2, .02});
   const Proximity near = proximity(*a, at(1, 2, 3), *c, at(1, 2, 3.3));
   EXPECT_NEAR(near.distance, .1, kProximityRounding);

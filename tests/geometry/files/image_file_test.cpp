@@ -14,7 +14,7 @@ namespace {
 
 std::string dataFile(const std::string& name) { return cat(KINEGRAPH_SOURCE_DIR, "/tests/data/images/", name); }
 
-/// What the pictures in tests/data/images show: 8 x, 10 y, 255 - 4 (x + y).
+/// Content of the pictures in tests/data/images: 8 x, 10 y, 255 - 4 (x + y).
 std::array<int, 3> gradient(int x, int y) { return {8 * x, 10 * y, 255 - 4 * (x + y)}; }
 
 /// The largest deviation of a channel from the gradient; of gray pictures, from its red.

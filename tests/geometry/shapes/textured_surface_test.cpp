@@ -21,7 +21,7 @@ Geometry shape(ShapeType type, std::vector<double> size) {
   return geometry;
 }
 
-/// Where the point of a surface that is nearest to p is in the picture.
+/// Returns the texture coordinates of the surface point nearest to p.
 std::array<float, 2> at(const Mesh& mesh, const Vector3d& p) {
   const auto nearer = [&](const Vector3d& a, const Vector3d& b) { return (a - p).norm() < (b - p).norm(); };
   return mesh.texcoords[std::size_t(std::min_element(mesh.vertices.begin(), mesh.vertices.end(), nearer) -

@@ -95,7 +95,7 @@ post(world): {shape: box, size: [0.2, 0.2, 0.2], Q: [1, 0, 0], contact: 1}
   PathQuery request{.constraints = {&asked.scene, &asked.space}, .starts = {}, .goals = {}};
   request.starts = {VectorXd{{2.}}};
   request.goals = {VectorXd{{-2.}}};
-  const PathSearchResult found = searchPath(request);  // 4 rad through the post, 2.28 the other way around
+  const PathSearchResult found = searchPath(request);  // 4 rad through the post, 2.28 in the other direction
   ASSERT_EQ(found.points.size(), 2u);
   EXPECT_NEAR(pathLength(asked.space, asked.space.unroll(found.points)), 2. * M_PI - 4., 1e-12);
 }

@@ -92,7 +92,8 @@ def test_with_limited_accelerations_it_brakes_before_the_table() -> None:
 
 
 def least_of(H, g, A, b):
-    """The x that minimizes x' H x / 2 + g' x subject to A x >= b: multipliers by scipy's nnls, then the rows that hold."""
+    """The x that minimizes x' H x / 2 + g' x subject to A x >= b: multipliers by scipy's nnls, then the rows that
+    hold."""
     nnls = pytest.importorskip("scipy.optimize").nnls
     L = np.linalg.cholesky(H)
     turned, free = np.linalg.solve(L, A.T), -np.linalg.solve(L, g)

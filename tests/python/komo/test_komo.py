@@ -208,7 +208,8 @@ def solved(komo):
 
 
 def check_pick_and_place(C, komo, grasp, place, tolerance=1e-3):
-    """The path itself, in plain configurations: no jump of the box, a grasp that stays, a box that stands at the goal."""
+    """The path itself, in plain configurations: no jump of the box, a grasp that stays, a box that stands at the
+    goal."""
     path, poses = komo.getPath(), komo.getPathFrames()
     names = C.getFrameNames()
     box, gripper = names.index("box"), names.index("l_gripper")

@@ -1,4 +1,5 @@
-"""The motion problems of benchmarks/komo_problems.py: recorded residuals and Jacobians, and solutions from several starts."""
+"""The motion problems of benchmarks/komo_problems.py: recorded residuals and Jacobians, and solutions from several
+starts."""
 
 import importlib.util
 from pathlib import Path

@@ -9,7 +9,7 @@ import pytest
 import kinegraph as ry
 
 SECTIONS = ("Args", "Returns", "Raises")
-SAYS_ALL = re.compile(r"The same as (\w+)(?:\(\))?[.,]")  # an alias is described where it leads to
+SAYS_ALL = re.compile(r"The same as (\w+)(?:\(\))?[.,]")  # its target describes an alias
 MAY_BE_WRONG = re.compile(r"ArrayLike|PathLike|\bFrame\b|Sequence|Mapping|Iterable|Callable|Annotated")
 NO_ARGUMENTS = {"self", "/", "*"}
 
@@ -33,7 +33,7 @@ CALLABLES = list(public_callables())
 
 
 def python_call(member):
-    """The signature of a function that is written in Python, and what it returns."""
+    """The signature of a Python function, with its return type."""
     signature = inspect.signature(member)
     returned = str(signature.return_annotation) if signature.return_annotation is not signature.empty else "None"
     arguments = {parameter.name: str(parameter.annotation) for parameter in signature.parameters.values()}
@@ -58,7 +58,7 @@ def split_arguments(text):
 
 
 def compiled_calls(name, member):
-    """The overloads of a compiled function: arguments, what is returned, and the text, one for all or one for each."""
+    """The overloads of a compiled function: arguments, return type and text, one for all or one for each."""
     text = member.__doc__ or ""
     head = re.compile(rf"^{name}\((.*)\)(?: -> (.*))?$")
     lines = text.splitlines()

@@ -11,7 +11,7 @@ import kinegraph as ry
 
 SOURCE = Path(__file__).parents[3] / "src" / "kinegraph"
 BINDINGS = Path(__file__).parents[3] / "python" / "bindings"
-# What only Python calls so. ("KOMO" is the name of the method, in any language.)
+# Names of Python alone. ("KOMO" is the name of the method, in any language.)
 PYTHON_NAMES = r"\bry\.|\bNLP_|\bOptMethod\.[a-zA-Z]|\b(?:OT|FS|ST|JT|SY)\.[a-z]|=(?:True|False|None)\b|\bwith (?:True|False)\b|\binfo_|\beval_scalar"
 
 
@@ -37,7 +37,7 @@ def literals(folder: Path) -> set[str]:
 
 TABLE = (BINDINGS / "python_names.cpp").read_text()
 TRANSLATED = dict(re.findall(r'Names\{"(\w+)", "(\w+)"\}', TABLE))
-# Classes of C++ whose names are words, too: where one begins a sentence, and the matrix of derivatives.
+# Classes of C++ whose names are ordinary words, too: at the start of a sentence, and for the matrix of derivatives.
 WORDS = r"(?:^|[.:;] )(?:Contacts|Inertia)(?= [a-z])|\b(?:the|a) Jacobian\b"
 
 

@@ -1,4 +1,4 @@
-"""The package as a whole: names, documentation, parameters, and where it can be imported."""
+"""The package as a whole: names, documentation, parameters and imports."""
 
 import inspect
 import os

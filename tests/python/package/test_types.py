@@ -20,7 +20,7 @@ def mypy(*files: Path, folder: Path) -> list[str]:
     pytest.importorskip("mypy", reason="needs mypy")
     command = [sys.executable, "-m", "mypy", "--strict", "--follow-imports=silent", f"--cache-dir={folder}"]
     package = Path(kinegraph.__file__).parent.parent
-    installed = package.name == "site-packages"  # where mypy looks by itself
+    installed = package.name == "site-packages"  # mypy searches there by itself
     environment = dict(os.environ) if installed else os.environ | {"MYPYPATH": str(package)}
     done = subprocess.run([*command, *map(str, files)], capture_output=True, text=True, cwd=folder, env=environment)
     assert re.search(r"\d+ source files?", done.stdout), done.stdout + done.stderr  # it got to the end

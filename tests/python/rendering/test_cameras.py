@@ -418,7 +418,7 @@ def test_a_viewer_makes_pictures_without_a_browser(tmp_path):
 
 
 def reddest(rgb) -> np.ndarray:
-    """Where a picture is red."""
+    """Returns the mask of red pixels."""
     return np.argwhere((rgb[..., 0] > 100) & (rgb[..., 1] < 60))
 
 

@@ -1,4 +1,5 @@
-"""Every name of robotic 0.4.2 is there, or says what to call instead; calls take the same arguments under the same names."""
+"""Every name of robotic 0.4.2 is there, or says what to call instead; calls take the same arguments under the same
+names."""
 
 from __future__ import annotations
 
@@ -29,7 +30,7 @@ def resolved(name: str) -> Any:
 
 
 def listed(arguments: str) -> list[str]:
-    """What commas outside of brackets separate."""
+    """Splits at commas outside of brackets."""
     parts, depth = [""], 0
     for c in arguments:
         depth += (c in "([{") - (c in ")]}")
@@ -41,7 +42,7 @@ def listed(arguments: str) -> list[str]:
 
 
 def own_signatures(call: Any) -> list[list[str]]:
-    """Of each form of a call the names of its arguments, with = behind those that need not be given."""
+    """Returns the names of the arguments of each form of a call, with = behind those that need not be given."""
     if inspect.isclass(call):
         call = call.__init__
     forms = getattr(call, "__nb_signature__", None)
@@ -55,7 +56,7 @@ def own_signatures(call: Any) -> list[list[str]]:
     for form in forms:
         inside = re.match(r"def \w+\((.*)\) ->", form[0].replace("\n", " "))
         assert inside, form[0]
-        names = [re.match(r"\*{0,2}\w*", part)[0] + ("=" if " = " in part else "") for part in listed(inside[1])]  # type: ignore[index]
+        names = [re.findall(r"^\*{0,2}\w*", part)[0] + ("=" if " = " in part else "") for part in listed(inside[1])]
         result.append([name for name in names if name not in ("self", "")])
     return result
 

@@ -12,7 +12,7 @@ import pytest
 import kinegraph
 import robotic as ry
 
-# What `robotic` 0.4.2 exports: __all__ of its stub, and what its __init__ adds.
+# The exports of `robotic` 0.4.2: __all__ of its stub, and what its __init__ adds.
 EXPORTS = [
     "ArgWord",
     "BSpline",

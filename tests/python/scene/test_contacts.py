@@ -1,4 +1,4 @@
-"""Contact forces in motion problems: what Newton, Euler and Coulomb say on paper."""
+"""Contact forces in motion problems: the laws of Newton, Euler and Coulomb, computed on paper."""
 
 import numpy as np
 import pytest

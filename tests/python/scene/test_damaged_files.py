@@ -47,7 +47,7 @@ FILES = {
     "a.msh": MSH,
     "a.ply": PLY.encode(),
 }
-# What breaks readers: numbers that are none, huge or negative, brackets without partner, and ends of things.
+# Pieces that break readers: numbers that are none, huge or negative, brackets without partner, and ends of things.
 TOKENS = [
     *(b"{", b"}", b"[", b"]", b"(", b")", b"<", b">", b'"', b"'", b"/>", b"<!--", b"&", b"\0", b"\xff", b"\n"),
     *(b"1e400", b"-1e308", b"nan", b"inf", b"-1", b"999999999999", b"0", b"Include: <a.g>", b"<include file='a.xml'/>"),
@@ -58,7 +58,7 @@ Mutation = Callable[[bytes], bytes]
 
 @st.composite
 def mutations(draw: st.DrawFn) -> Mutation:
-    """Cuts, doubles, or replaces a piece; where is a part of the whole."""
+    """Cuts, doubles, or replaces a piece; the place is a fraction of the length."""
     start, length = draw(st.floats(0, 1)), draw(st.integers(0, 30))
     kind, token = draw(st.sampled_from(["cut", "double", "replace", "end"])), draw(st.sampled_from(TOKENS))
 
@@ -155,7 +155,7 @@ def test_a_mesh_file_that_promises_more_than_it_holds_is_an_error(tmp_path: Path
         assert resource.getrusage(resource.RUSAGE_SELF).ru_maxrss - before < 200_000, name  # kB
 
 
-# What the fuzzers of tests/fuzz have found.
+# Findings of the fuzzers in tests/fuzz.
 FOUND = sorted((Path(__file__).parent.parent.parent / "data" / "damaged").iterdir())
 
 

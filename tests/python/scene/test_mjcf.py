@@ -1,4 +1,4 @@
-"""MJCF files, and agreement with MuJoCo where that is installed."""
+"""MJCF files, and agreement with MuJoCo if it is installed."""
 
 import importlib.util
 import warnings

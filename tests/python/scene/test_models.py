@@ -19,8 +19,8 @@ SHARE = [
     if folder and (Path(folder) / "example-robot-data").is_dir()
 ]
 # included by others, and nothing on their own
-# Recorded with the masses of hollow shells, or rounded ones; ours have those of the manufacturers' descriptions. The recorded
-# Panda weighs nothing.
+# Recorded with the masses of hollow shells, or rounded ones; ours have those of the manufacturers' descriptions. The
+# recorded Panda weighs nothing.
 OWN_MASSES = re.compile(r"^ur_|^ranger_|ranger_clean|g1_clean|ur10_conv")
 NOT_OURS = {"visual"}  # is said of shapes that do not collide
 PARTS = {"pr2_modifications.g", "panda_hand.g", "panda_hand_masses.g", "panda_collision.g", "panda_tight_collision.g"}
@@ -62,7 +62,7 @@ def test_robots_weigh_what_their_makers_say(name: str, mass: float, heaviest: st
 
 
 def test_both_files_of_the_g1_and_of_the_ur10_are_the_same_body():
-    """Mass and center of mass of the whole, at q = 0, whatever the frames are called."""
+    """Mass and center of mass of the whole, at q = 0, by any names of the frames."""
     for one, other in (("g1/g1_clean.g", "g1/g1_29dof_conv.g"), ("ur10/ur10_conv.g", "ur10/ur10_clean.g")):
         bodies = []
         for name in (one, other):
@@ -109,7 +109,7 @@ def test_the_gripper_closes_symmetrically_and_its_pads_stay_parallel():
 
 RECORDED = sorted(path.stem for path in (DATA / "models").glob("*.json"))
 
-# Of frames with one name our files name the later ones apart, so that names that refer to them find what is meant.
+# If frames share a name, our files rename the later ones, and references stay unique.
 OWN_NAMES = {
     ("pr2/pr2.g", "base_footprint"): ["base_footprint", "base_footprint_marker"],
     ("tests/pr2Shelf.g", "base_footprint"): ["base_footprint", "base_footprint_marker"],
@@ -123,7 +123,7 @@ def own_names(file: str, names: list[str]) -> list[str]:
 
 
 def places(names):
-    """For each name its number among equal ones, so that frames without a name are told apart."""
+    """Numbers equal names, which distinguishes frames without a name."""
     seen = collections.Counter()
     result = []
     for name in names:
@@ -136,7 +136,7 @@ def places(names):
 def test_a_model_is_as_recorded(name):
     numbers = recorded(f"models/{name}")
     C = model(numbers["file"])
-    own = C.getJointNames()[: C.getJointDimension()]  # behind them those that mimic others, which were not recorded
+    own = C.getJointNames()[: C.getJointDimension()]  # joints that mimic others follow; they were not recorded
     assert own == numbers["joint_names"]
     assert np.allclose(C.getJointState(), numbers["q"], atol=1e-6)
     limits, theirs = np.array(C.getJointLimits()).reshape(2, -1), np.array(numbers["limits"]).reshape(2, -1)
@@ -151,7 +151,7 @@ def test_a_model_is_as_recorded(name):
         assert ours.getJointType() == getattr(ry.JT, theirs.get("joint", "none")), place
         attributes = ours.asDict()
         assert attributes.get("contact", 0) == theirs.get("contact", 0), place
-        for key, value in theirs.get("attributes", {}).items():  # what is told of a frame besides: logical, gains, ...
+        for key, value in theirs.get("attributes", {}).items():  # other attributes of a frame: logical, gains, ...
             expected = pytest.approx(value, abs=1e-6) if isinstance(value, list) else value
             assert key in NOT_OURS or attributes[key] == expected, (place, key)
         sign = np.sign(ours.getPose()[3:] @ theirs["pose"][3:])
@@ -173,7 +173,7 @@ def test_the_same_frames_of_a_model_may_collide(name):
         assert sorted(sorted(pair) for pair in zip(names[::2], names[1::2])) == numbers["pairs"]
 
 
-# what else the collection of the reference has, some of which it cannot load itself
+# other models of the reference's collection; it cannot load some of them itself
 @pytest.mark.parametrize(
     "name, dofs",
     [
@@ -219,7 +219,7 @@ def test_every_model_loads_without_a_warning_and_none_holds_a_mesh():
 
 
 def test_robots_stand_free_of_each_other_and_of_themselves():
-    """At the pose that a file gives nothing collides, but for what the reference has in collision, too."""
+    """At a file's own pose only those frames collide that collide in the reference, too."""
     for name in (
         "g1/g1.g",
         "allegro/allegro.g",
@@ -260,7 +260,7 @@ def test_the_tight_panda_holds_each_link_within_a_centimeter():
 
 
 def test_the_tight_panda_is_free_where_capsules_are_not():
-    """The same joints and frames; beside a plate it is free more often, and its gripper is where it was."""
+    """The same joints and frames; beside a plate it is free more often, and its gripper keeps its pose."""
     wide, tight = model("panda/panda.g"), model("panda/panda_tight.g")
     assert set(tight.getFrameNames()) == set(wide.getFrameNames())
     assert list(tight.getJointNames()) == list(wide.getJointNames()) and tight.getCollisions(0.0) == []
@@ -279,7 +279,7 @@ def test_the_tight_panda_is_free_where_capsules_are_not():
 @needs_robots
 @pytest.mark.parametrize("name", ["g1/g1.g", "allegro/allegro.g", "pr2/pr2.g", "ur10/ur10.g"])
 def test_hulls_are_where_the_meshes_of_the_robot_package_are(name):
-    """The corners of what is drawn are within 2 cm of the box around the mesh that viewers show in its place."""
+    """The corners of our shapes are within 2 cm of the box around the mesh that viewers show instead."""
     C = model(name)
     pictured = [frame for frame in C.getFrames() if "visual_mesh" in frame.asDict()]
     assert len(pictured) > 5

@@ -1,4 +1,5 @@
-"""A sample of the robots of the package example-robot-data against recorded poses; test_urdf.py compares all with Pinocchio."""
+"""A sample of the robots of the package example-robot-data against recorded poses; test_urdf.py compares all with
+Pinocchio."""
 
 import os
 import warnings

@@ -1,4 +1,4 @@
-"""Configurations and frames: what Python users expect of them, and what they hear when they are mistaken."""
+"""Configurations and frames: the calls of Python users, and the messages for mistakes."""
 
 import copy
 import re
@@ -231,7 +231,7 @@ def test_scenes_written_beside_the_folder_of_models_find_them(tmp_path, monkeypa
     C = ry.Config()
     C.addFile(scene)
     assert "l_gripper" in C.getFrameNames()
-    (tmp_path / "rai-robotModels" / "panda").mkdir(parents=True)  # what is there comes first
+    (tmp_path / "rai-robotModels" / "panda").mkdir(parents=True)  # existing files come first
     (tmp_path / "rai-robotModels" / "panda" / "panda.g").write_text("mine: {}")
     monkeypatch.chdir(tmp_path)
     (tmp_path / "near.g").write_text("Include: <rai-robotModels/panda/panda.g>")

@@ -1,4 +1,4 @@
-"""Scenes as dict, YAML and `.g` text: what is written reads back as the same scene."""
+"""Scenes as dict, YAML and `.g` text: a written scene reads back unchanged."""
 
 import shutil
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Which parts of a robot can collide with one another."""
+"""Pairs of parts of a robot that can collide."""
 
 import re
 from pathlib import Path

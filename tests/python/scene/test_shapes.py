@@ -1,4 +1,4 @@
-"""What a frame can look like: meshes, lines, grids, convex parts."""
+"""Shapes of frames: meshes, lines, grids, convex parts."""
 
 import numpy as np
 import pytest
@@ -174,7 +174,7 @@ def test_convex_parts_become_children():
     C = ry.Config()
     vertices, triangles = np.array(TETRAHEDRON[0]), np.array(TETRAHEDRON[1])
     both = np.vstack([vertices, vertices + 5])
-    for parts in ([0, 4, 8], []):  # named (the last is empty), or what hangs together
+    for parts in ([0, 4, 8], []):  # named (the last is empty), or connected components
         C.clear()
         frame = C.addFrame("a").setMesh(both, np.vstack([triangles, triangles + 4]), [], parts)
         frame.setColor([1, 0, 0]).setContact(-1)

@@ -1,4 +1,4 @@
-"""URDF files: reading, writing, and agreement with Pinocchio where that is installed."""
+"""URDF files: reading, writing, and agreement with Pinocchio if it is installed."""
 
 import importlib.util
 import sys
@@ -148,7 +148,7 @@ needs_pinocchio = pytest.mark.skipif(
 
 
 def pairs(C: ry.Config, joints: set[str]) -> set[frozenset[str]]:
-    """Which links may collide, each by the joint in q that moves it. A capsule is three shapes in URDF."""
+    """The links that may collide, each by the joint in q that moves it. A capsule is three shapes in URDF."""
 
     def joint(name: str) -> str:
         frame = C.getFrame(name)

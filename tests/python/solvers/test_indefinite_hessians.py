@@ -1,5 +1,5 @@
-"""Problems of W. Hock and K. Schittkowski, Test Examples for Nonlinear Programming Codes, 1981, by their numbers, solved
-with the exact Hessian of the costs, which is indefinite in most of them."""
+"""Problems of W. Hock and K. Schittkowski, Test Examples for Nonlinear Programming Codes, 1981, by their numbers,
+solved with the exact Hessian of the costs, which is indefinite in most of them."""
 
 import numpy as np
 import pytest
@@ -34,7 +34,7 @@ PROBLEMS = {
         [1, 0.5],
         -1,
     ),
-    "HS25": (  # hardly any slope where it starts
+    "HS25": (  # a gradient near zero at the start
         lambda x: np.sum((np.exp(-((HS25_U - x[1]) ** x[2]) / x[0]) - HS25_Y) ** 2),
         None,
         None,
@@ -192,7 +192,7 @@ def gradient(f, x):
 
 
 class Problem:
-    """What the solver sees: costs as f, constraints, and the Hessian of the costs if wanted."""
+    """The problem as the solver sees it: costs as f, constraints, and the Hessian of the costs if wanted."""
 
     def __init__(self, name, with_hessian):
         self.f, above, equal, bounds, start, self.least = PROBLEMS[name]

@@ -1,4 +1,5 @@
-"""Laws of mechanics that have an answer on paper: a heavy top, and a cradle. Others are in tests/simulation/laws_test.cpp."""
+"""Laws of mechanics that have an answer on paper: a heavy top, and a cradle. Others are in
+tests/simulation/laws_test.cpp."""
 
 import numpy as np
 import pytest
@@ -29,7 +30,7 @@ def test_a_spinning_top_precesses_as_lagrange_says(lean, spin):
     q = np.array([np.cos(lean / 2), np.sin(lean / 2), 0, 0])
     C.setJointState(q)
     S = ry.Simulation(C)
-    # in its own axes: the turn about the vertical, and what is left of the spin about the third
+    # in its own axes: the rotation about the vertical, and the rest of the spin about the third
     turn = [0, rate * np.sin(lean), spin]
     S.pushConfigToSim(jointVelocities=multiplied(q, [0, *np.multiply(turn, 0.5)]))
     angle, before, leans = 0.0, -np.pi / 2, []
@@ -45,7 +46,7 @@ def test_a_spinning_top_precesses_as_lagrange_says(lean, spin):
 
 
 def test_a_cradle_keeps_its_momentum_and_the_last_ball_leaves_first():
-    """Things bounce little here, so that energy is lost; what is on paper for any bounce is the momentum."""
+    """Bodies bounce little here, and energy is lost; momentum is known on paper for any bounce."""
     count, length, mass, start = 5, 0.5, 0.2, 0.6
     C = ry.Config()
     for i in range(count):

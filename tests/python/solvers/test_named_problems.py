@@ -1,4 +1,4 @@
-"""The named motion problems: what they are made of, against the package robotic, and that they can be solved."""
+"""The named motion problems: their parts agree with the package robotic, and they can be solved."""
 
 import json
 from itertools import groupby
@@ -13,9 +13,9 @@ RECORDED = json.loads((Path(__file__).parents[2] / "data" / "named_problems.json
 MOTIONS = [name for name in RECORDED if name != "origin"]
 WEIGHT = 0.2 * 9.81  # of the sphere, N
 
-# More or fewer residuals than robotic, on purpose. Pick: an attachment from 1 to 1 lasts; in robotic it must also have been there
-# before, so that the arm cannot go to the cube. StackAndBalance: with a slice per phase, forces are smooth between
-# the two slices of a contact, too.
+# More or fewer residuals than robotic, on purpose. Pick: an attachment from 1 to 1 lasts; in robotic it must also have
+# been there before, so that the arm cannot go to the cube. StackAndBalance: with a slice per phase, forces are smooth
+# between the two slices of a contact, too.
 OTHER_ROWS = {
     "OptBench_Skeleton_Pick _sequence": {"eq": -7},
     "OptBench_Skeleton_Pick _path": {"eq": -7},
@@ -66,8 +66,8 @@ def test_it_has_the_variables_and_residuals_of_the_reference(name):
         assert [[kind, len(list(run))] for kind, run in groupby(types)] == recorded["types"]
 
 
-# Rows that differ on purpose, by the tag that getFeatureNames gives them: the sign of a quaternion means nothing; a direction
-# of motion has length one; a point inside of a body has a negative distance.
+# Rows that differ on purpose, by the tag that getFeatureNames gives them: the sign of a quaternion means nothing; a
+# direction of motion has length one; a point inside of a body has a negative distance.
 def comparable(name, tags, phi):
     flip = np.ones(len(phi))
     keep = np.ones(len(phi), bool)

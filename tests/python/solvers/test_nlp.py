@@ -56,7 +56,7 @@ def test_a_problem_of_a_python_object_has_its_hessian_start_and_report():
     assert nlp.checkJacobian([0.3, 0.4], 1e-6) and nlp.checkHessian([0.3, 0.4], 1e-6)
     ret = solver.setTracing(True, True).solve()
     np.testing.assert_array_equal(solver.getTrace_x()[0], [0.5, 0.25])
-    np.testing.assert_allclose(ret.x, [0, -1.5], atol=1e-6)  # where y - x^2 = -3/2 and 8 x + 6 x = 0
+    np.testing.assert_allclose(ret.x, [0, -1.5], atol=1e-6)  # from y - x^2 = -3/2 and 8 x + 6 x = 0
 
 
 def test_the_scalar_function_of_a_problem_has_its_derivatives():

@@ -1,4 +1,4 @@
-"""Samples of what satisfies the constraints of a problem."""
+"""Samples that satisfy the constraints of a problem."""
 
 import signal
 
@@ -22,7 +22,7 @@ def test_samples_are_feasible_and_differ(name):
 
 
 def test_hit_and_run_is_uniform_in_a_half_circle():
-    """Of the disk of radius .5 right of x = -.2: the share of each quarter of its width, from 1e6 points on a grid."""
+    """Returns the shares of the quarters (by width) of the disk of radius .5 right of x = -.2, from 1e6 grid points."""
     sampler = ry.NLP_Sampler(ry.make_NLP_Problem("HalfCircle")).setOptions(interiorBurnInSteps=20)
     x = np.array([sampler.sample().x for _ in range(2000)])
     grid = np.linspace(-0.5, 0.5, 1001)
@@ -73,7 +73,8 @@ def test_options_are_told_and_mistakes_named():
 @pytest.mark.usefixtures("first_ctrl_c")
 @pytest.mark.parametrize("way", ["raised in it", "signal"])
 def test_ctrl_c_ends_it(way):
-    """A signal counts once the function it came in has returned, whether or not the interpreter has raised KeyboardInterrupt."""
+    """A signal counts once the function it came in has returned, whether or not the interpreter has raised
+    KeyboardInterrupt."""
 
     class Slow:
         dimension, types, bounds, evals = 1, [ry.OT.ineq], np.array([[-1.0], [1.0]]), 0

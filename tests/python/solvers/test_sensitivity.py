@@ -1,4 +1,5 @@
-"""How solutions move: derivatives by the implicit function theorem equal differences of solutions, and say where they are one-sided."""
+"""How solutions move: derivatives by the implicit function theorem equal differences of solutions, and one-sided ones
+are reported."""
 
 import pickle
 
@@ -20,7 +21,7 @@ def panda():
 
 
 def quaternionOf(r):
-    """That of a rotation vector."""
+    """Returns the quaternion of a rotation vector."""
     angle = np.linalg.norm(r)
     return np.array([1.0, 0, 0, 0]) if angle == 0 else np.array([np.cos(angle / 2), *(np.sin(angle / 2) / angle * r)])
 
@@ -45,7 +46,8 @@ def solutionOf(komo, start, parameter):
 
 
 def assertEqualsDifferences(make, parameter, size):
-    """`make` makes a KOMO whose parameter is moved by a vector. Differences of two steps rid each other of their third order."""
+    """`make` makes a KOMO whose parameter is moved by a vector. Differences of two steps rid each other of their third
+    order."""
     at = solutionOf(make(np.zeros(size)), None, parameter)
     assert at.jacobian.shape == (len(at.x), size)
     for k in range(size):

@@ -30,7 +30,8 @@ def arm() -> ry.Config:
 
 @pytest.fixture
 def two_answers(arm) -> ry.KOMO:
-    """Two links of 1 m reach (1, 1) with the elbow at +pi/2 or -pi/2; the start is near the first, the cost prefers the other."""
+    """Two links of 1 m reach (1, 1) with the elbow at +pi/2 or -pi/2; the start is near the first, the cost prefers the
+    other."""
     komo = ry.KOMO(arm, 1, 1, 0, False)
     komo.addObjective([], ry.FS.qItself, [], ry.OT.sos, [0.1], WANTED)
     komo.addObjective([], ry.FS.position, ["tip"], ry.OT.eq, [10.0], [1.0, 1.0, 0.0])

@@ -1,4 +1,4 @@
-"""Methods of NLP_Solver, how a solve is watched and ended, and what goes wrong in a user's function."""
+"""Methods of NLP_Solver, how a solve is watched and ended, and errors in a user's function."""
 
 import pickle
 import signal
@@ -216,7 +216,7 @@ def test_a_kept_problem_is_solved_again_in_few_evaluations(panda):
 
 
 def test_traces_and_counts_include_the_way_to_the_least_violation(panda):
-    """Of an infeasible problem with a sum of overlaps, which the solver sees pair by pair."""
+    """An infeasible problem with a sum of overlaps, which the solver sees pair by pair."""
     panda.addFrame("wall").setShape(ry.ST.ssBox, [0.5, 0.5, 0.5, 0.02]).setPosition([0.4, 0.3, 0.9]).setContact(1)
     komo = ry.KOMO(panda, 1, 1, 0, False)
     komo.addObjective([], ry.FS.accumulatedCollisions, [], ry.OT.eq, [1.0])
@@ -274,7 +274,7 @@ def test_the_limit_on_steps_says_how_many_there_were():
 
 @pytest.mark.skipif(sys.platform != "linux", reason="counts page faults as Linux does")
 def test_a_path_is_solved_in_memory_that_the_last_one_has_left():
-    """Otherwise the system gives every page anew: some 300 for this one."""
+    """Otherwise the system hands out new pages each time: some 300 for this one."""
     script = """
 import resource
 import kinegraph as ry

@@ -1,4 +1,4 @@
-"""What a hand holds by friction alone: at the limit that theory has, in random grasps, and from box to box in a tower."""
+"""Grasps by friction alone: at the limit of theory, in random grasps, and from box to box in a tower."""
 
 import numpy as np
 import pytest
@@ -51,7 +51,7 @@ def in_hand(C, name="box"):
 
 @pytest.mark.parametrize("friction", [0.5, 0.8])
 def test_a_box_is_held_above_the_force_that_friction_needs_and_slips_below(friction):
-    """Each of two fingers carries m g / 2 by its force F. They lean by 2 mm in 49, so that F needs to be a little less than
+    """Each of two fingers carries m g / 2 by its force F. They lean by 2 mm in 49, and F may be a little less than
     m g / (2 mu): F = m g / 2 (1 - mu t) / (mu + t), t = 2 / 49."""
     mass, lean = 1.0, 2 / 49
     needed = mass * G / 2 * (1 - friction * lean) / (friction + lean)
@@ -80,9 +80,9 @@ def test_a_box_is_held_above_the_force_that_friction_needs_and_slips_below(frict
 @pytest.mark.parametrize("side, enough", [([1, 0, 0], 1.06), ([0, 1, 0], 1.2)])
 @pytest.mark.parametrize("mass", [1.0, 0.1, 0.02])
 def test_little_more_force_than_friction_needs_holds_a_box_in_motion(mass, side, enough):
-    """Lifted by .2 m in 1 s, which takes 1.15 m/s^2 at most, held for 2 s and turned by 1 rad in 1 s, where the box is also
-    turned about the axis of fingers that close across the radius. With small forces points of contact came and went once, and the box
-    crept down whatever the force was above the limit."""
+    """Lifts by .2 m in 1 s, which takes 1.15 m/s^2 at most, holds for 2 s and turns by 1 rad in 1 s. The box is also
+    turned about the axis of fingers that close across the radius. With small forces points of contact came and went
+    once, and the box crept down at any force above the limit."""
     lean, fastest = 2 / 49, 0.2 * 10 / np.sqrt(3)
     needed = mass * (G + fastest) / 2 * (1 - lean) / (1 + lean)
     start = np.array([0.0, 0.3, 0.68])

@@ -46,7 +46,7 @@ def expected_objectives(recorded):
 
 
 def same(o, e):
-    """The reference lists accelerations where a hand closes a slice before the one in which it measures them."""
+    """If a hand closes, the reference lists accelerations one slice before the slice in which it measures them."""
     return o[:3] == e[:3] and (o[3:] == e[3:] or (o[1] == 2 and o[4] == [s + 1 for s in e[4]]))
 
 
@@ -99,7 +99,7 @@ def test_motion_problems_are_those_of_the_reference(name):
 
 
 def test_a_simple_handover_is_found():
-    """That of which the reference never finds a plan."""
+    """The problem whose plan the reference never finds."""
     _, _, lgp = tool("handover")
     assert lgp.solve(verbose=0)
     assert [a[0] for a in lgp.getSolvedPlan()] == ["pick_touch", "handover", "place_straightOn"]
@@ -298,7 +298,7 @@ def test_an_action_with_too_few_words_is_told():
 
 
 def test_an_action_of_ones_own_that_takes_something_along():
-    """It is built of what the default actions are built of."""
+    """Uses the parts of the default actions."""
     C, _, _ = tool("unblock")
 
     class Lifts(ry.default_LGP_TAMP_Abstraction):

@@ -133,7 +133,7 @@ def runs(values):
 
 
 def objectives(komo):
-    """What the recording has of each, but for its name, and for the number that it gives for all frames."""
+    """Returns the recorded fields of each, without its name and the number that it gives for all frames."""
     out = []
     for o in komo.report(False, True, False, False).values():
         if not isinstance(o, dict) or "name" not in o:
@@ -153,7 +153,7 @@ def test_the_layout_is_that_of_the_reference(name):
         [o[1] if o[1] and not o[1][0].startswith("#") else [], o[2], o[3], o[6], o[7]] for o in recorded["objectives"]
     ]
     for o, e in zip(objectives(m.komo), expected, strict=True):
-        # The reference lists accelerations where a hand closes a slice before the one in which it measures them.
+        # If a hand closes, the reference lists accelerations one slice before the slice in which it measures them.
         assert o[:3] == e[:3] and (o[3:] == e[3:] or (o[1] == 2 and o[4] == [s + 1 for s in e[4]]))
     assert runs(n.replace("AlignYWith", "AlignWith").split("[")[0] for n in m.komo.getFeatureNames()) == runs(
         f[0].split("[")[0] for f in recorded["features"] for _ in range(f[1])
@@ -170,7 +170,7 @@ def test_values_and_derivatives_are_those_of_the_reference(name):
     assert len(phi) == recorded["phi_dim"]
     Jv = np.zeros(len(phi))
     np.add.at(Jv, J[:, 0].astype(int), J[:, 2] * np.array(recorded["v"])[J[:, 1].astype(int)])
-    # The sign of a quaternion carries no meaning. The direction of a motion is softened otherwise where it is short.
+    # The sign of a quaternion carries no meaning. Short motions soften their direction differently.
     sign = np.where([t.startswith("F_QuaternionDiff") for t in tags] & (np.sign(phi) != np.sign(expected)), -1.0, 1.0)
     loose = np.array([t.startswith("F_AlignWith") for t in tags])
     compared = ~np.array([t.startswith(OVERLAPS) for t in tags])
@@ -194,7 +194,7 @@ def test_a_box_is_picked_and_placed_and_moved_between() -> None:
     np.testing.assert_allclose(motion.path[-1], m.path[0], atol=1e-2)
 
 
-@pytest.mark.parametrize("direction", ["xz", "yz", "yx", "zx"])  # where it is, the Panda reaches these
+@pytest.mark.parametrize("direction", ["xz", "yz", "yx", "zx"])  # the Panda reaches these from its place
 def test_a_box_is_grasped_along_its_axes(direction) -> None:
     C, m = scene(), ry.KOMO_ManipulationHelper()
     C.getFrame("obj").setShape(ry.ST.ssBox, [0.06, 0.06, 0.06, 0.005]).setPosition([-0.25, 0.1, 1.0])

@@ -1,4 +1,4 @@
-"""Plans carried out in simulation: what is grasped is held by friction, and what goes wrong is noticed and repaired."""
+"""Plans carried out in simulation: hands hold objects by friction, and failures are noticed and repaired."""
 
 import numpy as np
 import pytest

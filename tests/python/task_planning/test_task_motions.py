@@ -1,4 +1,4 @@
-"""Motions of planTask: free at all times, within limits, at rest between actions; and the judge that says so."""
+"""Motions of planTask: continuously collision-free, within limits, at rest between actions; and the checker of it."""
 
 import copy
 import pickle

@@ -51,8 +51,9 @@ def assertAllSame(answers: list[Any]) -> None:
         assert other == answers[0]
 
 
-# tower and sort are found at once; in crowded and walled waypoints fail first, and variants are tried; in handover motions
-# fail after other waypoints, too; in carry, turn and tall plans are cut down to what fails in them; in stow a drawer is shut
+# tower and sort are found at once; in crowded and walled waypoints fail first, and variants are tried; in handover
+# motions fail after other waypoints, too; in carry, turn and tall plans are reduced to the part that fails; in stow a
+# drawer is shut
 @pytest.mark.parametrize(
     "family", ["tower", "sort", "crowded", "handover", "walled", "push", "carry", "turn", "tall", "stow", "hook"]
 )
@@ -103,7 +104,7 @@ def test_lgp_does_not_depend_on_threads(scene: str, problem: str) -> None:
 
 
 def test_waypoints_that_fail_are_the_same_with_threads() -> None:
-    """All starts of a push up a step fail; the message names what is missed, and by how much."""
+    """All starts of a push up a step fail; the message names the violated constraint, and by how much."""
     answers = []
     for threads in THREADS:
         C = ry.Config()

@@ -1,4 +1,4 @@
-"""planTask: goals become motions that an independent checker accepts; what is impossible is proved so."""
+"""planTask: goals become motions that an independent checker accepts; impossible goals are proved impossible."""
 
 import re
 

@@ -9,7 +9,7 @@
 
 namespace kinegraph {
 
-/// What the linear algebra of a SemismoothModel must do, compared with dense matrices made by their definitions, on
+/// Laws of the linear algebra of a SemismoothModel, compared with dense matrices made by their definitions, on
 /// random problems of `variables`: half of the rows are costs, the others constraints.
 template <class Algebra>
 class AlgebraCase {

@@ -5,7 +5,7 @@
 namespace kinegraph {
 namespace {
 
-/// Rows 1/2 x^T C x + a^T x, of which the second is linear.
+/// Rows 1/2 x^T C x + a^T x; the second is linear.
 struct Rows {
   MatrixXd C = (MatrixXd(3, 3) << 1., 2., 0., 2., -3., 1., 0., 1., .5).finished();
   Jacobian at(const VectorXd& x) const {

@@ -10,8 +10,7 @@ namespace kinegraph {
 
 namespace {
 
-/// A program of which x and the multipliers are the solution, as they fulfil the first-order conditions of a convex
-/// problem.
+/// A program that x and the multipliers solve, as they fulfil the first-order conditions of a convex problem.
 struct Known {
   QuadraticProgram model;
   VectorXd x, multipliers;

@@ -88,7 +88,7 @@ class KnownModel final : public Nlp {
     return true;
   }
 
-  /// What multipliers of the rows add up to, on the variables.
+  /// The sum of the rows times their multipliers, by variable.
   VectorXd pull(const VectorXd& duals) const { return C_.transpose() * duals.tail(C_.rows()); }
 
   std::string text() const {

@@ -5,7 +5,7 @@
 #include "kinegraph/nlp/callback_nlp.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 
-// What the augmented Lagrangian does where problems are large, as paths are.
+// Tests of the augmented Lagrangian on large problems, such as paths.
 
 using namespace kinegraph;
 
@@ -17,8 +17,8 @@ constexpr int kPairs = 60;
 
 }  // namespace
 
-/// Gauss-Newton knows about half of the curvature along x, and its steps go nearly as far beyond the least value as they
-/// began before it.
+/// Gauss-Newton knows about half of the curvature along x, and its steps go nearly as far beyond the least value as
+/// they began before it.
 TEST(ManyVariables, StepsThatOvershootAreDampedAtOnce) {
   // pairs (x, y) on the parabola y = .02 x^2, with costs that pull x to 1 and y to -10
   std::vector<ObjectiveType> types(std::size_t(2 * kPairs), sos);
@@ -48,7 +48,7 @@ TEST(ManyVariables, StepsThatOvershootAreDampedAtOnce) {
   EXPECT_LE(result.evals, 35);
 }
 
-/// Rows of a tenth need a penalty in the hundreds; the model tells that, and no evaluation has to.
+/// Rows of a tenth need a penalty in the hundreds; the model shows that without an evaluation.
 TEST(ManyVariables, PenaltiesAreRaisedAsTheModelAsks) {
   constexpr int n = 2 * kPairs;
   std::vector<ObjectiveType> types(std::size_t(n), sos);

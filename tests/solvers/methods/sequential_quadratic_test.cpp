@@ -44,7 +44,8 @@ KnownProblem unreachable() {
           {}};
 }
 
-/// HS54, whose variables are from 1e-3 to 1e8 in size and where the costs are nearly level along the largest; times `size`.
+/// HS54, whose variables are from 1e-3 to 1e8 in size and where the costs are nearly level along the largest; times
+/// `size`.
 KnownProblem variablesOfAllSizes(double size) {
   const VectorXd optimum = size * (VectorXd(6) << 91600. / 7., 79. / 70., 2e6, 10., 1e-3, 1e8).finished();
   return {"HS54",

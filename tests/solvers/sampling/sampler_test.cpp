@@ -71,7 +71,7 @@ std::vector<VectorXd> draw(const std::shared_ptr<Nlp>& nlp, const char* method, 
 }
 
 /// Kolmogorov and Smirnov: the largest difference of the distribution of `of` from the uniform one on [0, 1], times
-/// sqrt(N). By chance it is above 1.63 in one of a hundred.
+/// sqrt(N). It exceeds 1.63 by chance in one of a hundred.
 double distanceFromUniform(const std::vector<VectorXd>& samples, const std::function<double(const VectorXd&)>& of) {
   std::vector<double> values;
   for (const VectorXd& x : samples) values.push_back(of(x));

@@ -12,14 +12,14 @@ namespace kinegraph {
 ///
 ///     q(s) = (1 - s) q_0 + s q_1,     J(s) = ((1 - s) J, s J)     at q(s)
 ///
-/// either stacked, y_i = max(-distance_i, -max_distance), with -max_distance for empty samples; or as the sum of the violations, y =
-/// sum_i max(0, max_distance - distance_i). In m.
+/// either stacked, y_i = max(-distance_i, -max_distance), with -max_distance for empty samples; or as the sum of the
+/// violations, y = sum_i max(0, max_distance - distance_i). In m.
 class SampledCollisions final : public Feature {
  public:
   enum class Form { stacked, sum };
 
-  /// `max_distance` in m. `same_dofs`: per dof of the first configuration that of the second, or -1 for dofs that keep their
-  /// value. `begin` is any State of the first one.
+  /// `max_distance` in m. `same_dofs`: per dof of the first configuration that of the second, or -1 for dofs that keep
+  /// their value. `begin` is any State of the first one.
   SampledCollisions(Form form, double max_distance, std::vector<CollisionSample> samples, std::vector<int> same_dofs,
                     const State& begin);
 

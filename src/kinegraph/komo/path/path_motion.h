@@ -49,7 +49,8 @@ class MotionProbe {
   bool isFree(const SliceMotion& motion, double margin);
   const MotionContact& lastHit() const { return *scene_->checker.lastHit(); }
 
-  /// Returns local minima of the distances of pairs along the motion that are below `max_distance` (m); see EdgeChecker.
+  /// Returns local minima of the distances of pairs along the motion that are below `max_distance` (m); see
+  /// EdgeChecker.
   const std::vector<MotionContact>& approaches(const SliceMotion& motion, double max_distance);
 
   /// Returns the smallest distance of all pairs at a fraction of the motion, at most `max_distance`, m.

@@ -34,8 +34,8 @@ class ConstrainedFunction {
     begin(x0, options, callback);
   }
 
-  /// Starts anew, without evaluations. `callback` must outlive the solve. Throws ValueError for invalid options or an
-  /// `x0` of another size.
+  /// Resets the function and its count of evaluations. `callback` must outlive the solve. Throws ValueError for invalid
+  /// options or an `x0` of another size.
   void begin(const VectorXd& x0, const SolverOptions& options, const EvaluationCallback& callback);
 
   Nlp& nlp() const { return nlp_; }

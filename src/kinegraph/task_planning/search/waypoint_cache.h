@@ -39,7 +39,7 @@ class WaypointCache {
   /// Remembers a failure in the scene as it is.
   void setFailure(const Actions& actions, FutureFailure failure);
 
-  /// Proper prefixes of a sequence whose result is unknown, up to the first one known to fail. They will tell the
+  /// Proper prefixes of a sequence whose result is unknown, up to the first one known to fail. They show the
   /// action at which the sequence fails.
   std::vector<Actions> unknownPrefixes(const Actions& actions) const;
 
