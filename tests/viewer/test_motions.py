@@ -223,6 +223,7 @@ def test_motions_and_shapes_are_saved(config: kg.Config, browser: Browser, tmp_p
     check_hierarchy(model.read_bytes(), config)
     config.view_path([[0, 0], [1, 0], [2, 1]], 0.5)
     browser.wait_for("kinegraph.slice() === 2")
+    config_seconds = float(browser.evaluate("document.querySelector('#motion').textContent").split(" s")[0].split()[-1])
     browser.click_button("video")
     video = downloaded(tmp_path, "*.webm")
     assert video.startswith(b"\x1a\x45\xdf\xa3")  # EBML, the container of WebM
@@ -231,9 +232,10 @@ def test_motions_and_shapes_are_saved(config: kg.Config, browser: Browser, tmp_p
       const video = document.createElement("video");
       video.src = "data:video/webm;base64,{base64.b64encode(video).decode()}";
       await new Promise((resolve, reject) => {{ video.onloadeddata = resolve; video.onerror = () => reject(new Error("no video")); }});
-      return [video.videoWidth, video.videoHeight];
+      return [video.videoWidth, video.videoHeight, video.duration];
     }})()""")
-    assert played == [2 * 640, 2 * 480]  # as fine as a picture at rest if the processor draws
+    assert played[:2] == [640, 480]  # the picture on the page
+    assert played[2] == pytest.approx(config_seconds + 0.5, abs=0.1)  # the end stays for half a second
     browser.click_button("page")
     assert b"recording" in downloaded(tmp_path, "*.html")
 

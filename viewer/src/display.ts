@@ -1,5 +1,6 @@
 import * as THREE from "three";
 import { label } from "./labels";
+import { WideLines } from "./lines";
 import type { FrameMessage, ShapeMessage } from "./messages";
 import { AXIS_COLORS, materialsOf } from "./shapes";
 import type { Shown } from "./shown";
@@ -63,7 +64,7 @@ export class Display {
   }
 
   private paint(object: THREE.Object3D, shape: ShapeMessage): void {
-    if (!(object instanceof THREE.Mesh)) return;
+    if (!(object instanceof THREE.Mesh) || object instanceof WideLines) return;
     const alpha = shape.color[3] ?? 1;
     const opacity = this.on.has("xray") ? Math.min(alpha, XRAY_OPACITY) : alpha;
     for (const material of materialsOf(object)) {

@@ -1,12 +1,15 @@
 import { Group, LineSegments, Mesh, type Object3D, Points, Quaternion, Vector3 } from "three";
 import { GLTFExporter } from "three/addons/exporters/GLTFExporter.js";
 import { find, make } from "./element";
+import { filmOf } from "./film";
+import { WideLines } from "./lines";
 import type { Shown } from "./shown";
 import { isSeen } from "./display";
 import type { Stage } from "./stage";
 import type { Timeline } from "./timeline";
 
 const FRAMES_PER_SECOND = 30;
+const STILL = FRAMES_PER_SECOND / 2; // pictures of the end
 
 function save(url: string, file: string): void {
   make("a", { href: url, download: file }).click();
@@ -21,13 +24,15 @@ function saveBlob(blob: Blob, file: string): void {
 /** Copies a shape to an independent object; geometries and materials are shared. */
 function copyOf(object: Object3D): Object3D {
   const plain =
-    object instanceof Mesh
-      ? new Mesh(object.geometry, object.material)
-      : object instanceof Points
-        ? new Points(object.geometry, object.material)
-        : object instanceof LineSegments
-          ? new LineSegments(object.geometry, object.material)
-          : new Group();
+    object instanceof WideLines
+      ? object.plain()
+      : object instanceof Mesh
+        ? new Mesh(object.geometry, object.material)
+        : object instanceof Points
+          ? new Points(object.geometry, object.material)
+          : object instanceof LineSegments
+            ? new LineSegments(object.geometry, object.material)
+            : new Group();
   plain.position.copy(object.position);
   plain.quaternion.copy(object.quaternion);
   plain.scale.copy(object.scale);
@@ -117,28 +122,21 @@ export class Exports {
     saveBlob(new Blob([binary as ArrayBuffer], { type: "model/gltf-binary" }), `${document.title}.glb`);
   }
 
-  /** Records the video at the page's full resolution, also on machines that draw moving scenes more coarsely. */
+  /** Saves the motion from its start, at the speed of the timeline and in the size of the picture on the page. */
   private async saveVideo(): Promise<void> {
-    this.stage.holdResolution(true);
-    const recorder = new MediaRecorder(this.stage.canvas.captureStream(FRAMES_PER_SECOND), {
-      mimeType: "video/webm",
-      videoBitsPerSecond: 8e6,
-    });
-    const parts: Blob[] = [];
-    recorder.ondataavailable = ({ data }) => parts.push(data);
-    const stopped = new Promise((resolve) => (recorder.onstop = resolve));
     this.video.disabled = true;
-    recorder.start();
-    this.timeline.playFromStart();
-    for (let rest = FRAMES_PER_SECOND / 2; rest > 0; rest -= this.timeline.isPlaying ? 0 : 1) {
-// the end stays visible for a moment
-      this.stage.redraw();
-      await new Promise(requestAnimationFrame);
+    this.stage.holdResolution(true);
+    const film = await filmOf(this.stage.canvas, FRAMES_PER_SECOND);
+    const pictures = Math.ceil(this.timeline.seconds * FRAMES_PER_SECOND) + 1;
+    for (let i = 0; i < pictures + STILL; ++i) {
+      if (i < pictures) this.timeline.showAt(i / FRAMES_PER_SECOND);
+      this.stage.drawFully();
+      await film.add(i);
+      this.video.textContent = `${Math.round((100 * i) / (pictures + STILL))} %`;
     }
-    recorder.stop();
-    await stopped;
     this.stage.holdResolution(false);
+    this.video.textContent = "video";
     this.refresh();
-    saveBlob(new Blob(parts, { type: "video/webm" }), `${document.title}.webm`);
+    saveBlob(await film.finish(), `${document.title}.webm`);
   }
 }

@@ -17,6 +17,7 @@ const KEYS: [string, string][] = [
   ["Alt P", "save a picture"],
   ["Alt R", "measure"],
   ["Alt G, Alt B", "move, rotate the selected frame"],
+  ["Space", "play or pause the motion, if there is one; else to the program"],
   ["Alt K", "play or pause the motion, or the simulation"],
   ["← →, Shift wheel", "slice by slice, in a motion"],
   ...optionNames.map((name): [string, string] => [`Alt ${OPTIONS[name].letter}`, `${OPTIONS[name].label}, on or off`]),

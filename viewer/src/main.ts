@@ -21,6 +21,7 @@ import {
 import { Motion } from "./motion";
 import { NearLines } from "./near";
 import { Warnings } from "./warnings";
+import { requireWebGL } from "./webgl";
 import { Panel } from "./panel";
 import { Quads } from "./quads";
 import { Quality } from "./quality";
@@ -37,6 +38,7 @@ const PRESETS: Record<string, [number, number, number]> = {
   aslant: [1, 1, 0.8],
 };
 
+requireWebGL();
 const recorded = recordedMessages();
 let connection: Connection | null = null;
 const send = (command: Uint8Array<ArrayBuffer>): void => connection?.send(command);

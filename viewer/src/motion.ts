@@ -1,4 +1,5 @@
 import * as THREE from "three";
+import { WideLines } from "./lines";
 import type { MotionMessage } from "./messages";
 import { materialsOf } from "./shapes";
 import type { Shown } from "./shown";
@@ -63,7 +64,7 @@ export class Motion {
     const group = new THREE.Group();
     const count = Math.min(this.slices, GHOSTS);
     for (const [id, { object }] of frames) {
-      if (!(object instanceof THREE.Mesh) || !object.visible || !this.moves(id)) continue;
+      if (!(object instanceof THREE.Mesh) || object instanceof WideLines || !object.visible || !this.moves(id)) continue;
       const faint = materialsOf(object).map((material) =>
         Object.assign(material.clone(), { transparent: true, opacity: GHOST_OPACITY * material.opacity, depthWrite: false }));
       const material = faint.length > 1 ? faint : faint[0]!;

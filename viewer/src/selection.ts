@@ -12,8 +12,14 @@ type Handles = "translate" | "rotate" | null;
 
 const numbers = (values: number[], digits: number): string =>
   values.map((x) => (Math.abs(x) < 0.5 * 10 ** -digits ? 0 : x).toFixed(digits)).join(" ");
+const KEYWORDS = new Set(["Include", "Prefix", "Edit", "Delete", "DeleteBranch", "ChDir", "Quit", "shape", "joint"]);
 const isPlain = (name: string): boolean => /^[A-Za-z_][\w./-]*$/.test(name);
 const quoted = (name: string): string => (isPlain(name) ? name : `"${name}"`);
+/** Returns the name, or the closest one that a .g text can contain, as the program writes it. */
+const expressible = (name: string): string => {
+  const possible = name.replace(/[\s(),"']/g, "_");
+  return KEYWORDS.has(possible) ? `${possible}_` : possible || "frame";
+};
 
 interface Placement {
   position: THREE.Vector3;
@@ -114,8 +120,8 @@ export class Selection {
     const { position, rotation } = this.relative(shown);
     const pose = [...position.toArray(), ...wxyz(rotation)].map((x) => Number(x.toFixed(6)));
     const place = values.length > 0 ? `q: [${values.join(", ")}]` : `pose: [${pose.join(", ")}]`;
-    const inside = above ? ` (${quoted(above.message.name)})` : "";
-    return `${quoted(name)}${inside}: { ${[place, details].filter((x) => x !== "").join(", ")} }`;
+    const inside = above ? ` (${quoted(expressible(above.message.name))})` : "";
+    return `${quoted(expressible(name))}${inside}: { ${[place, details].filter((x) => x !== "").join(", ")} }`;
   }
 
   private shown(): Shown | undefined {
@@ -221,10 +227,10 @@ export class Selection {
   }
 
   private copy(button: HTMLElement): void {
-    const text = this.asText();
+    const text = this.asText(), name = this.shown()?.message.name ?? "", isChanged = expressible(name) !== name;
     const copied = navigator.clipboard?.writeText(text) ?? Promise.reject(new Error("no clipboard"));
     copied.then(
-      () => (button.textContent = "copied"),
+      () => (button.textContent = isChanged ? `copied as ${expressible(name)}` : "copied"),
       () => prompt("copy this text", text),
     );
     setTimeout(() => (button.textContent = "copy as .g"), 1500);

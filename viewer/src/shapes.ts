@@ -1,6 +1,7 @@
 import * as THREE from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
 import { creased } from "./creased";
+import { WideLines } from "./lines";
 import { LevelMesh, Levels } from "./meshes";
 import type { ShapeMessage } from "./messages";
 import type { Pictures, TexturedTriangles } from "./pictures";
@@ -96,7 +97,7 @@ export function makeShape(shape: ShapeMessage, meshes: Map<number, MeshData>, pi
   const color = new THREE.Color().setRGB(red, green, blue, THREE.SRGBColorSpace);
   const data = shape.mesh >= 0 ? meshes.get(shape.mesh) : undefined;
   if (data?.isPoints) {
-    if (shape.type === "lines") return new THREE.LineSegments(data.geometry, new THREE.LineBasicMaterial({ color }));
+    if (shape.type === "lines") return new WideLines(data.geometry, color, alpha);
     return new THREE.Points(data.geometry, new THREE.PointsMaterial({ size: 4, sizeAttenuation: false, color: data.hasColors ? 0xffffff : color, vertexColors: data.hasColors }));
   }
   const transparent = alpha < 1;

@@ -1,9 +1,11 @@
 import * as THREE from "three";
 import { replaceIn, checkHardShadowsOnce } from "./chunks";
 import { isSeen } from "./display";
+import { cornersOf, firstDirection } from "./first_view";
 import { Floor } from "./floor";
 import { Labels } from "./labels";
 import { Lights } from "./lights";
+import { WideLines } from "./lines";
 import type { CameraMessage, AppearanceMessage } from "./messages";
 import { drawsInSoftware, Quality } from "./quality";
 import { FreeRotation } from "./rotation";
@@ -19,8 +21,6 @@ export interface Hit {
 const SHADOW_PERIOD = 3; // pictures
 const FOG_FROM = 9,
   FOG_TO = 28; // m, for usual scenes
-const SMALL = 0.15,
-  LARGE = 8; // m: the default view suits scenes with radii in between
 /** Directions towards (0, 0, 0.9). */
 const FIRST_VIEW: CameraMessage = {
   kind: "camera",
@@ -32,7 +32,6 @@ const FIRST_VIEW: CameraMessage = {
   near: 0,
   far: 0,
 };
-const FIRST_DIRECTION = new THREE.Vector3(1.5, 2.6, 0.9);
 const LEFT = 0,
   RIGHT = 2; // buttons
 const STILL = 5; // pixels: a shorter pointer motion is a click
@@ -156,19 +155,23 @@ export class Stage {
 
   /** Views the whole scene from a direction. */
   lookAlong(direction: THREE.Vector3): void {
-    this.viewpoint.lookAlong(direction, this.extent());
+    this.viewpoint.lookAlong(direction, this.corners());
     this.redraw();
   }
 
-  /** Returns a ball around everything visible. */
-  private extent(): THREE.Sphere {
+  private visible(): (THREE.Mesh | THREE.Points)[] {
     this.frames.updateMatrixWorld();
-    const box = new THREE.Box3();
+    const objects: (THREE.Mesh | THREE.Points)[] = [];
     this.frames.traverse((object) => {
-      if (object instanceof THREE.Mesh && isSeen(object)) box.expandByObject(object);
+      if ((object instanceof THREE.Mesh || object instanceof THREE.Points) && isSeen(object)) objects.push(object);
     });
-    if (box.isEmpty()) box.set(new THREE.Vector3(-1, -1, 0), new THREE.Vector3(1, 1, 1));
-    return box.getBoundingSphere(new THREE.Sphere());
+    return objects;
+  }
+
+  /** Returns the corners of boxes around everything visible, or of a cube of 2 m in an empty scene. */
+  private corners(): THREE.Vector3[] {
+    const corners = cornersOf(this.visible());
+    return corners.length > 0 ? corners : [new THREE.Vector3(-1, -1, 0), new THREE.Vector3(1, 1, 1)];
   }
 
   /** Marks the camera as set: new frames do not move it. */
@@ -176,12 +179,17 @@ export class Stage {
     this.isPlaced = true;
   }
 
-  /** Call when frames have been added or removed: adapts camera and shadows to the whole scene. */
+  /** Call when frames have been added or removed: adapts camera and shadows to the whole scene. Until the program or a
+   * user has set the camera, it views the whole scene from the side that shows most of it. */
   fitScene(): void {
-    this.ball = this.extent();
-    const { center, radius } = this.ball;
-    this.lights.fitShadows(center, radius);
-    if (!this.isPlaced && radius > 0 && (radius < SMALL || radius > LARGE)) this.viewpoint.start(FIRST_DIRECTION, this.ball);
+    const corners = this.corners();
+    new THREE.Box3().setFromPoints(corners).getBoundingSphere(this.ball);
+    this.lights.fitShadows(this.ball.center, this.ball.radius);
+    if (!this.isPlaced) {
+      const meshes = this.visible().filter((object) => object instanceof THREE.Mesh && !(object instanceof WideLines));
+      this.viewpoint.start(firstDirection(meshes as THREE.Mesh[]), corners);
+      this.moves.forEach((move) => move());
+    }
     this.redraw();
   }
 

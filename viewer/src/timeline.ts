@@ -151,9 +151,11 @@ export class Timeline {
     this.moved();
   }
 
-  /** Handles the arrow keys, which step through slices; returns whether the key was for the motion. */
+  /** Handles Space, which plays and pauses, and the arrow keys, which step through slices; returns whether the key was
+   * for the motion. */
   takeKey(key: string): boolean {
-    if (!this.motion || (key !== "ArrowLeft" && key !== "ArrowRight")) return false;
+    if (!this.motion || ![" ", "ArrowLeft", "ArrowRight"].includes(key)) return false;
+    if (key === " ") return this.toggle(), true;
     this.step(key === "ArrowLeft" ? -1 : 1);
     return true;
   }
@@ -164,9 +166,16 @@ export class Timeline {
     this.setPlaying(!this.playing);
   }
 
-  playFromStart(): void {
-    this.goTo(0);
-    this.setPlaying(true);
+  /** Duration at the chosen speed, s. */
+  get seconds(): number {
+    return this.motion ? this.motion.message.seconds / this.speed : 0;
+  }
+
+  /** Shows the motion at a time since its start, s at the chosen speed. */
+  showAt(seconds: number): void {
+    if (!this.motion) return;
+    this.setPlaying(false);
+    this.goTo((seconds / Math.max(this.seconds, 1e-3)) * (this.motion.slices - 1));
   }
 
   goTo(moment: number): void {

@@ -11,6 +11,8 @@ const NEAR_OF_REACH = 0.002,
   NEAR_OF_DISTANCE = 0.02,
   FAR_OF_REACH = 4; // for large scenes and close views
 const DISTANCE = 1.5; // m: default distance of the center of rotation
+const MARGIN = 1.1; // visible size over the size of the scene
+const SMALLEST = 1e-4; // m, size of a scene
 
 /** Converts between the camera's axes (x right, y down, z forward) and those of three.js (x right, y up, z backward).
  * */
@@ -42,6 +44,7 @@ export class Viewpoint {
   ) {
     for (const camera of [this.perspective, this.orthographic]) camera.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.perspective, canvas);
+    this.controls.zoomToCursor = true;
     const update = this.controls.update.bind(this.controls);
     this.controls.update = (passed) => {
       const different = update(passed); // computed with the upright camera
@@ -148,29 +151,41 @@ export class Viewpoint {
     return this.camera.position.distanceTo(this.target);
   }
 
-  /** Sets the view of `home`: from a direction, with a whole ball in the picture. */
-  start(direction: THREE.Vector3, ball: THREE.Sphere): void {
-    this.aim(direction, ball);
+  /** Sets the view of `home`: from a direction, with all points in the picture. */
+  start(direction: THREE.Vector3, points: THREE.Vector3[]): void {
+    this.aim(direction, points);
     const { pose, distance } = this.describe();
     if (this.first) this.first = { ...this.first, pose, distance };
   }
 
-  /** Moves a user's view to a direction, with a whole ball in the picture. */
-  lookAlong(direction: THREE.Vector3, ball: THREE.Sphere): void {
-    this.aim(direction, ball);
+  /** Moves a user's view to a direction, with all points in the picture. */
+  lookAlong(direction: THREE.Vector3, points: THREE.Vector3[]): void {
+    this.aim(direction, points);
     this.moved();
   }
 
-  private aim(direction: THREE.Vector3, { center, radius }: THREE.Sphere): void {
-    const half = Math.atan(this.halfHeight());
-    const distance = radius / Math.sin(Math.min(half, Math.atan(this.halfHeight() * this.pageAspect)));
+  private aim(direction: THREE.Vector3, points: THREE.Vector3[]): void {
+    const back = direction.clone().normalize();
+    const right = new THREE.Vector3(0, 0, 1).cross(back).normalize(), up = back.clone().cross(right);
+    const axes = new THREE.Matrix4().makeBasis(right, up, back), toView = axes.clone().transpose();
+    const seen = points.map((point) => point.clone().applyMatrix4(toView));
+    const box = new THREE.Box3().setFromPoints(seen);
+    const center = box.getCenter(new THREE.Vector3()), size = box.getSize(new THREE.Vector3());
+    const half = this.halfHeight(), least = MARGIN * Math.max(size.length() / 2, SMALLEST);
+    let distance = least;
+    for (const { x, y, z } of seen)
+      distance = Math.max(
+        distance,
+        z - center.z + MARGIN * Math.max(Math.abs(y - center.y) / half, Math.abs(x - center.x) / (half * this.pageAspect)),
+      );
     if (this.height > 0) {
-      this.orthographic.zoom = Math.min(1, this.pageAspect) * (this.height / (2 * radius));
+      this.orthographic.zoom = this.height / (MARGIN * Math.max(size.y, size.x / this.pageAspect, SMALLEST));
       this.orthographic.updateProjectionMatrix();
     }
     this.setRange(0, 0);
     this.camera.updateProjectionMatrix();
-    this.lookFrom(center.clone().addScaledVector(direction.clone().normalize(), distance), center);
+    center.applyMatrix4(axes);
+    this.lookFrom(center.clone().addScaledVector(back, distance), center);
   }
 
   /** Rotates about the target, by angles to the right and upwards (rad), and approaches it by a factor. */

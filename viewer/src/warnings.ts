@@ -1,4 +1,5 @@
 import * as THREE from "three";
+import { WideLines } from "./lines";
 import type { CSS2DObject } from "three/addons/renderers/CSS2DRenderer.js";
 import { isSeen } from "./display";
 import { label } from "./labels";
@@ -90,7 +91,7 @@ export class Warnings {
 
   private mark(id: number): Mark[] {
     const object = this.frames.get(id)?.object;
-    if (!(object instanceof THREE.Mesh)) return [];
+    if (!(object instanceof THREE.Mesh) || object instanceof WideLines) return [];
     const geometry = object.geometry as THREE.BufferGeometry;
     if (!geometry.boundingBox) geometry.computeBoundingBox();
     const size = geometry.boundingBox!.getSize(new THREE.Vector3()), center = geometry.boundingBox!.getCenter(new THREE.Vector3());

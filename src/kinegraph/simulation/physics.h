@@ -14,7 +14,7 @@ namespace kinegraph {
   X(mj_setState) X(mj_contactForce) X(mj_applyFT) X(mj_kinematics) X(mjs_getError) X(mjs_findBody) X(mjs_addBody) \
   X(mjs_addJoint) X(mjs_addFreeJoint) X(mjs_addGeom) X(mjs_addSite) X(mjs_addMesh) X(mjs_addActuator) \
   X(mjs_addTendon) X(mjs_wrapJoint) X(mjs_addEquality) X(mjs_addExclude) X(mjs_addPair) X(mjs_addSensor) X(mjs_setName) \
-  X(mjs_setString) X(mjs_setFloat) X(mjs_getId) X(mj_rne) X(mj_solveM)
+  X(mjs_setString) X(mjs_setFloat) X(mjs_getId) X(mj_rne) X(mj_solveM) X(mj_jac)
 // clang-format on
 
 /// The functions of MuJoCo that simulation steps call, by their own names.

@@ -134,6 +134,7 @@ class World {
   void innerStep(double h);
   void correctContacts(double h);
   void driveMotors(double h);
+  double inertiaAt(const Vector3d& point, int body);
   void addPerturbation();
   void removePerturbation();
   void moveGrippers(double h);
@@ -154,6 +155,7 @@ class World {
   PerturbationSpring perturbation_;
   Vector3d perturbation_force_{0, 0, 0};
   Vector6d force_before_perturbation_ = Vector6d::Zero();  ///< applied force without the spring's
+  std::vector<mjtNum> point_jacobian_, point_response_;    ///< of the perturbed point, 3 x nv: J and J M^-1
   std::vector<mjtNum> bias_, desired_acceleration_, torque_;
   GyroscopicForces gyroscopic_forces_;
   std::set<int> too_fast_;

@@ -1,6 +1,8 @@
 // The spring perturbation of a body.
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 
+#include "kinegraph/simulation/physics.h"
 #include "kinegraph/simulation/world.h"
 
 namespace kinegraph {
@@ -8,6 +10,8 @@ namespace kinegraph {
 namespace {
 
 constexpr double kPerturbationFrequency = 10.;  ///< rad/s
+constexpr double kFarthest = 10.;               ///< m: a target farther away pulls as from there
+constexpr double kMostOfPointMass = 10.;  ///< largest mass of the spring over the inertia that the point resists with
 
 using Vector = Eigen::Map<const Vector3d>;
 
@@ -35,7 +39,24 @@ bool World::canMove(int body) const {
   return bodies[std::size_t(body)].kind != SceneBody::Kind::world;
 }
 
-/// Adds the spring force f = m (w^2 (target - p) - 2 w dp/dt) to the forces on the body.
+/// Returns the least inertia that a point resists with, kg, over all directions of a force: 1 / |J M^-1 J^T|.
+double World::inertiaAt(const Vector3d& point, int body) {
+  const int n = physics_->nv;
+  point_jacobian_.resize(std::size_t(3 * n));
+  point_response_.resize(std::size_t(3 * n));
+  physics().mj_jac(&*physics_, &*data_, point_jacobian_.data(), nullptr, point.data(), body);
+  physics().mj_solveM(&*physics_, &*data_, point_response_.data(), point_jacobian_.data(), 3);
+  using Rows = Eigen::Map<const Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::RowMajor>>;
+  const Matrix3d response = Rows(point_response_.data(), 3, n) * Rows(point_jacobian_.data(), 3, n).transpose();
+  return 1. / std::max(Eigen::SelfAdjointEigenSolver<Matrix3d>()
+                           .computeDirect(response, Eigen::EigenvaluesOnly)
+                           .eigenvalues()
+                           .maxCoeff(),
+                       1e-9);
+}
+
+/// Adds the spring force f = m (w^2 (target - p) - 2 w dp/dt) to the forces on the body. A point far off the body, and a
+/// target far away, pull less: otherwise the spring would be too stiff for the body's small rotational inertia.
 void World::addPerturbation() {
   const mjModel& m = *physics_;
   mjData& d = *data_;
@@ -45,7 +66,10 @@ void World::addPerturbation() {
   const Vector3d velocity =
       Vector(twist + 3) + Vector(twist).cross(point - Vector(d.subtree_com + 3 * m.body_rootid[id]));
   const double w = kPerturbationFrequency;
-  perturbation_force_ = m.body_subtreemass[id] * (w * w * (perturbation_.target - point) - 2. * w * velocity);
+  const double mass = std::min(m.body_subtreemass[id], kMostOfPointMass * inertiaAt(point, id));
+  const Vector3d offset = perturbation_.target - point;
+  const Vector3d towards = offset * std::min(1., kFarthest / std::max(offset.norm(), kFarthest));
+  perturbation_force_ = mass * (w * w * towards - 2. * w * velocity);
   Eigen::Map<Vector6d> applied(d.xfrc_applied + 6 * id);
   force_before_perturbation_ = applied;
   applied.head<3>() += perturbation_force_;

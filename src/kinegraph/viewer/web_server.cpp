@@ -10,6 +10,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/viewer/access.h"
 #include "kinegraph/viewer/client_page.h"
+#include "kinegraph/viewer/gzip.h"
 
 namespace kinegraph {
 
@@ -22,6 +23,8 @@ using tcp = asio::ip::tcp;
 namespace {
 
 constexpr auto kPause = std::chrono::milliseconds(12);  ///< after each batch; a higher rate is not visible
+
+constexpr std::size_t kWorthCompressing = 16384;  ///< size of a message, bytes
 
 using HttpRequest = http::request<http::string_body>;
 
@@ -61,6 +64,12 @@ class BrowserSession : public std::enable_shared_from_this<BrowserSession> {
 void BrowserSession::start(HttpRequest request) {
   socket_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
   socket_.read_message_max(4096);
+  websocket::permessage_deflate compression;  // meshes shrink by half, and poses are sent as they are
+  compression.server_enable = true;
+  compression.compLevel = 3;
+  compression.memLevel = 8;
+  compression.msg_size_threshold = kWorthCompressing;
+  socket_.set_option(compression);
   socket_.auto_fragment(false);
   socket_.async_accept(request, [self = shared_from_this()](beast::error_code error) {
     if (error) return;
@@ -182,6 +191,10 @@ void PageConnection::answer() {
   } else if (request.method() == http::verb::get && (path == "/" || path == "/scene.html")) {
     response_.set(http::field::content_type, "text/html; charset=utf-8");
     response_.body() = path == "/" ? std::string(clientPage()) : state_->recording();
+    if (std::string_view(request[http::field::accept_encoding]).find("gzip") != std::string_view::npos) {
+      response_.set(http::field::content_encoding, "gzip");
+      response_.body() = gzipped(response_.body());
+    }
   } else {
     response_.result(http::status::not_found);
     response_.body() = "Page not found.";

@@ -481,6 +481,27 @@ def test_a_perturbation_is_a_spring_that_is_part_of_the_state():
         S.perturb("wall", [0, 0, 0], [0, 0, 0])
 
 
+@pytest.mark.parametrize("kind", ["free box", "box on a hinge"])
+@pytest.mark.parametrize("point", [[0, 0, 0], [0.035, 0.035, 0.035], [1.1, 0, 0], [0, -30, 20], [1e3, 1e3, 0]])
+@pytest.mark.parametrize("target", [[5, 0, 1], [0, 0, -3], [1e6, 0, 1e6]])
+def test_no_perturbation_ends_a_simulation(kind: str, point: list[float], target: list[float]) -> None:
+    C = ry.Config()
+    C.addFrame("floor").setShape(ry.ST.box, [4, 4, 0.1]).setPosition([0, 0, -0.05]).setContact(1)
+    C.addFrame("base").setPosition([0, 0, 0.5])
+    box = C.addFrame("box", "base" if kind == "box on a hinge" else "")
+    box.setShape(ry.ST.box, [0.07, 0.07, 0.07]).setMass(0.2).setContact(1)
+    if kind == "box on a hinge":
+        box.setJoint(ry.JT.hingeX)
+    else:
+        box.setPosition([0, 0, 0.2])
+    S = ry.Simulation(C)
+    S.perturb("box", point, target)
+    for _ in range(100):
+        S.step()
+    assert np.all(np.isfinite(C.getFrameState()))
+    assert np.abs(S.get_frameVelocities()).max() < 1e3
+
+
 def test_a_recording_is_shown_with_its_fingers_and_saved_as_a_page(tmp_path):
     C = panda()
     S = ry.Simulation(C)
