@@ -10,6 +10,7 @@
 #include "kinegraph/geometry/files/h5_file.h"
 #include "kinegraph/geometry/files/mesh_header.h"
 #include "kinegraph/geometry/files/mesh_textures.h"
+#include "kinegraph/geometry/shapes/scale_mesh.h"
 
 namespace kinegraph {
 
@@ -40,6 +41,7 @@ void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, 
       if (face.mNumIndices == 3)
         mesh.triangles.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
     }
+    if (transform.Determinant() < 0.f) turnTriangles(mesh, first_triangle);
     if (!part.HasTextureCoords(0)) continue;
     std::vector<std::array<float, 2>> coordinates;
     for (unsigned v = 0; v < part.mNumVertices; ++v)
@@ -48,6 +50,33 @@ void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, 
   }
   for (unsigned child = 0; child < node.mNumChildren; ++child)
     append(scene, *node.mChildren[child], transform, textures, mesh);
+}
+
+/// Removes the vertices that belong to no triangle, if there are triangles: loose points, and ends of lines, are no part
+/// of a surface.
+void removeLoosePoints(Mesh& mesh) {
+  if (mesh.triangles.empty()) return;
+  std::vector<std::uint32_t> place(mesh.vertices.size(), 0);
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle) place[corner] = 1;
+  }
+  if (std::find(place.begin(), place.end(), 0u) == place.end()) return;
+  std::uint32_t kept = 0;
+  const bool colored = mesh.colors.size() == mesh.vertices.size(),
+             textured = mesh.texcoords.size() == mesh.vertices.size();
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    if (place[v] == 0) continue;
+    mesh.vertices[kept] = mesh.vertices[v];
+    if (colored) mesh.colors[kept] = mesh.colors[v];
+    if (textured) mesh.texcoords[kept] = mesh.texcoords[v];
+    place[v] = kept++;
+  }
+  mesh.vertices.resize(kept);
+  if (colored) mesh.colors.resize(kept);
+  if (textured) mesh.texcoords.resize(kept);
+  for (auto& triangle : mesh.triangles) {
+    for (std::uint32_t& corner : triangle) corner = place[corner];
+  }
 }
 
 }  // namespace
@@ -123,6 +152,7 @@ Mesh readMeshFile(const std::string& path) {
   MeshTextures textures(*scene, path);
   append(*scene, *scene->mRootNode, aiMatrix4x4(), textures, mesh);
   mesh.texcoords.resize(mesh.texcoords.empty() ? 0 : mesh.vertices.size());
+  removeLoosePoints(mesh);
   if (mesh.vertices.empty()) throw FileError(cat("mesh file '", path, "' contains no vertices"));
   const auto broken =
       std::find_if_not(mesh.vertices.begin(), mesh.vertices.end(), [](const Vector3d& p) { return p.allFinite(); });

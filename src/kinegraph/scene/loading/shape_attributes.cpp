@@ -8,6 +8,7 @@
 #include "kinegraph/geometry/files/image_file.h"
 #include "kinegraph/geometry/files/mesh_file.h"
 #include "kinegraph/geometry/shapes/isosurface.h"
+#include "kinegraph/geometry/shapes/scale_mesh.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/textured_surface.h"
@@ -80,7 +81,7 @@ bool AttributeReader::readMesh(Geometry& geometry) {
       const auto s = numbers(*scale).value_or(std::vector<double>{1.});
       if (s.size() == 1 || s.size() == 3) {
         const Vector3d factors = s.size() == 3 ? Vector3d(s[0], s[1], s[2]) : Vector3d::Constant(s[0]).eval();
-        for (Vector3d& p : mesh.vertices) p = p.cwiseProduct(factors);
+        scaleMesh(mesh, factors);
         geometry.mesh_scale = factors;
       } else {
         error(*scale, cat("expected 1 or 3 numbers, got ", s.size()));
