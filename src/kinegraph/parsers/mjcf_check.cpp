@@ -29,7 +29,7 @@ void checkMjcfSections(const MjcfDocument& document, Findings& findings) {
   static const Names sections = {"compiler", "option",   "size",      "visual",   "statistic",  "default",
                                  "custom",   "asset",    "worldbody", "contact",  "deformable", "equality",
                                  "tendon",   "actuator", "sensor",    "keyframe", "extension"};
-  static const Names read = {"equality joint", "contact exclude", "keyframe key"};
+  static const Names read = {"equality joint", "contact exclude", "contact pair", "keyframe key"};
   static const Names of_interest = {"equality", "contact", "deformable", "tendon", "actuator", "sensor", "keyframe"};
   static const Names assets = {"texture", "material", "mesh", "hfield", "skin", "model"};
   checkChildren(document.root(), sections, findings);
@@ -40,6 +40,7 @@ void checkMjcfSections(const MjcfDocument& document, Findings& findings) {
     if (!contains(of_interest, section.name)) continue;
     for (const XmlElement& element : section.children) {
       if (contains(read, cat(section.name, " ", element.name))) continue;
+      if (section.name == "actuator" && element.attribute("joint")) continue;  // mjcfMotors reads it
       if (!first.known()) first = element.where;
       ++ignored[cat(section.name, "/", element.name)];
     }
@@ -66,10 +67,12 @@ void checkMjcfBody(const XmlElement& body, Findings& findings) {
 void checkMjcfAttributes(const XmlElement& element, Findings& findings) {
   static const std::map<std::string, Names> known = {
       {"body", {"name", "childclass", "pos", "quat", "axisangle", "xyaxes", "zaxis", "euler"}},
-      {"joint", {"name", "class", "type", "pos", "axis", "ref", "range", "limited"}},
-      {"geom",
-       {"name", "class", "type", "pos", "quat", "axisangle", "xyaxes", "zaxis", "euler", "size", "fromto", "mesh",
-        "rgba", "material", "contype", "conaffinity", "group", "mass", "density"}},
+      {"joint",
+       {"name", "class", "type", "pos", "axis", "ref", "range", "limited", "damping", "stiffness", "springref",
+        "frictionloss", "armature"}},
+      {"geom", {"name",    "class",       "type",  "pos",    "quat",    "axisangle", "xyaxes",
+                "zaxis",   "euler",       "size",  "fromto", "mesh",    "rgba",      "material",
+                "contype", "conaffinity", "group", "mass",   "density", "friction",  "shellinertia"}},
       {"site", {"name", "class", "pos", "quat", "axisangle", "xyaxes", "zaxis", "euler", "fromto", "rgba", "group"}},
       {"camera",
        {"name", "class", "pos", "quat", "axisangle", "xyaxes", "zaxis", "euler", "fovy", "resolution", "mode"}},

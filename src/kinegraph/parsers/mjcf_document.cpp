@@ -126,6 +126,12 @@ void MjcfDocument::include(const XmlElement& element, const std::string& folder,
 }
 
 void MjcfDocument::readSettings() {
+  const auto massSetting = [&](const std::string& name) -> double* {
+    return name == "settotalmass"   ? &settings_.total_mass
+           : name == "boundmass"    ? &settings_.bound_mass
+           : name == "boundinertia" ? &settings_.bound_inertia
+                                    : nullptr;
+  };
   const auto flag = [&](const XmlAttribute& attribute) {
     if (attribute.value != "true" && attribute.value != "false")
       findings_.error(attribute.where,
@@ -161,6 +167,18 @@ void MjcfDocument::readSettings() {
       } else if (attribute.name == "assetdir") {
         if (!mesh_folder_given) settings_.mesh_folder = value;
         if (!texture_folder_given) settings_.texture_folder = value;
+      } else if (attribute.name == "balanceinertia") {
+        settings_.balance_inertia = flag(attribute);
+      } else if (attribute.name == "inertiagrouprange") {
+        const auto range = numbersIn(value);
+        if (!range || range->size() != 2) refuse("two numbers");
+        if (range && range->size() == 2)
+          std::tie(settings_.first_mass_group, settings_.last_mass_group) =
+              std::pair(int((*range)[0]), int((*range)[1]));
+      } else if (double* number = massSetting(attribute.name)) {
+        const auto numbers = numbersIn(value);
+        if (!numbers || numbers->size() != 1) refuse("a number");
+        if (numbers && numbers->size() == 1) *number = numbers->front();
       } else if (attribute.name == "inertiafromgeom") {
         settings_.masses_of_geoms = value != "false";
         settings_.masses_only_of_geoms = value == "true";

@@ -39,14 +39,18 @@ class MjcfElement {
 
 /// Settings of the element <compiler>.
 struct MjcfSettings {
-  bool degrees = true;                ///< angles
-  std::string euler_order = "xyz";    ///< lower case: about the axes of the rotated frame
-  bool limited_by_range = true;       ///< a joint with a range is limited
-  bool strip_mesh_path = false;       ///< use only the file name of a mesh path
-  bool masses_of_geoms = true;        ///< bodies without <inertial> get the masses of their geoms
-  bool masses_only_of_geoms = false;  ///< ignore <inertial>
-  std::string mesh_folder;            ///< as written
-  std::string texture_folder;         ///< as written
+  bool degrees = true;                            ///< angles
+  std::string euler_order = "xyz";                ///< lower case: about the axes of the rotated frame
+  bool limited_by_range = true;                   ///< a joint with a range is limited
+  bool strip_mesh_path = false;                   ///< use only the file name of a mesh path
+  bool masses_of_geoms = true;                    ///< bodies without <inertial> get the masses of their geoms
+  bool masses_only_of_geoms = false;              ///< ignore <inertial>
+  int first_mass_group = 0, last_mass_group = 5;  ///< groups of the geoms that have masses
+  double total_mass = -1.;                        ///< kg; negative: as computed
+  double bound_mass = 0., bound_inertia = 0.;     ///< least mass of a body, kg, and moment of inertia, kg m^2
+  bool balance_inertia = false;                   ///< impossible moments of inertia become their mean
+  std::string mesh_folder;                        ///< as written
+  std::string texture_folder;                     ///< as written
 };
 
 /// An MJCF text with its included files and default classes.

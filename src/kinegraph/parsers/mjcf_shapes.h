@@ -1,11 +1,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "kinegraph/parsers/findings.h"
 #include "kinegraph/parsers/frame_attributes.h"
 #include "kinegraph/parsers/mjcf_document.h"
+#include "kinegraph/parsers/mjcf_mass.h"
 #include "kinegraph/parsers/mjcf_values.h"
 
 namespace kinegraph {
@@ -21,7 +23,7 @@ class MjcfShapes {
     FrameAttributes attributes;
   };
 
-  /// `contact` is the flag of colliding geoms; `with_mass` gives the geom a mass.
+  /// `contact` is the flag of the geom, 0 for one that collides with nothing; `with_mass` gives it a mass.
   Placed geom(const MjcfElement& element, int contact, bool with_mass);
   Placed site(const MjcfElement& element);
   Placed camera(const MjcfElement& element);
@@ -30,6 +32,8 @@ class MjcfShapes {
   void addMesh(const MjcfElement& element, Placed& placed);
   void addInlineMesh(const MjcfElement& mesh, const Vector3d& scale, Placed& placed);
   void addPrimitive(const MjcfElement& element, const std::string& type, double line_length, Placed& placed);
+  std::optional<UniformMass> massOf(const MjcfElement& element, const Placed& placed);
+  std::optional<Mesh> meshOf(const MjcfElement& element, const Placed& placed);
   void addMass(const MjcfElement& element, Placed& placed);
   void addLooks(const MjcfElement& element, int contact, Placed& placed);
   const MjcfElement* materialOf(const MjcfElement& element);

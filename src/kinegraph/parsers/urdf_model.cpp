@@ -255,6 +255,10 @@ class UrdfParser {
       }
     }
     readLimits(element, joint);
+    if (const XmlElement* dynamics = element.child("dynamics")) {
+      joint.damping = number(*dynamics, "damping", 0.);
+      joint.friction = number(*dynamics, "friction", 0.);
+    }
     if (const XmlElement* mimic = element.child("mimic")) {
       joint.mimic = UrdfMimic{text(*mimic, "joint").value_or(""), number(*mimic, "multiplier", 1.),
                               number(*mimic, "offset", 0.), mimic->where};

@@ -59,8 +59,9 @@ struct UrdfJoint {
   Pose origin;                ///< in the parent link
   Vector3d axis = Vector3d::UnitX();
   bool limited = false;
-  double lower = 0., upper = 0.;      ///< if limited
-  double effort = 0., velocity = 0.;  ///< 0: not given
+  double lower = 0., upper = 0.;       ///< if limited
+  double effort = 0., velocity = 0.;   ///< 0: not given
+  double damping = 0., friction = 0.;  ///< of <dynamics>
   std::optional<UrdfMimic> mimic;
   SourcePosition where, parent_where, child_where, limit_where;
 };

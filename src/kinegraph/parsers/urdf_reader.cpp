@@ -237,8 +237,9 @@ class UrdfReader {
     if (known && shape.collision) {
       attributes.addNumbers("color", {1., 0., 0., .2});
       attributes.add("contact", -2.);
-    } else if (known && shape.color) {
-      attributes.addNumbers("color", {shape.color->begin(), shape.color->end()});
+    } else if (known) {
+      if (shape.color) attributes.addNumbers("color", {shape.color->begin(), shape.color->end()});
+      attributes.add("visual", true);
     }
     if (known && !shape.texture.empty()) attributes.add("texture", AngleText{resolvePath(shape.texture, folder_)});
     addFrame(name, link, shape.where, std::move(attributes));
@@ -270,6 +271,8 @@ class UrdfReader {
       if (joint.limited) attributes.addNumbers("limits", {joint.lower, joint.upper});
       if (joint.effort != 0. || joint.velocity != 0.)
         attributes.addNumbers("ctrl_limits", {joint.velocity, joint.effort, -1.});
+      if (joint.damping > 0.) attributes.add("angularDamping", joint.damping);
+      if (joint.friction > 0.) attributes.add("jointFriction", joint.friction);
       if (joint.mimic) attributes.add("mimic", frame_of_joint_.at(findJoint(joint.mimic->joint)));
     }
     addFrame(name, parent, joint.where, std::move(attributes));

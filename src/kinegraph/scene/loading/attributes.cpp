@@ -27,6 +27,8 @@ constexpr std::string_view kKnownAttributes[] = {
     "fxycxy", "orthoAbsHeight", "heightAngle", "heightAbs", "zRange", "width", "height", "label", "part", "visual",
     "noVisual", "franka", "parent", "home", "contact_exclude", "vertices", "triangles", "vertex_colors",
     "joint_groups", "joint_states", "mesh_parts", "grid_cells", "grid_values",
+    "jointFriction", "armature", "springStiffness", "springReference", "gravityCompensation", "torsionalFriction",
+    "rollingFriction", "frictionRule", "surfaceVelocity",
 };
 // clang-format on
 
