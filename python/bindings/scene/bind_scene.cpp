@@ -103,10 +103,10 @@ void bindBuilding(nb::class_<PyConfig>& config) {
   config.def("clear", &PyConfig::clear, "Removes all frames.")
       .def(
           "addFile",
-          [](PyConfig& c, const PathText& file, const std::optional<std::string>& prefix) {
-            return withWarnings(c, c.addFile(file.text, prefix.value_or("")));
+          [](PyConfig& c, const PathText& file, const std::optional<std::string>& prefix, bool floating) {
+            return withWarnings(c, c.addFile(file.text, prefix.value_or(""), floating));
           },
-          "filename"_a, "namePrefix"_a = nb::none(), docs::scene::addFile)
+          "filename"_a, "namePrefix"_a = nb::none(), nb::kw_only(), "floating"_a = false, docs::scene::addFile)
       .def(
           "addText",
           [](PyConfig& c, const std::string& text, const std::string& name) {

@@ -11,9 +11,12 @@ first; an .srdf file beside a .urdf file is read with it. On an error the scene 
 Args:
     filename: Path of a .g, .yml, .urdf or .srdf file, or of a MuJoCo .xml file. Paths of shipped models: ry.raiPath.
     namePrefix: Prefix of the frame names.
+    floating: Gives the root frame a free joint below a new frame `world`, for legged and other robots without a fixed
+        base: q gets 7 more entries (position and quaternion), and the robot falls in a Simulation.
 Returns:
     The first added frame, or None if the file has none.
 Raises:
+    ArgumentError: floating, and the file has several roots, or its root is the world or has a joint.
     FileError: The file cannot be read.
     ParseError: The file has an error; the message has the file, the line and the column.)";
 

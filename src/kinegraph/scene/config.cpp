@@ -11,6 +11,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/gfile/parser.h"
+#include "kinegraph/scene/floating_base.h"
 #include "kinegraph/scene/loading/reader.h"
 #include "kinegraph/scene/loading/robot_semantics.h"
 #include "kinegraph/scene/tree/named_states.h"
@@ -48,17 +49,23 @@ std::string duplicatesWarning(SceneTree& scene, const SceneTree& added, const st
 
 }  // namespace
 
-std::optional<Frame> Config::addFile(const std::string& path, const std::string& prefix) {
+std::optional<Frame> Config::addFile(const std::string& path, const std::string& prefix, bool floating) {
   if (isSemanticsFile(path)) {
     readSemanticsFile(path, prefix, *scene_, warnings_);
     return std::nullopt;
   }
   SceneTree scratch;
   readSceneFile(path, scratch, warnings_);
+  if (floating) checkFloatingRoot(scratch, path);
   if (std::string warning = duplicatesWarning(*scene_, scratch, prefix, path); !warning.empty())
     warnings_.push_back(std::move(warning));
   FrameData* first = scene_->append(scratch, prefix);
   if (!first) return std::nullopt;
+  if (floating) {
+    FrameData* root = first;
+    while (root->parent) root = root->parent;
+    makeFloating(scene_, *root, prefix);
+  }
   return Frame(scene_, *first);
 }
 

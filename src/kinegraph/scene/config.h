@@ -34,8 +34,10 @@ class Config {
   /// Adds the frames of a scene file and returns the first of them, if any. The extension selects the format: .urdf,
   /// .xml (MJCF), .srdf, otherwise the .g language. `prefix` is put before the names. An .srdf file adds collision
   /// pairs, groups and states to frames that already exist; one beside a .urdf file is read with it. On an error
-  /// (FileError, ParseError) the configuration is unchanged. `takeWarnings` returns the warnings.
-  std::optional<Frame> addFile(const std::string& path, const std::string& prefix = {});
+  /// (FileError, ParseError) the configuration is unchanged. `takeWarnings` returns the warnings. `floating` gives the
+  /// root frame a joint of type free, so that a legged robot falls in a simulation; throws ValueError if the file has
+  /// several roots, or a root with a joint.
+  std::optional<Frame> addFile(const std::string& path, const std::string& prefix = {}, bool floating = false);
 
   /// Adds the frames of scene text. `name` stands for the file in messages; included files are relative to `folder`.
   std::optional<Frame> addText(std::string_view text, const std::string& name = "text", const std::string& folder = {});
