@@ -50,7 +50,7 @@ TEST_F(MjcfReader, FramesAreNamedAfterWhatTheyStandFor) {
                                                               "tip", "arm_site", "eye", "arm_body"}));
   EXPECT_EQ(config.getJointNames(), (std::vector<std::string>{"turn", "arm_body"}));
   EXPECT_EQ(config.getFrame("turn").getJointType(), JointType::hingeY);
-  EXPECT_EQ(config.getFrame("world_0").getShapeType(), ShapeType::quad);
+  EXPECT_EQ(config.getFrame("world_0").getShapeType(), ShapeType::plane);
   EXPECT_EQ(config.getFrame("eye").getShapeType(), ShapeType::camera);
 }
 
@@ -315,7 +315,7 @@ TEST_F(MjcfReader, MistakesSayWhereTheyAreAndWhatIsNear) {
 
 TEST_F(MjcfReader, OneWarningListsTheIgnoredElements) {
   load(
-      "<worldbody><body><joint name='j'/></body></worldbody><actuator><motor joint='j'/><motor joint='j'/></actuator>"
+      "<worldbody><body><joint name='j'/></body></worldbody><actuator><motor joint='j'/><motor tendon='t'/><motor tendon='t'/></actuator>"
       "<sensor><jointpos joint='j'/></sensor>");
   ASSERT_EQ(warnings_.size(), 1u);
   EXPECT_NE(warnings_[0].find("ignored elements: actuator/motor (2), sensor/jointpos (1)"), std::string::npos)

@@ -424,6 +424,9 @@ std::string Config::report() const {
                          " #joints=", getJoints().size(), " #shapes=", shapes, " #pairs=", getCollidablePairs().size());
   if (count > 0)
     text += cat("\ncollide: ", join(colliding, " "), count > kMaxNamed ? cat(" and ", count - kMaxNamed, " more") : "");
+  double mass = 0.;
+  for (const auto& frame : scene_->frames()) mass += frame->inertia ? frame->inertia->mass : 0.;
+  if (mass > 0.) text += cat("\nmass: ", mass, " kg");
   for (const std::string& note : contactWarnings()) text += cat("\nnote: ", note);
   return text;
 }
