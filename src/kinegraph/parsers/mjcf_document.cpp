@@ -113,7 +113,7 @@ void MjcfDocument::include(const XmlElement& element, const std::string& folder,
   std::ifstream stream(path, std::ios::binary);
   std::stringstream text;
   text << stream.rdbuf();
-  included_.back().text = validUtf8(text.str());
+  included_.back().text = validUtf8(toUtf8(text.str()));
   try {
     XmlElement root = parseXml(included_.back().text, path);
     open.push_back(absolute);

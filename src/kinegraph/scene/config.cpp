@@ -19,7 +19,7 @@ namespace kinegraph {
 
 Config::Config(const SceneTree& scene) : Config() { scene_->append(scene, ""); }
 
-Config::Config(const Config& other) : Config(*other.scene_) {}
+Config::Config(const Config& other) : Config(*other.scene_) { file_warnings_ = other.file_warnings_; }
 
 Config& Config::operator=(const Config& other) {
   if (this != &other) {
@@ -48,26 +48,42 @@ std::string duplicatesWarning(SceneTree& scene, const SceneTree& added, const st
 
 }  // namespace
 
-std::optional<Frame> Config::addFile(const std::string& path, const std::string& prefix) {
+void Config::clear() {
+  scene_->clear();
+  file_warnings_.clear();
+}
+
+void Config::keepWarnings(const std::vector<std::string>& warnings) {
+  for (std::vector<std::string>* list : {&warnings_, &file_warnings_})
+    list->insert(list->end(), warnings.begin(), warnings.end());
+}
+
+std::optional<Frame> Config::addFile(const std::string& path, const std::string& prefix, const FileOptions& options) {
+  std::vector<std::string> warnings;
   if (isSemanticsFile(path)) {
-    readSemanticsFile(path, prefix, *scene_, warnings_);
+    readSemanticsFile(path, prefix, *scene_, warnings, options);
+    keepWarnings(warnings);
     return std::nullopt;
   }
   SceneTree scratch;
-  readSceneFile(path, scratch, warnings_);
-  if (std::string warning = duplicatesWarning(*scene_, scratch, prefix, path); !warning.empty())
-    warnings_.push_back(std::move(warning));
-  FrameData* first = scene_->append(scratch, prefix);
-  if (!first) return std::nullopt;
-  return Frame(scene_, *first);
+  readSceneFile(path, scratch, warnings, options);
+  return appendFile(scratch, prefix, path, std::move(warnings));
 }
 
-std::optional<Frame> Config::addText(std::string_view text, const std::string& name, const std::string& folder) {
+std::optional<Frame> Config::addText(std::string_view text, const std::string& name, const std::string& folder,
+                                     bool strict) {
   SceneTree scratch;
-  readSceneText(text, name, folder, scratch, warnings_);
-  if (std::string warning = duplicatesWarning(*scene_, scratch, "", name); !warning.empty())
-    warnings_.push_back(std::move(warning));
-  FrameData* first = scene_->append(scratch, "");
+  std::vector<std::string> warnings;
+  readSceneText(text, name, folder, scratch, warnings, strict);
+  return appendFile(scratch, "", name, std::move(warnings));
+}
+
+std::optional<Frame> Config::appendFile(const SceneTree& scratch, const std::string& prefix, const std::string& file,
+                                        std::vector<std::string> warnings) {
+  if (std::string warning = duplicatesWarning(*scene_, scratch, prefix, file); !warning.empty())
+    warnings.push_back(std::move(warning));
+  keepWarnings(warnings);
+  FrameData* first = scene_->append(scratch, prefix);
   if (!first) return std::nullopt;
   return Frame(scene_, *first);
 }
