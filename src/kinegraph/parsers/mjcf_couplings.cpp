@@ -41,7 +41,7 @@ void resolveChains(std::map<std::string, MjcfCoupling>& couplings, Findings& fin
 double mjcfReference(const MjcfElement& joint, MjcfValues& values) {
   const std::string type = typeOf(joint, values);
   const double reference = values.number(joint, "ref", 0.);
-  return type == "hinge" ? values.radians(reference) : type == "slide" ? reference : 0.;
+  return type == "hinge" ? values.radians(joint, reference) : type == "slide" ? reference : 0.;
 }
 
 std::map<std::string, MjcfCoupling> mjcfCouplings(const MjcfDocument& document,
@@ -58,14 +58,14 @@ std::map<std::string, MjcfCoupling> mjcfCouplings(const MjcfDocument& document,
       if (!name) return nullptr;
       const auto found = joints.find(name->value);
       if (found != joints.end()) return &found->second;
-      findings.error(name->where,
-                     cat("<equality>: there is no joint '", name->value, "'", similarHint(name->value, names)));
+      findings.warn(name->where, cat("<equality>: there is no joint '", name->value, "'; the element is left out",
+                                     similarHint(name->value, names)));
       return nullptr;
     };
     const MjcfElement* first = find("joint1");
     const MjcfElement* second = find("joint2");
     if (!first && !xml->attribute("joint1"))
-      findings.error(xml->where, "<joint> in <equality> has no attribute 'joint1'");
+      findings.warn(xml->where, "<joint> in <equality> has no attribute 'joint1'; the element is left out");
     if (!first || (!second && xml->attribute("joint2"))) continue;
     const std::string name = first->name();
     std::vector<double> c = {0., 1., 0., 0., 0.};

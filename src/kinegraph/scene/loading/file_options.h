@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kinegraph/parsers/xacro.h"
+#include "kinegraph/scene/loading/xacro.h"
 
 namespace kinegraph {
 

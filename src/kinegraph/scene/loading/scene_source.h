@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kinegraph/gfile/value.h"
-#include "kinegraph/parsers/xacro.h"
+#include "kinegraph/scene/loading/xacro.h"
 #include "kinegraph/parsers/srdf_reader.h"
 #include "kinegraph/scene/tree/diagnostics.h"
 

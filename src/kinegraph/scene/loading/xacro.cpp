@@ -1,4 +1,4 @@
-#include "kinegraph/parsers/xacro.h"
+#include "kinegraph/scene/loading/xacro.h"
 
 #include <mutex>
 
