@@ -70,6 +70,14 @@ class MjcfReader {
         joint.frame = body->second;
     }
     addKeyframes(document_, joints_, graph_, findings_);
+    const auto frameOf = [&](const MjcfName& name) {
+      const auto element = elements_.find(name);
+      if (element == elements_.end()) return std::string();
+      const std::string& frame = frame_of_.at(element->second);
+      const auto body = bodies_of_joints_.find(frame);
+      return body == bodies_of_joints_.end() ? frame : body->second;
+    };
+    addActuators(document_, frameOf, graph_);
     return std::move(graph_);
   }
 
