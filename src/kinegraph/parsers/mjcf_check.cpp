@@ -52,7 +52,7 @@ void checkMjcfSections(const MjcfDocument& document, Findings& findings) {
 
 void checkMjcfBody(const XmlElement& body, Findings& findings) {
   static const Names read = {"body", "frame", "inertial", "joint", "freejoint", "geom", "site", "camera", "light"};
-  static const Names left_out = {"composite", "flexcomp", "plugin", "attach", "replicate"};
+  static const Names left_out = {"composite", "flexcomp", "plugin"};
   Names known = read;
   known.insert(known.end(), left_out.begin(), left_out.end());
   checkChildren(body, known, findings);

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <list>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "kinegraph/common/file_paths.h"
+#include "kinegraph/math/pose.h"
 #include "kinegraph/parsers/findings.h"
 #include "kinegraph/parsers/xml.h"
 
@@ -53,14 +57,27 @@ struct MjcfSettings {
   std::string texture_folder;                     ///< as written
 };
 
-/// An MJCF text with its included files and default classes.
+/// The rotation of Euler angles in the units and the order of the settings.
+Quaterniond mjcfEuler(const std::vector<double>& angles, const MjcfSettings& settings);
+
+/// An MJCF text with its included files, attached models, replicated parts and default classes.
 class MjcfDocument {
  public:
   /// Reports errors to `findings`. Included files are relative to `folder`, or to the including file.
-  MjcfDocument(std::string_view text, const std::string& file, const std::string& folder, Findings& findings);
+  /// `around` are the files of the models around an attached one.
+  MjcfDocument(std::string_view text, const std::string& file, const std::string& folder, Findings& findings,
+               std::vector<std::string> around = {});
 
   const XmlElement& root() const { return root_; }
   const MjcfSettings& settings() const { return settings_; }
+
+  /// The settings of the model that an element or attribute at this place belongs to: an attached model has its own.
+  const MjcfSettings& settingsAt(const SourcePosition& where) const;
+
+  /// Finds the file of an asset as MuJoCo does: in the folder of the settings beside the main file, then beside the file
+  /// that names it. `folder` is the folder of the settings, as written.
+  LocatedFile locateAsset(const XmlAttribute& file, const std::string& folder) const;
+
   std::vector<SourceText>& included() { return included_; }
 
   /// All elements <section><name/></section>.
@@ -81,8 +98,11 @@ class MjcfDocument {
   void expand(XmlElement& element, const std::string& folder, std::vector<std::string>& open);
   void include(const XmlElement& element, const std::string& folder, std::vector<std::string>& open,
                std::vector<XmlElement>& into);
+  void attachModels(XmlElement& container);
+  void attach(const XmlElement& element, std::vector<XmlElement>& into);
+  std::optional<XmlElement> loadModel(const XmlElement& asset, const XmlElement& attach);
   void readSettings();
-  void collectClasses(const XmlElement& element, const Class* outer);
+  void collectClasses(const XmlElement& element, const Class* outer, bool attached = false);
 
   Findings& findings_;
   XmlElement root_;
@@ -90,6 +110,11 @@ class MjcfDocument {
   std::vector<SourceText> included_;
   MjcfSettings settings_;
   std::map<std::string, Class> classes_;
+  std::vector<std::string> around_;  ///< files of the models around this one, and its own
+  std::map<std::string, std::pair<MjcfSettings, std::string>> other_;  ///< settings and main folder, by attached file
+  std::vector<XmlElement> models_;                                     ///< <model> in <asset>
+  std::vector<XmlElement> attached_parts_;                             ///< sections of attached models
+  std::list<XmlElement> attached_defaults_;                            ///< <default> of attached models
 };
 
 }  // namespace kinegraph

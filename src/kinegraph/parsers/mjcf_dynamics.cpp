@@ -92,7 +92,7 @@ void addMjcfJointDynamics(const MjcfElement& joint, const MjcfMotor* motor, Mjcf
     attributes.add("springStiffness", stiffness);
     const bool slides = values.keyword(joint, "type", {"hinge", "slide", "ball", "free"}, "hinge") == "slide";
     const double rest = values.number(joint, "springref", 0.);
-    if (rest != 0.) attributes.add("springReference", slides ? rest : values.radians(rest));
+    if (rest != 0.) attributes.add("springReference", slides ? rest : values.radians(joint, rest));
   }
   const std::optional<double> reach = reachOf(joint, "actuatorfrcrange", "actuatorfrclimited", values);
   double effort = motor ? motor->effort : 0.;

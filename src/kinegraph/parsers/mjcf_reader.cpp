@@ -41,11 +41,11 @@ struct Place {
 
 class MjcfReader {
  public:
-  MjcfReader(MjcfDocument& document, const std::string& folder, Findings& findings)
+  MjcfReader(MjcfDocument& document, Findings& findings)
       : document_(document),
         findings_(findings),
-        values_(document.settings(), findings),
-        shapes_(document, values_, folder, findings),
+        values_(document, findings),
+        shapes_(document, values_, findings),
         masses_(document.settings()) {}
 
   Graph read() {
@@ -80,6 +80,14 @@ class MjcfReader {
     }
     masses_.apply(graph_);
     addKeyframes(document_, joints_, graph_, findings_);
+    const auto frameOf = [&](const MjcfName& name) {
+      const auto element = elements_.find(name);
+      if (element == elements_.end()) return std::string();
+      const std::string& frame = frame_of_.at(element->second);
+      const auto body = bodies_of_joints_.find(frame);
+      return body == bodies_of_joints_.end() ? frame : body->second;
+    };
+    addActuators(document_, frameOf, graph_);
     return std::move(graph_);
   }
 
@@ -162,13 +170,13 @@ class MjcfReader {
       for (const char* role : {"body1", "body2"}) {
         const XmlAttribute* name = exclude->attribute(role);
         if (!name) {
-          findings_.error(exclude->where, cat("<exclude> has no attribute '", role, "'"));
+          findings_.warn(exclude->where, cat("<exclude> has no attribute '", role, "'; it is left out"));
           continue;
         }
         const auto found = elements_.find({"body", name->value});
         if (found == elements_.end() && name->value != "world") {
-          findings_.error(name->where,
-                          cat("<exclude>: there is no body '", name->value, "'", similarHint(name->value, bodies)));
+          findings_.warn(name->where, cat("<exclude>: there is no body '", name->value, "'; it is left out",
+                                          similarHint(name->value, bodies)));
           continue;
         }
         frames.push_back(found == elements_.end() ? "world" : frame_of_.at(found->second));
@@ -263,7 +271,7 @@ class MjcfReader {
     FrameAttributes attributes = own_joint ? std::move(*own_joint) : FrameAttributes(body.where);
     if (!own_joint) attributes.addPose(pose);
     const XmlElement* inertial = body.child("inertial");
-    const MjcfSettings& settings = document_.settings();
+    const MjcfSettings& settings = document_.settingsAt(body.where);
     place.with_mass = settings.masses_only_of_geoms || (settings.masses_of_geoms && !inertial);
     if (inertial && !settings.masses_only_of_geoms) addMjcfInertial(*inertial, values_, findings_, attributes);
     addFrame(name, parent, body.where, std::move(attributes));
@@ -384,13 +392,14 @@ class MjcfReader {
   void addLimits(const MjcfElement& element, bool slides, FrameAttributes& attributes) {
     const std::string limited = values_.keyword(element, "limited", {"auto", "true", "false"}, "auto");
     const std::vector<double> range = values_.numbers(element, "range", 2);
-    const bool by_range = document_.settings().limited_by_range && !range.empty();
+    const bool by_range = document_.settingsAt(element.where()).limited_by_range && !range.empty();
     if (limited == "false" || (limited == "auto" && !by_range) || range.empty()) return;
-    if (range[0] > range[1]) {
-      findings_.error(element.attribute("range")->where,
-                      cat(element.describe(), ": its lower limit ", range[0], " is above its upper limit ", range[1]));
+    if (!(range[0] < range[1])) {
+      return findings_.warn(element.attribute("range")->where,
+                            cat(element.describe(), ": its lower limit ", range[0], " is not below its upper limit ",
+                                range[1], "; it is read as unlimited"));
     }
-    const auto internal = [&](double value) { return slides ? value : values_.radians(value); };
+    const auto internal = [&](double value) { return slides ? value : values_.radians(element, value); };
     attributes.addNumbers("limits", {internal(range[0]), internal(range[1])});
   }
 
@@ -420,7 +429,7 @@ ParseResult readMjcf(std::string_view text, const std::string& file, const std::
   Findings findings(result.diagnostics);
   MjcfDocument document(text, file, folder, findings);
   if (!findings.failed()) checkMjcfSections(document, findings);
-  if (!findings.failed()) result.graph = MjcfReader(document, folder, findings).read();
+  if (!findings.failed()) result.graph = MjcfReader(document, findings).read();
   if (findings.failed()) result.graph = {};
   result.included = std::move(document.included());
   return result;

@@ -5,9 +5,10 @@
 
 #include "kinegraph/common/file_paths.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/geometry/files/mesh_file.h"
+#include "kinegraph/geometry/files/mesh_cache.h"
 #include "kinegraph/geometry/shapes/scale_mesh.h"
 #include "kinegraph/parsers/mjcf_dynamics.h"
+#include "kinegraph/parsers/mjcf_height_field.h"
 
 namespace kinegraph {
 
@@ -27,8 +28,8 @@ std::vector<std::string> namesIn(const std::map<std::string, MjcfElement>& asset
 
 }  // namespace
 
-MjcfShapes::MjcfShapes(const MjcfDocument& document, MjcfValues& values, const std::string& folder, Findings& findings)
-    : document_(document), values_(values), folder_(folder), findings_(findings) {
+MjcfShapes::MjcfShapes(const MjcfDocument& document, MjcfValues& values, Findings& findings)
+    : document_(document), values_(values), findings_(findings) {
   for (const XmlElement* xml : document_.inSections("asset", "mesh")) {
     const MjcfElement mesh = document_.element(*xml);
     const XmlAttribute* file = mesh.own("file");
@@ -37,6 +38,11 @@ MjcfShapes::MjcfShapes(const MjcfDocument& document, MjcfValues& values, const s
     if (!is_new)
       findings_.warn(xml->where, cat("mesh '", name, "' is already defined at ", other->second.where().str(),
                                      "; this definition is ignored"));
+  }
+  for (const XmlElement* xml : document_.inSections("asset", "hfield")) {
+    const MjcfElement field = document_.element(*xml);
+    const XmlAttribute* file = field.own("file");
+    height_fields_.emplace(field.name().empty() && file ? fs::path(file->value).stem().string() : field.name(), field);
   }
   for (const XmlElement* xml : document_.inSections("asset", "texture")) {
     const MjcfElement texture = document_.element(*xml);
@@ -55,13 +61,13 @@ MjcfShapes::Placed MjcfShapes::geom(const MjcfElement& element, int contact, boo
   const auto line = element.attribute("fromto") ? values_.line(element) : std::nullopt;
   if (line) placed.pose = line->first;
   if (type == "hfield") {
-    findings_.warn(element.where(), cat(element.describe(), ": height fields are not read"));
+    addHeightField(element, placed);
   } else if (type == "mesh" || type == "sdf" || element.attribute("mesh")) {
     addMesh(element, placed);
   } else {
     addPrimitive(element, type, line ? line->second : 0., placed);
   }
-  const MjcfSettings& settings = document_.settings();
+  const MjcfSettings& settings = document_.settingsAt(element.where());
   const double group = values_.number(element, "group", 0.);
   if (with_mass && type != "plane" && type != "hfield" && group >= settings.first_mass_group &&
       group <= settings.last_mass_group)
@@ -114,8 +120,9 @@ void MjcfShapes::addMesh(const MjcfElement& element, Placed& placed) {
   if (!reference) return findings_.error(element.where(), cat(element.describe(), " has no attribute 'mesh'"));
   const auto found = meshes_.find(reference->value);
   if (found == meshes_.end()) {
-    return findings_.error(reference->where, cat(element.describe(), ": there is no mesh '", reference->value,
-                                                 "' in <asset>", similarHint(reference->value, namesIn(meshes_))));
+    return findings_.warn(reference->where,
+                          cat(element.describe(), ": there is no mesh '", reference->value,
+                              "' in <asset>; the geom has no shape", similarHint(reference->value, namesIn(meshes_))));
   }
   const MjcfElement& mesh = found->second;
   const XmlAttribute* file = mesh.own("file");
@@ -129,15 +136,38 @@ void MjcfShapes::addMesh(const MjcfElement& element, Placed& placed) {
     findings_.warn(mesh.where(), cat(mesh.describe(), ": 'refquat' together with an uneven 'scale' is read wrongly"));
   placed.pose = placed.pose * Pose(back * Vector3d(-scale.cwiseProduct(moved)), back);
   if (!file) return addInlineMesh(mesh, scale, placed);
-  const MjcfSettings& settings = document_.settings();
-  const std::string name = settings.strip_mesh_path ? fs::path(file->value).filename().string() : file->value;
-  const std::string path = resolvePath((fs::path(settings.mesh_folder) / name).string(), folder_);
+  const LocatedFile found_file = document_.locateAsset(*file, document_.settingsAt(file->where).mesh_folder);
+  const std::string& path = found_file.path;
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) {
-    return findings_.warn(file->where, cat("mesh '", name, "' does not exist (", path, ")", similarFilesHint(path)));
+    return findings_.warn(file->where,
+                          cat("mesh '", file->value, "' does not exist (", path, ")", similarFilesHint(path)));
   }
+  try {
+    sharedMeshFile(path);
+  } catch (const FileError& e) {
+    return findings_.warn(file->where, cat(e.what(), "; its geoms have no shape"));
+  }
+  if (!found_file.assumption.empty())
+    findings_.warn(file->where, cat("mesh '", file->value, "': ", found_file.assumption));
   placed.attributes.add("mesh", AngleText{path});
   if (scale != Vector3d::Ones()) placed.attributes.addNumbers("meshscale", {scale.begin(), scale.end()});
+}
+
+void MjcfShapes::addHeightField(const MjcfElement& element, Placed& placed) {
+  const XmlAttribute* reference = element.attribute("hfield");
+  const auto found = reference ? height_fields_.find(reference->value) : height_fields_.end();
+  if (found == height_fields_.end()) {
+    return findings_.warn(reference ? reference->where : element.where(),
+                          cat(element.describe(), ": there is no height field '", reference ? reference->value : "",
+                              "' in <asset>; the geom has no shape"));
+  }
+  std::optional<HeightFieldMesh> mesh = readHeightField(found->second, document_, values_, findings_);
+  if (!mesh) return;
+  placed.attributes.add("shape", std::string("mesh"));
+  placed.attributes.addNumbers("vertices", std::move(mesh->vertices));
+  placed.attributes.addNumbers("triangles", std::move(mesh->triangles));
+  placed.attributes.addNumbers("mesh_parts", std::move(mesh->parts));
 }
 
 /// Reads a mesh with inline numbers: with faces, or the hull of its vertices.
@@ -170,7 +200,7 @@ std::optional<Mesh> MjcfShapes::meshOf(const MjcfElement& element, const Placed&
   Mesh mesh;
   if (const Node* file = placed.attributes.find("mesh")) {
     try {
-      mesh = readMeshFile(file->value.as<AngleText>()->text);
+      mesh = *sharedMeshFile(file->value.as<AngleText>()->text);
     } catch (const Error& e) {
       findings_.warn(element.where(), cat(element.describe(), ": its mass is unknown: ", e.what()));
       return std::nullopt;
@@ -274,10 +304,10 @@ const MjcfElement* MjcfShapes::textureOf(const MjcfElement& material) {
 
 /// A texture without a file contributes its mean color.
 std::vector<double> MjcfShapes::color(const MjcfElement& element) {
-  if (const std::vector<double> own = values_.numbers(element, "rgba", 4); !own.empty()) return own;
+  if (const std::vector<double> own = values_.color(element); !own.empty()) return own;
   const MjcfElement* material = materialOf(element);
   if (!material) return {.5, .5, .5, 1.};
-  std::vector<double> rgba = values_.numbers(*material, "rgba", 4);
+  std::vector<double> rgba = values_.color(*material);
   if (rgba.empty()) rgba = {1., 1., 1., 1.};
   const MjcfElement* texture = textureOf(*material);
   if (!texture || !texture->attribute("builtin") || texture->attribute("builtin")->value == "none") return rgba;
@@ -297,10 +327,8 @@ void MjcfShapes::addTexture(const MjcfElement& element, Placed& placed) {
   const MjcfElement* texture = material ? textureOf(*material) : nullptr;
   const XmlAttribute* file = texture ? texture->own("file") : nullptr;
   if (!file) return;
-  const MjcfSettings& settings = document_.settings();
-  const std::string name = settings.strip_mesh_path ? fs::path(file->value).filename().string() : file->value;
-  placed.attributes.add("texture",
-                        AngleText{resolvePath((fs::path(settings.texture_folder) / name).string(), folder_)});
+  const LocatedFile found_file = document_.locateAsset(*file, document_.settingsAt(file->where).texture_folder);
+  placed.attributes.add("texture", AngleText{found_file.path});
   const std::vector<double> repeat = values_.numbers(*material, "texrepeat", 2);
   const Node* size = placed.attributes.find("size");
   if (repeat.empty() || !size || placed.attributes.find("mesh")) return;
@@ -315,7 +343,7 @@ MjcfShapes::Placed MjcfShapes::site(const MjcfElement& element) {
   Placed placed{values_.pose(element), FrameAttributes(element.where())};
   const auto line = element.attribute("fromto") ? values_.line(element) : std::nullopt;
   if (line) placed.pose = line->first;
-  const std::vector<double> rgba = values_.numbers(element, "rgba", 4);
+  const std::vector<double> rgba = values_.color(element);
   const bool hidden = values_.number(element, "group", 0.) >= kFirstHiddenGroup || (!rgba.empty() && rgba[3] == 0.);
   if (!hidden) {
     placed.attributes.add("shape", std::string("marker"));

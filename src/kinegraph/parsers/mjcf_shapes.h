@@ -15,8 +15,7 @@ namespace kinegraph {
 /// Converts geoms, sites and cameras of an MJCF file to frames.
 class MjcfShapes {
  public:
-  /// Mesh files are relative to `folder`.
-  MjcfShapes(const MjcfDocument& document, MjcfValues& values, const std::string& folder, Findings& findings);
+  MjcfShapes(const MjcfDocument& document, MjcfValues& values, Findings& findings);
 
   struct Placed {
     Pose pose;  ///< in the body
@@ -30,6 +29,7 @@ class MjcfShapes {
 
  private:
   void addMesh(const MjcfElement& element, Placed& placed);
+  void addHeightField(const MjcfElement& element, Placed& placed);
   void addInlineMesh(const MjcfElement& mesh, const Vector3d& scale, Placed& placed);
   void addPrimitive(const MjcfElement& element, const std::string& type, double line_length, Placed& placed);
   std::optional<UniformMass> massOf(const MjcfElement& element, const Placed& placed);
@@ -43,9 +43,8 @@ class MjcfShapes {
 
   const MjcfDocument& document_;
   MjcfValues& values_;
-  std::string folder_;
   Findings& findings_;
-  std::map<std::string, MjcfElement> meshes_, materials_, textures_;
+  std::map<std::string, MjcfElement> meshes_, materials_, textures_, height_fields_;
 };
 
 }  // namespace kinegraph

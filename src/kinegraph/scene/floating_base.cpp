@@ -20,10 +20,13 @@ void checkFloatingRoot(const SceneTree& scene, const std::string& path) {
                          root ? cat("'", root->name, "'") : "missing", ". In MJCF a <freejoint/> lets a body float"));
 }
 
-void makeFloating(const std::shared_ptr<SceneTree>& scene, FrameData& root, const std::string& prefix) {
+void makeFloating(Frame frame, const std::string& prefix) {
+  FrameData* root = &frame.data();
+  while (root->parent) root = root->parent;
+  const auto& scene = frame.scene();
   const std::string name = cat(prefix, "world");
-  FrameData& world = scene->add(scene->find(name) ? cat(root.name, "_world") : name, nullptr);
-  Frame(scene, root).setParent(Frame(scene, world)).setJoint(JointType::free);
+  FrameData& world = scene->add(scene->find(name) ? cat(root->name, "_world") : name, nullptr);
+  Frame(scene, *root).setParent(Frame(scene, world)).setJoint(JointType::free);
 }
 
 }  // namespace kinegraph

@@ -9,6 +9,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/h5_file.h"
 #include "kinegraph/geometry/files/image_file.h"
+#include "kinegraph/geometry/files/mesh_cache.h"
 #include "kinegraph/geometry/files/mesh_file.h"
 #include "kinegraph/geometry/shapes/convex_hull.h"
 #include "kinegraph/geometry/shapes/isosurface.h"
@@ -50,7 +51,7 @@ void setMeshFile(Frame& frame, const std::string& path, double scale) {
   const std::string absolute = resolvePath(path, ".");
   if (absolute.empty()) throw FileError(cat("mesh file '", path, "': the package is not installed"));
   Geometry geometry;
-  Mesh mesh = readMeshFile(absolute);
+  Mesh mesh = *sharedMeshFile(absolute);
   scaleMesh(mesh, Vector3d::Constant(scale));
   geometry.type = mesh.triangles.empty() ? ShapeType::pointCloud : ShapeType::mesh;
   geometry.mesh_file = absolute;
