@@ -44,9 +44,9 @@ XacroArguments xacroArguments(const std::optional<Attributes>& given) {
   XacroArguments arguments;
   if (!given) return arguments;
   for (const auto& [name, value] : *given) {
-    arguments[nb::cast<std::string>(nb::str(name))] =
-        nb::isinstance<nb::bool_>(value) ? (nb::cast<bool>(value) ? "true" : "false")
-                                         : nb::cast<std::string>(nb::str(value));
+    arguments[nb::cast<std::string>(nb::str(name))] = nb::isinstance<nb::bool_>(value)
+                                                          ? (nb::cast<bool>(value) ? "true" : "false")
+                                                          : nb::cast<std::string>(nb::str(value));
   }
   return arguments;
 }

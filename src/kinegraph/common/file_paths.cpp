@@ -35,7 +35,9 @@ std::string expandEnvironment(const std::string& path) {
 /// Replaces %20 by a blank, and so on.
 std::string percentDecoded(const std::string& path) {
   std::string out;
-  const auto isHex = [&](std::size_t i) { return i < path.size() && std::isxdigit(static_cast<unsigned char>(path[i])); };
+  const auto isHex = [&](std::size_t i) {
+    return i < path.size() && std::isxdigit(static_cast<unsigned char>(path[i]));
+  };
   for (std::size_t i = 0; i < path.size(); ++i) {
     if (path[i] == '%' && isHex(i + 1) && isHex(i + 2)) {
       out += char(std::stoi(path.substr(i + 1, 2), nullptr, 16));

@@ -97,7 +97,7 @@ std::map<std::string, MjcfCoupling> mjcfCouplings(const MjcfDocument& document,
 
 void addActuators(const MjcfDocument& document, const std::function<std::string(const MjcfName&)>& frameOf,
                   Graph& graph) {
-  static const std::pair<const char*, const char*> targets[] = {{"joint", "joint"}, {"jointinparent", "joint"},
+  static const std::pair<const char*, const char*> targets[] = {{"joint", "joint"},   {"jointinparent", "joint"},
                                                                 {"tendon", "tendon"}, {"site", "site"},
                                                                 {"body", "body"},     {"cranksite", "site"}};
   static const char* const numbers[] = {"gear", "ctrlrange", "forcerange", "kp", "kv", "gainprm", "biasprm"};
@@ -129,8 +129,8 @@ void addActuators(const MjcfDocument& document, const std::function<std::string(
       }
       Graph*& list = lists[frame];
       if (!list) {
-        const auto owner = std::find_if(graph.nodes.begin(), graph.nodes.end(),
-                                        [&](const Node& node) { return node.key == frame; });
+        const auto owner =
+            std::find_if(graph.nodes.begin(), graph.nodes.end(), [&](const Node& node) { return node.key == frame; });
         if (owner == graph.nodes.end()) continue;
         Graph& attributes = *std::get_if<Graph>(&owner->value.data);
         attributes.set({"actuators", {}, {}, {Graph(), xml.where}, xml.where});

@@ -91,7 +91,8 @@ MjcfDocument::MjcfDocument(std::string_view text, const std::string& file, const
   readSettings();
   for (const XmlElement* model : inSections("asset", "model")) models_.push_back(*model);
   attachModels(root_);
-  expandReplicates(root_, [&](const std::vector<double>& angles) { return mjcfEuler(angles, settings_); }, findings_);
+  expandReplicates(
+      root_, [&](const std::vector<double>& angles) { return mjcfEuler(angles, settings_); }, findings_);
   classes_[kOutermost];
   for (const XmlElement& element : attached_defaults_) collectClasses(element, nullptr, true);
   for (const XmlElement* element : root_.all("default")) collectClasses(*element, nullptr);
@@ -157,8 +158,8 @@ void MjcfDocument::attachModels(XmlElement& container) {
     if (child.name == "attach") {
       attach(child, children);
     } else {
-      const bool inside = child.name == "worldbody" || child.name == "body" || child.name == "frame" ||
-                          child.name == "replicate";
+      const bool inside =
+          child.name == "worldbody" || child.name == "body" || child.name == "frame" || child.name == "replicate";
       if (inside) attachModels(child);
       children.push_back(std::move(child));
     }

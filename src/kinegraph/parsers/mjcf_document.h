@@ -70,8 +70,8 @@ class MjcfDocument {
   /// The settings of the model that an element or attribute at this place belongs to: an attached model has its own.
   const MjcfSettings& settingsAt(const SourcePosition& where) const;
 
-  /// Finds the file of an asset as MuJoCo does: in the folder of the settings beside the main file, then beside the file
-  /// that names it. `folder` is the folder of the settings, as written.
+  /// Finds the file of an asset as MuJoCo does: in the folder of the settings beside the main file, then beside the
+  /// file that names it. `folder` is the folder of the settings, as written.
   LocatedFile locateAsset(const XmlAttribute& file, const std::string& folder) const;
 
   std::vector<SourceText>& included() { return included_; }
@@ -108,9 +108,9 @@ class MjcfDocument {
   std::map<std::string, Class> classes_;
   std::vector<std::string> around_;  ///< files of the models around this one, and its own
   std::map<std::string, std::pair<MjcfSettings, std::string>> other_;  ///< settings and main folder, by attached file
-  std::vector<XmlElement> models_;                                    ///< <model> in <asset>
-  std::vector<XmlElement> attached_parts_;                            ///< sections of attached models
-  std::list<XmlElement> attached_defaults_;                           ///< <default> of attached models
+  std::vector<XmlElement> models_;                                     ///< <model> in <asset>
+  std::vector<XmlElement> attached_parts_;                             ///< sections of attached models
+  std::list<XmlElement> attached_defaults_;                            ///< <default> of attached models
 };
 
 }  // namespace kinegraph

@@ -24,13 +24,13 @@ std::string kindOfElement(const std::string& element) {
 /// The kind of name that an attribute refers to, or "".
 std::string kindOfReference(const XmlElement& element, const std::string& attribute) {
   static const std::map<std::string, std::string> kinds = {
-      {"mesh", "mesh"},       {"material", "material"},  {"texture", "texture"},     {"hfield", "hfield"},
-      {"class", "class"},     {"childclass", "class"},   {"joint", "joint"},         {"joint1", "joint"},
-      {"joint2", "joint"},    {"jointinparent", "joint"}, {"body", "body"},          {"body1", "body"},
-      {"body2", "body"},      {"target", "body"},        {"geom", "geom"},           {"geom1", "geom"},
-      {"geom2", "geom"},      {"sidesite", "site"},      {"site", "site"},           {"site1", "site"},
-      {"site2", "site"},      {"cranksite", "site"},     {"slidersite", "site"},     {"refsite", "site"},
-      {"tendon", "tendon"},   {"tendon1", "tendon"},     {"tendon2", "tendon"},      {"actuator", "actuator"}};
+      {"mesh", "mesh"},     {"material", "material"},   {"texture", "texture"}, {"hfield", "hfield"},
+      {"class", "class"},   {"childclass", "class"},    {"joint", "joint"},     {"joint1", "joint"},
+      {"joint2", "joint"},  {"jointinparent", "joint"}, {"body", "body"},       {"body1", "body"},
+      {"body2", "body"},    {"target", "body"},         {"geom", "geom"},       {"geom1", "geom"},
+      {"geom2", "geom"},    {"sidesite", "site"},       {"site", "site"},       {"site1", "site"},
+      {"site2", "site"},    {"cranksite", "site"},      {"slidersite", "site"}, {"refsite", "site"},
+      {"tendon", "tendon"}, {"tendon1", "tendon"},      {"tendon2", "tendon"},  {"actuator", "actuator"}};
   if (attribute == "objname" || attribute == "refname") {
     const XmlAttribute* type = element.attribute(attribute == "objname" ? "objtype" : "reftype");
     return !type ? "" : type->value == "xbody" ? "body" : type->value;
@@ -124,18 +124,19 @@ class Replicator {
       suffixes.push_back((separator ? separator->value : "") + number);
     }
     const std::vector<double> offset = triple(element, "offset"), euler = triple(element, "euler");
-    const Pose step(Vector3d(offset[0], offset[1], offset[2]), rotationOf_(euler));
     Pose pose;
-    for (const std::string& suffix : suffixes) {
+    for (std::size_t i = 0; i < suffixes.size(); ++i) {
       XmlElement frame{"frame", {}, element.children, element.where};
       if (!pose.isIdentity(0.)) {
-        const auto text = [](const auto& v) { return join(std::vector<std::string>{exact(v[0]), exact(v[1]), exact(v[2])}, " "); };
+        const auto text = [](const auto& v) { return cat(exact(v[0]), " ", exact(v[1]), " ", exact(v[2])); };
         frame.attributes = {{"pos", text(pose.p), element.where},
                             {"quat", cat(exact(pose.q.w()), " ", text(pose.q.vec())), element.where}};
       }
-      for (XmlElement& child : frame.children) rename(child, "", withSuffix(names, suffix));
+      for (XmlElement& child : frame.children) rename(child, "", withSuffix(names, suffixes[i]));
       into.push_back(std::move(frame));
-      pose = pose * step;
+      pose.p += pose.q * Vector3d(offset[0], offset[1], offset[2]);
+      const double times = double(i + 1);  // MuJoCo multiplies the angles, which differs from repeated rotations
+      pose.q = rotationOf_({times * euler[0], times * euler[1], times * euler[2]});
     }
     replicateReferences(names, suffixes);
   }
@@ -152,9 +153,8 @@ class Replicator {
 
   static std::function<std::string(const MjcfName&)> withSuffix(const std::set<MjcfName>& names,
                                                                 const std::string& suffix) {
-    return [&names, &suffix](const MjcfName& name) {
-      return names.contains(name) ? name.second + suffix : name.second;
-    };
+    return
+        [&names, &suffix](const MjcfName& name) { return names.contains(name) ? name.second + suffix : name.second; };
   }
 
   void replicateReferences(std::set<MjcfName> names, const std::vector<std::string>& suffixes) {
@@ -258,8 +258,8 @@ bool cutOutModel(const XmlElement& attach, XmlElement& model, Findings& findings
   known.insert({"body", "world"});
   std::vector<XmlElement> parts;
   for (XmlElement& part : model.children) {
-    const bool refers = std::find(kReferringSections.begin(), kReferringSections.end(), part.name) !=
-                        kReferringSections.end();
+    const bool refers =
+        std::find(kReferringSections.begin(), kReferringSections.end(), part.name) != kReferringSections.end();
     if (part.name != "asset" && part.name != "default" && !refers) continue;
     if (part.name == "asset") {
       std::erase_if(part.children, [](const XmlElement& asset) { return asset.name == "model"; });

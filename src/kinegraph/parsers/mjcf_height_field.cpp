@@ -15,7 +15,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kMaxHeightCells = 2500;       // each becomes two convex parts
+constexpr int kMaxHeightCells = 2500;  // each becomes two convex parts
 constexpr double kMaxHeightPoints = 4e6;
 
 /// Heights in 0..1, rows along y, columns along x.
@@ -58,7 +58,8 @@ Heights heightsOfNumbers(const std::string& path) {
   if (bytes.size() >= sizeof(counts)) std::memcpy(counts, bytes.data(), sizeof(counts));
   const double expected = 8. + 4. * double(counts[0]) * double(counts[1]);
   if (counts[0] < 2 || counts[1] < 2 || double(bytes.size()) != expected)
-    throw FileError(cat("height field '", path, "' of ", bytes.size(), " bytes is neither a PNG nor a MuJoCo height field"));
+    throw FileError(
+        cat("height field '", path, "' of ", bytes.size(), " bytes is neither a PNG nor a MuJoCo height field"));
   Heights heights{counts[0], counts[1], {}};
   for (std::size_t at = sizeof(counts); at < bytes.size(); at += 4) {
     float value;
@@ -101,8 +102,8 @@ class HeightFieldBuilder {
  private:
   void addVertex(const Cell& cell, double z) {
     const auto along = [](int i, int count, double half) { return half * (2. * i / (count - 1) - 1.); };
-    mesh.vertices.insert(mesh.vertices.end(), {along(cell[1], heights_.columns, size_[0]),
-                                               along(cell[0], heights_.rows, size_[1]), z});
+    mesh.vertices.insert(mesh.vertices.end(),
+                         {along(cell[1], heights_.columns, size_[0]), along(cell[0], heights_.rows, size_[1]), z});
   }
   void addTriangle(double a, double b, double c) { mesh.triangles.insert(mesh.triangles.end(), {a, b, c}); }
 

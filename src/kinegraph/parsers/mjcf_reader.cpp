@@ -38,10 +38,7 @@ struct Place {
 class MjcfReader {
  public:
   MjcfReader(MjcfDocument& document, Findings& findings)
-      : document_(document),
-        findings_(findings),
-        values_(document, findings),
-        shapes_(document, values_, findings) {}
+      : document_(document), findings_(findings), values_(document, findings), shapes_(document, values_, findings) {}
 
   Graph read() {
     const std::vector<const XmlElement*> worlds = document_.root().all("worldbody");

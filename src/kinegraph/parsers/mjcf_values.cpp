@@ -47,11 +47,10 @@ std::vector<double> MjcfValues::color(const MjcfElement& element) {
   std::vector<double> given = numbersIn(attribute->value).value_or(std::vector<double>{});
   if (given.size() == 4) return given;
   const bool enough = given.size() >= 3;
-  findings_.warn(attribute->where,
-                 cat(element.describe(), " rgba=\"", attribute->value, "\": expected 4 numbers; ",
-                     !enough            ? "the color is left out"
-                     : given.size() == 3 ? "the alpha is read as 1"
-                                        : "the first 4 are read"));
+  findings_.warn(attribute->where, cat(element.describe(), " rgba=\"", attribute->value, "\": expected 4 numbers; ",
+                                       !enough             ? "the color is left out"
+                                       : given.size() == 3 ? "the alpha is read as 1"
+                                                           : "the first 4 are read"));
   given.resize(enough ? 4 : 0, 1.);
   return given;
 }

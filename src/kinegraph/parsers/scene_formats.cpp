@@ -17,8 +17,7 @@ ParseResult readXml(std::string_view text, const std::string& file, const std::s
 }  // namespace
 
 const std::vector<SceneFormat>& sceneFormats() {
-  static const std::vector<SceneFormat> formats = {
-      {".urdf", readXml}, {".xml", readXml}, {".mjcf", readXml}};
+  static const std::vector<SceneFormat> formats = {{".urdf", readXml}, {".xml", readXml}, {".mjcf", readXml}};
   return formats;
 }
 

@@ -70,7 +70,8 @@ class UrdfParser {
 
   void checkElement(const XmlElement& element) {
     if (element.name.starts_with("xacro:"))
-      return warn(element.where, cat("<", element.name, "> is a macro and is ignored; a file with macros ends in .xacro"));
+      return warn(element.where,
+                  cat("<", element.name, "> is a macro and is ignored; a file with macros ends in .xacro"));
     for (const char* known : {"link", "joint", "material"}) {
       if (element.name != known && editDistance(element.name, known) <= 1.2)
         warn(element.where, cat("unknown element <", element.name, "> is ignored; did you mean <", known, ">?"));
@@ -318,9 +319,9 @@ class UrdfParser {
     joint.parent = linkOf(element, "parent", joint.parent_where);
     joint.child = linkOf(element, "child", joint.child_where);
     joint.origin = origin(element);
-    if (const XmlElement* axis = element.child("axis");
-        axis && joint.type != UrdfJointType::fixed && joint.type != UrdfJointType::floating &&
-        joint.type != UrdfJointType::spherical) {
+    if (const XmlElement* axis = element.child("axis"); axis && joint.type != UrdfJointType::fixed &&
+                                                        joint.type != UrdfJointType::floating &&
+                                                        joint.type != UrdfJointType::spherical) {
       const Vector3d direction = vector(*axis, "xyz", Vector3d::UnitX());
       if (!(direction.norm() > 1e-10)) {
         error(axis->where, cat(context_, "its axis is zero"));

@@ -181,8 +181,9 @@ class UrdfReader {
       const bool impossible = !hasOneDof(joint) || (!hasOneDof(source) && source.type != UrdfJointType::fixed);
       if (impossible || !seen.insert(&source).second) {
         warn(joint.mimic->where,
-             cat(who, impossible ? "but only revolute, continuous and prismatic joints can mimic each other"
-                                 : "which mimics it in turn",
+             cat(who,
+                 impossible ? "but only revolute, continuous and prismatic joints can mimic each other"
+                            : "which mimics it in turn",
                  "; it is read as an independent joint"));
         joint.mimic.reset();
       } else if (source.mimic) {
@@ -220,8 +221,9 @@ class UrdfReader {
     const LocatedFile file = locateFile(shape.mesh, folder_);
     const std::string who = cat("link '", link, "': mesh '", shape.mesh, "' ");
     if (file.path.empty()) {
-      warn(shape.where, cat(who, "does not exist; packages are searched in the folders above the file and in "
-                                 "KINEGRAPH_PACKAGE_PATH, ROS_PACKAGE_PATH and AMENT_PREFIX_PATH"));
+      warn(shape.where, cat(who,
+                            "does not exist; packages are searched in the folders above the file and in "
+                            "KINEGRAPH_PACKAGE_PATH, ROS_PACKAGE_PATH and AMENT_PREFIX_PATH"));
       return "";
     }
     std::error_code ignored;
@@ -235,7 +237,8 @@ class UrdfReader {
       warn(shape.where, cat("link '", link, "': ", e.what(), "; the shape is left out"));
       return "";
     }
-    if (!file.assumption.empty()) warn(shape.where, cat("link '", link, "': mesh '", shape.mesh, "': ", file.assumption));
+    if (!file.assumption.empty())
+      warn(shape.where, cat("link '", link, "': mesh '", shape.mesh, "': ", file.assumption));
     return file.path;
   }
 

@@ -37,7 +37,7 @@ struct FileStamp {
 
 struct CachedMesh {
   std::string path;
-  std::size_t hash;              ///< of the file's bytes: times of files are too coarse for quick successions
+  std::size_t hash;               ///< of the file's bytes: times of files are too coarse for quick successions
   std::vector<FileStamp> beside;  ///< files that it refers to
   std::shared_ptr<const Mesh> mesh;
   std::size_t bytes;

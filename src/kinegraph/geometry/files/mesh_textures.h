@@ -30,7 +30,7 @@ class MeshTextures {
 
   const aiScene& scene_;
   std::string mesh_path_;
-  std::vector<std::string>* files_;  ///< paths of the files that were looked for, or null
+  std::vector<std::string>* files_;                          ///< paths of the files that were looked for, or null
   std::map<unsigned, std::shared_ptr<const Image>> images_;  ///< by material
 };
 

@@ -37,8 +37,9 @@ class Applier {
   void apply() {
     if (!knowsAny()) {
       if (!semantics_.requested) {
-        return diagnostics_.warning({semantics_.file, 1, 1},
-                                    "the SRDF file beside the robot's file is ignored: it names none of its links and joints");
+        return diagnostics_.warning(
+            {semantics_.file, 1, 1},
+            "the SRDF file beside the robot's file is ignored: it names none of its links and joints");
       }
       return diagnostics_.error(
           {semantics_.file, 1, 1},

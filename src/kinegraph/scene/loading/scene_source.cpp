@@ -68,7 +68,8 @@ class SourceReader {
         open_.pop_back();
         return refuse(e.what());
       }
-      frames = readText(expanded, path + " (expanded)", absolute.parent_path().string(), fs::path(path).stem().string());
+      frames =
+          readText(expanded, path + " (expanded)", absolute.parent_path().string(), fs::path(path).stem().string());
     } else {
       frames = readText(text.str(), path, absolute.parent_path().string());
     }

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "kinegraph/gfile/value.h"
-#include "kinegraph/scene/loading/xacro.h"
 #include "kinegraph/parsers/srdf_reader.h"
+#include "kinegraph/scene/loading/xacro.h"
 #include "kinegraph/scene/tree/diagnostics.h"
 
 namespace kinegraph {
