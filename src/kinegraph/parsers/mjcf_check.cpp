@@ -32,7 +32,14 @@ void checkMjcfSections(const MjcfDocument& document, Findings& findings) {
   static const Names read = {"equality joint", "contact exclude", "contact pair", "keyframe key"};
   static const Names of_interest = {"equality", "contact", "deformable", "tendon", "actuator", "sensor", "keyframe"};
   static const Names assets = {"texture", "material", "mesh", "hfield", "skin", "model"};
-  checkChildren(document.root(), sections, findings);
+  for (const XmlElement& child : document.root().children) {  // MuJoCo reads files of such parts, too
+    static const Names parts = {"body", "geom", "site", "camera", "light", "frame"};
+    if (contains(parts, child.name))
+      findings.warn(child.where, cat("<", child.name, "> outside of <worldbody> is ignored"));
+    else if (!contains(sections, child.name))
+      findings.error(child.where,
+                     cat("unknown element <", child.name, "> in <mujoco>", similarHint(child.name, sections)));
+  }
   for (const XmlElement* asset : document.root().all("asset")) checkChildren(*asset, assets, findings);
   std::map<std::string, int> ignored;
   SourcePosition first;

@@ -74,8 +74,8 @@ class MjcfDocument {
   /// The settings of the model that an element or attribute at this place belongs to: an attached model has its own.
   const MjcfSettings& settingsAt(const SourcePosition& where) const;
 
-  /// Finds the file of an asset as MuJoCo does: in the folder of the settings beside the main file, then beside the file
-  /// that names it. `folder` is the folder of the settings, as written.
+  /// Finds the file of an asset as MuJoCo does: in the folder of the settings beside the main file, then beside the
+  /// file that names it. `folder` is the folder of the settings, as written.
   LocatedFile locateAsset(const XmlAttribute& file, const std::string& folder) const;
 
   std::vector<SourceText>& included() { return included_; }

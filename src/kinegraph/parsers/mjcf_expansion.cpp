@@ -124,20 +124,19 @@ class Replicator {
       suffixes.push_back((separator ? separator->value : "") + number);
     }
     const std::vector<double> offset = triple(element, "offset"), euler = triple(element, "euler");
-    const Pose step(Vector3d(offset[0], offset[1], offset[2]), rotationOf_(euler));
     Pose pose;
-    for (const std::string& suffix : suffixes) {
+    for (std::size_t i = 0; i < suffixes.size(); ++i) {
       XmlElement frame{"frame", {}, element.children, element.where};
       if (!pose.isIdentity(0.)) {
-        const auto text = [](const auto& v) {
-          return join(std::vector<std::string>{exact(v[0]), exact(v[1]), exact(v[2])}, " ");
-        };
+        const auto text = [](const auto& v) { return cat(exact(v[0]), " ", exact(v[1]), " ", exact(v[2])); };
         frame.attributes = {{"pos", text(pose.p), element.where},
                             {"quat", cat(exact(pose.q.w()), " ", text(pose.q.vec())), element.where}};
       }
-      for (XmlElement& child : frame.children) rename(child, "", withSuffix(names, suffix));
+      for (XmlElement& child : frame.children) rename(child, "", withSuffix(names, suffixes[i]));
       into.push_back(std::move(frame));
-      pose = pose * step;
+      pose.p += pose.q * Vector3d(offset[0], offset[1], offset[2]);
+      const double times = double(i + 1);  // MuJoCo multiplies the angles, which differs from repeated rotations
+      pose.q = rotationOf_({times * euler[0], times * euler[1], times * euler[2]});
     }
     replicateReferences(names, suffixes);
   }

@@ -73,8 +73,8 @@ struct UrdfModel {
   std::vector<UrdfJoint> joints;
 };
 
-/// Parses a URDF text as far as possible and appends errors and warnings to `found`. A flaw of a shape, a material or an
-/// <inertial> leaves that part out with a warning. Does not check that links and joints form a tree.
+/// Parses a URDF text as far as possible and appends errors and warnings to `found`. A flaw of a shape, a material or
+/// an <inertial> leaves that part out with a warning. Does not check that links and joints form a tree.
 UrdfModel parseUrdf(std::string_view text, const std::string& file, std::vector<Diagnostic>& found);
 
 /// Returns whether the list contains an error.
