@@ -14,7 +14,6 @@ ROBOTS = {  # folder: (file, frame at which the robot starts)
     "allegro": ("allegro.g", "base_link"),
     "g1": ("g1.g", "g1_base"),
     "pr2": ("pr2_clean.g", "base_footprint"),
-    "ranger": ("ranger.g", "ranger_base"),
     "trossen": ("trossen.g", "trossen_base"),
     "ur10": ("ur10.g", "ur_world"),
 }
@@ -38,7 +37,7 @@ def write(folder: str, file: str, base: str) -> None:
             frame.setContact(1)
             colliding.append(frame.name)
     excluded: dict[str, set[str]] = {}
-    for a, b, reason, _ in C.selfCollisionMatrix(samples=20000).pairs:
+    for a, b, reason, _ in C.selfCollisionMatrix(samples=20000, always=0.75).pairs:
         if reason != "sometimes":
             excluded.setdefault(a, set()).add(b)
     for a, b, _ in C.getCollisions(0.002):

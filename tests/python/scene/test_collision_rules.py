@@ -129,8 +129,8 @@ def test_the_distance_from_a_plane_is_the_height_of_the_lowest_point(shape):
 def test_motions_are_planned_above_a_plane():
     C = ry.Config()
     C.addText(
-        "floor: { shape: plane, size: [1 1], contact: 1 } arm: { X: [0 0 .2], joint: rigid } "
-        "j (arm): { joint: hingeY, limits: [-3.1 3.1] } stick (j): { Q: [.3 0 0], shape: box, size: [.6 .05 .05], contact: 1 }"
+        "floor: { shape: plane, size: [1 1], contact: 1 } world: {} "
+        "j (world): { pre: [0 0 .2], joint: hingeY, limits: [-3.1 3.1] } stick (j): { Q: [.3 0 0], shape: box, size: [.6 .05 .05], contact: 1 }"
     )
     assert not C.isValid([[1.5]])[0]
     plan = ry.planMotion(C, [-2.9], [-0.1])
@@ -177,7 +177,7 @@ def test_contact_minus_k_counts_joints(joints):
     C.addText("l0: { shape: sphere, size: [.1], contact: 1 }")
     for i in range(1, 5):
         flag = -joints if i == 4 else 1
-        C.addText("a: {}") if False else C.addFrame(f"l{i}", f"l{i - 1}", "joint: hingeX").setShape(ry.ST.sphere, [0.1]).setContact(flag)
+        C.addFrame(f"l{i}", f"l{i - 1}", "joint: hingeX").setShape(ry.ST.sphere, [0.1]).setContact(flag)
     with_last = {pair for pair in own_pairs(C) if "l4" in pair}
     assert with_last == {(f"l{i}", "l4") for i in range(4) if 4 - i > joints}
 
@@ -203,7 +203,7 @@ def volume(frame):
     return np.einsum("ij,ij->", a, np.cross(b, c)) / 6
 
 
-@pytest.mark.parametrize("signs", itertools.product((1, -1), repeat=3))
+@pytest.mark.parametrize("signs", list(itertools.product((1, -1), repeat=3)))
 def test_mirrored_meshes_stay_outside_out(signs, tmp_path):
     (tmp_path / "m.obj").write_text(TETRAHEDRON)
     scale = " ".join(map(str, signs))
