@@ -33,7 +33,11 @@ def write(folder: str, file: str, base: str) -> None:
     colliding = []
     for frame in C.getFrames():
         shape = frame.asDict().get("shape")
-        if shape in SOLID and not frame.asDict().get("contact") and (frame.asDict().get("color") or [1] * 4)[3:4] in ([], [1]):
+        if (
+            shape in SOLID
+            and not frame.asDict().get("contact")
+            and (frame.asDict().get("color") or [1] * 4)[3:4] in ([], [1])
+        ):
             frame.setContact(1)
             colliding.append(frame.name)
     excluded: dict[str, set[str]] = {}
@@ -44,7 +48,9 @@ def write(folder: str, file: str, base: str) -> None:
         excluded.setdefault(a, set()).add(b)
     for name in colliding:
         others = excluded.pop(name, None)
-        lines.append(f"Edit {name}: {{ contact: 1" + (f", contact_exclude: {names(list(others))}" if others else "") + " }")
+        lines.append(
+            f"Edit {name}: {{ contact: 1" + (f", contact_exclude: {names(list(others))}" if others else "") + " }"
+        )
     for name, others in excluded.items():
         lines.append(f"Edit {name}: {{ contact_exclude: {names(list(others))} }}")
     (MODELS / folder / f"{folder}_collision.g").write_text("\n".join(lines) + "\n")

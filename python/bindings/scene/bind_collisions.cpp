@@ -39,7 +39,7 @@ NamedPairs withNames(const PyConfig& config, const std::vector<Config::NearPair>
 }
 
 NamedPairs collisions(const PyConfig& config, double margin) {
-  warnOfContacts(config);
+  warnOfMissingContacts(config);
   return withNames(config, config.getCollisions(margin));
 }
 

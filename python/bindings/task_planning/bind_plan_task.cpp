@@ -31,7 +31,7 @@ PyTaskPlans plansOf(const PyConfig& C, const std::string& goal, const std::optio
       TaskRequest{goal, domain, rules, time_limit, max_evaluations, seed, velocity ? velocity->values : VectorXd(),
                   acceleration ? acceleration->values : VectorXd(), threads});
   const TaskOptions options = request->options();
-  warnOfContacts(C);
+  warnOfMissingContacts(C);
   PyConfig scene{Config(C), nullptr};
   const nb::gil_scoped_release unlock;
   TaskPlans plans(scene, goal, options);

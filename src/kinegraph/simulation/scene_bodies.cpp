@@ -70,9 +70,13 @@ bool isSolidToLookAt(const FrameData& frame) {
 
 /// Decides which shapes take part in the simulation: those that `simulate` names, those that collide in plans, and
 /// opaque ones, unless the attribute `visual` says that they are only looked at. A transparent shape that is drawn
-/// around an opaque one with contact 0 leaves its place to that one.
+/// around an opaque one of its link with contact 0 leaves its place to that one.
 std::vector<bool> collidingFrames(const SceneTree& scene, std::vector<std::string>& warnings) {
-  const auto ownerOf = [](const FrameData& f) { return f.parent && !f.joint ? f.parent->id : f.id; };
+  const auto ownerOf = [](const FrameData& f) {  // the frame of the joint that moves it, or else its parent
+    const FrameData* link = &f;
+    while (link->parent && !link->moves()) link = link->parent;
+    return link->moves() ? link->id : f.parent && !f.joint ? f.parent->id : f.id;
+  };
   const auto& frames = scene.frames();
   std::vector<std::vector<const FrameData*>> solids(frames.size());  // by owner
   for (const auto& frame : frames) {

@@ -80,7 +80,8 @@ def test_a_robot_whose_bits_exclude_each_other_still_collides_with_what_is_added
 
 
 @pytest.mark.parametrize(
-    ("position", "size"), [("0 0 .05", "1 1 .1"), ("1.5 0 .05", "1 1 .1"), ("0 0 -.5", "1 1 .1"), ("15 0 .05", "0 0 .1")]
+    ("position", "size"),
+    [("0 0 .05", "1 1 .1"), ("1.5 0 .05", "1 1 .1"), ("0 0 -.5", "1 1 .1"), ("15 0 .05", "0 0 .1")],
 )
 def test_a_plane_is_endless_and_solid_below(position, size, tmp_path):
     text = (
@@ -118,9 +119,13 @@ def test_the_distance_from_a_plane_is_the_height_of_the_lowest_point(shape):
     for _ in range(50):
         orientation = rng.normal(size=4)
         plane.setPosition(rng.normal(size=3)).setQuaternion(orientation / np.linalg.norm(orientation))
-        reference.setPosition(plane.getPosition() - 50 * plane.getRotationMatrix()[:, 2]).setQuaternion(plane.getQuaternion())
+        reference.setPosition(plane.getPosition() - 50 * plane.getRotationMatrix()[:, 2]).setQuaternion(
+            plane.getQuaternion()
+        )
         orientation = rng.normal(size=4)
-        body.setPosition(plane.getPosition() + rng.normal(size=3)).setQuaternion(orientation / np.linalg.norm(orientation))
+        body.setPosition(plane.getPosition() + rng.normal(size=3)).setQuaternion(
+            orientation / np.linalg.norm(orientation)
+        )
         distance, expected = (C.eval(ry.FS.negDistance, [name, "body"])[0][0] for name in ("plane", "solid"))
         assert distance == pytest.approx(expected, abs=1e-6)
         assert C.eval(ry.FS.negDistance, ["body", "plane"])[0][0] == pytest.approx(distance)

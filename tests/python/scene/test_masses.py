@@ -14,7 +14,10 @@ WEDGE = 'vertex="0 0 0 .2 0 0 0 .3 0 0 0 .1 .05 .05 .06" face="0 2 1 0 1 3 0 3 2
 
 
 def mesh(mode):
-    return (f'<asset><mesh name="m" {WEDGE} {mode}/></asset>', '<geom type="mesh" mesh="m" pos=".1 .2 .3" euler="5 6 7"/>')
+    return (
+        f'<asset><mesh name="m" {WEDGE} {mode}/></asset>',
+        '<geom type="mesh" mesh="m" pos=".1 .2 .3" euler="5 6 7"/>',
+    )
 
 
 CASES = {
@@ -48,7 +51,9 @@ CASES = {
 }
 
 
-JOINTS = '<joint type="slide" axis="1 0 0"/><joint axis="1 0 0"/><joint axis="0 1 0" pos=".1 0 0"/><joint axis="0 0 1"/>'
+JOINTS = (
+    '<joint type="slide" axis="1 0 0"/><joint axis="1 0 0"/><joint axis="0 1 0" pos=".1 0 0"/><joint axis="0 0 1"/>'
+)
 
 
 @pytest.mark.parametrize("name", CASES)

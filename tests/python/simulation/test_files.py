@@ -8,9 +8,7 @@ import pytest
 
 import kinegraph as ry
 
-INERTIA = (
-    '<inertial><mass value="2"/><inertia ixx=".01" ixy="0" ixz="0" iyy=".01" iyz="0" izz=".01"/></inertial>'
-)
+INERTIA = '<inertial><mass value="2"/><inertia ixx=".01" ixy="0" ixz="0" iyy=".01" iyz="0" izz=".01"/></inertial>'
 
 
 def load(tmp_path, text, **options):
@@ -257,7 +255,9 @@ def test_actuators_of_mjcf_limit_and_soften_the_motors(tmp_path):
 
 
 def test_what_of_mjcf_is_not_simulated_is_said(tmp_path):
-    with pytest.warns(ry.KinegraphWarning, match=r"not part of the simulation: geom condim=1, geom solref, option wind"):
+    with pytest.warns(
+        ry.KinegraphWarning, match=r"not part of the simulation: geom condim=1, geom solref, option wind"
+    ):
         load(
             tmp_path,
             '<mujoco><option wind="1 0 0"/><worldbody><geom size=".1" solref=".1 1" condim="1"/></worldbody></mujoco>',
