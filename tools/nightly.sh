@@ -78,6 +78,8 @@ if command -v clang++ >/dev/null; then
 else
   skip fuzz_build "clang++ is missing"
 fi
+stage mutated_robots env PYTHONPATH=python KINEGRAPH_MUTATIONS="$(pick 1000 50000)" "$tests/bin/python" -m pytest -q \
+  tests/python/scene/test_mutated_robots.py
 stage tidy bash tools/tidy.sh "$(pick src/kinegraph/nlp src/kinegraph)"
 
 # bench NAME FULL_ARGUMENTS QUICK_ARGUMENTS: a benchmark in the environment of the tests

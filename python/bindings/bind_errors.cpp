@@ -3,11 +3,13 @@
 #include <filesystem>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 #include "bindings.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/utf8.h"
 #include "kinegraph/robot/robot_driver.h"
+#include "kinegraph/scene/tree/contact_warnings.h"
 #include "python_names.h"
 
 namespace kinegraph::python {
@@ -74,16 +76,32 @@ void emitWarnings(Config& config) {
   for (const std::string& warning : config.takeWarnings()) emitWarning(warning);
 }
 
-void warnOfContacts(const PyConfig& config) {
-  const std::uint64_t revision = config.scene()->structureRevision();
-  if (config.warned_revision == revision) return;
-  config.warned_revision = revision;
-  for (const std::string& note : config.contactWarnings()) {
+namespace {
+
+void giveOnce(const PyConfig& config, const std::vector<std::string>& notes) {
+  for (const std::string& note : notes) {
     if (std::find(config.given_warnings.begin(), config.given_warnings.end(), note) != config.given_warnings.end())
       continue;
     config.given_warnings.push_back(note);
     emitWarning(note);
   }
+}
+
+}  // namespace
+
+void warnOfContacts(const PyConfig& config) {
+  const std::uint64_t revision = config.scene()->structureRevision();
+  if (std::exchange(config.warned_revision, revision) == revision) return;
+  config.noted_revision = revision;
+  giveOnce(config, config.contactWarnings());
+}
+
+void warnOfMissingContacts(const PyConfig& config) {
+  const std::uint64_t revision = config.scene()->structureRevision();
+  if (std::exchange(config.noted_revision, revision) == revision) return;
+  ContactWarnings warnings = contactWarnings(*config.scene());
+  warnings.resting.clear();
+  giveOnce(config, describe(warnings, *config.scene()));
 }
 
 void checkInterrupt() {

@@ -31,11 +31,15 @@ struct PyConfig : Config {
   mutable EdgeCheckers checkers = {};
   VectorXd joints = {};
   mutable std::uint64_t warned_revision = 0;             ///< structure revision of the last contact warnings
+  mutable std::uint64_t noted_revision = 0;              ///< that of the last warnings about missing contact
   mutable std::vector<std::string> given_warnings = {};  ///< the contact warnings given so far
 };
 
 /// Warns of `contactWarnings`, each once per scene.
 void warnOfContacts(const PyConfig& config);
+
+/// Warns of shapes and robots that cannot collide, each once per scene.
+void warnOfMissingContacts(const PyConfig& config);
 
 void bindErrors(nb::module_& m);
 void bindScene(nb::module_& m);

@@ -173,6 +173,7 @@ if _TYPE_CHECKING:
     from .problems import get_NLP_Problem_names, make_NLP_Problem
     from .quaternion import Quaternion
     from .reachable import reachability
+    from .robot_files import robotNames, robotPath
 
 _LAZY = {  # module: names
     "aruco": ("getArucoImage",),
@@ -194,6 +195,7 @@ _LAZY = {  # module: names
     "problems": ("get_NLP_Problem_names", "make_NLP_Problem"),
     "quaternion": ("Quaternion",),
     "reachable": ("reachability",),
+    "robot_files": ("robotNames", "robotPath"),
 }
 _MODULE_OF = {name: module for module, names in _LAZY.items() for name in names}
 
@@ -372,6 +374,8 @@ __all__ = [
     "retime",
     "rnd_seed",
     "rnd_seed_random",
+    "robotNames",
+    "robotPath",
     "saveFilm",
     "sceneFacts",
     "servo",

@@ -14,7 +14,8 @@ from ._core import Config, ConfigurationViewer, checkFile, planMotion
 from .compatibility.parameters import params_get
 from .errors import ArgumentError, Error, FileError
 from .model_paths import raiPath, similarModels
-from .scene_overview import describeScene
+from .robot_files import robotNames, robotPath
+from .scene_overview import describeActuators, describeScene
 
 _MESHES = (".h5", ".ply", ".obj", ".stl", ".dae", ".glb")
 
@@ -23,7 +24,8 @@ def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="kinegraph",
         description="Robot scenes, inverse kinematics, motion planning and optimization.",
-        epilog="A missing FILE is searched among the models of the package: panda/panda.g, scenarios/pandaSingle.g.",
+        epilog="A missing FILE is searched among the models of the package (panda/panda.g, scenarios/pandaSingle.g) and "
+        "among the robots of installed packages (kinegraph robots).",
     )
     parser.add_argument("--version", action="version", version=f"kinegraph {__version__}")
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
@@ -56,6 +58,8 @@ def _parser() -> argparse.ArgumentParser:
     info.add_argument("file")
     info.add_argument("--frames", action="store_true", help="one line per frame, not only per moving part")
 
+    commands.add_parser("robots", help="list the robots of installed packages")
+
     plan = commands.add_parser("plan", help="plan a collision-free motion to a goal; exit status 1 if none is found")
     plan.add_argument("file")
     plan.add_argument(
@@ -78,7 +82,7 @@ def _parser() -> argparse.ArgumentParser:
     reach = commands.add_parser(
         "reachability", help="compute the reachable cells of a robot, within limits and without collisions"
     )
-    reach.add_argument("file", help="a scene: .g, .urdf, .xml")
+    reach.add_argument("file", help="a scene: .g, .urdf, .xml, .xacro")
     reach.add_argument("--frame", help="the reaching frame (default: the last frame moved by a joint)")
     reach.add_argument("--spacing", type=float, default=0.1, help="spacing of the grid, m (default: 0.1)")
     reach.add_argument(
@@ -128,13 +132,15 @@ def _check(files: list[str], strict: bool) -> int:
 
 
 def _find(file: str) -> str:
-    """Returns the path of a file, or of the package's model of that name."""
+    """Returns the path of a file, of the package's model, or of the installed robot of that name."""
     path = Path(file)
     if path.exists() or path.is_absolute():
         return file
     try:
         return raiPath(file)
     except FileError:
+        if not path.suffix:
+            return robotPath(file)
         if path.parent.is_dir() or not (near := similarModels(file)):
             return file  # the reader's error lists similar names
         raise FileError(f"no file or model '{file}'; similar names: {', '.join(near)}") from None
@@ -143,7 +149,7 @@ def _find(file: str) -> str:
 def _load(file: str) -> Config:
     """Loads a scene, or a mesh as a single frame."""
     config, file = Config(), _find(file)
-    if Path(file).suffix in _MESHES:
+    if Path(file).suffix.lower() in _MESHES:
         config.addFrame(Path(file).stem, "", f"mesh: <{Path(file).resolve()}>")
     else:
         config.addFile(file)
@@ -235,6 +241,8 @@ def _info(file: str, frames: bool) -> None:
             print(" ", frame)
         return
     print(describeScene(config))
+    if actuators := describeActuators(config):
+        print(actuators)
     if any(frame.asDict().get("contact", 0) < 0 for frame in config):
         print(
             "A shape with contact -k does not collide with links up to k joints above it; an SRDF file lists pairs instead."
@@ -324,6 +332,8 @@ def main(arguments: list[str] | None = None) -> int:
             _render(options)
         if options.command == "info":
             _info(options.file, options.frames)
+        if options.command == "robots":
+            print("\n".join(robotNames()))
         if options.command == "plan":
             return _plan(options)
         if options.command == "reachability":
@@ -349,7 +359,7 @@ def ry_view() -> int:
     parser.add_argument("file", metavar="FILE")
     parser.add_argument("-v", "--version", action="version", version=__version__)
     file = parser.parse_args().file
-    is_mesh = Path(file).suffix in _MESHES
+    is_mesh = Path(file).suffix.lower() in _MESHES
     print(f"{file}: {'a mesh' if is_mesh else 'a scene'}")
     return main(["view", file, *([] if is_mesh else ["--watch"])])
 

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Mapping
 from ._core import JT, Config, Frame
 
 _NAMES_SHOWN = 4
+_TARGETS = ("joint", "tendon", "site", "body")
 
 
 def describeScene(config: Config) -> str:
@@ -16,6 +17,22 @@ def describeScene(config: Config) -> str:
     effort limits if known (rad/s or m/s, Nm or N), and the names of shapes; those in `*` collide.
     """
     return "\n".join(_Overview(config).lines())
+
+
+def describeActuators(config: Config) -> str:
+    """Describes the actuators of MJCF files, one line each: type, target, and the gear, ranges and gains as written."""
+    lines = []
+    for frame in config.getFrames():
+        for name, actuator in frame.asDict().get("actuators", {}).items():
+            kind = actuator["type"]
+            target = next((f" of {part} {actuator[part]}" for part in _TARGETS if part in actuator), "")
+            numbers = [f"{key} {_shown(value)}" for key, value in actuator.items() if key not in ("type", *_TARGETS)]
+            lines.append(f"  {name}: {kind}{target}" + (f" ({', '.join(numbers)})" if numbers else ""))
+    return "\n".join([f"actuators ({len(lines)}):", *lines]) if lines else ""
+
+
+def _shown(value: float | list[float]) -> str:
+    return " ".join(f"{x:.4g}" for x in value) if isinstance(value, list) else f"{value:.4g}"
 
 
 def _moves(frame: Frame) -> bool:

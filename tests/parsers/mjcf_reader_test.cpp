@@ -50,7 +50,7 @@ TEST_F(MjcfReader, FramesAreNamedAfterWhatTheyStandFor) {
                                                               "tip", "arm_site", "eye", "arm_body"}));
   EXPECT_EQ(config.getJointNames(), (std::vector<std::string>{"turn", "arm_body"}));
   EXPECT_EQ(config.getFrame("turn").getJointType(), JointType::hingeY);
-  EXPECT_EQ(config.getFrame("world_0").getShapeType(), ShapeType::quad);
+  EXPECT_EQ(config.getFrame("world_0").getShapeType(), ShapeType::plane);
   EXPECT_EQ(config.getFrame("eye").getShapeType(), ShapeType::camera);
 }
 
@@ -303,19 +303,95 @@ TEST_F(MjcfReader, MistakesSayWhereTheyAreAndWhatIsNear) {
   expect("<worldbody><body><joint axis='0 0 0'/></body></worldbody>", {"its axis is zero"});
   expect("<worldbody><body><body><freejoint/></body></body></worldbody>", {"a free joint must be the only one"});
   expect("<worldbody><joint/></worldbody>", {"the world does not move"});
-  expect("<worldbody><geom type='mesh' mesh='x'/></worldbody><asset><mesh name='xy' file='f'/></asset>",
-         {"no mesh 'x'", "xy"});
   expect("<worldbody><body><joint class='c'/></body></worldbody>", {"no default class 'c'"});
-  expect("<contact><exclude body1='world' body2='b'/></contact>", {"m.xml:2:33", "no body 'b'"});
-  expect("<equality><joint joint1='x'/></equality>", {"no joint 'x'"});
   expect("<compiler coordinate='global'/>", {"MuJoCo removed 'global'"});
   expect("<default><default class='a'><default class='a'/></default></default>",
          {"the default class 'a' already exists"});
 }
 
+TEST_F(MjcfReader, ReferencesToMissingElementsAreLeftOut) {
+  const auto expect = [&](const std::string& inside, const char* part) {
+    load(inside);
+    ASSERT_EQ(warnings_.size(), 1u) << inside;
+    EXPECT_NE(warnings_[0].find(part), std::string::npos) << warnings_[0];
+  };
+  expect("<worldbody><geom type='mesh' mesh='x'/></worldbody><asset><mesh name='xy' vertex='0 0 0'/></asset>",
+         "no mesh 'x' in <asset>; the geom has no shape; similar names: xy");
+  expect("<contact><exclude body1='world' body2='b'/></contact>", "there is no body 'b'; it is left out");
+  expect("<equality><joint joint1='x'/></equality>", "there is no joint 'x'; the element is left out");
+  expect("<worldbody><body><joint range='1 -1'/></body></worldbody>", "it is read as unlimited");
+  expect("<worldbody><geom size='.1' rgba='1 0 0'/></worldbody>", "the alpha is read as 1");
+}
+
+TEST_F(MjcfReader, ReplicatedPartsStandWhereMujocoPutsThem) {
+  EXPECT_LT(difference("<compiler eulerseq='zyx'/><worldbody><body name='base' euler='10 20 30'>"
+                       "<replicate count='3' offset='1 0 .1' euler='30 10 90' sep='-'>"
+                       "<body name='b' pos='0 1 0'><joint name='j'/><geom name='g' size='.1'/></body>"
+                       "<replicate count='11' offset='0 1 0'><body name='c'><joint name='k'/><geom size='.1'/></body>"
+                       "</replicate></replicate></body></worldbody>"
+                       "<contact><exclude body1='base' body2='b'/></contact>"),
+            kReaderAgreement);
+  const Config config = load(
+      "<worldbody><replicate count='11' offset='1 0 0'><replicate count='2' sep='_'><body name='b'/></replicate>"
+      "</replicate></worldbody>");
+  EXPECT_TRUE(config.findFrame("b_000") &&
+              config.findFrame("b_110"));  // the inner number first, as many digits as needed
+}
+
+TEST_F(MjcfReader, AttachedModelsKeepTheirSettingsAndStandWhereMujocoPutsThem) {
+  write("hand.xml",
+        "<mujoco><compiler angle='radian'/><default><joint range='-1 1' axis='1 0 0'/><default class='k'><joint "
+        "axis='0 1 0'/></default></default><asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/></asset>"
+        "<worldbody><body name='hand' pos='0 0 1' euler='0 1 0'><joint name='j'/><geom name='g' type='mesh' mesh='m'/>"
+        "<body name='f' pos='.1 0 0' childclass='k'><joint name='fj'/><geom size='.1'/></body></body></worldbody>"
+        "<contact><exclude body1='hand' body2='f'/></contact></mujoco>");
+  const std::string scene =
+      "<asset><model name='o' file='hand.xml'/></asset><worldbody><body name='a' pos='1 0 0'><joint name='j' range='0 "
+      "90'/>"
+      "<geom size='.1'/><frame pos='0 2 0' euler='0 0 30'><attach model='o' body='hand' prefix='x_'/></frame>"
+      "<attach model='o' prefix='y_'/></body></worldbody><contact><exclude body1='a' body2='x_hand'/></contact>"
+      "<keyframe><key name='home' qpos='.1 .2 .3 .4 .5'/></keyframe>";
+  EXPECT_LT(difference(scene), kReaderAgreement);
+  const Config config = load(scene);
+  EXPECT_TRUE(warnings_.empty()) << warnings_[0];
+  EXPECT_EQ(config.getJointNames(), (std::vector<std::string>{"j", "x_j", "x_fj", "y_j", "y_fj"}));
+  EXPECT_EQ(config.getFrame("x_j").data().joint->upper[0], 1.);
+}
+
+TEST_F(MjcfReader, AssetsOfIncludedFilesAreFoundAsMujocoFindsThem) {
+  const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+  std::filesystem::create_directories(folder_ / "sub");
+  std::filesystem::create_directories(folder_ / "meshes");
+  write("sub/t.obj", tetrahedron);
+  write("meshes/u.obj", tetrahedron);
+  for (const char* file : {"t.obj", "../meshes/u.obj"}) {
+    write("sub/b.xml", "<mujoco><asset><mesh name='t' file='" + std::string(file) +
+                           "'/></asset><worldbody><geom name='g' type='mesh' mesh='t'/></worldbody></mujoco>");
+    const Config config = load("<include file='sub/b.xml'/><compiler meshdir=''/>");
+    EXPECT_EQ(config.getFrame("g").getShapeType(), ShapeType::mesh) << file;
+  }
+}
+
+TEST_F(MjcfReader, AHeightFieldIsAMeshOfConvexParts) {
+  const Config config = load(
+      "<asset><hfield name='h' nrow='2' ncol='3' elevation='1 2 3  4 5 9' size='1 2 .5 .1'/></asset>"
+      "<worldbody><geom name='g' type='hfield' hfield='h'/></worldbody>");
+  const Mesh& mesh = *config.getFrame("g").data().shape->geometry->mesh;
+  EXPECT_EQ(mesh.parts.size(), 4u);  // two prisms per cell
+  double top = 0., bottom = 0., corner = 0.;
+  for (const Vector3d& p : mesh.vertices) {
+    top = std::max(top, p.z());
+    bottom = std::min(bottom, p.z());
+    if (p.x() == 1. && p.y() == 2. && p.z() > 0.) corner = p.z();
+  }
+  EXPECT_NEAR(top, .5, 1e-12);  // 9, in the last row, which has the smallest y
+  EXPECT_NEAR(bottom, -.1, 1e-12);
+  EXPECT_NEAR(corner, .5 * (3. - 1.) / 8., 1e-12);
+}
+
 TEST_F(MjcfReader, OneWarningListsTheIgnoredElements) {
   load(
-      "<worldbody><body><joint name='j'/></body></worldbody><actuator><motor joint='j'/><motor joint='j'/></actuator>"
+      "<worldbody><body><joint name='j'/></body></worldbody><actuator><motor joint='j'/><motor tendon='t'/><motor tendon='t'/></actuator>"
       "<sensor><jointpos joint='j'/></sensor>");
   ASSERT_EQ(warnings_.size(), 1u);
   EXPECT_NE(warnings_[0].find("ignored elements: actuator/motor (2), sensor/jointpos (1)"), std::string::npos)

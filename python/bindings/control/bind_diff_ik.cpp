@@ -28,6 +28,7 @@ void makeDiffIk(DiffIk* self, const PyConfig& config, const std::optional<Number
   options.posture = posture, options.damping = damping;
   options.collisions = collisions, options.margin = margin;
   options.collision_gain = collision_gain, options.influence_distance = influence_distance;
+  warnOfMissingContacts(config);
   new (self) DiffIk(config, options);
 }
 

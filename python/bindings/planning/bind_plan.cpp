@@ -46,6 +46,7 @@ MotionGoal goalOf(const PyConfig& config, nb::handle goal) {
 }
 
 PyMotionPlan plan(const PyConfig& config, nb::handle goal, const std::optional<Numbers>& start, nb::kwargs arguments) {
+  warnOfMissingContacts(config);
   const PlanOptions options = planOptionsFrom(arguments, PlanCall::plan);
   const MotionGoal to = goalOf(config, goal);
   const std::optional<VectorXd> from = start ? std::optional(start->values) : std::nullopt;
@@ -65,6 +66,7 @@ PyMotionPlan replan(const PyMotionPlan& running, const PyConfig& config, double 
 
 std::unique_ptr<PyMotionPlans> plans(const PyConfig& config, nb::handle goal, const std::optional<Numbers>& start,
                                      nb::kwargs arguments) {
+  warnOfMissingContacts(config);
   const auto scene = std::make_shared<const Config>(config);
   return std::unique_ptr<PyMotionPlans>(
       new PyMotionPlans{scene, MotionPlans(*scene, goalOf(config, goal), planOptionsFrom(arguments, PlanCall::plans),

@@ -38,7 +38,10 @@ NamedPairs withNames(const PyConfig& config, const std::vector<Config::NearPair>
   return named;
 }
 
-NamedPairs collisions(const PyConfig& config, double margin) { return withNames(config, config.getCollisions(margin)); }
+NamedPairs collisions(const PyConfig& config, double margin) {
+  warnOfMissingContacts(config);
+  return withNames(config, config.getCollisions(margin));
+}
 
 NamedPairs ignoreCollisions(PyConfig& config, double margin) {
   return withNames(config, ignoreCollisionsNow(config, margin));

@@ -1,3 +1,5 @@
+#include <filesystem>
+
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
@@ -5,6 +7,7 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "kinegraph/common/errors.h"
+#include "kinegraph/common/packages.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/scene/loading/reader.h"
@@ -34,6 +37,35 @@ Result withWarnings(PyConfig& config, Result result) {
 
 std::optional<Frame> getFrame(const PyConfig& config, const std::string& name, bool warn) {
   return warn ? config.getFrame(name) : config.findFrame(name);
+}
+
+/// The values of xacro arguments as text: str(value), and true or false.
+XacroArguments xacroArguments(const std::optional<Attributes>& given) {
+  XacroArguments arguments;
+  if (!given) return arguments;
+  for (const auto& [name, value] : *given) {
+    arguments[nb::cast<std::string>(nb::str(name))] = nb::isinstance<nb::bool_>(value)
+                                                          ? (nb::cast<bool>(value) ? "true" : "false")
+                                                          : nb::cast<std::string>(nb::str(value));
+  }
+  return arguments;
+}
+
+std::string expandInPython(const std::string& path, const XacroArguments& arguments) {
+  const nb::gil_scoped_acquire lock;
+  nb::dict values;
+  for (const auto& [name, value] : arguments) values[name.c_str()] = value;
+  return nb::cast<std::string>(nb::module_::import_("kinegraph.xacro_files").attr("expand")(path, values));
+}
+
+std::string packageFolder(const std::string& name, const std::string& folder) {
+  std::string found;
+  visitPackageFolders(name, folder, [&](const std::string& candidate) {
+    std::error_code error;
+    if (std::filesystem::is_directory(candidate, error)) found = candidate;
+    return !found.empty();
+  });
+  return found;
 }
 
 Attributes checkFile(const PathText& file) {
@@ -103,16 +135,20 @@ void bindBuilding(nb::class_<PyConfig>& config) {
   config.def("clear", &PyConfig::clear, "Removes all frames.")
       .def(
           "addFile",
-          [](PyConfig& c, const PathText& file, const std::optional<std::string>& prefix) {
-            return withWarnings(c, c.addFile(file.text, prefix.value_or("")));
+          [](PyConfig& c, const PathText& file, const std::optional<std::string>& prefix, bool strict,
+             const std::optional<Attributes>& xacro, bool floating) {
+            return withWarnings(c,
+                                c.addFile(file.text, prefix.value_or(""), {strict, xacroArguments(xacro), floating}));
           },
-          "filename"_a, "namePrefix"_a = nb::none(), docs::scene::addFile)
+          "filename"_a, "namePrefix"_a = nb::none(), "strict"_a = false, "xacro"_a = nb::none(), "floating"_a = false,
+          docs::scene::addFile)
       .def(
           "addText",
-          [](PyConfig& c, const std::string& text, const std::string& name) {
-            return withWarnings(c, c.addText(text, name));
+          [](PyConfig& c, const std::string& text, const std::string& name, bool strict) {
+            return withWarnings(c, c.addText(text, name, "", strict));
           },
-          "text"_a, "name"_a = "text", docs::scene::addText)
+          "text"_a, "name"_a = "text", "strict"_a = false, docs::scene::addText)
+      .def("fileWarnings", &PyConfig::fileWarnings, docs::scene::fileWarnings)
       .def(
           "addFrame",
           [](PyConfig& c, const std::string& name, const std::optional<FrameArgument>& parent,
@@ -168,6 +204,9 @@ void bindFrameAccess(nb::class_<PyConfig>& config) {
 
 void bindScene(nb::module_& m) {
   bindEnums(m);
+  setXacroExpander(expandInPython);
+  m.def("_packageFolder", packageFolder, "name"_a, "folder"_a,
+        "Returns the folder of a ROS package, searched as in Config.addFile, or an empty text.");
   m.def("checkFile", checkFile, "filename"_a, docs::scene::checkFile);
   nb::class_<Frame> frame(m, "Frame",
                           "A handle on one frame of a Config. Setters return the frame, so calls can be chained.");

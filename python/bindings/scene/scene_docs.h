@@ -6,14 +6,21 @@ namespace kinegraph::python::docs::scene {
 inline constexpr char addFile[] = R"(Adds the frames of a scene file.
 
 An .srdf file (named states, groups, disabled collision pairs) extends the frames of its robot, which must be added
-first; an .srdf file beside a .urdf file is read with it. On an error the scene is unchanged.
+first; an .srdf file beside a .urdf file is read with it. Flaws of URDF and MJCF files are mended with a
+KinegraphWarning, which fileWarnings keeps. On an error the scene is unchanged.
 
 Args:
-    filename: Path of a .g, .yml, .urdf or .srdf file, or of a MuJoCo .xml file. Paths of shipped models: ry.raiPath.
+    filename: Path of a .g, .yml, .urdf, .srdf or .xacro file, or of a MuJoCo .xml file. Paths of shipped models:
+        ry.raiPath; of the robots of installed packages: ry.robotPath.
     namePrefix: Prefix of the frame names.
+    strict: True refuses a file with warnings; the ParseError lists them.
+    xacro: Arguments of a .xacro file, by name. Such files need the package xacrodoc (kinegraph[xacro]).
+    floating: Gives the root frame a free joint below a new frame `world`, for legged and other robots without a fixed
+        base: q gets 7 more entries (position and quaternion), and the robot falls in a Simulation.
 Returns:
     The first added frame, or None if the file has none.
 Raises:
+    ArgumentError: floating, and the file has several roots, or its root is the world or has a joint.
     FileError: The file cannot be read.
     ParseError: The file has an error; the message has the file, the line and the column.)";
 
@@ -21,11 +28,17 @@ inline constexpr char addText[] = R"(Adds the frames of a scene text in .g synta
 
 Args:
     text: The scene. On an error the current scene is unchanged.
-    name: Name of the text in messages, in place of a file name.
+    name: Name of the text in messages, in place of a file name; its extension selects the format.
+    strict: True refuses a text with warnings; the ParseError lists them.
 Returns:
     The first added frame, or None if the text has none.
 Raises:
     ParseError: The text has an error; the message has the line and the column.)";
+
+inline constexpr char fileWarnings[] = R"(Returns the warnings of all files and texts added since the last clear().
+
+Returns:
+    One "file:line:column: ..." per warning, with what was found and what was assumed.)";
 
 inline constexpr char addFrame[] = R"(Appends a frame at the pose of its parent, or at the origin of the world.
 

@@ -20,7 +20,7 @@ inline constexpr char setShape[] = R"(Gives the frame a shape. It collides with 
 Args:
     type: An ST.
     size: In m: box [x y z], ssBox [x y z radius], sphere [r], capsule and cylinder [length r], marker [length],
-        quad [x y].
+        quad [x y], plane [x y]: endless, and solid below; x y are the widths that are drawn.
 Returns:
     The frame itself.
 Raises:

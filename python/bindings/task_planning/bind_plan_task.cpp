@@ -31,6 +31,7 @@ PyTaskPlans plansOf(const PyConfig& C, const std::string& goal, const std::optio
       TaskRequest{goal, domain, rules, time_limit, max_evaluations, seed, velocity ? velocity->values : VectorXd(),
                   acceleration ? acceleration->values : VectorXd(), threads});
   const TaskOptions options = request->options();
+  warnOfMissingContacts(C);
   PyConfig scene{Config(C), nullptr};
   const nb::gil_scoped_release unlock;
   TaskPlans plans(scene, goal, options);
@@ -44,7 +45,6 @@ std::optional<PyTaskPlan> nextOf(PyTaskPlans& self) {
     plan = self.plans.next();
   }
   if (!plan) return std::nullopt;
-  if (!plan->actions.empty()) warnOfContacts(self.scene);
   return PyTaskPlan{std::move(*plan), self.request};
 }
 

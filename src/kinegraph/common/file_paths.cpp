@@ -4,9 +4,9 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <vector>
 
+#include "kinegraph/common/packages.h"
 #include "kinegraph/common/text.h"
 
 namespace kinegraph {
@@ -15,11 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string environment(const std::string& name) {
-  const char* value = std::getenv(name.c_str());
-  return value ? value : "";
-}
-
+/// Replaces $NAME by the environment variable; a name that is none remains.
 std::string expandEnvironment(const std::string& path) {
   std::string out;
   for (std::size_t i = 0; i < path.size();) {
@@ -29,66 +25,139 @@ std::string expandEnvironment(const std::string& path) {
     }
     std::size_t end = i + 1;
     while (end < path.size() && (std::isalnum(static_cast<unsigned char>(path[end])) || path[end] == '_')) ++end;
-    out += environment(path.substr(i + 1, end - i - 1));
+    const char* const value = std::getenv(path.substr(i + 1, end - i - 1).c_str());
+    out += value ? std::string(value) : path.substr(i, end - i);
     i = end;
   }
   return out;
 }
 
-/// Whether `folder` is the package, by its name or its package.xml.
-bool isPackage(const fs::path& folder, const std::string& name) {
-  if (folder.filename() == name) return true;
-  std::ifstream stream(folder / "package.xml", std::ios::binary);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str().find(cat("<name>", name, "</name>")) != std::string::npos;
+/// Replaces %20 by a blank, and so on.
+std::string percentDecoded(const std::string& path) {
+  std::string out;
+  const auto isHex = [&](std::size_t i) {
+    return i < path.size() && std::isxdigit(static_cast<unsigned char>(path[i]));
+  };
+  for (std::size_t i = 0; i < path.size(); ++i) {
+    if (path[i] == '%' && isHex(i + 1) && isHex(i + 2)) {
+      out += char(std::stoi(path.substr(i + 1, 2), nullptr, 16));
+      i += 2;
+    } else {
+      out += path[i];
+    }
+  }
+  return out;
 }
 
-/// Finds the file NAME/rest of a package: in `folder` or above it, or below the folders of the environment.
-std::string findInPackages(const std::string& path, const std::string& folder) {
-  const std::size_t slash = std::min(path.find('/'), path.size());
-  const std::string name = path.substr(0, slash), rest = path.substr(std::min(slash + 1, path.size()));
-  std::error_code error;
-  for (fs::path above = folder; !above.empty(); above = above.parent_path()) {
-    if (fs::exists(above / path, error)) return (above / path).string();
-    if (isPackage(above, name) && fs::exists(above / rest, error)) return (above / rest).string();
-    if (above == above.root_path()) break;
-  }
-  for (const char* variable : {"KINEGRAPH_PACKAGE_PATH", "ROS_PACKAGE_PATH", "AMENT_PREFIX_PATH"}) {
-    std::stringstream folders(environment(variable));
-    for (std::string entry; std::getline(folders, entry, ':');) {
-      if (entry.empty()) continue;
-      for (const fs::path& base : {fs::path(entry), fs::path(entry) / "share"}) {
-        if (fs::exists(base / path, error)) return (base / path).string();
-      }
-      if (isPackage(entry, name) && fs::exists(fs::path(entry) / rest, error)) {
-        return (fs::path(entry) / rest).string();
-      }
+/// The readings of a file name, the likeliest first: as written, with environment variables, as part of an URI, and with
+/// the separators of Windows.
+std::vector<std::string> readingsOf(const std::string& path) {
+  std::vector<std::string> readings = {path};
+  const auto addEach = [&](const auto& change) {
+    for (std::size_t i = 0, count = readings.size(); i < count; ++i) {
+      std::string changed = change(readings[i]);
+      if (changed.find('\0') == std::string::npos && changed != readings[i]) readings.push_back(std::move(changed));
     }
+  };
+  addEach(expandEnvironment);
+  addEach(percentDecoded);
+  addEach([](std::string name) {
+    std::replace(name.begin(), name.end(), '\\', '/');
+    return name;
+  });
+  return readings;
+}
+
+/// An existing path that differs from `path` in capitals only; empty if there is none, or more than one.
+fs::path ignoringCase(const fs::path& path) {
+  const auto lower = [](std::string text) {
+    for (char& c : text) c = char(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+  };
+  std::error_code error;
+  fs::path found = path.root_path();
+  for (const fs::path& part : path.relative_path()) {
+    if (fs::exists(found / part, error)) {
+      found /= part;
+      continue;
+    }
+    const std::string wanted = lower(part.string());
+    std::vector<fs::path> matches;
+    for (const auto& entry : fs::directory_iterator(found, error)) {
+      if (lower(entry.path().filename().string()) == wanted) matches.push_back(entry.path());
+    }
+    if (matches.size() != 1) return {};
+    found = matches[0];
+  }
+  return found;
+}
+
+/// Returns the first existing file of all readings in a folder, or "".
+std::string existingIn(const fs::path& folder, const std::vector<std::string>& readings) {
+  std::error_code error;
+  for (const std::string& reading : readings) {
+    if (fs::exists(folder / reading, error)) return (folder / reading).lexically_normal().string();
   }
   return "";
 }
 
+/// Finds the file NAME/rest of a package.
+LocatedFile inPackages(const std::string& path, const std::string& folder) {
+  const std::size_t slash = std::min(path.find('/'), path.size());
+  const std::string name = path.substr(0, slash), rest = path.substr(std::min(slash + 1, path.size()));
+  const std::vector<std::string> readings = readingsOf(rest);
+  LocatedFile found;
+  std::vector<std::string> candidates;
+  const auto has = [&](const std::string& candidate) {
+    candidates.push_back(candidate);
+    found.path = existingIn(candidate, readings);
+    return !found.path.empty();
+  };
+  if (visitPackageFolders(name, folder, has) || rest.empty()) return found;
+  for (const std::string& candidate : candidates) {
+    const fs::path other = ignoringCase(fs::path(candidate) / readings.back());
+    if (!other.empty()) return {other.string(), cat("'", other.filename().string(), "' is read instead")};
+  }
+  for (fs::path above = folder; above.has_relative_path(); above = above.parent_path()) {
+    found.path = existingIn(above, readings);
+    if (!found.path.empty()) {
+      found.assumption = cat("package '", name, "' is not found; '", found.path, "' is read");
+      return found;
+    }
+  }
+  return found;
+}
+
 /// Resolves paths of scenes that refer to a folder rai-robotModels: RAI_PATH replaces a missing one.
 std::string inModels(const std::string& path) {
-  const std::string models = "rai-robotModels/", folder = environment("RAI_PATH");
+  const std::string models = "rai-robotModels/", folder = expandEnvironment("$RAI_PATH");
   const std::size_t at = path.rfind("/" + models);
   std::error_code error;
-  if (folder.empty() || at == std::string::npos || fs::exists(path, error)) return path;
+  if (folder == "$RAI_PATH" || at == std::string::npos || fs::exists(path, error)) return path;
   const fs::path model = fs::path(folder) / path.substr(at + 1 + models.size());
   return fs::exists(model, error) ? model.lexically_normal().string() : path;
 }
 
 }  // namespace
 
-std::string resolvePath(const std::string& path, const std::string& folder) {
+LocatedFile locateFile(const std::string& path, const std::string& folder) {
   for (const std::string scheme : {"package://", "model://"}) {
-    if (path.starts_with(scheme)) return findInPackages(path.substr(scheme.size()), folder);
+    if (path.starts_with(scheme)) return inPackages(path.substr(scheme.size()), folder);
   }
+  if (const std::size_t end = path.find(')'); path.starts_with("$(find ") && end != std::string::npos)
+    return inPackages(path.substr(7, end - 7) + path.substr(end + 1), folder);
   const std::string file_scheme = "file://";
-  const fs::path expanded = expandEnvironment(path.starts_with(file_scheme) ? path.substr(file_scheme.size()) : path);
-  return inModels((expanded.is_absolute() ? expanded : fs::path(folder) / expanded).lexically_normal().string());
+  const std::vector<std::string> readings =
+      readingsOf(path.starts_with(file_scheme) ? path.substr(file_scheme.size()) : path);
+  if (std::string found = existingIn(folder, readings); !found.empty()) return {std::move(found), ""};
+  const fs::path expected = (fs::path(folder) / readings.back()).lexically_normal();
+  if (const std::string model = inModels(expected.string()); model != expected) return {model, ""};
+  if (const fs::path other = ignoringCase(expected); !other.empty() && expected.is_absolute())
+    return {other.string(), cat("'", other.filename().string(), "' is read instead")};
+  return {expected.string(), ""};
 }
+
+std::string resolvePath(const std::string& path, const std::string& folder) { return locateFile(path, folder).path; }
 
 std::string missingPackageMessage(const std::string& path) {
   const std::size_t scheme = path.find("://"), first = scheme == std::string::npos ? 0 : scheme + 3;

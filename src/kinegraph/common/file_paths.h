@@ -4,10 +4,19 @@
 
 namespace kinegraph {
 
-/// Resolves `path` relative to `folder` to an absolute path: expands $NAME from the environment and drops file://.
-/// Searches package://NAME/rest (or model://) in `folder` and all folders above it, then in KINEGRAPH_PACKAGE_PATH,
-/// ROS_PACKAGE_PATH and AMENT_PREFIX_PATH; empty if none has it. A missing path .../rai-robotModels/rest becomes rest
-/// in the folder RAI_PATH, if that exists.
+struct LocatedFile {
+  std::string path;        ///< absolute; of a file that may be missing, or empty for a package that is not found
+  std::string assumption;  ///< for a warning, if the file is not exactly the one that was named; otherwise empty
+};
+
+/// Finds the file that `path` names, relative to `folder`. Drops file://. Tries the name as written, with $NAME expanded
+/// from the environment, with %20 as a blank and so on, with \ as /, and with other capitals if exactly one file has
+/// them. Searches package://NAME/rest (also model:// and $(find NAME)/rest) in the folders of visitPackageFolders, and
+/// then `rest` in `folder` and above it. A missing path .../rai-robotModels/rest becomes rest in the folder RAI_PATH, if
+/// that exists.
+LocatedFile locateFile(const std::string& path, const std::string& folder);
+
+/// The path of locateFile.
 std::string resolvePath(const std::string& path, const std::string& folder);
 
 /// Explains an empty result of resolvePath, with remedies.

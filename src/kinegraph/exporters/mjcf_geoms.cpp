@@ -80,6 +80,8 @@ std::string MjcfGeoms::primitive(const Geometry& geometry, bool moves) const {
     case ShapeType::ssBoxElip:
       if (s[0] != 0. || s[1] != 0. || s[2] != 0. || s[6] != 0.) return "";
       return element("ellipsoid", {s[3], s[4], s[5]});
+    case ShapeType::plane:
+      return moves ? "" : element("plane", {.5 * s[0], .5 * s[1], 1.});
     case ShapeType::quad:
       return moves ? element("box", {.5 * s[0], .5 * s[1], kThin}) : element("plane", {.5 * s[0], .5 * s[1], 1.});
     default:

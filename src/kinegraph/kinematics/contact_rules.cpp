@@ -21,8 +21,9 @@ bool ContactRules::allow(std::size_t i, std::size_t j) const {
 /// Returns true if the contact flag of A excludes contacts with B's part, an ancestor within a few joints.
 bool ContactRules::excludedByFlag(const Body& a, const Body& b) const {
   int left = -a.flag;
-  for (int part = parts[std::size_t(a.part)].parent; part >= 0; part = parts[std::size_t(part)].parent) {
+  for (int part = a.part; parts[std::size_t(part)].parent >= 0;) {
     if (parts[std::size_t(part)].jointed && --left < 0) return false;
+    part = parts[std::size_t(part)].parent;
     if (part == b.part) return true;
   }
   return false;

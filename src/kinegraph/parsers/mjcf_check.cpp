@@ -29,10 +29,17 @@ void checkMjcfSections(const MjcfDocument& document, Findings& findings) {
   static const Names sections = {"compiler", "option",   "size",      "visual",   "statistic",  "default",
                                  "custom",   "asset",    "worldbody", "contact",  "deformable", "equality",
                                  "tendon",   "actuator", "sensor",    "keyframe", "extension"};
-  static const Names read = {"equality joint", "contact exclude", "keyframe key"};
+  static const Names read = {"equality joint", "contact exclude", "contact pair", "keyframe key"};
   static const Names of_interest = {"equality", "contact", "deformable", "tendon", "actuator", "sensor", "keyframe"};
   static const Names assets = {"texture", "material", "mesh", "hfield", "skin", "model"};
-  checkChildren(document.root(), sections, findings);
+  for (const XmlElement& child : document.root().children) {  // MuJoCo reads files of such parts, too
+    static const Names parts = {"body", "geom", "site", "camera", "light", "frame"};
+    if (contains(parts, child.name))
+      findings.warn(child.where, cat("<", child.name, "> outside of <worldbody> is ignored"));
+    else if (!contains(sections, child.name))
+      findings.error(child.where,
+                     cat("unknown element <", child.name, "> in <mujoco>", similarHint(child.name, sections)));
+  }
   for (const XmlElement* asset : document.root().all("asset")) checkChildren(*asset, assets, findings);
   std::map<std::string, int> ignored;
   SourcePosition first;
@@ -40,6 +47,7 @@ void checkMjcfSections(const MjcfDocument& document, Findings& findings) {
     if (!contains(of_interest, section.name)) continue;
     for (const XmlElement& element : section.children) {
       if (contains(read, cat(section.name, " ", element.name))) continue;
+      if (section.name == "actuator" && element.attribute("joint")) continue;  // mjcfMotors reads it
       if (!first.known()) first = element.where;
       ++ignored[cat(section.name, "/", element.name)];
     }
@@ -51,7 +59,7 @@ void checkMjcfSections(const MjcfDocument& document, Findings& findings) {
 
 void checkMjcfBody(const XmlElement& body, Findings& findings) {
   static const Names read = {"body", "frame", "inertial", "joint", "freejoint", "geom", "site", "camera", "light"};
-  static const Names left_out = {"composite", "flexcomp", "plugin", "attach", "replicate"};
+  static const Names left_out = {"composite", "flexcomp", "plugin"};
   Names known = read;
   known.insert(known.end(), left_out.begin(), left_out.end());
   checkChildren(body, known, findings);
@@ -66,10 +74,12 @@ void checkMjcfBody(const XmlElement& body, Findings& findings) {
 void checkMjcfAttributes(const XmlElement& element, Findings& findings) {
   static const std::map<std::string, Names> known = {
       {"body", {"name", "childclass", "pos", "quat", "axisangle", "xyaxes", "zaxis", "euler"}},
-      {"joint", {"name", "class", "type", "pos", "axis", "ref", "range", "limited"}},
-      {"geom",
-       {"name", "class", "type", "pos", "quat", "axisangle", "xyaxes", "zaxis", "euler", "size", "fromto", "mesh",
-        "rgba", "material", "contype", "conaffinity", "group", "mass", "density"}},
+      {"joint",
+       {"name", "class", "type", "pos", "axis", "ref", "range", "limited", "damping", "stiffness", "springref",
+        "frictionloss", "armature"}},
+      {"geom", {"name",    "class",       "type",  "pos",    "quat",    "axisangle", "xyaxes",
+                "zaxis",   "euler",       "size",  "fromto", "mesh",    "rgba",      "material",
+                "contype", "conaffinity", "group", "mass",   "density", "friction",  "shellinertia"}},
       {"site", {"name", "class", "pos", "quat", "axisangle", "xyaxes", "zaxis", "euler", "fromto", "rgba", "group"}},
       {"camera",
        {"name", "class", "pos", "quat", "axisangle", "xyaxes", "zaxis", "euler", "fovy", "resolution", "mode"}},

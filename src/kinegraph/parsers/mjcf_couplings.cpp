@@ -41,7 +41,7 @@ void resolveChains(std::map<std::string, MjcfCoupling>& couplings, Findings& fin
 double mjcfReference(const MjcfElement& joint, MjcfValues& values) {
   const std::string type = typeOf(joint, values);
   const double reference = values.number(joint, "ref", 0.);
-  return type == "hinge" ? values.radians(reference) : type == "slide" ? reference : 0.;
+  return type == "hinge" ? values.radians(joint, reference) : type == "slide" ? reference : 0.;
 }
 
 std::map<std::string, MjcfCoupling> mjcfCouplings(const MjcfDocument& document,
@@ -58,14 +58,14 @@ std::map<std::string, MjcfCoupling> mjcfCouplings(const MjcfDocument& document,
       if (!name) return nullptr;
       const auto found = joints.find(name->value);
       if (found != joints.end()) return &found->second;
-      findings.error(name->where,
-                     cat("<equality>: there is no joint '", name->value, "'", similarHint(name->value, names)));
+      findings.warn(name->where, cat("<equality>: there is no joint '", name->value, "'; the element is left out",
+                                     similarHint(name->value, names)));
       return nullptr;
     };
     const MjcfElement* first = find("joint1");
     const MjcfElement* second = find("joint2");
     if (!first && !xml->attribute("joint1"))
-      findings.error(xml->where, "<joint> in <equality> has no attribute 'joint1'");
+      findings.warn(xml->where, "<joint> in <equality> has no attribute 'joint1'; the element is left out");
     if (!first || (!second && xml->attribute("joint2"))) continue;
     const std::string name = first->name();
     std::vector<double> c = {0., 1., 0., 0., 0.};
@@ -93,6 +93,53 @@ std::map<std::string, MjcfCoupling> mjcfCouplings(const MjcfDocument& document,
   }
   resolveChains(couplings, findings);
   return couplings;
+}
+
+void addActuators(const MjcfDocument& document, const std::function<std::string(const MjcfName&)>& frameOf,
+                  Graph& graph) {
+  static const std::pair<const char*, const char*> targets[] = {{"joint", "joint"},   {"jointinparent", "joint"},
+                                                                {"tendon", "tendon"}, {"site", "site"},
+                                                                {"body", "body"},     {"cranksite", "site"}};
+  static const char* const numbers[] = {"gear", "ctrlrange", "forcerange", "kp", "kv", "gainprm", "biasprm"};
+  std::map<std::string, Graph*> lists;  // by frame
+  for (const XmlElement* section : document.root().all("actuator")) {
+    for (const XmlElement& xml : section->children) {
+      const MjcfElement actuator = document.element(xml);
+      Graph entry;
+      const auto add = [&](const char* key, auto data) {
+        Node node;
+        node.key = key;
+        node.where = node.value.where = xml.where;
+        node.value.data = std::move(data);
+        entry.nodes.push_back(std::move(node));
+      };
+      add("type", xml.name);
+      std::string frame = "world", target;
+      for (const auto& [attribute, kind] : targets) {
+        const XmlAttribute* const reference = actuator.attribute(attribute);
+        if (!reference || !target.empty()) continue;
+        target = reference->value;
+        if (const std::string found = frameOf({kind, target}); !found.empty()) frame = found;
+        add(kind, target);
+      }
+      for (const char* key : numbers) {
+        const XmlAttribute* const given = actuator.attribute(key);
+        const auto values = given ? numbersIn(given->value) : std::nullopt;
+        if (values && !values->empty()) add(key, NumberArray{*values, 1});
+      }
+      Graph*& list = lists[frame];
+      if (!list) {
+        const auto owner =
+            std::find_if(graph.nodes.begin(), graph.nodes.end(), [&](const Node& node) { return node.key == frame; });
+        if (owner == graph.nodes.end()) continue;
+        Graph& attributes = *std::get_if<Graph>(&owner->value.data);
+        attributes.set({"actuators", {}, {}, {Graph(), xml.where}, xml.where});
+        list = std::get_if<Graph>(&attributes.find("actuators")->value.data);
+      }
+      const std::string name = actuator.name().empty() ? cat(target, "_", xml.name) : actuator.name();
+      list->set({name, {}, {}, {std::move(entry), xml.where}, xml.where});
+    }
+  }
 }
 
 }  // namespace kinegraph

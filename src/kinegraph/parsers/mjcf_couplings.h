@@ -1,9 +1,12 @@
 #pragma once
 
+#include <functional>
 #include <map>
 #include <string>
 
+#include "kinegraph/gfile/value.h"
 #include "kinegraph/parsers/mjcf_document.h"
+#include "kinegraph/parsers/mjcf_expansion.h"
 #include "kinegraph/parsers/mjcf_values.h"
 
 namespace kinegraph {
@@ -23,5 +26,11 @@ std::map<std::string, MjcfCoupling> mjcfCouplings(const MjcfDocument& document,
 
 /// The joint value at the pose in the file: `ref`, in rad or m.
 double mjcfReference(const MjcfElement& joint, MjcfValues& values);
+
+/// Adds an attribute `actuators` to the frames that <actuator> drives, as information for people: per name the type,
+/// the target, and the gear, ranges and gains as written. `frameOf` returns the frame of an element of that kind ("joint",
+/// "site", "body") and name, or "" for none; the frame `world` lists the actuators of tendons and of unknown targets.
+void addActuators(const MjcfDocument& document, const std::function<std::string(const MjcfName&)>& frameOf,
+                  Graph& graph);
 
 }  // namespace kinegraph

@@ -1,6 +1,7 @@
 #include "kinegraph/parsers/mjcf_document.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -9,6 +10,7 @@
 #include "kinegraph/common/file_paths.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/common/utf8.h"
+#include "kinegraph/parsers/mjcf_expansion.h"
 
 namespace kinegraph {
 
@@ -18,6 +20,15 @@ namespace {
 
 constexpr std::size_t kMaxBytes = std::size_t(64) << 20;  // of all included files together
 constexpr const char* kOutermost = "main";                // class
+constexpr std::size_t kMaxAttached = 10;                  // models in models
+
+/// The content of a file as UTF-8.
+std::string textOfFile(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  std::stringstream text;
+  text << stream.rdbuf();
+  return validUtf8(toUtf8(text.str()));
+}
 
 }  // namespace
 
@@ -48,9 +59,21 @@ std::string MjcfElement::describe() const {
   return given.empty() ? cat("<", xml_->name, ">") : cat("<", xml_->name, " name=\"", given, "\">");
 }
 
+Quaterniond mjcfEuler(const std::vector<double>& angles, const MjcfSettings& settings) {
+  Quaterniond q = Quaterniond::Identity();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const char letter = settings.euler_order[i];
+    const bool fixed = letter <= 'Z';
+    const double angle = settings.degrees ? angles[i] / 180. * M_PI : angles[i];
+    const Quaterniond step(Eigen::AngleAxisd(angle, Vector3d::Unit(letter - (fixed ? 'X' : 'x'))));
+    q = fixed ? step * q : q * step;
+  }
+  return q;
+}
+
 MjcfDocument::MjcfDocument(std::string_view text, const std::string& file, const std::string& folder,
-                           Findings& findings)
-    : findings_(findings), main_folder_(folder) {
+                           Findings& findings, std::vector<std::string> around)
+    : findings_(findings), main_folder_(folder), around_(std::move(around)) {
   try {
     root_ = parseXml(text, file);
   } catch (const ParseError& e) {
@@ -63,9 +86,15 @@ MjcfDocument::MjcfDocument(std::string_view text, const std::string& file, const
     return;
   }
   std::vector<std::string> open = {fs::absolute(file).lexically_normal().string()};
+  around_.push_back(open.front());
   expand(root_, folder, open);
   readSettings();
+  for (const XmlElement* model : inSections("asset", "model")) models_.push_back(*model);
+  attachModels(root_);
+  expandReplicates(
+      root_, [&](const std::vector<double>& angles) { return mjcfEuler(angles, settings_); }, findings_);
   classes_[kOutermost];
+  for (const XmlElement& element : attached_defaults_) collectClasses(element, nullptr, true);
   for (const XmlElement* element : root_.all("default")) collectClasses(*element, nullptr);
 }
 
@@ -110,10 +139,7 @@ void MjcfDocument::include(const XmlElement& element, const std::string& folder,
     return findings_.error(file->where, cat("including '", file->value, "' exceeds the limit for included files of ",
                                             kMaxBytes >> 20, " MB"));
   }
-  std::ifstream stream(path, std::ios::binary);
-  std::stringstream text;
-  text << stream.rdbuf();
-  included_.back().text = validUtf8(text.str());
+  included_.back().text = textOfFile(path);
   try {
     XmlElement root = parseXml(included_.back().text, path);
     open.push_back(absolute);
@@ -125,7 +151,132 @@ void MjcfDocument::include(const XmlElement& element, const std::string& folder,
   }
 }
 
+/// Replaces each <attach> in the bodies by the parts of its model.
+void MjcfDocument::attachModels(XmlElement& container) {
+  std::vector<XmlElement> children;
+  for (XmlElement& child : container.children) {
+    if (child.name == "attach") {
+      attach(child, children);
+    } else {
+      const bool inside =
+          child.name == "worldbody" || child.name == "body" || child.name == "frame" || child.name == "replicate";
+      if (inside) attachModels(child);
+      children.push_back(std::move(child));
+    }
+  }
+  container.children = std::move(children);
+  if (&container != &root_) return;
+  std::move(attached_parts_.begin(), attached_parts_.end(), std::back_inserter(root_.children));
+  attached_parts_.clear();
+}
+
+void MjcfDocument::attach(const XmlElement& element, std::vector<XmlElement>& into) {
+  const XmlAttribute* const reference = element.attribute("model");
+  if (!reference) return findings_.error(element.where, "<attach> has no attribute 'model'");
+  std::vector<std::string> names;
+  for (const XmlElement& asset : models_) {
+    const XmlAttribute* const name = asset.attribute("name");
+    if (name && name->value != reference->value) names.push_back(name->value);
+    if (name && name->value != reference->value) continue;
+    std::optional<XmlElement> model = loadModel(asset, element);
+    if (findings_.failed()) return;
+    if (!model) continue;  // the name in the file is another
+    if (!cutOutModel(element, *model, findings_)) return;
+    const std::string top = cat(element.attribute("prefix")->value, kOutermost, "@", attached_defaults_.size());
+    XmlElement outermost{"default", {{"class", top, element.where}}, {}, element.where};
+    const std::string outermost_alias = element.attribute("prefix")->value + kOutermost;
+    if (outermost_alias != kOutermost)
+      outermost.children.push_back({"default", {{"class", outermost_alias, element.where}}, {}, element.where});
+    XmlElement frame{"frame", {{"childclass", top, element.where}}, {}, element.where};
+    for (XmlElement& part : model->children) {
+      if (part.name == "default") {
+        if (const XmlAttribute* alias = part.attribute("class"); alias && alias->value != outermost_alias)
+          outermost.children.push_back({"default", {*alias}, {}, part.where});
+        std::move(part.children.begin(), part.children.end(), std::back_inserter(outermost.children));
+      } else if (part.name == "worldbody") {
+        frame.children = std::move(part.children);
+      } else {
+        for (XmlElement& child : part.children) {
+          if (!child.attribute("class")) child.attributes.push_back({"class", top, child.where});
+        }
+        attached_parts_.push_back(std::move(part));
+      }
+    }
+    attached_defaults_.push_back(std::move(outermost));
+    return into.push_back(std::move(frame));
+  }
+  findings_.error(reference->where, cat("<attach>: there is no model '", reference->value, "' in <asset>",
+                                        similarHint(reference->value, names)));
+}
+
+/// Reads the file of a <model>; nullopt if the asset has no name and the model in the file has another one than the
+/// <attach> asks for.
+std::optional<XmlElement> MjcfDocument::loadModel(const XmlElement& asset, const XmlElement& attach) {
+  const XmlAttribute* const file = asset.attribute("file");
+  std::error_code ignored;
+  const std::string path = file ? locateAsset(*file, "").path : "";
+  const auto refuse = [&](std::string message) {
+    findings_.error(file ? file->where : asset.where, std::move(message));
+    return std::nullopt;
+  };
+  if (!file) return refuse("<model> has no attribute 'file'");
+  if (!fs::is_regular_file(path, ignored)) return refuse(cat("model '", file->value, "' does not exist (", path, ")"));
+  std::size_t bytes = std::size_t(fs::file_size(path, ignored));
+  for (const SourceText& text : included_) bytes += text.text.size();
+  const std::string absolute = fs::absolute(path).lexically_normal().string();
+  if (std::find(around_.begin(), around_.end(), absolute) != around_.end() || around_.size() > kMaxAttached ||
+      bytes > kMaxBytes)
+    return refuse(cat("model '", file->value, "' attaches itself, or is too large or nested too deeply"));
+  included_.push_back({path, textOfFile(path)});
+  if (xmlRootName(included_.back().text) != "mujoco") {
+    return refuse(cat("model '", file->value, "' is no MJCF file; only those are attached"));
+  }
+  MjcfDocument model(included_.back().text, path, fs::path(path).parent_path().string(), findings_, around_);
+  for (SourceText& text : model.included_) included_.push_back(text);
+  if (findings_.failed()) return std::nullopt;
+  const XmlAttribute* const own = model.root_.attribute("model");
+  if (!asset.attribute("name") && attach.attribute("model")->value != (own ? own->value : "MuJoCo Model"))
+    return std::nullopt;
+  const std::pair settings(model.settings_, model.main_folder_);
+  other_.emplace(path, settings);
+  for (const SourceText& text : model.included_) other_.emplace(text.file, settings);
+  for (const auto& [inner, inner_settings] : model.other_) other_.insert_or_assign(inner, inner_settings);
+  const XmlAttribute* const prefix = attach.attribute("prefix");
+  for (XmlElement& classes : model.attached_defaults_) {
+    renameMjcf(classes, [&](const MjcfName& name) { return (prefix ? prefix->value : "") + name.second; });
+    attached_defaults_.push_back(std::move(classes));
+  }
+  return std::move(model.root_);
+}
+
+const MjcfSettings& MjcfDocument::settingsAt(const SourcePosition& where) const {
+  const auto found = other_.find(where.file);
+  return found == other_.end() ? settings_ : found->second.first;
+}
+
+LocatedFile MjcfDocument::locateAsset(const XmlAttribute& file, const std::string& folder) const {
+  const auto other = other_.find(file.where.file);
+  const std::string& main_folder = other == other_.end() ? main_folder_ : other->second.second;
+  const std::string beside = fs::path(file.where.file).parent_path().string();
+  const std::string name =
+      settingsAt(file.where).strip_mesh_path ? fs::path(file.value).filename().string() : file.value;
+  const std::string in_folder = (fs::path(folder) / name).string();
+  LocatedFile found = locateFile(in_folder, main_folder);
+  std::error_code ignored;
+  for (const std::string& other_name : {name, in_folder}) {
+    if (fs::is_regular_file(found.path, ignored)) break;
+    if (LocatedFile next = locateFile(other_name, beside); fs::is_regular_file(next.path, ignored)) found = next;
+  }
+  return found;
+}
+
 void MjcfDocument::readSettings() {
+  const auto massSetting = [&](const std::string& name) -> double* {
+    return name == "settotalmass"   ? &settings_.total_mass
+           : name == "boundmass"    ? &settings_.bound_mass
+           : name == "boundinertia" ? &settings_.bound_inertia
+                                    : nullptr;
+  };
   const auto flag = [&](const XmlAttribute& attribute) {
     if (attribute.value != "true" && attribute.value != "false")
       findings_.error(attribute.where,
@@ -161,6 +312,18 @@ void MjcfDocument::readSettings() {
       } else if (attribute.name == "assetdir") {
         if (!mesh_folder_given) settings_.mesh_folder = value;
         if (!texture_folder_given) settings_.texture_folder = value;
+      } else if (attribute.name == "balanceinertia") {
+        settings_.balance_inertia = flag(attribute);
+      } else if (attribute.name == "inertiagrouprange") {
+        const auto range = numbersIn(value);
+        if (!range || range->size() != 2) refuse("two numbers");
+        if (range && range->size() == 2)
+          std::tie(settings_.first_mass_group, settings_.last_mass_group) =
+              std::pair(int((*range)[0]), int((*range)[1]));
+      } else if (double* number = massSetting(attribute.name)) {
+        const auto numbers = numbersIn(value);
+        if (!numbers || numbers->size() != 1) refuse("a number");
+        if (numbers && numbers->size() == 1) *number = numbers->front();
       } else if (attribute.name == "inertiafromgeom") {
         settings_.masses_of_geoms = value != "false";
         settings_.masses_only_of_geoms = value == "true";
@@ -170,16 +333,16 @@ void MjcfDocument::readSettings() {
   }
 }
 
-void MjcfDocument::collectClasses(const XmlElement& element, const Class* outer) {
+void MjcfDocument::collectClasses(const XmlElement& element, const Class* outer, bool attached) {
   const XmlAttribute* name = element.attribute("class");
   if (!name && outer) return findings_.error(element.where, "a <default> inside another has no attribute 'class'");
-  const std::string key = name && outer ? name->value : kOutermost;
+  const std::string key = name && (outer || attached) ? name->value : kOutermost;
   if (const auto known = classes_.find(key); known != classes_.end() && known->second.outer != outer)
     return findings_.error(name->where, cat("the default class '", key, "' already exists below another class"));
   Class& entry = classes_[key];
   entry.elements.push_back(&element);
   if (outer) entry.outer = outer;
-  if (name && !outer && name->value != kOutermost) classes_[name->value].outer = &entry;  // an alias of it
+  if (name && !outer && !attached && name->value != kOutermost) classes_[name->value].outer = &entry;  // an alias of it
   for (const XmlElement* inner : element.all("default")) collectClasses(*inner, &entry);
 }
 

@@ -6,9 +6,12 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/parsers/axis_motion.h"
+#include "kinegraph/parsers/mjcf_body_masses.h"
 #include "kinegraph/parsers/mjcf_check.h"
+#include "kinegraph/parsers/mjcf_contacts.h"
 #include "kinegraph/parsers/mjcf_couplings.h"
 #include "kinegraph/parsers/mjcf_document.h"
+#include "kinegraph/parsers/mjcf_dynamics.h"
 #include "kinegraph/parsers/mjcf_keyframes.h"
 #include "kinegraph/parsers/mjcf_shapes.h"
 #include "kinegraph/parsers/mjcf_values.h"
@@ -29,19 +32,21 @@ struct Place {
   std::string body;   ///< its name
   Pose pose;          ///< of the coordinates in that frame; not the identity inside <frame>
   std::string childclass;
-  bool on_world = true;        ///< fixed to the world
-  bool hangs_on_world = true;  ///< fixed to the world, or connected to it by one joint
-  int contact = 1;             ///< flag of its geoms
-  bool with_mass = false;      ///< its geoms have masses
+  bool on_world = true;               ///< fixed to the world
+  bool hangs_on_world = true;         ///< fixed to the world, or connected to it by one joint
+  int contact = 1;                    ///< flag of its geoms
+  bool with_mass = false;             ///< its geoms have masses
+  std::optional<std::size_t> masses;  ///< its number in MjcfBodyMasses; none for the world
 };
 
 class MjcfReader {
  public:
-  MjcfReader(MjcfDocument& document, const std::string& folder, Findings& findings)
+  MjcfReader(MjcfDocument& document, Findings& findings)
       : document_(document),
         findings_(findings),
-        values_(document.settings(), findings),
-        shapes_(document, values_, folder, findings) {}
+        values_(document, findings),
+        shapes_(document, values_, findings),
+        masses_(document.settings()) {}
 
   Graph read() {
     const std::vector<const XmlElement*> worlds = document_.root().all("worldbody");
@@ -53,10 +58,14 @@ class MjcfReader {
     couplings_ = mjcfCouplings(document_, named_joints_, values_, findings_);
     collectExclusions();
     if (findings_.failed()) return {};
+    contacts_ = mjcfContacts(document_, values_, frame_of_, excluded_, findings_);
+    motors_ = mjcfMotors(document_, values_, findings_);
+    warnOfMjcfDynamics(document_, findings_);
     FrameAttributes attributes(worlds.empty() ? document_.root().where : worlds[0]->where);
     addFrame("world", "", document_.root().where, std::move(attributes));
     Place place;
     place.frame = place.body = "world";
+    addExclusions("world", graph_.nodes.back());
     for (const XmlElement* world : worlds) addShapes(*world, place);
     for (const XmlElement* world : worlds) addBodies(*world, place);
     for (Node& frame : graph_.nodes) {
@@ -69,7 +78,16 @@ class MjcfReader {
       if (const auto body = bodies_of_joints_.find(joint.frame); body != bodies_of_joints_.end())
         joint.frame = body->second;
     }
+    masses_.apply(graph_);
     addKeyframes(document_, joints_, graph_, findings_);
+    const auto frameOf = [&](const MjcfName& name) {
+      const auto element = elements_.find(name);
+      if (element == elements_.end()) return std::string();
+      const std::string& frame = frame_of_.at(element->second);
+      const auto body = bodies_of_joints_.find(frame);
+      return body == bodies_of_joints_.end() ? frame : body->second;
+    };
+    addActuators(document_, frameOf, graph_);
     return std::move(graph_);
   }
 
@@ -152,13 +170,13 @@ class MjcfReader {
       for (const char* role : {"body1", "body2"}) {
         const XmlAttribute* name = exclude->attribute(role);
         if (!name) {
-          findings_.error(exclude->where, cat("<exclude> has no attribute '", role, "'"));
+          findings_.warn(exclude->where, cat("<exclude> has no attribute '", role, "'; it is left out"));
           continue;
         }
         const auto found = elements_.find({"body", name->value});
         if (found == elements_.end() && name->value != "world") {
-          findings_.error(name->where,
-                          cat("<exclude>: there is no body '", name->value, "'", similarHint(name->value, bodies)));
+          findings_.warn(name->where, cat("<exclude>: there is no body '", name->value, "'; it is left out",
+                                          similarHint(name->value, bodies)));
           continue;
         }
         frames.push_back(found == elements_.end() ? "world" : frame_of_.at(found->second));
@@ -166,6 +184,16 @@ class MjcfReader {
       if (frames.size() == 2 && frames[0] != "world") excluded_[frames[0]].push_back(frames[1]);
       if (frames.size() == 2 && frames[0] == "world") excluded_[frames[1]].push_back(frames[0]);
     }
+  }
+
+  void addExclusions(const std::string& name, Node& frame) const {
+    const auto others = contacts_.excluded.find(name);
+    if (others == contacts_.excluded.end()) return;
+    Node node;
+    node.key = "contact_exclude";
+    node.where = node.value.where = frame.where;
+    node.value.data = StringArray(others->second);
+    std::get<Graph>(frame.value.data).nodes.push_back(std::move(node));
   }
 
   void addFrame(const std::string& name, const std::string& parent, const SourcePosition& where,
@@ -190,11 +218,16 @@ class MjcfReader {
       const bool is_geom = child.name == "geom", is_site = child.name == "site";
       if (!is_geom && !is_site && child.name != "camera") continue;
       const MjcfElement described = element(child, place.childclass);
-      MjcfShapes::Placed placed = is_geom   ? shapes_.geom(described, place.contact, place.with_mass)
+      const int contact = contacts_.colliding.contains(&child) ? place.contact : 0;
+      MjcfShapes::Placed placed = is_geom   ? shapes_.geom(described, contact, place.with_mass)
                                   : is_site ? shapes_.site(described)
                                             : shapes_.camera(described);
       placed.attributes.addPose(place.pose * placed.pose);
       addFrame(frame_of_.at(&child), place.frame, child.where, std::move(placed.attributes));
+      addExclusions(frame_of_.at(&child), graph_.nodes.back());
+      if (place.masses)
+        masses_.addPart(*place.masses, graph_.nodes.size() - 1, std::get<Graph>(graph_.nodes.back().value.data),
+                        place.pose * placed.pose);
     }
   }
 
@@ -238,12 +271,13 @@ class MjcfReader {
     FrameAttributes attributes = own_joint ? std::move(*own_joint) : FrameAttributes(body.where);
     if (!own_joint) attributes.addPose(pose);
     const XmlElement* inertial = body.child("inertial");
-    const MjcfSettings& settings = document_.settings();
+    const MjcfSettings& settings = document_.settingsAt(body.where);
     place.with_mass = settings.masses_only_of_geoms || (settings.masses_of_geoms && !inertial);
-    if (inertial && !settings.masses_only_of_geoms) addInertial(*inertial, attributes);
-    if (const auto others = excluded_.find(name); others != excluded_.end())
-      attributes.add("contact_exclude", StringArray(others->second));
+    if (inertial && !settings.masses_only_of_geoms) addMjcfInertial(*inertial, values_, findings_, attributes);
     addFrame(name, parent, body.where, std::move(attributes));
+    addExclusions(name, graph_.nodes.back());
+    place.masses = masses_.addBody(graph_.nodes.size() - 1);
+    masses_.addPart(*place.masses, graph_.nodes.size() - 1, std::get<Graph>(graph_.nodes.back().value.data), Pose());
     addShapes(body, place);
     addBodies(body, place);
   }
@@ -292,6 +326,7 @@ class MjcfReader {
                       Quaterniond::Identity());
     if (type == "ball") {
       attributes.add("joint", std::string("quatBall"));
+      addDynamics(element, attributes);
       place(pose * anchor, anchor.inverse());
       return true;
     }
@@ -335,6 +370,7 @@ class MjcfReader {
     }
     if (scale != 1.) attributes.add("joint_scale", scale);
     addLimits(element, slides, attributes);
+    addDynamics(element, attributes);
     if (!coupled && reference != 0.) attributes.addNumbers("q", {reference});
     place(before * rotation, rotation.inverse() * anchor.inverse());
     return true;
@@ -347,39 +383,24 @@ class MjcfReader {
     return slides && axis.norm() > 0. ? translationAlong(axis.normalized()).scale : 1.;
   }
 
+  void addDynamics(const MjcfElement& element, FrameAttributes& attributes) {
+    const auto motor = motors_.find(element.name());
+    const bool has_motor = motor != motors_.end() && !element.name().empty();
+    addMjcfJointDynamics(element, has_motor ? &motor->second : nullptr, values_, attributes);
+  }
+
   void addLimits(const MjcfElement& element, bool slides, FrameAttributes& attributes) {
     const std::string limited = values_.keyword(element, "limited", {"auto", "true", "false"}, "auto");
     const std::vector<double> range = values_.numbers(element, "range", 2);
-    const bool by_range = document_.settings().limited_by_range && !range.empty();
+    const bool by_range = document_.settingsAt(element.where()).limited_by_range && !range.empty();
     if (limited == "false" || (limited == "auto" && !by_range) || range.empty()) return;
-    if (range[0] > range[1]) {
-      findings_.error(element.attribute("range")->where,
-                      cat(element.describe(), ": its lower limit ", range[0], " is above its upper limit ", range[1]));
+    if (!(range[0] < range[1])) {
+      return findings_.warn(element.attribute("range")->where,
+                            cat(element.describe(), ": its lower limit ", range[0], " is not below its upper limit ",
+                                range[1], "; it is read as unlimited"));
     }
-    const auto internal = [&](double value) { return slides ? value : values_.radians(value); };
+    const auto internal = [&](double value) { return slides ? value : values_.radians(element, value); };
     attributes.addNumbers("limits", {internal(range[0]), internal(range[1])});
-  }
-
-  void addInertial(const XmlElement& xml, FrameAttributes& attributes) {
-    checkMjcfAttributes(xml, findings_);
-    const MjcfElement element(xml, {});
-    const double mass = values_.number(element, "mass", 0.);
-    if (!xml.attribute("mass") || mass < 0.) {
-      return findings_.error(xml.where, xml.attribute("mass") ? cat("<inertial>: the mass ", mass, " kg is negative")
-                                                              : std::string("<inertial> has no attribute 'mass'"));
-    }
-    if (mass == 0.) return;
-    const Pose frame = values_.pose(element);
-    Matrix3d own = Matrix3d::Zero();
-    if (const std::vector<double> m = values_.numbers(element, "fullinertia", 6); !m.empty()) {
-      own << m[0], m[3], m[4], m[3], m[1], m[5], m[4], m[5], m[2];
-    } else {
-      own = values_.vector(element, "diaginertia", Vector3d::Zero()).asDiagonal();
-    }
-    const Matrix3d R = frame.q.toRotationMatrix(), m = R * own * R.transpose();
-    attributes.add("mass", mass);
-    attributes.addNumbers("com", {frame.p.begin(), frame.p.end()});
-    attributes.addNumbers("inertia", {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)});
   }
 
   MjcfDocument& document_;
@@ -395,7 +416,10 @@ class MjcfReader {
   std::vector<MjcfJointPlace> joints_;                   ///< in the order of qpos
   std::map<std::string, MjcfElement> named_joints_;
   std::map<std::string, MjcfCoupling> couplings_;
-  std::map<std::string, std::vector<std::string>> excluded_;  ///< frames, by frame
+  std::map<std::string, std::vector<std::string>> excluded_;  ///< frames, by frame; from <exclude>
+  MjcfContacts contacts_;
+  std::map<std::string, MjcfMotor> motors_;  ///< by joint
+  MjcfBodyMasses masses_;
 };
 
 }  // namespace
@@ -405,7 +429,7 @@ ParseResult readMjcf(std::string_view text, const std::string& file, const std::
   Findings findings(result.diagnostics);
   MjcfDocument document(text, file, folder, findings);
   if (!findings.failed()) checkMjcfSections(document, findings);
-  if (!findings.failed()) result.graph = MjcfReader(document, folder, findings).read();
+  if (!findings.failed()) result.graph = MjcfReader(document, findings).read();
   if (findings.failed()) result.graph = {};
   result.included = std::move(document.included());
   return result;

@@ -5,7 +5,10 @@
 
 #include "kinegraph/common/file_paths.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/parsers/mjcf_mass.h"
+#include "kinegraph/geometry/files/mesh_cache.h"
+#include "kinegraph/geometry/shapes/scale_mesh.h"
+#include "kinegraph/parsers/mjcf_dynamics.h"
+#include "kinegraph/parsers/mjcf_height_field.h"
 
 namespace kinegraph {
 
@@ -25,8 +28,8 @@ std::vector<std::string> namesIn(const std::map<std::string, MjcfElement>& asset
 
 }  // namespace
 
-MjcfShapes::MjcfShapes(const MjcfDocument& document, MjcfValues& values, const std::string& folder, Findings& findings)
-    : document_(document), values_(values), folder_(folder), findings_(findings) {
+MjcfShapes::MjcfShapes(const MjcfDocument& document, MjcfValues& values, Findings& findings)
+    : document_(document), values_(values), findings_(findings) {
   for (const XmlElement* xml : document_.inSections("asset", "mesh")) {
     const MjcfElement mesh = document_.element(*xml);
     const XmlAttribute* file = mesh.own("file");
@@ -35,6 +38,11 @@ MjcfShapes::MjcfShapes(const MjcfDocument& document, MjcfValues& values, const s
     if (!is_new)
       findings_.warn(xml->where, cat("mesh '", name, "' is already defined at ", other->second.where().str(),
                                      "; this definition is ignored"));
+  }
+  for (const XmlElement* xml : document_.inSections("asset", "hfield")) {
+    const MjcfElement field = document_.element(*xml);
+    const XmlAttribute* file = field.own("file");
+    height_fields_.emplace(field.name().empty() && file ? fs::path(file->value).stem().string() : field.name(), field);
   }
   for (const XmlElement* xml : document_.inSections("asset", "texture")) {
     const MjcfElement texture = document_.element(*xml);
@@ -53,15 +61,18 @@ MjcfShapes::Placed MjcfShapes::geom(const MjcfElement& element, int contact, boo
   const auto line = element.attribute("fromto") ? values_.line(element) : std::nullopt;
   if (line) placed.pose = line->first;
   if (type == "hfield") {
-    findings_.warn(element.where(), cat(element.describe(), ": height fields are not read"));
+    addHeightField(element, placed);
   } else if (type == "mesh" || type == "sdf" || element.attribute("mesh")) {
     addMesh(element, placed);
   } else {
     addPrimitive(element, type, line ? line->second : 0., placed);
   }
-  if (!placed.attributes.find("shape") && !placed.attributes.find("mesh")) return placed;
-  addLooks(element, contact, placed);
-  if (with_mass && type != "plane") addMass(element, placed);
+  const MjcfSettings& settings = document_.settingsAt(element.where());
+  const double group = values_.number(element, "group", 0.);
+  if (with_mass && type != "plane" && type != "hfield" && group >= settings.first_mass_group &&
+      group <= settings.last_mass_group)
+    addMass(element, placed);
+  if (placed.attributes.find("shape") || placed.attributes.find("mesh")) addLooks(element, contact, placed);
   return placed;
 }
 
@@ -92,7 +103,7 @@ void MjcfShapes::addPrimitive(const MjcfElement& element, const std::string& typ
   };
   if (type == "plane") {
     const auto width = [](double half) { return half > 0. ? 2. * half : kEndlessPlane; };
-    add("quad", {width(size[0]), width(size[1])});
+    add("plane", {width(size[0]), width(size[1])});
   } else if (type == "sphere") {
     add("sphere", {size[0]});
   } else if (type == "ellipsoid") {
@@ -109,8 +120,9 @@ void MjcfShapes::addMesh(const MjcfElement& element, Placed& placed) {
   if (!reference) return findings_.error(element.where(), cat(element.describe(), " has no attribute 'mesh'"));
   const auto found = meshes_.find(reference->value);
   if (found == meshes_.end()) {
-    return findings_.error(reference->where, cat(element.describe(), ": there is no mesh '", reference->value,
-                                                 "' in <asset>", similarHint(reference->value, namesIn(meshes_))));
+    return findings_.warn(reference->where,
+                          cat(element.describe(), ": there is no mesh '", reference->value,
+                              "' in <asset>; the geom has no shape", similarHint(reference->value, namesIn(meshes_))));
   }
   const MjcfElement& mesh = found->second;
   const XmlAttribute* file = mesh.own("file");
@@ -124,15 +136,38 @@ void MjcfShapes::addMesh(const MjcfElement& element, Placed& placed) {
     findings_.warn(mesh.where(), cat(mesh.describe(), ": 'refquat' together with an uneven 'scale' is read wrongly"));
   placed.pose = placed.pose * Pose(back * Vector3d(-scale.cwiseProduct(moved)), back);
   if (!file) return addInlineMesh(mesh, scale, placed);
-  const MjcfSettings& settings = document_.settings();
-  const std::string name = settings.strip_mesh_path ? fs::path(file->value).filename().string() : file->value;
-  const std::string path = resolvePath((fs::path(settings.mesh_folder) / name).string(), folder_);
+  const LocatedFile found_file = document_.locateAsset(*file, document_.settingsAt(file->where).mesh_folder);
+  const std::string& path = found_file.path;
   std::error_code ignored;
   if (!fs::is_regular_file(path, ignored)) {
-    return findings_.warn(file->where, cat("mesh '", name, "' does not exist (", path, ")", similarFilesHint(path)));
+    return findings_.warn(file->where,
+                          cat("mesh '", file->value, "' does not exist (", path, ")", similarFilesHint(path)));
   }
+  try {
+    sharedMeshFile(path);
+  } catch (const FileError& e) {
+    return findings_.warn(file->where, cat(e.what(), "; its geoms have no shape"));
+  }
+  if (!found_file.assumption.empty())
+    findings_.warn(file->where, cat("mesh '", file->value, "': ", found_file.assumption));
   placed.attributes.add("mesh", AngleText{path});
   if (scale != Vector3d::Ones()) placed.attributes.addNumbers("meshscale", {scale.begin(), scale.end()});
+}
+
+void MjcfShapes::addHeightField(const MjcfElement& element, Placed& placed) {
+  const XmlAttribute* reference = element.attribute("hfield");
+  const auto found = reference ? height_fields_.find(reference->value) : height_fields_.end();
+  if (found == height_fields_.end()) {
+    return findings_.warn(reference ? reference->where : element.where(),
+                          cat(element.describe(), ": there is no height field '", reference ? reference->value : "",
+                              "' in <asset>; the geom has no shape"));
+  }
+  std::optional<HeightFieldMesh> mesh = readHeightField(found->second, document_, values_, findings_);
+  if (!mesh) return;
+  placed.attributes.add("shape", std::string("mesh"));
+  placed.attributes.addNumbers("vertices", std::move(mesh->vertices));
+  placed.attributes.addNumbers("triangles", std::move(mesh->triangles));
+  placed.attributes.addNumbers("mesh_parts", std::move(mesh->parts));
 }
 
 /// Reads a mesh with inline numbers: with faces, or the hull of its vertices.
@@ -147,46 +182,98 @@ void MjcfShapes::addInlineMesh(const MjcfElement& mesh, const Vector3d& scale, P
   std::vector<double> points = list("vertex"), faces = list("face");
   if (points.empty()) return findings_.warn(mesh.where(), cat(mesh.describe(), " has neither 'file' nor 'vertex'"));
   for (std::size_t i = 0; i < points.size(); ++i) points[i] *= scale[i % 3];
+  if (scale.prod() < 0.) {  // stays outside out
+    for (std::size_t i = 0; i + 2 < faces.size(); i += 3) std::swap(faces[i + 1], faces[i + 2]);
+  }
   placed.attributes.add("shape", std::string(faces.empty() ? "ssCvx" : "mesh"));
   placed.attributes.addNumbers(faces.empty() ? "core" : "vertices", std::move(points));
   if (faces.empty()) placed.attributes.addNumbers("size", {0.});
   if (!faces.empty()) placed.attributes.addNumbers("triangles", std::move(faces));
 }
 
-/// For bodies without <inertial>. Meshes need an explicit mass, and are then hollow.
-void MjcfShapes::addMass(const MjcfElement& element, Placed& placed) {
+/// The mesh of a geom as the frame will have it; nullopt if it cannot be read.
+std::optional<Mesh> MjcfShapes::meshOf(const MjcfElement& element, const Placed& placed) {
+  const auto list = [&](const char* key) {
+    const Node* node = placed.attributes.find(key);
+    return node ? node->value.as<NumberArray>()->numbers : std::vector<double>{};
+  };
+  Mesh mesh;
+  if (const Node* file = placed.attributes.find("mesh")) {
+    try {
+      mesh = *sharedMeshFile(file->value.as<AngleText>()->text);
+    } catch (const Error& e) {
+      findings_.warn(element.where(), cat(element.describe(), ": its mass is unknown: ", e.what()));
+      return std::nullopt;
+    }
+    const std::vector<double> scale = list("meshscale");
+    if (scale.size() == 3) scaleMesh(mesh, {scale[0], scale[1], scale[2]});
+    return mesh;
+  }
+  const std::vector<double> points = placed.attributes.find("vertices") ? list("vertices") : list("core"),
+                            corners = list("triangles");
+  for (std::size_t i = 0; i + 2 < points.size(); i += 3)
+    mesh.vertices.emplace_back(points[i], points[i + 1], points[i + 2]);
+  for (std::size_t i = 0; i + 2 < corners.size(); i += 3) {
+    mesh.triangles.push_back({std::uint32_t(corners[i]), std::uint32_t(corners[i + 1]), std::uint32_t(corners[i + 2])});
+    for (const std::uint32_t corner : mesh.triangles.back()) {
+      if (corner >= mesh.vertices.size()) return std::nullopt;  // reported where the shape is made
+    }
+  }
+  return mesh;
+}
+
+/// Volume or area of a geom, and its inertia per mass.
+std::optional<UniformMass> MjcfShapes::massOf(const MjcfElement& element, const Placed& placed) {
+  static const std::vector<std::string> modes = {"legacy", "exact", "convex", "shell"};
+  const bool is_shell = values_.keyword(element, "shellinertia", {"true", "false"}, "false") == "true";
   const Node* shape = placed.attributes.find("shape");
   const Node* size = placed.attributes.find("size");
-  const auto solid =
-      shape && size ? solidMass(*shape->value.as<std::string>(), size->value.as<NumberArray>()->numbers) : std::nullopt;
+  const std::string name = shape ? *shape->value.as<std::string>() : "";
+  if (shape && size && name != "ssCvx") return uniformMass(name, size->value.as<NumberArray>()->numbers, is_shell);
+  const XmlAttribute* reference = element.attribute("mesh");
+  const auto asset = reference ? meshes_.find(reference->value) : meshes_.end();
+  if (asset == meshes_.end() || (!shape && !placed.attributes.find("mesh"))) return std::nullopt;
+  const std::string word = values_.keyword(asset->second, "inertia", modes, "legacy");
+  const auto mode =
+      is_shell ? MeshMassMode::shell : MeshMassMode(std::find(modes.begin(), modes.end(), word) - modes.begin());
+  const std::optional<Mesh> mesh = meshOf(element, placed);
+  return mesh ? uniformMass(*mesh, mode) : std::nullopt;
+}
+
+/// For bodies without <inertial>. A stated mass counts without a shape, too.
+void MjcfShapes::addMass(const MjcfElement& element, Placed& placed) {
   const bool given = element.attribute("mass") != nullptr;
-  if (!given && !solid) {
-    return findings_.warn(element.where(), cat(element.describe(),
-                                               ": the mass of a mesh is not computed from its "
-                                               "density; give its 'mass', or an <inertial>"));
+  const double stated = values_.number(element, "mass", 0.), density = values_.number(element, "density", 1000.);
+  if (given && stated < 0.)
+    return findings_.error(element.where(), cat(element.describe(), ": its mass, ", stated, " kg, is negative"));
+  if (given ? stated == 0. : density == 0.) return;
+  const std::optional<UniformMass> uniform = massOf(element, placed);
+  if (!given && !uniform) {
+    return findings_.warn(element.where(), cat(element.describe(), ": its mass cannot be computed, because its ",
+                                               "mesh is missing or has no volume; give its 'mass', or an <inertial>"));
   }
-  const double density = values_.number(element, "density", 1000.);
-  const double mass = given ? values_.number(element, "mass", 0.) : density * solid->volume;
-  if (mass < 0.)
-    return findings_.error(element.where(), cat(element.describe(), ": its mass, ", mass, " kg, is negative"));
-  if (mass == 0.) return;
+  const double mass = given ? stated : density * uniform->measure;
   placed.attributes.add("mass", mass);
-  if (!solid) return;
-  const Vector3d inertia = mass * solid->inertia_per_mass;
-  placed.attributes.addNumbers("com", {0., 0., 0.});
-  placed.attributes.addNumbers("inertia", {inertia.begin(), inertia.end()});
+  if (!uniform) return;
+  const Matrix3d m = mass * uniform->inertia_per_mass;
+  placed.attributes.addNumbers("com", {uniform->com.begin(), uniform->com.end()});
+  if (m.isDiagonal(0.)) {
+    placed.attributes.addNumbers("inertia", {m(0, 0), m(1, 1), m(2, 2)});
+  } else {
+    placed.attributes.addNumbers("inertia", {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)});
+  }
 }
 
 /// Sets color and contact flag.
 void MjcfShapes::addLooks(const MjcfElement& element, int contact, Placed& placed) {
   std::vector<double> rgba = color(element);
-  const bool collides =
-      values_.number(element, "contype", 1.) != 0. || values_.number(element, "conaffinity", 1.) != 0.;
   const bool hidden = values_.number(element, "group", 0.) >= kFirstHiddenGroup;
   if (hidden && rgba[3] > .2) rgba = {1., 0., 0., .2};
   placed.attributes.addNumbers("color", std::move(rgba));
   if (!hidden) addTexture(element, placed);
-  if (collides) placed.attributes.add("contact", double(contact));
+  if (contact == 0) return placed.attributes.add("visual", true);
+  placed.attributes.add("contact", double(contact));
+  addMjcfFriction(element, values_, placed.attributes);
 }
 
 /// The material of a geom, or null. An unknown material causes a warning.
@@ -217,10 +304,10 @@ const MjcfElement* MjcfShapes::textureOf(const MjcfElement& material) {
 
 /// A texture without a file contributes its mean color.
 std::vector<double> MjcfShapes::color(const MjcfElement& element) {
-  if (const std::vector<double> own = values_.numbers(element, "rgba", 4); !own.empty()) return own;
+  if (const std::vector<double> own = values_.color(element); !own.empty()) return own;
   const MjcfElement* material = materialOf(element);
   if (!material) return {.5, .5, .5, 1.};
-  std::vector<double> rgba = values_.numbers(*material, "rgba", 4);
+  std::vector<double> rgba = values_.color(*material);
   if (rgba.empty()) rgba = {1., 1., 1., 1.};
   const MjcfElement* texture = textureOf(*material);
   if (!texture || !texture->attribute("builtin") || texture->attribute("builtin")->value == "none") return rgba;
@@ -240,10 +327,8 @@ void MjcfShapes::addTexture(const MjcfElement& element, Placed& placed) {
   const MjcfElement* texture = material ? textureOf(*material) : nullptr;
   const XmlAttribute* file = texture ? texture->own("file") : nullptr;
   if (!file) return;
-  const MjcfSettings& settings = document_.settings();
-  const std::string name = settings.strip_mesh_path ? fs::path(file->value).filename().string() : file->value;
-  placed.attributes.add("texture",
-                        AngleText{resolvePath((fs::path(settings.texture_folder) / name).string(), folder_)});
+  const LocatedFile found_file = document_.locateAsset(*file, document_.settingsAt(file->where).texture_folder);
+  placed.attributes.add("texture", AngleText{found_file.path});
   const std::vector<double> repeat = values_.numbers(*material, "texrepeat", 2);
   const Node* size = placed.attributes.find("size");
   if (repeat.empty() || !size || placed.attributes.find("mesh")) return;
@@ -258,7 +343,7 @@ MjcfShapes::Placed MjcfShapes::site(const MjcfElement& element) {
   Placed placed{values_.pose(element), FrameAttributes(element.where())};
   const auto line = element.attribute("fromto") ? values_.line(element) : std::nullopt;
   if (line) placed.pose = line->first;
-  const std::vector<double> rgba = values_.numbers(element, "rgba", 4);
+  const std::vector<double> rgba = values_.color(element);
   const bool hidden = values_.number(element, "group", 0.) >= kFirstHiddenGroup || (!rgba.empty() && rgba[3] == 0.);
   if (!hidden) {
     placed.attributes.add("shape", std::string("marker"));

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 
 #include "kinegraph/parsers/findings.h"
 #include "kinegraph/parsers/frame_attributes.h"
 #include "kinegraph/parsers/mjcf_document.h"
+#include "kinegraph/parsers/mjcf_mass.h"
 #include "kinegraph/parsers/mjcf_values.h"
 
 namespace kinegraph {
@@ -13,23 +15,25 @@ namespace kinegraph {
 /// Converts geoms, sites and cameras of an MJCF file to frames.
 class MjcfShapes {
  public:
-  /// Mesh files are relative to `folder`.
-  MjcfShapes(const MjcfDocument& document, MjcfValues& values, const std::string& folder, Findings& findings);
+  MjcfShapes(const MjcfDocument& document, MjcfValues& values, Findings& findings);
 
   struct Placed {
     Pose pose;  ///< in the body
     FrameAttributes attributes;
   };
 
-  /// `contact` is the flag of colliding geoms; `with_mass` gives the geom a mass.
+  /// `contact` is the flag of the geom, 0 for one that collides with nothing; `with_mass` gives it a mass.
   Placed geom(const MjcfElement& element, int contact, bool with_mass);
   Placed site(const MjcfElement& element);
   Placed camera(const MjcfElement& element);
 
  private:
   void addMesh(const MjcfElement& element, Placed& placed);
+  void addHeightField(const MjcfElement& element, Placed& placed);
   void addInlineMesh(const MjcfElement& mesh, const Vector3d& scale, Placed& placed);
   void addPrimitive(const MjcfElement& element, const std::string& type, double line_length, Placed& placed);
+  std::optional<UniformMass> massOf(const MjcfElement& element, const Placed& placed);
+  std::optional<Mesh> meshOf(const MjcfElement& element, const Placed& placed);
   void addMass(const MjcfElement& element, Placed& placed);
   void addLooks(const MjcfElement& element, int contact, Placed& placed);
   const MjcfElement* materialOf(const MjcfElement& element);
@@ -39,9 +43,8 @@ class MjcfShapes {
 
   const MjcfDocument& document_;
   MjcfValues& values_;
-  std::string folder_;
   Findings& findings_;
-  std::map<std::string, MjcfElement> meshes_, materials_, textures_;
+  std::map<std::string, MjcfElement> meshes_, materials_, textures_, height_fields_;
 };
 
 }  // namespace kinegraph

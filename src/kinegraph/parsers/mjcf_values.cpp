@@ -41,6 +41,20 @@ std::vector<double> MjcfValues::numbers(const MjcfElement& element, const char* 
   return attribute ? parse(element, *attribute, count, count).value_or(std::vector<double>{}) : std::vector<double>{};
 }
 
+std::vector<double> MjcfValues::color(const MjcfElement& element) {
+  const XmlAttribute* attribute = element.attribute("rgba");
+  if (!attribute) return {};
+  std::vector<double> given = numbersIn(attribute->value).value_or(std::vector<double>{});
+  if (given.size() == 4) return given;
+  const bool enough = given.size() >= 3;
+  findings_.warn(attribute->where, cat(element.describe(), " rgba=\"", attribute->value, "\": expected 4 numbers; ",
+                                       !enough             ? "the color is left out"
+                                       : given.size() == 3 ? "the alpha is read as 1"
+                                                           : "the first 4 are read"));
+  given.resize(enough ? 4 : 0, 1.);
+  return given;
+}
+
 std::vector<double> MjcfValues::upTo(const MjcfElement& element, const char* name, std::size_t most) {
   std::vector<double> all;
   for (const XmlAttribute* layer : element.layers(name)) {
@@ -71,17 +85,8 @@ std::string MjcfValues::keyword(const MjcfElement& element, const char* name, co
   return fallback;
 }
 
-double MjcfValues::radians(double angle) const { return settings_.degrees ? angle / 180. * M_PI : angle; }
-
-Quaterniond MjcfValues::euler(const std::vector<double>& angles) const {
-  Quaterniond q = Quaterniond::Identity();
-  for (int i = 0; i < 3; ++i) {
-    const char letter = settings_.euler_order[i];
-    const bool fixed = letter <= 'Z';
-    const Quaterniond step(Eigen::AngleAxisd(radians(angles[i]), Vector3d::Unit(letter - (fixed ? 'X' : 'x'))));
-    q = fixed ? step * q : q * step;
-  }
-  return q;
+double MjcfValues::radians(const MjcfElement& element, double angle) const {
+  return document_.settingsAt(element.where()).degrees ? angle / 180. * M_PI : angle;
 }
 
 std::optional<Quaterniond> MjcfValues::rotation(const MjcfElement& element, const XmlAttribute& attribute) {
@@ -99,10 +104,10 @@ std::optional<Quaterniond> MjcfValues::rotation(const MjcfElement& element, cons
     if (!(q.norm() > kTiny)) return refuse("the quaternion is zero");
     return q.normalized();
   }
-  if (name == "euler") return euler(*v);
+  if (name == "euler") return mjcfEuler(*v, document_.settingsAt(attribute.where));
   const Vector3d first((*v)[0], (*v)[1], (*v)[2]);
   if (!(first.norm() > kTiny)) return refuse("the axis is zero");
-  if (name == "axisangle") return Quaterniond(Eigen::AngleAxisd(radians((*v)[3]), first.normalized()));
+  if (name == "axisangle") return Quaterniond(Eigen::AngleAxisd(radians(element, (*v)[3]), first.normalized()));
   if (name == "zaxis") return rotationOfZTo(first);
   Matrix3d R;
   R.col(0) = first.normalized();

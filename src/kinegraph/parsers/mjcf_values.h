@@ -14,13 +14,16 @@ namespace kinegraph {
 /// the default.
 class MjcfValues {
  public:
-  MjcfValues(const MjcfSettings& settings, Findings& findings) : settings_(settings), findings_(findings) {}
+  MjcfValues(const MjcfDocument& document, Findings& findings) : document_(document), findings_(findings) {}
 
   double number(const MjcfElement& element, const char* name, double fallback);
   Vector3d vector(const MjcfElement& element, const char* name, const Vector3d& fallback);
 
   /// Returns `count` numbers, or none.
   std::vector<double> numbers(const MjcfElement& element, const char* name, std::size_t count);
+
+  /// Returns the 4 numbers of `rgba`, or none. Other counts are read with a warning: looks are no reason to refuse.
+  std::vector<double> color(const MjcfElement& element);
 
   /// Returns up to `most` numbers, or none. If an element gives fewer than its defaults, the defaults supply the
   /// rest.
@@ -30,7 +33,8 @@ class MjcfValues {
   std::string keyword(const MjcfElement& element, const char* name, const std::vector<std::string>& keywords,
                       const std::string& fallback);
 
-  double radians(double angle) const;
+  /// An angle of an element, in the units of its model.
+  double radians(const MjcfElement& element, double angle) const;
 
   /// Pose from `pos` and one of quat, axisangle, xyaxes, zaxis, euler.
   Pose pose(const MjcfElement& element);
@@ -42,9 +46,8 @@ class MjcfValues {
   std::optional<std::vector<double>> parse(const MjcfElement& element, const XmlAttribute& attribute, std::size_t least,
                                            std::size_t most);
   std::optional<Quaterniond> rotation(const MjcfElement& element, const XmlAttribute& attribute);
-  Quaterniond euler(const std::vector<double>& angles) const;
 
-  const MjcfSettings& settings_;
+  const MjcfDocument& document_;
   Findings& findings_;
 };
 

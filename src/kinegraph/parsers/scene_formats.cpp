@@ -9,7 +9,7 @@ namespace kinegraph {
 
 namespace {
 
-/// Reads a .xml file as URDF if its root is <robot>, and as MJCF otherwise.
+/// Reads an XML text as URDF if its root is <robot>, and as MJCF otherwise.
 ParseResult readXml(std::string_view text, const std::string& file, const std::string& folder) {
   return xmlRootName(text) == "robot" ? readUrdf(text, file, folder) : readMjcf(text, file, folder);
 }
@@ -17,7 +17,7 @@ ParseResult readXml(std::string_view text, const std::string& file, const std::s
 }  // namespace
 
 const std::vector<SceneFormat>& sceneFormats() {
-  static const std::vector<SceneFormat> formats = {{".urdf", readUrdf}, {".xml", readXml}};
+  static const std::vector<SceneFormat> formats = {{".urdf", readXml}, {".xml", readXml}, {".mjcf", readXml}};
   return formats;
 }
 

@@ -204,12 +204,15 @@ RobotSemantics readSemantics(std::string_view text, const std::string& file, std
   }
 }
 
-bool isSemanticsFile(const std::string& file) { return lowerExtension(file) == ".srdf"; }
+bool isSemanticsFile(const std::string& file) {
+  const std::string extension = lowerExtension(file);
+  return extension == ".srdf" || (extension == ".xacro" && isSemanticsFile(file.substr(0, file.size() - 6)));
+}
 
 std::string semanticsBeside(const std::string& file) {
   namespace fs = std::filesystem;
   const fs::path path(file);
-  if (path.extension() != ".urdf") return "";
+  if (lowerExtension(file) != ".urdf") return "";
   const std::string name = path.stem().string() + ".srdf";
   std::error_code error;
   for (const fs::path& place : {path.parent_path() / name, path.parent_path().parent_path() / "srdf" / name}) {

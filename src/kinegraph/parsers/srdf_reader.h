@@ -39,13 +39,13 @@ struct RobotSemantics {
   std::vector<std::string> outside;  ///< joints between the robot and its world, without a frame
   std::vector<std::string> robot;    ///< frames of the robot's file, if the file was found beside it
   std::string file, prefix;          ///< put before the names of frames
-  bool requested = true;             ///< false: found beside the robot's file, and unknown names cause no warnings
+  bool requested = true;             ///< false: found beside the robot's file
 };
 
 /// Parses an SRDF text. Appends errors and warnings to `found`; after an error the result is empty.
 RobotSemantics readSemantics(std::string_view text, const std::string& file, std::vector<Diagnostic>& found);
 
-/// Returns whether the name is that of an SRDF file.
+/// Returns whether the name is that of an SRDF file: *.srdf or *.srdf.xacro.
 bool isSemanticsFile(const std::string& file);
 
 /// The SRDF file of a URDF file: same name, in the same folder, or in a folder srdf beside that folder. "" if there is

@@ -1,6 +1,7 @@
 #include "kinegraph/parsers/urdf_model.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -36,12 +37,22 @@ class UrdfParser {
         checkElement(element);
       }
     }
-    if (model_.links.empty()) error(robot.where, "this robot has no <link>");
+    if (model_.links.empty()) {
+      const bool macros = std::any_of(robot.children.begin(), robot.children.end(),
+                                      [](const XmlElement& child) { return child.name.starts_with("xacro:"); });
+      error(robot.where, macros ? "this robot has no <link>, but macros; a file with macros ends in .xacro"
+                                : "this robot has no <link>");
+    }
     return std::move(model_);
   }
 
  private:
+  /// Inside of a shape or an <inertial>, an error leaves that part out.
   void error(const SourcePosition& where, std::string message) {
+    if (optional_part_) {
+      part_failed_ = true;
+      return warn(where, cat(message, "; the <", optional_part_, "> is left out"));
+    }
     found_.push_back({Diagnostic::Severity::error, where, std::move(message)});
   }
   void warn(const SourcePosition& where, std::string message) {
@@ -58,13 +69,12 @@ class UrdfParser {
   }
 
   void checkElement(const XmlElement& element) {
-    if (element.name.starts_with("xacro:")) {
-      error(element.where, cat("<", element.name, "> is a macro; expand the file first: xacro in.xacro > out.urdf"));
-    }
+    if (element.name.starts_with("xacro:"))
+      return warn(element.where,
+                  cat("<", element.name, "> is a macro and is ignored; a file with macros ends in .xacro"));
     for (const char* known : {"link", "joint", "material"}) {
-      if (element.name != known && editDistance(element.name, known) <= 1.2) {
-        error(element.where, cat("unknown element <", element.name, ">; did you mean <", known, ">?"));
-      }
+      if (element.name != known && editDistance(element.name, known) <= 1.2)
+        warn(element.where, cat("unknown element <", element.name, "> is ignored; did you mean <", known, ">?"));
     }
   }
 
@@ -107,7 +117,16 @@ class UrdfParser {
   Pose origin(const XmlElement& element) {
     const XmlElement* origin = element.child("origin");
     if (!origin) return {};
-    return {vector(*origin, "xyz", Vector3d::Zero()), rollPitchYaw(vector(*origin, "rpy", Vector3d::Zero()))};
+    const Vector3d p = vector(*origin, "xyz", Vector3d::Zero());
+    const XmlAttribute* const quaternion = origin->attribute("quat_xyzw");  // URDF 1.1
+    if (!quaternion) return {p, rollPitchYaw(vector(*origin, "rpy", Vector3d::Zero()))};
+    const std::vector<double> v = numbers(*quaternion, *origin, 4);
+    const Quaterniond q(v[3], v[0], v[1], v[2]);
+    if (!(q.norm() > 1e-10)) {
+      error(quaternion->where, cat(context_, "the quaternion of <origin> is zero"));
+      return {p, Quaterniond::Identity()};
+    }
+    return {p, q.normalized()};
   }
 
   void readLink(const XmlElement& element) {
@@ -120,10 +139,25 @@ class UrdfParser {
       if (other.name == link.name)
         error(element.where, cat("link '", link.name, "' is already defined at ", other.where.str()));
     }
-    if (const XmlElement* inertial = element.child("inertial")) link.inertial = readInertial(*inertial);
+    if (const XmlElement* inertial = element.child("inertial")) {
+      beginPart("inertial");
+      const UrdfInertial read = readInertial(*inertial);
+      if (endPart()) link.inertial = read;
+    }
     for (const XmlElement* visual : element.all("visual")) readShape(*visual, link);
     for (const XmlElement* collision : element.all("collision")) readShape(*collision, link);
     model_.links.push_back(std::move(link));
+  }
+
+  /// Begins a part of a link without which the robot still moves as it should.
+  void beginPart(const char* name) {
+    optional_part_ = name;
+    part_failed_ = false;
+  }
+  /// Returns whether the part has no error.
+  bool endPart() {
+    optional_part_ = nullptr;
+    return !part_failed_;
   }
 
   UrdfInertial readInertial(const XmlElement& element) {
@@ -147,6 +181,14 @@ class UrdfParser {
   }
 
   void readShape(const XmlElement& element, UrdfLink& link) {
+    beginPart(element.name == "visual" ? "visual" : "collision");
+    UrdfShape shape = readGeometry(element);
+    if (!endPart()) return;
+    if (const XmlElement* material = element.child("material")) readMaterial(*material, shape);
+    link.shapes.push_back(std::move(shape));
+  }
+
+  UrdfShape readGeometry(const XmlElement& element) {
     UrdfShape shape;
     shape.collision = element.name == "collision";
     shape.where = element.where;
@@ -154,7 +196,7 @@ class UrdfParser {
     const XmlElement* geometry = element.child("geometry");
     if (!geometry || geometry->children.empty()) {
       error(element.where, cat(context_, "<", element.name, "> has no <geometry> with a shape in it"));
-      return;
+      return shape;
     }
     const XmlElement& g = geometry->children.front();
     shape.where = g.where;
@@ -172,17 +214,31 @@ class UrdfParser {
     } else if (g.name == "mesh") {
       shape.type = ShapeType::mesh;
       shape.mesh = text(g, "filename").value_or("");
-      if (const XmlAttribute* scale = g.attribute("scale")) {
-        const auto given = numbersIn(scale->value);
-        shape.scale =
-            given && given->size() == 1 ? Vector3d::Constant((*given)[0]).eval() : vector(g, "scale", Vector3d::Ones());
-      }
+      if (const XmlAttribute* scale = g.attribute("scale")) shape.scale = meshScale(*scale);
     } else {
       error(g.where, cat(context_, "unknown geometry <", g.name, ">; expected box, sphere, cylinder, capsule or mesh"));
-      return;
     }
-    if (const XmlElement* material = element.child("material")) readMaterial(*material, shape);
-    link.shapes.push_back(std::move(shape));
+    const auto is_negative = [](double x) { return x < 0.; };
+    if (std::any_of(shape.size.begin(), shape.size.end(), is_negative))
+      error(g.where, cat(context_, "<", g.name, "> has a negative size"));
+    return shape;
+  }
+
+  /// Three factors, or one for all axes.
+  Vector3d meshScale(const XmlAttribute& scale) {
+    const auto given = numbersIn(scale.value);
+    Vector3d factors = Vector3d::Ones();
+    if (!given || given->empty()) {
+      error(scale.where, cat(context_, "<mesh> scale=\"", scale.value, "\": expected 3 numbers"));
+      return factors;
+    }
+    for (std::size_t i = 0; i < 3; ++i) factors[Eigen::Index(i)] = (*given)[std::min(i, given->size() - 1)];
+    if (given->size() != 1 && given->size() != 3) {
+      warn(scale.where, cat(context_, "<mesh> scale=\"", scale.value, "\": expected 3 numbers; it is read as ",
+                            factors.transpose()));
+    }
+    if ((factors.array() == 0.).any()) error(scale.where, cat(context_, "<mesh> is scaled by 0"));
+    return factors;
   }
 
   void readMaterial(const XmlElement& element, UrdfShape& shape) {
@@ -199,23 +255,41 @@ class UrdfParser {
       source = found->second;
     }
     if (const XmlElement* color = source->child("color")) {
-      if (const XmlAttribute* rgba = color->attribute("rgba")) {
-        const std::vector<double> c = numbers(*rgba, *color, 4);
-        shape.color = Vector4d(c[0], c[1], c[2], c[3]);
-      }
+      if (const XmlAttribute* rgba = color->attribute("rgba")) shape.color = colorIn(*rgba);
     }
     if (const XmlElement* texture = source->child("texture")) {
       if (const XmlAttribute* file = texture->attribute("filename")) shape.texture = file->value;
     }
   }
 
+  /// Four numbers. Other counts give a warning: the alpha of three is 1, numbers behind the fourth are ignored.
+  std::optional<Vector4d> colorIn(const XmlAttribute& rgba) {
+    const auto given = numbersIn(rgba.value);
+    const bool enough = given && given->size() >= 3;
+    if (!enough || given->size() > 4) {
+      warn(rgba.where, cat(context_, "<color> rgba=\"", rgba.value, "\": expected 4 numbers; ",
+                           enough ? "the first 4 are read" : "the color is left out"));
+    } else if (given->size() == 3) {
+      warn(rgba.where, cat(context_, "<color> rgba=\"", rgba.value, "\": expected 4 numbers; the alpha is read as 1"));
+    }
+    if (!enough) return std::nullopt;
+    return Vector4d((*given)[0], (*given)[1], (*given)[2], given->size() > 3 ? (*given)[3] : 1.);
+  }
+
   std::optional<UrdfJointType> jointType(const XmlElement& element) {
     static const std::map<std::string, UrdfJointType> types = {
         {"fixed", UrdfJointType::fixed},           {"revolute", UrdfJointType::revolute},
         {"continuous", UrdfJointType::continuous}, {"prismatic", UrdfJointType::prismatic},
-        {"planar", UrdfJointType::planar},         {"floating", UrdfJointType::floating}};
-    const auto word = text(element, "type");
+        {"planar", UrdfJointType::planar},         {"floating", UrdfJointType::floating},
+        {"spherical", UrdfJointType::spherical}};
+    auto word = text(element, "type");
     if (!word) return std::nullopt;
+    std::string lower = *word;
+    for (char& c : lower) c = char(std::tolower(static_cast<unsigned char>(c)));
+    if (lower != *word && types.contains(lower)) {
+      warn(element.attribute("type")->where, cat(context_, "joint type '", *word, "' is read as '", lower, "'"));
+      word = lower;
+    }
     if (const auto found = types.find(*word); found != types.end()) return found->second;
     std::vector<std::string> known;
     for (const auto& [name, type] : types) known.push_back(name);
@@ -245,8 +319,9 @@ class UrdfParser {
     joint.parent = linkOf(element, "parent", joint.parent_where);
     joint.child = linkOf(element, "child", joint.child_where);
     joint.origin = origin(element);
-    if (const XmlElement* axis = element.child("axis");
-        axis && joint.type != UrdfJointType::fixed && joint.type != UrdfJointType::floating) {
+    if (const XmlElement* axis = element.child("axis"); axis && joint.type != UrdfJointType::fixed &&
+                                                        joint.type != UrdfJointType::floating &&
+                                                        joint.type != UrdfJointType::spherical) {
       const Vector3d direction = vector(*axis, "xyz", Vector3d::UnitX());
       if (!(direction.norm() > 1e-10)) {
         error(axis->where, cat(context_, "its axis is zero"));
@@ -255,6 +330,10 @@ class UrdfParser {
       }
     }
     readLimits(element, joint);
+    if (const XmlElement* dynamics = element.child("dynamics")) {
+      joint.damping = number(*dynamics, "damping", 0.);
+      joint.friction = number(*dynamics, "friction", 0.);
+    }
     if (const XmlElement* mimic = element.child("mimic")) {
       joint.mimic = UrdfMimic{text(*mimic, "joint").value_or(""), number(*mimic, "multiplier", 1.),
                               number(*mimic, "offset", 0.), mimic->where};
@@ -278,14 +357,20 @@ class UrdfParser {
     joint.upper = limitOf(*limit, "upper", kUrdfUnlimited);
     joint.limited = joint.lower > -kUrdfUnlimited || joint.upper < kUrdfUnlimited;
     if (joint.lower > joint.upper) {
-      error(limit->where, cat(context_, "its lower limit ", joint.lower, " is above its upper limit ", joint.upper));
+      warn(limit->where, cat(context_, "its lower limit ", joint.lower, " is above its upper limit ", joint.upper,
+                             "; it is read as unlimited"));
+      joint.limited = false;
+    } else if (joint.lower == joint.upper) {
+      warn(limit->where, cat(context_, "both of its limits are ", joint.lower, "; the joint cannot move"));
     }
   }
 
   std::vector<Diagnostic>& found_;
   UrdfModel model_;
   std::map<std::string, const XmlElement*> materials_;
-  std::string context_;  ///< "link 'x': ", for messages
+  std::string context_;                  ///< "link 'x': ", for messages
+  const char* optional_part_ = nullptr;  ///< element that an error leaves out, or null
+  bool part_failed_ = false;
 };
 
 }  // namespace

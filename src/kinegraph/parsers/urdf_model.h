@@ -50,7 +50,8 @@ struct UrdfMimic {
 /// A limit of at least this size (rad or m) means unlimited: URDF requires limits for every prismatic joint.
 constexpr double kUrdfUnlimited = 1e9;
 
-enum class UrdfJointType { fixed, revolute, continuous, prismatic, planar, floating };
+/// `spherical` is an extension of PyBullet and MuJoCo.
+enum class UrdfJointType { fixed, revolute, continuous, prismatic, planar, floating, spherical };
 
 struct UrdfJoint {
   std::string name;
@@ -59,8 +60,9 @@ struct UrdfJoint {
   Pose origin;                ///< in the parent link
   Vector3d axis = Vector3d::UnitX();
   bool limited = false;
-  double lower = 0., upper = 0.;      ///< if limited
-  double effort = 0., velocity = 0.;  ///< 0: not given
+  double lower = 0., upper = 0.;       ///< if limited
+  double effort = 0., velocity = 0.;   ///< 0: not given
+  double damping = 0., friction = 0.;  ///< of <dynamics>
   std::optional<UrdfMimic> mimic;
   SourcePosition where, parent_where, child_where, limit_where;
 };
@@ -71,8 +73,8 @@ struct UrdfModel {
   std::vector<UrdfJoint> joints;
 };
 
-/// Parses a URDF text as far as possible and appends errors and warnings to `found`. Does not check that links and
-/// joints form a tree.
+/// Parses a URDF text as far as possible and appends errors and warnings to `found`. A flaw of a shape, a material or
+/// an <inertial> leaves that part out with a warning. Does not check that links and joints form a tree.
 UrdfModel parseUrdf(std::string_view text, const std::string& file, std::vector<Diagnostic>& found);
 
 /// Returns whether the list contains an error.

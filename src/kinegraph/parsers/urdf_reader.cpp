@@ -6,6 +6,7 @@
 
 #include "kinegraph/common/file_paths.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/geometry/files/mesh_cache.h"
 #include "kinegraph/parsers/axis_motion.h"
 #include "kinegraph/parsers/frame_attributes.h"
 #include "kinegraph/parsers/urdf_model.h"
@@ -27,6 +28,8 @@ AxisMotion motionOf(const UrdfJoint& joint) {
       return {"transXYPhi", 1., Quaterniond::FromTwoVectors(Vector3d::UnitZ(), joint.axis)};
     case UrdfJointType::floating:
       return {"free"};
+    case UrdfJointType::spherical:
+      return {"quatBall"};
   }
   return {"none"};
 }
@@ -51,9 +54,10 @@ class UrdfReader {
     if (hasErrors(found_)) return {};
     nameEverything();
     linkUp();
-    const UrdfLink* root = hasErrors(found_) ? nullptr : findRoot();
-    if (root) resolveMimics();
-    if (!hasErrors(found_)) addLink(*root, "", Quaterniond::Identity());
+    const auto roots = hasErrors(found_) ? std::vector<const UrdfLink*>() : findRoots();
+    if (hasErrors(found_)) return {};
+    resolveMimics();
+    for (const UrdfLink* root : roots) addLink(*root, "", Quaterniond::Identity());
     return std::move(graph_);
   }
 
@@ -105,29 +109,28 @@ class UrdfReader {
     }
   }
 
-  /// Returns the root link. Reports an error and returns null if there is no unique root.
-  const UrdfLink* findRoot() {
+  /// Returns the links without a joint above them. Reports an error and returns none if a loop has no root.
+  std::vector<const UrdfLink*> findRoots() {
     std::vector<const UrdfLink*> roots;
     for (const UrdfLink& link : model_.links) {
       if (!joint_above_.contains(link.name)) roots.push_back(&link);
     }
     if (roots.empty()) {
       error(model_.joints.front().where, "the joints of this robot form a loop; a URDF file describes a tree");
-      return nullptr;
-    }
-    if (roots.size() > 1) {
-      error(roots[1]->where, cat("two links have no joint above them: '", roots[0]->name, "' and '", roots[1]->name,
-                                 "'; a URDF file describes one tree"));
-      return nullptr;
+      return {};
     }
     std::set<std::string> reached;
-    reach(roots[0]->name, reached);
+    for (const UrdfLink* root : roots) reach(root->name, reached);
+    for (std::size_t i = 1; i < roots.size(); ++i) {
+      warn(roots[i]->where, cat("link '", roots[i]->name, "' has no joint above it, and neither has '", roots[0]->name,
+                                "'; it is read as a separate root"));
+    }
     for (const UrdfLink& link : model_.links) {
       if (reached.contains(link.name)) continue;
       error(link.where, cat("link '", link.name, "' is its own ancestor: the joints above it form a loop"));
-      return nullptr;
+      return {};
     }
-    return roots[0];
+    return roots;
   }
 
   void reach(const std::string& link, std::set<std::string>& reached) const {
@@ -144,8 +147,8 @@ class UrdfReader {
     return nullptr;
   }
 
-  /// Makes every mimic refer to the joint that owns the dof. An unknown source removes the mimic, and a fixed source
-  /// fixes the joint: such files exist and remain usable without the mimic.
+  /// Makes every mimic refer to the joint that owns the dof. Such files exist: an unknown source or a loop removes the
+  /// mimic; a fixed source or the multiplier 0 fixes the joint.
   void resolveMimics() {
     std::vector<std::string> names;
     for (const UrdfJoint& joint : model_.joints) names.push_back(joint.name);
@@ -159,9 +162,11 @@ class UrdfReader {
     }
     for (UrdfJoint& joint : model_.joints) followMimic(joint);
     for (UrdfJoint& joint : model_.joints) {
-      if (!joint.mimic || findJoint(joint.mimic->joint)->type != UrdfJointType::fixed) continue;
-      warn(joint.mimic->where,
-           cat("joint '", joint.name, "' mimics '", joint.mimic->joint, "', which is fixed; it is read as fixed, too"));
+      const bool source_fixed = joint.mimic && findJoint(joint.mimic->joint)->type == UrdfJointType::fixed;
+      if (!joint.mimic || (!source_fixed && joint.mimic->multiplier != 0.)) continue;
+      warn(joint.mimic->where, cat("joint '", joint.name, "' mimics '", joint.mimic->joint,
+                                   source_fixed ? "', which is fixed; it is read as fixed, too"
+                                                : "' with the multiplier 0; it is read as fixed"));
       joint.origin = joint.origin * poseAt(joint, joint.mimic->offset);
       joint.type = UrdfJointType::fixed;
       joint.mimic.reset();
@@ -173,10 +178,14 @@ class UrdfReader {
     while (joint.mimic) {
       const UrdfJoint& source = *findJoint(joint.mimic->joint);
       const std::string who = cat("joint '", joint.name, "' mimics '", source.name, "', ");
-      if (!hasOneDof(joint) || (!hasOneDof(source) && source.type != UrdfJointType::fixed)) {
-        error(joint.mimic->where, cat(who, "but only revolute, continuous and prismatic joints can mimic each other"));
-      } else if (!seen.insert(&source).second) {
-        error(joint.mimic->where, cat(who, "which mimics it in turn"));
+      const bool impossible = !hasOneDof(joint) || (!hasOneDof(source) && source.type != UrdfJointType::fixed);
+      if (impossible || !seen.insert(&source).second) {
+        warn(joint.mimic->where,
+             cat(who,
+                 impossible ? "but only revolute, continuous and prismatic joints can mimic each other"
+                            : "which mimics it in turn",
+                 "; it is read as an independent joint"));
+        joint.mimic.reset();
       } else if (source.mimic) {
         joint.mimic->offset += joint.mimic->multiplier * source.mimic->offset;
         joint.mimic->multiplier *= source.mimic->multiplier;
@@ -207,24 +216,44 @@ class UrdfReader {
     for (const UrdfJoint* joint : joints_below_[link.name]) addJoint(*joint);
   }
 
+  /// Returns the path of a mesh file that can be read, or "" after a warning.
+  std::string findMesh(const UrdfShape& shape, const std::string& link) {
+    const LocatedFile file = locateFile(shape.mesh, folder_);
+    const std::string who = cat("link '", link, "': mesh '", shape.mesh, "' ");
+    if (file.path.empty()) {
+      warn(shape.where, cat(who,
+                            "does not exist; packages are searched in the folders above the file and in "
+                            "KINEGRAPH_PACKAGE_PATH, ROS_PACKAGE_PATH and AMENT_PREFIX_PATH"));
+      return "";
+    }
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(file.path, ignored)) {
+      warn(shape.where, cat(who, "does not exist (", file.path, ")"));
+      return "";
+    }
+    try {
+      sharedMeshFile(file.path);
+    } catch (const FileError& e) {
+      warn(shape.where, cat("link '", link, "': ", e.what(), "; the shape is left out"));
+      return "";
+    }
+    if (!file.assumption.empty())
+      warn(shape.where, cat("link '", link, "': mesh '", shape.mesh, "': ", file.assumption));
+    return file.path;
+  }
+
   void addShape(const UrdfShape& shape, const std::string& link, std::size_t index) {
     FrameAttributes attributes(shape.where);
     attributes.addPose(shape.origin);
     const std::string name = unusedName(cat(link, "_", index));
     bool known = true;
     if (shape.type == ShapeType::mesh) {
-      const std::string path = resolvePath(shape.mesh, folder_);
-      std::error_code ignored;
-      known = std::filesystem::is_regular_file(path, ignored);
+      const std::string path = findMesh(shape, link);
+      known = !path.empty();
       if (known) {
         attributes.add("mesh", AngleText{path});
         if (shape.scale != Vector3d::Ones())
           attributes.addNumbers("meshscale", {shape.scale.begin(), shape.scale.end()});
-      } else {
-        warn(shape.where, cat("link '", link, "': mesh '", shape.mesh, "' does not exist",
-                              path.empty() ? "; packages are searched in the folders above the file and in "
-                                             "KINEGRAPH_PACKAGE_PATH, ROS_PACKAGE_PATH and AMENT_PREFIX_PATH"
-                                           : cat(" (", path, ")")));
       }
     } else {
       static const std::map<ShapeType, std::string> words = {{ShapeType::box, "box"},
@@ -237,8 +266,9 @@ class UrdfReader {
     if (known && shape.collision) {
       attributes.addNumbers("color", {1., 0., 0., .2});
       attributes.add("contact", -2.);
-    } else if (known && shape.color) {
-      attributes.addNumbers("color", {shape.color->begin(), shape.color->end()});
+    } else if (known) {
+      if (shape.color) attributes.addNumbers("color", {shape.color->begin(), shape.color->end()});
+      attributes.add("visual", true);
     }
     if (known && !shape.texture.empty()) attributes.add("texture", AngleText{resolvePath(shape.texture, folder_)});
     addFrame(name, link, shape.where, std::move(attributes));
@@ -270,6 +300,8 @@ class UrdfReader {
       if (joint.limited) attributes.addNumbers("limits", {joint.lower, joint.upper});
       if (joint.effort != 0. || joint.velocity != 0.)
         attributes.addNumbers("ctrl_limits", {joint.velocity, joint.effort, -1.});
+      if (joint.damping > 0.) attributes.add("angularDamping", joint.damping);
+      if (joint.friction > 0.) attributes.add("jointFriction", joint.friction);
       if (joint.mimic) attributes.add("mimic", frame_of_joint_.at(findJoint(joint.mimic->joint)));
     }
     addFrame(name, parent, joint.where, std::move(attributes));

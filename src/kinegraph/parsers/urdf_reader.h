@@ -20,10 +20,11 @@ namespace kinegraph {
 /// transZ with a joint_scale of 1 or -1; planar becomes transXYPhi, and floating free. A fixed joint becomes a frame
 /// without a joint, which merges the connected links. For a prismatic or planar joint along any other axis the joint
 /// frame is rotated to make its x (z) axis that axis, and the child link is rotated back. Effort and velocity limits
-/// are stored as `ctrl_limits: [velocity effort -1]`. A mesh with a missing file is skipped with a warning.
+/// are stored as `ctrl_limits: [velocity effort -1]`.
 ///
-/// If the diagnostics contain an error (unknown links, several roots, loops, errors of parseUrdf), there are no
-/// frames.
+/// Flaws are mended with a warning: a mesh that is missing or cannot be read is skipped, reversed limits are none, a
+/// mimic of multiplier 0 fixes the joint, further links without a joint above them are roots of their own.
+/// If the diagnostics contain an error (unknown links, loops, errors of parseUrdf), there are no frames.
 ParseResult readUrdf(std::string_view text, const std::string& file, const std::string& folder);
 
 }  // namespace kinegraph

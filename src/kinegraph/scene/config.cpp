@@ -11,15 +11,17 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/gfile/parser.h"
+#include "kinegraph/scene/floating_base.h"
 #include "kinegraph/scene/loading/reader.h"
 #include "kinegraph/scene/loading/robot_semantics.h"
+#include "kinegraph/scene/tree/inertia_edits.h"
 #include "kinegraph/scene/tree/named_states.h"
 
 namespace kinegraph {
 
 Config::Config(const SceneTree& scene) : Config() { scene_->append(scene, ""); }
 
-Config::Config(const Config& other) : Config(*other.scene_) {}
+Config::Config(const Config& other) : Config(*other.scene_) { file_warnings_ = other.file_warnings_; }
 
 Config& Config::operator=(const Config& other) {
   if (this != &other) {
@@ -48,26 +50,45 @@ std::string duplicatesWarning(SceneTree& scene, const SceneTree& added, const st
 
 }  // namespace
 
-std::optional<Frame> Config::addFile(const std::string& path, const std::string& prefix) {
+void Config::clear() {
+  scene_->clear();
+  file_warnings_.clear();
+}
+
+void Config::keepWarnings(const std::vector<std::string>& warnings) {
+  for (std::vector<std::string>* list : {&warnings_, &file_warnings_})
+    list->insert(list->end(), warnings.begin(), warnings.end());
+}
+
+std::optional<Frame> Config::addFile(const std::string& path, const std::string& prefix, const FileOptions& options) {
+  std::vector<std::string> warnings;
   if (isSemanticsFile(path)) {
-    readSemanticsFile(path, prefix, *scene_, warnings_);
+    readSemanticsFile(path, prefix, *scene_, warnings, options);
+    keepWarnings(warnings);
     return std::nullopt;
   }
   SceneTree scratch;
-  readSceneFile(path, scratch, warnings_);
-  if (std::string warning = duplicatesWarning(*scene_, scratch, prefix, path); !warning.empty())
-    warnings_.push_back(std::move(warning));
-  FrameData* first = scene_->append(scratch, prefix);
-  if (!first) return std::nullopt;
-  return Frame(scene_, *first);
+  readSceneFile(path, scratch, warnings, options);
+  if (options.floating) checkFloatingRoot(scratch, path);
+  const std::optional<Frame> first = appendFile(scratch, prefix, path, std::move(warnings));
+  if (first && options.floating) makeFloating(*first, prefix);
+  return first;
 }
 
-std::optional<Frame> Config::addText(std::string_view text, const std::string& name, const std::string& folder) {
+std::optional<Frame> Config::addText(std::string_view text, const std::string& name, const std::string& folder,
+                                     bool strict) {
   SceneTree scratch;
-  readSceneText(text, name, folder, scratch, warnings_);
-  if (std::string warning = duplicatesWarning(*scene_, scratch, "", name); !warning.empty())
-    warnings_.push_back(std::move(warning));
-  FrameData* first = scene_->append(scratch, "");
+  std::vector<std::string> warnings;
+  readSceneText(text, name, folder, scratch, warnings, strict);
+  return appendFile(scratch, "", name, std::move(warnings));
+}
+
+std::optional<Frame> Config::appendFile(const SceneTree& scratch, const std::string& prefix, const std::string& file,
+                                        std::vector<std::string> warnings) {
+  if (std::string warning = duplicatesWarning(*scene_, scratch, prefix, file); !warning.empty())
+    warnings.push_back(std::move(warning));
+  keepWarnings(warnings);
+  FrameData* first = scene_->append(scratch, prefix);
   if (!first) return std::nullopt;
   return Frame(scene_, *first);
 }
@@ -408,15 +429,14 @@ std::string Config::report() const {
   for (const auto& frame : scene_->frames()) shapes += frame->shape != nullptr;
   const KinematicModel& model = *scene_->model();
   std::vector<std::string> colliding;
-  for (const ContactRules::Body& body : model.contacts.bodies) {
-    if (colliding.size() == kMaxNamed) break;
-    colliding.push_back(model.frame_name[std::size_t(body.frame)]);
-  }
+  for (const ContactRules::Body& body : model.contacts.bodies)
+    if (colliding.size() < kMaxNamed) colliding.push_back(model.frame_name[std::size_t(body.frame)]);
   const std::size_t count = model.contacts.bodies.size();
   std::string text = cat("Configuration: q.N=", getJointDimension(), " #frames=", getFrameDimension(),
                          " #joints=", getJoints().size(), " #shapes=", shapes, " #pairs=", getCollidablePairs().size());
   if (count > 0)
     text += cat("\ncollide: ", join(colliding, " "), count > kMaxNamed ? cat(" and ", count - kMaxNamed, " more") : "");
+  if (const double mass = totalMass(*scene_); mass > 0.) text += cat("\nmass: ", mass, " kg");
   for (const std::string& note : contactWarnings()) text += cat("\nnote: ", note);
   return text;
 }

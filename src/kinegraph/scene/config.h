@@ -10,6 +10,7 @@
 #include "kinegraph/collision/motion_check.h"
 #include "kinegraph/common/random.h"
 #include "kinegraph/scene/frame.h"
+#include "kinegraph/scene/loading/file_options.h"
 
 namespace kinegraph {
 
@@ -32,13 +33,20 @@ class Config {
   // Building
 
   /// Adds the frames of a scene file and returns the first of them, if any. The extension selects the format: .urdf,
-  /// .xml (MJCF), .srdf, otherwise the .g language. `prefix` is put before the names. An .srdf file adds collision
-  /// pairs, groups and states to frames that already exist; one beside a .urdf file is read with it. On an error
-  /// (FileError, ParseError) the configuration is unchanged. `takeWarnings` returns the warnings.
-  std::optional<Frame> addFile(const std::string& path, const std::string& prefix = {});
+  /// .xml (MJCF), .srdf, .xacro (expanded by the function of setXacroExpander), otherwise the .g language. `prefix` is
+  /// put before the names. An .srdf file adds collision pairs, groups and states to frames that already exist; one
+  /// beside a .urdf file is read with it. Flaws of URDF and MJCF files are mended with a warning, or refused if
+  /// `options.strict`. `options.floating` gives the root a free joint. On an error (FileError, ParseError) the configuration is unchanged.
+  std::optional<Frame> addFile(const std::string& path, const std::string& prefix = {},
+                               const FileOptions& options = {});
 
-  /// Adds the frames of scene text. `name` stands for the file in messages; included files are relative to `folder`.
-  std::optional<Frame> addText(std::string_view text, const std::string& name = "text", const std::string& folder = {});
+  /// Adds the frames of scene text. `name` stands for the file in messages, and its extension selects the format;
+  /// included files are relative to `folder`. `strict` refuses a text with warnings.
+  std::optional<Frame> addText(std::string_view text, const std::string& name = "text", const std::string& folder = {},
+                               bool strict = false);
+
+  /// The warnings of all files and texts added since the last clear(): "file:line:column: what was found and assumed".
+  const std::vector<std::string>& fileWarnings() const { return file_warnings_; }
 
   /// Appends a frame at its parent's pose, or at the world's origin without a parent. `attributes` is text as inside
   /// the braces of a `.g` file. If the name already exists, returns that frame unchanged and adds a warning. Throws
@@ -53,7 +61,7 @@ class Config {
   /// Removes a frame (the first one with that name). Its children become roots and keep their world poses.
   void delFrame(const std::string& name);
   void delFrame(const Frame& frame);
-  void clear() { scene_->clear(); }
+  void clear();
 
   /// Re-attaches the link of `child`: cuts off its topmost frame and fixes it below `parent`, keeping its world pose.
   void attach(const std::string& parent, const std::string& child);
@@ -193,11 +201,14 @@ class Config {
   std::vector<std::string> takeWarnings();
 
  private:
+  std::optional<Frame> appendFile(const SceneTree& scratch, const std::string& prefix, const std::string& file,
+                                  std::vector<std::string> warnings);
+  void keepWarnings(const std::vector<std::string>& warnings);
   Frame addFrameBelow(const std::string& name, FrameData* parent, const std::string& attributes);
   FrameData& ownFrame(const Frame& frame, const char* call) const;  ///< throws ValueError for a frame of another Config
 
   std::shared_ptr<SceneTree> scene_;
-  std::vector<std::string> warnings_;
+  std::vector<std::string> warnings_, file_warnings_;
 };
 
 }  // namespace kinegraph

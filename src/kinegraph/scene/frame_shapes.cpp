@@ -9,9 +9,11 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/h5_file.h"
 #include "kinegraph/geometry/files/image_file.h"
+#include "kinegraph/geometry/files/mesh_cache.h"
 #include "kinegraph/geometry/files/mesh_file.h"
 #include "kinegraph/geometry/shapes/convex_hull.h"
 #include "kinegraph/geometry/shapes/isosurface.h"
+#include "kinegraph/geometry/shapes/scale_mesh.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/textured_surface.h"
 
@@ -49,8 +51,8 @@ void setMeshFile(Frame& frame, const std::string& path, double scale) {
   const std::string absolute = resolvePath(path, ".");
   if (absolute.empty()) throw FileError(cat("mesh file '", path, "': the package is not installed"));
   Geometry geometry;
-  Mesh mesh = readMeshFile(absolute);
-  for (Vector3d& p : mesh.vertices) p *= scale;
+  Mesh mesh = *sharedMeshFile(absolute);
+  scaleMesh(mesh, Vector3d::Constant(scale));
   geometry.type = mesh.triangles.empty() ? ShapeType::pointCloud : ShapeType::mesh;
   geometry.mesh_file = absolute;
   geometry.mesh_scale.setConstant(scale);

@@ -26,8 +26,12 @@ class ModelIndex {
       model_.body_of_id[std::size_t(model_.body_id.back())] = int(b);
     }
     model_.geom_frame.assign(std::size_t(m.ngeom), -1);
-    for (const ModelShapes::Geom& geom : geoms_)
-      model_.geom_frame[std::size_t(mj_.mjs_getId(geom.spec->element))] = geom.frame;
+    model_.geom_takes_largest.assign(std::size_t(m.ngeom), false);
+    for (const ModelShapes::Geom& geom : geoms_) {
+      const auto id = std::size_t(mj_.mjs_getId(geom.spec->element));
+      model_.geom_frame[id] = geom.frame;
+      model_.geom_takes_largest[id] = geom.largest;
+    }
     indexFree(m);
     indexJoints(m);
     indexGrippers(m);
@@ -77,6 +81,19 @@ class ModelIndex {
       model_.joints.push_back(joint);
       const bool gripper = isFingerJoint(frame) && !parts_.followersOf(frame).empty();
       if (!gripper && !attributeFlag(frame, "noMotor", false)) addServos(frame);
+      if (!gripper && attributeFlag(frame, "noMotor", false)) addSprings(made, *model_.model);
+    }
+  }
+
+  /// Takes over the springs of a joint from MuJoCo.
+  void addSprings(const ModelParts::MadeJoint& made, mjModel& m) {
+    for (const auto& step : made.steps) {
+      if (!step.second || !isScalar(step.first) || step.second->stiffness[0] <= 0.) continue;
+      const int id = mj_.mjs_getId(step.second->element), dof = m.jnt_dofadr[id], qpos = m.jnt_qposadr[id];
+      const double stiffness = step.second->stiffness[0], h = m.opt.timestep;
+      if (stiffness * h * h > .25 * m.dof_M0[dof]) continue;
+      model_.springs.push_back({qpos, dof, stiffness, m.qpos_spring[qpos]});
+      m.jnt_stiffness[id] = 0.;
     }
   }
 
@@ -93,6 +110,7 @@ class ModelIndex {
         servo.q = joint.first_q < 0 ? -1 : joint.first_q + q;
         servo.kind = step.kind;
         servo.scale = joint.scale;
+        servo.friction = attributeNumber(frame, "jointFriction", 0.);
         setMotor(servo, frame);
         model_.servos.push_back(servo);
       }

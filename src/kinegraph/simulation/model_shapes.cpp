@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/distance/body_tree.h"
@@ -28,16 +29,25 @@ bool mayTouch(int robot_a, int robot_b) {
   return contactBit(robot_a) == kNonRobot || contactBit(robot_a) != contactBit(robot_b);
 }
 
-void setContactNumbers(mjsGeom* geom, const SimulationOptions& options, double friction) {
+void setContactNumbers(mjsGeom* geom, const std::array<double, 3>& friction) {
   const double solref[] = {.005, 1.}, solimp[] = {.98, .99, .001, .5, 2.};
   std::copy_n(solref, 2, geom->solref);
   std::copy_n(solimp, 5, geom->solimp);
   geom->condim = 6;
   geom->gap = kContactGap;
-  geom->friction[0] = friction;
-  geom->friction[1] = options.torsional_friction;
-  geom->friction[2] = options.rolling_friction;
+  std::copy_n(friction.data(), 3, geom->friction);
   geom->mass = 0.;
+}
+
+/// Returns whether contacts of two such frames have the larger friction, as in MuJoCo, instead of the mean.
+bool takesLargest(const FrameData& frame) {
+  const Node* rule = frame.attributes->find("frictionRule");
+  if (!rule) return false;
+  const std::string* word = rule->value.as<std::string>();
+  if (!word || (*word != "max" && *word != "mean"))
+    throw ValueError(cat("Simulation: frame '", frame.name, "': attribute frictionRule is ", describe(rule->value),
+                         "; expected max or mean"));
+  return *word == "max";
 }
 
 /// Thickens points in a plane or on a line slightly, because a mesh needs a volume.
@@ -63,10 +73,11 @@ void ModelShapes::addGround() {
   geom->type = mjGEOM_PLANE;
   geom->size[2] = .05;
   mj.mjs_setName(geom->element, "ground");
-  setContactNumbers(geom, options_, options_.friction);
+  const std::array<double, 3> friction = {options_.friction, options_.torsional_friction, options_.rolling_friction};
+  setContactNumbers(geom, friction);
   geom->contype = kNonRobot;
   geom->conaffinity = -1;
-  geoms.push_back({geom, "ground", -1, kGroundBody, -1, false, options_.friction, false});
+  geoms.push_back({geom, "ground", "ground", -1, kGroundBody, -1, false, friction, false, false});
 }
 
 mjsGeom* ModelShapes::addGeom(mjsBody* body, const FrameData& frame, const Pose& X_BF, int robot) {
@@ -76,14 +87,18 @@ mjsGeom* ModelShapes::addGeom(mjsBody* body, const FrameData& frame, const Pose&
   mj.mjs_setName(geom->element, name.c_str());
   std::copy_n(X_BF.p.data(), 3, geom->pos);
   std::copy_n(wxyz(X_BF.q).data(), 4, geom->quat);
-  const double friction = attributeNumber(frame, "friction", options_.friction);
-  if (friction < 0.)
-    throw ValueError(cat("Simulation: frame '", frame.name, "' has friction ", friction, "; expected a number >= 0"));
-  setContactNumbers(geom, options_, friction);
+  const std::array<double, 3> friction = {attributeNumber(frame, "friction", options_.friction),
+                                          attributeNumber(frame, "torsionalFriction", options_.torsional_friction),
+                                          attributeNumber(frame, "rollingFriction", options_.rolling_friction)};
+  for (const double x : friction) {
+    if (x < 0.)
+      throw ValueError(cat("Simulation: frame '", frame.name, "' has friction ", x, "; expected a number >= 0"));
+  }
+  setContactNumbers(geom, friction);
   geom->contype = contactBit(robot);
   geom->conaffinity = robot < 0 ? -1 : ~contactBit(robot);
-  geoms.push_back(
-      {geom, name, frame.id, body_number, robot, body_moves, friction, frame.attributes->find("friction") != nullptr});
+  geoms.push_back({geom, name, body_name, frame.id, body_number, robot, body_moves, friction, takesLargest(frame),
+                   frame.attributes->find("friction") != nullptr});
   return geom;
 }
 
@@ -135,6 +150,14 @@ void ModelShapes::addBody(const CollisionBody& core, const FrameData& frame, mjs
       geom->size[0] = std::max(core.coreRadius(), kThinnest);
       geom->size[1] = std::max(core.halfLength(), kThinnest);
       return;
+    case Core::half_space:
+      geom->type = mjGEOM_PLANE;
+      geom->size[2] = .05;
+      geom->margin = 0.;
+      if (body_moves)
+        throw ValueError(cat("Simulation: frame '", frame.name,
+                             "' is a plane that moves; only planes that are fixed to the world collide. Use a box"));
+      return;
     case Core::hull:
       setMesh(geom, core.hull().points, &core);
       return;
@@ -168,28 +191,54 @@ void ModelShapes::exclude(const std::string& a, const std::string& b) {
   mj.mjs_setString(pair->bodyname2, b.c_str());
 }
 
-void ModelShapes::addFrictionPairs(const std::set<std::pair<int, int>>& excluded, bool all_listed) {
+void ModelShapes::addPair(const Geom& a, const Geom& b) {
   const Physics& mj = physics();
-  for (std::size_t i = 0; i < geoms.size(); ++i) {
-    for (std::size_t j = i + 1; j < geoms.size(); ++j) {
-      const Geom &a = geoms[i], &b = geoms[j];
-      const bool differ = a.friction != b.friction || (all_listed && (a.has_friction || b.has_friction));
-      if (!differ || a.body == b.body || !(a.moves || b.moves) || !mayTouch(a.robot, b.robot)) continue;
-      if (excluded.contains(std::minmax(a.body, b.body))) continue;
-      mjsPair* pair = mj.mjs_addPair(spec_, nullptr);
-      mj.mjs_setString(pair->geomname1, a.name.c_str());
-      mj.mjs_setString(pair->geomname2, b.name.c_str());
-      pair->condim = 6;
-      pair->margin = a.spec->margin + b.spec->margin;
-      pair->gap = kContactGap;
-      std::copy_n(a.spec->solref, 2, pair->solref);
-      std::copy_n(a.spec->solimp, 5, pair->solimp);
-      const double mean = .5 * (a.friction + b.friction);
-      const double friction[] = {mean, mean, options_.torsional_friction, options_.rolling_friction,
-                                 options_.rolling_friction};
-      std::copy_n(friction, 5, pair->friction);
-    }
+  mjsPair* pair = mj.mjs_addPair(spec_, nullptr);
+  mj.mjs_setString(pair->geomname1, a.name.c_str());
+  mj.mjs_setString(pair->geomname2, b.name.c_str());
+  pair->condim = 6;
+  pair->margin = a.spec->margin + b.spec->margin;
+  pair->gap = kContactGap;
+  std::copy_n(a.spec->solref, 2, pair->solref);
+  std::copy_n(a.spec->solimp, 5, pair->solimp);
+  const bool largest = a.largest && b.largest;
+  const auto of = [&](std::size_t i) {
+    return largest ? std::max(a.friction[i], b.friction[i]) : .5 * (a.friction[i] + b.friction[i]);
+  };
+  const double friction[] = {of(0), of(0), of(1), of(2), of(2)};
+  std::copy_n(friction, 5, pair->friction);
+}
+
+void ModelShapes::addPairs(const ContactRules& rules, const std::vector<bool>& declared, const BodyPairs& overlapping,
+                           bool all_listed) {
+  std::map<int, std::size_t> rule_of;  // by frame
+  for (std::size_t i = 0; i < rules.bodies.size(); ++i) rule_of[rules.bodies[i].frame] = i;
+  std::vector<std::optional<std::size_t>> rule;  // per geom, if its frame collides in plans
+  for (const Geom& geom : geoms) {
+    const auto found = rule_of.find(geom.frame);
+    rule.push_back(found != rule_of.end() ? std::optional(found->second) : std::nullopt);
   }
+  const auto forPairs = [&](const auto& visit) {
+    for (std::size_t i = 0; i < geoms.size(); ++i) {
+      for (std::size_t j = i + 1; j < geoms.size(); ++j) {
+        const Geom &a = geoms[i], &b = geoms[j];
+        if (a.body == b.body || !(a.moves || b.moves) || overlapping.contains(std::minmax(a.body, b.body))) continue;
+        const bool in_plans = rule[i] && rule[j], within_robot = !mayTouch(a.robot, b.robot);
+        if (within_robot && (!in_plans || a.robot != b.robot || declared[std::size_t(a.robot)])) continue;
+        visit(a, b, !in_plans || rules.allow(*rule[i], *rule[j]), within_robot);
+      }
+    }
+  };
+  BodyPairs excluded;
+  forPairs([&](const Geom& a, const Geom& b, bool collide, bool within_robot) {
+    if (!collide && !within_robot && excluded.insert(std::minmax(a.body, b.body)).second)
+      exclude(a.body_name, b.body_name);
+  });
+  forPairs([&](const Geom& a, const Geom& b, bool collide, bool within_robot) {
+    const bool differ =
+        (a.friction != b.friction && !(a.largest && b.largest)) || (all_listed && (a.has_friction || b.has_friction));
+    if (collide && (differ || within_robot || excluded.contains(std::minmax(a.body, b.body)))) addPair(a, b);
+  });
 }
 
 }  // namespace kinegraph

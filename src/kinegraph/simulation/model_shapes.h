@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <map>
 #include <string>
 
@@ -20,30 +21,40 @@ class ModelShapes {
 
   void addGround();
 
-  /// Disables contacts between two bodies, for links of a robot that overlap others of their tree at the start.
+  /// Disables contacts between two bodies, except those listed by addPairs.
   void exclude(const std::string& a, const std::string& b);
 
-  /// Lists pairs of geoms with different frictions, so that the mean of both counts. With `all_listed`, lists every
-  /// pair with a friction attribute, because it may be changed later. `excluded` contains the body pairs without
-  /// contacts.
-  void addFrictionPairs(const std::set<std::pair<int, int>>& excluded, bool all_listed);
+  /// Pairs of bodies, as in Geom::body.
+  using BodyPairs = std::set<std::pair<int, int>>;
+
+  /// Lists the pairs of geoms whose contacts the contact bits of robots do not express: pairs within a robot that
+  /// collide in plans, unless the robot is `declared`; pairs of bodies of which some shapes collide in plans and some do
+  /// not; and pairs with different frictions, so that the mean of both counts (with `all_listed` every pair with a
+  /// friction attribute, because it may be changed later). Disables contacts of pairs that never collide in plans.
+  /// `overlapping` contains the body pairs without contacts.
+  void addPairs(const ContactRules& rules, const std::vector<bool>& declared, const BodyPairs& overlapping,
+                bool all_listed);
 
   struct Geom {
     mjsGeom* spec;
     std::string name;
+    std::string body_name;
     int frame, body;  ///< body as in SceneBodies; frames fixed to the world have one negative number each
     int robot;
     bool moves;
-    double friction;
-    bool has_friction;  ///< the frame has the attribute
+    std::array<double, 3> friction;  ///< sliding, and torsional and rolling, m
+    bool largest;                    ///< of two such geoms the larger friction counts, else the mean
+    bool has_friction;               ///< the frame has the attribute
   };
   std::vector<Geom> geoms;
   int body_number = 0;  ///< of the body that receives the geoms
+  std::string body_name;
   bool body_moves = false;
 
  private:
   mjsGeom* addGeom(mjsBody* body, const FrameData& frame, const Pose& X_BF, int robot);
   void addBody(const CollisionBody& core, const FrameData& frame, mjsBody* body, const Pose& X_BF, int robot);
+  void addPair(const Geom& a, const Geom& b);
   void setMesh(mjsGeom* geom, const std::vector<Vector3d>& points, const void* key);
 
   mjSpec* spec_;

@@ -1,10 +1,12 @@
 #include "kinegraph/simulation/scene_bodies.h"
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/scene/tree/inertia_edits.h"
 
@@ -13,6 +15,8 @@ namespace kinegraph {
 namespace {
 
 using Kind = SceneBody::Kind;
+
+constexpr double kInTheAir = .01;  ///< m: a base that is this far from everything hangs in the air
 
 bool isRigidLink(const FrameData& frame) {
   return !frame.parent || (frame.joint && frame.joint->type == JointType::rigid);
@@ -35,25 +39,75 @@ bool forLink(const FrameData& frame, const Visit& visit) {
   return carries;
 }
 
-/// Returns whether a link without a joint is a free object: its root frame has a mass, or all of its shapes have one.
-bool isLoose(const FrameData& root, std::vector<std::string>& warnings) {
-  bool weighs = false, all_weigh = true;
-  std::string heavy, massless;
-  const bool carries = forLink(root, [&](const FrameData& frame) {
-    if (frame.inertia && frame.inertia->mass > 0.) {
-      weighs = true;
-      if (heavy.empty()) heavy = frame.name;
-    } else if (takesPart(frame)) {
-      all_weigh = false;
-      massless = frame.name;
+bool weighs(const FrameData& frame) { return frame.inertia && frame.inertia->mass > 0.; }
+
+/// Returns whether the frame, or one above it in the same link, has a mass.
+bool isWeighed(const FrameData& frame, const FrameData& root) {
+  for (const FrameData* f = &frame;; f = f->parent) {
+    if (weighs(*f)) return true;
+    if (f == &root) return false;
+  }
+}
+
+/// Returns whether the frame is a world: a root of this name, or one that ends with it after a prefix.
+bool isWorld(const FrameData& frame) { return !frame.parent && !frame.shape && frame.name.ends_with("world"); }
+
+bool isOpaque(const Shape& shape) { return !shape.color || (*shape.color)[3] >= 1.; }
+
+/// Returns whether the shape of a frame has a volume that the simulation can represent.
+bool hasVolume(const FrameData& frame) {
+  const Geometry& geometry = *frame.shape->geometry;
+  const ShapeKind& kind = shapeKind(geometry.type);
+  if (geometry.type == ShapeType::plane) return true;
+  return kind.has_inertia && !(kind.hasPoints() && (!geometry.mesh || geometry.mesh->vertices.empty()));
+}
+
+/// Returns whether the shape of a frame is opaque and stands for its object although its `contact` is 0.
+bool isSolidToLookAt(const FrameData& frame) {
+  return frame.shape->contact == 0 && hasVolume(frame) &&
+         attributeFlag(frame, "simulate", isOpaque(*frame.shape) && !attributeFlag(frame, "visual", false));
+}
+
+/// Decides which shapes take part in the simulation: those that `simulate` names, those that collide in plans, and
+/// opaque ones, unless the attribute `visual` says that they are only looked at. A transparent shape that is drawn
+/// around an opaque one of its link with contact 0 leaves its place to that one.
+std::vector<bool> collidingFrames(const SceneTree& scene, std::vector<std::string>& warnings) {
+  const auto ownerOf = [](const FrameData& f) {  // the frame of the joint that moves it, or else its parent
+    const FrameData* link = &f;
+    while (link->parent && !link->moves()) link = link->parent;
+    return link->moves() ? link->id : f.parent && !f.joint ? f.parent->id : f.id;
+  };
+  const auto& frames = scene.frames();
+  std::vector<std::vector<const FrameData*>> solids(frames.size());  // by owner
+  for (const auto& frame : frames) {
+    if (frame->shape && isSolidToLookAt(*frame)) solids[std::size_t(ownerOf(*frame))].push_back(frame.get());
+  }
+  const auto isDrawnAround = [&](const FrameData& frame, const FrameData& solid) {
+    const CollisionBody &a = *frame.shape->body(), &b = *solid.shape->body();
+    const double reach = a.boundRadius() + b.boundRadius();
+    const RigidTransform X_a = frame.worldPose().transform(), X_b = solid.worldPose().transform();
+    return (X_a * a.boundCenter() - X_b * b.boundCenter()).norm() < reach;
+  };
+  std::vector<bool> collide(frames.size(), false);
+  std::string flat;
+  for (const auto& frame : frames) {
+    if (!frame->shape || shapeKind(frame->shape->geometry->type).is_symbol) continue;
+    const bool in_plans = frame->shape->contact != 0;
+    if (!hasVolume(*frame)) {
+      if (in_plans && attributeFlag(*frame, "simulate", true) && flat.empty()) flat = frame->name;
+      continue;
     }
-  });
-  if (carries || !weighs) return false;
-  if (all_weigh || root.inertia) return true;
-  warnings.push_back(
-      cat("Simulation: frame '", heavy, "' has a mass, but is rigidly attached to '", root.name, "' like '", massless,
-          "', which has no mass: the object does not move. Give it a joint of type rigid to let it fall"));
-  return false;
+    const auto& near = solids[std::size_t(ownerOf(*frame))];
+    const bool replaced =
+        in_plans && !isOpaque(*frame->shape) &&
+        std::any_of(near.begin(), near.end(), [&](const FrameData* solid) { return isDrawnAround(*frame, *solid); });
+    collide[std::size_t(frame->id)] = in_plans ? attributeFlag(*frame, "simulate", !replaced) : isSolidToLookAt(*frame);
+  }
+  if (!flat.empty())
+    warnings.push_back(cat("Simulation: frame '", flat,
+                           "' has contact, but shapes without a volume (quad, pointCloud, ",
+                           "lines) do not collide in the simulation; `simulate: false` silences this warning"));
+  return collide;
 }
 
 void checkInertia(const FrameData& frame) {
@@ -90,11 +144,14 @@ class Divider {
   }
 
   SceneBodies divide() {
+    const std::vector<bool> colliding = collidingFrames(scene_, result_.warnings);
+    for (std::size_t i = 0; i < colliding.size(); ++i) result_.frames[i].collides = colliding[i];
     for (const auto& frame : scene_.frames()) {
       if (!frame->parent) visit(*frame, {});
     }
     for (const auto& frame : scene_.frames()) addMass(*frame);
     for (std::size_t b = 1; b < result_.bodies.size(); ++b) completeMass(int(b));
+    warnOfHangingRobots();
     return std::move(result_);
   }
 
@@ -107,10 +164,15 @@ class Divider {
   void visit(const FrameData& frame, const Robot& above) {
     const PlacedFrame parent = frame.parent ? result_.frames[std::size_t(frame.parent->id)] : PlacedFrame{};
     Robot robot = above;
-    const bool begins = attributeFlag(frame, "multibody", false);
-    if (begins) robot = {result_.robots++, attributeFlag(frame, "multibody_gravity", false)};
+    const bool begins = beginsRobot(frame);
+    if (begins)
+      robot = {newRobot(attributeFlag(frame, "multibody", false)),
+               attributeFlag(frame, "multibody_gravity", !hasFixedBase(frame))};
     if (frame.moves() && !isFree(frame)) {
-      if (robot.number < 0) robot.number = result_.robots++;
+      if (robot.number < 0) {
+        robot.number = newRobot(false);
+        if (parent.body == 0) undeclared_.push_back(&frame);
+      }
       place(frame, parent, Kind::jointed, robot);
     } else if (isFree(frame) || isLooseLink(frame, parent, begins, robot)) {
       if (!begins) robot = {};
@@ -122,10 +184,83 @@ class Divider {
   }
 
   bool isLooseLink(const FrameData& frame, const PlacedFrame& parent, bool begins, const Robot& robot) {
-    if (!isRigidLink(frame)) return begins && !attributeFlag(frame, "multibody_fixedBase", true);
-    if (begins) return !attributeFlag(frame, "multibody_fixedBase", true);
+    if (begins) return !hasFixedBase(frame);
+    if (!isRigidLink(frame)) return false;
     const Kind on = result_.bodies[std::size_t(parent.body)].kind;
     return robot.number < 0 && (on == Kind::world || on == Kind::free) && isLoose(frame, result_.warnings);
+  }
+
+  /// Returns whether a link without a joint is a free object: its root frame has a mass, or all of its shapes have one.
+  /// The mass of a frame counts for the shapes below it.
+  bool isLoose(const FrameData& root, std::vector<std::string>& warnings) {
+    std::string heavy, massless;
+    const bool carries = forLink(root, [&](const FrameData& frame) {
+      if (weighs(frame) && heavy.empty()) heavy = frame.name;
+      if (result_.frames[std::size_t(frame.id)].collides && !isWeighed(frame, root)) massless = frame.name;
+    });
+    if (carries || heavy.empty()) return false;
+    if (weighs(root) || root.joint || (massless.empty() && !isWorld(root))) return true;
+    warnings.push_back(cat("Simulation: frame '", heavy, "' has a mass, but is rigidly attached to '", root.name, "'",
+                           massless.empty() ? "" : cat(" like '", massless, "', which has no mass"),
+                           ": the object does not move. Give it a joint of type rigid to let it fall"));
+    return false;
+  }
+
+  /// Warns of robots whose base is fixed in the air although it weighs something and nothing says that it is fixed.
+  void warnOfHangingRobots() {
+    std::set<const FrameData*> seen;
+    for (const FrameData* frame : undeclared_) {
+      const FrameData* root = frame;
+      while (root->parent) root = root->parent;
+      if (!seen.insert(root).second || isWorld(*root) || root->attributes->find("multibody_fixedBase")) continue;
+      bool heavy = false, has_shape = false;
+      double lowest = root->worldPose().p.z();
+      forLink(*root, [&](const FrameData& part) {
+        heavy |= weighs(part);
+        if (!result_.frames[std::size_t(part.id)].collides) return;
+        const double z = lowestPoint(part);
+        lowest = has_shape ? std::min(lowest, z) : z;
+        has_shape = true;
+      });
+      if (!heavy || lowest < kInTheAir || isSupported(*root)) continue;
+      result_.warnings.push_back(cat(
+          "Simulation: the base '", root->name, "' of a robot is fixed in the air, ", std::round(100. * lowest) / 100.,
+          " m above the ground. To let the robot fall, load it with addFile(..., floating=True), or give the base"
+          " `multibody_fixedBase: false`; `multibody_fixedBase: true` silences this warning"));
+    }
+  }
+
+  static double lowestPoint(const FrameData& frame) {
+    const CollisionBody& body = *frame.shape->body();
+    const RigidTransform X = frame.worldPose().transform();
+    if (!body.convex()) return (X * body.boundCenter()).z() - body.boundRadius();
+    return (X * body.support(X.R.transpose() * -Vector3d::UnitZ())).z() - body.radius();
+  }
+
+  /// Returns whether the base of a robot touches something of another tree.
+  bool isSupported(const FrameData& root) {
+    bool touches = false;
+    forLink(root, [&](const FrameData& part) {
+      if (touches || !result_.frames[std::size_t(part.id)].collides) return;
+      for (const auto& other : scene_.frames()) {
+        const FrameData* top = other.get();
+        while (top->parent) top = top->parent;
+        if (top == &root || !result_.frames[std::size_t(other->id)].collides) continue;
+        const CollisionBody &a = *part.shape->body(), &b = *other->shape->body();
+        const RigidTransform X_a = part.worldPose().transform(), X_b = other->worldPose().transform();
+        touches |= proximity(a, X_a, b, X_b).distance < kInTheAir;
+      }
+    });
+    return touches;
+  }
+
+  static bool hasFixedBase(const FrameData& frame) { return attributeFlag(frame, "multibody_fixedBase", true); }
+
+  static bool beginsRobot(const FrameData& frame) { return attributeFlag(frame, "multibody", !hasFixedBase(frame)); }
+
+  int newRobot(bool declared) {
+    result_.declared.push_back(declared);
+    return int(result_.declared.size()) - 1;
   }
 
   void place(const FrameData& frame, const PlacedFrame& parent, Kind kind, const Robot& robot) {
@@ -136,14 +271,21 @@ class Divider {
     body.X_PB = kind == Kind::free ? frame.worldPose() : parent.X_BF;
     body.robot = robot.number;
     body.has_gravity = robot.has_gravity;
-    result_.frames[std::size_t(frame.id)] = {int(result_.bodies.size()), Pose{}, robot.number};
+    setPlace(frame, int(result_.bodies.size()), Pose{}, robot.number);
     result_.bodies.push_back(body);
+  }
+
+  void setPlace(const FrameData& frame, int body, const Pose& X_BF, int robot) {
+    PlacedFrame& placed = result_.frames[std::size_t(frame.id)];
+    placed.body = body;
+    placed.X_BF = X_BF;
+    placed.robot = robot;
   }
 
   void fix(const FrameData& frame, const PlacedFrame& parent, const Robot& robot) {
     const Pose X_BF = parent.X_BF * frame.relativePose();
     if (!measured_.contains(frame.id)) {
-      result_.frames[std::size_t(frame.id)] = {parent.body, X_BF, robot.number};
+      setPlace(frame, parent.body, X_BF, robot.number);
       return;
     }
     place(frame, {parent.body, X_BF, robot.number}, Kind::fixed, robot);
@@ -164,17 +306,22 @@ class Divider {
   void completeMass(int number) {
     SceneBody& body = result_.bodies[std::size_t(number)];
     if (body.inertia.mass > 0.) return;
-    for (const auto& frame : scene_.frames()) {
-      const PlacedFrame& placed = result_.frames[std::size_t(frame->id)];
-      if (placed.body != number || !frame->shape || !takesPart(*frame)) continue;
-      if (!shapeKind(frame->shape->geometry->type).has_inertia) continue;
-      body.inertia.add(surfaceInertia(*frame->shape->geometry, -1.), placed.X_BF.transform());
-    }
+    const auto addSurfaces = [&](bool colliding) {
+      for (const auto& frame : scene_.frames()) {
+        const PlacedFrame& placed = result_.frames[std::size_t(frame->id)];
+        if (placed.body != number || !frame->shape || placed.collides != colliding || !hasVolume(*frame)) continue;
+        if (!colliding && !attributeFlag(*frame, "visual", false)) continue;
+        body.inertia.add(surfaceInertia(*frame->shape->geometry, -1.), placed.X_BF.transform());
+      }
+    };
+    addSurfaces(true);
+    if (body.inertia.mass == 0.) addSurfaces(false);  // a link that is only looked at
   }
 
   const SceneTree& scene_;
   const std::set<int>& measured_;
   SceneBodies result_;
+  std::vector<const FrameData*> undeclared_;  ///< first joints of robots without `multibody`, fixed to the world
 };
 
 }  // namespace
@@ -196,15 +343,6 @@ double attributeNumber(const FrameData& frame, const char* key, double otherwise
     throw ValueError(cat("Simulation: frame '", frame.name, "': attribute ", key, " is ", describe(node->value),
                          "; expected a finite number"));
   return *number;
-}
-
-bool takesPart(const FrameData& frame) {
-  if (!frame.shape) return false;
-  const Shape& shape = *frame.shape;
-  const ShapeKind& kind = shapeKind(shape.geometry->type);
-  if (!kind.has_inertia) return false;
-  if (kind.hasPoints() && (!shape.geometry->mesh || shape.geometry->mesh->vertices.empty())) return false;
-  return attributeFlag(frame, "simulate", !shape.color || (*shape.color)[3] >= 1.);
 }
 
 SceneBodies divideScene(const SceneTree& scene, const std::set<int>& measured) {

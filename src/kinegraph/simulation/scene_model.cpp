@@ -37,7 +37,7 @@ class ModelMaker {
     addBodies();
     addShapes();
     excludeOverlaps();
-    shapes_.addFrictionPairs(excluded_, extras_.can_change_frictions);
+    shapes_.addPairs(kinematics_.contacts, model_.scene.declared, excluded_, extras_.can_change_frictions);
     couple();
     addGrippers();
     addWelds();
@@ -72,7 +72,7 @@ class ModelMaker {
       mj_.mjs_setName(made->element, bodyName(int(b)).c_str());
       std::copy_n(body.X_PB.p.data(), 3, made->pos);
       std::copy_n(wxyz(body.X_PB.q).data(), 4, made->quat);
-      made->gravcomp = body.has_gravity ? 0. : 1.;
+      made->gravcomp = body.has_gravity ? attributeNumber(*body.frame, "gravityCompensation", 0.) : 1.;
       setInertia(*made, body.inertia);
       parts_.bodies.push_back(made);
       if (body.kind == SceneBody::Kind::free) mj_.mjs_addFreeJoint(made);
@@ -117,9 +117,11 @@ class ModelMaker {
         const Vector3d axis = step.kind == MotionKind::circle ? Vector3d(Vector3d::UnitZ())
                                                               : Vector3d(step.sign * step.direction(joint.axis));
         if (m->type != mjJNT_BALL) std::copy_n(axis.data(), 3, m->axis);
-        m->armature = driven ? options_.armature : 0.;
+        m->armature = attributeNumber(frame, "armature", driven ? options_.armature : 0.);
         m->damping[0] = attributeNumber(frame, "angularDamping", 0.);
-        m->frictionloss = driven ? 0. : attributeNumber(frame, "jointFriction", 0.);
+        m->frictionloss = attributeNumber(frame, "jointFriction", 0.);
+        m->stiffness[0] = attributeNumber(frame, "springStiffness", 0.);
+        m->springref = scale * attributeNumber(frame, "springReference", 0.);
         if (isScalar(step.kind) && source.lower.size() > q && source.upper[q] > source.lower[q])
           setLimits(*m, scale * source.lower[q], scale * source.upper[q]);
       }
@@ -138,10 +140,10 @@ class ModelMaker {
   }
 
   void addShapes() {
-    if (options_.ground) shapes_.addGround();
+    if (hasGround()) shapes_.addGround();
     for (const auto& frame : scene_.frames()) {
-      if (!takesPart(*frame)) continue;
       const PlacedFrame& placed = model_.scene.frames[std::size_t(frame->id)];
+      if (!placed.collides) continue;
       mjsBody* body = parts_.bodies[std::size_t(placed.body)];
       Pose X_BF = placed.X_BF;
       if (placed.body == 0) {
@@ -149,10 +151,19 @@ class ModelMaker {
         mj_.mjs_setName(body->element, fixedName(frame->id).c_str());
       }
       shapes_.body_number = placed.body == 0 ? fixedBody(frame->id) : placed.body;
+      shapes_.body_name = placed.body == 0 ? fixedName(frame->id) : bodyName(placed.body);
       shapes_.body_moves = moves(placed.body);
       shapes_.add(*frame, body, X_BF, placed.robot);
       warnOfRestitution(*frame);
     }
+  }
+
+  /// Returns whether the plane z = 0 is added: scenes with planes of their own do not need it.
+  bool hasGround() const {
+    return options_.ground && std::none_of(scene_.frames().begin(), scene_.frames().end(), [&](const auto& frame) {
+             return model_.scene.frames[std::size_t(frame->id)].collides &&
+                    frame->shape->geometry->type == ShapeType::plane;
+           });
   }
 
   static std::string fixedName(int frame) { return cat("s", frame); }
@@ -170,36 +181,44 @@ class ModelMaker {
                                           "; the simulation reproduces at most .1 to .2"));
   }
 
-  /// Excludes links of robots that overlap other links of their tree, or the ground, in the scene's present state.
+  /// Excludes links of robots that overlap parts of their tree, or the ground, in the scene's present state.
   void excludeOverlaps() {
     struct Placed {
       const FrameData *frame, *root;
       int body, robot;
-      bool jointed;
+      SceneBody::Kind kind;
       RigidTransform X;
     };
     std::vector<Placed> all;
     for (const auto& frame : scene_.frames()) {
-      if (!takesPart(*frame)) continue;
       const PlacedFrame& placed = model_.scene.frames[std::size_t(frame->id)];
-      if (model_.scene.bodies[std::size_t(placed.body)].kind == SceneBody::Kind::free) continue;
+      if (!placed.collides) continue;
       const FrameData* root = frame.get();
       while (root->parent) root = root->parent;
       all.push_back({frame.get(), root, placed.body == 0 ? fixedBody(frame->id) : placed.body, placed.robot,
-                     placed.body > 0, scene_.worldPose(*frame).transform()});
+                     model_.scene.bodies[std::size_t(placed.body)].kind, scene_.worldPose(*frame).transform()});
     }
     for (const Placed& a : all) {
-      if (!a.jointed) continue;
+      if (a.kind != SceneBody::Kind::jointed && a.kind != SceneBody::Kind::fixed) continue;
       const CollisionBody& body = *a.frame->shape->body();
-      if (options_.ground && lowest(body, a.X) < -kOverlap) exclude(kGroundBody, "ground", a.body, bodyName(a.body));
+      if (hasGround() && lowest(body, a.X) < -kOverlap) exclude(kGroundBody, "ground", a.body, bodyName(a.body));
       for (const Placed& b : all) {
-        if (a.robot == b.robot || a.root != b.root || (b.jointed && b.frame->id < a.frame->id)) continue;
+        if (a.root != b.root || (a.robot == b.robot && (a.robot < 0 || model_.scene.declared[std::size_t(a.robot)])))
+          continue;
+        if (b.kind == SceneBody::Kind::free ? !isAbove(b.body, a.body) : b.body > 0 && b.frame->id < a.frame->id)
+          continue;
         const double apart = (a.X * body.boundCenter() - b.X * b.frame->shape->body()->boundCenter()).norm() -
                              body.boundRadius() - b.frame->shape->body()->boundRadius();
         if (apart > 0. || proximity(body, a.X, *b.frame->shape->body(), b.X).distance > -kOverlap) continue;
         exclude(a.body, bodyName(a.body), b.body, b.body < 0 ? fixedName(b.frame->id) : bodyName(b.body));
       }
     }
+  }
+
+  /// Returns whether a body carries another one.
+  bool isAbove(int carrier, int body) const {
+    while (body > carrier) body = model_.scene.bodies[std::size_t(body)].parent;
+    return body == carrier;
   }
 
   static double lowest(const CollisionBody& body, const RigidTransform& X) {

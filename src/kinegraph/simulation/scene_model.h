@@ -33,6 +33,7 @@ struct Servo {
   int q = -1;  ///< first of its entries in the scene's q; -1 for none
   MotionKind kind = MotionKind::rotate;
   double scale = 1.;
+  double friction = 0.;                            ///< of the joint; the motor overcomes it, except in torque mode
   double effort, velocity;                         ///< limits of the motion, infinite without one
   std::optional<std::pair<double, double>> gains;  ///< stiffness and damping of the motion; they replace the servo's
 };
@@ -62,9 +63,10 @@ using PhysicsModel = std::unique_ptr<mjModel, decltype(&::mj_deleteModel)>;
 struct SceneModel {
   PhysicsModel model{nullptr, nullptr};
   SceneBodies scene;
-  std::vector<int> body_id;     ///< per body of the scene, the model's id
-  std::vector<int> body_of_id;  ///< the inverse map
-  std::vector<int> geom_frame;  ///< per geom, the frame's id; -1 for the ground
+  std::vector<int> body_id;              ///< per body of the scene, the model's id
+  std::vector<int> body_of_id;           ///< the inverse map
+  std::vector<int> geom_frame;           ///< per geom, the frame's id; -1 for the ground
+  std::vector<bool> geom_takes_largest;  ///< per geom: of two such geoms the larger friction counts
   std::vector<ModelJoint> joints;
   std::vector<int> free_frames;  ///< ids of the frames of free bodies
   std::vector<int> free_qpos, free_dof;
@@ -73,6 +75,13 @@ struct SceneModel {
     double ratio;  ///< motion per motion of the source
   };
   std::vector<Follower> followers;
+  /// A spring of a joint without motor that is soft enough for an explicit step, which keeps its energy. MuJoCo's own
+  /// implicit springs lose it.
+  struct Spring {
+    int qpos, dof;
+    double stiffness, reference;
+  };
+  std::vector<Spring> springs;
   std::vector<Servo> servos;
   std::vector<GripperJoint> grippers;
   int first_weld = 0, welds = 0;  ///< equalities reserved for attach

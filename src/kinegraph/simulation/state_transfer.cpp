@@ -24,7 +24,9 @@ void World::setFriction(int frame, double friction) {
   for (int p = 0; p < m.npair; ++p) {
     const int a = m.pair_geom1[p], b = m.pair_geom2[p];
     if (of[std::size_t(a)] != frame && of[std::size_t(b)] != frame) continue;
-    m.pair_friction[5 * p] = m.pair_friction[5 * p + 1] = .5 * (m.geom_friction[3 * a] + m.geom_friction[3 * b]);
+    const bool largest = model_->geom_takes_largest[std::size_t(a)] && model_->geom_takes_largest[std::size_t(b)];
+    const double of_a = m.geom_friction[3 * a], of_b = m.geom_friction[3 * b];
+    m.pair_friction[5 * p] = m.pair_friction[5 * p + 1] = largest ? std::max(of_a, of_b) : .5 * (of_a + of_b);
   }
 }
 

@@ -107,6 +107,11 @@ void World::innerStep(double h) {
   mj.mj_checkPos(m, d);
   mj.mj_checkVel(m, d);
   moveGrippers(h);
+  const bool direct = reference_.mode() == ControlMode::torque;
+  for (const Servo& servo : model_->servos) {
+    const int dofs = servo.kind == MotionKind::quaternion ? 3 : 1;
+    for (int k = servo.dof; k < servo.dof + dofs; ++k) m->dof_frictionloss[k] = direct ? servo.friction : 0.;
+  }
   mj.mj_fwdPosition(m, d);
   if (d->ncon > 0) {
     mj.mj_comVel(m, d);
@@ -116,7 +121,10 @@ void World::innerStep(double h) {
   mj.mj_fwdVelocity(m, d);
   mj.mj_sensorVel(m, d);
   driveMotors(h);
+  for (const SceneModel::Spring& spring : model_->springs) d->qfrc_applied[spring.dof] = 0.;
   gyroscopic_forces_.apply(*m, *d, h);
+  for (const SceneModel::Spring& spring : model_->springs)
+    d->qfrc_applied[spring.dof] -= spring.stiffness * (d->qpos[spring.qpos] - spring.reference);
   if (const int id = gyroscopic_forces_.tooFast(); id != 0) too_fast_.insert(model_->body_of_id[std::size_t(id)]);
   if (perturbation_.body != 0) addPerturbation();
   mj.mj_step2(m, d);

@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "kinegraph/common/errors.h"
+#include "kinegraph/geometry/files/mesh_cache.h"
 #include "tests/support/mesh_laws.h"
 #include "tests/support/temporary_folder.h"
 
@@ -104,6 +105,40 @@ TEST_F(MeshFile, FilesOfAnotherContentOrEndingAreRefused) {
 TEST_F(MeshFile, FilesThatBreakOffAreRefused) {
   EXPECT_NE(messageOfMesh(write("short.stl", binaryStl(1000, {{0, 0, 0, 1, 0, 0, 1, 1, 0}}))), "");
   EXPECT_NE(messageOfMesh(write("short.glb", std::string("glTF\2\0\0\0\xff\0\0\0", 12))), "");
+}
+
+TEST_F(MeshFile, BytesBehindAnStlFileAndCapitalsDoNotMatter) {
+  const std::string file = binaryStl(1, {{0, 0, 0, 1, 0, 0, 1, 1, 0}});
+  EXPECT_EQ(readMeshFile(write("long.stl", file + std::string(4, '\0'))).triangles.size(), 1u);
+  EXPECT_EQ(readMeshFile(write("CAPITALS.STL",
+                               "SOLID X\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\n"
+                               "VERTEX 0 1E0 0\nENDLOOP\nENDFACET\nENDSOLID X\n"))
+                .triangles.size(),
+            1u);
+}
+
+TEST_F(MeshFile, AnObjFileMayOmitZerosBeforeThePoint) {
+  const Mesh mesh = readMeshFile(write("half.obj", "v 0 0 0\nv .5 0 0\nv 0 -.5 0\nv 0\t0 +.5\nf 1 2 3\nf 1 3 4\n"));
+  ASSERT_EQ(mesh.vertices.size(), 4u);
+  EXPECT_EQ(mesh.vertices[1], Vector3d(.5, 0, 0));
+  EXPECT_EQ(mesh.vertices[2], Vector3d(0, -.5, 0));
+  EXPECT_EQ(mesh.vertices[3], Vector3d(0, 0, .5));
+}
+
+TEST_F(MeshFile, AFileIsReadOnceUntilItChanges) {
+  const std::string path = write("t.obj", kTetrahedron);
+  const std::shared_ptr<const Mesh> first = sharedMeshFile(path);
+  EXPECT_EQ(sharedMeshFile(path), first);
+  write("t.obj", "v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 3 2\n");
+  EXPECT_EQ(sharedMeshFile(path)->vertices.size(), 3u);
+}
+
+TEST_F(MeshFile, AChangedMaterialFileIsReadAgain) {
+  write("t.mtl", "newmtl a\nKd 1 0 0\n");
+  const std::string path = write("t.obj", "mtllib t.mtl\nv 0 0 0\nv 1 0 0\nv 0 2 0\nusemtl a\nf 1 3 2\n");
+  EXPECT_EQ(sharedMeshFile(path)->colors.at(0)[0], 255);
+  write("t.mtl", "newmtl a\nKd 0 1 0 \n");
+  EXPECT_EQ(sharedMeshFile(path)->colors.at(0)[0], 0);
 }
 
 TEST_F(MeshFile, FilesWithoutVerticesAreRefused) {

@@ -56,6 +56,7 @@ TEST(CheckedSize, SizesOfTheRightCountStayAsTheyAre) {
                                                            {ShapeType::ssBoxElip, {1, 2, 3, .1, .2, .3, .05}},
                                                            {ShapeType::ssCvx, {.01}},
                                                            {ShapeType::quad, {1, 2}},
+                                                           {ShapeType::plane, {1, 2}},
                                                            {ShapeType::marker, {.3}},
                                                            {ShapeType::sdf, {1, 2, 3}},
                                                            {ShapeType::mesh, {}}};

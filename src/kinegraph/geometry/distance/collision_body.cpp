@@ -54,6 +54,12 @@ class BodyMaker {
     body_->inner_radius_ = half.minCoeff() + radii.minCoeff();
   }
 
+  void setHalfSpace() {
+    constexpr double kReach = 1e4;  // m
+    body_->core_ = CollisionBody::Core::half_space;
+    bound({0., 0., -kReach}, Vector3d::Constant(kReach));
+  }
+
   void setHull(const std::vector<Vector3d>& points) {
     body_->core_ = CollisionBody::Core::hull;
     boundPoints(points);
@@ -198,6 +204,9 @@ std::shared_ptr<const CollisionBody> makeCollisionBody(const Geometry& geometry)
       break;
     case ShapeCore::Form::box_ellipsoid:
       maker.setBoxEllipsoid(core.half_sides, core.radii);
+      break;
+    case ShapeCore::Form::half_space:
+      maker.setHalfSpace();
       break;
     case ShapeCore::Form::grid:
       maker.setGrid(geometry.grid, {geometry.size[0], geometry.size[1], geometry.size[2]});

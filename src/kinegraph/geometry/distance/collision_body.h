@@ -30,11 +30,12 @@ struct Hull {
 ///   ssCvx, mesh        the convex hull of the points
 ///   mesh with convex parts, pointCloud, lines   a compound: the hulls of the parts, the points, the segments
 ///   ssBoxElip          the sum of a box and an ellipsoid
+///   plane              a half-space: everything below the xy plane; its bounds reach 10 km
 ///   sdf                a grid: the points where the interpolated grid is not positive
 class CollisionBody {
  public:
-  /// `segment` and `cylinder` extend along z. All kinds except `compound` and `grid` are convex.
-  enum class Core { point, segment, box, cylinder, hull, box_ellipsoid, compound, grid };
+  /// `segment` and `cylinder` extend along z. All kinds before `compound` are convex and bounded.
+  enum class Core { point, segment, box, cylinder, hull, box_ellipsoid, compound, grid, half_space };
 
   CollisionBody(const CollisionBody&) = delete;
   ~CollisionBody();

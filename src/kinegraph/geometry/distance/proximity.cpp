@@ -8,6 +8,7 @@
 #include "kinegraph/geometry/distance/convex_distance.h"
 #include "kinegraph/geometry/distance/cylinder_distance.h"
 #include "kinegraph/geometry/distance/grid_distance.h"
+#include "kinegraph/geometry/distance/half_space_distance.h"
 
 namespace kinegraph {
 
@@ -110,6 +111,14 @@ Proximity proximity(const CollisionBody& a, const RigidTransform& X_WA, const Co
     proximity.rate = near.rate;
     return proximity;
   };
+  if (b.core() == Core::half_space) return toHalfSpace(a, X_WA, X_WB);
+  if (a.core() == Core::half_space) {
+    Proximity near = toHalfSpace(b, X_WB, X_WA);
+    std::swap(near.point_a, near.point_b);
+    std::swap(near.core_a, near.core_b);
+    near.normal *= -1.;
+    return near;
+  }
   const bool small_a = isSegment(a.core()), small_b = isSegment(b.core());
   if (small_a && small_b) return ofSegments(a, X_WA, b, X_WB);
   if (b.core() == Core::box && (small_a || a.core() == Core::box)) return fromNearest(toBox(a, X_WA, b, X_WB));

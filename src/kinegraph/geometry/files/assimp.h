@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "kinegraph/common/dynamic_library.h"
 
@@ -28,7 +29,8 @@ const Assimp& assimp();
 
 using AssimpScene = std::unique_ptr<const aiScene, decltype(&aiReleaseImport)>;
 
-/// Reads a mesh file as triangles with valid vertex indices. Throws FileError.
-AssimpScene readAssimpScene(const std::string& path);
+/// Reads a mesh file as triangles with valid vertex indices. Appends the paths of all files that it opens to `files`.
+/// Throws FileError.
+AssimpScene readAssimpScene(const std::string& path, std::vector<std::string>* files = nullptr);
 
 }  // namespace kinegraph

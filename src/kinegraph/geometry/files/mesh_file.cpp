@@ -2,14 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <unordered_map>
 
 #include "kinegraph/common/errors.h"
+#include "kinegraph/common/file_paths.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/assimp.h"
 #include "kinegraph/geometry/files/h5_file.h"
 #include "kinegraph/geometry/files/mesh_header.h"
 #include "kinegraph/geometry/files/mesh_textures.h"
+#include "kinegraph/geometry/shapes/scale_mesh.h"
 
 namespace kinegraph {
 
@@ -20,6 +26,24 @@ std::array<std::uint8_t, 4> bytes(const aiColor4D& color) {
   return {byte(color.r), byte(color.g), byte(color.b), byte(color.a)};
 }
 
+/// The bits of a vertex: vertices with equal bits are joined.
+struct VertexKey {
+  std::array<float, 5> numbers;  ///< position and texture coordinates
+  std::array<std::uint8_t, 4> color;
+
+  bool operator==(const VertexKey& other) const {
+    return std::memcmp(numbers.data(), other.numbers.data(), sizeof(numbers)) == 0 && color == other.color;
+  }
+};
+struct VertexKeyHash {
+  std::size_t operator()(const VertexKey& key) const {
+    std::array<char, sizeof(key.numbers) + sizeof(key.color)> bytes;
+    std::memcpy(bytes.data(), key.numbers.data(), sizeof(key.numbers));
+    std::memcpy(bytes.data() + sizeof(key.numbers), key.color.data(), sizeof(key.color));
+    return std::hash<std::string_view>()({bytes.data(), bytes.size()});
+  }
+};
+
 void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, MeshTextures& textures, Mesh& mesh) {
   const aiMatrix4x4 transform = above * node.mTransformation;
   for (unsigned m = 0; m < node.mNumMeshes; ++m) {
@@ -29,25 +53,63 @@ void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, 
       assimp().aiGetMaterialColor(scene.mMaterials[part.mMaterialIndex], AI_MATKEY_COLOR_DIFFUSE, &diffuse);
     }
     const std::uint32_t first = std::uint32_t(mesh.vertices.size());
+    const bool textured = part.HasTextureCoords(0);
+    std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> places;
+    places.reserve(part.mNumVertices);
+    std::vector<std::uint32_t> place_of(part.mNumVertices);
+    std::vector<std::array<float, 2>> coordinates;
     for (unsigned v = 0; v < part.mNumVertices; ++v) {
-      const aiVector3D p = transform * part.mVertices[v];
+      const aiVector3D& own = part.mVertices[v];
+      VertexKey key{{own.x + 0.f, own.y + 0.f, own.z + 0.f, 0.f, 0.f},
+                    bytes(part.HasVertexColors(0) ? part.mColors[0][v] : diffuse)};
+      if (textured) key.numbers[3] = part.mTextureCoords[0][v].x, key.numbers[4] = part.mTextureCoords[0][v].y;
+      const auto [place, is_new] = places.try_emplace(key, std::uint32_t(mesh.vertices.size()));
+      place_of[v] = place->second;
+      if (!is_new) continue;
+      const aiVector3D p = transform * own;
       mesh.vertices.emplace_back(p.x, p.y, p.z);
-      mesh.colors.push_back(bytes(part.HasVertexColors(0) ? part.mColors[0][v] : diffuse));
+      mesh.colors.push_back(key.color);
+      if (textured) coordinates.push_back({key.numbers[3], key.numbers[4]});
     }
     const std::size_t first_triangle = mesh.triangles.size();
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
       const aiFace& face = part.mFaces[f];
       if (face.mNumIndices == 3)
-        mesh.triangles.push_back({first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
+        mesh.triangles.push_back({place_of[face.mIndices[0]], place_of[face.mIndices[1]], place_of[face.mIndices[2]]});
     }
-    if (!part.HasTextureCoords(0)) continue;
-    std::vector<std::array<float, 2>> coordinates;
-    for (unsigned v = 0; v < part.mNumVertices; ++v)
-      coordinates.push_back({part.mTextureCoords[0][v].x, part.mTextureCoords[0][v].y});
+    if (transform.Determinant() < 0.f) turnTriangles(mesh, first_triangle);
+    if (!textured) continue;
     addTexture(mesh, first, coordinates, first_triangle, textures.of(part.mMaterialIndex));
   }
   for (unsigned child = 0; child < node.mNumChildren; ++child)
     append(scene, *node.mChildren[child], transform, textures, mesh);
+}
+
+/// Removes the vertices that belong to no triangle, if there are triangles: loose points, and ends of lines, are no part
+/// of a surface.
+void removeLoosePoints(Mesh& mesh) {
+  if (mesh.triangles.empty()) return;
+  std::vector<std::uint32_t> place(mesh.vertices.size(), 0);
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t corner : triangle) place[corner] = 1;
+  }
+  if (std::find(place.begin(), place.end(), 0u) == place.end()) return;
+  std::uint32_t kept = 0;
+  const bool colored = mesh.colors.size() == mesh.vertices.size(),
+             textured = mesh.texcoords.size() == mesh.vertices.size();
+  for (std::size_t v = 0; v < place.size(); ++v) {
+    if (place[v] == 0) continue;
+    mesh.vertices[kept] = mesh.vertices[v];
+    if (colored) mesh.colors[kept] = mesh.colors[v];
+    if (textured) mesh.texcoords[kept] = mesh.texcoords[v];
+    place[v] = kept++;
+  }
+  mesh.vertices.resize(kept);
+  if (colored) mesh.colors.resize(kept);
+  if (textured) mesh.texcoords.resize(kept);
+  for (auto& triangle : mesh.triangles) {
+    for (std::uint32_t& corner : triangle) corner = place[corner];
+  }
 }
 
 }  // namespace
@@ -113,16 +175,35 @@ Mesh readH5Mesh(const std::string& path, const std::string& group) {
   return mesh;
 }
 
-Mesh readMeshFile(const std::string& path) {
-  if (!std::filesystem::is_regular_file(path)) throw FileError(cat("mesh file '", path, "' does not exist"));
-  if (path.ends_with(".h5")) return readH5Mesh(path, "mesh");
-  if (path.ends_with(".msh")) return readMshMesh(path);
-  checkMeshHeader(path);
-  const AssimpScene scene = readAssimpScene(path);
+std::string readMeshBytes(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(path, error)) throw FileError(cat("mesh file '", path, "' does not exist"));
+  std::ifstream stream(path, std::ios::binary);
+  std::string bytes(std::size_t(std::filesystem::file_size(path, error)), '\0');
+  if (!stream.read(bytes.data(), std::streamsize(bytes.size())) || error)
+    throw FileError(cat("mesh file '", path, "' cannot be read"));
+  return bytes;
+}
+
+Mesh readMeshFile(const std::string& path, std::vector<std::string>* files) {
+  const std::string content = readMeshBytes(path), extension = lowerExtension(path);
+  if (files) files->push_back(path);
+  if (content.empty()) throw FileError(cat("mesh file '", path, "' is empty"));
+  if (content.starts_with("version https://git-lfs.github.com"))
+    throw FileError(cat("mesh file '", path, "' is a Git LFS pointer; 'git lfs pull' fetches the mesh"));
+  if (extension == ".h5") return readH5Mesh(path, "mesh");
+  if (extension == ".msh") return readMshMesh(path);
   Mesh mesh;
-  MeshTextures textures(*scene, path);
-  append(*scene, *scene->mRootNode, aiMatrix4x4(), textures, mesh);
-  mesh.texcoords.resize(mesh.texcoords.empty() ? 0 : mesh.vertices.size());
+  if (extension == ".stl") {
+    mesh = readStlMesh(content, path);
+  } else {
+    checkMeshHeader(path);
+    const AssimpScene scene = readAssimpScene(path, files);
+    MeshTextures textures(*scene, path, files);
+    append(*scene, *scene->mRootNode, aiMatrix4x4(), textures, mesh);
+    mesh.texcoords.resize(mesh.texcoords.empty() ? 0 : mesh.vertices.size());
+  }
+  removeLoosePoints(mesh);
   if (mesh.vertices.empty()) throw FileError(cat("mesh file '", path, "' contains no vertices"));
   const auto broken =
       std::find_if_not(mesh.vertices.begin(), mesh.vertices.end(), [](const Vector3d& p) { return p.allFinite(); });

@@ -10,7 +10,8 @@
 
 namespace kinegraph {
 
-std::shared_ptr<const Image> imageBeside(const std::string& mesh_path, const std::string& name) {
+std::shared_ptr<const Image> imageBeside(const std::string& mesh_path, const std::string& name,
+                                         std::vector<std::string>* files) {
   namespace fs = std::filesystem;
   if (name.empty() || name.find('\0') != std::string::npos) return nullptr;
   std::string plain = name.starts_with("file://") ? name.substr(7) : name;
@@ -18,6 +19,7 @@ std::shared_ptr<const Image> imageBeside(const std::string& mesh_path, const std
   const fs::path folder = fs::path(mesh_path).parent_path();
   for (const fs::path& path : {folder / plain, folder / fs::path(plain).filename()}) {
     std::error_code ignored;
+    if (files) files->push_back(path.string());
     if (!fs::is_regular_file(path, ignored)) continue;
     try {
       return readImageFile(path.string());
@@ -42,7 +44,7 @@ std::shared_ptr<const Image> MeshTextures::read(unsigned material) const {
                                                          nullptr, nullptr, nullptr, nullptr);
     if (found != aiReturn_SUCCESS) continue;
     const aiTexture* inside = scene_.GetEmbeddedTexture(name.C_Str());
-    if (!inside) return imageBeside(mesh_path_, name.C_Str());
+    if (!inside) return imageBeside(mesh_path_, name.C_Str(), files_);
     if (inside->mHeight != 0 || inside->mWidth == 0) return nullptr;  // not compressed
     auto image = std::make_shared<Image>();
     image->bytes.assign(reinterpret_cast<const char*>(inside->pcData), inside->mWidth);

@@ -12,13 +12,15 @@ struct aiScene;
 namespace kinegraph {
 
 /// Reads a picture referenced by a mesh file, from the same folder. Returns null if it is missing or neither PNG nor
-/// JPEG: the mesh is then shown in its colors.
-std::shared_ptr<const Image> imageBeside(const std::string& mesh_path, const std::string& name);
+/// JPEG: the mesh is then shown in its colors. Appends the paths of the files that it looks for to `files`.
+std::shared_ptr<const Image> imageBeside(const std::string& mesh_path, const std::string& name,
+                                         std::vector<std::string>* files = nullptr);
 
 /// The pictures of a mesh file's materials, each read once.
 class MeshTextures {
  public:
-  MeshTextures(const aiScene& scene, std::string mesh_path) : scene_(scene), mesh_path_(std::move(mesh_path)) {}
+  MeshTextures(const aiScene& scene, std::string mesh_path, std::vector<std::string>* files)
+      : scene_(scene), mesh_path_(std::move(mesh_path)), files_(files) {}
 
   /// The picture of a material; null if it has none.
   std::shared_ptr<const Image> of(unsigned material);
@@ -28,6 +30,7 @@ class MeshTextures {
 
   const aiScene& scene_;
   std::string mesh_path_;
+  std::vector<std::string>* files_;                          ///< paths of the files that were looked for, or null
   std::map<unsigned, std::shared_ptr<const Image>> images_;  ///< by material
 };
 

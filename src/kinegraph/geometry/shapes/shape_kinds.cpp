@@ -186,6 +186,9 @@ const ShapeKind kKinds[] = {
      .core = boxCore},
     {.type = ShapeType::lines, .name = "lines", .data = Data::mesh,
      .core = [](const Geometry&) { return ShapeCore{.form = Form::segments}; }},
+    {.type = ShapeType::plane, .name = "plane", .size_names = "x y",
+     .core = [](const Geometry&) { return ShapeCore{.form = Form::half_space}; },
+     .surface = rectangle},
 };
 // clang-format on
 

@@ -12,9 +12,21 @@ namespace kinegraph {
 
 /// Collision geometry of a shape: a core swept by a ball. The axis of a core, if any, is z. Lengths in m.
 struct ShapeCore {
-  /// The last five use the vertices of the shape's mesh (their hull; the hulls of its convex parts; each vertex; a
+  /// `half_space` is everything below the xy plane. Of the others, five use the vertices of the shape's mesh (their hull; the hulls of its convex parts; each vertex; a
   /// segment per pair of vertices) or its grid.
-  enum class Form { point, segment, box, cylinder, box_ellipsoid, hull, hulls_of_parts, points, segments, grid };
+  enum class Form {
+    point,
+    segment,
+    box,
+    cylinder,
+    box_ellipsoid,
+    half_space,
+    hull,
+    hulls_of_parts,
+    points,
+    segments,
+    grid
+  };
   Form form = Form::point;
   double radius = 0.;                      ///< of the ball
   double half_length = 0.;                 ///< of segment and cylinder

@@ -17,7 +17,7 @@ constexpr std::pair<std::string_view, std::string_view> kForeignNames[] = {
     {"cuboid", "box"},
     {"block", "box"},
     {"ball", "sphere"},
-    {"plane", "quad"},
+    {"halfspace", "plane"},
     {"rectangle", "quad"},
     {"ellipsoid", "ssBoxElip with size: [0 0 0 rx ry rz 0]"},
     {"frame", "marker"},

@@ -26,7 +26,9 @@ constexpr std::string_view kKnownAttributes[] = {
     "motorKp", "motorKd", "motorLambda", "motorMass", "gains", "servo", "noMotor", "angularDamping", "focalLength",
     "fxycxy", "orthoAbsHeight", "heightAngle", "heightAbs", "zRange", "width", "height", "label", "part", "visual",
     "noVisual", "franka", "parent", "home", "contact_exclude", "vertices", "triangles", "vertex_colors",
-    "joint_groups", "joint_states", "mesh_parts", "grid_cells", "grid_values",
+    "joint_groups", "joint_states", "actuators", "mesh_parts", "grid_cells", "grid_values",
+    "jointFriction", "armature", "springStiffness", "springReference", "gravityCompensation", "torsionalFriction",
+    "rollingFriction", "frictionRule", "surfaceVelocity",
 };
 // clang-format on
 

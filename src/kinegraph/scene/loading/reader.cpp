@@ -11,33 +11,41 @@ namespace kinegraph {
 namespace {
 
 /// Builds the scene, unless the grammar has errors: they would cause spurious further errors.
-void build(SceneSource source, SceneTree& scene, SceneDiagnostics& diagnostics, std::vector<std::string>& warnings) {
+void build(SceneSource source, SceneTree& scene, SceneDiagnostics& diagnostics, std::vector<std::string>& warnings,
+           bool strict) {
   diagnostics.throwErrors();
   SceneBuilder(scene, diagnostics).build(source);
-  diagnostics.throwErrors();
+  diagnostics.throwErrors(strict);
   for (std::string& warning : diagnostics.warnings()) warnings.push_back(std::move(warning));
 }
 
 }  // namespace
 
-void readSceneFile(const std::string& path, SceneTree& scene, std::vector<std::string>& warnings) {
+void readSceneFile(const std::string& path, SceneTree& scene, std::vector<std::string>& warnings,
+                   const FileOptions& options) {
   SceneDiagnostics diagnostics;
-  build(readSource(path, diagnostics), scene, diagnostics, warnings);
+  build(readSource(path, diagnostics, options.xacro), scene, diagnostics, warnings, options.strict);
 }
 
 void readSceneText(std::string_view text, const std::string& name, const std::string& folder, SceneTree& scene,
-                   std::vector<std::string>& warnings) {
+                   std::vector<std::string>& warnings, bool strict) {
   SceneDiagnostics diagnostics;
-  build(readSource(text, name, folder, diagnostics), scene, diagnostics, warnings);
+  build(readSource(text, name, folder, diagnostics), scene, diagnostics, warnings, strict);
 }
 
 void readSemanticsFile(const std::string& path, const std::string& prefix, SceneTree& scene,
-                       std::vector<std::string>& warnings) {
+                       std::vector<std::string>& warnings, const FileOptions& options) {
   SceneDiagnostics diagnostics;
-  SceneSource source = readSource(path, diagnostics);
+  SceneSource source = readSource(path, diagnostics, options.xacro);
   diagnostics.throwErrors();
   for (RobotSemantics& semantics : source.semantics) {
     semantics.prefix = prefix;
+    if (options.strict) {
+      SceneTree trial;
+      trial.append(scene, "");
+      applySemantics(semantics, trial, diagnostics);
+      diagnostics.throwErrors(true);
+    }
     applySemantics(semantics, scene, diagnostics);
   }
   diagnostics.throwErrors();

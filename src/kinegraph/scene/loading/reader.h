@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kinegraph/gfile/value.h"
+#include "kinegraph/scene/loading/file_options.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
@@ -13,16 +14,17 @@ namespace kinegraph {
 /// expanded from the environment. Throws FileError or ParseError (with file:line:column, the source line and a
 /// caret);
 /// `scene` must then be discarded. Appends warnings ("file:line:column: ...") to `warnings`.
-void readSceneFile(const std::string& path, SceneTree& scene, std::vector<std::string>& warnings);
+void readSceneFile(const std::string& path, SceneTree& scene, std::vector<std::string>& warnings,
+                   const FileOptions& options = {});
 
 /// Reads scene text. `name` stands for the file in messages; included files are relative to `folder`.
 void readSceneText(std::string_view text, const std::string& name, const std::string& folder, SceneTree& scene,
-                   std::vector<std::string>& warnings);
+                   std::vector<std::string>& warnings, bool strict = false);
 
 /// Applies an SRDF file to a scene that already contains the robot; `prefix` is put before the file's names. Throws
 /// FileError or ParseError; the scene is then unchanged.
 void readSemanticsFile(const std::string& path, const std::string& prefix, SceneTree& scene,
-                       std::vector<std::string>& warnings);
+                       std::vector<std::string>& warnings, const FileOptions& options = {});
 
 /// Errors and warnings of a scene file, collected in one pass. checkSceneFile throws FileError for an unreadable
 /// file.

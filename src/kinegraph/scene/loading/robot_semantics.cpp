@@ -36,7 +36,11 @@ class Applier {
 
   void apply() {
     if (!knowsAny()) {
-      if (!semantics_.requested) return;
+      if (!semantics_.requested) {
+        return diagnostics_.warning(
+            {semantics_.file, 1, 1},
+            "the SRDF file beside the robot's file is ignored: it names none of its links and joints");
+      }
       return diagnostics_.error(
           {semantics_.file, 1, 1},
           "none of the links and joints in this file is a frame of the scene; add the robot first");
@@ -94,7 +98,7 @@ class Applier {
   }
 
   void warnMissing(const char* kind, const std::string& name, const SourcePosition& where) {
-    if (!semantics_.requested || !missing_.insert(name).second) return;
+    if (!missing_.insert(name).second) return;
     const std::string hint = missing_.size() <= 20 ? similarHint(semantics_.prefix + name, scene_.names()) : "";
     diagnostics_.warning(where, cat("the scene has no ", kind, " '", semantics_.prefix, name, "'", hint));
   }
@@ -234,7 +238,6 @@ class Applier {
     for (; frame && frame != base; frame = frame->parent) addMoving(frame, joints);
     if (frame) return;
     joints.resize(before);
-    if (!semantics_.requested) return;
     diagnostics_.warning(chain.where, cat("the chain from '", chain.name, "' to '", chain.tip, "' does not exist: '",
                                           chain.name, "' is not above '", chain.tip, "'"));
   }
@@ -251,7 +254,6 @@ class Applier {
     NumberArray q{value.values, 1};
     const int dofs = frame->joint->dofs();
     if (int(q.numbers.size()) != dofs) {
-      if (!semantics_.requested) return;
       return diagnostics_.warning(value.where, cat("state '", state.name, "': joint '", value.joint, "' has ", dofs,
                                                    dofs == 1 ? " dof, not " : " dofs, not ", q.numbers.size()));
     }

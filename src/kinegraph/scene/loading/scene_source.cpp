@@ -25,7 +25,8 @@ constexpr std::size_t kMaxNesting = 50, kMaxFiles = 2000, kMaxBytes = std::size_
 /// Reads scene files one after the other and applies their special keys.
 class SourceReader {
  public:
-  explicit SourceReader(SceneDiagnostics& diagnostics) : diagnostics_(diagnostics) {}
+  explicit SourceReader(SceneDiagnostics& diagnostics, XacroArguments arguments = {})
+      : diagnostics_(diagnostics), arguments_(std::move(arguments)) {}
 
   std::vector<Node> joint_states;
   std::vector<RobotSemantics> semantics;
@@ -58,27 +59,43 @@ class SourceReader {
     text << stream.rdbuf();
     if (!stream) return refuse(cat("scene file '", path, "' cannot be read"));
     open_.push_back(absolute.string());
-    auto frames = readText(text.str(), path, absolute.parent_path().string());
+    std::vector<SourceFrame> frames;
+    if (lowerExtension(path) == ".xacro") {
+      std::string expanded;
+      try {
+        expanded = expandXacro(absolute.string(), arguments_);
+      } catch (const FileError& e) {
+        open_.pop_back();
+        return refuse(e.what());
+      }
+      frames =
+          readText(expanded, path + " (expanded)", absolute.parent_path().string(), fs::path(path).stem().string());
+    } else {
+      frames = readText(text.str(), path, absolute.parent_path().string());
+    }
     open_.pop_back();
     if (const std::string beside = semanticsBeside(absolute.string()); !beside.empty()) readBeside(beside, frames);
     return frames;
   }
 
-  std::vector<SourceFrame> readText(const std::string& bytes, const std::string& name, std::string folder) {
+  /// `name` stands for the file in messages; `file`, if given, is the name whose extension selects the format.
+  std::vector<SourceFrame> readText(const std::string& bytes, const std::string& name, std::string folder,
+                                    const std::string& file = {}) {
     std::size_t replaced = 0;
-    const std::string text = validUtf8(bytes, &replaced);
+    const std::string text = validUtf8(toUtf8(bytes), &replaced);
     if (replaced > 0) {
       diagnostics_.warning({name, 1, 1}, cat("the text is not UTF-8; ", replaced,
                                              replaced == 1 ? " byte of it is" : " bytes of it are", " read as '?'"));
     }
     diagnostics_.addText(name, text);
-    if (isSemanticsFile(name)) {
+    if (isSemanticsFile(file.empty() ? name : file)) {
       std::vector<Diagnostic> found;
       semantics.push_back(readSemantics(text, name, found));
       for (Diagnostic& diagnostic : found) diagnostics_.add(std::move(diagnostic));
       return {};
     }
-    const SceneFormat* format = sceneFormatOf(name);
+    const SceneFormat* format = sceneFormatOf(file.empty() ? name : file);
+    if (!format && !file.empty()) format = sceneFormatOf(".urdf");  // robot.xacro
     const std::size_t begin = text.find_first_not_of(" \t\r\n");
     if (!format && begin != std::string::npos &&
         (text.compare(begin, 5, "<?xml") == 0 || text.compare(begin, 6, "<robot") == 0 ||
@@ -146,7 +163,7 @@ class SourceReader {
     if (error || bytes_ > kMaxBytes) return;
     files.push_back(path);
     bytes << stream.rdbuf();
-    std::string text = validUtf8(bytes.str(), nullptr);
+    std::string text = validUtf8(toUtf8(bytes.str()), nullptr);
     RobotSemantics read = readSemantics(text, path, found);
     diagnostics_.addText(path, std::move(text));
     const bool failed = std::any_of(found.begin(), found.end(),
@@ -157,7 +174,8 @@ class SourceReader {
       semantics.push_back(std::move(read));
     }
     for (Diagnostic& diagnostic : found) {
-      if (diagnostic.severity != Diagnostic::Severity::error) continue;
+      if (!failed) diagnostics_.add(std::move(diagnostic));
+      if (!failed || diagnostic.severity != Diagnostic::Severity::error) continue;
       diagnostics_.warning(diagnostic.where, "the SRDF file beside the robot's file is ignored: " + diagnostic.message);
       return;
     }
@@ -315,6 +333,7 @@ class SourceReader {
   }
 
   SceneDiagnostics& diagnostics_;
+  XacroArguments arguments_;
   std::vector<std::string> open_;                  ///< files being read
   std::vector<std::vector<SourceFrame>*> scopes_;  ///< the frames of each of them so far
   std::set<std::string> deleted_;                  ///< names removed by Delete: later edits of them are not reported
@@ -323,8 +342,8 @@ class SourceReader {
 
 }  // namespace
 
-SceneSource readSource(const std::string& path, SceneDiagnostics& diagnostics) {
-  SourceReader reader(diagnostics);
+SceneSource readSource(const std::string& path, SceneDiagnostics& diagnostics, const XacroArguments& arguments) {
+  SourceReader reader(diagnostics, arguments);
   SceneSource source;
   source.frames = reader.readFile(resolvePath(path, ""), {});
   source.joint_states = std::move(reader.joint_states);

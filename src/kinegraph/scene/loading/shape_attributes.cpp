@@ -6,8 +6,10 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/grid_file.h"
 #include "kinegraph/geometry/files/image_file.h"
+#include "kinegraph/geometry/files/mesh_cache.h"
 #include "kinegraph/geometry/files/mesh_file.h"
 #include "kinegraph/geometry/shapes/isosurface.h"
+#include "kinegraph/geometry/shapes/scale_mesh.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/textured_surface.h"
@@ -69,10 +71,10 @@ bool AttributeReader::readMesh(Geometry& geometry) {
   const Node* node = find({"mesh", "mesh_decomp", "mesh_points"});
   return guarded(*node, [&] {
     const std::string file = path(*node);
-    Mesh mesh;
+    std::shared_ptr<const Mesh> mesh;
     try {
-      mesh =
-          node->key == "mesh" ? readMeshFile(file) : readH5Mesh(file, node->key == "mesh_decomp" ? "decomp" : "points");
+      if (node->key == "mesh") mesh = sharedMeshFile(file);
+      if (!mesh) mesh = std::make_shared<Mesh>(readH5Mesh(file, node->key == "mesh_decomp" ? "decomp" : "points"));
     } catch (const FileError& e) {
       throw FileError(cat(e.what(), std::string(e.what()).ends_with("does not exist") ? similarFilesHint(file) : ""));
     }
@@ -80,15 +82,17 @@ bool AttributeReader::readMesh(Geometry& geometry) {
       const auto s = numbers(*scale).value_or(std::vector<double>{1.});
       if (s.size() == 1 || s.size() == 3) {
         const Vector3d factors = s.size() == 3 ? Vector3d(s[0], s[1], s[2]) : Vector3d::Constant(s[0]).eval();
-        for (Vector3d& p : mesh.vertices) p = p.cwiseProduct(factors);
+        Mesh scaled = *mesh;
+        scaleMesh(scaled, factors);
+        mesh = std::make_shared<Mesh>(std::move(scaled));
         geometry.mesh_scale = factors;
       } else {
         error(*scale, cat("expected 1 or 3 numbers, got ", s.size()));
       }
     }
-    geometry.type = mesh.triangles.empty() ? ShapeType::pointCloud : ShapeType::mesh;
+    geometry.type = mesh->triangles.empty() ? ShapeType::pointCloud : ShapeType::mesh;
     if (node->key == "mesh") geometry.mesh_file = file;
-    geometry.mesh = std::make_shared<Mesh>(std::move(mesh));
+    geometry.mesh = std::move(mesh);
   });
 }
 
@@ -98,7 +102,7 @@ bool AttributeReader::readCore(Geometry& geometry) {
   return guarded(*node, [&] {
     Mesh core;
     if (isMeshFile(*node)) {
-      core.vertices = readMeshFile(path(*node)).vertices;
+      core.vertices = sharedMeshFile(path(*node))->vertices;
     } else if (const auto v = numbers(*node)) {
       if (v->size() < 3 || v->size() % 3 != 0) throw ValueError(cat("expected n x 3 numbers, got ", v->size()));
       core.vertices = triples(*v);

@@ -1,6 +1,8 @@
 #include "kinegraph/scene/tree/contact_warnings.h"
 
 #include <algorithm>
+#include <map>
+#include <set>
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
@@ -66,6 +68,28 @@ std::vector<int> passedThrough(const SceneTree& scene, const State& state) {
   return frames;
 }
 
+std::vector<int> robotsWithoutContact(const SceneTree& scene, const KinematicModel& model) {
+  struct Robot {
+    std::set<int> links;
+    bool collides = false;
+  };
+  std::map<int, Robot> robots;  // by root
+  for (const auto& frame : scene.frames()) {
+    const int link = model.frame_link[std::size_t(frame->id)];
+    if (link == 0 || !frame->shape || shapeKind(frame->shape->geometry->type).is_symbol) continue;
+    const FrameData* root = frame.get();
+    while (root->parent) root = root->parent;
+    Robot& robot = robots[root->id];
+    if (isOpaque(*frame->shape)) robot.links.insert(link);
+    robot.collides |= frame->shape->contact != 0;
+  }
+  std::vector<int> without;
+  for (const auto& [root, robot] : robots) {
+    if (!robot.collides && robot.links.size() > 1) without.push_back(root);
+  }
+  return without;
+}
+
 /// Lists the first few names and the number of the others.
 std::string listed(std::vector<std::string> names) {
   const std::size_t count = names.size();
@@ -77,7 +101,7 @@ std::string listed(std::vector<std::string> names) {
 
 ContactWarnings contactWarnings(SceneTree& scene) {
   const State& state = scene.state();
-  return {restingPairs(state), passedThrough(scene, state)};
+  return {restingPairs(state), passedThrough(scene, state), robotsWithoutContact(scene, state.model())};
 }
 
 std::vector<std::string> describe(const ContactWarnings& warnings, const SceneTree& scene) {
@@ -95,6 +119,14 @@ std::vector<std::string> describe(const ContactWarnings& warnings, const SceneTr
     sentences.push_back(cat(listed(names), names.size() == 1 ? " is" : " are",
                             " near moving links but cannot collide because `contact` is 0; setContact(1) makes an"
                             " obstacle of a frame, and the attribute `simulate` silences this warning"));
+  }
+  names.clear();
+  for (const int frame : warnings.without_contact) names.push_back(nameOf(frame));
+  if (!names.empty()) {
+    sentences.push_back(
+        cat("no moving shape of the robot ", listed(names),
+            " can collide, because `contact` is 0 for all of them: every configuration and motion counts as free."
+            " Use its variant with collision (of shipped robots: <name>_collision.g), or give its shapes `contact`"));
   }
   return sentences;
 }

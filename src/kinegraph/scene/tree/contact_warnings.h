@@ -17,6 +17,10 @@ struct ContactWarnings {
   /// Static frames whose shape has neither `contact` nor `simulate`, within 5 cm of a moving shape that collides: the
   /// robot passes through them. Excludes transparent shapes and shapes drawn around a colliding one.
   std::vector<int> passed_through;
+
+  /// Roots of robots (trees with at least two moving links that carry opaque shapes) of which no moving shape collides:
+  /// all of their configurations count as free.
+  std::vector<int> without_contact = {};
 };
 
 ContactWarnings contactWarnings(SceneTree& scene);

@@ -46,11 +46,11 @@ int SceneDiagnostics::count(Diagnostic::Severity severity) const {
   return int(std::count_if(found_.begin(), found_.end(), [&](const Diagnostic& d) { return d.severity == severity; }));
 }
 
-void SceneDiagnostics::throwErrors() const {
+void SceneDiagnostics::throwErrors(bool strict) const {
   const Diagnostic* first = nullptr;
   std::string message;
   for (const Diagnostic& d : found_) {
-    if (d.severity != Diagnostic::Severity::error) continue;
+    if (d.severity != Diagnostic::Severity::error && !strict) continue;
     message += first ? cat("\n", ParseError(d.where, withExcerpt(d)).what())
                      : withExcerpt(d);  // the exception adds the position
     if (!first) first = &d;

@@ -29,8 +29,8 @@ class SceneDiagnostics {
   std::vector<std::string> report() const;
   int count(Diagnostic::Severity severity) const;
 
-  /// Throws one ParseError that lists all errors, if there are any.
-  void throwErrors() const;
+  /// Throws one ParseError that lists all errors, if there are any. With `strict`, warnings count as errors.
+  void throwErrors(bool strict = false) const;
 
  private:
   static constexpr int kMaxErrors = 50;

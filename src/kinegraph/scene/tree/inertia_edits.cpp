@@ -90,6 +90,12 @@ void addSurfaceMasses(SceneTree& scene) {
 
 }  // namespace
 
+double totalMass(const SceneTree& scene) {
+  double mass = 0.;
+  for (const auto& frame : scene.frames()) mass += frame->inertia ? frame->inertia->mass : 0.;
+  return mass;
+}
+
 void gatherInertia(FrameData& frame) {
   LinkInertia sum;
   addBelow(frame, Pose(), sum);

@@ -7,6 +7,9 @@ namespace kinegraph {
 /// Surface density of shapes without a given mass, kg/m^2.
 constexpr double kSurfaceDensity = 5.;
 
+/// The sum of all masses, kg.
+double totalMass(const SceneTree& scene);
+
 /// Gathers the inertias of a frame and of all frames rigidly fixed below it in this frame, and clears the others.
 /// Without any mass nothing changes.
 void gatherInertia(FrameData& frame);

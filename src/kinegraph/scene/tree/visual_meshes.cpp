@@ -2,7 +2,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/geometry/files/mesh_file.h"
+#include "kinegraph/geometry/files/mesh_cache.h"
 #include "kinegraph/geometry/shapes/textured_surface.h"
 
 namespace kinegraph {
@@ -31,7 +31,7 @@ std::shared_ptr<const Geometry> VisualMeshes::fromFile(const Shape& shape) {
   const auto [place, is_new] = meshes_.try_emplace(key);
   if (!is_new) return place->second;
   try {
-    Mesh mesh = readMeshFile(shape.visual_mesh);
+    Mesh mesh = *sharedMeshFile(shape.visual_mesh);
     for (Vector3d& p : mesh.vertices) p = shape.visual_pose.p + shape.visual_pose.q * p;
     auto geometry = std::make_shared<Geometry>();
     geometry->type = ShapeType::mesh;

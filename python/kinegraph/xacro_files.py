@@ -1,0 +1,65 @@
+"""Expands files with xacro macros by the package xacrodoc."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Mapping
+from contextlib import redirect_stderr
+from pathlib import Path
+
+from ._core import _packageFolder
+from .errors import FileError
+
+
+def expand(path: str, arguments: Mapping[str, str]) -> str:
+    """Returns the URDF, MJCF or SRDF text of a file with macros.
+
+    `$(find NAME)` and `package://NAME` are searched as in `Config.addFile`.
+
+    Args:
+        path: Path of the file.
+        arguments: Values of its `<xacro:arg>`, by name.
+    Returns:
+        The text without macros.
+    Raises:
+        FileError: xacrodoc is not installed, or the macros have an error.
+    """
+    try:
+        import xacro
+        from xacrodoc import XacroDoc, packages
+    except ImportError:
+        raise FileError(
+            f"'{path}' has xacro macros, which need the package xacrodoc: pip install kinegraph[xacro]"
+        ) from None
+    packages.reset()
+    tried: set[str] = set()
+    while True:
+        said = io.StringIO()  # xacro prints the file and the macro of an error
+        try:
+            xacro.restore_filestack([path])  # relative includes
+            with redirect_stderr(said):
+                doc = XacroDoc.from_file(path, subargs=dict(arguments), resolve_packages=False)
+            return str(doc.dom.toprettyxml(indent="  "))
+        except Exception as error:
+            missing = _missingPackage(error)
+            folder = _packageFolder(missing, str(Path(path).parent)) if missing and missing not in tried else ""
+            if folder:
+                tried.add(missing)
+                packages.update_package_cache({missing: folder})
+                continue
+            raise FileError(f"'{path}' cannot be expanded: {_oneLine(error, said.getvalue())}") from error
+
+
+def _missingPackage(error: BaseException | None) -> str:
+    """Returns the name of the package that an error misses, or ""."""
+    while error is not None:
+        if type(error).__name__ == "PackageNotFoundError" and error.args:
+            return str(error.args[0])
+        inner = getattr(error, "exc", None)  # of a XacroException
+        error = inner if isinstance(inner, BaseException) else error.__cause__ or error.__context__
+    return ""
+
+
+def _oneLine(error: Exception, said: str) -> str:
+    words = [str(error), *(line.strip() for line in said.splitlines())]
+    return "; ".join(dict.fromkeys(word for word in words if word)) or type(error).__name__
