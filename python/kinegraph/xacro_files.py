@@ -36,7 +36,7 @@ def expand(path: str, arguments: Mapping[str, str]) -> str:
     while True:
         said = io.StringIO()  # xacro prints the file and the macro of an error
         try:
-            xacro.restore_filestack([path])  # relative includes
+            xacro.init_stacks(path)  # relative includes
             with redirect_stderr(said):
                 doc = XacroDoc.from_file(path, subargs=dict(arguments), resolve_packages=False)
             return str(doc.dom.toprettyxml(indent="  "))
