@@ -5,9 +5,10 @@ from __future__ import annotations
 import io
 from collections.abc import Mapping
 from contextlib import redirect_stderr
+from importlib import import_module
 from pathlib import Path
 
-from ._core import _packageFolder
+from . import _core
 from .errors import FileError
 
 
@@ -25,8 +26,8 @@ def expand(path: str, arguments: Mapping[str, str]) -> str:
         FileError: xacrodoc is not installed, or the macros have an error.
     """
     try:
-        import xacro
-        from xacrodoc import XacroDoc, packages
+        xacro, xacrodoc = import_module("xacro"), import_module("xacrodoc")
+        packages = import_module("xacrodoc.packages")
     except ImportError:
         raise FileError(
             f"'{path}' has xacro macros, which need the package xacrodoc: pip install kinegraph[xacro]"
@@ -36,13 +37,15 @@ def expand(path: str, arguments: Mapping[str, str]) -> str:
     while True:
         said = io.StringIO()  # xacro prints the file and the macro of an error
         try:
-            xacro.restore_filestack([path])  # relative includes
+            xacro.init_stacks(path)  # relative includes
             with redirect_stderr(said):
-                doc = XacroDoc.from_file(path, subargs=dict(arguments), resolve_packages=False)
+                doc = xacrodoc.XacroDoc.from_file(path, subargs=dict(arguments), resolve_packages=False)
             return str(doc.dom.toprettyxml(indent="  "))
         except Exception as error:
             missing = _missingPackage(error)
-            folder = _packageFolder(missing, str(Path(path).parent)) if missing and missing not in tried else ""
+            folder = ""
+            if missing and missing not in tried:
+                folder = _core._packageFolder(missing, str(Path(path).parent))  # type: ignore[attr-defined]
             if folder:
                 tried.add(missing)
                 packages.update_package_cache({missing: folder})
@@ -61,5 +64,5 @@ def _missingPackage(error: BaseException | None) -> str:
 
 
 def _oneLine(error: Exception, said: str) -> str:
-    words = [str(error), *(line.strip() for line in said.splitlines())]
+    words = [" ".join(str(error).split()), *(line.strip() for line in said.splitlines())]
     return "; ".join(dict.fromkeys(word for word in words if word)) or type(error).__name__

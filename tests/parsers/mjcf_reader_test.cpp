@@ -342,7 +342,8 @@ TEST_F(MjcfReader, AttachedModelsKeepTheirSettingsAndStandWhereMujocoPutsThem) {
   write("hand.xml",
         "<mujoco><compiler angle='radian'/><default><joint range='-1 1' axis='1 0 0'/><default class='k'><joint "
         "axis='0 1 0'/></default></default><asset><mesh name='m' vertex='0 0 0 1 0 0 0 1 0 0 0 1'/></asset>"
-        "<worldbody><body name='hand' pos='0 0 1' euler='0 1 0'><joint name='j'/><geom name='g' type='mesh' mesh='m'/>"
+        "<worldbody><body name='hand' pos='0 0 1' euler='0 1 0'><joint name='j'/><geom name='g' type='mesh' mesh='m' "
+        "mass='1'/>"
         "<body name='f' pos='.1 0 0' childclass='k'><joint name='fj'/><geom size='.1'/></body></body></worldbody>"
         "<contact><exclude body1='hand' body2='f'/></contact></mujoco>");
   const std::string scene =

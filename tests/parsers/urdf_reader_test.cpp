@@ -145,8 +145,12 @@ TEST_F(UrdfReader, AMimicOfNothingIsIndependentAndOneOfAFixedJointIsFixed) {
   EXPECT_NE(warnings[1].find("joint 'm' mimics 'f', which is fixed"), std::string::npos) << warnings[1];
 }
 
-TEST_F(UrdfReader, JointsThatMimicEachOtherAreRefused) {
-  EXPECT_NE(messageOf(joint("continuous", "<mimic joint='j'/>")).find("joint 'j' mimics 'j', which mimics it in turn"),
+TEST_F(UrdfReader, AJointThatMimicsItselfIsIndependent) {
+  const Config config = load(joint("continuous", "<mimic joint='j'/>"));
+  EXPECT_EQ(config.getJointDimension(), 1);
+  ASSERT_EQ(config.fileWarnings().size(), 1u);
+  EXPECT_NE(config.fileWarnings()[0].find(
+                "joint 'j' mimics 'j', which mimics it in turn; it is read as an independent joint"),
             std::string::npos);
 }
 
@@ -264,7 +268,7 @@ TEST_F(UrdfReader, AMistakeInAValueIsReportedWhereItStands) {
   EXPECT_EQ(messageOf("<link name='a'/><link name='b'/>\n<joint name='j' type='fixed'><parent link='a'/>"
                       "<child link='b'/><origin rpy='1 2'/></joint>")
                 .substr(0, 22),
-            "r.urdf:3:75: joint 'j'");
+            "r.urdf:3:73: joint 'j'");
 }
 
 TEST_F(UrdfReader, AFlawOfAShapeLeavesItOut) {

@@ -49,8 +49,8 @@ std::string percentDecoded(const std::string& path) {
   return out;
 }
 
-/// The readings of a file name, the likeliest first: as written, with environment variables, as part of an URI, and with
-/// the separators of Windows.
+/// The readings of a file name, the likeliest first: as written, with environment variables, as part of an URI, and
+/// with the separators of Windows.
 std::vector<std::string> readingsOf(const std::string& path) {
   std::vector<std::string> readings = {path};
   const auto addEach = [&](const auto& change) {

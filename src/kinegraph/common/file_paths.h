@@ -12,8 +12,8 @@ struct LocatedFile {
 /// Finds the file that `path` names, relative to `folder`. Drops file://. Tries the name as written, with $NAME expanded
 /// from the environment, with %20 as a blank and so on, with \ as /, and with other capitals if exactly one file has
 /// them. Searches package://NAME/rest (also model:// and $(find NAME)/rest) in the folders of visitPackageFolders, and
-/// then `rest` in `folder` and above it. A missing path .../rai-robotModels/rest becomes rest in the folder RAI_PATH, if
-/// that exists.
+/// then `rest` in `folder` and above it. A missing path .../rai-robotModels/rest becomes rest in the folder RAI_PATH,
+/// if that exists.
 LocatedFile locateFile(const std::string& path, const std::string& folder);
 
 /// The path of locateFile.

@@ -28,8 +28,9 @@ std::map<std::string, MjcfCoupling> mjcfCouplings(const MjcfDocument& document,
 double mjcfReference(const MjcfElement& joint, MjcfValues& values);
 
 /// Adds an attribute `actuators` to the frames that <actuator> drives, as information for people: per name the type,
-/// the target, and the gear, ranges and gains as written. `frameOf` returns the frame of an element of that kind ("joint",
-/// "site", "body") and name, or "" for none; the frame `world` lists the actuators of tendons and of unknown targets.
+/// the target, and the gear, ranges and gains as written. `frameOf` returns the frame of an element of that kind
+/// ("joint", "site", "body") and name, or "" for none; the frame `world` lists the actuators of tendons and of unknown
+/// targets.
 void addActuators(const MjcfDocument& document, const std::function<std::string(const MjcfName&)>& frameOf,
                   Graph& graph);
 

@@ -25,7 +25,8 @@ std::set<MjcfName> mjcfDefinitions(const XmlElement& element);
 
 /// Replaces each <replicate> in the bodies of `root` by a <frame> per copy: copy i of `count` is rotated by
 /// `rotationOf` i times its `euler` and moved from the copy before by `offset`, in that copy's axes. Its names get
-/// the suffix `sep` i, with as many digits as `count` has. Elements outside of the bodies that refer to copied names are copied, too.
+/// the suffix `sep` i, with as many digits as `count` has. Elements outside of the bodies that refer to copied names
+/// are copied, too.
 void expandReplicates(XmlElement& root, const std::function<Quaterniond(const std::vector<double>&)>& rotationOf,
                       Findings& findings);
 

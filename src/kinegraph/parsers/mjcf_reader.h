@@ -31,8 +31,8 @@ namespace kinegraph {
 /// duplicate name gets its element kind appended: <joint>_joint, <site>_site, ... Default classes, <include>, <frame>
 /// and the options of <compiler> are applied. A height field is a mesh of convex parts. Actuators, sensors, tendons and
 /// the like are ignored with one warning; a mesh with a missing file, or one that cannot be read, is skipped with one
-/// warning each. Exclusions and equalities of unknown bodies and joints are left out with a warning, and a range that is
-/// not ascending is no limit. If the diagnostics contain an error, there are no frames.
+/// warning each. Exclusions and equalities of unknown bodies and joints are left out with a warning, and a range that
+/// is not ascending is no limit. If the diagnostics contain an error, there are no frames.
 ParseResult readMjcf(std::string_view text, const std::string& file, const std::string& folder);
 
 }  // namespace kinegraph

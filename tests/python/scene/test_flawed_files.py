@@ -108,7 +108,7 @@ def test_a_strict_file_leaves_the_scene_as_it_was(tmp_path: Path) -> None:
     file = tmp_path / "m.xml"
     file.write_text('<mujoco><worldbody><geom size=".1" rgba="1 0 0"/></worldbody></mujoco>')
     C = ry.Config()
-    with pytest.raises(ry.ParseError, match="m.xml:1:38: .*the alpha is read as 1"):
+    with pytest.raises(ry.ParseError, match="m.xml:1:36: .*the alpha is read as 1"):
         C.addFile(file, strict=True)
     assert len(C) == 0
     with pytest.raises(ry.ParseError, match="unknown attribute 'colour'"):
@@ -162,7 +162,7 @@ def test_actuators_of_mjcf_files_are_listed(tmp_path: Path, capsys: pytest.Captu
     assert "actuators (1):\n  servo: position of joint j (ctrlrange -1 1, kp 100)" in capsys.readouterr().out
 
 
-XACRO = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="$(arg name)"><xacro:arg name="name" default="arm"/>
+XACRO = """<robot xmlns:xacro="http://www.ros.org/wiki/xacro" name="arm"><xacro:arg name="name" default="arm"/>
 <xacro:include filename="part.xacro"/><link name="$(arg name)_base"/></robot>"""
 
 

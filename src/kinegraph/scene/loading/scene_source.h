@@ -25,7 +25,8 @@ struct SceneSource {
   std::vector<RobotSemantics> semantics;
 };
 
-/// Reads as much as possible; `arguments` are those of a .xacro file and adds errors to `diagnostics`. Throws FileError if `path` itself cannot be read.
+/// Reads as much as possible and adds errors to `diagnostics`. `arguments` are those of a .xacro file. Throws FileError
+/// if `path` itself cannot be read.
 SceneSource readSource(const std::string& path, SceneDiagnostics& diagnostics, const XacroArguments& arguments = {});
 SceneSource readSource(std::string_view text, const std::string& name, const std::string& folder,
                        SceneDiagnostics& diagnostics);
