@@ -154,7 +154,8 @@ void checkLimited(const ScalingGrid& grid, const MotionLimits& limits, const Sca
 namespace {
 
 /// Describes the largest feasible end velocity by bisection, after one that is too fast; "" if it is unknown.
-std::string feasibleVelocity(const TimedPath& failed, const MotionLimits& limits, const RetimeOptions& options) {
+std::string feasibleVelocity(const MatrixXd& path, const TimedPath& failed, const MotionLimits& limits,
+                             const RetimeOptions& options) {
   const bool is_start = failed.status == RetimeStatus::start_too_fast;
   if ((!is_start && failed.status != RetimeStatus::end_too_fast) || options.start_acceleration.size() > 0) return "";
   RetimeOptions slower = options;
@@ -162,7 +163,7 @@ std::string feasibleVelocity(const TimedPath& failed, const MotionLimits& limits
   const VectorXd requested = velocity;
   const auto isFeasible = [&](double share) {
     velocity = share * requested;
-    return retime(MatrixXd(), failed.curve(), limits, slower).feasible();
+    return retime(path, limits, slower, {}).feasible();
   };
   slower.intervals = std::min(options.intervals, kIntervalsOfTrials);
   double low = 0., high = 1.;
@@ -224,7 +225,7 @@ TimedPath retime(const MatrixXd& path, const MotionLimits& limits, const RetimeO
 
 TimedPath retime(const MatrixXd& path, const MotionLimits& limits, const RetimeOptions& options) {
   TimedPath timed = retime(path, limits, options, {});
-  timed.message += feasibleVelocity(timed, limits, options);
+  timed.message += feasibleVelocity(path, timed, limits, options);
   return timed;
 }
 
