@@ -176,7 +176,7 @@ def _configurations(config: Config, rng: np.random.Generator, count: int) -> np.
         joints = dict.fromkeys(names[i].rsplit(":", 1)[0] for i in np.flatnonzero(endless & ~hinge & ~ball))
         raise ArgumentError(
             f"reachability: the joints {', '.join(joints)} have no limits, so that the grid has no end; "
-            f"give them some: C.addText('Edit {next(iter(joints))}: {{ limits: [...] }}')"
+            f"give them some: C.getFrame('{next(iter(joints))}').setAttributes({{'limits': [...]}})"
         )
     low[endless], high[endless] = -np.pi, np.pi
     configurations = rng.uniform(low, high, (count, len(low)))

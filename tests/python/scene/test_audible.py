@@ -11,8 +11,9 @@ import kinegraph as ry
 @pytest.fixture
 def lever() -> ry.Config:
     C = ry.Config()
-    C.addText("base: {}\nj (base): { joint: hingeZ, limits: [-1 1], shape: ssBox, size: [.2 .1 .1 .01] }")
-    C.addText("wheel (base): { joint: hingeX }")
+    C.addText("""base: {}
+j (base): { joint: hingeZ, limits: [-1 1], shape: ssBox, size: [.2 .1 .1 .01] }
+wheel (base): { joint: hingeX }""")
     return C
 
 
@@ -70,7 +71,7 @@ def test_degrees_and_another_order_of_quaternions_are_asked_about(lever: ry.Conf
     with pytest.warns(ry.KinegraphWarning, match="did you mean radians"):
         lever.setJointState([45.0, 0.0])
     lever.setJointState([1.5, 0.0])  # slightly beyond a limit
-    with pytest.warns(ry.KinegraphWarning, match="the order is w x y z|The order is w x y z"):
+    with pytest.warns(ry.KinegraphWarning, match="The order is w x y z"):
         lever.getFrame("base").setQuaternion([0, 0, 0, 1])
-    plan = ry.planMotion(lever, [45.0, 0.0])
+    plan = ry.planMotion(lever, [45.0, 0.0], start=[0.0, 0.0])
     assert not plan.feasible and "did you mean radians" in plan.message
