@@ -102,7 +102,7 @@ void HorizonTrajectory::limitVelocities() {
 }
 
 void HorizonTrajectory::evalTo(double t, double* q, double* velocity, double* acceleration) const {
-  if (std::isnan(t)) throw ValueError("HorizonTrajectory: t is NaN; expected a time in s");
+  if (std::isnan(t)) throw ValueError("Mpc: t is NaN; expected a time in s");
   t = std::clamp(t, 0., duration());
   const auto after = times_.size() == 1 ? times_.end() : std::lower_bound(times_.begin() + 1, times_.end(), t);
   const int k = int(std::min(after, times_.end() - 1) - times_.begin()) - 1;

@@ -23,6 +23,7 @@ bool looksLikeDegrees(const KinematicModel& model, const VectorXd& q) {
       if (model.steps[s].rotates()) {
         const double angle = q[dof], radians = angle * std::numbers::pi / 180.;
         const bool is_beyond = angle < model.lower[dof] || angle > model.upper[dof] || std::abs(angle) > kTwoTurns;
+        if (2. * angle != std::round(2. * angle)) return false;  // people write degrees as round numbers
         is_suspicious |= is_beyond && std::abs(angle) >= kLeastAngle;
         if (radians < model.lower[dof] - kRounding || radians > model.upper[dof] + kRounding) return false;
       }
