@@ -98,7 +98,8 @@ def reachability(
 ) -> Reachability:
     """Computes the cells of a grid that a frame reaches, by inverse kinematics with limits and without collisions.
 
-    The grid fills the bounding box of the frame's positions in 4096 random configurations. The scene is not modified.
+    The grid fills the bounding box of the frame's positions in 4096 random configurations. Hinges without limits take
+    any angle. The scene is not modified.
 
     Args:
         config: The scene.
@@ -115,7 +116,7 @@ def reachability(
         The cells. After Ctrl-C, unfinished cells count as not reached.
     Raises:
         FrameNotFound: There is no such frame.
-        ArgumentError: No joint moves the frame, or a number is out of range.
+        ArgumentError: No joint moves the frame, a sliding or free joint has no limits, or a number is out of range.
     """
     from .fleets import map
 
@@ -152,13 +153,7 @@ def _lastFrame(config: Config) -> str:
 
 def _grid(config: Config, frame: str, spacing: float, seed: int) -> np.ndarray:
     """Returns the centers of the cells around the positions in random configurations."""
-    low, high = np.asarray(config.getJointLimits(), float)
-    if not (np.isfinite(low).all() and np.isfinite(high).all()):
-        endless = [name for name, a, b in zip(config.getJointNames(), low, high) if not np.isfinite(b - a)]
-        raise ArgumentError(
-            f"reachability: the joints {', '.join(endless)} have no limits; set them with setJointLimits"
-        )
-    configurations = np.random.default_rng(seed).uniform(low, high, (4096, len(low)))
+    configurations = _configurations(config, np.random.default_rng(seed), 4096)
     places = np.asarray(config.getFramePoses(configurations, frame))[:, 0, :3]
     if np.ptp(places, axis=0).max() < 1e-9:
         raise ArgumentError(f"reachability: no joint moves frame '{frame}'")
@@ -166,6 +161,27 @@ def _grid(config: Config, frame: str, spacing: float, seed: int) -> np.ndarray:
     last = np.ceil(places.max(axis=0) / spacing + 0.5).astype(int)
     axes = [spacing * np.arange(a, b + 1) for a, b in zip(first, last)]
     return np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
+
+
+def _configurations(config: Config, rng: np.random.Generator, count: int) -> np.ndarray:
+    """Returns random configurations within the limits, shape (count, n). Hinges without limits take any angle, balls any
+    orientation."""
+    low, high = np.array(config.getJointLimits(), float)
+    names = config.getJointNames()[: len(low)]
+    kinds = [str(config.getFrame(name.rsplit(":", 1)[0]).getJointType()).rsplit(".")[-1] for name in names]
+    endless = ~(np.isfinite(low) & np.isfinite(high))
+    hinge = endless & [kind.startswith("hinge") for kind in kinds]
+    ball = endless & [kind == "quatBall" for kind in kinds]
+    if (endless & ~hinge & ~ball).any():
+        joints = dict.fromkeys(names[i].rsplit(":", 1)[0] for i in np.flatnonzero(endless & ~hinge & ~ball))
+        raise ArgumentError(
+            f"reachability: the joints {', '.join(joints)} have no limits, so that the grid has no end; "
+            f"give them some: C.getFrame('{next(iter(joints))}').setAttributes({{'limits': [...]}})"
+        )
+    low[endless], high[endless] = -np.pi, np.pi
+    configurations = rng.uniform(low, high, (count, len(low)))
+    configurations[:, ball] = rng.normal(size=(count, int(ball.sum())))
+    return configurations
 
 
 def _spread(count: int) -> np.ndarray:

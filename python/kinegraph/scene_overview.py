@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping
 
 from ._core import JT, Config, Frame
@@ -87,7 +88,7 @@ class _Overview:
 
     def _dof(self, i: int) -> str:
         lower, upper = self.limits[:, i]
-        return f"{self.q[i]:.4g}" + (f" in [{lower:.4g}, {upper:.4g}]" if lower <= upper else "")
+        return f"{self.q[i]:.4g}" + (f" in [{lower:.4g}, {upper:.4g}]" if math.isfinite(upper - lower) else "")
 
     @staticmethod
     def _motor(attributes: Mapping[str, list[float]]) -> str:

@@ -23,15 +23,15 @@ std::vector<float> flat(const Camera& camera, float depth) {
 
 }  // namespace
 
-TEST(DepthImage, PixelsBecomePointsOnTheirRays) {
+TEST(DepthImage, PixelCentersBecomePointsOnTheirRays) {
   const std::vector<float> depth = {2.f, -1.f, 4.f, 1.f, 3.f, 2.f};
   const std::vector<double> points = depthToPoints(depth.data(), 2, 3, {10., 20., 1., 1.});
   ASSERT_EQ(points.size(), 18u);
   const auto at = [&](int i) { return Vector3d(Eigen::Map<const Vector3d>(points.data() + 3 * i)); };
-  EXPECT_TRUE(near(at(0), Vector3d(-.2, -.1, 2.), 1e-12));
+  EXPECT_TRUE(near(at(0), Vector3d(-.1, -.05, 2.), 1e-12));
   EXPECT_TRUE(near(at(1), Vector3d::Zero(), 0.));
-  EXPECT_TRUE(near(at(2), Vector3d(.4, -.2, 4.), 1e-12));
-  EXPECT_TRUE(near(at(4), Vector3d(0., 0., 3.), 1e-12));
+  EXPECT_TRUE(near(at(2), Vector3d(.6, -.1, 4.), 1e-12));
+  EXPECT_TRUE(near(at(4), Vector3d(.15, .075, 3.), 1e-12));
 }
 
 TEST(DepthNoise, WithoutAmplitudeOnlyPointsOfOneEyeAreLost) {

@@ -69,7 +69,7 @@ void bindMpc(nb::module_& m) {
       .def(
           "step",
           [](Mpc& mpc, const Numbers& q, const Numbers& velocity, std::optional<double> dt) {
-            return mpc.step(q.values, velocity.values, dt.value_or(-1.));
+            return mpc.step(q.values, velocity.values, dt);
           },
           "q"_a, "velocity"_a, "dt"_a = nb::none(), docs::mpc::step)
       .def(

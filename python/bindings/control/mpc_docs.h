@@ -55,19 +55,25 @@ and the result describes its quality.
 Args:
     q: Measured configuration, shape (n,), rad or m.
     velocity: Measured dq/dt, shape (n,), rad/s or m/s.
-    dt: Time since the last call, s; None: one slice. The first call ignores it.
+    dt: Time since the last call, s, at least 0; None: one slice. The first call ignores it.
 Returns:
     A MpcResult.
 Raises:
-    ArgumentError: An array has another size or entries that are not finite; nothing changes then.)";
+    ArgumentError: An array has another size or entries that are not finite, or dt is negative or not finite; nothing
+        changes then.)";
 
 inline constexpr char at[] =
-    R"(Evaluates the motion of the last call: cubic between slices, at rest after the end.
+    R"(Evaluates the motion of the last call, at rest after the end.
+
+Between slices the motion is cubic. Where a cubic would be faster than the fastest slice, the velocity changes linearly
+instead, so that limits of velocity that hold in the slices hold at all times.
 
 Args:
     time: Time after the last call, s.
 Returns:
-    q and dq/dt, shape (n,) each.)";
+    q and dq/dt, shape (n,) each.
+Raises:
+    ArgumentError: time is NaN.)";
 
 inline constexpr char horizon[] = R"(Samples the motion of the last call, from the time of that call to its end.
 

@@ -8,6 +8,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/stopwatch.h"
 #include "kinegraph/common/text.h"
+#include "python_names.h"
 
 namespace kinegraph::python {
 
@@ -63,6 +64,8 @@ nb::object solve(PyConfig& config, nb::handle targets, const std::optional<IkOpt
     nb::print(
         cat("solveIk: ", problems.is_batch ? resultsText(results) : resultText(results[0]), " ", bar.seconds(), " s")
             .c_str());
+  if (!results.empty())  // they do not depend on the numbers of the targets
+    for (const std::string& warning : results[0].warnings) emitWarning(cat("solveIk: ", inPython(warning)));
   if (problems.is_batch) return nb::cast(std::move(results));
   if (apply && results[0].feasible()) config.setJointState(results[0].q);
   return nb::cast(std::move(results[0]));

@@ -1,4 +1,5 @@
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
 
 #include <algorithm>
 #include <functional>
@@ -47,7 +48,7 @@ Array gradientsOf(const IkResults& results, const Numbers& v, int threads) {
 
 nb::tuple resultState(const IkResult& r) {
   return nb::make_tuple(toNumpy(r.q), int(r.status), r.position_error, r.rotation_error, r.feature_error, r.penetration,
-                        r.attempts, r.evals, r.message);
+                        r.attempts, r.evals, r.message, r.warnings);
 }
 
 IkResult resultFrom(nb::tuple state) {
@@ -59,7 +60,8 @@ IkResult resultFrom(nb::tuple state) {
           nb::cast<double>(state[5]),
           nb::cast<int>(state[6]),
           nb::cast<int>(state[7]),
-          nb::cast<std::string>(state[8])};
+          nb::cast<std::string>(state[8]),
+          nb::cast<std::vector<std::string>>(state[9])};
 }
 
 const IkResult& resultAt(const IkResults& results, std::ptrdiff_t index) {
@@ -85,6 +87,14 @@ nb::class_<IkResult> bindResult(nb::module_& m) {
       .def_prop_ro(
           "message", [](const IkResult& r) { return inPython(r.message); },
           "\"\" if solved; otherwise the missed targets with their errors, and colliding pairs.")
+      .def_prop_ro(
+          "warnings",
+          [](const IkResult& r) {
+            nb::typed<nb::list, nb::str> warnings;
+            for (const std::string& warning : r.warnings) warnings.append(inPython(warning));
+            return warnings;
+          },
+          "Caveats of the answer: pairs in slight contact that no joint of a target separates.")
       .def_ro("position_error", &IkResult::position_error, "Position error of the worst target, m.")
       .def_ro("rotation_error", &IkResult::rotation_error, "Rotation error of the worst target, rad.")
       .def_ro("feature_error", &IkResult::feature_error,

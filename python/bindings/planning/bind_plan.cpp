@@ -6,6 +6,7 @@
 
 #include "features/feature_arguments.h"
 #include "ik/ik_targets.h"
+#include "kinegraph/common/stopwatch.h"
 #include "kinegraph/planning/refine_path.h"
 #include "planning/path_lines_docs.h"
 #include "planning/plan_arguments.h"
@@ -46,13 +47,16 @@ MotionGoal goalOf(const PyConfig& config, nb::handle goal) {
 }
 
 PyMotionPlan plan(const PyConfig& config, nb::handle goal, const std::optional<Numbers>& start, nb::kwargs arguments) {
+  const Stopwatch stopwatch;
   warnOfMissingContacts(config);
   const PlanOptions options = planOptionsFrom(arguments, PlanCall::plan);
   const MotionGoal to = goalOf(config, goal);
   const std::optional<VectorXd> from = start ? std::optional(start->values) : std::nullopt;
   const auto scene = std::make_shared<const Config>(config);  // as it is now
   const nb::gil_scoped_release unlock;
-  return {planMotion(*scene, to, options, from, CheckInterrupts()), scene};
+  PyMotionPlan found{planMotion(*scene, to, options, from, CheckInterrupts()), scene};
+  found.addSetupStage(stopwatch.seconds());
+  return found;
 }
 
 PyMotionPlan replan(const PyMotionPlan& running, const PyConfig& config, double at, nb::handle goal,
@@ -212,7 +216,9 @@ MotionPlanClass bindMotionPlan(nb::module_& m) {
       .def_ro("length", &MotionPlan::length, "Length of the path, Euclidean in q.")
       .def_ro("goal", &MotionPlan::goal, "Index of the goal configuration that was reached; -1 without a motion.")
       .def_ro("margin", &MotionPlan::margin, "Distance that all pairs keep but around endpoints that keep less, m.")
-      .def_prop_ro("stages", stages, "Statistics of each stage: dicts of name, seconds, evaluations, note.")
+      .def_prop_ro("stages", stages,
+                   "Statistics of each stage: dicts of name, seconds, evaluations, note. The seconds add up to those "
+                   "of the call.")
       .def_prop_ro(
           "trees", trees,
           "Trees of the last search, from the start and from the goals: configurations (N, n), and the index of "

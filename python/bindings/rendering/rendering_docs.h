@@ -53,7 +53,11 @@ Args:
 Returns:
     Shape (height, width, 3), 0..255; white for the floor and the background.)";
 
-inline constexpr char depthImage2PointCloud[] = R"(Converts a depth image to points.
+inline constexpr char depthImage2PointCloud[] =
+    R"(Converts a depth image to points, on the rays through the centers of the pixels.
+
+The pixel in row v and column u has its center at (u + 0.5, v + 0.5). Points of pixels that the camera did not see (depth
+< 0) are zeros; points[depth > 0] leaves them out.
 
 Args:
     depth: Shape (height, width), m, along the camera's z axis.

@@ -68,10 +68,12 @@ Raises:
     RobotFault: The robot was stopped, or is not at the start of the motion.)";
 
 inline constexpr char moveAutoTimed[] =
-    R"(Moves along a smooth path as fast as limits allow, and rests at its end. Does not wait.
+    R"(Moves along the points of a path as fast as limits allow, and rests at its end. Does not wait.
+
+The motion is retime's: it follows the lines between the points, and rounds corners by .01 rad or m at most.
 
 Args:
-    path: (K, n) joint values, as for move; the times between points are equal.
+    path: (K, n) joint values, rad or m, or (n,) for one point.
     maxVel: Velocity limit of all joints, rad/s or m/s, in addition to their own.
     maxAcc: Acceleration limit of all joints, rad/s^2 or m/s^2, in addition to their own.
 Raises:

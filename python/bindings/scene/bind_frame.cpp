@@ -4,6 +4,7 @@
 
 #include "arguments.h"
 #include "bindings.h"
+#include "kinegraph/scene/frame_attributes.h"
 #include "kinegraph/scene/loading/reader.h"
 #include "kinegraph/scene/tree/tree_edits.h"
 #include "scene/frame_docs.h"
@@ -13,20 +14,22 @@ namespace kinegraph::python {
 
 namespace {
 
-void setAttributes(Frame& frame, nb::dict attributes) {
+void setAttributesOf(Frame& frame, nb::dict attributes) {
+  Graph graph;
   for (const auto& [key, value] : attributes) {
     const std::string name = nb::cast<std::string>(key);
     Node node;
     node.key = name;
     node.value = toValue(value, name);
-    frame.editAttributes().set(node);
+    graph.set(node);
   }
+  setAttributes(frame, graph);
 }
 
 Frame& setAttribute(Frame& frame, nb::str key, nb::any value) {
   nb::dict attributes;
   attributes[key] = value;
-  setAttributes(frame, attributes);
+  setAttributesOf(frame, attributes);
   return frame;
 }
 
@@ -76,7 +79,7 @@ void bindAttributes(nb::class_<Frame>& frame) {
           "getAttributes", [](const Frame& f) { return Attributes(toDict(f.attributes())); },
           "Returns the attributes given to the frame by files and scripts, as a dict.")
       .def(
-          "setAttributes", [](Frame& f, const Attributes& d) -> Frame& { return setAttributes(f, d), f; },
+          "setAttributes", [](Frame& f, const Attributes& d) -> Frame& { return setAttributesOf(f, d), f; },
           "attributes"_a, kChain, docs::frame::setAttributes)
       .def("setAttribute", setAttribute, "key"_a, "value"_a, kChain, docs::frame::setAttribute);
 }

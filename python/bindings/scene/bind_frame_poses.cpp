@@ -35,9 +35,13 @@ Vector3d position(const Frame& frame, const Numbers& numbers, const char* call) 
   return numbers.values;
 }
 
-/// Warns of a quaternion far from unit length: it is often a misordered pose. The text is constant, so that Python
-/// shows it once.
-void warnOfLength(double norm) {
+/// Warns of a quaternion far from unit length, or one that is probably x y z w: it is often a misordered pose. The texts
+/// are constant, so that Python shows them once.
+void warnOfOrder(const Vector4d& wxyz) {
+  const double norm = wxyz.norm();
+  if (wxyz == Vector4d(0., 0., 0., 1.))
+    emitWarning(
+        "the quaternion 0 0 0 1 is half a turn about z; did you mean no rotation, 1 0 0 0? The order is w x y z");
   if (norm > 1e-10 && std::abs(norm - 1.) > .1) {
     emitWarning(
         "a quaternion far from unit length is normalized; expected the order w x y z, and x y z qw "
@@ -48,7 +52,7 @@ void warnOfLength(double norm) {
 Pose poseFrom(const Frame& frame, const Numbers& numbers) {
   const VectorXd& v = numbers.values;
   if (v.size() == 4 || v.size() == 7) {
-    warnOfLength(v.tail<4>().norm());
+    warnOfOrder(v.tail<4>());
     unitQuaternion(v.tail<4>(), cat("quaternion of frame '", frame.getName(), "'").c_str());
   }
   return Pose::fromNumbers(v);
@@ -59,7 +63,7 @@ Quaterniond rotation(const Frame& frame, const Numbers& numbers, const char* cal
     throw ValueError(cat(call, " of frame '", frame.getName(), "': got ", numbers.values.size(),
                          " numbers; expected 4, a quaternion w x y z"));
   }
-  warnOfLength(numbers.values.norm());
+  warnOfOrder(numbers.values);
   return unitQuaternion(numbers.values, cat("quaternion of frame '", frame.getName(), "'").c_str());
 }
 

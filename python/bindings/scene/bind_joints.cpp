@@ -7,6 +7,7 @@
 #include "defaults.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/kinematics/unit_guesses.h"
 #include "kinegraph/scene/motor_limits.h"
 #include "scene/joints_docs.h"
 
@@ -23,6 +24,9 @@ void setJointState(PyConfig& config, const NumbersView& q, const std::optional<s
   }
   config.joints = q.values;
   joints && !joints->empty() ? config.setJointState(config.joints, *joints) : config.setJointState(config.joints);
+  if (looksLikeDegrees(*config.model(), config.joints))
+    emitWarning(
+        "setJointState: q is beyond the limits; did you mean radians? The values times pi/180 are within the limits");
 }
 
 /// Names of q, followed by those of mimicking joints: the reference lists them, but they have no entry in q.
@@ -58,7 +62,7 @@ void bindJoints(nb::class_<PyConfig>& config) {
           "verbose"_a = 0, docs::joints::setRandom)
       .def(
           "getJointLimits", [](const PyConfig& c) { return toNumpy(c.getJointLimits()); },
-          "Returns the lower and upper limits, shape (2, n), rad or m; 0 and -1 for a dof without limits.")
+          "Returns the lower and upper limits, shape (2, n), rad or m; -inf and inf for a dof without limits.")
       .def(
           "getVelocityLimits", [](const PyConfig& c) { return toNumpy(getVelocityLimits(c)); },
           "Returns the velocity limit of each dof of q, shape (n,), rad/s or m/s; inf if none is given (ctrl_limits, "

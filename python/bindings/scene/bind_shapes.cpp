@@ -7,6 +7,7 @@
 
 #include "arguments.h"
 #include "bindings.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 #include "kinegraph/scene/frame_shapes.h"
@@ -15,6 +16,20 @@
 namespace kinegraph::python {
 
 namespace {
+
+/// Sets a shape, and warns of sizes that are mended, as the reader does.
+Frame& setShape(Frame& frame, ShapeType type, const Numbers& size) {
+  frame.setShape(type, size.list());
+  std::string warning;
+  checkedSize(type, size.list(), &warning);
+  if (!warning.empty()) emitWarning(cat("setShape: frame '", frame.getName(), "': ", warning));
+  constexpr double kLarge = 20.;  // m
+  const bool may_be_large = type == ShapeType::quad || type == ShapeType::marker || size.values.size() == 0;
+  if (!may_be_large && size.values.minCoeff() >= kLarge)
+    emitWarning(cat("setShape: frame '", frame.getName(), "' is at least ", size.values.minCoeff(),
+                    " m thick; did you mean millimeters? Sizes are in m"));
+  return frame;
+}
 
 /// Mesh of a shape in local coordinates: its own, or its triangulated surface.
 Mesh meshOf(const Frame& frame) {
@@ -82,13 +97,12 @@ void bindSurfaces(nb::class_<Frame>& frame) {
 void bindShapes(nb::class_<Frame>& frame) {
   frame
       .def(
-          "setShape",
-          [](Frame& f, ShapeType type, const Numbers& size) -> Frame& { return f.setShape(type, size.list()); },
+          "setShape", [](Frame& f, ShapeType type, const Numbers& size) -> Frame& { return setShape(f, type, size); },
           "type"_a, "size"_a, kChain, docs::shapes::setShape)
       .def(
           "setShape",
           [](Frame& f, const std::string& type, const Numbers& size) -> Frame& {
-            return f.setShape(shapeTypeFromName(type), size.list());
+            return setShape(f, shapeTypeFromName(type), size);
           },
           "type"_a, "size"_a, kChain, docs::shapes::setShapeByName)
       .def(

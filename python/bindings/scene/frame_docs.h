@@ -27,16 +27,20 @@ Returns:
 Raises:
     ArgumentError: A joint on the path has no inverse joint type (universal, ...).)";
 
-inline constexpr char setAttributes[] = R"(Adds attributes that the library stores without interpreting them.
+inline constexpr char setAttributes[] = R"(Sets attributes, with the effect that they have in a .g file.
+
+contact, mass, color, q and limits change the frame. Words that the library reads when they are needed (friction,
+logical, ctrl_limits, simulate, ...) and unknown words are stored.
 
 Args:
     attributes: Dict from names to bool, numbers, text, lists or dicts.
 Returns:
     The frame itself.
 Raises:
-    ArgumentError: A value has another type.)";
+    ArgumentError: A value has another type, or a word has a meaning in files only (joint, shape, pose, ...); the message
+        names the method to call instead.)";
 
-inline constexpr char setAttribute[] = R"(Adds one attribute; see setAttributes.
+inline constexpr char setAttribute[] = R"(Sets one attribute; see setAttributes.
 
 Args:
     key: Name of the attribute.

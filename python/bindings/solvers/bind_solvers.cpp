@@ -61,6 +61,12 @@ NlpSolver& setProgress(NlpSolver& solver, nb::object function, double seconds) {
 }
 
 Explanation explanationOf(const SolverResult& result, double tolerance) {
+  if (!result.problem && !result.feasible && !result.message.empty()) {
+    Explanation refused;  // as by RRT_PathFinder, whose message has all that is known
+    refused.verdict = Explanation::Verdict::conflict;
+    refused.reason = result.message;
+    return refused;
+  }
   if (!result.problem) throw Error("SolverReturn: nothing was solved, so there is nothing to explain");
   return explainInterruptibly(*result.problem, result.x, tolerance);
 }

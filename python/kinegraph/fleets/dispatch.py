@@ -20,7 +20,7 @@ BATCH_BYTES = 16 << 20  # largest intended size of a batch
 GROWTH = 8  # largest factor between the sizes of successive batches
 IN_FLIGHT = 3  # largest number of batches per worker: one in computation, the others queued
 WINDOW = 100  # largest number of batches per worker that are finished or in progress behind an unfinished one
-KILLS = 3  # number of workers that an item may kill
+KILLS = 3  # number of workers that may die while they compute an item
 FRUITLESS = 50  # successive deaths of workers without any result, after which the items are not to blame
 
 
@@ -37,7 +37,8 @@ class Dispatcher:
     """Reads items when workers are ready, and stores at most a window of results.
 
     If a worker dies, another one computes its batch again, in halves, so that an item that kills workers is finally
-    alone. After three workers the item counts as a failure. Batches that waited for the same worker are not blamed. A
+    alone. After three workers the item counts as a failure. Batches that waited for the same worker are not blamed, and
+    no batch is blamed for the death of a worker that has not started yet. A
     repeated batch has its worker for itself: otherwise the lost answer of a previous batch could be blamed on that one.
     """
 
@@ -130,7 +131,8 @@ class Dispatcher:
         self._item_seconds = seconds if self._item_seconds is None else 0.7 * self._item_seconds + 0.3 * seconds
 
     def _lost(self, worker: int, how: WorkerDied) -> None:
-        """Handles the death of a worker: its first batch is suspicious, the others only waited."""
+        """Handles the death of a worker: its first batch is suspicious, the others only waited. While the worker started,
+        all of them waited."""
         suspect, *others = self._sent[worker] or [None]
         self._sent[worker].clear()
         self._scenes[worker].clear()
@@ -140,6 +142,9 @@ class Dispatcher:
         self._fruitless += 1
         if self._fruitless > FRUITLESS:
             raise Error(f"map: {FRUITLESS} workers died without any result, the last one: {how}")
+        if not how.started:
+            self._again.appendleft(suspect)
+            return
         kills, count = suspect.kills + 1, len(suspect.packed)
         if count == 1 and kills >= KILLS:
             self._done[suspect.first] = [ItemFailure(suspect.first, f"{kills} workers died while computing it: {how}")]

@@ -18,7 +18,15 @@ from .worker import Answer, Batch, Worker
 
 
 class WorkerDied(Exception):
-    """A worker died. The message says how."""
+    """A worker died. The message says how.
+
+    Attributes:
+        started: Whether the worker was ready for batches; otherwise none of them is to blame.
+    """
+
+    def __init__(self, how: str, started: bool = True):
+        super().__init__(how)
+        self.started = started
 
 
 class Engine(Protocol):
@@ -81,6 +89,7 @@ class _Process:
             stdin=subprocess.DEVNULL,
         )
         far.close()
+        self.started = False
         self.sender = _Sender(self.connection)
         self.sender.send(pickle.dumps(paths))
         self.sender.send(pickle.dumps((function, seed)))
@@ -137,10 +146,14 @@ class ProcessEngine:
         events: list[tuple[int, Answer | WorkerDied]] = []
         for connection in wait(list(numbers), seconds):
             number = numbers[connection]
+            process = self._processes[number]
             try:
-                events.append((number, pickle.loads(connection.recv_bytes())))
+                message = connection.recv_bytes()
+                if process.started:
+                    events.append((number, pickle.loads(message)))
+                process.started = True  # the first message is empty
             except (EOFError, OSError):
-                events.append((number, WorkerDied(self._processes[number].end())))
+                events.append((number, WorkerDied(process.end(), process.started)))
                 self._processes[number] = self._start()
         return events
 

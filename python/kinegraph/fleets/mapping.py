@@ -43,7 +43,7 @@ def map(
     is returned. Random numbers come from `seed`, an optional parameter of the function.
 
     Items are sent in batches of about 0.1 s, longer with more than 50 workers. If a worker dies (out of memory,
-    killed), its items are computed again. An item that kills three workers is a failure. A scene is sent once to each
+    killed), its items are computed again. An item is a failure if three workers die while they compute it. A scene is sent once to each
     worker. Items are read when needed, and with `out` results are not stored in memory, so that ten million items need
     no more memory than a thousand.
 
@@ -59,7 +59,8 @@ def map(
         workers: Number of workers; by default the number of processors, with Ray that of the cluster.
         seed: Seed of the items' seeds.
         out: A folder for results as Parquet files (extra `fleets`), instead of memory: a dict is a row, a pyarrow table
-            several rows. If the folder has results of the same run, the run continues after them.
+            several rows. If the folder has results of the same run, the run continues after them. A run is the same if
+            its function (code, defaults, and what it refers to), seed, first item and number of items are.
         errors: "collect": an item that raises is a failure, with a warning, and the others continue. "raise": the first
             failure ends the map.
         progress: Whether to draw the progress bar.
@@ -80,13 +81,18 @@ def map(
         raise ArgumentError(f"map: items is {items!r}; expected a list, an array, a generator ...")
     started = time.monotonic()
     total = len(items) if hasattr(items, "__len__") else None
-    folder = None if out is None else ResultFolder(Path(out), _describe(function, seed, total))
+    remaining = iter(items)
+    folder = None
+    if out is not None:
+        peeked = list(itertools.islice(remaining, 1))
+        remaining = itertools.chain(peeked, remaining)
+        folder = ResultFolder(Path(out), _describe(function, seed, total, peeked))
     results = MapResults(folder.folder if folder else None)
     first = folder.finished if folder else 0
     results.finished = first
     try:
         with _workers(function, engine, workers, seed) as pool, _interruptible() as interrupted:
-            dispatcher = Dispatcher(pool, itertools.islice(iter(items), first, None), first, total)
+            dispatcher = Dispatcher(pool, itertools.islice(remaining, first, None), first, total)
             shown = 0.0
             for block in dispatcher.results():
                 for value in block:
@@ -225,6 +231,14 @@ def _name(function: Callable[..., Any]) -> str:
     return getattr(function, "__qualname__", None) or type(function).__qualname__
 
 
-def _describe(function: Callable[..., Any], seed: int, total: int | None) -> dict[str, Any]:
+def _describe(function: Callable[..., Any], seed: int, total: int | None, first: list[Any]) -> dict[str, Any]:
     """Describes a run, so that a continuation can be recognized."""
-    return {"function": _name(function), "seed": int(seed), "items": total}
+    from .fingerprint import fingerprint
+
+    return {
+        "function": _name(function),
+        "seed": int(seed),
+        "items": total,
+        "code": fingerprint(function),
+        "first item": fingerprint(first),
+    }

@@ -123,10 +123,11 @@ def packAnswer(answer: Answer) -> bytes:
 
 
 def _serve(connection: Connection) -> None:
-    """Answers batches until the connection closes."""
+    """Tells that it is ready, by an empty message, and answers batches until the connection closes."""
     try:
         sys.path[:] = pickle.loads(connection.recv_bytes())
         worker = Worker(*pickle.loads(connection.recv_bytes()))
+        connection.send_bytes(b"")  # ready: from now on a batch may be to blame for the end of this process
         while True:
             connection.send_bytes(packAnswer(worker.run(pickle.loads(connection.recv_bytes()))))
     except (EOFError, BrokenPipeError, ConnectionResetError):

@@ -64,12 +64,16 @@ class ResultFolder:
             return
         before = json.loads(file.read_text())
         for key, value in run.items():
-            if before.get(key) != value:
-                raise ArgumentError(
-                    f"the folder '{self.folder}' has results of another run: "
-                    f"{key} was {before.get(key)!r} and is {value!r}; "
-                    "use another folder, or remove this one"
-                )
+            if before.get(key, value) == value:  # folders of version 0.2.0 have fewer keys
+                continue
+            change = {
+                "code": f"the code of {run.get('function')}, or something that it refers to, has changed",
+                "first item": "the first item is another one",
+            }.get(key, f"{key} was {before[key]!r} and is {value!r}")
+            raise ArgumentError(
+                f"the folder '{self.folder}' has results of another run: {change}; "
+                "use another folder, or remove this one"
+            )
 
     def add(self, value: Any) -> None:
         """Adds the result of the next item."""

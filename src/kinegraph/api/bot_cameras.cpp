@@ -2,6 +2,8 @@
 #include "kinegraph/api/bot_cameras.h"
 
 #include "kinegraph/api/bot_stage.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/rendering/depth_image.h"
 #include "kinegraph/robot/simulated_driver.h"
 
@@ -29,7 +31,11 @@ BotOpOptions shownOnPages(const Config& config) {
 Camera BotCameras::camera(const BotOp& bot, const std::string& frame) {
   if (!copy_.findFrame(frame)) copy_ = bot.getWorld();  // the frame may be newer than the copy
   bot.update(copy_);
-  return cameraOf(copy_.getFrame(frame));
+  const Frame at = copy_.getFrame(frame);
+  if (!isCamera(at))
+    throw ValueError(cat("BotOp: frame '", frame, "' is no camera; give it the shape camera, or the attributes ",
+                         "focalLength, width and height"));
+  return cameraOf(at);
 }
 
 BotOp::BotOp(Config& config, bool use_real_robot)

@@ -70,11 +70,7 @@ TimedPath retime(const Config& config, const MatrixXd& path, const RobotLimits& 
     motion.acceleration = VectorXd::Constant(n, kNoEffortLimit);
   }
   if (!limits.torque) return retime(path, motion, options);
-  motion.validate(n);
-  const PathCurve curve = curveOf(path, motion, options);
-  RetimeOptions with_torque = options;
-  with_torque.constraints = torqueRows(config, curve);
-  return retime(path, curve, motion, with_torque);
+  return retime(path, motion, options, [&](const PathCurve& curve) { return torqueRows(config, curve); });
 }
 
 }  // namespace kinegraph

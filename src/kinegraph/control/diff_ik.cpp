@@ -14,8 +14,12 @@ namespace kinegraph {
 namespace {
 
 constexpr double kNoBound = std::numeric_limits<double>::infinity();
-constexpr double kElasticity = 1e8;         // cost of the squared slack of dampers, in units of the largest other cost
-constexpr double kReported = 1e-9;          // smallest relaxation that is reported, rad or m
+constexpr double kReported = 1e-9;   // smallest relaxation that is reported, rad or m
+constexpr double kLoosened = 1e-10;  // of all constraints after a contradiction, rad or m: rounding
+constexpr double kLeastStep = 1e-8;  // cost of the squared step beside that of the squared violations
+constexpr int kMaxRelaxations = 30;  // Newton steps toward the least violation, and bisections of each
+constexpr double kStiffer[] = {0., 1e-10,
+                               1e-7};       // damping relative to the largest cost, if rounding prevents a solution
 constexpr double kReportedEquality = 1e-6;  // the same of equalities, in units of the feature
 constexpr double kSpanned = 1e-6;           // a gradient with a smaller share in the free directions is fixed already
 
@@ -38,13 +42,15 @@ void DiffIkOptions::validate(int dofs) const {
   checkLimits("acceleration", acceleration, dofs);
   const auto check = [](const char* name, double value, double largest) {
     if (!(value > 0. && value <= largest))
-      throw ValueError(cat("DiffIk: ", name, " is ", value, "; expected a number > 0",
-                           largest < kNoBound ? cat(", at most ", largest) : ""));
+      throw ValueError(
+          cat("DiffIk: ", name, " is ", value, "; expected a number > 0", largest == 1. ? ", at most 1" : ""));
   };
-  if (!(posture >= 0.)) throw ValueError(cat("DiffIk: posture is ", posture, "; expected a number >= 0"));
-  check("damping", damping, kNoBound);
+  constexpr double kLargest = std::numeric_limits<double>::max();
+  if (!(posture >= 0. && posture <= kLargest))
+    throw ValueError(cat("DiffIk: posture is ", posture, "; expected a finite number >= 0"));
+  check("damping", damping, kLargest);
   check("collision_gain", collision_gain, 1.);
-  check("influence_distance", influence_distance, kNoBound);
+  check("influence_distance", influence_distance, kLargest);
   if (!std::isfinite(margin)) throw ValueError(cat("DiffIk: margin is ", margin, "; expected a finite number (m)"));
 }
 
@@ -64,7 +70,7 @@ void DiffIk::prepare() {
   velocity_limit_ = options_.velocity.size() ? options_.velocity : getVelocityLimits(config_);
   acceleration_limit_ = options_.acceleration.size() ? options_.acceleration : VectorXd::Constant(n, kNoBound);
   velocity_.setZero(n), change_.setZero(n), low_.resize(n), high_.resize(n);
-  gradient_row_.resize(n), cost_.resize(n, n), slope_.resize(n), elastic_normal_.resize(n + 1);
+  gradient_row_.resize(n), cost_.resize(n, n), slope_.resize(n), direction_.resize(n);
   std::vector<std::pair<int, int>> moving;
   if (options_.collisions)
     for (const auto& [a, b] : model_->collidable())
@@ -74,7 +80,8 @@ void DiffIk::prepare() {
   const int rows = 2 * n + int(moving.size());
   normals_.resize(n, rows), bounds_.resize(rows), sources_.reserve(std::size_t(rows)),
       relaxed_.reserve(std::size_t(rows));
-  rigid_program_.resize(n, rows), elastic_program_.resize(n + 1, rows + 1);
+  slack_.setZero(rows), excess_.resize(rows), rate_.resize(rows);
+  program_.resize(n, rows);
   active_.reserve(std::size_t(rows));
   free_.resize(n, n), product_.resize(n, n), reduced_cost_.resize(n, n), along_.resize(n);
   for (Task& task : tasks_) {
@@ -123,6 +130,7 @@ void DiffIk::setPosture(const VectorXd& q) {
   if (q.size() != config_.getJointDimension())
     throw ValueError(
         cat("DiffIk: the posture has ", q.size(), " entries; the scene has ", config_.getJointDimension(), " dofs"));
+  if (!q.allFinite()) throw ValueError("DiffIk: the posture has entries that are not finite");
   posture_ = q;
 }
 
@@ -146,15 +154,13 @@ void DiffIk::addCosts(const VectorXd& q, int priority, bool is_last) {
 void DiffIk::addIntervals(const VectorXd& q, double dt) {
   for (int j = 0; j < q.size(); ++j) {
     const double fastest = velocity_limit_[j], change = acceleration_limit_[j] * dt;
-    double low = -fastest, high = fastest;
-    if (limits_(0, j) < limits_(1, j)) {
-      const auto toLimit = [&](double gap) {
-        if (gap < 0.) return std::max(gap / dt, -fastest);
-        const double within_step = gap / dt;
-        return std::min({fastest, within_step, std::isfinite(change) ? brakingSpeed(gap, change / dt, dt) : kNoBound});
-      };
-      low = -toLimit(q[j] - limits_(0, j)), high = toLimit(limits_(1, j) - q[j]);
-    }
+    const auto toLimit = [&](double gap) {
+      if (gap < 0.) return std::max(gap / dt, -fastest);
+      const double braking =
+          std::isfinite(change) && std::isfinite(gap) ? brakingSpeed(gap, change / dt, dt) : kNoBound;
+      return std::min({fastest, gap / dt, braking});
+    };
+    double low = -toLimit(q[j] - limits_(0, j)), high = toLimit(limits_(1, j) - q[j]);
     const double from = velocity_[j] - change, to = velocity_[j] + change;
     const double missed = std::max({0., from - high, low - to});
     if (missed * dt > kReported)
@@ -198,34 +204,69 @@ void DiffIk::addDampers(const State& state, double dt) {
   });
 }
 
-/// Solves the program of the first priority. If its constraints contradict each other, the dampers share a slack, whose
-/// square costs more than everything else. False if rounding prevents both solutions.
-bool DiffIk::solveFirst() {
-  const int n = int(slope_.size()), count = int(sources_.size());
-  rigid_program_.clear();
-  rigid_program_.hessian() = cost_, rigid_program_.gradient() = slope_;
-  for (int i = 0; i < count; ++i) rigid_program_.addInequality(normals_.col(i), bounds_[i]);
-  is_elastic_ = rigid_program_.solve() != QuadraticStatus::solved;
-  if (!is_elastic_) {
-    change_ = rigid_program_.x();
-    collectActive(rigid_program_);
-    return true;
-  }
-  elastic_program_.clear();
-  elastic_program_.hessian().setZero();
-  elastic_program_.hessian().topLeftCorner(n, n) = cost_;
-  elastic_program_.hessian()(n, n) = kElasticity * cost_.diagonal().maxCoeff();
-  elastic_program_.gradient().head(n) = slope_;
-  elastic_program_.gradient()[n] = 0.;
-  for (int i = 0; i < count; ++i) {
-    elastic_normal_.head(n) = normals_.col(i);
-    elastic_normal_[n] = sources_[std::size_t(i)].kind == Source::Kind::pair ? 1. : 0.;
-    elastic_program_.addInequality(elastic_normal_, bounds_[i]);
-  }
-  if (elastic_program_.solve() != QuadraticStatus::solved) return false;
-  change_ = elastic_program_.x().head(n);
-  collectActive(elastic_program_);
+/// Solves the program of the first priority. If its constraints contradict each other, the dampers are relaxed by the
+/// least violation first.
+void DiffIk::solveFirst() {
+  slack_.setZero();
+  if (solveWithDamping(0.)) return;
+  findLeastViolation();
+  const double largest = cost_.diagonal().maxCoeff();
+  for (const double share : kStiffer)
+    if (solveWithDamping(share * largest)) return;
+  // Only rounding leads here: change_ is the step of the least violation.
+}
+
+/// Solves the program of the first priority with an additional cost of the squared step. If there is no solution,
+/// change_ is as before.
+bool DiffIk::solveWithDamping(double damping) {
+  program_.clear();
+  program_.hessian() = cost_, program_.gradient() = slope_;
+  program_.hessian().diagonal().array() += damping;
+  for (int i = 0; i < int(sources_.size()); ++i) program_.addInequality(normals_.col(i), bounds_[i] - slack_[i]);
+  if (program_.solve() != QuadraticStatus::solved) return false;
+  change_ = program_.x();
+  collectActive(program_);
   return true;
+}
+
+/// Sets change_ to the step within the intervals with the least sum of squared violations of dampers, and slack_ to
+/// these violations. The sum is piecewise quadratic and convex: a Newton step solves the program of the violated
+/// dampers, and bisection finds the minimum along it. A small cost of the squared step keeps joints still that hardly
+/// change a distance.
+void DiffIk::findLeastViolation() {
+  const int count = int(sources_.size());
+  const auto isPair = [&](int i) { return sources_[std::size_t(i)].kind == Source::Kind::pair; };
+  change_ = VectorXd::Zero(change_.size()).cwiseMax(low_).cwiseMin(high_);
+  for (int round = 0; round < kMaxRelaxations; ++round) {
+    program_.clear();
+    program_.hessian().setIdentity(), program_.hessian() *= kLeastStep, program_.gradient().setZero();
+    for (int i = 0; i < count; ++i) {
+      const auto normal = normals_.col(i);
+      excess_[i] = isPair(i) ? bounds_[i] - normal.dot(change_) : 0.;
+      if (!isPair(i)) program_.addInequality(normal, bounds_[i]);
+      if (excess_[i] <= 0.) continue;
+      program_.hessian().noalias() += normal * normal.transpose();
+      program_.gradient() -= bounds_[i] * normal;
+    }
+    if (program_.solve() != QuadraticStatus::solved) break;
+    direction_ = program_.x().cwiseMax(low_).cwiseMin(high_) - change_;
+    for (int i = 0; i < count; ++i) rate_[i] = isPair(i) ? normals_.col(i).dot(direction_) : 0.;
+    const auto slopeAt = [&](double t) {  // of half the sum
+      double slope = kLeastStep * (change_ + t * direction_).dot(direction_);
+      for (int i = 0; i < count; ++i) slope -= std::max(0., excess_[i] - t * rate_[i]) * rate_[i];
+      return slope;
+    };
+    double low = 0., high = 1.;
+    if (slopeAt(1.) <= 0.) low = 1.;
+    for (int k = 0; low < 1. && k < kMaxRelaxations; ++k) {
+      const double middle = .5 * (low + high);
+      (slopeAt(middle) < 0. ? low : high) = middle;
+    }
+    change_ += low * direction_;
+    if (low * direction_.lpNorm<Eigen::Infinity>() <= kLoosened) break;
+  }
+  for (int i = 0; i < count; ++i)
+    slack_[i] = kLoosened + (isPair(i) ? std::max(0., bounds_[i] - normals_.col(i).dot(change_)) : 0.);
 }
 
 /// Solves the program of a further priority in the free directions; the other variables are padding. The step so far
@@ -233,21 +274,21 @@ bool DiffIk::solveFirst() {
 void DiffIk::solveRemaining() {
   const int k = free_count_;
   const auto free = free_.leftCols(k);
-  rigid_program_.clear();
-  rigid_program_.hessian().setIdentity(), rigid_program_.gradient().setZero();
+  program_.clear();
+  program_.hessian().setIdentity(), program_.gradient().setZero();
   product_.leftCols(k).noalias() = cost_ * free;
   reduced_cost_.topLeftCorner(k, k).noalias() = free.transpose() * product_.leftCols(k);
-  rigid_program_.hessian().topLeftCorner(k, k) = reduced_cost_.topLeftCorner(k, k);
+  program_.hessian().topLeftCorner(k, k) = reduced_cost_.topLeftCorner(k, k);
   slope_.noalias() += cost_ * change_;
-  rigid_program_.gradient().head(k).noalias() = free.transpose() * slope_;
+  program_.gradient().head(k).noalias() = free.transpose() * slope_;
   along_.setZero();
   for (int i = 0; i < int(sources_.size()); ++i) {
     along_.head(k).noalias() = free.transpose() * normals_.col(i);
-    rigid_program_.addInequality(along_, std::min(0., bounds_[i] - normals_.col(i).dot(change_)));
+    program_.addInequality(along_, std::min(0., bounds_[i] - slack_[i] - normals_.col(i).dot(change_)));
   }
-  if (rigid_program_.solve() != QuadraticStatus::solved) return;
-  collectActive(rigid_program_);
-  change_.noalias() += free * rigid_program_.x().head(k);
+  if (program_.solve() != QuadraticStatus::solved) return;
+  collectActive(program_);
+  change_.noalias() += free * program_.x().head(k);
 }
 
 void DiffIk::collectActive(const DualActiveSet& program) {
@@ -280,8 +321,8 @@ void DiffIk::removeDirections(int priority) {
   }
 }
 
-/// Solves one program per priority, each in the directions that the ones before leave free. All share the slack of the
-/// first one.
+/// Solves one program per priority, each in the directions that the ones before leave free. All share the slacks of
+/// the first one.
 void DiffIk::solve() {
   const std::size_t priorities = std::max<std::size_t>(priorities_.size(), 1);
   active_.clear();
@@ -289,10 +330,7 @@ void DiffIk::solve() {
     const int priority = priorities_.empty() ? 0 : priorities_[i];
     addCosts(q_, priority, i + 1 == priorities);
     if (i == 0) {
-      if (!solveFirst()) {  // stop, as far as accelerations allow
-        change_.setZero();
-        break;
-      }
+      solveFirst();
       free_.setIdentity();
       free_count_ = int(free_.cols());
     } else {
@@ -303,7 +341,7 @@ void DiffIk::solve() {
   change_ = change_.cwiseMax(low_).cwiseMin(high_);
   for (int i = 0; i < int(sources_.size()); ++i) {
     const double by = bounds_[i] - normals_.col(i).dot(change_);
-    if (is_elastic_ && by > kReported) relaxed_.push_back({sources_[std::size_t(i)], by});
+    if (by > kReported) relaxed_.push_back({sources_[std::size_t(i)], by});
   }
   for (int t = 0; t < int(tasks_.size()); ++t) {
     Task& task = tasks_[std::size_t(t)];
@@ -316,7 +354,8 @@ void DiffIk::solve() {
 }
 
 const VectorXd& DiffIk::step(double dt, bool apply) {
-  if (!(dt > 0.)) throw ValueError(cat("DiffIk: dt is ", dt, "; expected a number > 0 (s)"));
+  if (!(dt > 0. && std::isfinite(dt)))
+    throw ValueError(cat("DiffIk: dt is ", dt, "; expected a finite number > 0 (s)"));
   if (config_.model() != model_) prepare();
   const State& state = config_.state();
   q_ = state.q();

@@ -44,8 +44,9 @@ enum class DiffIkStatus {
 /// Tasks of several priorities have one program per priority, in the directions that no earlier task depends on.
 ///
 /// Each step reads the scene again, so that targets and obstacles may move. A step never throws because of limits: from
-/// beyond a limit the joint returns as fast as velocities allow. If dampers contradict the limits, the dampers are
-/// relaxed as little as possible. After the first step nothing allocates.
+/// beyond a limit the joint returns as fast as velocities allow. If dampers contradict the limits or each other, they are
+/// relaxed by the least sum of squares, and the tasks are followed in the remaining directions. A joint with equal limits
+/// does not move. After the first step nothing allocates.
 class DiffIk {
  public:
   /// Shares the scene, without a copy. Its current q is the posture.
@@ -64,11 +65,12 @@ class DiffIk {
 
   void setTarget(int task, const VectorXd& target);
 
-  /// Sets the configuration that the nullspace of the tasks moves to.
+  /// Sets the configuration that the nullspace of the tasks moves to, (n,). Throws ValueError for another size and for numbers
+  /// that are not finite.
   void setPosture(const VectorXd& q);
 
   /// Computes the velocity for the next `dt` s, (n,), and moves the scene by it if `apply`. Throws ValueError unless dt
-  /// is positive.
+  /// is positive and finite, before anything moves.
   const VectorXd& step(double dt, bool apply = true);
 
   /// Sets the velocity to zero that the next acceleration starts from.
@@ -107,7 +109,9 @@ class DiffIk {
   void addIntervals(const VectorXd& q, double dt);
   void addDampers(const State& state, double dt);
   void solve();
-  bool solveFirst();
+  void solveFirst();
+  bool solveWithDamping(double damping);
+  void findLeastViolation();
   void solveRemaining();
   void collectActive(const DualActiveSet& program);
   void removeDirections(int priority);
@@ -125,9 +129,11 @@ class DiffIk {
   std::unique_ptr<PlacedBodies> bodies_;
   Eigen::Matrix<double, 1, Eigen::Dynamic, Eigen::RowMajor> gradient_row_;
   MatrixXd cost_;
-  VectorXd slope_, elastic_normal_;
+  VectorXd slope_;
   MatrixXd normals_;  ///< of the constraints a' x >= b, one column each
   VectorXd bounds_;
+  VectorXd slack_;  ///< per constraint: by which it gives way
+  VectorXd excess_, rate_, direction_;
   std::vector<Source> sources_;  ///< per constraint
   std::vector<Relaxed> relaxed_;
   std::vector<int> priorities_;             ///< of the tasks, ascending
@@ -135,8 +141,7 @@ class DiffIk {
   MatrixXd free_, product_, reduced_cost_;  ///< free_: its first free_count_ columns span the free directions
   VectorXd along_;
   int free_count_ = 0;
-  DualActiveSet rigid_program_{kDependence}, elastic_program_{kDependence};
-  bool is_elastic_ = false;
+  DualActiveSet program_{kDependence};
 
   static constexpr int kEquality = std::numeric_limits<int>::min();
 };

@@ -1,28 +1,40 @@
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "kinegraph/trajectories/trajectory.h"
 
 namespace kinegraph {
 
-/// The motion that a call of Mpc computed: cubic polynomials between slices, from the time of the call on.
+/// The motion that a call of Mpc computed, from the time of the call on: it passes through the points of the slices and
+/// is nowhere faster than the fastest slice.
+///
+/// Between two points q_k is a cubic polynomial, and the velocity at a point is the difference of its neighbors over
+/// their time. Where that cubic would exceed, in a dof, the largest mean velocity B of all intervals, the velocities at
+/// both points are moved into the range in which it does not; if there is none, the velocity of the interval changes
+/// linearly at both ends and is constant between them. It jumps where the mean velocity itself jumps from B. In the
+/// first interval, B is at least its own mean velocity and the measured one.
 class HorizonTrajectory final : public Trajectory {
  public:
-  /// The motion passes through the points at the times, which ascend from 0. There is at least one.
-  HorizonTrajectory(std::vector<double> times, std::vector<VectorXd> q, std::vector<VectorXd> velocity);
+  /// `times` (K) ascend from 0, K >= 1; `q` (n, K) has one point per column; `velocity` (n,) is that at time 0.
+  HorizonTrajectory(std::vector<double> times, MatrixXd q, VectorXd velocity);
 
-  int dimension() const override { return int(q_.front().size()); }
+  int dimension() const override { return int(q_.rows()); }
   double duration() const override { return times_.back(); }
   void evalTo(double t, double* q, double* velocity, double* acceleration) const override;
 
  private:
-  std::vector<double> times_;
-  std::vector<VectorXd> q_, velocity_;
-};
+  double secant(int dof, int interval) const {
+    return (q_(dof, interval + 1) - q_(dof, interval)) /
+           (times_[std::size_t(interval) + 1] - times_[std::size_t(interval)]);
+  }
+  double largest(int dof, int interval) const { return interval == 0 ? largest_first_[dof] : largest_[dof]; }
+  void limitVelocities();
 
-/// Returns the state at a time within [0, length] on the cubic from a to b with velocities va and vb.
-MotionState cubicState(const VectorXd& a, const VectorXd& va, const VectorXd& b, const VectorXd& vb, double length,
-                       double time);
+  std::vector<double> times_;
+  MatrixXd q_, velocity_;             ///< (n, K)
+  VectorXd largest_, largest_first_;  ///< velocities of an interval, and of the first one
+};
 
 }  // namespace kinegraph

@@ -178,14 +178,15 @@ void Mpc::setTarget(int number, const MatrixXd& targets) {
   }
 }
 
-const MpcResult& Mpc::step(const VectorXd& q, const VectorXd& velocity, double dt) {
+const MpcResult& Mpc::step(const VectorXd& q, const VectorXd& velocity, std::optional<double> dt) {
   const Stopwatch stopwatch;
   const TimeGrid& grid = komo_->path().grid();
   options.validate();
   requireJoints("q", q, komo_->dofs());
   requireJoints("velocity", velocity, komo_->dofs());
-  if (!std::isfinite(dt)) throw ValueError("Mpc: dt is not finite; expected a number of seconds, or < 0 for tau");
-  const double slices = has_path_ ? (dt < 0. ? 1. : dt / grid.tau()) : 0.;
+  if (dt && !(*dt >= 0. && std::isfinite(*dt)))
+    throw ValueError(cat("Mpc: dt is ", *dt, "; expected a finite number >= 0 (s)"));
+  const double slices = !has_path_ ? 0. : dt ? *dt / grid.tau() : 1.;
   elapsed_ += slices * grid.tau();
   q_ = q, velocity_ = velocity;
   result_.was_cold = !has_path_;
@@ -368,35 +369,24 @@ VectorXd Mpc::sliceJoints(int t) const {
   return q;
 }
 
-VectorXd Mpc::sliceVelocity(int t) const {
-  if (t < past_) return velocity_;
-  const int next = std::min(t + 1, komo_->path().grid().slices() - 1);
-  return (sliceJoints(next) - sliceJoints(t - 1)) / (sliceTime(next) - sliceTime(t - 1));
-}
-
 MotionPoint Mpc::at(double time) const {
-  const int T = komo_->path().grid().slices();
-  if (past_ >= T) return {q_, VectorXd::Zero(q_.size())};
-  if (time <= 0.) return {q_, velocity_};
-  int t = past_;
-  while (t < T && sliceTime(t) < time) ++t;
-  if (t == T) return {sliceJoints(T - 1), VectorXd::Zero(q_.size())};
-  const double before = sliceTime(t - 1);
-  MotionState state = cubicState(sliceJoints(t - 1), sliceVelocity(t - 1), sliceJoints(t), sliceVelocity(t),
-                                 sliceTime(t) - before, time - before);
+  if (std::isnan(time)) throw ValueError("Mpc: time is NaN; expected a number of seconds after the last call");
+  const HorizonTrajectory motion = horizon();
+  if (time > motion.duration()) return {motion.eval(motion.duration()).q, VectorXd::Zero(q_.size())};
+  MotionState state = motion.eval(time);
   return {std::move(state.q), std::move(state.velocity)};
 }
 
 HorizonTrajectory Mpc::horizon() const {
-  const int T = komo_->path().grid().slices();
+  const int T = komo_->path().grid().slices(), points = T - past_ + 1;
   std::vector<double> times{0.};
-  std::vector<VectorXd> q{q_}, velocity{past_ >= T ? VectorXd::Zero(q_.size()) : velocity_};
+  MatrixXd q(q_.size(), points);
+  q.col(0) = q_;
   for (int t = past_; t < T; ++t) {
     times.push_back(sliceTime(t));
-    q.push_back(sliceJoints(t));
-    velocity.push_back(sliceVelocity(t));
+    q.col(t - past_ + 1) = sliceJoints(t);
   }
-  return {std::move(times), std::move(q), std::move(velocity)};
+  return {std::move(times), std::move(q), points == 1 ? VectorXd::Zero(q_.size()) : velocity_};
 }
 
 }  // namespace kinegraph

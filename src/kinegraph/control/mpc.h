@@ -2,6 +2,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -80,14 +81,16 @@ class Mpc {
   /// one row for all. Throws ValueError for other sizes, and for orientations by quaternions.
   void setTarget(int objective, const MatrixXd& targets);
 
-  /// Computes the motion from the measured q and dq/dt (n,), `dt` s after the last call (< 0: tau; ignored in the first
-  /// call). Throws ValueError for vectors of another size or with entries that are not finite, before anything changes.
-  const MpcResult& step(const VectorXd& q, const VectorXd& velocity, double dt = -1.);
+  /// Computes the motion from the measured q and dq/dt (n,), `dt` s after the last call (none: tau; ignored in the first
+  /// call). Throws ValueError for vectors of another size or with entries that are not finite, and for a dt that is
+  /// negative or not finite, before anything changes.
+  const MpcResult& step(const VectorXd& q, const VectorXd& velocity, std::optional<double> dt = {});
 
   /// Forgets all results: the next call is cold and at the beginning of the horizon.
   void reset();
 
-  /// Returns the motion `time` s after the last call: cubic between slices, at rest after the end.
+  /// Returns the motion `time` s after the last call, at rest after the end. It is cubic between slices, and linear in
+  /// velocity where a cubic would be faster than the fastest slice (HorizonTrajectory). Throws ValueError for NaN.
   MotionPoint at(double time) const;
 
   /// Returns a copy of the motion of the last call as a trajectory from the time of that call on, which equals `at`.
@@ -118,7 +121,6 @@ class Mpc {
 
   double sliceTime(int t) const;
   VectorXd sliceJoints(int t) const;
-  VectorXd sliceVelocity(int t) const;
 
   std::shared_ptr<Komo> komo_;
   std::shared_ptr<Nlp> separate_;  ///< with one residual per pair instead of sums over pairs

@@ -54,6 +54,19 @@ std::string saveScene(const Config& config, const std::string& path, std::vector
   if (extension == ".urdf") return saveUrdf(config, path, warnings);
   if (extension == ".xml") return saveMjcf(config, path, warnings);
   const bool yaml = extension == ".yml" || extension == ".yaml";
+  if (!yaml && extension != ".g") {
+    const bool is_gltf = extension == ".glb" || extension == ".gltf";
+    throw ValueError(cat("write: the suffix of '", path, "' is ",
+                         extension.empty() ? "missing" : cat("'", extension, "'"),
+                         "; expected .g, .yml, .yaml, .urdf or .xml (MJCF)",
+                         is_gltf                                      ? "; writeGltf writes glTF"
+                         : extension == ".dae"                        ? "; writeCollada writes COLLADA"
+                         : extension == ".srdf"                       ? "; .urdf writes the SRDF file beside it"
+                         : extension == ".json"                       ? "; json.dumps(C.asDict()) gives JSON"
+                         : extension == ".ply" || extension == ".stl" ? "; writeMesh writes surfaces"
+                         : extension.starts_with(".usd")              ? "; USD is not supported"
+                                                                      : ""));
+  }
   const std::string text = yaml ? writeYaml(config, false, warnings) : writeScene(config, warnings);
   writeText(text, path);
   return text;

@@ -21,6 +21,11 @@ const OptionTable<IkOptions>& ikOptionTable() {
         "Makes all attempts and returns the answer nearest to the present q, instead of the first one."},
        {"collisions", &O::collisions, "", "Keeps the collidable pairs apart."},
        {"margin", &O::margin, "m", "Minimum distance of these pairs.", R::finite()},
+       {"max_start_penetration", &O::max_start_penetration, "m",
+        "Pairs that no joint of a target separates may overlap by this much, with a warning; deeper ones rule out "
+        "every "
+        "answer.",
+        R::notNegative()},
        {"start_weight", &O::start_weight, "",
         "Weight of |q - start|^2 in the cost that compares answers; 1 with best, if both weights are 0.",
         R::notNegative()},

@@ -15,6 +15,7 @@ struct IkOptions {
   bool best = false;
   bool collisions = true;
   double margin = 0.;
+  double max_start_penetration = .005;
   double start_weight = 0.;
   double home_weight = 0.;
   std::uint64_t seed = 0;

@@ -129,30 +129,38 @@ void IkProblem::choosePairs() {
     const bool moved = anyColumnBetween(*model, pair.first, pair.second, moves);
     (moved ? pairs : unmoved).push_back(pair);
   }
-  if (!unmoved.empty()) describeBlocking(unmoved);
+  if (!unmoved.empty()) describeUnmoved(unmoved);
 }
 
-/// Describes pairs that are too close and that no variable can separate: no answer is collision-free then.
-void IkProblem::describeBlocking(const std::vector<std::pair<int, int>>& unmoved) {
-  constexpr int kNamed = 3;
+/// Describes pairs that are too close and that no variable can separate. If one is deep, no answer is collision-free.
+/// The others, such as fingers that touch, have nothing to do with the targets.
+void IkProblem::describeUnmoved(const std::vector<std::pair<int, int>>& unmoved) {
+  constexpr std::size_t kNamed = 3;
   State state(model, parameters);
   state.setJoints(q.data());
   const BodyPairs listed(*model, unmoved);
   PlacedBodies placed(listed);
   placed.place(state);
-  std::vector<std::string> reasons;
+  std::vector<std::string> deep, shallow;
   placed.forMaybeNear(options.margin, [&](int pair) {
     const double distance = placed.proximity(pair).distance;
     if (distance >= options.margin) return;
     const auto [a, b] = unmoved[std::size_t(pair)];
     const std::string how = distance < 0. ? cat("overlap by ", -distance, " m") : cat("are ", distance, " m apart");
-    reasons.push_back(cat("frames '", model->frame_name[a], "' and '", model->frame_name[b], "' ", how));
+    (distance < -options.max_start_penetration ? deep : shallow)
+        .push_back(cat("frames '", model->frame_name[a], "' and '", model->frame_name[b], "' ", how));
   });
-  if (reasons.empty()) return;
-  const std::size_t more = reasons.size() > kNamed ? reasons.size() - kNamed : 0;
-  reasons.resize(reasons.size() - more);
-  blocking = cat(join(reasons, "; "), more > 0 ? cat("; and ", more, " more pairs") : "",
-                 "; no joint that moves a target separates them");
+  const auto text = [](std::vector<std::string>& reasons) {
+    const std::size_t more = reasons.size() > kNamed ? reasons.size() - kNamed : 0;
+    reasons.resize(reasons.size() - more);
+    return cat(join(reasons, "; "), more > 0 ? cat("; and ", more, " more pairs") : "",
+               "; no joint that moves a target separates them");
+  };
+  if (!deep.empty()) blocking = text(deep);
+  if (!shallow.empty())
+    slight = cat(text(shallow),
+                 ", so the answer keeps it; move them apart, or leave the pair out of collision checks "
+                 "(ignoreCollisionsNow)");
 }
 
 void IkProblem::startingPoint(int i, double* x) const {

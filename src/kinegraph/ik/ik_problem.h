@@ -43,12 +43,13 @@ struct IkProblem {
   std::vector<std::pair<int, int>> pairs;  ///< frames that the variables move relative to each other
   std::optional<BodyPairs> bodies;         ///< the bodies of `pairs`
   std::string blocking;  ///< description of the pairs that collide for all values of the variables; "" if none do
+  std::string slight;    ///< the same of those that overlap by max_start_penetration at most
 
  private:
   void chooseVariables(const State& state);
   void requireAtRest(const Task& task) const;
   void choosePairs();
-  void describeBlocking(const std::vector<std::pair<int, int>>& unmoved);
+  void describeUnmoved(const std::vector<std::pair<int, int>>& unmoved);
 
   VectorXd sample_lower_, sample_upper_;
   std::vector<std::pair<int, int>> norms_;  ///< first variable and count

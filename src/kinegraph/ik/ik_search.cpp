@@ -93,6 +93,7 @@ IkResult IkSearch::finish(IkJob& job, bool cancelled, const CancellationToken& c
                   : iterate_.targetsMet() ? IkStatus::in_collision
                                           : IkStatus::goal_unreachable;
   if (!job.feasible) result.message = describeFailure(*problem_, job, iterate_);
+  if (!problem_->slight.empty()) result.warnings.push_back(problem_->slight);
   if (problem_->blocking.empty() || result.status == IkStatus::cancelled) return result;
   if (job.feasible) result.status = IkStatus::in_collision;
   result.message = cat(result.message, result.message.empty() ? "" : "; ", problem_->blocking);

@@ -32,6 +32,7 @@ struct IkResult {
   int attempts = 0;            ///< number of starting points used
   int evals = 0;               ///< evaluations of the forward kinematics with Jacobian
   std::string message{};       ///< "" if solved, else the missed targets with their errors, and the pairs that collide
+  std::vector<std::string> warnings{};         ///< caveats of the answer, such as fingers that touch at the start
   std::shared_ptr<const IkRequest> request{};  ///< input of makeNlp (ik_nlp.h); null for results loaded from a file
   int number = 0;                              ///< index of the problem in the request
 
@@ -46,8 +47,8 @@ struct IkResult {
 /// collision continues with the distances as additional rows.
 ///
 /// Joints that move no target relative to its reference frame keep their values. Only pairs that joints move relative
-/// to each other count as collisions. If such a pair is too close and only joints that keep their values could separate
-/// it, the status is not `solved`.
+/// to each other count as collisions. If only joints that keep their values could separate such a pair, an overlap of
+/// up to `max_start_penetration` is a warning, as at the start of planMotion; if it is deeper, the status is not `solved`.
 ///
 /// The Config is not changed, and the same arguments give the same bits. Throws FrameNotFound, and ValueError for
 /// targets that no active joint moves, and for targets taken from a frame that the targets move.

@@ -6,6 +6,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/kinematics/unit_guesses.h"
 
 namespace kinegraph {
 
@@ -56,7 +57,9 @@ Endpoint checkEndpoint(Steering& steering, const KinematicModel& model, const Ve
   end.clearance = margin;
   const std::string excess = steering.space().beyondLimits(q, kBeyondLimit);
   if (!excess.empty()) {
-    end.problem = cat("the ", what, " is outside the limits: ", excess);
+    end.problem =
+        cat("the ", what, " is outside the limits: ", excess,
+            looksLikeDegrees(model, q) ? "; did you mean radians? The values times pi/180 are within the limits" : "");
     return end;
   }
   steering.space().clamp(end.q);
@@ -81,6 +84,13 @@ Clearance clearanceAround(double margin, const std::vector<const Endpoint*>& end
     if (around < margin) clearance.tight.push_back({end->q, around});
   }
   return clearance;
+}
+
+std::string marginWarning(const KinematicModel& model, const Endpoint& end, double margin, const std::string& what) {
+  if (end.near.empty() || end.near.front().distance >= margin) return "";
+  const double kept = std::max(0., end.near.front().distance);
+  return cat("the ", what, " does not keep the margin of ", formatLength(margin), ": ", describePairs(model, end.near),
+             "; around the ", what, ", ", formatLength(kept), " are kept");
 }
 
 std::vector<MetObstacle> obstaclesMet(const KinematicModel& model, const PairCounts& hits) {

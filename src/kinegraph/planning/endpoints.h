@@ -29,6 +29,9 @@ Clearance clearanceAround(double margin, const std::vector<const Endpoint*>& end
 /// "'hand' and 'table' overlap by 12 mm, ...", for the deepest pairs.
 std::string describePairs(const KinematicModel& model, const std::vector<ClearanceCheck::Nearest>& pairs);
 
+/// A sentence on an endpoint that keeps less than the margin, called `what` in it; "" if it keeps the margin.
+std::string marginWarning(const KinematicModel& model, const Endpoint& end, double margin, const std::string& what);
+
 /// A frame that edges of the search collided with.
 struct MetObstacle {
   int frame;  ///< id

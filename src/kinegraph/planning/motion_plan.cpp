@@ -1,5 +1,7 @@
 #include "kinegraph/planning/motion_plan.h"
 
+#include <algorithm>
+
 #include "kinegraph/collision/edge_check.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
@@ -59,6 +61,12 @@ double MotionPlan::clearance(double max_distance) const {
     least = checker.clearance(from.data(), to.data(), least);
   }
   return std::max(least, std::min(verified_margin, max_distance));
+}
+
+void MotionPlan::addSetupStage(double seconds) {
+  if (stages.empty() || stages.front().name != "setup") stages.insert(stages.begin(), PlanStage{"setup", 0., 0, ""});
+  for (const PlanStage& stage : stages) seconds -= stage.seconds;
+  stages.front().seconds += std::max(0., seconds);
 }
 
 std::string MotionPlan::str() const {

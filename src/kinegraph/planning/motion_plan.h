@@ -30,7 +30,7 @@ std::string planStatusName(PlanStatus status);
 
 /// Statistics of one stage of planMotion.
 struct PlanStage {
-  std::string name;      ///< "endpoints", "search", "shortcut", "rope_shortcut", "verify", "timing", ...
+  std::string name;      ///< "setup", "endpoints", "search", "shortcut", "rope_shortcut", "verify", "timing", ...
   double seconds = 0.;   ///< wall time
   long evaluations = 0;  ///< PlanOptions says what one counts
   std::string note;      ///< the outcome; may be ""
@@ -47,7 +47,7 @@ class MotionPlan : public Trajectory {
   TimedPath timed_path;                ///< the path with its time parameterization
   double length = 0.;                  ///< of the path, Euclidean in q
   int goal = -1;                       ///< index of the goal configuration that was reached
-  std::vector<PlanStage> stages;       ///< in the order in which they ran
+  std::vector<PlanStage> stages;       ///< in the order in which they ran; their times add up to that of the call
   std::vector<SearchReport> searches;  ///< tree searches of the "search" stage
   std::vector<SearchTree> trees;       ///< of the last search: from the start, from the goals
   std::vector<MetObstacle> obstacles;  ///< if no path was found: the most frequent obstacles, the first most often
@@ -91,6 +91,9 @@ class MotionPlan : public Trajectory {
   /// Computes the least distance of a collidable pair along the edges of the path, m, to 1e-4 m; `max_distance` if no
   /// pair is closer. Does not include dynamic obstacles.
   double clearance(double max_distance = .1) const;
+
+  /// Adds the stage "setup" in front, or extends it, so that the stages add up to `seconds`, the duration of the call.
+  void addSetupStage(double seconds);
 
   /// Several lines: the outcome, the stages, the sizes of the trees, and the clearance.
   std::string explain() const;

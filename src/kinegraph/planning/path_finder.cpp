@@ -4,6 +4,7 @@
 #include <cmath>
 #include <ctime>
 
+#include "kinegraph/kinematics/unit_norms.h"
 #include "kinegraph/planning/endpoints.h"
 #include "kinegraph/planning/pair_choice.h"
 #include "kinegraph/planning/smoothing/shortcut.h"
@@ -134,7 +135,14 @@ MatrixXd PathFinder::search(const State& scene, std::uint64_t seed, const Cancel
 
 MatrixXd PathFinder::get_resampledPath(int T) const {
   if (path_.rows() == 0) throw ValueError("PathFinder.get_resampledPath: there is no path; call solve first");
-  return resampleByIndex(path_, T);
+  MatrixXd path = resampleByIndex(path_, T);
+  VectorXd q(path.cols());
+  for (Eigen::Index t = 0; t < path.rows(); ++t) {
+    q = path.row(t);
+    scaleToUnitNorms(config_->model()->unit_norms, q);
+    path.row(t) = q;
+  }
+  return path;
 }
 
 MatrixXd resampleBySteps(const JointSpace& space, const MatrixXd& path, double step) {
@@ -142,7 +150,10 @@ MatrixXd resampleBySteps(const JointSpace& space, const MatrixXd& path, double s
   for (Eigen::Index k = 1; k < path.rows(); ++k) {
     const VectorXd from = path.row(k - 1).transpose(), to = path.row(k).transpose();
     const int parts = std::max(1, int(std::ceil(space.distance(from, to) / step)));
-    for (int i = 1; i < parts; ++i) points.push_back(from + double(i) / parts * (to - from));
+    for (int i = 1; i < parts; ++i) {
+      points.push_back(from + double(i) / parts * (to - from));
+      scaleToUnitNorms(space.unitNorms(), points.back());
+    }
     points.push_back(to);
   }
   MatrixXd rows(Eigen::Index(points.size()), path.cols());

@@ -211,6 +211,8 @@ class PlanFromVelocity {
     best_.margin = options_.margin;
     best_.verified_margin =
         std::min(start_endpoint_.clearance, steering.check().marginAt(rows.bottomRows(1).transpose()));
+    const std::string warning = marginWarning(*config_.model(), start_endpoint_, options_.margin, "start");
+    if (!warning.empty()) best_.warnings.push_back(warning);
     best_.stages.push_back({"verify", 0., steering.evaluations(), "the rest of the present motion is collision-free"});
     for (const std::string& name : steering.manifold().sampled())
       best_.warnings.push_back(cat("the constraint ", name, " was checked at samples ", Steering::kSpacing, " apart"));

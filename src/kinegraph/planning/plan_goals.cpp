@@ -53,6 +53,7 @@ class GoalFinder {
     scene.setJointState(start_);
     IkOptions ik;
     ik.margin = options_.margin + 2. * Clearance::kGuard;
+    ik.max_start_penetration = options_.max_start_penetration;
     ik.seed = options_.seed;
     const std::vector<int> dofs = IkProblem(scene, targets, ik).dofs;
     Rng rng(options_.seed);

@@ -37,6 +37,7 @@ MotionPlan planFromState(const Config& config, const MotionGoal& goal, const Pla
     }
   }
   plan.options = options;
+  plan.addSetupStage(std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   return plan;
 }
 

@@ -119,6 +119,7 @@ bool Planner::checkEndpoints(const MotionGoal& goal, const VectorXd& start) {
   if (plan_.warnings.size() > 3) plan_.warnings.resize(3);
   for (const std::string& name : steering.manifold().sampled())
     plan_.warnings.push_back(cat("the constraint ", name, " was checked at samples ", Steering::kSpacing, " apart"));
+  warnings_of_endpoints_ = plan_.warnings.size();
   return true;
 }
 
@@ -331,6 +332,16 @@ double Planner::verifiedMargin() const {
   return least;
 }
 
+/// Warns of ends that keep less than the margin; warnings of ends in contact say more.
+void Planner::warnOfMargins() {
+  plan_.warnings.resize(warnings_of_endpoints_);
+  for (const auto& [endpoint, what] :
+       {std::pair(&start_, "start"), std::pair(&goals_[std::size_t(best_.found.goal)], "goal")}) {
+    const std::string warning = marginWarning(*config_.model(), endpoint->end, options_.margin, what);
+    if (!endpoint->retreats && !warning.empty()) plan_.warnings.push_back(warning);
+  }
+}
+
 void Planner::finish() {
   long evaluations = 0;
   plan_.path = waypoints(best_.points, best_.found);
@@ -346,6 +357,7 @@ void Planner::finish() {
   plan_.raw_path = waypoints(best_.found.points, best_.found);
   plan_.goal = goal_numbers_[std::size_t(best_.found.goal)];
   plan_.verified_margin = verifiedMargin();
+  warnOfMargins();
   plan_.length = pathLength(*plan_.space, plan_.path);
   endStage("verify", evaluations, is_free ? "" : "the raw path, since the shortened one is not collision-free");
   if (options_.timing) {

@@ -63,6 +63,7 @@ class Planner {
   Steering& withoutGuard();
   bool verify(const MatrixXd& path, const PathSearchResult& found, long& evaluations);
   double verifiedMargin() const;
+  void warnOfMargins();
   void finish();
   void smooth();
 
@@ -81,6 +82,7 @@ class Planner {
   SearchEndpoint start_;
   std::vector<SearchEndpoint> goals_;
   std::vector<int> goal_numbers_;
+  std::size_t warnings_of_endpoints_ = 0;  ///< number of warnings before those of margins
   ShortcutResult best_;
   int paths_ = 0;     ///< number of paths that were searched so far
   long further_ = 0;  ///< evaluations of further paths

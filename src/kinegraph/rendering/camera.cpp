@@ -1,6 +1,8 @@
 #include "kinegraph/rendering/camera.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <optional>
 
@@ -45,6 +47,14 @@ void Camera::validate() const {
   if (!(near > 0. && far > near) || !std::isfinite(far)) {
     throw ValueError(cat("camera: zRange is [", near, " ", far, "] m; expected 0 < near < far"));
   }
+}
+
+bool isCamera(const Frame& frame) {
+  if (frame.getShapeType() == ShapeType::camera) return true;
+  constexpr const char* kWords[] = {"focalLength", "heightAngle", "orthoAbsHeight", "heightAbs",
+                                    "width",       "height",      "zRange"};
+  return std::any_of(std::begin(kWords), std::end(kWords),
+                     [&](const char* word) { return frame.attributes().find(word) != nullptr; });
 }
 
 Camera cameraOf(const Frame& frame) {

@@ -28,6 +28,9 @@ struct Camera {
 /// those of Camera. Throws ValueError for invalid attributes.
 Camera cameraOf(const Frame& frame);
 
+/// Tells whether a frame describes a camera: its shape is `camera`, or it has one of these attributes.
+bool isCamera(const Frame& frame);
+
 /// The initial camera of a viewer: 600 x 500 pixels, from (2, 5, 1.7) towards (0, 0, 1).
 Camera defaultViewCamera();
 

@@ -32,7 +32,7 @@ std::vector<double> depthToPoints(const float* depth, int height, int width, con
   for (int row = 0; row < height; ++row) {
     for (int column = 0; column < width; ++column) {
       const double d = std::max(double(*depth++), 0.);
-      points.insert(points.end(), {(column - f[2]) * d / f[0], (row - f[3]) * d / f[1], d});
+      points.insert(points.end(), {(column + .5 - f[2]) * d / f[0], (row + .5 - f[3]) * d / f[1], d});
     }
   }
   return points;

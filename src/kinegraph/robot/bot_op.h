@@ -101,7 +101,9 @@ class BotOp {
   /// present velocity; if it has passed, the new motion starts at the point that it would have reached by now.
   void move(const MatrixXd& path, const VectorXd& times, bool overwrite = false, double overwrite_time = -1.);
 
-  /// Moves along the same spline in the shortest time within max_velocity, max_acceleration, and the joints' limits.
+  /// Moves along the lines between the points, with corners that are rounded by .01 rad or m at most, in the shortest
+  /// time within max_velocity, max_acceleration, and the joints' limits (`retime`). Starts after the present motion, and
+  /// rests at the end.
   void moveAutoTimed(const MatrixXd& path, double max_velocity = 1., double max_acceleration = 1.);
 
   /// Executes a trajectory as it is: the reference of each control period is trajectory.eval(t), with velocity and
@@ -224,7 +226,8 @@ class BotOp {
 
   FollowSpline continuation(const MatrixXd& path, const VectorXd& times, bool overwrite, double cut) const;
   void start(const char* call, const FollowSpline& motion, double from);
-  void requireStart(const Trajectory& trajectory, const FollowOptions& options, double begin) const;
+  void start(const char* call, const Trajectory& trajectory, const FollowOptions& options, double begin);
+  void requireStart(const char* call, const Trajectory& trajectory, const FollowOptions& options, double begin) const;
   double nextStart() const;
   void holdNow();
   void holdIfBlocked();

@@ -5,6 +5,7 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/robot/bot_op.h"
+#include "kinegraph/trajectories/retime.h"
 
 namespace kinegraph {
 
@@ -154,22 +155,19 @@ void BotOp::moveAutoTimed(const MatrixXd& path, double max_velocity, double max_
     throw ValueError(cat(call, ": the maximal velocity is ", max_velocity, ", the maximal acceleration ",
                          max_acceleration, "; expected numbers above 0"));
   const Lock lock(mutex_);
-  const MatrixXd from = loop_->reference(timeToEnd() > 0. ? loop_->motion().end() : loop_->time());
+  const bool moves = loop_->mode() == LoopMode::follow || loop_->mode() == LoopMode::hold;
+  const double begin = moves ? std::max(loop_->time(), loop_->motion().end()) : loop_->time();  // at rest
   MatrixXd points(path.rows() + 1, path.cols());
-  points << from.row(0), path;
-  const BSpline in_one_second(3, points, VectorXd::LinSpaced(points.rows(), 0., 1.));
-  const MotionPeaks peaks = peaksOf(in_one_second, 0.);
-  const VectorXd velocity = loop_->info().velocity.cwiseMin(max_velocity);
-  const VectorXd acceleration = loop_->info().acceleration.cwiseMin(max_acceleration);
-  const double duration = std::max({loop_->period(), (peaks.velocity.array() / velocity.array()).maxCoeff(),
-                                    std::sqrt((peaks.acceleration.array() / acceleration.array()).maxCoeff())});
-  const double from_time = nextStart();
-  start(call, continuation(path, evenTimes(call, asVector(duration), path.rows()), false, -1.), from_time);
+  points << loop_->reference(begin).row(0), path;
+  const TimedPath timed = retime(points, {.velocity = loop_->info().velocity.cwiseMin(max_velocity),
+                                          .acceleration = loop_->info().acceleration.cwiseMin(max_acceleration),
+                                          .jerk = {}});
+  start(call, timed, {}, begin);
 }
 
 /// The robot or its reference must be at the first state of a trajectory that starts at the control time `begin`.
-void BotOp::requireStart(const Trajectory& trajectory, const FollowOptions& options, double begin) const {
-  constexpr const char* call = "BotOp::follow";
+void BotOp::requireStart(const char* call, const Trajectory& trajectory, const FollowOptions& options,
+                         double begin) const {
   const MotionState first = trajectory.eval(0.);
   const MatrixXd reference = loop_->reference(begin);
   const bool is_now = begin <= loop_->time();
@@ -200,11 +198,16 @@ void BotOp::follow(const Trajectory& trajectory, const FollowOptions& options) {
     throw ValueError(cat(call, ": start_time is ", options.start_time, " s; expected overwrite, and a time from now, ",
                          now, " s, on"));
   const bool appends = !options.overwrite && timeToEnd() > 0.;
-  const double begin = appends ? loop_->motion().end() : std::max(now, options.start_time);
+  start(call, trajectory, options, appends ? loop_->motion().end() : std::max(now, options.start_time));
+}
+
+/// Follows a trajectory from the control time `begin` on.
+void BotOp::start(const char* call, const Trajectory& trajectory, const FollowOptions& options, double begin) {
+  const double now = loop_->time();
   const auto trajectory_samples = sampled(trajectory, begin, options_.period);
   const MotionStates& samples = trajectory_samples->samples();
   loop_->requireReady(call, {});
-  requireStart(*trajectory_samples, options, begin);
+  requireStart(call, *trajectory_samples, options, begin);
   loop_->requireReady(call, begin > now ? VectorXd(loop_->reference(now).row(0)) : VectorXd(samples.q.row(0)));
   if (const auto violation = violatedLimit(samples, loop_->info())) throw ValueError(cat(call, ": ", *violation));
   if (const auto violation = violatedEffort(samples, loop_->info(), model_))

@@ -13,9 +13,7 @@ RobotInfo RobotInfo::of(const Config& config, std::string name) {
   info.name = std::move(name);
   info.joints = config.getJointNames();
   const MatrixXd limits = config.getJointLimits();
-  const auto has = (limits.row(1).array() >= limits.row(0).array()).transpose();
-  info.lower = has.select(limits.row(0).transpose(), -kInfinity);
-  info.upper = has.select(limits.row(1).transpose(), kInfinity);
+  info.lower = limits.row(0), info.upper = limits.row(1);
   info.velocity = getVelocityLimits(config);
   info.effort = getEffortLimits(config);
   info.acceleration = VectorXd::Constant(info.velocity.size(), kInfinity);

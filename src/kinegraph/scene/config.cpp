@@ -315,11 +315,7 @@ std::vector<std::pair<std::string, std::vector<std::string>>> Config::getJointGr
 MatrixXd Config::getJointLimits() const {
   const auto model = scene_->model();
   MatrixXd limits(2, model->dofs);
-  for (int i = 0; i < model->dofs; ++i) {
-    const bool limited = std::isfinite(model->lower[i]);
-    limits(0, i) = limited ? model->lower[i] : 0.;
-    limits(1, i) = limited ? model->upper[i] : -1.;
-  }
+  limits << model->lower.transpose(), model->upper.transpose();
   return limits;
 }
 

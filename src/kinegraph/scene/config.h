@@ -108,7 +108,7 @@ class Config {
   /// Groups of joints (attribute `joint_groups`, SRDF): the name of each and the names of its joint frames.
   std::vector<std::pair<std::string, std::vector<std::string>>> getJointGroups() const;
 
-  /// Limits, shape (2, n): lower in row 0, upper in row 1; 0 and -1 for a dof without limits.
+  /// Limits, shape (2, n): lower in row 0, upper in row 1; -inf and inf for a dof without limits.
   MatrixXd getJointLimits() const;
 
   /// Activates the joints at or above the named frames and deactivates the others; `not_those` swaps the two sets.

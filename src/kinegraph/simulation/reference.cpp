@@ -84,7 +84,7 @@ void Reference::courseOf(std::size_t i, const Servo& servo, double goal, double 
 }
 
 void Reference::command(const SceneModel& model, const VectorXd& u, double tau, ControlMode mode,
-                        const SimulationOptions& options) {
+                        const SimulationOptions& options, bool exact) {
   parts_.clock.mode = mode;
   parts_.clock.tau = tau;
   parts_.clock.elapsed = 0.;
@@ -97,6 +97,10 @@ void Reference::command(const SceneModel& model, const VectorXd& u, double tau, 
     } else if (mode == ControlMode::position || mode == ControlMode::positionVelocity) {
       if (isBall(servo)) {
         std::copy_n(wxyz(unitQuaternion(u.segment<4>(servo.q), "a joint's quaternion")).data(), 4, dof.rotation);
+      } else if (mode == ControlMode::position && exact) {
+        dof.goal = motionOf(servo, u.data(), dof.position);
+        const double slope = (dof.goal - dof.position) / tau;
+        course = {Path::cubic, dof.position, slope, slope};
       } else if (mode == ControlMode::position) {
         courseOf(i, servo, motionOf(servo, u.data(), dof.position), tau, options);
       } else {
@@ -110,6 +114,7 @@ void Reference::command(const SceneModel& model, const VectorXd& u, double tau, 
     } else if (mode == ControlMode::spline) {
       course.path = Path::still;
     } else if (mode == ControlMode::torque) {
+      course.path = Path::still;
       parts_.torque[long(i)] = u[servo.q] / servo.scale;
     }
   }

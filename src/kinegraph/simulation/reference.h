@@ -49,9 +49,11 @@ class Reference {
 
   Reference() = default;
 
-  /// Starts a command that lasts `tau` s. `u` has the finite numbers of the control vector of `mode`.
+  /// Starts a command that lasts `tau` s. `u` has the finite numbers of the control vector of `mode`. If `exact`,
+  /// commanded positions are reached at its end, however far away, at a constant velocity: without motors nothing limits
+  /// it.
   void command(const SceneModel& model, const VectorXd& u, double tau, ControlMode mode,
-               const SimulationOptions& options);
+               const SimulationOptions& options, bool exact);
 
   /// Computes the references at `time` + h, the end of an inner step; `last` marks the final one of the command.
   /// acceleration() then moves a motor from the present reference to the next one.

@@ -18,6 +18,7 @@ constexpr int kWelds = 32;                ///< equalities reserved for attach
 constexpr double kOverlap = 1e-3;         ///< m: pairs of one tree that overlap more at the start never collide
 constexpr double kGripStiffness = 2000.;  ///< N/m; the damping is in N s/m
 constexpr double kGripDamping = 60.;
+constexpr double kLocked = 1e-4;   ///< rad or m, to both sides: range of a joint with equal limits
 constexpr double kGripLever = .1;  ///< m: converts both to values of rotating fingers
 
 class ModelMaker {
@@ -122,7 +123,7 @@ class ModelMaker {
         m->frictionloss = attributeNumber(frame, "jointFriction", 0.);
         m->stiffness[0] = attributeNumber(frame, "springStiffness", 0.);
         m->springref = scale * attributeNumber(frame, "springReference", 0.);
-        if (isScalar(step.kind) && source.lower.size() > q && source.upper[q] > source.lower[q])
+        if (isScalar(step.kind) && source.lower.size() > q && source.upper[q] >= source.lower[q])
           setLimits(*m, scale * source.lower[q], scale * source.upper[q]);
       }
       made.steps.emplace_back(step.kind, m);
@@ -136,6 +137,7 @@ class ModelMaker {
     m.limited = mjLIMITED_TRUE;
     m.range[0] = std::min(a, b);
     m.range[1] = std::max(a, b);
+    if (a == b) m.range[0] -= kLocked, m.range[1] += kLocked;  // MuJoCo needs a range
     m.solref_limit[0] = m.type == mjJNT_SLIDE ? .004 : .01;
   }
 

@@ -53,7 +53,7 @@ void World::step(const VectorXd& u, double tau, ControlMode mode, const Cancella
     const double h = tau / steps, start = data_->time;
     physics_->opt.timestep = h;
     too_fast_.clear();
-    reference_.command(*model_, u, tau, mode, options_);
+    reference_.command(*model_, u, tau, mode, options_, is_kinematic_);
     for (int i = 0; i < steps; ++i) {
       cancellation.check();
       if (!is_kinematic_) reference_.stayNear(*model_, data_->qpos, data_->qvel);

@@ -298,6 +298,7 @@ Explanation explain(Nlp& nlp, const VectorXd& x, double tolerance, const Cancell
 }
 
 std::string Explanation::str(int at_most) const {
+  if (!reason.empty()) return reason;
   if (verdict == Verdict::holds) return cat("All constraints hold to ", tolerance, ".");
   std::string text = verdict == Verdict::not_reached
                          ? "All constraints can hold nearby, but not at this point; solve (again) from here:"

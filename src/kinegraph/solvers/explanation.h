@@ -52,6 +52,7 @@ struct Explanation {
   double least_violation = 0.;      ///< the largest (scaled) at the point of least sum of squares
   VectorXd x;                       ///< the point of least violation
   std::vector<Conflict> conflicts;  ///< violated objectives, the worst first, then active bounds
+  std::string reason;               ///< why a query was refused before anything was solved; "" otherwise
   int best = -1;                    ///< the conflict whose relaxation helps most; -1 if none helps
 
   std::string str(int at_most = 10) const;

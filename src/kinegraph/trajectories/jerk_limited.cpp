@@ -11,8 +11,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kNoLimit = 1e15;  // represents an infinite limit
-constexpr double kGap = 1e-3;      // largest relative excess of the duration over the optimum on the grid
+constexpr double kGap = 1e-3;  // largest relative excess of the duration over the optimum on the grid
 constexpr double kViolation = 2e-4, kNoViolation = 1e-7;  // relative violation of limits before the slow-down
 constexpr double kRoughGap = .01;                         // at which limits between gridpoints are checked first
 constexpr double kFirstGap = .3, kNextGap = .01;
@@ -47,19 +46,6 @@ std::vector<Section> sectionsOf(const ScalingGrid& grid, const SquaredSpeeds& fi
   }
   if (!sections.front().from.at_rest) sections.front().from.acceleration = start_acceleration;
   return sections;
-}
-
-/// Returns the limits of |s'|, |s''|, |s'''| along the tangent at a gridpoint.
-LineMotionLimits limitsAlong(const double* tangent, const MotionLimits& limits) {
-  LineMotionLimits along{kNoLimit, kNoLimit, kNoLimit};
-  for (int j = 0; j < limits.velocity.size(); ++j) {
-    const double d = std::abs(tangent[j]);
-    if (d == 0.) continue;
-    along.speed = std::min(along.speed, limits.velocity[j] / d);
-    along.acceleration = std::min(along.acceleration, limits.acceleration[j] / d);
-    along.jerk = std::min(along.jerk, limits.jerk[j] / d);
-  }
-  return along;
 }
 
 /// The gridpoints of a section, at about equal time steps of the time scaling without jerk limits, and more of them
@@ -245,8 +231,16 @@ TimeScaling curvedScalingOnce(const ScalingGrid& grid, const Section& section, c
   model.begin(start, kFirstGap);
   model.improve(kRoughGap, 1., kMaxNewtonSteps);
   Shares shares = sharesOf(model, proof, budget);
-  if (!shares.hold()) tighten(model, shares, budget);
-  if (!model.improve(kGap, violation, kMaxNewtonSteps)) return scaling;
+  if (!shares.hold()) {
+    tighten(model, shares, budget);
+    for (int k = 0; k < model.count(); ++k) start[std::size_t(model.first() + k)] = model.at(k)[1];
+  }
+  bool is_solved = model.improve(kGap, violation, kMaxNewtonSteps);
+  if (!is_solved && may_slow_down) {  // tightened limits may hold up the iteration; a slower start has slack everywhere
+    model.begin(start, kFirstGap);
+    is_solved = model.improve(kGap, violation, kMaxNewtonSteps) || (!rows && model.isFinite());
+  }
+  if (!is_solved) return scaling;
   shares = sharesOf(model, proof, budget);
   for (int round = 0; !may_slow_down && round < kTightenMost && !shares.hold(); ++round) {
     tighten(model, shares, budget);

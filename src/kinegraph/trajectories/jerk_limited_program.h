@@ -41,6 +41,9 @@ class JerkLimitedProgram {
   /// violations of limits are at most `violation`. Returns false after max_steps. May be called again.
   bool improve(double gap, double violation, int max_steps);
 
+  /// Tells whether b is a positive number everywhere, so that some multiple of it keeps the limits.
+  bool isFinite() const { return middle_.head(count_).allFinite() && (middle_.head(count_) > 0.).all(); }
+
   int first() const { return first_; }  ///< the first interval of the grid with a quadratic b
   int count() const { return count_; }
   Quadratic at(int k) const { return {knots_[k], middle_[k], knots_[k + 1]}; }

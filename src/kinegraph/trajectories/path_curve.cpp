@@ -93,6 +93,7 @@ namespace {
 
 constexpr double kSamePoint = 1e-12;      // relative to the largest number in the path
 constexpr double kSameDirection = 1e-10;  // largest difference of unit vectors without a corner
+constexpr double kLongEnd = 3.;           // largest ratio of the first line to the second with a not-a-knot end
 
 /// The points of a path, without those that equal their predecessor.
 struct DistinctPoints {
@@ -242,30 +243,48 @@ Blend findBlend(const DistinctPoints& distinct, int corner, const BlendOptions& 
 
 PathCurve polyline(const MatrixXd& points) { return blendedPolyline(points, {0., false, {}}); }
 
-PathCurve blendedPolyline(const MatrixXd& points, const BlendOptions& options) {
+std::vector<double> blendHalves(const MatrixXd& points, const BlendOptions& options) {
   if (!(options.tolerance >= 0.))
     throw ValueError(cat("retime: tolerance is ", options.tolerance, "; expected a number >= 0 (rad or m)"));
+  const DistinctPoints distinct = DistinctPoints(points).corners();
+  std::vector<double> halves;
+  for (int corner = 1; corner + 1 < distinct.count(); ++corner)
+    halves.push_back(findBlend(distinct, corner, options).half);
+  return halves;
+}
+
+PathCurve blendedPolyline(const MatrixXd& points, const BlendOptions& options) {
+  return blendedPolyline(points, blendHalves(points, options), options.smooth);
+}
+
+PathCurve blendedPolyline(const MatrixXd& points, const std::vector<double>& halves, bool smooth) {
   const DistinctPoints all(points);
   if (all.count() == 1) return restingCurve(all);
   const DistinctPoints distinct = all.corners();
   const int last = distinct.count() - 1;
-  PathCurveBuilder curve(int(points.cols()), options.tolerance == 0. ? 1 : options.smooth ? 4 : 2);
+  if (int(halves.size()) != last - 1)
+    throw ValueError(cat("retime: got the lengths of ", halves.size(), " blends; the path has ", last - 1, " corners"));
+  const bool is_blended = std::ranges::any_of(halves, [](double half) { return half > 0.; });
+  PathCurveBuilder curve(int(points.cols()), !is_blended ? 1 : smooth ? 4 : 2);
   std::vector<double> corner_at{0.};
   double begun = 0.;  // length that the previous blend takes from the present line
   bool stops = false;
   for (int line = 0; line < last; ++line) {
     const VectorXd direction = distinct.direction(line);
     const bool is_corner = line + 1 < last;
-    const Blend blend = is_corner ? findBlend(distinct, line + 1, options) : Blend{};
-    const double rest = distinct.chord[line] - begun - blend.half;
+    const double half = is_corner ? halves[std::size_t(line)] : 0.;
+    const double rest = distinct.chord[line] - begun - half;
     if (rest > kSamePoint * distinct.chord[line]) {
       curve.addLine(distinct.points.col(line) + begun * direction, direction, rest, stops);
       stops = false;
     }
-    corner_at.push_back(curve.length() + blend.half);
-    if (blend.half > 0.) curve.add(blend.coefficients(), 2. * blend.half, false, stops);
-    stops = is_corner && blend.half == 0.;
-    begun = blend.half;
+    corner_at.push_back(curve.length() + half);
+    if (half > 0.) {
+      const Blend blend{distinct.points.col(line + 1), direction, distinct.direction(line + 1), half, smooth};
+      curve.add(blend.coefficients(), 2. * half, false, stops);
+    }
+    stops = is_corner && half == 0.;
+    begun = half;
   }
   std::vector<double> marks;
   for (int i = 0; i < all.count(); ++i) {
@@ -280,7 +299,7 @@ PathCurve blendedPolyline(const MatrixXd& points, const BlendOptions& options) {
 
 namespace {
 
-/// Returns the slopes of the not-a-knot spline at its points, (n, K), K >= 3; for K = 3 those of the parabola.
+/// Returns the slopes of the spline at its points, (n, K), K >= 3; for K = 3 those of the parabola.
 MatrixXd splineSlopes(const DistinctPoints& distinct) {
   const int last = distinct.count() - 1;
   const VectorXd& h = distinct.chord;
@@ -291,7 +310,13 @@ MatrixXd splineSlopes(const DistinctPoints& distinct) {
     below[i] = h[i], diagonal[i] = 2. * (h[i - 1] + h[i]), above[i] = h[i - 1];
     right.col(i) = 3. * (h[i] * secant.col(i - 1) + h[i - 1] * secant.col(i));
   }
-  const auto endRow = [&](int end, int line, int next) {  // continuity of the third derivative at the second point
+  const auto endRow = [&](int end, int line, int next) {
+    if (h[line] > kLongEnd * h[next]) {  // the second derivative is zero at the end
+      diagonal[end] = 2., (end == 0 ? above : below)[end] = 1.;
+      right.col(end) = 3. * secant.col(line);
+      return;
+    }
+    // The third derivative is continuous at the second point.
     const double width = h[line] + h[next];
     diagonal[end] = h[next];
     (end == 0 ? above : below)[end] = width;

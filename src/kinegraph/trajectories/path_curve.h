@@ -78,8 +78,19 @@ PathCurve polyline(const MatrixXd& points);
 /// line. If `smooth`, corners that reverse the direction to within .4 degrees stay.
 PathCurve blendedPolyline(const MatrixXd& points, const BlendOptions& options = {});
 
+/// Returns half the length of each of these blends, one per corner; 0 for a corner that stays. A corner is a point at
+/// which the direction changes.
+std::vector<double> blendHalves(const MatrixXd& points, const BlendOptions& options = {});
+
+/// Returns lines with blends of given lengths, as from `blendHalves`. Throws ValueError for another number of them.
+PathCurve blendedPolyline(const MatrixXd& points, const std::vector<double>& halves, bool smooth);
+
 /// Returns the cubic spline through the points with continuous second derivatives and not-a-knot ends: the first two
 /// pieces are one polynomial, and so are the last two. Three points give a parabola, two a line.
+///
+/// A polynomial that is fixed by a short line would run away along a line that is many times as long. At an end whose
+/// line is more than three times as long as the next one, the second derivative is zero instead. Then no slope dq/ds
+/// exceeds 20 in any dof, and the curve stays near its points for any spacing.
 PathCurve cubicSpline(const MatrixXd& points);
 
 }  // namespace kinegraph

@@ -5,6 +5,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/trajectories/corner_stops.h"
 #include "kinegraph/trajectories/jerk_limited.h"
 #include "kinegraph/trajectories/time_optimal.h"
 
@@ -30,18 +31,6 @@ std::string retimeStatusName(RetimeStatus status) {
   return "?";
 }
 
-PathCurve curveOf(const MatrixXd& path, const MotionLimits& limits, const RetimeOptions& options) {
-  switch (options.corners) {
-    case Corners::spline:
-      return cubicSpline(path);
-    case Corners::stop:
-      return polyline(path);
-    case Corners::blend:
-      break;
-  }
-  return blendedPolyline(path, {options.tolerance, limits.limitsJerk(), options.is_free});
-}
-
 Corners cornersOfName(const std::string& name) {
   static const std::vector<std::string> names = {"blend", "stop", "spline"};
   const auto found = std::find(names.begin(), names.end(), name);
@@ -54,7 +43,8 @@ namespace {
 
 constexpr double kAlong = 1e-6;  // largest relative deviation of a velocity from the direction of the path
 constexpr int kNarrowings = 10;
-constexpr int kMaxTrials = 5;  // each with twice as many intervals
+constexpr int kStopRounds = 2;  // of the choice between blends and stops
+constexpr int kMaxTrials = 5;   // each with twice as many intervals
 constexpr int kMaxIntervals = 1000000;
 constexpr int kTrialHalvings = 24, kIntervalsOfTrials = 100;  // of the search for a velocity that would do
 constexpr double kBelowBound[] = {1e-6, 1e-4};                // the message gives a value smaller by this share
@@ -164,7 +154,8 @@ void checkLimited(const ScalingGrid& grid, const MotionLimits& limits, const Sca
 namespace {
 
 /// Describes the largest feasible end velocity by bisection, after one that is too fast; "" if it is unknown.
-std::string feasibleVelocity(const TimedPath& failed, const MotionLimits& limits, const RetimeOptions& options) {
+std::string feasibleVelocity(const MatrixXd& path, const TimedPath& failed, const MotionLimits& limits,
+                             const RetimeOptions& options) {
   const bool is_start = failed.status == RetimeStatus::start_too_fast;
   if ((!is_start && failed.status != RetimeStatus::end_too_fast) || options.start_acceleration.size() > 0) return "";
   RetimeOptions slower = options;
@@ -172,7 +163,7 @@ std::string feasibleVelocity(const TimedPath& failed, const MotionLimits& limits
   const VectorXd requested = velocity;
   const auto isFeasible = [&](double share) {
     velocity = share * requested;
-    return retime(MatrixXd(), failed.curve(), limits, slower).feasible();
+    return retime(path, limits, slower, {}).feasible();
   };
   slower.intervals = std::min(options.intervals, kIntervalsOfTrials);
   double low = 0., high = 1.;
@@ -191,11 +182,50 @@ std::string feasibleVelocity(const TimedPath& failed, const MotionLimits& limits
 
 }  // namespace
 
-TimedPath retime(const MatrixXd& path, const MotionLimits& limits, const RetimeOptions& options) {
+namespace {
+
+/// Times a path with blends. With jerk limits, a small blend may take longer than a stop, because the motion would
+/// almost stop in it: corners are blended only if that is faster.
+TimedPath retimeWithBlends(const MatrixXd& path, const MotionLimits& limits, const RetimeOptions& options,
+                           const std::function<TimedPath(const PathCurve&)>& timed) {
+  const bool smooth = limits.limitsJerk();
+  std::vector<double> halves = blendHalves(path, {options.tolerance, smooth, options.is_free});
+  TimedPath best = timed(blendedPolyline(path, halves, smooth));
+  const auto take = [&](const std::vector<double>& tried) {
+    TimedPath trial = timed(blendedPolyline(path, tried, smooth));
+    const bool is_better = trial.feasible() && (!best.feasible() || trial.duration() < best.duration());
+    if (is_better) best = std::move(trial), halves = tried;
+    return is_better;
+  };
+  if (!smooth) return best;
+  for (int round = 0; round < kStopRounds && best.feasible(); ++round) {
+    std::vector<double> fewer = halves;
+    for (const int corner : cornersWithFasterStops(best, halves, limits)) fewer[std::size_t(corner)] = 0.;
+    if (fewer == halves || !take(fewer)) break;
+  }
+  if (std::ranges::any_of(halves, [](double half) { return half > 0.; })) take(std::vector<double>(halves.size(), 0.));
+  return best;
+}
+
+}  // namespace
+
+TimedPath retime(const MatrixXd& path, const MotionLimits& limits, const RetimeOptions& options,
+                 const std::function<ConstraintSource(const PathCurve&)>& constraints_of) {
   options.validate();
   if (path.cols() > 0) limits.validate(int(path.cols()));
-  TimedPath timed = retime(path, curveOf(path, limits, options), limits, options);
-  timed.message += feasibleVelocity(timed, limits, options);
+  const auto timed = [&](const PathCurve& curve) {
+    if (!constraints_of) return retime(path, curve, limits, options);
+    RetimeOptions constrained = options;
+    constrained.constraints = constraints_of(curve);
+    return retime(path, curve, limits, constrained);
+  };
+  if (options.corners == Corners::blend) return retimeWithBlends(path, limits, options, timed);
+  return timed(options.corners == Corners::spline ? cubicSpline(path) : polyline(path));
+}
+
+TimedPath retime(const MatrixXd& path, const MotionLimits& limits, const RetimeOptions& options) {
+  TimedPath timed = retime(path, limits, options, {});
+  timed.message += feasibleVelocity(path, timed, limits, options);
   return timed;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "kinegraph/common/cancellation.h"
@@ -12,7 +13,7 @@ namespace kinegraph {
 
 /// Treatment of the corners of a path.
 enum class Corners {
-  blend,   ///< blended within a tolerance; a stop if no blend is collision-free
+  blend,   ///< blended within a tolerance; a stop if no blend is collision-free, or if the stop is faster
   stop,    ///< the motion stops at each
   spline,  ///< a cubic spline through all points, which may deviate far from the lines between them
 };
@@ -39,9 +40,6 @@ enum class RetimeStatus {
   end_too_fast,    ///< the end velocity is above the limits, or cannot be reached
   cannot_move,     ///< a further limit holds for no speed at some s
 };
-
-/// Returns the curve of `retime` for a path.
-PathCurve curveOf(const MatrixXd& path, const MotionLimits& limits, const RetimeOptions& options);
 
 std::string retimeStatusName(RetimeStatus status);
 
@@ -91,6 +89,10 @@ class TimedPath final : public Trajectory {
 /// without limits, velocities that do not point along the path, and a start acceleration that leaves it. A path that
 /// cannot be followed is a status.
 TimedPath retime(const MatrixXd& path, const MotionLimits& limits, const RetimeOptions& options = {});
+
+/// The same with further limits that depend on the curve; they are read before the call returns.
+TimedPath retime(const MatrixXd& path, const MotionLimits& limits, const RetimeOptions& options,
+                 const std::function<ConstraintSource(const PathCurve&)>& constraints_of);
 
 /// The same along a given curve through the points of `path`.
 TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimits& limits,

@@ -7,6 +7,8 @@ namespace kinegraph {
 
 namespace {
 
+constexpr double kNoLimit = 1e15;  // represents an infinite limit
+
 /// The fastest change of speed: jerk up for `ramp`, constant acceleration for `hold`, jerk down for `ramp`.
 struct SpeedChange {
   double ramp, hold, acceleration, jerk;  ///< the last two with the sign of the change
@@ -52,6 +54,18 @@ struct PhaseAppender {
 };
 
 }  // namespace
+
+LineMotionLimits limitsAlong(const double* tangent, const MotionLimits& limits) {
+  LineMotionLimits along{kNoLimit, kNoLimit, kNoLimit};
+  for (int j = 0; j < limits.velocity.size(); ++j) {
+    const double d = std::abs(tangent[j]);
+    if (d == 0.) continue;
+    along.speed = std::min(along.speed, limits.velocity[j] / d);
+    along.acceleration = std::min(along.acceleration, limits.acceleration[j] / d);
+    along.jerk = std::min(along.jerk, limits.jerk[j] / d);
+  }
+  return along;
+}
 
 bool addSCurve(TimeScaling& scaling, double s0, double s1, double speed0, double speed1, const LineMotionLimits& limits,
                int piece) {

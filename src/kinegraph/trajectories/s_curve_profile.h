@@ -1,5 +1,6 @@
 #pragma once
 
+#include "kinegraph/trajectories/scaling_grid.h"
 #include "kinegraph/trajectories/time_scaling.h"
 
 namespace kinegraph {
@@ -8,6 +9,9 @@ namespace kinegraph {
 struct LineMotionLimits {
   double speed, acceleration, jerk;
 };
+
+/// Returns the limits of |s'|, |s''|, |s'''| for a motion along a tangent, one number per dof; 1e15 for none.
+LineMotionLimits limitsAlong(const double* tangent, const MotionLimits& limits);
 
 /// Appends the fastest S-curve profile from s0 to s1 > s0 between two speeds, with zero acceleration at both ends: up
 /// to three phases of constant jerk, a cruise, and three more phases. Returns false, and appends nothing, if the

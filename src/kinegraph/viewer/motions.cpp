@@ -57,7 +57,7 @@ ShownMotion jointSweep(const Config& config) {
   std::vector<std::string> texts;
   Eigen::Index row = 0;
   for (Eigen::Index i = q0.size() - 1; i >= 0; --i) {
-    const bool limited = limits(0, i) <= limits(1, i);
+    const bool limited = limits.col(i).allFinite();
     const double lower = limited ? limits(0, i) : q0[i] - .5, upper = limited ? limits(1, i) : q0[i] + .5;
     const double middle = (lower + upper) / 2, reach = std::max((upper - lower) / 2, 1e-9);
     const double begin = std::acos(std::clamp((q0[i] - middle) / reach, -1., 1.));

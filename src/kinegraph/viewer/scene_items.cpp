@@ -34,7 +34,8 @@ std::vector<ShownJoint> jointsOf(const Config& config) {
     const std::vector<std::string> units = unitsOf(*frame->joint);
     for (int i = 0; i < dofs.count; ++i) {
       const int dof = dofs.first + i;
-      joints[dof] = {names[dof], frame->id, units[i], limits(0, dof), limits(1, dof)};
+      const bool limited = limits.col(dof).allFinite();  // the page has no infinities: 0 and -1
+      joints[dof] = {names[dof], frame->id, units[i], limited ? limits(0, dof) : 0., limited ? limits(1, dof) : -1.};
     }
   }
   return joints;

@@ -71,3 +71,17 @@ def test_mistakes_are_reported(arm: ry.Config, tmp_path: Path, capsys: pytest.Ca
         ry.reachability(arm, spacing=0.4).save(tmp_path / "cells.txt")
     assert main(["reachability", str(tmp_path / "no.urdf")]) == 1
     assert "does not exist" in capsys.readouterr().err
+
+
+def test_endless_hinges_take_any_angle_and_endless_slides_are_refused() -> None:
+    C = ry.Config()
+    C.addText("""base: {}
+j1 (base): { joint: hingeZ }
+j2 (j1): { joint: hingeY, limits: [-.1 .1] }
+tip (j2): { Q: [.5 0 0] }""")
+    cells = ry.reachability(C, "tip", spacing=0.2, progress=False)
+    assert (cells.points.min(axis=0)[:2] < -0.4).all() and (cells.points.max(axis=0)[:2] > 0.4).all()  # all around
+    D = ry.Config()
+    D.addText("base: {}\nrail (base): { joint: transX }\ncart (rail): { Q: [0 0 .1] }")
+    with pytest.raises(ry.ArgumentError, match="the joints rail have no limits"):
+        ry.reachability(D, "cart", progress=False)

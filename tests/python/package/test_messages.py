@@ -73,7 +73,7 @@ def test_results_speak_python() -> None:
 
 def test_results_of_solvers_and_of_inverse_kinematics_speak_python() -> None:
     text, ours = "Komo::solve with first=false, 'Komo::a'", "KOMO.solve with firstSwitch=False, 'Komo::a'"
-    for result, at in ((ry.SolverReturn(), 12), (ry.solveIk(*reach()), -1)):
+    for result, at in ((ry.SolverReturn(), 12), (ry.solveIk(*reach()), 8)):
         state = list(result.__getstate__())
         assert isinstance(state[at], str)
         state[at] = text

@@ -56,6 +56,7 @@ def test_a_box_on_wheels_goes_through_a_door() -> None:
     assert leastDistance(C, plan.path) >= 0
     assert np.allclose(C.getJointState(), START)
     assert [stage["name"] for stage in plan.stages] == [
+        "setup",
         "endpoints",
         "search",
         "shortcut",

@@ -331,8 +331,8 @@ def test_points_of_a_depth_image_lie_on_what_is_seen():
 
 def test_points_of_a_depth_image_are_those_of_the_formula():
     points = ry.depthImage2PointCloud(np.array([[1.0, 2.0], [-1.0, 4.0]], np.float32), [10, 20, 0.5, 1.0])
-    np.testing.assert_allclose(points[0, 1], [0.1, -0.1, 2.0])
-    np.testing.assert_allclose(points[1], [[0, 0, 0], [0.2, 0, 4.0]])
+    np.testing.assert_allclose(points[0, 1], [0.2, -0.05, 2.0])
+    np.testing.assert_allclose(points[1], [[0, 0, 0], [0.4, 0.1, 4.0]])
     with pytest.raises(ry.ArgumentError, match="4"):
         ry.depthImage2PointCloud(np.ones((2, 2), np.float32), [1, 2, 3])
 

@@ -66,7 +66,7 @@ def load(file: Path | str, prefix: str | None = None) -> ry.Config:
 def test_a_robot_has_its_joints_limits_and_links(arm: Path) -> None:
     config = load(arm)
     assert config.getJointNames() == ["shoulder", "elbow_joint", "lift", "grip", "spin", "follow"]  # which mimics grip
-    np.testing.assert_array_equal(config.getJointLimits(), [[-2, 0, 0, 0, -1], [1.5, -1, 0.4, 0.04, 1]])
+    np.testing.assert_array_equal(config.getJointLimits(), [[-2, -np.inf, 0, 0, -1], [1.5, np.inf, 0.4, 0.04, 1]])
     assert {"base", "upper", "elbow", "mount", "flange", "finger2", "follow"} <= set(config.getFrameNames())
     assert config.getFrame("upper").getMass() == 1.5
     assert config.getFrame("base_0").getShapeType() == ry.ST.cylinder

@@ -4,12 +4,20 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/kinematics/unit_norms.h"
 
 namespace kinegraph {
 
 namespace {
 
 constexpr std::size_t kUsualDofs = 256;
+
+/// The q of a state, with quaternions of length 1; a solver's variables have any length.
+VectorXd unitJoints(const State& state) {
+  VectorXd q = state.q();
+  scaleToUnitNorms(state.model().unit_norms, q);
+  return q;
+}
 
 }  // namespace
 
@@ -112,13 +120,14 @@ MatrixXd Path::joints(const std::vector<int>& frames) const {
   MatrixXd joints;
   if (layout_.plain && frames.empty()) {
     joints.resize(grid_.slices(), state(0).dofs());
-    for (int t = 0; t < grid_.slices(); ++t) joints.row(t) = state(t).q();
+    for (int t = 0; t < grid_.slices(); ++t) joints.row(t) = unitJoints(state(t));
     return joints;
   }
   for (int t = 0; t < grid_.slices(); ++t) {
     const std::vector<int> dofs = dofsOf(frames.empty() ? initial_.joint_frames : frames, t);
     if (t == 0) joints.resize(grid_.slices(), Eigen::Index(dofs.size()));
-    for (std::size_t i = 0; i < dofs.size(); ++i) joints(t, Eigen::Index(i)) = state(t).q()[dofs[i]];
+    const VectorXd q = unitJoints(state(t));
+    for (std::size_t i = 0; i < dofs.size(); ++i) joints(t, Eigen::Index(i)) = q[dofs[i]];
   }
   return joints;
 }

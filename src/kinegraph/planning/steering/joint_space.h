@@ -50,6 +50,9 @@ class JointSpace {
   /// Maps endless dofs to [-pi, pi), and quaternions and circles to length one.
   void normalize(VectorXd& q) const;
 
+  /// The dofs that form a quaternion or a circle.
+  const std::vector<KinematicModel::DofRange>& unitNorms() const { return directions_; }
+
   /// Moves dofs that are out of range to the nearest limit.
   void clamp(VectorXd& q) const;
 

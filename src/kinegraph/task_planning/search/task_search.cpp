@@ -107,7 +107,7 @@ std::optional<TaskPlan> TaskSearch::begin() {
   has_begun_ = true;
   if (!logic_.problem().unreachable.empty()) {
     has_ended_ = true;
-    const std::string missing = missingDoorParts();
+    const std::string missing = missingParts();
     return answer(TaskStatus::infeasible, missing.empty() ? join(diagnostics(logic_.problem()), "; ") : missing);
   }
   if (!options_.rules.contains("pick"))  // the proofs assume the default rules
@@ -253,11 +253,19 @@ TaskPlan TaskSearch::completed(TaskPlan plan) {
   return plan;
 }
 
-/// The label or part that a door of the goal lacks to be opened or closed; "" with a domain other than the default one.
-std::string TaskSearch::missingDoorParts() const {
+/// The label, joint or part that an object or door of the goal lacks; "" with a domain other than the default one.
+std::string TaskSearch::missingParts() const {
   if (options_.domain) return "";
   const std::vector<Literal>& start = logic_.start();
   for (const Literal& literal : logic_.goal()) {
+    if (literal.predicate == "on" && literal.arguments.size() == 2) {
+      const std::string& name = literal.arguments[1];
+      if (const std::optional<Frame> frame = C_.findFrame(name); frame && !contains(start, {"is_object", {name}}))
+        return cat("'", name, "' is no object: it has no ",
+                   frame->getJointType() == JointType::rigid ? "shape; call setShape"
+                                                             : "rigid joint; call setJoint(JointType::rigid), or write "
+                                                               "'joint: rigid' in its file");
+    }
     if ((literal.predicate != "opened" && literal.predicate != "closed") || literal.arguments.size() != 1) continue;
     const std::string& name = literal.arguments[0];
     if (!contains(start, {"is_guided", {name}}))

@@ -1,0 +1,11 @@
+#pragma once
+
+#include "kinegraph/kinematics/kinematic_model.h"
+
+namespace kinegraph {
+
+/// Tells whether q seems to be in degrees: some angle is beyond its limits, or beyond two turns, all are multiples
+/// of 0.5, and all times pi/180 are within their limits.
+bool looksLikeDegrees(const KinematicModel& model, const VectorXd& q);
+
+}  // namespace kinegraph

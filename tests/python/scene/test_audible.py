@@ -1,0 +1,77 @@
+"""Calls that once did something else in silence: they do it, warn, or refuse."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import kinegraph as ry
+
+
+@pytest.fixture
+def lever() -> ry.Config:
+    C = ry.Config()
+    C.addText("""base: {}
+j (base): { joint: hingeZ, limits: [-1 1], shape: ssBox, size: [.2 .1 .1 .01] }
+wheel (base): { joint: hingeX }""")
+    return C
+
+
+def test_joints_without_limits_have_infinite_ones(lever: ry.Config) -> None:
+    assert lever.getJointLimits().tolist() == [[-1, -np.inf], [1, np.inf]]
+    assert (np.clip([5.0, 9.0], *lever.getJointLimits()) == [1, 9]).all()
+
+
+def test_attributes_do_what_they_do_in_a_file(lever: ry.Config) -> None:
+    f = lever.getFrame("j")
+    f.setAttributes({"contact": 1, "limits": [-2, 2], "mass": 3.0, "q": 0.5, "ctrl_limits": [1.5, 2.5], "own": "text"})
+    assert lever.getJointLimits()[:, 0].tolist() == [-2, 2] and lever.getJointState()[0] == 0.5
+    assert f.getMass() == 3 and f.asDict()["contact"] == 1
+    assert lever.getVelocityLimits()[0] == 1.5 and lever.getEffortLimits()[0] == 2.5
+    assert f.getAttributes()["own"] == "text"
+    before = f.asDict()
+    for attributes, message in (
+        ({"mass": 1, "shape": "box"}, "'shape' of frame 'j' has a meaning in files only; call setShape"),
+        ({"limits": [1]}, "limits of its joint are 2 numbers"),
+        ({"limits": [2, 1]}, "'j'"),
+        ({"contact": 0.5}, "contact is 0.5; expected a whole number"),
+    ):
+        with pytest.raises(ry.ArgumentError, match=message):
+            f.setAttributes(attributes)
+    assert f.asDict() == before
+
+
+@pytest.mark.parametrize(
+    ("suffix", "hint"),
+    [
+        ("usd", "USD is not supported"),
+        ("glb", "writeGltf"),
+        ("json", "asDict"),
+        ("png", "expected .g"),
+        ("dae", "Collada"),
+    ],
+)
+def test_a_scene_is_not_written_to_unknown_suffixes(lever: ry.Config, tmp_path: Path, suffix: str, hint: str) -> None:
+    with pytest.raises(ry.ArgumentError, match=hint):
+        lever.write(tmp_path / f"scene.{suffix}")
+    assert not list(tmp_path.iterdir())
+    lever.write(tmp_path / "scene.G")
+
+
+def test_sizes_that_are_mended_or_in_millimeters_are_warned_of() -> None:
+    C = ry.Config()
+    with pytest.warns(ry.KinegraphWarning, match="setShape: frame 'plate'"):
+        C.addFrame("plate").setShape(ry.ST.ssBox, [0.3, 0.3, 0.01, 0.02])
+    with pytest.warns(ry.KinegraphWarning, match="did you mean millimeters"):
+        C.addFrame("can").setShape("cylinder", [120, 33])
+    C.addFrame("floor").setShape(ry.ST.box, [50, 50, 0.1])
+
+
+def test_degrees_and_another_order_of_quaternions_are_asked_about(lever: ry.Config) -> None:
+    with pytest.warns(ry.KinegraphWarning, match="did you mean radians"):
+        lever.setJointState([45.0, 0.0])
+    lever.setJointState([1.5, 0.0])  # slightly beyond a limit
+    with pytest.warns(ry.KinegraphWarning, match="The order is w x y z"):
+        lever.getFrame("base").setQuaternion([0, 0, 0, 1])
+    plan = ry.planMotion(lever, [45.0, 0.0], start=[0.0, 0.0])
+    assert not plan.feasible and "did you mean radians" in plan.message
