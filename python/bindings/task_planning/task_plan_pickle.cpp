@@ -84,10 +84,7 @@ PyTaskPlan planFrom(const nb::tuple& t) {
   plan.goal = literalsFrom(t[16]);
   plan.start = literalsFrom(t[17]);
   plan.request = requestFrom(t[18]);
-  if (plan.request)
-    plan.replanner = [goal = plan.request->goal, options = plan.request->options()](const Config& C) {
-      return planTask(C, goal, options);
-    };
+  if (plan.request) plan.replanner = replannerTo(plan.request->goal, plan.request->options());
   return plan;
 }
 

@@ -9,6 +9,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/eval.h"
+#include "kinegraph/task_planning/open_hands.h"
 #include "kinegraph/task_planning/search/guided_motion.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/shape_points.h"
@@ -363,7 +364,7 @@ std::vector<std::string> checkTaskPlan(const Config& C, const TaskPlan& plan,
                                        const std::vector<std::vector<Literal>>& states) {
   requirePlan(C, plan);
   Lines wrong = states.empty() ? Lines() : unmetGoals(plan.goal, states.back());
-  const Lines more = PlanPlayer(C, plan).violations();
+  const Lines more = PlanPlayer(withOpenHands(C), plan).violations();
   wrong.insert(wrong.end(), more.begin(), more.end());
   return wrong;
 }

@@ -7,6 +7,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/logic/fol_reader.h"
+#include "kinegraph/task_planning/open_hands.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/search/task_conflicts.h"
 #include "kinegraph/task_planning/task_tools.h"
@@ -54,8 +55,8 @@ int requireThreads(int threads) {
 }  // namespace
 
 TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptions& options)
-    : original_(std::make_shared<const Config>(C)),
-      C_(withoutWedges(C)),
+    : original_(std::make_shared<const Config>(withOpenHands(C))),
+      C_(withoutWedges(*original_)),
       doors_(doorsOf(C)),
       options_(options),
       goal_text_(goal),
@@ -249,7 +250,7 @@ TaskPlan TaskSearch::completed(TaskPlan plan) {
   plan.tree = log_.tree();
   plan.evaluations = evaluations();
   plan.expansions = logic_.expansions();
-  plan.replanner = [goal = goal_text_, options = options_](const Config& C) { return planTask(C, goal, options); };
+  plan.replanner = replannerTo(goal_text_, options_);
   return plan;
 }
 
