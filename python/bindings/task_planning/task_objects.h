@@ -55,8 +55,9 @@ std::vector<std::pair<double, std::string>> toleranceList(const std::vector<Step
 void bindTaskPlan(nb::module_& m);  ///< TaskStatus, TaskBranch, TaskPlan
 void bindTaskPlanCopies(nb::class_<TaskBranch>& branch,
                         nb::class_<PyTaskPlan, Trajectory>& plan);  ///< copy.copy and pickle
-void bindTaskExecution(nb::module_& m);
-void bindPlanTask(nb::module_& m);  ///< planTask, planTasks
-void bindLgp(nb::module_& m);       ///< LGP_Tool and its abstractions
+void bindTaskExecution(nb::module_& m);                             ///< TaskExecution, TaskEvent, TaskRun
+void bindExecutionOf(nb::class_<PyTaskPlan, Trajectory>& plan);     ///< TaskPlan.execute, TaskPlan.run
+void bindPlanTask(nb::module_& m);                                  ///< planTask, planTasks
+void bindLgp(nb::module_& m);                                       ///< LGP_Tool and its abstractions
 
 }  // namespace kinegraph::python

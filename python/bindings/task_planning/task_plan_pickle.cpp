@@ -88,10 +88,7 @@ PyTaskPlan planFrom(const nb::tuple& t) {
   plan.margin = nb::cast<double>(t[19]);
   for (const auto& [error, limit] : nb::cast<std::vector<std::pair<double, std::string>>>(t[20]))
     plan.tolerances.push_back({error, limit});
-  if (plan.request)
-    plan.replanner = [goal = plan.request->goal, options = plan.request->options()](const Config& C) {
-      return planTask(C, goal, options);
-    };
+  if (plan.request) plan.replanner = replannerTo(plan.request->goal, plan.request->options());
   return plan;
 }
 

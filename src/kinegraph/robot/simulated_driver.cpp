@@ -91,6 +91,14 @@ void SimulatedDriver::stepCompliant(double period) {
 }
 
 void SimulatedDriver::setFramePose(const std::string& frame, const Pose& pose) {
+  const std::vector<Frame> free = simulation_.getFreeFrames();
+  for (std::size_t i = 0; i < free.size(); ++i) {  // motors and grippers keep their references
+    if (free[i].getName() != frame) continue;
+    SimulationState state = simulation_.getState();
+    state.freePos.row(Eigen::Index(i)) << pose.p.transpose(), wxyz(pose.q).transpose();
+    simulation_.setState(state);
+    return;
+  }
   const MatrixXd velocities = simulation_.get_frameVelocities();
   const VectorXd joint_velocities = simulation_.get_qDot();
   config_.getFrame(frame).setPose(pose);

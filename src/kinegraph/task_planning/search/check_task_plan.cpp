@@ -9,6 +9,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/eval.h"
+#include "kinegraph/task_planning/open_hands.h"
 #include "kinegraph/task_planning/search/guided_motion.h"
 #include "kinegraph/task_planning/search/meant_contacts.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
@@ -376,7 +377,7 @@ std::vector<std::string> checkTaskPlan(const Config& C, const TaskPlan& plan,
                                        std::optional<double> margin) {
   requirePlan(C, plan);
   Lines wrong = states.empty() ? Lines() : unmetGoals(plan.goal, states.back());
-  const Lines more = PlanPlayer(C, plan, margin.value_or(plan.margin)).violations();
+  const Lines more = PlanPlayer(withOpenHands(C), plan, margin.value_or(plan.margin)).violations();
   wrong.insert(wrong.end(), more.begin(), more.end());
   return wrong;
 }

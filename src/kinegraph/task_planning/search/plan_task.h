@@ -44,10 +44,13 @@ struct TaskOptions {
 ///
 /// Without a domain, the actions are those of defaultDomain. Grippers, objects and places are the frames that the scene
 /// labels (`logical: { is_gripper }`). A scene without labels has as grippers the frames whose names end with
-/// "gripper", as objects the frames with a rigid joint and a shape, and as places level boxes that do not move. The
-/// Config is not changed. Finding no plan is a status. Throws ParseError for words of the goal that are not in the
+/// "gripper", as objects the frames with a rigid joint and a shape, and as places level boxes that do not move. Fingers
+/// are taken to be open, as `execute` opens them before each grasp. The Config is not changed. Finding no plan is a status. Throws ParseError for words of the goal that are not in the
 /// scene, ValueError for actions without a rule and for invalid options.
 TaskPlan planTask(const Config& C, const std::string& goal, const TaskOptions& options = {});
+
+/// Returns a function for TaskPlan::replanner.
+std::function<TaskPlan(const Config&, const RepairOptions&)> replannerTo(std::string goal, TaskOptions options);
 
 class TaskSearch;
 

@@ -80,9 +80,9 @@ std::string TaskPlan::explain() const {
 
 std::string TaskPlan::searchTree() const { return treeText(tree); }
 
-TaskPlan TaskPlan::repair(const Config& C) const {
+TaskPlan TaskPlan::repair(const Config& C, const RepairOptions& options) const {
   if (!replanner) throw ValueError("TaskPlan.repair: the plan was not made by planTask, and has no goal and options");
-  return replanner(C);
+  return replanner(C, options);
 }
 
 std::string TaskPlan::str() const {

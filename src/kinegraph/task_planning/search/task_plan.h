@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 namespace kinegraph {
 
 class BotOp;
+struct ExecutionOptions;
 struct TaskExecution;
 
 enum class TaskStatus {
@@ -46,6 +48,13 @@ struct StepTolerance {
   std::string limit;  ///< what happens with a larger one: "'l_palm' meets 'b'"
 };
 
+/// Limits of the search of TaskPlan::repair; none: those of the plan.
+struct RepairOptions {
+  std::optional<double> time_limit = {};     ///< s of wall time
+  std::optional<long> max_evaluations = {};  ///< of the functions of waypoint and motion problems
+  std::optional<int> threads = {};
+};
+
 /// The result of planTask: actions with their timed motion, or the causes for which there is none.
 ///
 /// As a Trajectory, the plan is piecewise linear in time between the rows of `path`. Its velocity is constant between
@@ -68,9 +77,11 @@ struct TaskPlan : Trajectory {
   long evaluations = 0;                             ///< of motion problems
   long expansions = 0;                              ///< of states in logic
   std::vector<std::pair<std::string, std::string>> attachments;  ///< (parent, object) after each action that moves one
-  std::vector<Config> scenes;                        ///< the scene of each action, with held objects attached to hands
-  std::vector<Literal> goal, start;                  ///< literals of the goal, and facts that hold initially
-  std::function<TaskPlan(const Config&)> replanner;  ///< plans to the same goal with the same options in another scene
+  std::vector<Config> scenes;        ///< the scene of each action, with held objects attached to hands
+  std::vector<Literal> goal, start;  ///< literals of the goal, and facts that hold initially
+
+  /// Plans to the same goal with the same options in another scene.
+  std::function<TaskPlan(const Config&, const RepairOptions&)> replanner;
 
   bool feasible() const { return status == TaskStatus::solved; }
 
@@ -106,6 +117,7 @@ struct TaskPlan : Trajectory {
 
   /// Executes the plan on a robot; see kinegraph::execute in api/task_execution.h.
   TaskExecution execute(BotOp& bot) const;
+  TaskExecution execute(BotOp& bot, const ExecutionOptions& options) const;
 
   /// Throws ValueError, in the name of `call`, if there is no motion.
   void requireMotion(const char* call) const;
@@ -115,7 +127,7 @@ struct TaskPlan : Trajectory {
 
   /// Plans the remaining actions to the same goal from the current scene `C`. Throws ValueError for plans without a
   /// replanner; planTask and planTasks set it.
-  TaskPlan repair(const Config& C) const;
+  TaskPlan repair(const Config& C, const RepairOptions& options = {}) const;
 
   /// The status and summary, the actions, and the most frequent causes.
   std::string str() const;

@@ -8,6 +8,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/logic/fol_reader.h"
+#include "kinegraph/task_planning/open_hands.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/search/step_tolerance.h"
 #include "kinegraph/task_planning/search/task_conflicts.h"
@@ -69,7 +70,7 @@ int requireThreads(int threads) {
 }  // namespace
 
 TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptions& options)
-    : original_(std::make_shared<const Config>(withOpenings(C, wordsOf(taskFacts(C), "is_gripper")))),
+    : original_(std::make_shared<const Config>(withOpenings(withOpenHands(C), wordsOf(taskFacts(C), "is_gripper")))),
       C_(withoutWedges(*original_)),
       doors_(doorsOf(C)),
       options_(options),
@@ -282,7 +283,7 @@ TaskPlan TaskSearch::completed(TaskPlan plan) {
   plan.tree = log_.tree();
   plan.evaluations = evaluations();
   plan.expansions = logic_.expansions();
-  plan.replanner = [goal = goal_text_, options = options_](const Config& C) { return planTask(C, goal, options); };
+  plan.replanner = replannerTo(goal_text_, options_);
   return plan;
 }
 
