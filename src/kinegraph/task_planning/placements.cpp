@@ -225,7 +225,8 @@ class Packing {
     const Frame place = C_.getFrame(to);
     const std::set<std::string> joints = jointsAbove(place);
     const RigidTransform X = place.getPose().inverse().transform();
-    const double top = boxAround(place).max().z();
+    double top = -std::numeric_limits<double>::infinity();
+    for (const Vector3d& corner : boxCorners(place)) top = std::max(top, corner.z());
     std::vector<Rectangle> obstacles;
     for (const Frame& frame : C_.getFrames()) {
       const auto& shape = frame.data().shape;
@@ -236,7 +237,7 @@ class Packing {
       if (is_moved) continue;
       Eigen::AlignedBox3d around;
       const RigidTransform of_frame = frame.getPose().transform();
-      for (const Vector3d& point : shapePoints(frame)) around.extend(X * (of_frame * point));
+      for (const Vector3d& corner : boxCorners(frame)) around.extend(X * (of_frame * corner));
       if (around.isEmpty() || around.max().z() < top + (is_target ? -.02 : kFlat) || around.min().z() > top + height)
         continue;
       const Rectangle rectangle{.5 * (around.min() + around.max()).head<2>(),
@@ -263,7 +264,8 @@ Footprint footprintOf(const Frame& body) {
   std::vector<Vector3d> points;
   for (const Frame& part : shapesOf(body)) {
     const RigidTransform of_part = part.getPose().transform();
-    for (const Vector3d& point : shapePoints(part)) points.push_back(X * (of_part * point));
+    for (const Vector3d& point : isBox(part) ? boxCorners(part) : shapePoints(part))
+      points.push_back(X * (of_part * point));
   }
   Footprint footprint;
   if (points.empty()) return footprint;

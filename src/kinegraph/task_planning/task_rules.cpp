@@ -23,6 +23,7 @@ using Variants = std::vector<std::string>;
 
 constexpr double kFingers = .08;             ///< m: default opening of a hand with a palm
 constexpr double kInside = .012;             ///< m: distance of a grasp from the ends of an object
+constexpr double kInsideHandle = .02;        ///< m: the same for handles
 constexpr double kHookGap = 5e-4;            ///< m: between a hook and the object at the begin of a pull
 constexpr double kAbove = .003;              ///< m: clearance of a pulling tool from the ground
 constexpr double kPlay = .002;               ///< m: by which the lowest tool may be higher
@@ -71,7 +72,8 @@ void nearCenter(TaskWaypoints& w, double time, const std::string& hand, const st
     w.komo().addObjective({time}, F::positionRel, {hand, obj}, O::sos, 3e0, center);
 }
 
-void grasp(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj, const std::string& variant) {
+void grasp(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj, const std::string& variant,
+           double inside = kInside) {
   const std::string palm = palmOf(w.C, hand);
   const Frame thing = w.C.getFrame(obj);
   const std::vector<double> size = thing.getSize();
@@ -81,9 +83,9 @@ void grasp(TaskWaypoints& w, double time, const std::string& hand, const std::st
   } else if (variant == "center") {
     w.komo().addObjective({time}, F::positionDiff, {hand, obj}, O::eq, 1e1);
   } else if (variant == "around") {
-    w.m->grasp_cylinder(time, hand, obj, palm, std::min(kInside, .25 * size[0]));
+    w.m->grasp_cylinder(time, hand, obj, palm, std::min(inside, .25 * size[0]));
   } else if (isBox(thing)) {
-    w.m->grasp_box(time, hand, obj, palm, variant, std::min(kInside, .25 * leastSide(size)));
+    w.m->grasp_box(time, hand, obj, palm, variant, std::min(inside, .25 * leastSide(size)));
   } else {
     const std::size_t axis = std::string_view("xyz").find(variant);
     if (variant.size() != 1 || axis == std::string_view::npos)
@@ -165,7 +167,7 @@ void push(TaskWaypoints& w, double time, const TaskAction& action, const std::st
 }
 
 void hold(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
-  grasp(w, time, action[3], action[2], variant);
+  grasp(w, time, action[3], action[2], variant, kInsideHandle);
 }
 
 void guide(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {

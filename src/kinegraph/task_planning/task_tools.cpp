@@ -40,6 +40,8 @@ double frictionOf(const Frame& frame) {
   return friction ? *friction : kUsual;
 }
 
+bool hasSurface(const Frame& part) { return isBox(part) || !shapePoints(part).empty(); }
+
 /// A mass and its position in the frame.
 struct PointMass {
   double mass = 0.;
@@ -52,7 +54,7 @@ PointMass saidMass(const Frame& part) {
 }
 
 PointMass surfaceMass(const Frame& part) {
-  if (shapePoints(part).empty()) return {};
+  if (!hasSurface(part)) return {};
   const ShellMass shell = shellMass(*part.data().shape->geometry);
   return {shell.area, shell.com};
 }
@@ -130,7 +132,7 @@ bool isSupported(const Frame& obj, const Frame& place) { return supportOf(obj, p
 
 std::vector<Frame> shapesOf(const Frame& body) {
   std::vector<Frame> parts = fixedTo(body);
-  std::erase_if(parts, [](const Frame& part) { return shapePoints(part).empty(); });
+  std::erase_if(parts, [](const Frame& part) { return !hasSurface(part); });
   return parts;
 }
 

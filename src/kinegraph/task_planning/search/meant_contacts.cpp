@@ -48,7 +48,7 @@ double extremeHeight(const Config& C, const Names& parts, bool highest) {
   double height = highest ? -1e9 : 1e9;
   for (const std::string& part : parts) {
     const Frame frame = C.getFrame(part);
-    for (const Vector3d& point : shapePoints(frame)) {
+    for (const Vector3d& point : boxCorners(frame)) {
       const double z = (frame.getPose().transform() * point).z();
       height = highest ? std::max(height, z) : std::min(height, z);
     }
@@ -124,7 +124,7 @@ FramePairs meantPairs(Config& C, const VectorXd& q0, const VectorXd& q1, const T
   meant.addAction(action);
   const auto isSliding = [](const TaskAction& a) { return startsSliding(a) || endsSliding(a) || isGuided(a); };
   if (before.empty() || isSliding(before) || isSliding(action)) meant.addNear(q0);
-  if (isSliding(action) || action[0] == "pose") meant.addNear(q1);
+  if (isSliding(action) || (!action.empty() && action[0] == "pose")) meant.addNear(q1);
   if (isPick(before) || before.empty()) meant.addNearObject(q0, before.empty() ? "" : objectOf(before), false);
   if (isPlace(action)) meant.addNearObject(q1, objectOf(action), true);
   return meant.pairs();

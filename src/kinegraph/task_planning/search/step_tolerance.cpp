@@ -9,7 +9,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr Eigen::Index kEvery = 4;  ///< rows of a path that are left out between two
+constexpr Eigen::Index kEvery = 8;  ///< rows of a path that are left out between two
 
 /// Some rows of a path, its ends included.
 MatrixXd sampled(const MatrixXd& path) {

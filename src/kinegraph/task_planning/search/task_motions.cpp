@@ -24,7 +24,9 @@ constexpr double kPulled = 1.;       ///< m/s^2: maximum acceleration of pulled 
 constexpr double kLargeMotion = .8;  ///< rad or m: an approach or retreat that moves a joint farther is dropped
 constexpr double kSame = 1e-7;       ///< rad or m: closer configurations are equal
 constexpr double kPeriod = .01;      ///< s between two waypoints
-constexpr double kEasyMargin = 2., kTightMargin = .4;  ///< factors on the margin: tried before, and after it
+constexpr double kEasyMargin = 2.;   ///< factor on the margin: tried first
+constexpr std::array kMarginShares = {1., .7, .4};  ///< of the margin that are tried for a path
+constexpr int kEasyShare = 40, kShare = 20;  ///< shares of the evaluations for paths with margins
 constexpr double kHeld = 4.;         ///< m/s^2: maximum acceleration of objects held by friction
 constexpr double kBlend = .05;       ///< rad or m: tolerance of rounded corners
 constexpr double kTenths = 10.;      ///< per m: scale of positions that hold to .1 mm
@@ -162,7 +164,7 @@ TaskMotions::Found TaskMotions::planGuided(const Config& C, const VectorXd& q0, 
     rows.times *= kUnhurried;
     const Slip slip = mostSlip(taken, rows.path, hand, handle);
     if (slip.distance > 1.6 * kSlip || slip.cosine < levelCosine() || !isFree(C, rows.path)) continue;
-    return {slower(C, std::move(rows), movedBy(C, action[1], objects_), kSteady / 1.01), 0., ""};
+    return {slower(C, std::move(rows), movedBy(C, action[1], objects_), kSteady / 1.01), margin_, ""};
   }
   return {std::nullopt, 0., cat("'", hand, "' slips on '", handle, "'")};
 }
@@ -173,6 +175,7 @@ TaskMotions::Found TaskMotions::planFree(const Config& C, const VectorXd& q0, co
   if (endsSliding(action)) {
     Found found = planPush(C, q0, q1, action[1]);
     if (found.motion) found.motion = steady(C, std::move(*found.motion), carried);
+    found.margin = margin_;  // it is exempt
     if (found.motion && action[0] == "hook_end")
       found.motion = slower(C, std::move(*found.motion), {action[1]}, kPulled);
     return found;
@@ -199,13 +202,13 @@ TaskMotions::Found TaskMotions::planFree(const Config& C, const VectorXd& q0, co
       if (found.feasible()) {
         for (Eigen::Index i = 0; i < found.path.rows(); ++i) configurations.push_back(found.path.row(i));
         configurations.insert(configurations.end(), tail.rbegin(), tail.rend());
-        return finished(timed(around, rowsOf(configurations), std::min(found.margin, margin_)));
+        return finished(timed(around, rowsOf(configurations)));
       }
     }
   }
   const MotionPlan found = direct ? countedPlan(direct.get()) : findPath(C, q0, q1, level);
   if (!found.feasible()) return {std::nullopt, 0., cat("no motion was found: ", found.message)};
-  return finished(timed(around, found.path, std::min(found.margin, margin_)));
+  return finished(timed(around, found.path));
 }
 
 /// A straight motion of an object on its ground: the straight motion of the joints, or one that keeps the object on the
@@ -214,7 +217,7 @@ TaskMotions::Found TaskMotions::planPush(const Config& C, const VectorXd& q0, co
                                          const std::string& obj) {
   const Surroundings around(C, q0, q1, {}, {}, {});
   const MatrixXd direct = rowsOf({q0, q1});
-  if (slidesStraight(C, line(q0, q1, kPushRows), obj) && isFree(C, direct)) return timed(around, direct, 0.);
+  if (slidesStraight(C, line(q0, q1, kPushRows), obj) && isFree(C, direct)) return timed(around, direct);
   const std::vector<Vector3d> ends = positionsAlong(C, direct, obj);
   const Vector3d along = (ends[1] - ends[0]) / std::max((ends[1] - ends[0]).norm(), 1e-9);
   MatrixXd aside(2, 3);
@@ -242,7 +245,7 @@ TaskMotions::Found TaskMotions::planPush(const Config& C, const VectorXd& q0, co
     }
     return {std::nullopt, 0., cat("no straight push was found: ", found.message)};
   }
-  return timed(around, found.path, 0.);
+  return timed(around, found.path);
 }
 
 MotionPlan TaskMotions::findPath(const Config& C, const VectorXd& start, const VectorXd& goal,
@@ -259,7 +262,7 @@ MotionPlan TaskMotions::findPath(const Config& C, const VectorXd& start, const V
     options.margin = margin;
     options.prove_infeasibility = margin == 0. && !at_first_failure;  // not if there is an alternative
     const int most = has_doors_ ? kSearchBehindDoors : kSearch;       // a closed door shall cost little
-    options.max_evaluations = margin == 0. ? most : most / 10;
+    options.max_evaluations = margin == 0. ? most : margin > margin_ ? most / kEasyShare : most / kShare;
     options.threads = threads_();
     found = planMotion(C, MotionGoal(goal), options, start, stopped_);
     for (const PlanStage& stage : found.stages) evaluations_ += stage.evaluations;
@@ -270,10 +273,10 @@ MotionPlan TaskMotions::findPath(const Config& C, const VectorXd& start, const V
   return found;
 }
 
-/// The margins with which a path is searched for: more than the margin, the margin, and less where there is no room.
+/// The margins with which a path is searched for: more than the margin, the margin, and none where there is no room.
 std::vector<double> TaskMotions::margins() const {
   if (!(margin_ > 0.)) return {0.};
-  return {kEasyMargin * margin_, margin_, kTightMargin * margin_, 0.};
+  return {kEasyMargin * margin_, margin_, 0.};
 }
 
 /// The same ahead of time, if a thread is free.
@@ -319,12 +322,14 @@ std::vector<VectorXd> TaskMotions::retreat(const Config& C, const Surroundings& 
   if (isPick(action) || (isPlace(action) && opening(C, hand))) directions.push_back(Vector3d::UnitZ());
   std::vector<std::vector<VectorXd>> pieces;
   for (const double length : kStraight)
-    for (const Vector3d& direction : directions)
-      if (std::vector<VectorXd> piece = straight(D, q, hand, (is_pulled ? kAside : length) * direction); piece.size() > 1)
-        pieces.push_back(std::move(piece));
-  for (const double margin : {margin_, 0.})
-    for (const std::vector<VectorXd>& piece : pieces)
-      if (around.isFree(rowsOf(piece), margin)) return piece;
+    for (const Vector3d& direction : directions) {
+      std::vector<VectorXd> piece = straight(D, q, hand, (is_pulled ? kAside : length) * direction);
+      if (piece.size() == 1) continue;
+      if (around.isFree(rowsOf(piece), margin_)) return piece;
+      pieces.push_back(std::move(piece));
+    }
+  for (const std::vector<VectorXd>& piece : pieces)
+    if (around.isFree(rowsOf(piece), 0.)) return piece;
   return {q};
 }
 
@@ -371,12 +376,16 @@ TimedRows TaskMotions::slower(const Config& C, TimedRows rows, const std::vector
 }
 
 /// Times a path. Corners are rounded as far as the margin allows; the result has the margin that was verified.
-TaskMotions::Found TaskMotions::timed(const Surroundings& around, const MatrixXd& configurations, double margin) const {
+TaskMotions::Found TaskMotions::timed(const Surroundings& around, const MatrixXd& configurations) const {
   const MatrixXd kept = withoutRepeats(configurations);
   const MotionLimits limits{limits_.row(0), limits_.row(1), {}};
-  std::vector<double> kept_margins = {0.};
-  if (margin > 0. && around.isFree(kept, margin - kMarginSlack)) kept_margins.insert(kept_margins.begin(), margin);
-  for (const double wanted : kept_margins)
+  std::vector<double> possible = {0.};
+  for (const double share : kMarginShares) {
+    if (!around.isFree(kept, share * margin_ - kMarginSlack)) continue;
+    possible.insert(possible.begin(), share * margin_);
+    break;
+  }
+  for (const double wanted : possible)
     for (const Corners corners : {Corners::blend, Corners::stop}) {
       RetimeOptions options;
       options.corners = corners;

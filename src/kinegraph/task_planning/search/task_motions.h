@@ -64,7 +64,7 @@ class TaskMotions {
                                  const Vector3d& step) const;
   TimedRows steady(const Config& C, TimedRows rows, const std::vector<std::string>& carried) const;
   TimedRows slower(const Config& C, TimedRows rows, const std::vector<std::string>& objects, double most) const;
-  Found timed(const Surroundings& around, const MatrixXd& configurations, double margin) const;
+  Found timed(const Surroundings& around, const MatrixXd& configurations) const;
 
   SpeculativeExecutor& executor_;
   MatrixXd limits_;

@@ -22,6 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kSeeds = 3;         ///< sets of waypoints that are tried for the first plan of a sequence
 constexpr int kBetterSeeds = 16;  ///< sets of waypoints that are tried for better plans
+constexpr long kCostly = 4000;    ///< evaluations of waypoints and motions; after more, no more robust ones are searched
 constexpr double kNoPlan = std::numeric_limits<double>::infinity();
 
 Clock::time_point deadlineAfter(double seconds) {
@@ -228,7 +229,7 @@ std::optional<TaskPlan> TaskSearch::nextOf(Trial& trial) {
     }
     if (outcome.plan) {
       const double robustness = robustnessOf(*outcome.plan, options_.margin);
-      if (trial.has_plan || robustness >= kRobust) return planned(trial, std::move(*outcome.plan));
+      if (trial.has_plan || robustness >= kRobust || outcome.evaluations > kCostly) return planned(trial, std::move(*outcome.plan));
       if (!trial.best || robustness > trial.robustness) {  // other waypoints may be better
         trial.best = std::move(outcome.plan);
         trial.robustness = robustness;
