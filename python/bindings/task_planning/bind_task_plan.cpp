@@ -111,6 +111,12 @@ void bindPlanFields(nb::class_<PyTaskPlan, Trajectory>& plan) {
               "(cause, count) of branches that were given up, the most frequent cause first.")
       .def_ro("tree", &TaskPlan::tree, "All branches that were tried, a TaskBranch each.")
       .def_ro("violations", &TaskPlan::violations, "What checkTaskPlan found.")
+      .def_ro("margin", &TaskPlan::margin,
+              "m, kept by all pairs whose contact is not meant; less than the argument of planTask with a warning.")
+      .def_prop_ro(
+          "tolerances", [](const PyTaskPlan& p) { return toleranceList(p.tolerances); },
+          "(error, limit) of each action: the error (m) of the poses of the robot and of objects that it survives, at "
+          "most .03, and what happens with a larger one.")
       .def_ro("evaluations", &TaskPlan::evaluations, "Evaluations of waypoint and motion problems.")
       .def_ro("expansions", &TaskPlan::expansions, "States that the search in logic expanded.")
       .def_ro("attachments", &TaskPlan::attachments, "(parent, object) after each action that moves an object.")
@@ -122,6 +128,12 @@ void bindPlanFields(nb::class_<PyTaskPlan, Trajectory>& plan) {
 }
 
 }  // namespace
+
+std::vector<std::pair<double, std::string>> toleranceList(const std::vector<StepTolerance>& tolerances) {
+  std::vector<std::pair<double, std::string>> list;
+  for (const StepTolerance& step : tolerances) list.emplace_back(step.error, step.limit);
+  return list;
+}
 
 std::vector<std::string> literalTexts(const std::vector<Literal>& literals) {
   std::vector<std::string> texts;
@@ -156,7 +168,8 @@ void bindTaskPlan(nb::module_& m) {
   bindPlanFields(plan);
   plan.def(
           "explain", [](const PyTaskPlan& p) { return inPython(p.explain()); },
-          "Several lines: the status, the spent evaluations, and all causes for which branches were given up.")
+          "Several lines: the status, the weakest step with the error of poses that it survives, the spent evaluations, "
+          "and all causes for which branches were given up.")
       .def(
           "searchTree", [](const PyTaskPlan& p) { return inPython(p.searchTree()); },
           "The branches as a tree: a line per action, with the cause behind the last action of each branch.")

@@ -32,6 +32,7 @@ struct TaskRequest {
   std::uint64_t seed = 0;
   VectorXd velocity = {}, acceleration = {};
   int threads = 1;
+  double margin = kTaskMargin;
 
   TaskOptions options() const;
 };
@@ -47,6 +48,9 @@ struct PyTaskPlan : TaskPlan {
 
 /// The literals as texts: "(on table cup)".
 std::vector<std::string> literalTexts(const std::vector<Literal>& literals);
+
+/// (error, limit) of each step.
+std::vector<std::pair<double, std::string>> toleranceList(const std::vector<StepTolerance>& tolerances);
 
 void bindTaskPlan(nb::module_& m);  ///< TaskStatus, TaskBranch, TaskPlan
 void bindTaskPlanCopies(nb::class_<TaskBranch>& branch,

@@ -47,7 +47,7 @@ void SimulatedDriver::stop(const std::string&) {
 void SimulatedDriver::moveGripper(const GripperCommand& command) {
   if (command.gripper < 0 || std::size_t(command.gripper) >= grippers_.size()) return RobotDriver::moveGripper(command);
   const SceneGripper& gripper = grippers_[std::size_t(command.gripper)];
-  const double of_finger = command.speed / double(gripper.fingers.size());
+  const double of_finger = .5 * command.speed;
   if (command.grasp) {
     simulation_.closeGripper(gripper.info.name, gripper.info.min_width, of_finger, command.force);
   } else {

@@ -178,7 +178,8 @@ bool endsSliding(const TaskAction& action) {
   return !action.empty() && (action[0] == "push_end" || action[0] == "hook_end");
 }
 
-void requireWords(const TaskAction& action) {
+/// The words of the actions of defaultDomain, by name.
+static const std::map<std::string, std::string>& wordsOfActions() {
   static const std::map<std::string, std::string> known = {
       {"pick", "obj from hand"},
       {"lift", "obj from hand"},
@@ -194,7 +195,14 @@ void requireWords(const TaskAction& action) {
       {"open", "door handle hand"},
       {"close", "door handle hand"},
   };
+  return known;
+}
+
+bool isDefaultAction(const TaskAction& action) { return !action.empty() && wordsOfActions().contains(action[0]); }
+
+void requireWords(const TaskAction& action) {
   if (action.empty()) throw ValueError("planTask: an action has no words");
+  const std::map<std::string, std::string>& known = wordsOfActions();
   const auto found = known.find(action[0]);
   if (found == known.end()) return;
   const auto count = std::size_t(std::ranges::count(found->second, ' ')) + 2;

@@ -7,6 +7,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
+#include "kinegraph/scene/hand_fingers.h"
 #include "kinegraph/task_planning/shape_points.h"
 #include "kinegraph/task_planning/task_tools.h"
 #include "kinegraph/task_planning/task_waypoints.h"
@@ -21,7 +22,7 @@ using Body = ShapeKind::Body;
 using Variants = std::vector<std::string>;
 
 constexpr double kFingers = .08;             ///< m: default opening of a hand with a palm
-constexpr double kInside = .02;              ///< m: distance of a grasp from the ends of an object
+constexpr double kInside = .012;             ///< m: distance of a grasp from the ends of an object
 constexpr double kHookGap = 5e-4;            ///< m: between a hook and the object at the begin of a pull
 constexpr double kAbove = .003;              ///< m: clearance of a pulling tool from the ground
 constexpr double kPlay = .002;               ///< m: by which the lowest tool may be higher
@@ -225,6 +226,25 @@ std::optional<double> opening(const Config& C, const std::string& hand) {
   const Node* said = C.getFrame(hand).attributes().find("opening");
   if (const double* width = said ? said->value.as<double>() : nullptr) return *width;
   return palmOf(C, hand).empty() ? std::nullopt : std::optional(kFingers);
+}
+
+Config withOpenings(const Config& C, const std::vector<std::string>& hands) {
+  Config scene = C;
+  const std::vector<HandFingers> all = handFingersOf(C);
+  for (const std::string& hand : hands) {
+    Frame frame = scene.getFrame(hand);
+    if (frame.attributes().find("opening")) continue;
+    std::optional<Frame> head = frame;
+    while (head->getJointType() == JointType::none && head->getParent()) head = head->getParent();
+    const auto isBelow = [&](const HandFingers& fingers) {
+      for (std::optional<Frame> up = scene.getFrame(fingers.joint); up; up = up->getParent())
+        if (*up == *head) return true;
+      return false;
+    };
+    const auto found = std::ranges::find_if(all, isBelow);
+    if (found != all.end() && found->maxWidth() > 0.) frame.editAttributes().set({"opening", {}, {}, {found->maxWidth()}, {}});
+  }
+  return scene;
 }
 
 Variants graspVariants(const Config& C, const std::string& obj, const std::string& hand) {

@@ -22,6 +22,7 @@ struct TaskOptions {
   std::uint64_t seed = 0;         ///< of sampled initial guesses
   VectorXd velocity = {};         ///< |dq/dt| limit, one number or one per dof, rad/s or m/s; empty: the model's, or 1
   VectorXd acceleration = {};     ///< |d2q/dt2| limit, rad/s^2 or m/s^2; empty: full speed is reached in half a second
+  double margin = kTaskMargin;    ///< m: clearance of all pairs whose contact is not meant; less only where there is none
   int threads = 1;                ///< that solve variants and motions in parallel; the plan is bit-identical
 
   /// Queried on the calling thread. planTask throws Cancelled if the token cancels, and passes on what it throws.
@@ -32,6 +33,11 @@ struct TaskOptions {
 /// Plans actions and their motion so that a goal holds. A search in logic proposes sequences of actions. Cheap proofs
 /// of reach, size and room, then waypoints with grasps and placements, then motions test whether bodies can carry them
 /// out. Each failure becomes a constraint of the logic. A solved plan has passed checkTaskPlan.
+///
+/// Among feasible plans the robust one is taken: objects are put down with their whole footprint on their place, towards
+/// its middle and apart from others; hands approach and retreat straight; and all pairs whose contact is not meant keep
+/// `margin`. Where only less is possible, TaskPlan::warnings say between what, and how much. TaskPlan::tolerances has
+/// the error of poses that each step survives.
 ///
 ///     TaskPlan plan = planTask(C, "(on tray cup) (on tray jug)");
 ///     std::cout << plan.str() << '\n';

@@ -64,8 +64,15 @@ std::string TaskPlan::summary() const {
 }
 
 std::string TaskPlan::explain() const {
-  std::string text = cat(taskStatusName(status), ": ", summary(), "\n", evaluations,
-                         " evaluations of motion problems, ", expansions, " expansions of states in logic");
+  std::string text = cat(taskStatusName(status), ": ", summary());
+  const auto weakest = std::ranges::min_element(tolerances, {}, &StepTolerance::error);
+  if (weakest != tolerances.end()) {
+    const auto step = std::size_t(weakest - tolerances.begin());
+    text += cat("\nweakest step: ", step + 1, ". ", planText({actions[step]}), " survives errors of poses of ",
+                fixed(1e3 * weakest->error, 1), " mm", weakest->limit.empty() ? " or more" : "; then ", weakest->limit);
+  }
+  for (const std::string& warning : warnings) text += "\nwarning: " + warning;
+  text += cat("\n", evaluations, " evaluations of motion problems, ", expansions, " expansions of states in logic");
   for (const auto& [cause, count] : causes)
     text += cat("\n", cause, " (", count, count == 1 ? " branch)" : " branches)");
   return text;

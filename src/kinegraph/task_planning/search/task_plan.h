@@ -42,6 +42,12 @@ struct RowRange {
   Eigen::Index size() const { return end - begin; }
 };
 
+/// The error of the poses of the robot and of objects that a step survives.
+struct StepTolerance {
+  double error = 0.;  ///< m
+  std::string limit;  ///< what happens with a larger one: "'l_palm' meets 'b'"
+};
+
 /// Limits of the search of TaskPlan::repair; none: those of the plan.
 struct RepairOptions {
   std::optional<double> time_limit = {};     ///< s of wall time
@@ -66,6 +72,8 @@ struct TaskPlan : Trajectory {
   std::vector<std::pair<std::string, int>> causes;  ///< of branches that were given up, the most frequent first
   std::vector<TaskBranch> tree;                     ///< all branches, in the order in which they were tried
   std::vector<std::string> violations;              ///< found by checkTaskPlan
+  double margin = 0.;  ///< m: kept by all pairs whose contact is not meant; less than TaskOptions::margin with a warning
+  std::vector<StepTolerance> tolerances;            ///< of each action
   long evaluations = 0;                             ///< of motion problems
   long expansions = 0;                              ///< of states in logic
   std::vector<std::pair<std::string, std::string>> attachments;  ///< (parent, object) after each action that moves one
@@ -84,7 +92,8 @@ struct TaskPlan : Trajectory {
   /// "4 actions, 12.31 s" for a plan, else the message.
   std::string summary() const;
 
-  /// Several lines: the status, the spent evaluations, and all causes for which branches were given up.
+  /// Several lines: the status, the weakest step with the error of poses that it survives, the spent evaluations, and
+  /// all causes for which branches were given up.
   std::string explain() const;
 
   /// The branches as a tree: a line per action, with the cause behind the last action of each branch.
