@@ -205,9 +205,10 @@ void TaskWaypoints::put(double time, const std::string& obj, const std::string& 
   addSlot(Slot::Kind::place, name, 3);
   switchTo(time, name, obj);
   const std::size_t action = std::size_t(std::max(std::lround(time) - 1, 0L));
-  const std::optional<Placement> placement =
-      action < placements_.size() && objectOf(actions[action]) == obj ? placements_[action] : std::nullopt;
-  slots_.back().placement = placement;
+  const Placement* placement = nullptr;
+  if (action < actions.size() && objectOf(actions[action]) == obj && placements_[action])
+    placement = &*placements_[action];
+  if (placement) slots_.back().placement = *placement;
   const Footprint footprint = footprintOf(C.getFrame(obj));
   const Eigen::Vector2d half = .5 * placeSides(C.getFrame(to));
   const bool is_whole =

@@ -17,20 +17,19 @@ using Names = std::set<std::string>;
 constexpr double kNearAtRest = .012;  ///< m: closer bodies at the ends of a motion may belong to each other
 constexpr double kBelow = 3e-3;       ///< m: what ends less than this above the lowest point of an object is below it
 
-/// The frames with an active joint, from a frame upwards.
-Names activeAbove(const Frame& frame) {
-  Names moving;
-  for (std::optional<Frame> up = frame; up; up = up->getParent())
-    if (up->data().moves()) moving.insert(up->getName());
-  return moving;
+/// The nearest frame with an active joint, from a frame upwards; null for static frames. It identifies a link.
+const FrameData* headOf(const Frame& frame) {
+  const FrameData* up = &frame.data();
+  while (up && !(up->moves() && dofSource(*up).joint->active)) up = up->parent;
+  return up;
 }
 
 /// The frames with shapes of the same link as a frame.
 Names linkOf(const Config& C, const std::string& name) {
-  const Names joints = activeAbove(C.getFrame(name));
+  const FrameData* head = headOf(C.getFrame(name));
   Names parts;
   for (const Frame& frame : C.getFrames())
-    if (frame.data().shape && activeAbove(frame) == joints) parts.insert(frame.getName());
+    if (frame.data().shape && headOf(frame) == head) parts.insert(frame.getName());
   return parts;
 }
 
@@ -60,7 +59,8 @@ double extremeHeight(const Config& C, const Names& parts, bool highest) {
 /// Collects the pairs whose contact is meant.
 class MeantPairs {
  public:
-  MeantPairs(const Config& C, const std::vector<std::string>& hands) : scene_(C), hands_(hands.begin(), hands.end()) {}
+  /// Changes the q of the scene.
+  MeantPairs(Config& scene, const std::vector<std::string>& hands) : scene_(scene), hands_(hands.begin(), hands.end()) {}
 
   void addAction(const TaskAction& action) {
     if (action.empty()) return;
@@ -112,12 +112,12 @@ class MeantPairs {
     if (scene_.findFrame(place) && scene_.getFrame(place).data().shape) add(bodies, {place});
   }
 
-  Config scene_;
+  Config& scene_;
   const Names hands_;
   std::set<std::pair<std::string, std::string>> pairs_;
 };
 
-FramePairs meantPairs(const Config& C, const VectorXd& q0, const VectorXd& q1, const TaskAction& action,
+FramePairs meantPairs(Config& C, const VectorXd& q0, const VectorXd& q1, const TaskAction& action,
                       const TaskAction& before, const std::vector<std::string>& hands) {
   MeantPairs meant(C, hands);
   meant.addAction(before);
@@ -135,7 +135,7 @@ FramePairs meantPairs(const Config& C, const VectorXd& q0, const VectorXd& q1, c
 Surroundings::Surroundings(const Config& C, const VectorXd& q0, const VectorXd& q1, const TaskAction& action,
                            const TaskAction& before, const std::vector<std::string>& hands)
     : all_(C), unmeant_(C) {
-  ignorePairs(unmeant_, meantPairs(C, q0, q1, action, before, hands));
+  ignorePairs(unmeant_, meantPairs(unmeant_, q0, q1, action, before, hands));
 }
 
 std::string Surroundings::violation(const MatrixXd& path, double margin) const {
@@ -151,8 +151,8 @@ NearBodies Surroundings::nearest(const MatrixXd& path, double limit, bool of_wor
     for (const Config::NearPair& pair : scene.getCollisions(nearest.distance)) {
       const Frame a = scene.getFrame(pair.a), b = scene.getFrame(pair.b);
       if (pair.distance >= nearest.distance) continue;
-      const Names above_a = activeAbove(a), above_b = activeAbove(b);
-      if (above_a == above_b || (of_world && !above_a.empty() && !above_b.empty())) continue;
+      const FrameData *head_a = headOf(a), *head_b = headOf(b);
+      if (head_a == head_b || (of_world && head_a && head_b)) continue;
       nearest = {a.getName(), b.getName(), pair.distance};
     }
   }
