@@ -168,9 +168,15 @@ def test_a_hand_that_holds_a_thing_opens_for_a_wider_one() -> None:
 
 def test_limits_of_a_repair_replace_those_of_the_plan(tower) -> None:
     C, plan = tower
-    starved = plan.repair(C, time_limit=1e-6)
-    assert starved.status == ry.TaskStatus.timeout and "time_limit" in starved.message
     np.testing.assert_array_equal(plan.repair(C, threads=2, time_limit=1e3).path, plan.path)
+    C = panda_tasks.scene()
+    panda_tasks.pad(C, "pad", [0.3, 0.35], [0.09, 0.09])
+    panda_tasks.box(C, "jug", "pad", [0.0, 0.0], [0.05, 0.05, 0.07])
+    panda_tasks.box(C, "cup", "table", [-0.3, 0.3], [0.05, 0.05, 0.07])
+    plan = ry.planTask(C, "(on pad cup)")  # the jug has to make way, as the search finds out
+    assert plan.feasible and len(plan.actions) == 4
+    starved = plan.repair(C, max_evaluations=1)
+    assert starved.status == ry.TaskStatus.no_plan_found and "no plan within max_evaluations; " in starved.message
 
 
 def test_a_scene_after_an_execution_has_the_parents_of_its_end() -> None:
