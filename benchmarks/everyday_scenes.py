@@ -283,7 +283,7 @@ def slabs(rng: Generator) -> Scene:
         y = 0.42 if name == "middle" else float(rng.uniform(0.15, 0.3))
         t.plate(name, (0.16, 0.16), (x + float(rng.uniform(-0.03, 0.03)), y))
     below = "left"
-    for i, w in enumerate((0.075, 0.062, 0.05)):
+    for i, w in enumerate((0.068, 0.056, 0.045)):
         below = t.box(f"slab{i}", (w, w, 0.04), on=below)
     return t.scene("(on right slab0) (on slab0 slab1) (on slab1 slab2)")
 

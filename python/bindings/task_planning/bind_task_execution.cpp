@@ -16,8 +16,6 @@ namespace kinegraph::python {
 
 namespace {
 
-PyConfig endOf(const Config& C) { return PyConfig{Config(C), nullptr}; }
-
 /// An execution, and the scene that it keeps up to date.
 struct PyTaskRun {
   std::unique_ptr<PyConfig> seen;
@@ -112,7 +110,7 @@ void bindTaskExecution(nb::module_& m) {
       .def_ro("done", &TaskExecution::done, "The number of executed actions, of all plans.")
       .def_ro("repairs", &TaskExecution::repairs, "The number of plans that were made on the way.")
       .def_prop_ro(
-          "C", [](const TaskExecution& run) { return endOf(run.C); },
+          "C", [](const TaskExecution& run) { return sameScene(run.C); },
           "The final scene: held objects are attached to the hand, and objects that stand on something to that.")
       .def("__bool__", [](const TaskExecution& run) { return run.feasible; })
       .def("__str__", [](const TaskExecution& run) { return inPython(run.str()); })
@@ -137,9 +135,7 @@ void bindTaskExecution(nb::module_& m) {
       .def(
           "stop", [](PyTaskRun& self) { self.run.stop(); },
           "Ends the execution: the robot holds, also during a motion. May be called from any thread.")
-      .def_prop_ro(
-          "result", [](const PyTaskRun& self) { return self.run.result(); },
-          "The TaskExecution; complete after the event `end`.")
+      .def_prop_ro("result", [](const PyTaskRun& self) { return self.run.result(); }, "The TaskExecution; complete after the event `end`.")
       .def_prop_ro(
           "plan", [](const PyTaskRun& self) { return PyTaskPlan(self.run.plan(), self.request); }, "The present plan.");
 }

@@ -87,8 +87,7 @@ class TaskRun::Impl {
       if (is_stopped_) return stopped();
       return (this->*steps()[std::size_t(step_)])();
     } catch (const RobotFault& fault) {
-      if (step_ == Step::fail) return end(fault.what());
-      bot_.recover();
+      if (step_ == Step::fail || !recovers()) return end(fault.what());
       return fail(fault.what());
     }
   }
@@ -158,10 +157,20 @@ class TaskRun::Impl {
     try {
       if (is_action) backOut(index_);
     } catch (const RobotFault&) {
-      bot_.recover();
+      recovers();
     }
     return {TaskEventKind::failure, is_action ? int(index_) : -1, is_action ? plan_.actions[index_] : TaskAction(),
             failure_};
+  }
+
+  /// Clears a fault of the robot; whether that worked.
+  bool recovers() {
+    try {
+      bot_.recover();
+      return true;
+    } catch (const RobotFault&) {
+      return false;
+    }
   }
 
   TaskEvent repair() {

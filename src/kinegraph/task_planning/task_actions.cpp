@@ -94,6 +94,9 @@ class StartFacts {
 
   std::vector<Literal> with(const std::vector<Literal>& goal) {
     const std::vector<Frame> frames = C_.getFrames();
+    std::erase_if(said_, [&](const Literal& fact) {  // the base of a robot is no object
+      return fact.predicate == "is_object" && carriesJoints(C_.getFrame(fact.arguments[0]));
+    });
     const bool names_grippers = has("is_gripper"), names_places = has("is_place");
     if (!names_grippers) {
       for (const Frame& f : frames)
@@ -128,6 +131,13 @@ class StartFacts {
   }
 
  private:
+  static bool carriesJoints(const Frame& frame) {
+    return std::ranges::any_of(frame.getSubtree(), [](const Frame& below) {
+      const auto& joint = below.data().joint;
+      return joint && joint->active && joint->dofs() > 0;
+    });
+  }
+
   bool has(const std::string& predicate) const {
     return std::ranges::any_of(said_, [&](const Literal& fact) { return fact.predicate == predicate; });
   }

@@ -111,8 +111,7 @@ def test_a_world_that_is_disturbed_on_the_way_is_repaired(tower) -> None:
     for event in run:
         kinds.append(event.kind.name)
         if kinds.count("grip") == 1 and kinds[-1] == "grip":  # somebody takes the cube out of the hand
-            at = C.getFrame("b0").getPosition()
-            bot.setFramePose("b0", [*at[:2], at[2] + 0.001, 1, 0, 0, 0])
+            bot.setFramePose("b0", C.getFrame("b0").getPose() + np.array([0.0, -0.12, 0.001, 0, 0, 0, 0]))
     assert run.result.feasible and run.result.repairs == 1, run.result
     assert kinds[:3] == ["start", "motion", "grip"] and kinds[-1] == "end"
     assert run.plan.feasible and "reached the goal" in str(run.result)
@@ -169,9 +168,15 @@ def test_a_hand_that_holds_a_thing_opens_for_a_wider_one() -> None:
 
 def test_limits_of_a_repair_replace_those_of_the_plan(tower) -> None:
     C, plan = tower
-    starved = plan.repair(C, max_evaluations=1)
-    assert not starved.feasible and "max_evaluations" in starved.message
     np.testing.assert_array_equal(plan.repair(C, threads=2, time_limit=1e3).path, plan.path)
+    C = panda_tasks.scene()
+    panda_tasks.pad(C, "pad", [0.3, 0.35], [0.09, 0.09])
+    panda_tasks.box(C, "jug", "pad", [0.0, 0.0], [0.05, 0.05, 0.07])
+    panda_tasks.box(C, "cup", "table", [-0.3, 0.3], [0.05, 0.05, 0.07])
+    plan = ry.planTask(C, "(on pad cup)")  # the jug has to make way, as the search finds out
+    assert plan.feasible and len(plan.actions) == 4
+    starved = plan.repair(C, max_evaluations=1)
+    assert starved.status == ry.TaskStatus.no_plan_found and "no plan within max_evaluations; " in starved.message
 
 
 def test_a_scene_after_an_execution_has_the_parents_of_its_end() -> None:
@@ -183,3 +188,38 @@ def test_a_scene_after_an_execution_has_the_parents_of_its_end() -> None:
     run = plan.execute(ry.BotOp(C))
     assert run.feasible, run
     assert run.C.getFrame("top").getParent().name == "left" and run.C.getFrame("low").getParent().name == "l_gripper"
+
+
+def test_a_thing_that_is_moved_leaves_the_grip_of_another_alone() -> None:
+    C = panda_tasks.scene()
+    panda_tasks.box(C, "a", "table", [-0.3, 0.3], [0.05, 0.05, 0.07])
+    panda_tasks.box(C, "b", "table", [0.35, 0.3], [0.05, 0.05, 0.07])
+    bot = ry.BotOp(C)
+    assert ry.planTask(C, "(on l_gripper a)").execute(bot)
+    D = C.copy()
+
+    def force() -> float:
+        contacts = [c for c in bot.getContacts() if "a" in c["frames"]]
+        return sum(float(np.linalg.norm(c["force"])) for c in contacts)
+
+    bot.sync(D, 0.1)
+    before = force()
+    at = D.getFrame("b").getPose() + np.array([0.05, 0, 0, 0, 0, 0, 0])
+    bot.setFramePose("b", at)
+    bot.sync(D, 0.3)
+    np.testing.assert_allclose(D.getFrame("b").getPose()[:3], at[:3], atol=1e-3)
+    assert before > 20 and force() == pytest.approx(before, rel=0.05)
+
+
+def test_the_base_of_a_robot_is_no_object() -> None:
+    C = ry.Config()
+    C.addText("world: {}\ntable (world): { shape: ssBox, size: [2 2 .1 .02] }")
+    C.addFile(ry.raiPath("ur10/ur10.g"))
+    C.getFrame("ur_world").setParent(C.getFrame("table"))
+    C.addFrame("gripper", "ur_ee_fixed_joint")
+    cup = C.addFrame("cup", "table").setRelativePosition([0.5, 0.5, 0.1]).setJoint(ry.JT.rigid)
+    cup.setShape(ry.ST.ssBox, [0.05, 0.05, 0.1, 0.005])
+    assert any(literal.startswith("(is_object ur_") for literal in ry.sceneFacts(C))
+    assert [word for word in ry.planTask(C, "(on gripper cup)").start if word.startswith("(is_object")] == [
+        "(is_object cup)"
+    ]
