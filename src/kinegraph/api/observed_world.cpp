@@ -25,7 +25,7 @@ constexpr double kNearOff = .008;                ///< m: tolerance of objects an
 const double kUpright = cosineOfDegrees(10.);    ///< objects that tilt more have fallen
 const double kNearTurned = cosineOfDegrees(4.);  ///< tolerance of the rotation of objects that come next
 constexpr double kTouch = 5e-3;                  ///< m: objects that are closer touch
-constexpr double kJointOff = .05;  ///< rad or m: tolerance of joints
+constexpr double kJointOff = .05;                ///< rad or m: tolerance of joints
 
 bool isSimulated(BotOp& bot) {
   try {
@@ -192,7 +192,7 @@ std::string ObservedWorld::slipped() const {
   for (const auto& [obj, hand] : held_) {
     const Pose now = seen_.getFrame(hand).getPose().inverse() * seen_.getFrame(obj).getPose();
     const double off = (now.p - grips_.at(obj).p).norm();
-    if (off > kSlipped) return cat("'", obj, "' slipped in '", hand, "' by ", fixed(off, 3), " m");
+    if (off > kSlipped) return cat("'", obj, "' is not in '", hand, "': it is ", fixed(off, 3), " m off");
   }
   return "";
 }
