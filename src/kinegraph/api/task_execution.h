@@ -59,7 +59,8 @@ struct ExecutionOptions {
   /// Called after each step; false ends the execution.
   std::function<bool(const TaskEvent&)> callback = {};
 
-  /// Torque or force of contacts (N m, N) at a joint above which a motion stops, one number or one per dof; empty: none.
+  /// Torque or force of contacts (N m, N) at a joint above which a motion stops; one number, or one per dof; empty:
+  /// none.
   VectorXd max_external_effort = {};
 
   RepairOptions repair = {};  ///< limits of each search for a new plan
