@@ -3,11 +3,11 @@
 namespace kinegraph::python::docs::task_execution {
 
 inline constexpr char execute[] =
-    R"(Executes the plan on a robot, action by action. The robot first moves to the start of the plan, collision-free. It
-then follows the plan exactly. Hands close and open. Before and after each motion and grip, the world is compared with the
-plan: held objects have to be in the hand and pressed by its fingers, all others at their places, and the arm in its
-configuration. After a deviation the robot stops, opens hands that have lost their objects, backs out of collisions, and
-plans again from there.
+    R"(Executes the plan on a robot, action by action. The robot first moves to the start of the plan, collision-free.
+It then follows the plan exactly. Hands close and open. Before and after each motion and grip, the world is compared
+with the plan: held objects have to be in the hand and pressed by its fingers, all others at their places, and the arm
+in its configuration. After a deviation the robot stops, opens hands that have lost their objects, backs out of
+collisions, and plans again from there.
 
 Args:
     bot: A BotOp whose world is the scene of the plan. Objects that actions move need a mass there.
@@ -57,7 +57,7 @@ inline constexpr char result[] = R"(The result of TaskPlan.execute and TaskPlan.
 
 inline constexpr char kind[] =
     R"(What a TaskEvent reports. start: the robot is where the plan begins. motion: the motion of an action is done.
-grip: hands have closed or opened, an action is done. failure: the world deviates from the plan, and the robot has stopped.
-repair: there is a new plan. end: the goal is reached, or the execution was given up.)";
+grip: hands have closed or opened, an action is done. failure: the world deviates from the plan, and the robot has
+stopped. repair: there is a new plan. end: the goal is reached, or the execution was given up.)";
 
 }  // namespace kinegraph::python::docs::task_execution
