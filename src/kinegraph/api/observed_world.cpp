@@ -25,7 +25,7 @@ constexpr double kNearOff = .008;                ///< m: tolerance of objects an
 const double kUpright = cosineOfDegrees(10.);    ///< objects that tilt more have fallen
 const double kNearTurned = cosineOfDegrees(4.);  ///< tolerance of the rotation of objects that come next
 constexpr double kTouch = 5e-3;                  ///< m: objects that are closer touch
-constexpr double kJointOff = .05;  ///< rad or m: tolerance of joints
+constexpr double kJointOff = .05;                ///< rad or m: tolerance of joints
 
 bool isSimulated(BotOp& bot) {
   try {

@@ -9,7 +9,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kNewOverlap = 1e-3;                     ///< m: overlaps up to this depth do not count
+constexpr double kNewOverlap = 1e-3;                ///< m: overlaps up to this depth do not count
 constexpr std::array kShares = {1., .75, .5, .25};  ///< of the opening, in the order in which they are tried
 
 /// The joint of the fingers of a hand, and all joints that move with it.

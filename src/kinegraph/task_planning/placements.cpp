@@ -17,14 +17,14 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kSoleHeight = .01;      ///< m: the lowest part of an object is its footprint
-constexpr double kRoundness = .02;       ///< relative tolerance of the radius of round footprints
-constexpr double kLargePlace = .6;       ///< m: places with longer sides are large
-constexpr double kEnough = .04;          ///< m: more room between objects is not better
-constexpr double kSpread = .06;          ///< m: maximum room between objects that are put down together
-constexpr double kLeastRoom = .004;          ///< m: minimum room around a whole footprint
+constexpr double kSoleHeight = .01;                ///< m: the lowest part of an object is its footprint
+constexpr double kRoundness = .02;                 ///< relative tolerance of the radius of round footprints
+constexpr double kLargePlace = .6;                 ///< m: places with longer sides are large
+constexpr double kEnough = .04;                    ///< m: more room between objects is not better
+constexpr double kSpread = .06;                    ///< m: maximum room between objects that are put down together
+constexpr double kLeastRoom = .004;                ///< m: minimum room around a whole footprint
 constexpr double kSearchRadius = .5, kRing = .04;  ///< m: radius of the search on large places, and its steps
-constexpr int kGrid = 25;                ///< candidates along each side of a place
+constexpr int kGrid = 25;                          ///< candidates along each side of a place
 constexpr int kDirections = 16;
 constexpr double kFlat = 1e-3;  ///< m: what is not higher than this above a place is no obstacle
 
@@ -145,15 +145,14 @@ class Packing {
         Vector2d largest = Vector2d::Zero();
         for (const Footprint& footprint : footprints)
           largest = largest.cwiseMax(rectangleOf({.angle = angle}, footprint).half);
-        const Vector2d cell = (2. * half.array() / Eigen::Array2d(columns, lines))
-                                  .min(2. * largest.array() + kSpread)
-                                  .matrix();
+        const Vector2d cell =
+            (2. * half.array() / Eigen::Array2d(columns, lines)).min(2. * largest.array() + kSpread).matrix();
         std::vector<Placement> placements;
         for (int k = 0; k < count; ++k) {
           const int line = k / columns, in_line = std::min(columns, count - line * columns);
-          placements.push_back({.at = {(k % columns - .5 * (in_line - 1)) * cell.x(),
-                                       (line - .5 * (lines - 1)) * cell.y()},
-                                .angle = angle});
+          placements.push_back(
+              {.at = {(k % columns - .5 * (in_line - 1)) * cell.x(), (line - .5 * (lines - 1)) * cell.y()},
+               .angle = angle});
         }
         const double room = std::min(leastRoom(placements, footprints, {}, half), kSpread);
         if (room > most + 1e-9) most = room, best = std::move(placements);
@@ -242,7 +241,8 @@ class Packing {
         continue;
       const Rectangle rectangle{.5 * (around.min() + around.max()).head<2>(),
                                 .5 * (around.max() - around.min()).head<2>()};
-      if (is_target && around.contains(Vector3d(0., 0., around.center().z())) && rectangle.half.minCoeff() >= half.minCoeff())
+      if (is_target && around.contains(Vector3d(0., 0., around.center().z())) &&
+          rectangle.half.minCoeff() >= half.minCoeff())
         continue;  // the larger place below this one
       if (roomBetween(rectangle, {Vector2d::Zero(), half}) < kEnough) obstacles.push_back(rectangle);
     }

@@ -244,7 +244,8 @@ Config withOpenings(const Config& C, const std::vector<std::string>& hands) {
       return false;
     };
     const auto found = std::ranges::find_if(all, isBelow);
-    if (found != all.end() && found->maxWidth() > 0.) frame.editAttributes().set({"opening", {}, {}, {found->maxWidth()}, {}});
+    if (found != all.end() && found->maxWidth() > 0.)
+      frame.editAttributes().set({"opening", {}, {}, {found->maxWidth()}, {}});
   }
   return scene;
 }

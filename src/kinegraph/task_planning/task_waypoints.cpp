@@ -24,7 +24,7 @@ constexpr double kBehind = .01;  ///< m: minimum distance of a pusher behind the
 constexpr double kBeside = .5;   ///< share of half its height: maximum height of a pusher above its center
 constexpr double kEdge = .01;    ///< m: distance of the center of a standing object from the edges
 constexpr double kRim = 1e-3;    ///< m: distance of a whole footprint from the edges
-constexpr double kWell = .5;     ///< share of the half sides of a place: an object that overhangs is closer to its middle
+constexpr double kWell = .5;  ///< share of the half sides of a place: an object that overhangs is closer to its middle
 constexpr double kToTarget = 3., kToSpot = .3;  ///< scales, per m: of chosen positions on small and on large places
 constexpr double kMoreMargin = 1.1;             ///< factor on the margin: waypoints have a little more than motions
 constexpr double kApartScale = 1e2;             ///< per m, of missing margin
@@ -64,8 +64,8 @@ Config prepared(const Config& C, const std::vector<TaskAction>& actions, const s
     if (footprint.is_round || scene.findFrame(cornerName(0, action[1]))) continue;
     for (int k = 0; k < 4; ++k)
       scene.addFrame(cornerName(k, action[1]), action[1])
-          .setRelativePosition({(k & 1 ? footprint.high : footprint.low).x(),
-                                (k & 2 ? footprint.high : footprint.low).y(), 0.});
+          .setRelativePosition(
+              {(k & 1 ? footprint.high : footprint.low).x(), (k & 2 ? footprint.high : footprint.low).y(), 0.});
   }
   for (const TaskAction& action : actions) {
     if (!isPlace(action) || scene.findFrame(kWeight + action[1])) continue;
@@ -285,8 +285,7 @@ std::shared_ptr<TaskWaypoints> makeTaskWaypoints(const Config& C, std::vector<Ta
                                                  std::shared_ptr<ManipulationHelper> helper, double margin,
                                                  const std::vector<TaskAction>& later) {
   const auto waypoints =
-      std::make_shared<TaskWaypoints>(C, std::move(actions), std::move(variants), std::move(helper), margin,
-                                      later);
+      std::make_shared<TaskWaypoints>(C, std::move(actions), std::move(variants), std::move(helper), margin, later);
   waypoints->addActions(rules);
   return waypoints;
 }

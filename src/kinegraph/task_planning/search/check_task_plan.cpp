@@ -373,8 +373,7 @@ void requirePlan(const Config& C, const TaskPlan& plan) {
 }  // namespace
 
 std::vector<std::string> checkTaskPlan(const Config& C, const TaskPlan& plan,
-                                       const std::vector<std::vector<Literal>>& states,
-                                       std::optional<double> margin) {
+                                       const std::vector<std::vector<Literal>>& states, std::optional<double> margin) {
   requirePlan(C, plan);
   Lines wrong = states.empty() ? Lines() : unmetGoals(plan.goal, states.back());
   const Lines more = PlanPlayer(withOpenHands(C), plan, margin.value_or(plan.margin)).violations();

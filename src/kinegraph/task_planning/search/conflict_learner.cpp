@@ -65,8 +65,7 @@ void ConflictLearner::learnWaypointFailure(const Actions& actions) {
   learnLast(first(count), nullptr);
 }
 
-void ConflictLearner::learnWaypointFailure(const Actions& actions, std::size_t feasible,
-                                           const FutureFailure& failure) {
+void ConflictLearner::learnWaypointFailure(const Actions& actions, std::size_t feasible, const FutureFailure& failure) {
   learnLast({actions.begin(), actions.begin() + std::ptrdiff_t(std::min(feasible + 1, actions.size()))}, failure);
 }
 

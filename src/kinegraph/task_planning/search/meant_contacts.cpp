@@ -60,7 +60,8 @@ double extremeHeight(const Config& C, const Names& parts, bool highest) {
 class MeantPairs {
  public:
   /// Changes the q of the scene.
-  MeantPairs(Config& scene, const std::vector<std::string>& hands) : scene_(scene), hands_(hands.begin(), hands.end()) {}
+  MeantPairs(Config& scene, const std::vector<std::string>& hands)
+      : scene_(scene), hands_(hands.begin(), hands.end()) {}
 
   void addAction(const TaskAction& action) {
     if (action.empty()) return;

@@ -18,19 +18,19 @@ namespace kinegraph {
 namespace {
 
 constexpr std::array kStraight = {.07, .05, .03};  ///< m: lengths of straight approaches and retreats, the best first
-constexpr int kPieces = 2;           ///< of a straight approach or retreat
-constexpr double kAside = .04;       ///< m: length of the approach and retreat of a hook behind an object
+constexpr int kPieces = 2;                         ///< of a straight approach or retreat
+constexpr double kAside = .04;                     ///< m: length of the approach and retreat of a hook behind an object
 constexpr double kPulled = 1.;       ///< m/s^2: maximum acceleration of pulled objects, so that they do not tip
 constexpr double kLargeMotion = .8;  ///< rad or m: an approach or retreat that moves a joint farther is dropped
 constexpr double kSame = 1e-7;       ///< rad or m: closer configurations are equal
 constexpr double kPeriod = .01;      ///< s between two waypoints
 constexpr double kEasyMargin = 2.;   ///< factor on the margin: tried first
 constexpr std::array kMarginShares = {1., .7, .4};  ///< of the margin that are tried for a path
-constexpr int kEasyShare = 40, kShare = 20;  ///< shares of the evaluations for paths with margins
-constexpr double kHeld = 4.;         ///< m/s^2: maximum acceleration of objects held by friction
-constexpr double kBlend = .05;       ///< rad or m: tolerance of rounded corners
-constexpr double kTenths = 10.;      ///< per m: scale of positions that hold to .1 mm
-constexpr double kFineBlend = 2e-3;  ///< the same for doors
+constexpr int kEasyShare = 40, kShare = 20;         ///< shares of the evaluations for paths with margins
+constexpr double kHeld = 4.;                        ///< m/s^2: maximum acceleration of objects held by friction
+constexpr double kBlend = .05;                      ///< rad or m: tolerance of rounded corners
+constexpr double kTenths = 10.;                     ///< per m: scale of positions that hold to .1 mm
+constexpr double kFineBlend = 2e-3;                 ///< the same for doors
 constexpr double kUnhurried = 1.02;  ///< factor on the minimum time: a spline keeps its limits only at gridpoints
 constexpr double kSpeedIn = .5;      ///< s to full speed
 constexpr int kRestarts = 2;
@@ -149,7 +149,8 @@ TaskMotions::Found TaskMotions::planGuided(const Config& C, const VectorXd& q0, 
   MatrixXd configurations = guidedConfigurations(C, q0, q1, grip);
   if (configurations.rows() == 0 || !isFree(C, configurations)) {
     const MotionPlan found = findPath(C, q0, q1, grip);
-    if (!found.feasible()) return {std::nullopt, 0., cat("no motion was found that holds '", handle, "': ", found.message)};
+    if (!found.feasible())
+      return {std::nullopt, 0., cat("no motion was found that holds '", handle, "': ", found.message)};
     configurations = found.path;
   }
   const MotionLimits limits{limits_.row(0), limits_.row(1), {}};

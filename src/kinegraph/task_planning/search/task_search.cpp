@@ -22,7 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kSeeds = 3;         ///< sets of waypoints that are tried for the first plan of a sequence
 constexpr int kBetterSeeds = 16;  ///< sets of waypoints that are tried for better plans
-constexpr long kCostly = 4000;    ///< evaluations of waypoints and motions; after more, no more robust ones are searched
+constexpr long kCostly = 4000;  ///< evaluations of waypoints and motions; after more, no more robust ones are searched
 constexpr double kNoPlan = std::numeric_limits<double>::infinity();
 
 Clock::time_point deadlineAfter(double seconds) {
@@ -80,8 +80,12 @@ TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptio
              taskFacts(C_, readLiterals(goal, "goal")), options.cancellation),
       limits_(taskMotionLimits(C, options.velocity, options.acceleration)),
       deadline_(deadlineAfter(options.time_limit)),
-      settings_{rulesWith(options.rules, mentionsFaces(logic_.goal())), options.seed, requireThreads(options.threads),
-                [this] { return isLate(); }, options.helper, requireMargin(options.margin)},
+      settings_{rulesWith(options.rules, mentionsFaces(logic_.goal())),
+                options.seed,
+                requireThreads(options.threads),
+                [this] { return isLate(); },
+                options.helper,
+                requireMargin(options.margin)},
       may_regrasp_(!options.domain),
       best_(kNoPlan),
       scene_(std::make_shared<const Config>(C_)),
@@ -229,7 +233,8 @@ std::optional<TaskPlan> TaskSearch::nextOf(Trial& trial) {
     }
     if (outcome.plan) {
       const double robustness = robustnessOf(*outcome.plan, options_.margin);
-      if (trial.has_plan || robustness >= kRobust || outcome.evaluations > kCostly) return planned(trial, std::move(*outcome.plan));
+      if (trial.has_plan || robustness >= kRobust || outcome.evaluations > kCostly)
+        return planned(trial, std::move(*outcome.plan));
       if (!trial.best || robustness > trial.robustness) {  // other waypoints may be better
         trial.best = std::move(outcome.plan);
         trial.robustness = robustness;

@@ -104,7 +104,8 @@ WaypointSolver::WaypointSolver(SpeculativeExecutor& executor, const Settings& se
                                std::shared_ptr<const Config> scene, std::vector<TaskAction> actions, int seed,
                                CancellationToken stopped, std::vector<TaskAction> later)
     : executor_(executor),
-      problem_(new Problem{settings, std::move(scene), std::move(actions), std::move(later), seed, std::move(stopped)}) {
+      problem_(
+          new Problem{settings, std::move(scene), std::move(actions), std::move(later), seed, std::move(stopped)}) {
   const Config own = *problem_->scene;  // rules may query it while others copy the scene
   const auto variants = allVariants(own, problem_->actions, settings.rules, kChoices);
   for (std::size_t i = 0; i < variants.size(); ++i) {
@@ -147,8 +148,7 @@ WaypointSolver::Solution WaypointSolver::solveFrom(const Problem& problem, Choic
 WaypointSolver::Result WaypointSolver::solve(Priority priority, const std::function<void()>& at_first_failure,
                                              bool only_first) {
   Result result;
-  if (!only_first)
-    begin(priority, std::max(priority, Priority::normal));
+  if (!only_first) begin(priority, std::max(priority, Priority::normal));
   for (; next_ < solutions_.size(); ++next_) {
     const std::size_t i = next_;
     if (i > 0 && (only_first || problem_->isLate())) break;
