@@ -12,7 +12,8 @@ TaskAction putOn(const std::string& place, const std::string& obj) { return {"pl
 
 Config traysAndCubes() {
   Config C = cubesOnATable(3);
-  C.addFrame("tray", "base", "shape: ssBox, size: [.4 .2 .01 .004], rel: [.5 -.5 .005], contact: 1, logical: { is_place }");
+  C.addFrame("tray", "base",
+             "shape: ssBox, size: [.4 .2 .01 .004], rel: [.5 -.5 .005], contact: 1, logical: { is_place }");
   C.addFrame("pad", "base", "shape: ssBox, size: [.06 .06 .01 .004], rel: [-.5 -.5 .005], logical: { is_place }");
   return C;
 }

@@ -101,8 +101,7 @@ void bindPlanTask(nb::module_& m) {
             returned);
     m.def(name, call, "C"_a, "goal"_a, nb::kw_only(), "domain"_a = nb::none(), "rules"_a = nb::none(),
           "time_limit"_a = nb::none(), "max_evaluations"_a = 200000, "seed"_a = 0, "velocity"_a = nb::none(),
-          "acceleration"_a = nb::none(), "threads"_a = 1, "margin"_a = kTaskMargin,
-          nb::sig(signature.c_str()), doc);
+          "acceleration"_a = nb::none(), "threads"_a = 1, "margin"_a = kTaskMargin, nb::sig(signature.c_str()), doc);
   };
   const auto first = []<class... Arguments>(PyTaskPlans (*plans)(Arguments...)) {
     return [plans](Arguments... arguments) {

@@ -135,7 +135,9 @@ void bindTaskExecution(nb::module_& m) {
       .def(
           "stop", [](PyTaskRun& self) { self.run.stop(); },
           "Ends the execution: the robot holds, also during a motion. May be called from any thread.")
-      .def_prop_ro("result", [](const PyTaskRun& self) { return self.run.result(); }, "The TaskExecution; complete after the event `end`.")
+      .def_prop_ro(
+          "result", [](const PyTaskRun& self) { return self.run.result(); },
+          "The TaskExecution; complete after the event `end`.")
       .def_prop_ro(
           "plan", [](const PyTaskRun& self) { return PyTaskPlan(self.run.plan(), self.request); }, "The present plan.");
 }

@@ -168,7 +168,8 @@ void bindTaskPlan(nb::module_& m) {
   bindPlanFields(plan);
   plan.def(
           "explain", [](const PyTaskPlan& p) { return inPython(p.explain()); },
-          "Several lines: the status, the weakest step with the error of poses that it survives, the spent evaluations, "
+          "Several lines: the status, the weakest step with the error of poses that it survives, the spent "
+          "evaluations, "
           "and all causes for which branches were given up.")
       .def(
           "searchTree", [](const PyTaskPlan& p) { return inPython(p.searchTree()); },

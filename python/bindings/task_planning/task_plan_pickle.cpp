@@ -46,10 +46,11 @@ nb::object requestState(const std::shared_ptr<const TaskRequest>& request) {
 
 std::shared_ptr<const TaskRequest> requestFrom(nb::handle state) {
   if (state.is_none()) return nullptr;
-  return std::make_shared<const TaskRequest>(TaskRequest{
-      nb::cast<std::string>(state[0]), nb::cast<std::optional<LogicDomain>>(state[1]), nb::cast<PyTaskRules>(state[2]),
-      nb::cast<std::optional<double>>(state[3]), nb::cast<long>(state[4]), nb::cast<std::uint64_t>(state[5]),
-      nb::cast<Numbers>(state[6]).values, nb::cast<Numbers>(state[7]).values, nb::cast<int>(state[8]), nb::cast<double>(state[9])});
+  return std::make_shared<const TaskRequest>(
+      TaskRequest{nb::cast<std::string>(state[0]), nb::cast<std::optional<LogicDomain>>(state[1]),
+                  nb::cast<PyTaskRules>(state[2]), nb::cast<std::optional<double>>(state[3]), nb::cast<long>(state[4]),
+                  nb::cast<std::uint64_t>(state[5]), nb::cast<Numbers>(state[6]).values,
+                  nb::cast<Numbers>(state[7]).values, nb::cast<int>(state[8]), nb::cast<double>(state[9])});
 }
 
 nb::tuple planState(const PyTaskPlan& p) {

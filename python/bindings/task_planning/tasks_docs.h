@@ -16,8 +16,9 @@ namespace kinegraph::python::docs::tasks {
   "    velocity: |dq/dt| limit, a number or one per joint, rad/s or m/s; None: the model's, or 1 if it has none.\n"   \
   "    acceleration: |d2q/dt2| limit, likewise, rad/s^2 or m/s^2; None: full speed is reached in half a second.\n"    \
   "    threads: Threads that solve variants of actions and motions in parallel. The plan is bit-identical. Threads\n" \
-  "        call `rules`, too, one at a time.\n"                                                                          \
-  "    margin: Clearance of all pairs of bodies whose contact is not meant, m. Less is kept only where no other plan\n" \
+  "        call `rules`, too, one at a time.\n"                                                                       \
+  "    margin: Clearance of all pairs of bodies whose contact is not meant, m. Less is kept only where no other "     \
+  "plan\n"                                                                                                            \
   "        was found, with a warning.\n"
 #define KINEGRAPH_TASK_RAISES                                 \
   "Raises:\n"                                                 \

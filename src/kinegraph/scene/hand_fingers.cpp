@@ -13,9 +13,9 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kSamples = 33;             ///< of an opening that is not linear
-constexpr double kSameOpening = 1e-3;    ///< m: tolerance of an opening that starts at zero
-constexpr double kLeastRange = 1e-3;     ///< m: shapes whose distance changes less measure no opening
+constexpr int kSamples = 33;           ///< of an opening that is not linear
+constexpr double kSameOpening = 1e-3;  ///< m: tolerance of an opening that starts at zero
+constexpr double kLeastRange = 1e-3;   ///< m: shapes whose distance changes less measure no opening
 
 bool slides(JointType type) {
   return type == JointType::transX || type == JointType::transY || type == JointType::transZ;
@@ -84,7 +84,8 @@ class Fingers {
     const FingerLink* other = nullptr;
     for (const std::string& name : ordered(links))
       if (const FingerLink& link = links.at(scene_.scene()->find(name));
-          &link != most && link.motion().dot(most->motion()) < (other ? other->motion().dot(most->motion()) - 1e-9 : 0.))
+          &link != most &&
+          link.motion().dot(most->motion()) < (other ? other->motion().dot(most->motion()) - 1e-9 : 0.))
         other = &link;
     if (!other) return;
     hand.q = VectorXd::LinSpaced(all_slide ? 2 : kSamples, lower, upper);
@@ -93,8 +94,7 @@ class Fingers {
       setFingers(hand.q[k]);
       double width = std::numeric_limits<double>::infinity();
       for (const FrameData* a : most->shapes)
-        for (const FrameData* b : other->shapes)
-          width = std::min(width, distanceOf(*a, *b));
+        for (const FrameData* b : other->shapes) width = std::min(width, distanceOf(*a, *b));
       hand.widths[k] = std::max(width, 0.);
     }
     if (hand.widths.maxCoeff() - hand.widths.minCoeff() < kLeastRange) {
@@ -122,7 +122,7 @@ class Fingers {
     return names;
   }
 
-  void place(std::map<const FrameData*, FingerLink>& links, double at, Vector3d FingerLink::* centers) {
+  void place(std::map<const FrameData*, FingerLink>& links, double at, Vector3d FingerLink::*centers) {
     setFingers(at);
     for (auto& [frame, link] : links) {
       Vector3d sum = Vector3d::Zero();

@@ -67,8 +67,8 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
     Kind kind;
     int first;
     std::string frame;
-    std::string face = {};                        ///< of `lay`
-    std::optional<Placement> placement = {};      ///< of `place`
+    std::string face = {};                    ///< of `lay`
+    std::optional<Placement> placement = {};  ///< of `place`
   };
 
   void addSlot(Slot::Kind kind, const std::string& frame, int dofs, const std::string& face = {});

@@ -72,10 +72,11 @@ struct TaskPlan : Trajectory {
   std::vector<std::pair<std::string, int>> causes;  ///< of branches that were given up, the most frequent first
   std::vector<TaskBranch> tree;                     ///< all branches, in the order in which they were tried
   std::vector<std::string> violations;              ///< found by checkTaskPlan
-  double margin = 0.;  ///< m: kept by all pairs whose contact is not meant; less than TaskOptions::margin with a warning
-  std::vector<StepTolerance> tolerances;            ///< of each action
-  long evaluations = 0;                             ///< of motion problems
-  long expansions = 0;                              ///< of states in logic
+  double margin =
+      0.;  ///< m: kept by all pairs whose contact is not meant; less than TaskOptions::margin with a warning
+  std::vector<StepTolerance> tolerances;                         ///< of each action
+  long evaluations = 0;                                          ///< of motion problems
+  long expansions = 0;                                           ///< of states in logic
   std::vector<std::pair<std::string, std::string>> attachments;  ///< (parent, object) after each action that moves one
   std::vector<Config> scenes;        ///< the scene of each action, with held objects attached to hands
   std::vector<Literal> goal, start;  ///< literals of the goal, and facts that hold initially
