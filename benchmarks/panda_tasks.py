@@ -189,7 +189,7 @@ def carriedOut(plan: ry.TaskPlan, world: ry.Config, repairs: int) -> tuple[int, 
     """Returns the number of repairs until the goal, -1 if it was not reached, and the reasons of stops."""
     bot, stops = ry.BotOp(world), []
     for attempt in range(repairs + 1):
-        run = plan.execute(bot)
+        run = plan.execute(bot, repairs=0)
         if run.feasible:
             return attempt, stops
         stops.append(run.message)

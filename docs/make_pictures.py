@@ -93,6 +93,17 @@ def taskFilms(folder: Path) -> None:
     taskFilm(folder / "task_carry.mp4", *_scene(tasks.carry(0)), [0.3, -1.7, 1.9], [0.0, 0.0, 0.6])
 
 
+def everydayFilms(folder: Path) -> None:
+    """Of four scenes of benchmarks/everyday.py; the nightly run makes them."""
+    sys.path.append(str(HERE.parent / "benchmarks"))
+    from everyday_scenes import GENERATORS
+
+    for name in ("boxes to a tray", "shelf", "slabs", "UR10 and Robotiq"):
+        scene = GENERATORS[name](np.random.default_rng(0))
+        file = folder / f"everyday_{name.lower().replace(' ', '_')}.mp4"
+        taskFilm(file, scene.C, scene.goal, [1.1, 1.4, 1.7], [0.0, 0.2, 0.75])
+
+
 def examplePictures(folder: Path) -> None:
     """Pictures that examples draw: of planning, of simulations, and of how a policy learns."""
 

@@ -22,11 +22,9 @@ print(f"{plan.duration:.1f} s; after 1 s the arm is at", np.round(plan.eval(1.0)
 world = C.copy()  # in the robot's world, one cube differs from the plan
 world.getFrame("blue").setRelativePosition([0.1, 0.37, 0.075])
 bot = ry.BotOp(world)
-for _ in range(3):
-    run = plan.execute(bot)
-    print(run)
-    if run.feasible:
-        break
-    plan = plan.repair(run.C)
-assert run.feasible
+run = plan.run(bot)
+for event in run:
+    print(event)
+print(run.result)
+assert run.result.feasible
 bot.getWorld().view(False, "the tower")

@@ -23,14 +23,12 @@ int main() try {
   Config world = C;  // in the robot's world, one cube differs from the plan
   world.getFrame("blue").setRelativePosition({.1, .37, .075});
   BotOp bot(world);
-  TaskExecution run;
-  for (int i = 0; i < 3 && !run.feasible; ++i) {
-    run = plan.execute(bot);
-    std::cout << run.str() << "\n";
-    if (!run.feasible) plan = plan.repair(run.C);
-  }
+  Config seen = worldOf(bot, plan);
+  TaskRun run(plan, bot, seen);
+  while (const auto event = run.next()) std::cout << event->str() << "\n";
+  std::cout << run.result().str() << "\n";
   bot.getWorld().view(false, "the tower");
-  return run.feasible ? 0 : 1;
+  return run.result().feasible ? 0 : 1;
 } catch (const Error& error) {
   std::cerr << error.what() << "\n";
   return 1;

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/api/model_path.h"
+#include "kinegraph/robot/kinematic_driver.h"
 #include "kinegraph/robot/simulated_driver.h"
 #include "kinegraph/task_planning/search/plan_task.h"
 #include "tests/support/expect_error.h"
@@ -57,7 +58,7 @@ TEST(TaskExecution, WhatIsTakenOutOfTheHandIsNoticedAndRepaired) {
   };
   BotOp bot(s.C, std::make_shared<SimulatedDriver>(s.C), options);
   robot = &bot;
-  const TaskExecution run = s.plan.execute(bot);
+  const TaskExecution run = s.plan.execute(bot, {.repairs = 0});
   EXPECT_FALSE(run.feasible);
   EXPECT_EQ(run.done, 1);
   EXPECT_NE(run.message.find("'b0' is not in 'l_gripper'"), std::string::npos) << run.message;
@@ -65,6 +66,108 @@ TEST(TaskExecution, WhatIsTakenOutOfTheHandIsNoticedAndRepaired) {
   const TaskPlan repaired = s.plan.repair(run.C);
   ASSERT_TRUE(repaired.feasible()) << repaired.str();
   EXPECT_TRUE(repaired.execute(bot).feasible);
+}
+
+TEST(TaskExecution, StepsAreReportedAndAWorldThatIsDisturbedBetweenThemIsRepaired) {
+  Stacking s;
+  BotOp bot(s.C);
+  Config seen = worldOf(bot, s.plan);
+  TaskRun run(s.plan, bot, seen);
+  std::vector<std::string> kinds;
+  while (const std::optional<TaskEvent> event = run.next()) {
+    kinds.push_back(taskEventName(event->kind));
+    if (kinds.size() == 1) bot.setFramePose("b0", {{-.25, .12, .675}, Quaterniond::Identity()});
+  }
+  const std::vector<std::string> expected = {"start", "failure", "repair", "start", "motion",
+                                             "grip",  "motion",  "grip",   "end"};
+  EXPECT_EQ(kinds, expected);
+  EXPECT_TRUE(run.result().feasible) << run.result().str();
+  EXPECT_EQ(run.result().str(), "reached the goal after 2 actions and 1 repair");
+  EXPECT_FALSE(run.next());
+}
+
+TEST(TaskExecution, ARobotThatIsElsewhereMovesToTheStart) {
+  Stacking s;
+  for (const double off : {.002, .05, .3}) {
+    Config beside = s.C;
+    const VectorXd signs = VectorXd::LinSpaced(7, -1., 1.).unaryExpr([](double x) { return x < 0. ? -1. : 1.; });
+    beside.setJointState(s.C.getJointState() + off * signs);
+    BotOp bot(beside);
+    const TaskExecution run = s.plan.execute(bot);
+    EXPECT_TRUE(run.feasible) << off << ": " << run.str();
+    EXPECT_EQ(run.repairs, 0);
+  }
+}
+
+TEST(TaskExecution, MotionsAreThoseOfThePlan) {
+  Stacking s;
+  const RowRange rows = s.plan.segments[0];
+  const MatrixXd path = s.plan.path.middleRows(rows.begin, rows.size());
+  double worst = 0.;
+  int seen_at = 0;
+  BotOpOptions options;
+  options.show = [&](const BotOp&, Config& C, const std::string&) {
+    const VectorXd q = C.getJointState();
+    double nearest = 1.;
+    for (Eigen::Index i = 0; i + 1 < path.rows(); ++i) {
+      const VectorXd chord = path.row(i + 1) - path.row(i), offset = q - path.row(i).transpose();
+      const double share = std::clamp(offset.dot(chord) / std::max(chord.squaredNorm(), 1e-30), 0., 1.);
+      nearest = std::min(nearest, (offset - share * chord).cwiseAbs().maxCoeff());
+    }
+    worst = std::max(worst, nearest);
+    ++seen_at;
+    return 0;
+  };
+  BotOp bot(s.C, std::make_shared<KinematicDriver>(s.C), options);
+  Config seen = worldOf(bot, s.plan);
+  TaskRun run(s.plan, bot, seen);
+  ASSERT_EQ(run.next()->kind, TaskEventKind::start);
+  ASSERT_EQ(run.next()->kind, TaskEventKind::motion);
+  EXPECT_GT(seen_at, 10);
+  EXPECT_LT(worst, 1e-4);
+}
+
+TEST(TaskExecution, ACallerEndsIt) {
+  Stacking s;
+  BotOp bot(s.C);
+  ExecutionOptions options;
+  options.callback = [](const TaskEvent& event) { return event.kind != TaskEventKind::grip; };
+  const TaskExecution run = s.plan.execute(bot, options);
+  EXPECT_FALSE(run.feasible);
+  EXPECT_EQ(run.done, 1);
+  EXPECT_EQ(run.message, "the execution was stopped by its caller");
+  EXPECT_EQ(run.C.getFrame("b0").getParent()->getName(), "l_gripper");
+}
+
+TEST(TaskExecution, AMotionThatMeetsTooMuchForceStops) {
+  Stacking s;
+  BotOp bot(s.C);
+  ExecutionOptions options;
+  options.repairs = 0;
+  options.max_external_effort = VectorXd::Constant(1, 1e-6);
+  const TaskExecution run = s.plan.execute(bot, options);
+  EXPECT_NE(run.message.find("unexpected contact: joint '"), std::string::npos) << run.message;
+  options.max_external_effort = VectorXd::Ones(3);
+  expectError<ValueError>([&] { s.plan.execute(bot, options); }, {"max_external_effort has 3 numbers", "or 7"});
+}
+
+TEST(TaskExecution, CamerasThatLeaveObjectsOutAreBelieved) {
+  Stacking s;
+  BotOp bot(s.C);
+  int looks = 0;
+  ExecutionOptions options;
+  options.observe = [&] {
+    ++looks;
+    const Config world = bot.getWorld();
+    ObservedPoses poses;
+    poses["b1"] = world.getFrame("b1").getPose();
+    poses["b0"] = std::nullopt;
+    return poses;
+  };
+  const TaskExecution run = s.plan.execute(bot, options);
+  EXPECT_TRUE(run.feasible) << run.str();
+  EXPECT_GT(looks, 5);
+  EXPECT_NEAR((run.C.getFrame("b0").getPosition() - bot.getWorld().getFrame("b0").getPosition()).norm(), 0., .01);
 }
 
 TEST(TaskExecution, MistakesAreToldBeforeAnythingMoves) {

@@ -105,6 +105,21 @@ TEST(RobotLoop, IsStoppedByADriverThatThrows) {
   EXPECT_EQ(driver->writes, 3);
 }
 
+TEST(RobotLoop, RecoversFarFromItsLastCommand) {
+  std::vector<RobotState> states;
+  for (int i = 0; i < 100; ++i) states.push_back(state(i * .01));  // does not move
+  const auto driver = std::make_shared<RecordedDriver>(plainRobot(), states);
+  RobotLoop loop(driver, .01);
+  loop.apply(FollowSpline{straight(0., 1., 0., .5)});
+  for (int i = 0; i < 60 && loop.mode() != LoopMode::fault; ++i) loop.step();
+  ASSERT_NE(loop.fault().find("from its command"), std::string::npos) << loop.fault();
+  loop.apply(RecoverRobot{});
+  EXPECT_EQ(loop.mode(), LoopMode::hold) << loop.fault();
+  loop.step();
+  EXPECT_EQ(loop.mode(), LoopMode::hold) << loop.fault();
+  EXPECT_EQ(loop.reference(loop.time()).row(0), row(0., 0.));
+}
+
 TEST(RobotLoop, IsStoppedIfItDoesNotFollow) {
   std::vector<RobotState> states;
   for (int i = 0; i < 100; ++i) states.push_back(state(i * .01));  // does not move

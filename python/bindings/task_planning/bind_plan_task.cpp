@@ -26,10 +26,10 @@ struct PyTaskPlans {
 PyTaskPlans plansOf(const PyConfig& C, const std::string& goal, const std::optional<LogicDomain>& domain,
                     const PyTaskRules& rules, std::optional<double> time_limit, long max_evaluations,
                     std::uint64_t seed, const std::optional<Numbers>& velocity,
-                    const std::optional<Numbers>& acceleration, int threads) {
+                    const std::optional<Numbers>& acceleration, int threads, double margin) {
   const auto request = std::make_shared<const TaskRequest>(
       TaskRequest{goal, domain, rules, time_limit, max_evaluations, seed, velocity ? velocity->values : VectorXd(),
-                  acceleration ? acceleration->values : VectorXd(), threads});
+                  acceleration ? acceleration->values : VectorXd(), threads, margin});
   const TaskOptions options = request->options();
   warnOfMissingContacts(C);
   PyConfig scene{Config(C), nullptr};
@@ -49,14 +49,15 @@ std::optional<PyTaskPlan> nextOf(PyTaskPlans& self) {
 }
 
 std::vector<std::string> check(const PyConfig& C, const PyTaskPlan& plan,
-                               const std::optional<std::vector<std::vector<std::string>>>& states) {
+                               const std::optional<std::vector<std::vector<std::string>>>& states,
+                               std::optional<double> margin) {
   std::vector<std::vector<Literal>> along;
   if (states)
     for (const auto& state : *states) along.push_back(readLiterals(join(state, " "), "states"));
   warnOfContacts(C);
   const Config scene(C);
   const nb::gil_scoped_release unlock;
-  return checkTaskPlan(scene, plan, along);
+  return checkTaskPlan(scene, plan, along, margin);
 }
 
 }  // namespace
@@ -71,6 +72,7 @@ TaskOptions TaskRequest::options() const {
   options.velocity = velocity;
   options.acceleration = acceleration;
   options.threads = threads;
+  options.margin = margin;
   options.cancellation = [check = CheckInterrupts()]() mutable { check(); };
   options.helper = [] { return std::make_shared<PyManipulation>(); };
   return options;
@@ -95,11 +97,11 @@ void bindPlanTask(nb::module_& m) {
             "(C: Config, goal: str, *, domain: Domain | None = None, rules: collections.abc.Mapping[str, TaskRule] | "
             "None = None, time_limit: float | None = None, max_evaluations: int = 200000, seed: int = 0, velocity: "
             "numpy.typing.ArrayLike | None = None, acceleration: numpy.typing.ArrayLike | None = None, threads: int = "
-            "1) -> ",
+            "1, margin: float = 0.005) -> ",
             returned);
     m.def(name, call, "C"_a, "goal"_a, nb::kw_only(), "domain"_a = nb::none(), "rules"_a = nb::none(),
           "time_limit"_a = nb::none(), "max_evaluations"_a = 200000, "seed"_a = 0, "velocity"_a = nb::none(),
-          "acceleration"_a = nb::none(), "threads"_a = 1, nb::sig(signature.c_str()), doc);
+          "acceleration"_a = nb::none(), "threads"_a = 1, "margin"_a = kTaskMargin, nb::sig(signature.c_str()), doc);
   };
   const auto first = []<class... Arguments>(PyTaskPlans (*plans)(Arguments...)) {
     return [plans](Arguments... arguments) {
@@ -109,7 +111,8 @@ void bindPlanTask(nb::module_& m) {
   };
   bind("planTask", first(plansOf), "TaskPlan", docs::tasks::planTask);
   bind("planTasks", plansOf, "TaskPlans", docs::tasks::planTasks);
-  m.def("checkTaskPlan", check, "C"_a, "plan"_a, "states"_a = nb::none(), docs::tasks::checkTaskPlan);
+  m.def("checkTaskPlan", check, "C"_a, "plan"_a, "states"_a = nb::none(), "margin"_a = nb::none(),
+        docs::tasks::checkTaskPlan);
 }
 
 }  // namespace kinegraph::python

@@ -4,12 +4,10 @@
 #include <nanobind/stl/vector.h>
 
 #include "arguments.h"
-#include "kinegraph/api/task_execution.h"
 #include "kinegraph/api/task_view.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/logic/fol_reader.h"
 #include "python_names.h"
-#include "robot/robot_objects.h"
 #include "task_planning/task_objects.h"
 #include "task_planning/task_plan_docs.h"
 
@@ -81,22 +79,11 @@ Array frames(const PyTaskPlan& plan, const PyConfig& C, double rate) {
   return all.array;
 }
 
-TaskExecution executePlan(const PyTaskPlan& plan, nb::handle robot) {
-  if (!nb::isinstance<PyBotOp>(robot)) {
-    const char* hint = nb::isinstance<PyConfig>(robot) ? "; make one by BotOp(C)" : "";
-    throw ValueError(
-        cat("TaskPlan.execute: expected a BotOp, got ", nb::cast<std::string>(robot.type().attr("__name__")), hint));
-  }
-  auto& bot = nb::cast<PyBotOp&>(robot);
-  PyConfig seen{bot->getWorld(), nullptr};
-  const nb::gil_scoped_release unlock;
-  return execute(plan, *bot, seen);
-}
-
-PyTaskPlan repair(const PyTaskPlan& plan, const PyConfig& C) {
+PyTaskPlan repair(const PyTaskPlan& plan, const PyConfig& C, std::optional<double> time_limit,
+                  std::optional<long> max_evaluations, std::optional<int> threads) {
   const Config scene(C);
   const nb::gil_scoped_release unlock;
-  return {plan.repair(scene), plan.request};
+  return {plan.repair(scene, {time_limit, max_evaluations, threads}), plan.request};
 }
 
 void bindPlanFields(nb::class_<PyTaskPlan, Trajectory>& plan) {
@@ -124,6 +111,12 @@ void bindPlanFields(nb::class_<PyTaskPlan, Trajectory>& plan) {
               "(cause, count) of branches that were given up, the most frequent cause first.")
       .def_ro("tree", &TaskPlan::tree, "All branches that were tried, a TaskBranch each.")
       .def_ro("violations", &TaskPlan::violations, "What checkTaskPlan found.")
+      .def_ro("margin", &TaskPlan::margin,
+              "m, kept by all pairs whose contact is not meant; less than the argument of planTask with a warning.")
+      .def_prop_ro(
+          "tolerances", [](const PyTaskPlan& p) { return toleranceList(p.tolerances); },
+          "(error, limit) of each action: the error (m) of the poses of the robot and of objects that it survives, at "
+          "most .03, and what happens with a larger one.")
       .def_ro("evaluations", &TaskPlan::evaluations, "Evaluations of waypoint and motion problems.")
       .def_ro("expansions", &TaskPlan::expansions, "States that the search in logic expanded.")
       .def_ro("attachments", &TaskPlan::attachments, "(parent, object) after each action that moves an object.")
@@ -135,6 +128,12 @@ void bindPlanFields(nb::class_<PyTaskPlan, Trajectory>& plan) {
 }
 
 }  // namespace
+
+std::vector<std::pair<double, std::string>> toleranceList(const std::vector<StepTolerance>& tolerances) {
+  std::vector<std::pair<double, std::string>> list;
+  for (const StepTolerance& step : tolerances) list.emplace_back(step.error, step.limit);
+  return list;
+}
 
 std::vector<std::string> literalTexts(const std::vector<Literal>& literals) {
   std::vector<std::string> texts;
@@ -169,7 +168,9 @@ void bindTaskPlan(nb::module_& m) {
   bindPlanFields(plan);
   plan.def(
           "explain", [](const PyTaskPlan& p) { return inPython(p.explain()); },
-          "Several lines: the status, the spent evaluations, and all causes for which branches were given up.")
+          "Several lines: the status, the weakest step with the error of poses that it survives, the spent "
+          "evaluations, "
+          "and all causes for which branches were given up.")
       .def(
           "searchTree", [](const PyTaskPlan& p) { return inPython(p.searchTree()); },
           "The branches as a tree: a line per action, with the cause behind the last action of each branch.")
@@ -180,13 +181,14 @@ void bindTaskPlan(nb::module_& m) {
           "failedConfiguration",
           [](const PyTaskPlan& p, const PyConfig& C) { return copyOf(p.failedConfiguration(C)); }, "C"_a,
           docs::failedConfiguration)
-      .def("execute", executePlan, "bot"_a, nb::sig("def execute(self, bot: BotOp) -> TaskExecution"), docs::execute)
-      .def("repair", repair, "C"_a, docs::repair)
+      .def("repair", repair, "C"_a, nb::kw_only(), "time_limit"_a = nb::none(), "max_evaluations"_a = nb::none(),
+           "threads"_a = nb::none(), docs::repair)
       .def("__bool__", &TaskPlan::feasible)
       .def("__str__", [](const PyTaskPlan& p) { return inPython(p.str()); })
       .def("__repr__", [](const PyTaskPlan& p) {
         return cat("<TaskPlan ", taskStatusName(p.status), ": ", inPython(p.summary()), ">");
       });
+  bindExecutionOf(plan);
   bindTaskPlanCopies(branch, plan);
 }
 

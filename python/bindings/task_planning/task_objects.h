@@ -32,6 +32,7 @@ struct TaskRequest {
   std::uint64_t seed = 0;
   VectorXd velocity = {}, acceleration = {};
   int threads = 1;
+  double margin = kTaskMargin;
 
   TaskOptions options() const;
 };
@@ -48,11 +49,15 @@ struct PyTaskPlan : TaskPlan {
 /// The literals as texts: "(on table cup)".
 std::vector<std::string> literalTexts(const std::vector<Literal>& literals);
 
+/// (error, limit) of each step.
+std::vector<std::pair<double, std::string>> toleranceList(const std::vector<StepTolerance>& tolerances);
+
 void bindTaskPlan(nb::module_& m);  ///< TaskStatus, TaskBranch, TaskPlan
 void bindTaskPlanCopies(nb::class_<TaskBranch>& branch,
                         nb::class_<PyTaskPlan, Trajectory>& plan);  ///< copy.copy and pickle
-void bindTaskExecution(nb::module_& m);
-void bindPlanTask(nb::module_& m);  ///< planTask, planTasks
-void bindLgp(nb::module_& m);       ///< LGP_Tool and its abstractions
+void bindTaskExecution(nb::module_& m);                             ///< TaskExecution, TaskEvent, TaskRun
+void bindExecutionOf(nb::class_<PyTaskPlan, Trajectory>& plan);     ///< TaskPlan.execute, TaskPlan.run
+void bindPlanTask(nb::module_& m);                                  ///< planTask, planTasks
+void bindLgp(nb::module_& m);                                       ///< LGP_Tool and its abstractions
 
 }  // namespace kinegraph::python

@@ -68,29 +68,18 @@ Returns:
 Raises:
     ArgumentError: No branch failed at a waypoint.)";
 
-inline constexpr char execute[] =
-    R"(Executes the plan on a robot, action by action. Grippers close and open. Before and after each motion it compares
-the world with the plan: held objects have to be in the hand, and all others where the plan has them.
-
-Args:
-    bot: A BotOp whose world is the scene of the plan. Objects that actions move need a mass there.
-Returns:
-    A TaskExecution: how many actions were executed, the reason for stopping, and the final scene for repair.
-Raises:
-    ArgumentError: There is no motion, `bot` is no BotOp, or the robot cannot begin the plan.
-    RobotFault: The robot was stopped.)";
-
 inline constexpr char repair[] =
     R"(Plans the remaining actions to the same goal, with the same options, after an execution stopped.
 
 Args:
     C: The current scene, as of TaskExecution.C. Held objects are attached to the hand, and objects that stand on
-        something to that.
+        something to that. Fingers open for the object that comes next.
+    time_limit: s of wall time; None: that of the plan.
+    max_evaluations: Budget of evaluations; None: that of the plan.
+    threads: Threads; None: those of the plan.
 Returns:
     A TaskPlan; not finding one is a status.
 Raises:
     ArgumentError: The plan was not made by planTask.)";
-
-inline constexpr char execution[] = R"(The result of TaskPlan.execute.)";
 
 }  // namespace kinegraph::python::docs::task_plan

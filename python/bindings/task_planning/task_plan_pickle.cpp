@@ -40,15 +40,17 @@ std::vector<Literal> literalsFrom(nb::handle state) {
 nb::object requestState(const std::shared_ptr<const TaskRequest>& request) {
   if (!request) return nb::none();
   return nb::make_tuple(request->goal, request->domain, request->rules, request->time_limit, request->max_evaluations,
-                        request->seed, toNumpy(request->velocity), toNumpy(request->acceleration), request->threads);
+                        request->seed, toNumpy(request->velocity), toNumpy(request->acceleration), request->threads,
+                        request->margin);
 }
 
 std::shared_ptr<const TaskRequest> requestFrom(nb::handle state) {
   if (state.is_none()) return nullptr;
-  return std::make_shared<const TaskRequest>(TaskRequest{
-      nb::cast<std::string>(state[0]), nb::cast<std::optional<LogicDomain>>(state[1]), nb::cast<PyTaskRules>(state[2]),
-      nb::cast<std::optional<double>>(state[3]), nb::cast<long>(state[4]), nb::cast<std::uint64_t>(state[5]),
-      nb::cast<Numbers>(state[6]).values, nb::cast<Numbers>(state[7]).values, nb::cast<int>(state[8])});
+  return std::make_shared<const TaskRequest>(
+      TaskRequest{nb::cast<std::string>(state[0]), nb::cast<std::optional<LogicDomain>>(state[1]),
+                  nb::cast<PyTaskRules>(state[2]), nb::cast<std::optional<double>>(state[3]), nb::cast<long>(state[4]),
+                  nb::cast<std::uint64_t>(state[5]), nb::cast<Numbers>(state[6]).values,
+                  nb::cast<Numbers>(state[7]).values, nb::cast<int>(state[8]), nb::cast<double>(state[9])});
 }
 
 nb::tuple planState(const PyTaskPlan& p) {
@@ -59,7 +61,7 @@ nb::tuple planState(const PyTaskPlan& p) {
   return nb::make_tuple(int(p.status), p.message, p.warnings, p.actions, toNumpy(p.waypoints), toNumpy(p.path),
                         toNumpy(p.times), toNumpy(p.limits), segments, p.causes, tree, p.violations, p.evaluations,
                         p.expansions, p.attachments, scenes, literalTexts(p.goal), literalTexts(p.start),
-                        requestState(p.request));
+                        requestState(p.request), p.margin, toleranceList(p.tolerances));
 }
 
 PyTaskPlan planFrom(const nb::tuple& t) {
@@ -84,10 +86,10 @@ PyTaskPlan planFrom(const nb::tuple& t) {
   plan.goal = literalsFrom(t[16]);
   plan.start = literalsFrom(t[17]);
   plan.request = requestFrom(t[18]);
-  if (plan.request)
-    plan.replanner = [goal = plan.request->goal, options = plan.request->options()](const Config& C) {
-      return planTask(C, goal, options);
-    };
+  plan.margin = nb::cast<double>(t[19]);
+  for (const auto& [error, limit] : nb::cast<std::vector<std::pair<double, std::string>>>(t[20]))
+    plan.tolerances.push_back({error, limit});
+  if (plan.request) plan.replanner = replannerTo(plan.request->goal, plan.request->options());
   return plan;
 }
 

@@ -16,7 +16,10 @@ namespace kinegraph::python::docs::tasks {
   "    velocity: |dq/dt| limit, a number or one per joint, rad/s or m/s; None: the model's, or 1 if it has none.\n"   \
   "    acceleration: |d2q/dt2| limit, likewise, rad/s^2 or m/s^2; None: full speed is reached in half a second.\n"    \
   "    threads: Threads that solve variants of actions and motions in parallel. The plan is bit-identical. Threads\n" \
-  "        call `rules`, too, one at a time.\n"
+  "        call `rules`, too, one at a time.\n"                                                                       \
+  "    margin: Clearance of all pairs of bodies whose contact is not meant, m. Less is kept only where no other "     \
+  "plan\n"                                                                                                            \
+  "        was found, with a warning.\n"
 #define KINEGRAPH_TASK_RAISES                                 \
   "Raises:\n"                                                 \
   "    ParseError: A word of the goal is not in the scene.\n" \
@@ -63,6 +66,7 @@ Args:
     C: The scene at the start; it is not changed.
     plan: A TaskPlan with actions, path and times.
     states: The facts before and after each action, as of PlanSearch.states; None: the logic is not checked.
+    margin: Clearance of all pairs of bodies whose contact is not meant, m; None: plan.margin.
 Returns:
     Violations, a sentence each; empty if there are none.
 Raises:

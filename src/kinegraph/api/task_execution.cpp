@@ -1,16 +1,17 @@
 #include "kinegraph/api/task_execution.h"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <numbers>
 
+#include "kinegraph/api/observed_world.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/simulation/scene_bodies.h"
+#include "kinegraph/planning/plan_motion.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/task_doors.h"
+#include "kinegraph/task_planning/task_tools.h"
 
 namespace kinegraph {
 
@@ -18,182 +19,315 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr double kSlipped = .02;                                  ///< m: tolerance of held objects in the hand
-constexpr double kOff = .03;                                      ///< m: tolerance of standing objects
-const double kUpright = std::cos(10. * std::numbers::pi / 180.);  ///< objects that tilt more have fallen
-constexpr double kEmpty = 2e-3;                                   ///< m: a gripper that is narrower holds nothing
-constexpr double kTouch = 5e-3;                                   ///< m: objects that are closer touch
-constexpr double kTimeout = 3., kQueryInterval = .05;             ///< s for a gripper, and between queries
-constexpr double kComesToRest = .3;                               ///< s until objects are at rest
-constexpr double kGripForce = 40.;                                ///< N
-constexpr double kFar = .05;                                      ///< rad or m: tolerance of joints
-constexpr double kOpenEnough = .9;                                ///< share of the widest opening
-constexpr double kReverseSlowdown = 3.;                           ///< factor on the time of a motion for its reversal
+constexpr double kEmpty = 2e-3;                               ///< m: a gripper that is narrower holds nothing
+constexpr double kWeak = .5;                                  ///< N: fingers that press less hold nothing
+constexpr double kTimeout = 3., kQueryInterval = .05;         ///< s for a gripper, and between queries
+constexpr double kComesToRest = .3;                           ///< s until objects are at rest
+constexpr double kGripForce = 40.;                            ///< N
+constexpr double kThere = 1e-3;                               ///< rad or m: a start that is closer needs no motion
+constexpr double kFar = .05;                                  ///< rad or m: tolerance of joints
+constexpr double kBlocked = .5;                               ///< rad or m: of a robot that was stopped, to its path
+constexpr double kOpenEnough = .9;                            ///< share of the widest opening
+constexpr double kReverseSlowdown = 3.;                       ///< factor on the time of a motion for its reversal
+constexpr double kStartMargin = 5e-3, kStartInContact = .02;  ///< m: of the motion to the start; depth that it resolves
 
-Vector3d placeIn(const Config& C, const std::string& hand, const std::string& obj) {
-  const Frame frame = C.getFrame(hand);
-  return frame.getRotationMatrix().transpose() * (C.getFrame(obj).getPosition() - frame.getPosition());
-}
+/// The motion of one action of a plan.
+class ActionMotion : public Trajectory {
+ public:
+  ActionMotion(const TaskPlan& plan, const RowRange& rows)
+      : plan_(plan), begin_(plan.times[rows.begin]), end_(plan.times[rows.end - 1]) {}
+  int dimension() const override { return plan_.dimension(); }
+  double duration() const override { return end_ - begin_; }
+  void evalTo(double t, double* q, double* velocity, double* acceleration) const override {
+    plan_.evalTo(std::clamp(begin_ + t, begin_, end_), q, velocity, acceleration);
+    if (t > 0. && t < duration()) return;
+    std::fill_n(velocity, dimension(), 0.);
+  }
+
+ private:
+  const TaskPlan& plan_;
+  double begin_, end_;
+};
 
 bool isClear(Config& C, const VectorXd& q) {
   C.setJointState(q);
   return C.getCollisions(-kOverlap).empty();
 }
 
-/// Returns the place that an object stands on: the nearest of those that it touches and whose center is lower; "" if
-/// none.
-std::string placeBelow(const Config& C, const std::string& obj, const Words& places) {
-  const double height = C.getFrame(obj).getPosition().z();
-  double nearest = std::numeric_limits<double>::infinity();
-  std::string below;
-  for (const std::string& place : places) {
-    if (place == obj || !(C.getFrame(place).getPosition().z() < height)) continue;
-    const double gap = std::abs(gapOf(C, obj, place));
-    if (gap < nearest || (gap == nearest && place < below)) nearest = gap, below = place;
-  }
-  return nearest <= kTouch ? below : "";
+VectorXd limitsOf(const ExecutionOptions& options, Eigen::Index n) {
+  const VectorXd& limits = options.max_external_effort;
+  if (options.repairs < 0)
+    throw ValueError(cat("TaskPlan.execute: repairs is ", options.repairs, "; expected 0 or more"));
+  if (limits.size() > 1 && limits.size() != n)
+    throw ValueError(
+        cat("TaskPlan.execute: max_external_effort has ", limits.size(), " numbers; expected one, or ", n));
+  if (limits.size() > 0 && !(limits.minCoeff() > 0.))
+    throw ValueError("TaskPlan.execute: max_external_effort has a number that is not above 0");
+  return limits.size() == 1 ? VectorXd(VectorXd::Constant(n, limits[0])) : limits;
 }
 
-/// One execution: the observed world, and the objects in hands.
-class Run {
+}  // namespace
+
+class TaskRun::Impl {
  public:
-  Run(const TaskPlan& plan, BotOp& bot, Config& seen)
-      : plan_(plan),
-        bot_(bot),
-        seen_(seen),
-        hands_(wordsOf(plan.start, "is_gripper")),
-        objects_(wordsOf(plan.start, "is_object")),
-        places_(wordsOf(plan.start, "is_place")) {
+  Impl(const TaskPlan& plan, BotOp& bot, Config& seen, ExecutionOptions options)
+      : bot_(bot), options_(std::move(options)), world_(bot, seen, options_.observe), plan_(plan) {
+    plan_.requireScenes("execute");
+    limits_ = limitsOf(options_, plan_.path.cols());
+    repairs_left_ = plan_.replanner ? options_.repairs : 0;
+    if (world_.isSimulated()) requireMovable(plan_, seen);
     const std::vector<GripperInfo>& grippers = bot.getInfo().grippers;
     for (std::size_t i = 0; i < grippers.size(); ++i) grippers_[grippers[i].name] = int(i);
-    for (const std::string& obj : objects_) {
-      const std::string hand = plan.scenes.empty() ? "" : holderOf(plan.scenes[0], obj, hands_);
-      if (!hand.empty()) held_[obj] = hand;
-    }
-    const Words names = seen.getJointNames(), doors = wordsOf(plan.start, "is_guided");
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      if (std::ranges::find(doors, names[k]) != doors.end())
-        doors_[names[k]] = Eigen::Index(k);
-      else
-        driven_.push_back(Eigen::Index(k));
+    world_.setPlan(plan_);
+  }
+
+  std::optional<TaskEvent> next() {
+    if (step_ == Step::ended) return std::nullopt;
+    try {
+      if (is_stopped_) return stopped();
+      return (this->*steps()[std::size_t(step_)])();
+    } catch (const RobotFault& fault) {
+      if (step_ == Step::fail || !recovers()) return end(fault.what());
+      return fail(fault.what());
     }
   }
 
-  TaskExecution toTheEnd() {
-    begin();
-    for (std::size_t i = 0; i < plan_.actions.size(); ++i) {
-      std::string failure = deviation(i, false);
-      if (failure.empty()) {
-        move(i);
-        failure = deviation(i, true);
-      }
-      if (failure.empty()) failure = grip(plan_.actions[i]);
-      if (failure.empty()) failure = deviation(i, true);
-      if (failure.empty()) continue;
-      backOut(i);
-      return {false, cat(planText({plan_.actions[i]}), ": ", failure), int(i), scene()};
-    }
-    Config end = scene();
-    const Words missed = missedGoals(end);
-    const int count = int(plan_.actions.size());
-    if (!missed.empty()) return {false, join(missed, ", ") + " does not hold", count, std::move(end)};
-    return {true, "", count, std::move(end)};
-  }
+  void stop() { is_stopped_ = true; }
+
+  const TaskPlan& plan() const { return plan_; }
+  TaskExecution result;
 
  private:
-  void begin() {
-    for (const TaskAction& action : plan_.actions) {
-      const std::string obj = objectOf(action);
-      const bool is_object = std::ranges::find(objects_, obj) != objects_.end();
-      if (is_object) requireMovable(obj);
-      if (isGuided(action) && !attributeFlag(seen_.getFrame(obj).data(), "noMotor", false))
-        throw ValueError(
-            cat("execute: a motor moves '", obj,
-                "' in the simulated world; set the attribute noMotor of its frame before BotOp(C), so that a "
-                "hand can move it"));
-    }
-    if (!plan_.actions.empty() && jointErrors(plan_.path.row(0)).maxCoeff() > kFar)
-      throw ValueError(
-          "execute: the robot is not where the plan begins; move it there first, or plan from its configuration");
+  enum class Step { begin, motion, grip, fail, ended };
+  using Call = TaskEvent (Impl::*)();
+  static const std::array<Call, 4>& steps() {
+    static const std::array<Call, 4> calls = {&Impl::begin, &Impl::motion, &Impl::grip, &Impl::repair};
+    return calls;
+  }
+
+  // --- steps
+
+  TaskEvent begin() {
     bot_.hold();
-    for (const auto& [hand, number] : grippers_) {
-      const bool holds = std::ranges::any_of(held_, [&](const auto& pair) { return pair.second == hand; });
-      if (!holds && bot_.getGripperPos(number) < kOpenEnough * infoOf(number).max_width) open(hand);
+    world_.look();
+    openEmptyHands();
+    index_ = plan_.actions.size();  // no action has begun
+    if (std::string failure = moveToStart(); !failure.empty()) return fail(failure);
+    index_ = 0;
+    step_ = Step::motion;
+    return {TaskEventKind::start, -1, {}, ""};
+  }
+
+  TaskEvent motion() {
+    world_.look();
+    if (index_ == plan_.actions.size()) return finish();
+    std::string failure = deviation(false);
+    if (failure.empty()) failure = follow(ActionMotion(plan_, plan_.segments[index_]));
+    if (is_stopped_) return stopped();
+    world_.look();
+    if (failure.empty()) failure = deviation(true);
+    if (!failure.empty()) return fail(failure);
+    step_ = Step::grip;
+    return {TaskEventKind::motion, int(index_), plan_.actions[index_], ""};
+  }
+
+  TaskEvent grip() {
+    world_.look();
+    std::string failure = deviation(true);
+    if (failure.empty()) failure = moveFingers(plan_.actions[index_]);
+    world_.look();
+    if (failure.empty()) failure = deviation(true);
+    if (!failure.empty()) return fail(failure);
+    step_ = Step::motion;
+    ++result.done;
+    return {TaskEventKind::grip, int(index_), plan_.actions[index_++], ""};
+  }
+
+  TaskEvent finish() {
+    const Words missed = world_.missedGoals(plan_.goal, world_.scene());
+    if (!missed.empty()) return fail(join(missed, ", ") + " does not hold");
+    result.feasible = true;
+    return end("");
+  }
+
+  TaskEvent fail(const std::string& message) {
+    const bool is_action = index_ < plan_.actions.size();  // else before the first one, or after the last one
+    failure_ = is_action ? cat(planText({plan_.actions[index_]}), ": ", message) : message;
+    step_ = Step::fail;
+    try {
+      if (is_action) backOut(index_);
+    } catch (const RobotFault&) {
+      recovers();
+    }
+    return {TaskEventKind::failure, is_action ? int(index_) : -1, is_action ? plan_.actions[index_] : TaskAction(),
+            failure_};
+  }
+
+  /// Clears a fault of the robot; whether that worked.
+  bool recovers() {
+    try {
+      bot_.recover();
+      return true;
+    } catch (const RobotFault&) {
+      return false;
     }
   }
 
-  void requireMovable(const std::string& obj) const {
-    if (!(seen_.getFrame(obj).getMass() > 0.))
-      throw ValueError(cat("execute: '", obj,
-                           "' has no mass, so that it stays where it is in the simulated world; call "
-                           "C.getFrame('",
-                           obj, "').setMass(...) before BotOp(C)"));
-    for (const auto& [door, dof] : doors_) {
-      for (const Frame& below : seen_.getFrame(door).getSubtree())
-        if (below.getName() == obj)
-          throw ValueError(cat("execute: '", obj, "' hangs below '", door,
-                               "', so that it is a part of it in the simulated world; call C.getFrame('", obj,
-                               "').unLink() before BotOp(C)"));
+  TaskEvent repair() {
+    if (repairs_left_ == 0) return end(failure_);
+    world_.look();
+    --repairs_left_;
+    TaskPlan plan = plan_.repair(world_.scene(), options_.repair);
+    if (!plan.feasible()) return end(cat(failure_, "; no plan leads on: ", plan.message));
+    ++result.repairs;
+    plan_ = std::move(plan);
+    plan_.requireMotion("execute");
+    world_.setPlan(plan_);
+    handles_.clear();
+    step_ = Step::begin;
+    return {TaskEventKind::repair, -1, {}, plan_.actions.empty() ? plan_.summary() : planText(plan_.actions)};
+  }
+
+  TaskEvent stopped() {
+    bot_.hold();
+    world_.advance(kComesToRest);
+    return end("the execution was stopped by its caller");
+  }
+
+  TaskEvent end(const std::string& message) {
+    step_ = Step::ended;
+    result.message = message;
+    result.C = world_.scene();
+    return {TaskEventKind::end, -1, {}, result.str()};
+  }
+
+  /// The first deviation from the plan at the beginning or the end of the motion of the present action, or "". If new
+  /// plans may follow, the next object and its place are compared more closely.
+  std::string deviation(bool at_end) const {
+    const RowRange& rows = plan_.segments[index_];
+    const bool is_close = repairs_left_ > 0 && !at_end;
+    const TaskAction& action = plan_.actions[index_];
+    return world_.deviation(plan_.scenes[index_], plan_.path.row(at_end ? rows.end - 1 : rows.begin),
+                            is_close ? Words(action.begin() + 1, action.end()) : Words());
+  }
+
+  // --- motions
+
+  /// Moves to the beginning of the plan. Returns the failure, or "".
+  std::string moveToStart() {
+    if (plan_.actions.empty()) return "";
+    VectorXd start = plan_.path.row(0).transpose();
+    const double off = world_.jointErrors(start).maxCoeff();
+    if (off <= kThere) return "";
+    Config C = world_.scene();
+    const VectorXd q = bot_.get_q();
+    for (const auto& [door, dof] : world_.doors()) start[dof] = q[dof];
+    C.setJointState(q);
+    ignorePairs(C, wedgedPairs(C, wordsOf(plan_.start, "is_gripper"), wordsOf(plan_.start, "is_object"), kOverlap));
+    PlanOptions options;
+    options.margin = kStartMargin;
+    options.max_start_penetration = kStartInContact;
+    if (plan_.limits.rows() == 2) {
+      options.velocity = plan_.limits.row(0).transpose();
+      options.acceleration = plan_.limits.row(1).transpose();
     }
-  }
-
-  const GripperInfo& infoOf(int number) const { return bot_.getInfo().grippers[std::size_t(number)]; }
-
-  /// The deviation of each joint of the robot from q, without doors.
-  VectorXd jointErrors(const VectorXd& q) { return (bot_.get_q() - q).cwiseAbs()(driven_); }
-
-  MatrixXd pathOf(std::size_t i) const {
-    return plan_.path.middleRows(plan_.segments[i].begin, plan_.segments[i].size());
-  }
-  VectorXd timesOf(std::size_t i) const {
-    return plan_.times.segment(plan_.segments[i].begin, plan_.segments[i].size());
-  }
-
-  /// Executes the motion of an action.
-  void move(std::size_t i) {
-    const MatrixXd path = pathOf(i);
-    const VectorXd times = timesOf(i);
-    const Eigen::Index last = times.size() - 1;
-    if (times[last] > times[0]) {
-      bot_.move(path.bottomRows(last), VectorXd(times.tail(last).array() - times[0]));
-      bot_.wait(seen_, false);
+    MotionPlan motion = planMotion(C, start, options);
+    if (!motion.feasible()) {
+      options.margin = 0.;
+      motion = planMotion(C, start, options);
     }
-    bot_.sync(seen_, kComesToRest);
+    if (!motion.feasible())
+      return cat("the robot is ", fixed(off, 3),
+                 " (rad or m) beside the start of the plan, and no motion leads there: ", motion.message);
+    return follow(motion);
+  }
+
+  /// Follows a motion, and watches it. Returns the reason for which it stopped, or "".
+  std::string follow(const Trajectory& motion) {
+    if (!(motion.duration() > 0.)) return "";
+    FollowOptions options;
+    options.tolerance = kFar;
+    try {
+      bot_.follow(motion, options);
+    } catch (const ValueError& error) {
+      return error.what();
+    }
+    if (limits_.size() > 0) bot_.get_tauExternal();  // its mean begins again
+    while (bot_.getTimeToEnd() > 0. && !is_stopped_) {
+      world_.advance(kQueryInterval);
+      std::string failure = unexpectedContact();
+      if (failure.empty()) failure = world_.slipped();
+      if (failure.empty()) continue;
+      bot_.hold();
+      world_.advance(kComesToRest);
+      return failure;
+    }
+    if (!is_stopped_) world_.advance(kComesToRest);
+    return "";
+  }
+
+  std::string unexpectedContact() {
+    if (limits_.size() == 0) return "";
+    const VectorXd effort = bot_.get_tauExternal().cwiseAbs();
+    Eigen::Index joint = 0;
+    if (!(effort.allFinite() && (effort - limits_).maxCoeff(&joint) > 0.)) return "";
+    return cat("unexpected contact: joint '", bot_.getInfo().joints[std::size_t(joint)], "' feels ",
+               fixed(effort[joint], 1), " N m or N; the limit is ", fixed(limits_[joint], 1));
   }
 
   /// After a failure: opens hands that have lost their objects, and reverses the motion until the robot is
   /// collision-free.
   void backOut(std::size_t i) {
-    const std::map<std::string, std::string> held = held_, handles = handles_;
+    const std::map<std::string, std::string> held = world_.held(), handles = handles_;
     for (const auto& [obj, hand] : held) {
-      if (touches(hand, obj)) continue;
-      held_.erase(obj);
+      if (world_.touches(hand, obj)) continue;
+      world_.release(obj);
       open(hand, obj);
     }
     for (const auto& [handle, hand] : handles) release(handle, hand);
-    MatrixXd path = pathOf(i);
-    const VectorXd times = timesOf(i), q = bot_.get_q();
-    for (const auto& [door, dof] : doors_) path.col(dof).setConstant(q[dof]);
-    const Eigen::Index last = path.rows() - 1;
-    if (isGuided(plan_.actions[i]) || jointErrors(path.row(last)).maxCoeff() > kFar) return;
-    Config C = scene();
-    Eigen::Index free = last;
+    const RowRange& rows = plan_.segments[i];
+    MatrixXd path = plan_.path.middleRows(rows.begin, rows.size());
+    const VectorXd times = plan_.times.segment(rows.begin, rows.size()), q = bot_.get_q();
+    for (const auto& [door, dof] : world_.doors()) path.col(dof).setConstant(q[dof]);
+    Eigen::Index at = 0;  // the row that is nearest to the robot
+    for (Eigen::Index row = 1; row < path.rows(); ++row)
+      if (world_.jointErrors(path.row(row)).maxCoeff() <= world_.jointErrors(path.row(at)).maxCoeff()) at = row;
+    if (isGuided(plan_.actions[i]) || world_.jointErrors(path.row(at)).maxCoeff() > kBlocked) return;
+    Config C = world_.scene();
+    if (isClear(C, q)) return;
+    Eigen::Index free = at;
     while (free >= 0 && !isClear(C, path.row(free))) --free;
-    if (free < 0 || free == last) return;
-    const Eigen::Index count = last - free;
-    bot_.move(path.middleRows(free, count).colwise().reverse(),
-              VectorXd(kReverseSlowdown * (times[last] - times.segment(free, count).array()).reverse()));
-    bot_.wait(seen_, false);
+    if (free < 0) return;
+    const Eigen::Index count = std::max<Eigen::Index>(at - free, 1);
+    const VectorXd back =
+        (kReverseSlowdown * (times[at] - times.segment(free, count).array()) + kComesToRest).reverse();
+    try {
+      bot_.move(path.middleRows(free, count).colwise().reverse(), back);
+    } catch (const ValueError&) {
+      return;  // beyond limits: a new plan starts here
+    }
+    while (bot_.getTimeToEnd() > 0.) world_.advance(kQueryInterval);
+  }
+
+  // --- hands
+
+  const GripperInfo& infoOf(int number) const { return bot_.getInfo().grippers[std::size_t(number)]; }
+
+  void openEmptyHands() {
+    for (const auto& [hand, number] : grippers_) {
+      const bool holds = std::ranges::any_of(world_.held(), [&](const auto& pair) { return pair.second == hand; });
+      if (!holds && bot_.getGripperPos(number) < kOpenEnough * infoOf(number).max_width) open(hand);
+    }
   }
 
   /// Closes or opens grippers for an action. Returns the failure, or "".
-  std::string grip(const TaskAction& action) {
+  std::string moveFingers(const TaskAction& action) {
     const std::string& obj = action[1];
     std::string failure;
     if (isPick(action) || action[0] == "handover") {
       failure = close(action[3], obj);
       if (action[0] == "handover" && failure.empty()) open(action[2], obj);
-      held_[obj] = action[3];
+      world_.take(obj, action[3]);
     } else if (isHold(action)) {
       handles_[action[2]] = action[3];
       failure = close(action[3], action[2]);
@@ -201,9 +335,9 @@ class Run {
       release(action[2], action[3]);
     } else if (isPlace(action)) {
       open(action[2], obj);
-      held_.erase(obj);
+      world_.release(obj);
     }
-    bot_.sync(seen_, kComesToRest);
+    world_.advance(kComesToRest);
     return failure;
   }
 
@@ -215,14 +349,16 @@ class Run {
   std::string close(const std::string& hand, const std::string& obj) {
     const auto gripper = grippers_.find(hand);
     if (gripper == grippers_.end()) {
-      bot_.attach(hand, obj);
+      if (world_.isSimulated()) bot_.attach(hand, obj);
       return "";
     }
     const int number = gripper->second;
     bot_.gripperCloseGrasp(number, obj, std::min(kGripForce, infoOf(number).max_force));
     waitFor(number);
-    const bool is_empty = bot_.getGripperPos(number) < infoOf(number).min_width + kEmpty;
-    return is_empty ? cat("'", hand, "' closed on nothing") : "";
+    if (bot_.getGripperPos(number) < infoOf(number).min_width + kEmpty) return cat("'", hand, "' closed on nothing");
+    const double force = world_.gripForce(hand, obj);
+    return force < kWeak ? cat("'", hand, "' closed, and presses on '", obj, "' with ", fixed(force, 1), " N only")
+                         : "";
   }
 
   void open(const std::string& hand, const std::string& obj = {}) {
@@ -230,112 +366,84 @@ class Run {
     if (gripper != grippers_.end()) {
       bot_.gripperMove(gripper->second, infoOf(gripper->second).max_width);
       waitFor(gripper->second);
-    } else if (!obj.empty()) {
+    } else if (!obj.empty() && world_.isSimulated()) {
       bot_.detach(hand, obj);
     }
   }
 
   void waitFor(int gripper) {
     for (int k = 0; k < int(std::lround(kTimeout / kQueryInterval)); ++k) {
-      bot_.sync(seen_, kQueryInterval);
+      world_.advance(kQueryInterval);
       if (bot_.gripperDone(gripper)) return;
     }
   }
 
-  /// Returns the first deviation from the plan at the beginning or the end of the motion of an action, or "".
-  std::string deviation(std::size_t i, bool at_end) {
-    Config planned = plan_.scenes[i];
-    const RowRange& rows = plan_.segments[i];
-    const VectorXd q = plan_.path.row(at_end ? rows.end - 1 : rows.begin);
-    planned.setJointState(q);
-    Eigen::Index worst = 0;
-    if (const double most = jointErrors(q).maxCoeff(&worst); most > kFar) {
-      const std::string joint = planned.getJointNames()[std::size_t(driven_[std::size_t(worst)])];
-      return cat("the robot is held up: joint '", joint, "' is ", fixed(most, 3), " off");
-    }
-    for (const auto& [door, dof] : doors_) {
-      if (const double off = std::abs(seen_.getJointState()[dof] - q[dof]); off > kFar)
-        return cat("'", door, "' is ", fixed(off, 3), " (m or rad) away from where it should be");
-    }
-    for (const std::string& obj : objects_)
-      if (std::string failure = objectDeviation(obj, planned); !failure.empty()) return failure;
-    return "";
-  }
-
-  std::string objectDeviation(const std::string& obj, const Config& planned) const {
-    if (const auto hand = held_.find(obj); hand != held_.end()) {
-      const double off = (placeIn(seen_, hand->second, obj) - placeIn(planned, hand->second, obj)).norm();
-      return off > kSlipped ? cat("'", obj, "' is not in '", hand->second, "': it is ", fixed(off, 3), " m off") : "";
-    }
-    const Frame is = seen_.getFrame(obj), shall = planned.getFrame(obj);
-    const double off = (is.getPosition() - shall.getPosition()).norm();
-    if (off > kOff) return cat("'", obj, "' is ", fixed(off, 3), " m away from where it should be");
-    const bool is_level = is.getRotationMatrix().col(2).dot(shall.getRotationMatrix().col(2)) >= kUpright;
-    return is_level ? "" : cat("'", obj, "' has tilted");
-  }
-
-  /// Returns the literals of the goal about places and doors that do not hold.
-  Words missedGoals(const Config& C) const {
-    Words missed;
-    for (const Literal& literal : plan_.goal) {
-      if (literal.predicate != "on" || literal.arguments.size() != 2) continue;
-      const std::optional<Frame> parent = C.getFrame(literal.arguments[1]).getParent();
-      if ((parent && parent->getName() == literal.arguments[0]) == literal.negated) missed.push_back(literal.str());
-    }
-    const VectorXd q = seen_.getJointState();
-    const std::vector<TaskDoor> doors = doorsOf(seen_);
-    for (const Literal& literal : plan_.goal) {
-      if ((literal.predicate != "opened" && literal.predicate != "closed") || literal.arguments.size() != 1) continue;
-      const auto door = std::ranges::find(doors, literal.arguments[0], &TaskDoor::name);
-      const bool holds = door != doors.end() && door->stateAt(q[door->dof]) == literal.predicate;
-      if (holds == literal.negated) missed.push_back(literal.str());
-    }
-    return missed;
-  }
-
-  bool touches(const std::string& hand, const std::string& obj) const { return gapOf(seen_, obj, hand) <= kTouch; }
-
-  /// The observed world, with held objects attached to hands, and standing objects to their places.
-  Config scene() const {
-    Config C = seen_;
-    for (const auto& [obj, hand] : held_)
-      if (touches(hand, obj)) hang(C, obj, hand);
-    Words objects = objects_;
-    std::ranges::sort(objects);
-    std::ranges::stable_sort(objects, {}, [&](const std::string& obj) { return C.getFrame(obj).getPosition().z(); });
-    for (const std::string& obj : objects) {
-      if (!holderOf(C, obj, hands_).empty()) continue;
-      if (const std::string under = placeBelow(C, obj, places_); !under.empty()) hang(C, obj, under);
-    }
-    return C;
-  }
-
-  const TaskPlan& plan_;
   BotOp& bot_;
-  Config& seen_;
-  const Words hands_, objects_, places_;
+  const ExecutionOptions options_;
+  ObservedWorld world_;
+  TaskPlan plan_;
+  VectorXd limits_;                             ///< of external efforts; empty: none
   std::map<std::string, int> grippers_;         ///< indices by the names of hands
-  std::map<std::string, std::string> held_;     ///< by object: the hand that holds it
   std::map<std::string, std::string> handles_;  ///< by handle: the hand that holds it
-  std::map<std::string, Eigen::Index> doors_;   ///< indices of doors in q
-  std::vector<Eigen::Index> driven_;            ///< indices of the other joints
+  Step step_ = Step::begin;
+  std::size_t index_ = 0;  ///< of the present action
+  std::string failure_;
+  int repairs_left_ = 0;
+  std::atomic<bool> is_stopped_ = false;
 };
 
-}  // namespace
+TaskRun::TaskRun(const TaskPlan& plan, BotOp& bot, Config& seen, ExecutionOptions options)
+    : impl_(std::make_unique<Impl>(plan, bot, seen, std::move(options))) {}
+TaskRun::TaskRun(TaskRun&&) noexcept = default;
+TaskRun::~TaskRun() = default;
+
+std::optional<TaskEvent> TaskRun::next() { return impl_->next(); }
+void TaskRun::stop() { impl_->stop(); }
+const TaskExecution& TaskRun::result() const { return impl_->result; }
+const TaskPlan& TaskRun::plan() const { return impl_->plan(); }
+
+std::string taskEventName(TaskEventKind kind) {
+  constexpr std::array names = {"start", "motion", "grip", "failure", "repair", "end"};
+  return names[std::size_t(kind)];
+}
+
+std::string TaskEvent::str() const {
+  std::string text = taskEventName(kind);
+  if (!message.empty()) return cat(text, ": ", message);
+  return action.empty() ? text : cat(text, ": ", planText({action}));
+}
 
 std::string TaskExecution::str() const {
-  return cat(feasible ? "reached the goal" : "stopped", " after ", done, done == 1 ? " action" : " actions",
-             feasible ? "" : ": ", message);
+  std::string text =
+      cat(feasible ? "reached the goal" : "stopped", " after ", done, done == 1 ? " action" : " actions");
+  if (repairs > 0) text += cat(" and ", repairs, repairs == 1 ? " repair" : " repairs");
+  return feasible ? text : cat(text, ": ", message);
 }
 
-TaskExecution execute(const TaskPlan& plan, BotOp& bot, Config& seen) {
+Config worldOf(BotOp& bot, const TaskPlan& plan) {
   plan.requireScenes("execute");
-  return Run(plan, bot, seen).toTheEnd();
+  try {
+    return bot.getWorld();
+  } catch (const RobotFault&) {  // a real robot
+    if (plan.scenes.empty()) throw;
+    Config scene = plan.scenes.front();
+    scene.setJointState(bot.get_q());
+    return scene;
+  }
 }
 
-TaskExecution TaskPlan::execute(BotOp& bot) const {
-  Config seen = bot.getWorld();
-  return kinegraph::execute(*this, bot, seen);
+TaskExecution execute(const TaskPlan& plan, BotOp& bot, Config& seen, const ExecutionOptions& options) {
+  TaskRun run(plan, bot, seen, options);
+  while (const std::optional<TaskEvent> event = run.next())
+    if (options.callback && !options.callback(*event)) run.stop();
+  return run.result();
+}
+
+TaskExecution TaskPlan::execute(BotOp& bot) const { return execute(bot, {}); }
+
+TaskExecution TaskPlan::execute(BotOp& bot, const ExecutionOptions& options) const {
+  Config seen = worldOf(bot, *this);
+  return kinegraph::execute(*this, bot, seen, options);
 }
 
 }  // namespace kinegraph

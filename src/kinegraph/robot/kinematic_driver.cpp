@@ -11,7 +11,7 @@ KinematicDriver::KinematicDriver(const Config& config)
       target_velocity_(VectorXd::Zero(target_.size())),
       velocity_(target_velocity_) {
   for (const SceneGripper& found : findGrippers(config_)) {
-    Gripper gripper{found, {}, found.opening * config_.getFrame(found.joint).getJointState()[0], true, {}};
+    Gripper gripper{found, {}, found.opening.widthAt(config_.getFrame(found.joint).getJointState()[0]), true, {}};
     gripper.command.width = gripper.width;
     grippers_.push_back(std::move(gripper));
   }
@@ -68,7 +68,7 @@ void KinematicDriver::moveFingers(Gripper& gripper, double period) {
   const double step = gripper.command.speed * period, left = gripper.command.width - gripper.width;
   gripper.is_done = std::abs(left) <= step;
   gripper.width = gripper.is_done ? gripper.command.width : gripper.width + std::copysign(step, left);
-  config_.setJointState(VectorXd::Constant(1, gripper.width / gripper.scene.opening), {gripper.scene.joint});
+  config_.setJointState(VectorXd::Constant(1, gripper.scene.opening.positionAt(gripper.width)), {gripper.scene.joint});
   if (!gripper.is_done || !gripper.command.grasp || gripper.command.object.empty()) return;
   gripper.held = gripper.command.object;
   attach(gripper.scene.info.name, gripper.held);

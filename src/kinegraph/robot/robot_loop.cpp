@@ -237,7 +237,9 @@ void RobotLoop::execute(const RecoverRobot&) {
   fault_.clear();
   clock_pause_ = 0.;
   stiffness_.resize(0, 0);
-  accept(driver_->read());
+  const RobotState state = driver_->read();
+  commanded_ = state.q;  // the distance to the last command caused the fault
+  accept(state);
   if (mode_ != LoopMode::fault) restAtState();
 }
 

@@ -1,7 +1,5 @@
 #include "kinegraph/robot/scene_grippers.h"
 
-#include <cmath>
-
 namespace kinegraph {
 
 namespace {
@@ -28,29 +26,27 @@ bool differs(const Pose& a, const Pose& b) { return !(a.inverse() * b).isIdentit
 
 std::vector<SceneGripper> findGrippers(const Config& config) {
   std::vector<SceneGripper> grippers;
-  for (const auto& frame : config.scene()->frames()) {
-    const auto& joint = frame->joint;
-    if (!joint || joint->active || joint->mimic || joint->dofs() != 1 || !frame->parent) continue;
+  for (HandFingers& hand : handFingersOf(config)) {
+    if (hand.maxWidth() == 0. && hand.per_position == 0.) continue;
+    const FrameData& frame = *config.scene()->find(hand.joint);
     SceneGripper gripper;
-    gripper.opening = 0.;
-    for (const auto& other : config.scene()->frames()) {
-      if (!other->moves() || &dofSource(*other) != frame.get()) continue;
-      gripper.opening += std::abs(motionScale(*other));
-      gripper.fingers.push_back(other->name);
+    gripper.joint = hand.joint;
+    gripper.fingers = hand.fingers;
+    gripper.info.name = nameOf(frame);
+    double per_position = hand.per_position;
+    if (hand.q.size() > 0) {
+      gripper.info.min_width = hand.minWidth();
+      gripper.info.max_width = hand.maxWidth();
+      if (per_position == 0.)
+        per_position = (hand.maxWidth() - hand.minWidth()) / (hand.q[hand.q.size() - 1] - hand.q[0]);
     }
-    if (gripper.fingers.size() < 2 || gripper.opening == 0.) continue;
-    gripper.joint = frame->name;
-    gripper.info.name = nameOf(*frame);
-    if (joint->lower.size() == 1) {
-      gripper.info.min_width = gripper.opening * joint->lower[0];
-      gripper.info.max_width = gripper.opening * joint->upper[0];
-    }
-    const Node* node = frame->attributes->find("ctrl_limits");
+    const Node* node = frame.attributes->find("ctrl_limits");
     const NumberArray* limits = node ? node->value.as<NumberArray>() : nullptr;
     if (limits && limits->numbers.size() > 0 && limits->numbers[0] > 0.)
-      gripper.info.max_speed = gripper.opening * limits->numbers[0];
+      gripper.info.max_speed = per_position * limits->numbers[0];
     if (limits && limits->numbers.size() > 1 && limits->numbers[1] > 0.) gripper.info.max_force = limits->numbers[1];
-    grippers.push_back(gripper);
+    gripper.opening = std::move(hand);
+    grippers.push_back(std::move(gripper));
   }
   return grippers;
 }

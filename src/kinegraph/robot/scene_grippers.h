@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kinegraph/robot/robot_driver.h"
+#include "kinegraph/scene/hand_fingers.h"
 
 namespace kinegraph {
 
@@ -8,7 +9,7 @@ namespace kinegraph {
 struct SceneGripper {
   GripperInfo info;                  ///< named after a frame of its link that ends in "gripper", else after the joint
   std::string joint;                 ///< the frame of the joint
-  double opening = 1.;               ///< m of width per unit of the joint's q
+  HandFingers opening;               ///< the opening in m, whatever moves the fingers
   std::vector<std::string> fingers;  ///< the frames of the joint and of those that mimic it
 };
 

@@ -47,7 +47,7 @@ void SimulatedDriver::stop(const std::string&) {
 void SimulatedDriver::moveGripper(const GripperCommand& command) {
   if (command.gripper < 0 || std::size_t(command.gripper) >= grippers_.size()) return RobotDriver::moveGripper(command);
   const SceneGripper& gripper = grippers_[std::size_t(command.gripper)];
-  const double of_finger = command.speed / double(gripper.fingers.size());
+  const double of_finger = .5 * command.speed;
   if (command.grasp) {
     simulation_.closeGripper(gripper.info.name, gripper.info.min_width, of_finger, command.force);
   } else {
@@ -91,6 +91,14 @@ void SimulatedDriver::stepCompliant(double period) {
 }
 
 void SimulatedDriver::setFramePose(const std::string& frame, const Pose& pose) {
+  const std::vector<Frame> free = simulation_.getFreeFrames();
+  for (std::size_t i = 0; i < free.size(); ++i) {  // motors and grippers keep their references
+    if (free[i].getName() != frame) continue;
+    SimulationState state = simulation_.getState();
+    state.freePos.row(Eigen::Index(i)) << pose.p.transpose(), wxyz(pose.q).transpose();
+    simulation_.setState(state);
+    return;
+  }
   const MatrixXd velocities = simulation_.get_frameVelocities();
   const VectorXd joint_velocities = simulation_.get_qDot();
   config_.getFrame(frame).setPose(pose);

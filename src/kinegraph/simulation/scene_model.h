@@ -5,6 +5,7 @@
 #include <set>
 #include <vector>
 
+#include "kinegraph/scene/hand_fingers.h"
 #include "kinegraph/simulation/physics.h"
 #include "kinegraph/simulation/scene_bodies.h"
 #include "kinegraph/simulation/simulation_options.h"
@@ -48,6 +49,7 @@ struct GripperJoint {
   std::vector<double> ratio;   ///< motion of each joint per motion of the gripper joint
   double lower = 0., upper = 0.;
   double stiffness = 0.;
+  HandFingers opening;
 };
 
 /// Address of a sensor's values, in the frame's axes.

@@ -53,6 +53,12 @@ std::unique_ptr<World> Simulation::Impl::makeWorld() {
     if (frame->tree == &scene) at.accelerations.insert(frame->id);
   }
   auto model = std::make_shared<SceneModel>(makeSceneModel(scene, options, at));
+  const std::vector<HandFingers> hands =
+      model->grippers.empty() ? std::vector<HandFingers>() : handFingersOf(Config(scene));
+  for (GripperJoint& gripper : model->grippers)
+    for (const HandFingers& hand : hands)
+      if (hand.joint == scene.frames()[std::size_t(model->joints[std::size_t(gripper.joint)].frame)]->name)
+        gripper.opening = hand;
   auto made = std::make_unique<World>(model, options, engine == SimulationEngine::kinematic);
   frames = scene.frames();
   revision = scene.structureRevision();

@@ -68,9 +68,10 @@ void Simulation::closeGripper(const std::string& gripper, double width, double s
   const GripperJoint& joint = s.world->scene().grippers[g];
   GripperTask& task = s.world->grippers()[g];
   task.reference = s.world->positions()[joint.qpos[0]];
-  task.target = std::clamp(width / double(joint.qpos.size()), joint.lower, joint.upper);
-  task.speed = speed;
-  task.force = force;
+  task.target = std::clamp(joint.opening.positionAt(width), joint.lower, joint.upper);
+  const double slope = std::abs(joint.opening.slopeAt(task.target)), parts = double(joint.qpos.size());
+  task.speed = 2. * speed / slope;
+  task.force = force * slope / parts;  // of each joint, m or rad
   task.still = 0.;
   s.record(Recording::Call::Kind::gripper, {width, speed, force}, {gripper});
 }
@@ -81,7 +82,7 @@ bool Simulation::gripperIsDone(const std::string& gripper) const {
 
 double Simulation::getGripperWidth(const std::string& gripper) const {
   const GripperJoint& joint = impl_->world->scene().grippers[impl_->gripper(gripper, "Simulation.getGripperWidth")];
-  return double(joint.qpos.size()) * impl_->world->positions()[joint.qpos[0]];
+  return joint.opening.widthAt(impl_->world->positions()[joint.qpos[0]]);
 }
 
 void Simulation::attach(const std::string& from, const std::string& to) {

@@ -5,6 +5,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/geometry/distance/collision_body.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 
 namespace kinegraph {
@@ -15,6 +16,19 @@ std::vector<Vector3d> shapePoints(const Frame& frame) {
   const Geometry& geometry = *shape->geometry;
   if (geometry.mesh && geometry.type != ShapeType::ssCvx) return geometry.mesh->vertices;
   return tessellate(geometry).vertices;
+}
+
+std::vector<Vector3d> boxCorners(const Frame& frame) {
+  const auto& shape = frame.data().shape;
+  if (!shape) return {};
+  const std::shared_ptr<const CollisionBody> body = shape->body();
+  const Vector3d half = body->boundHalf().array() + body->radius();
+  std::vector<Vector3d> corners;
+  for (int k = 0; k < 8; ++k) {
+    const Vector3d signs(k & 1 ? 1. : -1., k & 2 ? 1. : -1., k & 4 ? 1. : -1.);
+    corners.emplace_back(body->boundCenter() + half.cwiseProduct(signs));
+  }
+  return corners;
 }
 
 Eigen::AlignedBox3d boxAround(const Frame& frame) {

@@ -10,6 +10,9 @@ namespace kinegraph {
 /// Returns vertices of the surface of a shape, in frame coordinates, m; none without a surface.
 std::vector<Vector3d> shapePoints(const Frame& frame);
 
+/// Returns the corners of a box around a shape, in frame coordinates, m; none without a shape.
+std::vector<Vector3d> boxCorners(const Frame& frame);
+
 /// Returns the box around shapePoints along the axes of the frame; empty without points.
 Eigen::AlignedBox3d boxAround(const Frame& frame);
 

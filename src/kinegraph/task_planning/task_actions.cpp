@@ -94,6 +94,9 @@ class StartFacts {
 
   std::vector<Literal> with(const std::vector<Literal>& goal) {
     const std::vector<Frame> frames = C_.getFrames();
+    std::erase_if(said_, [&](const Literal& fact) {  // the base of a robot is no object
+      return fact.predicate == "is_object" && carriesJoints(C_.getFrame(fact.arguments[0]));
+    });
     const bool names_grippers = has("is_gripper"), names_places = has("is_place");
     if (!names_grippers) {
       for (const Frame& f : frames)
@@ -128,6 +131,13 @@ class StartFacts {
   }
 
  private:
+  static bool carriesJoints(const Frame& frame) {
+    return std::ranges::any_of(frame.getSubtree(), [](const Frame& below) {
+      const auto& joint = below.data().joint;
+      return joint && joint->active && joint->dofs() > 0;
+    });
+  }
+
   bool has(const std::string& predicate) const {
     return std::ranges::any_of(said_, [&](const Literal& fact) { return fact.predicate == predicate; });
   }
@@ -168,7 +178,8 @@ bool endsSliding(const TaskAction& action) {
   return !action.empty() && (action[0] == "push_end" || action[0] == "hook_end");
 }
 
-void requireWords(const TaskAction& action) {
+/// The words of the actions of defaultDomain, by name.
+static const std::map<std::string, std::string>& wordsOfActions() {
   static const std::map<std::string, std::string> known = {
       {"pick", "obj from hand"},
       {"lift", "obj from hand"},
@@ -184,7 +195,14 @@ void requireWords(const TaskAction& action) {
       {"open", "door handle hand"},
       {"close", "door handle hand"},
   };
+  return known;
+}
+
+bool isDefaultAction(const TaskAction& action) { return !action.empty() && wordsOfActions().contains(action[0]); }
+
+void requireWords(const TaskAction& action) {
   if (action.empty()) throw ValueError("planTask: an action has no words");
+  const std::map<std::string, std::string>& known = wordsOfActions();
   const auto found = known.find(action[0]);
   if (found == known.end()) return;
   const auto count = std::size_t(std::ranges::count(found->second, ' ')) + 2;

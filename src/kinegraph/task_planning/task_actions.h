@@ -24,6 +24,9 @@ bool startsSliding(const TaskAction& action);
 /// An object has been slid to a place: push_end (obj hand to), hook_end (obj hook to tool hand).
 bool endsSliding(const TaskAction& action);
 
+/// Whether an action has the name of an action of defaultDomain.
+bool isDefaultAction(const TaskAction& action);
+
 /// Throws ValueError for an empty action, and for a default action with too few words.
 void requireWords(const TaskAction& action);
 

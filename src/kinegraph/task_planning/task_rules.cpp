@@ -7,6 +7,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
+#include "kinegraph/scene/hand_fingers.h"
 #include "kinegraph/task_planning/shape_points.h"
 #include "kinegraph/task_planning/task_tools.h"
 #include "kinegraph/task_planning/task_waypoints.h"
@@ -21,7 +22,8 @@ using Body = ShapeKind::Body;
 using Variants = std::vector<std::string>;
 
 constexpr double kFingers = .08;             ///< m: default opening of a hand with a palm
-constexpr double kInside = .02;              ///< m: distance of a grasp from the ends of an object
+constexpr double kInside = .012;             ///< m: distance of a grasp from the ends of an object
+constexpr double kInsideHandle = .02;        ///< m: the same for handles
 constexpr double kHookGap = 5e-4;            ///< m: between a hook and the object at the begin of a pull
 constexpr double kAbove = .003;              ///< m: clearance of a pulling tool from the ground
 constexpr double kPlay = .002;               ///< m: by which the lowest tool may be higher
@@ -70,7 +72,8 @@ void nearCenter(TaskWaypoints& w, double time, const std::string& hand, const st
     w.komo().addObjective({time}, F::positionRel, {hand, obj}, O::sos, 3e0, center);
 }
 
-void grasp(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj, const std::string& variant) {
+void grasp(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj, const std::string& variant,
+           double inside = kInside) {
   const std::string palm = palmOf(w.C, hand);
   const Frame thing = w.C.getFrame(obj);
   const std::vector<double> size = thing.getSize();
@@ -80,9 +83,9 @@ void grasp(TaskWaypoints& w, double time, const std::string& hand, const std::st
   } else if (variant == "center") {
     w.komo().addObjective({time}, F::positionDiff, {hand, obj}, O::eq, 1e1);
   } else if (variant == "around") {
-    w.m->grasp_cylinder(time, hand, obj, palm, std::min(kInside, .25 * size[0]));
+    w.m->grasp_cylinder(time, hand, obj, palm, std::min(inside, .25 * size[0]));
   } else if (isBox(thing)) {
-    w.m->grasp_box(time, hand, obj, palm, variant, std::min(kInside, .25 * leastSide(size)));
+    w.m->grasp_box(time, hand, obj, palm, variant, std::min(inside, .25 * leastSide(size)));
   } else {
     const std::size_t axis = std::string_view("xyz").find(variant);
     if (variant.size() != 1 || axis == std::string_view::npos)
@@ -164,7 +167,7 @@ void push(TaskWaypoints& w, double time, const TaskAction& action, const std::st
 }
 
 void hold(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
-  grasp(w, time, action[3], action[2], variant);
+  grasp(w, time, action[3], action[2], variant, kInsideHandle);
 }
 
 void guide(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
@@ -225,6 +228,26 @@ std::optional<double> opening(const Config& C, const std::string& hand) {
   const Node* said = C.getFrame(hand).attributes().find("opening");
   if (const double* width = said ? said->value.as<double>() : nullptr) return *width;
   return palmOf(C, hand).empty() ? std::nullopt : std::optional(kFingers);
+}
+
+Config withOpenings(const Config& C, const std::vector<std::string>& hands) {
+  Config scene = C;
+  const std::vector<HandFingers> all = handFingersOf(C);
+  for (const std::string& hand : hands) {
+    Frame frame = scene.getFrame(hand);
+    if (frame.attributes().find("opening")) continue;
+    std::optional<Frame> head = frame;
+    while (head->getJointType() == JointType::none && head->getParent()) head = head->getParent();
+    const auto isBelow = [&](const HandFingers& fingers) {
+      for (std::optional<Frame> up = scene.getFrame(fingers.joint); up; up = up->getParent())
+        if (*up == *head) return true;
+      return false;
+    };
+    const auto found = std::ranges::find_if(all, isBelow);
+    if (found != all.end() && found->maxWidth() > 0.)
+      frame.editAttributes().set({"opening", {}, {}, {found->maxWidth()}, {}});
+  }
+  return scene;
 }
 
 Variants graspVariants(const Config& C, const std::string& obj, const std::string& hand) {

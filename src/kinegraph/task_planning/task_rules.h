@@ -41,8 +41,12 @@ TaskRules defaultTaskRules(bool upright = false);
 std::string palmOf(const Config& C, const std::string& hand);
 
 /// Returns the opening of the fingers of a hand, m; none for a hand without fingers. The attribute `opening` of its
-/// frame overrides the default.
+/// frame overrides the default, .08 m for a hand with a palm.
 std::optional<double> opening(const Config& C, const std::string& hand);
+
+/// Returns the scene with the attribute `opening` at each hand that has none and whose fingers are modeled
+/// (handFingersOf).
+Config withOpenings(const Config& C, const std::vector<std::string>& hands);
 
 /// Returns the grasps of an object by a hand. Boxes and meshes have the axes x, y, z along which the fingers can close,
 /// the narrow ones first; cylinders and capsules `around`, balls `center`, and hands without fingers `touch`. None if

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "kinegraph/geometry/shapes/mass.h"
+#include "kinegraph/task_planning/polygon.h"
 #include "kinegraph/task_planning/shape_points.h"
 #include "kinegraph/task_planning/task_actions.h"
 
@@ -24,60 +25,6 @@ std::vector<Frame> fixedTo(const Frame& body) {
   return parts;
 }
 
-using Polygon = std::vector<Eigen::Vector2d>;  ///< convex, counterclockwise
-
-double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
-
-/// The convex hull of points in the plane (Andrew's monotone chain).
-Polygon hullOf(Polygon points) {
-  const auto isBefore = [](const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    return a.x() < b.x() || (a.x() == b.x() && a.y() < b.y());
-  };
-  std::ranges::sort(points, isBefore);
-  Polygon hull;
-  for (int side = 0; side < 2; ++side) {
-    const std::size_t first = hull.size();
-    for (const Eigen::Vector2d& point : points) {
-      while (hull.size() >= first + 2 && cross(hull.back() - hull[hull.size() - 2], point - hull.back()) <= 0.)
-        hull.pop_back();
-      hull.push_back(point);
-    }
-    if (hull.size() > 1) hull.pop_back();  // the other side begins there
-    std::ranges::reverse(points);
-  }
-  return hull;
-}
-
-/// The part of a polygon inside of a rectangle around the origin (Sutherland and Hodgman).
-Polygon clipped(Polygon polygon, const Eigen::Vector2d& half) {
-  for (int edge = 0; edge < 4; ++edge) {
-    const int axis = edge / 2;
-    const double sign = edge % 2 ? -1. : 1.;
-    const auto room = [&](const Eigen::Vector2d& p) { return half[axis] - sign * p[axis]; };
-    Polygon kept;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-      if (room(a) >= 0.) kept.push_back(a);
-      if (room(a) * room(b) < 0.) kept.push_back(a + room(a) / (room(a) - room(b)) * (b - a));
-    }
-    polygon = std::move(kept);
-  }
-  return polygon;
-}
-
-/// The distance of a point from a polygon, a line or a point, 0 inside; infinite if the polygon is empty.
-double gapTo(const Eigen::Vector2d& point, const Polygon& polygon) {
-  double nearest = std::numeric_limits<double>::infinity();
-  bool is_inside = polygon.size() > 2;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector2d &a = polygon[i], way = polygon[(i + 1) % polygon.size()] - a;
-    is_inside = is_inside && cross(way, point - a) >= 0.;
-    const double share = std::clamp(way.dot(point - a) / std::max(way.squaredNorm(), 1e-30), 0., 1.);
-    nearest = std::min(nearest, (point - a - share * way).norm());
-  }
-  return is_inside ? 0. : nearest;
-}
-
 /// Returns the frames with an active joint, from a frame upwards.
 std::set<std::string> movingAbove(const Frame& frame) {
   std::set<std::string> moving;
@@ -93,6 +40,8 @@ double frictionOf(const Frame& frame) {
   return friction ? *friction : kUsual;
 }
 
+bool hasSurface(const Frame& part) { return isBox(part) || !shapePoints(part).empty(); }
+
 /// A mass and its position in the frame.
 struct PointMass {
   double mass = 0.;
@@ -105,7 +54,7 @@ PointMass saidMass(const Frame& part) {
 }
 
 PointMass surfaceMass(const Frame& part) {
-  if (shapePoints(part).empty()) return {};
+  if (!hasSurface(part)) return {};
   const ShellMass shell = shellMass(*part.data().shape->geometry);
   return {shell.area, shell.com};
 }
@@ -164,7 +113,7 @@ void includePairs(Config& C, const FramePairs& pairs) {
 
 bool isCentered(const Vector3d& center) { return center.squaredNorm() < kFine * kFine; }
 
-bool isSupported(const Frame& obj, const Frame& place) {
+double supportOf(const Frame& obj, const Frame& place) {
   const RigidTransform X = place.getPose().inverse().transform();
   std::vector<Vector3d> points;
   for (const Frame& part : shapesOf(obj))
@@ -172,16 +121,18 @@ bool isSupported(const Frame& obj, const Frame& place) {
   double lowest = std::numeric_limits<double>::infinity();
   const double side = (X.R * Vector3d::UnitZ()).z() < 0. ? -1. : 1.;  // the place may be upside down
   for (const Vector3d& point : points) lowest = std::min(lowest, side * point.z());
-  std::vector<Eigen::Vector2d> sole;
+  Polygon sole;
   for (const Vector3d& point : points)
     if (side * point.z() < lowest + kFine) sole.push_back(point.head<2>());
   const Vector3d center = X * (obj.getPose().transform() * centerOfBody(obj));
-  return gapTo(center.head<2>(), clipped(hullOf(std::move(sole)), .5 * placeSides(place))) <= kFine;
+  return depthIn(center.head<2>(), clipped(hullOf(std::move(sole)), .5 * placeSides(place)));
 }
+
+bool isSupported(const Frame& obj, const Frame& place) { return supportOf(obj, place) >= -kFine; }
 
 std::vector<Frame> shapesOf(const Frame& body) {
   std::vector<Frame> parts = fixedTo(body);
-  std::erase_if(parts, [](const Frame& part) { return shapePoints(part).empty(); });
+  std::erase_if(parts, [](const Frame& part) { return !hasSurface(part); });
   return parts;
 }
 

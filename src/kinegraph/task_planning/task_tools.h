@@ -19,6 +19,10 @@ bool isCentered(const Vector3d& center);
 /// in the current scene. The place is a level box.
 bool isSupported(const Frame& obj, const Frame& place);
 
+/// Returns the distance of the center of mass of a standing object from the edges of that area, m: the error of its
+/// position up to which it does not tip. Negative if it falls over.
+double supportOf(const Frame& obj, const Frame& place);
+
 /// Returns the pairs of frames, one of a held object and one of the robot, that overlap by more than `depth` (m). Such
 /// overlaps occur because models of hands are wider than hands, and held objects rotate or slip.
 using FramePairs = std::vector<std::pair<std::string, std::string>>;

@@ -23,6 +23,11 @@ constexpr double kGap = .02;     ///< m: preferred distance of objects on one pl
 constexpr double kBehind = .01;  ///< m: minimum distance of a pusher behind the center of an object
 constexpr double kBeside = .5;   ///< share of half its height: maximum height of a pusher above its center
 constexpr double kEdge = .01;    ///< m: distance of the center of a standing object from the edges
+constexpr double kRim = 1e-3;    ///< m: distance of a whole footprint from the edges
+constexpr double kWell = .5;  ///< share of the half sides of a place: an object that overhangs is closer to its middle
+constexpr double kToTarget = 3., kToSpot = .3;  ///< scales, per m: of chosen positions on small and on large places
+constexpr double kMoreMargin = 1.1;             ///< factor on the margin: waypoints have a little more than motions
+constexpr double kApartScale = 1e2;             ///< per m, of missing margin
 constexpr std::array kAcross = {F::scalarProductYX, F::scalarProductYY, F::scalarProductYZ};
 constexpr std::array kAxes = {F::vectorX, F::vectorY, F::vectorZ};
 constexpr double kLow = .005;    ///< m: height of a pulling bar above the ground
@@ -30,10 +35,18 @@ constexpr double kApart = .003;  ///< m: preferred clearance of a hand at a hand
 constexpr double kNear = .3;     ///< scale of the objective that keeps a push close to a straight line of the joints
 constexpr char kRoom[] = "room on ", kWeight[] = "weight of ";
 
+std::string cornerName(int number, const std::string& obj) { return cat("corner ", number, " of ", obj); }
+
+std::vector<TaskAction> joined(std::vector<TaskAction> first, const std::vector<TaskAction>& then) {
+  first.insert(first.end(), then.begin(), then.end());
+  return first;
+}
+
 std::string roundText(double time) { return std::to_string(long(std::nearbyint(time))); }
 
 /// Adds auxiliary frames to a scene: a large frame on each place for `lay`, because a free frame below it gets wide
-/// limits; and a frame at the center of mass of each placed object that is not at its origin.
+/// limits; a frame at the center of mass of each placed object that is not at its origin; and frames at the corners of
+/// the footprints of objects that are put down.
 Config prepared(const Config& C, const std::vector<TaskAction>& actions, const std::vector<std::string>& variants) {
   if (variants.size() != actions.size())
     throw ValueError(
@@ -45,6 +58,15 @@ Config prepared(const Config& C, const std::vector<TaskAction>& actions, const s
     if (isPlace(actions[i]) && is_laid) places.insert(actions[i][3]);
   }
   Config scene = C;
+  for (const TaskAction& action : actions) {
+    if (action[0] != "place" && !endsSliding(action)) continue;
+    const Footprint footprint = footprintOf(scene.getFrame(action[1]));
+    if (footprint.is_round || scene.findFrame(cornerName(0, action[1]))) continue;
+    for (int k = 0; k < 4; ++k)
+      scene.addFrame(cornerName(k, action[1]), action[1])
+          .setRelativePosition(
+              {(k & 1 ? footprint.high : footprint.low).x(), (k & 2 ? footprint.high : footprint.low).y(), 0.});
+  }
   for (const TaskAction& action : actions) {
     if (!isPlace(action) || scene.findFrame(kWeight + action[1])) continue;
     const Vector3d center = centerOfBody(scene.getFrame(action[1]));
@@ -73,13 +95,18 @@ bool isOn(const Frame& obj, const Frame& place) {
 }  // namespace
 
 TaskWaypoints::TaskWaypoints(const Config& config, std::vector<TaskAction> words, std::vector<std::string> ways,
-                             std::shared_ptr<ManipulationHelper> helper)
+                             std::shared_ptr<ManipulationHelper> helper, double clearance,
+                             const std::vector<TaskAction>& later)
     : m(helper ? std::move(helper) : std::make_shared<ManipulationHelper>()),
       C(prepared(config, words, ways)),
       actions(std::move(words)),
       variants(std::move(ways)),
-      doors_(doorsOf(C)) {
+      margin(clearance),
+      doors_(doorsOf(C)),
+      placements_(placementsOf(config, joined(actions, later))) {
   m->setup_sequence(C, double(actions.size()), 1e-2, 1e-2);
+  if (margin > 0.)
+    komo().addObjective({}, F::accumulatedCollisions, {}, O::sos, kApartScale, {}, -1, kMoreMargin * margin);
   keepDoors();
   std::vector<std::string> hands;
   for (const std::size_t place : {3, 2})
@@ -177,20 +204,38 @@ void TaskWaypoints::put(double time, const std::string& obj, const std::string& 
   m->add_place_frame(to, obj, name);
   addSlot(Slot::Kind::place, name, 3);
   switchTo(time, name, obj);
+  const std::size_t action = std::size_t(std::max(std::lround(time) - 1, 0L));
+  const Placement* placement = nullptr;
+  if (action < actions.size() && objectOf(actions[action]) == obj && placements_[action])
+    placement = &*placements_[action];
+  if (placement) slots_.back().placement = *placement;
+  const Footprint footprint = footprintOf(C.getFrame(obj));
   const Eigen::Vector2d half = .5 * placeSides(C.getFrame(to));
-  const Vector3d inside(std::max(half.x() - kEdge, .5 * half.x()), std::max(half.y() - kEdge, .5 * half.y()), 0.);
-  MatrixXd rows = MatrixXd::Zero(2, 3);
-  rows(0, 0) = rows(1, 1) = 1e1;
-  for (const std::string& what : {obj, kWeight + obj}) {
-    if (!C.findFrame(what)) continue;
+  const bool is_whole =
+      placement ? placement->is_whole : (half - Eigen::Vector2d::Constant(footprint.radius)).minCoeff() > kRim;
+  const auto keepInside = [&](const std::string& what, const Eigen::Vector2d& room) {
+    const MatrixXd rows = 1e1 * MatrixXd::Identity(2, 3);
+    const Vector3d inside(room.x(), room.y(), 0.);
     komo().addObjective({time}, F::positionRel, {what, to}, O::ineq, rows, inside);
     komo().addObjective({time}, F::positionRel, {what, to}, O::ineq, -rows, -inside);
+  };
+  const Eigen::Array2d rim = half.array() - kEdge;
+  if (is_whole && footprint.is_round) {
+    keepInside(obj, half.array() - footprint.radius - kRim);
+  } else if (is_whole) {
+    for (int k = 0; k < 4; ++k) keepInside(cornerName(k, obj), half.array() - kRim);
+  } else {
+    const bool is_larger = (footprint.half() - half).maxCoeff() > -2. * kRim;
+    keepInside(obj, is_larger ? (kWell * half.array()).eval() : rim.max(kWell * half.array()).eval());
   }
+  if (C.findFrame(kWeight + obj)) keepInside(kWeight + obj, rim.max(kWell * half.array()));
   for (const std::string& other : beside_[to])  // prefers room for fingers
     komo().addObjective({time}, F::distance, {obj, other}, O::ineqP, 3e0, -kGap);
   beside_[to].push_back(obj);
-  if (C.getFrame(to).getJointType() == JointType::rigid)  // the center of a small, loose object is safest
-    komo().addObjective({time}, F::positionRel, {obj, to}, O::sos, .3 * rows);
+  if (placement)
+    komo().addObjective({time}, F::positionRel, {obj, to}, O::sos,
+                        (placement->is_near ? kToSpot : kToTarget) * MatrixXd::Identity(2, 3),
+                        {placement->at.x(), placement->at.y(), 0.});
 }
 
 void TaskWaypoints::lay(double time, const std::string& obj, const std::string& to, const std::string& face) {
@@ -198,7 +243,14 @@ void TaskWaypoints::lay(double time, const std::string& obj, const std::string& 
   m->add_stable_frame(JointType::free, kRoom + to, name);
   addSlot(Slot::Kind::lay, name, 7, face);
   switchTo(time, name, obj);
-  m->place_box(time, obj, to, "", face, std::min(kEdge, .25 * placeSides(C.getFrame(to)).minCoeff()));
+  const double least = placeSides(C.getFrame(to)).minCoeff();
+  const Vector3d sizes = boxAround(C.getFrame(obj)).sizes();
+  const int up = int(std::string_view("xyz").find(face.empty() ? '?' : face[0]));
+  double radius = 0.;  // of the face below
+  for (int k = 0; k < 3; ++k)
+    if (k != up) radius = std::hypot(radius, .5 * sizes[k]);
+  const bool has_room = radius + kRim < .5 * least;
+  m->place_box(time, obj, to, "", face, has_room ? radius + kRim : std::min(kEdge, .25 * least));
 }
 
 void TaskWaypoints::push(double start, double end, const std::string& pusher, const std::string& obj,
@@ -230,8 +282,10 @@ void TaskWaypoints::push(double start, double end, const std::string& pusher, co
 
 std::shared_ptr<TaskWaypoints> makeTaskWaypoints(const Config& C, std::vector<TaskAction> actions,
                                                  std::vector<std::string> variants, const TaskRules& rules,
-                                                 std::shared_ptr<ManipulationHelper> helper) {
-  const auto waypoints = std::make_shared<TaskWaypoints>(C, std::move(actions), std::move(variants), std::move(helper));
+                                                 std::shared_ptr<ManipulationHelper> helper, double margin,
+                                                 const std::vector<TaskAction>& later) {
+  const auto waypoints =
+      std::make_shared<TaskWaypoints>(C, std::move(actions), std::move(variants), std::move(helper), margin, later);
   waypoints->addActions(rules);
   return waypoints;
 }

@@ -6,19 +6,25 @@
 #include <vector>
 
 #include "kinegraph/task_planning/manipulation_helper.h"
+#include "kinegraph/task_planning/placements.h"
 #include "kinegraph/task_planning/task_doors.h"
 #include "kinegraph/task_planning/task_rules.h"
 
 namespace kinegraph {
+
+/// Default of the clearance that planTask keeps between all bodies whose contact is not meant, m.
+inline constexpr double kTaskMargin = .005;
 
 /// The waypoint problem of a sequence of actions in one variant each: a Komo with a slice per action, and grasps and
 /// placements shared by all slices. Rules add the constraints of their actions through `komo()`, `m`, and the calls
 /// below. Times are in phases; action i, counted from 0, ends at i + 1. Calls throw FrameNotFound for unknown frames.
 class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
  public:
-  /// Makes the problem without the constraints of the actions. `helper`: null for a ManipulationHelper.
+  /// Makes the problem without the constraints of the actions. `helper`: null for a ManipulationHelper. `margin`:
+  /// preferred clearance of all pairs, m. `later`: actions that follow; placements leave room for theirs.
   TaskWaypoints(const Config& C, std::vector<TaskAction> actions, std::vector<std::string> variants,
-                std::shared_ptr<ManipulationHelper> helper = nullptr);
+                std::shared_ptr<ManipulationHelper> helper = nullptr, double margin = kTaskMargin,
+                const std::vector<TaskAction>& later = {});
 
   /// Adds the constraints of all actions. Throws NameError for an action without a rule.
   void addActions(const TaskRules& rules);
@@ -27,6 +33,7 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
   const Config C;                               ///< the scene, with a large frame on places for `lay`
   const std::vector<TaskAction> actions;
   const std::vector<std::string> variants;
+  const double margin;  ///< m
 
   Komo& komo() { return *m->komo; }
 
@@ -34,7 +41,8 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
   /// apart, as of a stick that takes an object along.
   void attach(double time, const std::string& hand, const std::string& obj, bool touching = false, double gap = 0.);
 
-  /// Lets an object stand upright on a place from a time on.
+  /// Lets an object stand upright on a place from a time on: with its whole footprint on it where there is room, else
+  /// with its center well inside; close to the position that placementsOf chooses.
   void put(double time, const std::string& obj, const std::string& to);
 
   /// Lets a box lie on a place from a time on, with a face up: x y z xNeg yNeg zNeg. Throws ValueError for other faces.
@@ -59,7 +67,8 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
     Kind kind;
     int first;
     std::string frame;
-    std::string face = {};  ///< of `lay`
+    std::string face = {};                    ///< of `lay`
+    std::optional<Placement> placement = {};  ///< of `place`
   };
 
   void addSlot(Slot::Kind kind, const std::string& frame, int dofs, const std::string& face = {});
@@ -70,6 +79,7 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
   Vector3d startSlot(const Slot& slot, const Nlp& nlp, VectorXd& x, Rng* rng, bool grasps) const;
 
   const std::vector<TaskDoor> doors_;
+  const std::vector<std::optional<Placement>> placements_;  ///< of each action
   std::vector<Slot> slots_;
   int slot_dofs_ = 0;
   std::map<std::string, std::string> held_;                 ///< by object: the frame it is attached to
@@ -79,6 +89,8 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
 /// Makes the problem with the constraints of all actions.
 std::shared_ptr<TaskWaypoints> makeTaskWaypoints(const Config& C, std::vector<TaskAction> actions,
                                                  std::vector<std::string> variants, const TaskRules& rules,
-                                                 std::shared_ptr<ManipulationHelper> helper = nullptr);
+                                                 std::shared_ptr<ManipulationHelper> helper = nullptr,
+                                                 double margin = kTaskMargin,
+                                                 const std::vector<TaskAction>& later = {});
 
 }  // namespace kinegraph

@@ -88,6 +88,7 @@ Vector3d TaskWaypoints::startSlot(const Slot& slot, const Nlp& nlp, VectorXd& x,
   if (slot.kind == Slot::Kind::place) {
     for (int i = first; i < first + 2; ++i) x[i] = sample(.9 * nlp.lower()[i], .9 * nlp.upper()[i]);
     x[first + 2] = sample(-kMaxRotation, kMaxRotation);
+    if (!rng && slot.placement) x.segment<3>(first) << slot.placement->at, slot.placement->angle;
   } else if (slot.kind == Slot::Kind::lay) {
     for (int i = first; i < first + 2; ++i) x[i] = sample(-.1, .1);
     x[first + 2] = .1;

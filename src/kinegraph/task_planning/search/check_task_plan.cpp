@@ -9,7 +9,9 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/eval.h"
+#include "kinegraph/task_planning/open_hands.h"
 #include "kinegraph/task_planning/search/guided_motion.h"
+#include "kinegraph/task_planning/search/meant_contacts.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/shape_points.h"
 #include "kinegraph/task_planning/task_tools.h"
@@ -78,9 +80,10 @@ Pairs overlaps(const Config& scene) {
 /// Plays a plan, action by action.
 class PlanPlayer {
  public:
-  PlanPlayer(const Config& C, const TaskPlan& plan)
+  PlanPlayer(const Config& C, const TaskPlan& plan, double margin)
       : scene_(C),
         plan_(plan),
+        margin_(margin),
         doors_(doorsOf(C)),
         wedged_(wedgedPairs(C, wordsOf(plan.start, "is_gripper"), wordsOf(plan.start, "is_object"), kOverlap)),
         ignored_(overlaps(C)) {
@@ -101,6 +104,7 @@ class PlanPlayer {
         return violations_;
       }
       q = path.row(path.rows() - 1);
+      before_ = action;
       scene_.setJointState(q);
       if (is_freed_) endWedges(text);
       apply(action, text);
@@ -145,12 +149,19 @@ class PlanPlayer {
   std::string motionViolation(const TaskAction& action, const MatrixXd& path, const VectorXd& times,
                               const VectorXd& q) {
     std::string broken = timingViolation(path, times, q, plan_.limits);
-    if (broken.empty()) broken = firstContact(scene_, path);
+    if (broken.empty()) broken = contactOf(action, path);
     if (broken.empty()) broken = wedgeViolation(path);
     if (broken.empty()) broken = slidingViolation(action, path);
     if (broken.empty()) broken = doorViolation(action, path);
     if (broken.empty()) broken = carryingViolation(action, path, times);
     return broken;
+  }
+
+  std::string contactOf(const TaskAction& action, const MatrixXd& path) const {
+    if (margin_ <= kMarginSlack || endsSliding(action) || isGuided(action)) return firstContact(scene_, path);
+    const Surroundings around(scene_, path.row(0), path.row(path.rows() - 1), action, before_,
+                              wordsOf(plan_.start, "is_gripper"));
+    return around.violation(path, margin_ - kMarginSlack);
   }
 
   /// Touched objects move only in a push: straight, away from the pusher, without rotation and without being lifted.
@@ -317,6 +328,8 @@ class PlanPlayer {
 
   Config scene_;
   const TaskPlan& plan_;
+  const double margin_;  ///< of pairs whose contact is not meant, m
+  TaskAction before_;    ///< the last action
   const std::vector<TaskDoor> doors_;
   std::map<std::string, Held> held_;           ///< by door: the handle and its hand
   FramePairs wedged_;                          ///< pairs that overlap initially because of a held object
@@ -360,10 +373,10 @@ void requirePlan(const Config& C, const TaskPlan& plan) {
 }  // namespace
 
 std::vector<std::string> checkTaskPlan(const Config& C, const TaskPlan& plan,
-                                       const std::vector<std::vector<Literal>>& states) {
+                                       const std::vector<std::vector<Literal>>& states, std::optional<double> margin) {
   requirePlan(C, plan);
   Lines wrong = states.empty() ? Lines() : unmetGoals(plan.goal, states.back());
-  const Lines more = PlanPlayer(C, plan).violations();
+  const Lines more = PlanPlayer(withOpenHands(C), plan, margin.value_or(plan.margin)).violations();
   wrong.insert(wrong.end(), more.begin(), more.end());
   return wrong;
 }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "kinegraph/task_planning/search/task_plan.h"
 
 namespace kinegraph {
@@ -12,6 +14,7 @@ namespace kinegraph {
 /// - Timing: the motion does not jump, rests at the beginning and the end of each action, and keeps its velocity and
 ///   acceleration limits.
 /// - Joints stay within their limits, and nothing overlaps by more than 1 mm, continuously (Config::checkMotion).
+/// - Pairs whose contact is not meant keep `margin` (m); none: that of the plan. Slides and doors are exempt.
 /// - A hand touches the object that it takes, to 1 mm.
 /// - An object that is put down stands level to half a degree, at the height of its place to 1 mm, with its center 5 mm
 ///   inside the edges. Its center of mass, with everything fixed to it, is above the area shared with the place.
@@ -24,6 +27,7 @@ namespace kinegraph {
 ///
 /// Throws ValueError for a plan whose parts do not fit each other or the scene.
 std::vector<std::string> checkTaskPlan(const Config& C, const TaskPlan& plan,
-                                       const std::vector<std::vector<Literal>>& states = {});
+                                       const std::vector<std::vector<Literal>>& states = {},
+                                       std::optional<double> margin = {});
 
 }  // namespace kinegraph

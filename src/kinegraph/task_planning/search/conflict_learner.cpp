@@ -53,19 +53,27 @@ void ConflictLearner::learnMotionFailure(const Actions& actions, const TaskFailu
   forbidLast(prefix, withoutConstantDoors(failure.doors));
 }
 
-/// Finds the first action that fails. Then it tests the action with only those before it that matter, without other
-/// objects, then also without single objects in its way: the smaller the failing problem, the more general the
-/// conflict.
+/// Finds the first action that fails.
 void ConflictLearner::learnWaypointFailure(const Actions& actions) {
   const auto first = [&](std::size_t count) {
     return Actions(actions.begin(), actions.begin() + std::ptrdiff_t(count));
   };
-  const std::vector<Literal>& start = logic_.start();
   std::size_t count = 1;
   waypoints_.prefetch(waypoints_.unknownPrefixes(actions), Priority::normal);
   while (count < actions.size() && !waypoints_.failureOf(first(count))) ++count;
-  const Actions prefix = first(count);
   waypoints_.dropPrefetched();
+  learnLast(first(count), nullptr);
+}
+
+void ConflictLearner::learnWaypointFailure(const Actions& actions, std::size_t feasible, const FutureFailure& failure) {
+  learnLast({actions.begin(), actions.begin() + std::ptrdiff_t(std::min(feasible + 1, actions.size()))}, failure);
+}
+
+/// Tests the last action with only those before it that matter, without other objects, then also without single objects
+/// in its way: the smaller the failing problem, the more general the conflict. `known`: the failure of the prefix; null:
+/// unknown.
+void ConflictLearner::learnLast(const Actions& prefix, const FutureFailure& known) {
+  const std::vector<Literal>& start = logic_.start();
   const auto [alone, before] = actionsAlone(prefix);
   const std::vector<Literal> state = logic_.statesAlong(prefix)[before];
   SceneVariant variant{objectsWithout(alone, start), doorsIn(scene_, doors_, start, state)};
@@ -78,6 +86,7 @@ void ConflictLearner::learnWaypointFailure(const Actions& actions) {
   }
   const std::vector<std::string> others = variant.without;
   for (const InTheWay& one : inTheWay(alone.back(), start)) {
+    if (!contains(state, one.fact)) continue;  // it has gone
     variant.without = others;
     std::erase(variant.without, one.obj);
     if (const FutureFailure failure = waypoints_.failureOf(alone, variant)) {
@@ -88,7 +97,7 @@ void ConflictLearner::learnWaypointFailure(const Actions& actions) {
       return forbidLast(prefix, withoutConstantDoors(facts));
     }
   }
-  if (const FutureFailure& failure = waypoints_.failureOf(prefix)) giveUp(prefix, "", failure);
+  if (const FutureFailure failure = known ? known : waypoints_.failureOf(prefix)) giveUp(prefix, "", failure);
   logic_.forbidPrefix(prefix);
 }
 

@@ -23,6 +23,9 @@ class ConflictLearner {
   /// Learns from a sequence without waypoints.
   void learnWaypointFailure(const Actions& actions);
 
+  /// The same if it is known that the first `feasible` actions have waypoints, and for what cause the next one fails.
+  void learnWaypointFailure(const Actions& actions, std::size_t feasible, const FutureFailure& failure);
+
   /// Learns from a sequence whose motions failed.
   void learnMotionFailure(const Actions& actions, const TaskFailure& failure);
 
@@ -30,6 +33,7 @@ class ConflictLearner {
   bool hasLearned() const { return has_learned_; }
 
  private:
+  void learnLast(const Actions& prefix, const FutureFailure& known);
   void giveUp(const Actions& actions, const std::string& condition, FutureFailure failure);
   void forbidLast(const Actions& prefix, const std::optional<std::vector<Literal>>& facts);
   std::vector<Literal> relevantDoors(const Actions& actions, const SceneVariant& variant);

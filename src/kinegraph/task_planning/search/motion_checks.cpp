@@ -35,15 +35,18 @@ double levelCosine() {
   return cosine;
 }
 
-std::string firstContact(const Config& scene, const MatrixXd& path) {
+std::string firstContact(const Config& scene, const MatrixXd& path, double margin) {
   const MatrixXd corners = cornersOf(path);
   for (Eigen::Index i = 0; i + 1 < corners.rows(); ++i) {
-    const auto contact = scene.checkMotion(corners.row(i), corners.row(i + 1), -kOverlap);
+    const auto contact = scene.checkMotion(corners.row(i), corners.row(i + 1), margin);
     if (!contact) continue;
     if (contact->dof >= 0)
       return cat("joint ", scene.getJointNames()[std::size_t(contact->dof)], " is beyond its limits");
-    return cat(scene.getFrame(contact->a).getName(), " and ", scene.getFrame(contact->b).getName(), " overlap by ",
-               fixed(-contact->distance, 4), " m on the way");
+    const std::string pair = cat(scene.getFrame(contact->a).getName(), " and ", scene.getFrame(contact->b).getName());
+    if (margin > 0.)
+      return cat(pair, " are ", fixed(1e3 * contact->distance, 1), " mm apart on the way, less than ",
+                 fixed(1e3 * margin, 1), " mm");
+    return cat(pair, " overlap by ", fixed(-contact->distance, 4), " m on the way");
   }
   return "";
 }

@@ -22,9 +22,10 @@ void hang(Config& scene, const std::string& obj, const std::string& parent);
 /// The cosine of half a degree, the tolerance of level axes.
 double levelCosine();
 
-/// Returns the first violation along the piecewise linear path (T, n): a joint limit, or a pair that overlaps by more
-/// than 1 mm, checked continuously; "" if there is none. The scene's q does not matter.
-std::string firstContact(const Config& scene, const MatrixXd& path);
+/// Returns the first violation along the piecewise linear path (T, n): a joint limit, or a pair that is closer than
+/// `margin`, checked continuously; "" if there is none. Without a margin, pairs may overlap by 1 mm. The scene's q does
+/// not matter.
+std::string firstContact(const Config& scene, const MatrixXd& path, double margin = -kOverlap);
 bool isFree(const Config& scene, const MatrixXd& path);
 
 /// Returns the corners of a path, (K, n), ends included: waypoints inside of straight pieces are dropped.

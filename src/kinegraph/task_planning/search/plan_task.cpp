@@ -8,6 +8,16 @@ TaskPlan planTask(const Config& C, const std::string& goal, const TaskOptions& o
   return TaskPlans(C, goal, options).next().value();
 }
 
+std::function<TaskPlan(const Config&, const RepairOptions&)> replannerTo(std::string goal, TaskOptions options) {
+  return [goal = std::move(goal), options = std::move(options)](const Config& C, const RepairOptions& limits) {
+    TaskOptions changed = options;
+    if (limits.time_limit) changed.time_limit = *limits.time_limit;
+    if (limits.max_evaluations) changed.max_evaluations = *limits.max_evaluations;
+    if (limits.threads) changed.threads = *limits.threads;
+    return planTask(C, goal, changed);
+  };
+}
+
 TaskPlans planTasks(const Config& C, const std::string& goal, const TaskOptions& options) {
   return TaskPlans(C, goal, options);
 }

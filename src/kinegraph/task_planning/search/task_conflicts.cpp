@@ -6,6 +6,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/logic/action_words.h"
 #include "kinegraph/logic/plan_search.h"
+#include "kinegraph/task_planning/task_doors.h"
 
 namespace kinegraph {
 

@@ -1,6 +1,7 @@
 #include "kinegraph/task_planning/search/task_motions.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "kinegraph/common/errors.h"
@@ -16,18 +17,20 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kBack = .07;        ///< m: length of the approach and retreat of a hand along its own axis
-constexpr double kUp = .04;          ///< m: by which held objects are lifted first, and lowered to their place
-constexpr double kAside = .04;       ///< m: length of the approach and retreat of a hook behind an object
+constexpr std::array kStraight = {.07, .05, .03};  ///< m: lengths of straight approaches and retreats, the best first
+constexpr int kPieces = 2;                         ///< of a straight approach or retreat
+constexpr double kAside = .04;                     ///< m: length of the approach and retreat of a hook behind an object
 constexpr double kPulled = 1.;       ///< m/s^2: maximum acceleration of pulled objects, so that they do not tip
 constexpr double kLargeMotion = .8;  ///< rad or m: an approach or retreat that moves a joint farther is dropped
 constexpr double kSame = 1e-7;       ///< rad or m: closer configurations are equal
 constexpr double kPeriod = .01;      ///< s between two waypoints
-constexpr double kMargin = .01;      ///< m: tried before margin 0
-constexpr double kHeld = 4.;         ///< m/s^2: maximum acceleration of objects held by friction
-constexpr double kBlend = .05;       ///< rad or m: tolerance of rounded corners
-constexpr double kTenths = 10.;      ///< per m: scale of positions that hold to .1 mm
-constexpr double kFineBlend = 2e-3;  ///< the same for doors
+constexpr double kEasyMargin = 2.;   ///< factor on the margin: tried first
+constexpr std::array kMarginShares = {1., .7, .4};  ///< of the margin that are tried for a path
+constexpr int kEasyShare = 40, kShare = 20;         ///< shares of the evaluations for paths with margins
+constexpr double kHeld = 4.;                        ///< m/s^2: maximum acceleration of objects held by friction
+constexpr double kBlend = .05;                      ///< rad or m: tolerance of rounded corners
+constexpr double kTenths = 10.;                     ///< per m: scale of positions that hold to .1 mm
+constexpr double kFineBlend = 2e-3;                 ///< the same for doors
 constexpr double kUnhurried = 1.02;  ///< factor on the minimum time: a spline keeps its limits only at gridpoints
 constexpr double kSpeedIn = .5;      ///< s to full speed
 constexpr int kRestarts = 2;
@@ -95,10 +98,11 @@ VectorXd perDof(const char* name, const VectorXd& given, const VectorXd& otherwi
 
 }  // namespace
 
-TaskMotions::TaskMotions(SpeculativeExecutor& executor, MatrixXd limits, const std::vector<Literal>& start,
-                         std::uint64_t seed)
+TaskMotions::TaskMotions(SpeculativeExecutor& executor, MatrixXd limits, double margin,
+                         const std::vector<Literal>& start, std::uint64_t seed)
     : executor_(executor),
       limits_(std::move(limits)),
+      margin_(margin),
       has_doors_(!wordsOf(start, "is_guided").empty()),
       hands_(wordsOf(start, "is_gripper")),
       objects_(wordsOf(start, "is_object")),
@@ -145,7 +149,8 @@ TaskMotions::Found TaskMotions::planGuided(const Config& C, const VectorXd& q0, 
   MatrixXd configurations = guidedConfigurations(C, q0, q1, grip);
   if (configurations.rows() == 0 || !isFree(C, configurations)) {
     const MotionPlan found = findPath(C, q0, q1, grip);
-    if (!found.feasible()) return {std::nullopt, cat("no motion was found that holds '", handle, "': ", found.message)};
+    if (!found.feasible())
+      return {std::nullopt, 0., cat("no motion was found that holds '", handle, "': ", found.message)};
     configurations = found.path;
   }
   const MotionLimits limits{limits_.row(0), limits_.row(1), {}};
@@ -160,9 +165,9 @@ TaskMotions::Found TaskMotions::planGuided(const Config& C, const VectorXd& q0, 
     rows.times *= kUnhurried;
     const Slip slip = mostSlip(taken, rows.path, hand, handle);
     if (slip.distance > 1.6 * kSlip || slip.cosine < levelCosine() || !isFree(C, rows.path)) continue;
-    return {slower(C, std::move(rows), movedBy(C, action[1], objects_), kSteady / 1.01), ""};
+    return {slower(C, std::move(rows), movedBy(C, action[1], objects_), kSteady / 1.01), margin_, ""};
   }
-  return {std::nullopt, cat("'", hand, "' slips on '", handle, "'")};
+  return {std::nullopt, 0., cat("'", hand, "' slips on '", handle, "'")};
 }
 
 TaskMotions::Found TaskMotions::planFree(const Config& C, const VectorXd& q0, const VectorXd& q1,
@@ -171,6 +176,7 @@ TaskMotions::Found TaskMotions::planFree(const Config& C, const VectorXd& q0, co
   if (endsSliding(action)) {
     Found found = planPush(C, q0, q1, action[1]);
     if (found.motion) found.motion = steady(C, std::move(*found.motion), carried);
+    found.margin = margin_;  // it is exempt
     if (found.motion && action[0] == "hook_end")
       found.motion = slower(C, std::move(*found.motion), {action[1]}, kPulled);
     return found;
@@ -180,10 +186,15 @@ TaskMotions::Found TaskMotions::planFree(const Config& C, const VectorXd& q0, co
     const Vector3d up = C.getFrame(obj).getRotationMatrix().col(2);
     level.push_back({.feature = FeatureSymbol::vectorZ, .frames = {obj}, .target = up});
   }
+  const Surroundings around(C, q0, q1, action, before, hands_);
+  const auto finished = [&](Found found) {
+    found.motion = steady(C, std::move(*found.motion), carried);
+    return found;
+  };
   Speculative<PathResult> direct;  // without retreat and approach
   if (level.empty()) {
-    std::vector<VectorXd> configurations = retreatPiece(C, q0, retreat(C, q0, before));
-    const std::vector<VectorXd> tail = retreatPiece(C, q1, retreat(C, q1, reversedAction(action)));
+    std::vector<VectorXd> configurations = retreat(C, around, q0, before);
+    const std::vector<VectorXd> tail = retreat(C, around, q1, reversedAction(action));
     if (configurations.size() + tail.size() > 2) {
       const MotionPlan found = findPath(C, configurations.back(), tail.back(), {}, [&] {
         direct = pathSpeculatively(C, q0, q1);
@@ -192,22 +203,23 @@ TaskMotions::Found TaskMotions::planFree(const Config& C, const VectorXd& q0, co
       if (found.feasible()) {
         for (Eigen::Index i = 0; i < found.path.rows(); ++i) configurations.push_back(found.path.row(i));
         configurations.insert(configurations.end(), tail.rbegin(), tail.rend());
-        return {steady(C, timed(C, rowsOf(configurations)), {}), ""};
+        return finished(timed(around, rowsOf(configurations)));
       }
     }
   }
   const MotionPlan found = direct ? countedPlan(direct.get()) : findPath(C, q0, q1, level);
-  if (!found.feasible()) return {std::nullopt, cat("no motion was found: ", found.message)};
-  return {steady(C, timed(C, found.path), carried), ""};
+  if (!found.feasible()) return {std::nullopt, 0., cat("no motion was found: ", found.message)};
+  return finished(timed(around, found.path));
 }
 
 /// A straight motion of an object on its ground: the straight motion of the joints, or one that keeps the object on the
 /// line.
 TaskMotions::Found TaskMotions::planPush(const Config& C, const VectorXd& q0, const VectorXd& q1,
                                          const std::string& obj) {
-  const MatrixXd straight = rowsOf({q0, q1});
-  if (slidesStraight(C, line(q0, q1, kPushRows), obj) && isFree(C, straight)) return {timed(C, straight), ""};
-  const std::vector<Vector3d> ends = positionsAlong(C, straight, obj);
+  const Surroundings around(C, q0, q1, {}, {}, {});
+  const MatrixXd direct = rowsOf({q0, q1});
+  if (slidesStraight(C, line(q0, q1, kPushRows), obj) && isFree(C, direct)) return timed(around, direct);
+  const std::vector<Vector3d> ends = positionsAlong(C, direct, obj);
   const Vector3d along = (ends[1] - ends[0]) / std::max((ends[1] - ends[0]).norm(), 1e-9);
   MatrixXd aside(2, 3);
   aside << -along.y(), along.x(), 0., 0., 0., 1.;
@@ -229,12 +241,12 @@ TaskMotions::Found TaskMotions::planPush(const Config& C, const VectorXd& q0, co
       if (smooth.feasible()) {
         TimedRows rows = rowsOf(smooth, configurations);
         rows.times *= kUnhurried;
-        if (slidesStraight(C, rows.path, obj) && isFree(C, rows.path)) return {std::move(rows), ""};
+        if (slidesStraight(C, rows.path, obj) && isFree(C, rows.path)) return {std::move(rows), 0., ""};
       }
     }
-    return {std::nullopt, cat("no straight push was found: ", found.message)};
+    return {std::nullopt, 0., cat("no straight push was found: ", found.message)};
   }
-  return {timed(C, found.path), ""};
+  return timed(around, found.path);
 }
 
 MotionPlan TaskMotions::findPath(const Config& C, const VectorXd& start, const VectorXd& goal,
@@ -246,18 +258,26 @@ MotionPlan TaskMotions::findPath(const Config& C, const VectorXd& start, const V
   options.constraints = constraints;
   options.timing = false;
   MotionPlan found;
-  for (const double margin : {kMargin, 0.}) {
+  bool is_first = true;
+  for (const double margin : margins()) {
     options.margin = margin;
     options.prove_infeasibility = margin == 0. && !at_first_failure;  // not if there is an alternative
     const int most = has_doors_ ? kSearchBehindDoors : kSearch;       // a closed door shall cost little
-    options.max_evaluations = margin == 0. ? most : most / 10;
+    options.max_evaluations = margin == 0. ? most : margin > margin_ ? most / kEasyShare : most / kShare;
     options.threads = threads_();
     found = planMotion(C, MotionGoal(goal), options, start, stopped_);
     for (const PlanStage& stage : found.stages) evaluations_ += stage.evaluations;
     if (found.feasible()) break;
-    if (margin > 0. && at_first_failure) at_first_failure();
+    if (is_first && at_first_failure) at_first_failure();
+    is_first = false;
   }
   return found;
+}
+
+/// The margins with which a path is searched for: more than the margin, the margin, and none where there is no room.
+std::vector<double> TaskMotions::margins() const {
+  if (!(margin_ > 0.)) return {0.};
+  return {kEasyMargin * margin_, margin_, 0.};
 }
 
 /// The same ahead of time, if a thread is free.
@@ -278,42 +298,61 @@ MotionPlan TaskMotions::countedPlan(PathResult& result) {
   return std::move(result.plan);
 }
 
-/// The straight motion from q to a configuration near it, if that is collision-free; else q alone. It is also
-/// collision-free in reverse.
-std::vector<VectorXd> TaskMotions::retreatPiece(const Config& C, const VectorXd& q,
-                                                const std::optional<VectorXd>& away) const {
-  if (away && farthest(*away, q) <= kLargeMotion && isFree(C, rowsOf({q, *away}))) return {q, *away};
-  return {q};
-}
-
-/// The configuration a few centimeters away after an action: a hand retreats from a placed object, it lifts a picked
-/// one, and a hook retreats from a pulled object.
-std::optional<VectorXd> TaskMotions::retreat(const Config& C, const VectorXd& q, const TaskAction& action) const {
+/// The configurations of a straight motion away from q after an action, q first: a hand retreats from a placed object
+/// along its axis or up, it lifts a picked one, and a hook retreats from a pulled object. It keeps the margin if it can,
+/// and is as long as possible; q alone if none is collision-free. It is also collision-free in reverse.
+std::vector<VectorXd> TaskMotions::retreat(const Config& C, const Surroundings& around, const VectorXd& q,
+                                           const TaskAction& action) const {
   const bool is_pulled = !action.empty() && action[0] == "hook_end";
-  if (!isPick(action) && !isPlace(action) && !isGuided(action) && !is_pulled) return std::nullopt;
+  if (!isPick(action) && !isPlace(action) && !isGuided(action) && !is_pulled) return {q};
   const std::string& hand = is_pulled ? action[5] : isPlace(action) ? action[2] : action[3];
   const std::string palm = palmOf(C, hand);
   Config D = C;
   D.setJointState(q);
-  Pose pose = D.getFrame(hand).getPose();
-  if (isPick(action)) {
-    pose.p.z() += kUp;
-  } else if (is_pulled) {
+  std::vector<Vector3d> directions;
+  if (is_pulled) {
     Vector3d back = -eval(D, FeatureSymbol::pairCollision_normal, {action[1], action[2]}).y;
     back.z() = 0.;
-    pose.p += kAside * back.normalized();
-  } else if (!palm.empty()) {
-    const Vector3d back = D.getFrame(palm).getPosition() - pose.p;
-    const double length = std::sqrt(back.x() * back.x() + back.y() * back.y() + back.z() * back.z());
-    pose.p += kBack * back / length;
-  } else {
-    return std::nullopt;
+    directions.push_back(back.normalized());
+  } else if (!isPick(action) && !palm.empty()) {
+    const Vector3d back = D.getFrame(palm).getPosition() - D.getFrame(hand).getPosition();
+    directions.push_back(back / std::sqrt(back.x() * back.x() + back.y() * back.y() + back.z() * back.z()));
   }
+  if (!isPick(action) && !is_pulled && palm.empty() && opening(C, hand))  // the z axis of a hand points back
+    directions.push_back(D.getFrame(hand).getRotationMatrix().col(2));
+  if (isPick(action) || (isPlace(action) && opening(C, hand))) directions.push_back(Vector3d::UnitZ());
+  std::vector<std::vector<VectorXd>> pieces;
+  for (const double length : kStraight)
+    for (const Vector3d& direction : directions) {
+      std::vector<VectorXd> piece = straight(D, q, hand, (is_pulled ? kAside : length) * direction);
+      if (piece.size() == 1) continue;
+      if (around.isFree(rowsOf(piece), margin_)) return piece;
+      pieces.push_back(std::move(piece));
+    }
+  for (const std::vector<VectorXd>& piece : pieces)
+    if (around.isFree(rowsOf(piece), 0.)) return piece;
+  return {q};
+}
+
+/// A straight motion of a hand without rotation, by inverse kinematics; q alone if there is none.
+std::vector<VectorXd> TaskMotions::straight(const Config& C, const VectorXd& q, const std::string& hand,
+                                            const Vector3d& step) const {
+  Config D = C;
+  D.setJointState(q);
+  const Pose from = D.getFrame(hand).getPose();
   IkOptions options;
   options.collisions = false;
   options.attempts = 1;
-  const IkResult result = solveIk(D, {IkTarget::toPose(hand, Pose::fromNumbers(pose.numbers()))}, options);
-  return result.feasible() ? std::optional(result.q) : std::nullopt;
+  std::vector<VectorXd> piece = {q};
+  for (int k = 1; k <= kPieces; ++k) {
+    Pose pose = from;
+    pose.p += double(k) / kPieces * step;
+    const IkResult result = solveIk(D, {IkTarget::toPose(hand, Pose::fromNumbers(pose.numbers()))}, options);
+    if (!result.feasible() || farthest(result.q, piece.back()) > kLargeMotion) return {q};
+    piece.push_back(result.q);
+    D.setJointState(result.q);
+  }
+  return piece;
 }
 
 /// Slows a motion down so that held objects do not slip, and objects that stand on them stay in place.
@@ -337,22 +376,30 @@ TimedRows TaskMotions::slower(const Config& C, TimedRows rows, const std::vector
   return rows;
 }
 
-TimedRows TaskMotions::timed(const Config& C, const MatrixXd& configurations) const {
+/// Times a path. Corners are rounded as far as the margin allows; the result has the margin that was verified.
+TaskMotions::Found TaskMotions::timed(const Surroundings& around, const MatrixXd& configurations) const {
   const MatrixXd kept = withoutRepeats(configurations);
   const MotionLimits limits{limits_.row(0), limits_.row(1), {}};
-  for (const Corners corners : {Corners::blend, Corners::stop}) {
-    RetimeOptions options;
-    options.corners = corners;
-    options.tolerance = kBlend;
-    options.is_free = [&](const MatrixXd& points, double) { return isFree(C, points); };
-    const TimedPath found = retime(kept, limits, options);
-    if (!found.feasible()) continue;
-    const TimedRows rows = rowsOf(found, configurations);
-    if (isFree(C, rows.path)) return rows;
+  std::vector<double> possible = {0.};
+  for (const double share : kMarginShares) {
+    if (!around.isFree(kept, share * margin_ - kMarginSlack)) continue;
+    possible.insert(possible.begin(), share * margin_);
+    break;
   }
+  for (const double wanted : possible)
+    for (const Corners corners : {Corners::blend, Corners::stop}) {
+      RetimeOptions options;
+      options.corners = corners;
+      options.tolerance = kBlend;
+      options.is_free = [&](const MatrixXd& points, double) { return around.isFree(points, wanted - kMarginSlack); };
+      const TimedPath found = retime(kept, limits, options);
+      if (!found.feasible()) continue;
+      TimedRows rows = rowsOf(found, configurations);
+      if (around.isFree(rows.path, wanted - kMarginSlack)) return {std::move(rows), wanted, ""};
+    }
   RetimeOptions stops;
   stops.corners = Corners::stop;
-  return rowsOf(retime(kept, limits, stops), configurations);
+  return {rowsOf(retime(kept, limits, stops), configurations), 0., ""};
 }
 
 MatrixXd taskMotionLimits(const Config& C, const VectorXd& velocity, const VectorXd& acceleration) {

@@ -8,6 +8,7 @@
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/common/speculative_execution.h"
 #include "kinegraph/planning/plan_motion.h"
+#include "kinegraph/task_planning/search/meant_contacts.h"
 #include "kinegraph/task_planning/task_actions.h"
 
 namespace kinegraph {
@@ -21,11 +22,14 @@ struct TimedRows {
 /// Plans the motions of actions: continuously collision-free, within limits, from rest to rest.
 class TaskMotions {
  public:
-  /// `limits`: velocity and acceleration of each dof, (2, n). `start`: the initial facts.
-  TaskMotions(SpeculativeExecutor& executor, MatrixXd limits, const std::vector<Literal>& start, std::uint64_t seed);
+  /// `limits`: velocity and acceleration of each dof, (2, n). `margin`: preferred clearance, m. `start`: the initial
+  /// facts.
+  TaskMotions(SpeculativeExecutor& executor, MatrixXd limits, double margin, const std::vector<Literal>& start,
+              std::uint64_t seed);
 
   struct Found {
     std::optional<TimedRows> motion;
+    double margin = 0.;    ///< that the motion was planned with, m
     std::string cause;     ///< of a failure
     long evaluations = 0;  ///< spent
   };
@@ -51,16 +55,20 @@ class TaskMotions {
   MotionPlan findPath(const Config& C, const VectorXd& start, const VectorXd& goal,
                       const std::vector<MotionConstraint>& constraints = {},
                       const std::function<void()>& at_first_failure = {});
+  std::vector<double> margins() const;
   Speculative<PathResult> pathSpeculatively(const Config& C, const VectorXd& start, const VectorXd& goal) const;
   MotionPlan countedPlan(PathResult& findPath);
-  std::vector<VectorXd> retreatPiece(const Config& C, const VectorXd& q, const std::optional<VectorXd>& away) const;
-  std::optional<VectorXd> retreat(const Config& C, const VectorXd& q, const TaskAction& action) const;
+  std::vector<VectorXd> retreat(const Config& C, const Surroundings& around, const VectorXd& q,
+                                const TaskAction& action) const;
+  std::vector<VectorXd> straight(const Config& C, const VectorXd& q, const std::string& hand,
+                                 const Vector3d& step) const;
   TimedRows steady(const Config& C, TimedRows rows, const std::vector<std::string>& carried) const;
   TimedRows slower(const Config& C, TimedRows rows, const std::vector<std::string>& objects, double most) const;
-  TimedRows timed(const Config& C, const MatrixXd& configurations) const;
+  Found timed(const Surroundings& around, const MatrixXd& configurations) const;
 
   SpeculativeExecutor& executor_;
   MatrixXd limits_;
+  double margin_;
   bool has_doors_;
   std::vector<std::string> hands_, objects_;
   std::uint64_t seed_;

@@ -64,8 +64,15 @@ std::string TaskPlan::summary() const {
 }
 
 std::string TaskPlan::explain() const {
-  std::string text = cat(taskStatusName(status), ": ", summary(), "\n", evaluations,
-                         " evaluations of motion problems, ", expansions, " expansions of states in logic");
+  std::string text = cat(taskStatusName(status), ": ", summary());
+  const auto weakest = std::ranges::min_element(tolerances, {}, &StepTolerance::error);
+  if (weakest != tolerances.end()) {
+    const auto step = std::size_t(weakest - tolerances.begin());
+    text += cat("\nweakest step: ", step + 1, ". ", planText({actions[step]}), " survives errors of poses of ",
+                fixed(1e3 * weakest->error, 1), " mm", weakest->limit.empty() ? " or more" : "; then ", weakest->limit);
+  }
+  for (const std::string& warning : warnings) text += "\nwarning: " + warning;
+  text += cat("\n", evaluations, " evaluations of motion problems, ", expansions, " expansions of states in logic");
   for (const auto& [cause, count] : causes)
     text += cat("\n", cause, " (", count, count == 1 ? " branch)" : " branches)");
   return text;
@@ -73,9 +80,9 @@ std::string TaskPlan::explain() const {
 
 std::string TaskPlan::searchTree() const { return treeText(tree); }
 
-TaskPlan TaskPlan::repair(const Config& C) const {
+TaskPlan TaskPlan::repair(const Config& C, const RepairOptions& options) const {
   if (!replanner) throw ValueError("TaskPlan.repair: the plan was not made by planTask, and has no goal and options");
-  return replanner(C);
+  return replanner(C, options);
 }
 
 std::string TaskPlan::str() const {

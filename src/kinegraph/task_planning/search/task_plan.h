@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +13,7 @@
 namespace kinegraph {
 
 class BotOp;
+struct ExecutionOptions;
 struct TaskExecution;
 
 enum class TaskStatus {
@@ -40,6 +42,19 @@ struct RowRange {
   Eigen::Index size() const { return end - begin; }
 };
 
+/// The error of the poses of the robot and of objects that a step survives.
+struct StepTolerance {
+  double error = 0.;  ///< m
+  std::string limit;  ///< what happens with a larger one: "'l_palm' meets 'b'"
+};
+
+/// Limits of the search of TaskPlan::repair; none: those of the plan.
+struct RepairOptions {
+  std::optional<double> time_limit = {};     ///< s of wall time
+  std::optional<long> max_evaluations = {};  ///< of the functions of waypoint and motion problems
+  std::optional<int> threads = {};
+};
+
 /// The result of planTask: actions with their timed motion, or the causes for which there is none.
 ///
 /// As a Trajectory, the plan is piecewise linear in time between the rows of `path`. Its velocity is constant between
@@ -57,12 +72,17 @@ struct TaskPlan : Trajectory {
   std::vector<std::pair<std::string, int>> causes;  ///< of branches that were given up, the most frequent first
   std::vector<TaskBranch> tree;                     ///< all branches, in the order in which they were tried
   std::vector<std::string> violations;              ///< found by checkTaskPlan
-  long evaluations = 0;                             ///< of motion problems
-  long expansions = 0;                              ///< of states in logic
+  double margin =
+      0.;  ///< m: kept by all pairs whose contact is not meant; less than TaskOptions::margin with a warning
+  std::vector<StepTolerance> tolerances;                         ///< of each action
+  long evaluations = 0;                                          ///< of motion problems
+  long expansions = 0;                                           ///< of states in logic
   std::vector<std::pair<std::string, std::string>> attachments;  ///< (parent, object) after each action that moves one
-  std::vector<Config> scenes;                        ///< the scene of each action, with held objects attached to hands
-  std::vector<Literal> goal, start;                  ///< literals of the goal, and facts that hold initially
-  std::function<TaskPlan(const Config&)> replanner;  ///< plans to the same goal with the same options in another scene
+  std::vector<Config> scenes;        ///< the scene of each action, with held objects attached to hands
+  std::vector<Literal> goal, start;  ///< literals of the goal, and facts that hold initially
+
+  /// Plans to the same goal with the same options in another scene.
+  std::function<TaskPlan(const Config&, const RepairOptions&)> replanner;
 
   bool feasible() const { return status == TaskStatus::solved; }
 
@@ -73,7 +93,8 @@ struct TaskPlan : Trajectory {
   /// "4 actions, 12.31 s" for a plan, else the message.
   std::string summary() const;
 
-  /// Several lines: the status, the spent evaluations, and all causes for which branches were given up.
+  /// Several lines: the status, the weakest step with the error of poses that it survives, the spent evaluations, and
+  /// all causes for which branches were given up.
   std::string explain() const;
 
   /// The branches as a tree: a line per action, with the cause behind the last action of each branch.
@@ -97,6 +118,7 @@ struct TaskPlan : Trajectory {
 
   /// Executes the plan on a robot; see kinegraph::execute in api/task_execution.h.
   TaskExecution execute(BotOp& bot) const;
+  TaskExecution execute(BotOp& bot, const ExecutionOptions& options) const;
 
   /// Throws ValueError, in the name of `call`, if there is no motion.
   void requireMotion(const char* call) const;
@@ -106,7 +128,7 @@ struct TaskPlan : Trajectory {
 
   /// Plans the remaining actions to the same goal from the current scene `C`. Throws ValueError for plans without a
   /// replanner; planTask and planTasks set it.
-  TaskPlan repair(const Config& C) const;
+  TaskPlan repair(const Config& C, const RepairOptions& options = {}) const;
 
   /// The status and summary, the actions, and the most frequent causes.
   std::string str() const;

@@ -1,13 +1,16 @@
 #include "kinegraph/task_planning/search/task_search.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <set>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/logic/fol_reader.h"
+#include "kinegraph/task_planning/open_hands.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
+#include "kinegraph/task_planning/search/step_tolerance.h"
 #include "kinegraph/task_planning/search/task_conflicts.h"
 #include "kinegraph/task_planning/task_tools.h"
 
@@ -19,6 +22,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kSeeds = 3;         ///< sets of waypoints that are tried for the first plan of a sequence
 constexpr int kBetterSeeds = 16;  ///< sets of waypoints that are tried for better plans
+constexpr long kCostly = 4000;  ///< evaluations of waypoints and motions; after more, no more robust ones are searched
 constexpr double kNoPlan = std::numeric_limits<double>::infinity();
 
 Clock::time_point deadlineAfter(double seconds) {
@@ -46,6 +50,19 @@ Config withoutWedges(const Config& C) {
   return scene;
 }
 
+double requireMargin(double margin) {
+  if (!(margin >= 0. && std::isfinite(margin)))
+    throw ValueError(cat("planTask: margin is ", margin, " m; expected a number >= 0"));
+  return margin;
+}
+
+/// The error that a plan survives, with the missing margin subtracted, m; at most that of a robust step.
+double robustnessOf(const TaskPlan& plan, double margin) {
+  double least = kRobust;
+  for (const StepTolerance& step : plan.tolerances) least = std::min(least, step.error);
+  return least + std::min(plan.margin - margin, 0.);
+}
+
 int requireThreads(int threads) {
   if (threads < 1) throw ValueError(cat("planTask: threads is ", threads, "; expected 1 or more"));
   return threads;
@@ -54,8 +71,8 @@ int requireThreads(int threads) {
 }  // namespace
 
 TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptions& options)
-    : original_(std::make_shared<const Config>(C)),
-      C_(withoutWedges(C)),
+    : original_(std::make_shared<const Config>(withOpenings(withOpenHands(C), wordsOf(taskFacts(C), "is_gripper")))),
+      C_(withoutWedges(*original_)),
       doors_(doorsOf(C)),
       options_(options),
       goal_text_(goal),
@@ -63,8 +80,12 @@ TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptio
              taskFacts(C_, readLiterals(goal, "goal")), options.cancellation),
       limits_(taskMotionLimits(C, options.velocity, options.acceleration)),
       deadline_(deadlineAfter(options.time_limit)),
-      settings_{rulesWith(options.rules, mentionsFaces(logic_.goal())), options.seed, requireThreads(options.threads),
-                [this] { return isLate(); }, options.helper},
+      settings_{rulesWith(options.rules, mentionsFaces(logic_.goal())),
+                options.seed,
+                requireThreads(options.threads),
+                [this] { return isLate(); },
+                options.helper,
+                requireMargin(options.margin)},
       may_regrasp_(!options.domain),
       best_(kNoPlan),
       scene_(std::make_shared<const Config>(C_)),
@@ -203,27 +224,46 @@ std::optional<TaskPlan> TaskSearch::nextOf(Trial& trial) {
     Outcome& outcome = outcomes[seed].get();
     evaluations_ += outcome.evaluations;
     if (outcome.waypoint_failure) {
+      if (trial.best) continue;
+      trial.feasible_actions = outcome.feasible_actions;
+      trial.waypoint_failure = outcome.waypoint_failure;
       if (seed == 0) waypoints_.setFailure(trial.actions, outcome.waypoint_failure);
-      trial.seed = kBetterSeeds;
+      trial.seed = kBetterSeeds;  // also after a plan
       break;
     }
     if (outcome.plan) {
-      log_.addPlan(trial.actions);
-      trial.has_plan = true;
-      return completed(std::move(*outcome.plan));
+      const double robustness = robustnessOf(*outcome.plan, options_.margin);
+      if (trial.has_plan || robustness >= kRobust || outcome.evaluations > kCostly)
+        return planned(trial, std::move(*outcome.plan));
+      if (!trial.best || robustness > trial.robustness) {  // other waypoints may be better
+        trial.best = std::move(outcome.plan);
+        trial.robustness = robustness;
+      }
+      continue;
     }
+    if (trial.best) continue;
     needs_seeds_ = true;
     trial.motion_failure = outcome.motion_failure;
     if (!trial.has_plan && !trial.motion_failure->doors.empty()) break;
   }
+  if (trial.best) return planned(trial, *std::exchange(trial.best, std::nullopt));
   return std::nullopt;
+}
+
+TaskPlan TaskSearch::planned(Trial& trial, TaskPlan plan) {
+  log_.addPlan(trial.actions);
+  trial.has_plan = true;
+  return completed(std::move(plan));
 }
 
 /// Forbids the sequence, or the part of it that fails.
 void TaskSearch::conclude(const Trial& trial) {
   if (trial.has_plan) return logic_.forbidPrefix(trial.actions);
   if (trial.motion_failure) return learner_.learnMotionFailure(trial.actions, *trial.motion_failure);
-  learner_.learnWaypointFailure(trial.actions);
+  if (trial.feasible_actions > 0)
+    learner_.learnWaypointFailure(trial.actions, trial.feasible_actions, trial.waypoint_failure);
+  else
+    learner_.learnWaypointFailure(trial.actions);
 }
 
 // --- answers ---------------------------------------------------------------------------------------------------------
@@ -249,7 +289,7 @@ TaskPlan TaskSearch::completed(TaskPlan plan) {
   plan.tree = log_.tree();
   plan.evaluations = evaluations();
   plan.expansions = logic_.expansions();
-  plan.replanner = [goal = goal_text_, options = options_](const Config& C) { return planTask(C, goal, options); };
+  plan.replanner = replannerTo(goal_text_, options_);
   return plan;
 }
 

@@ -32,6 +32,10 @@ class TaskSearch {
     std::vector<std::vector<Literal>> states;  ///< in logic, along the actions
     int seed = 0;                              ///< the next one
     bool has_plan = false;
+    std::optional<TaskPlan> best = {};                  ///< the most robust plan so far that is not robust
+    double robustness = 0.;                             ///< of `best`, m
+    std::size_t feasible_actions = 0;                   ///< at the beginning, known from pieces
+    FutureFailure waypoint_failure = nullptr;           ///< of the next one
     std::optional<TaskFailure> motion_failure = {};     ///< of the last seed that failed
     std::map<int, Speculative<Outcome>> outcomes = {};  ///< by seed
   };
@@ -40,6 +44,7 @@ class TaskSearch {
   std::optional<TaskPlan> nextPlan();
   std::optional<Actions> nextActions();
   std::optional<TaskPlan> nextOf(Trial& trial);
+  TaskPlan planned(Trial& trial, TaskPlan plan);
   Speculative<Outcome> outcomeOf(const Trial& trial, int seed, Priority priority);
   void conclude(const Trial& trial);
   bool standsOnItselfIn(const Actions& actions);

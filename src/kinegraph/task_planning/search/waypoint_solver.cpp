@@ -52,7 +52,7 @@ struct WaypointSolver::Solution {
 struct WaypointSolver::Problem {
   const Settings& settings;
   const std::shared_ptr<const Config> scene;
-  const std::vector<TaskAction> actions;
+  const std::vector<TaskAction> actions, later;
   const int seed;
   const CancellationToken stopped;
   mutable std::atomic<int> first_feasible = std::numeric_limits<int>::max();  ///< the first guess known to be feasible
@@ -69,7 +69,7 @@ struct WaypointSolver::Choice {
     if (waypoints) return;
     const Settings& settings = problem.settings;
     waypoints = makeTaskWaypoints(*problem.scene, problem.actions, variants, settings.rules,
-                                  settings.helper ? settings.helper() : nullptr);
+                                  settings.helper ? settings.helper() : nullptr, settings.margin, problem.later);
     unsolved_ = waypoints->m->komo->path().variables();
     if (settings.threads == 1) solver_ = solverOf(waypoints->m->komo);
   }
@@ -102,9 +102,10 @@ struct WaypointSolver::Choice {
 
 WaypointSolver::WaypointSolver(SpeculativeExecutor& executor, const Settings& settings,
                                std::shared_ptr<const Config> scene, std::vector<TaskAction> actions, int seed,
-                               CancellationToken stopped)
+                               CancellationToken stopped, std::vector<TaskAction> later)
     : executor_(executor),
-      problem_(new Problem{settings, std::move(scene), std::move(actions), seed, std::move(stopped)}) {
+      problem_(
+          new Problem{settings, std::move(scene), std::move(actions), std::move(later), seed, std::move(stopped)}) {
   const Config own = *problem_->scene;  // rules may query it while others copy the scene
   const auto variants = allVariants(own, problem_->actions, settings.rules, kChoices);
   for (std::size_t i = 0; i < variants.size(); ++i) {
@@ -144,12 +145,13 @@ WaypointSolver::Solution WaypointSolver::solveFrom(const Problem& problem, Choic
   return {solved.feasible, solved.evals, solved.x};
 }
 
-WaypointSolver::Result WaypointSolver::solve(Priority priority, const std::function<void()>& at_first_failure) {
+WaypointSolver::Result WaypointSolver::solve(Priority priority, const std::function<void()>& at_first_failure,
+                                             bool only_first) {
   Result result;
-  begin(priority, std::max(priority, Priority::normal));
-  VectorXd first;  // the end of the solver from the first guess
-  for (std::size_t i = 0; i < solutions_.size(); ++i) {
-    if (i > 0 && problem_->isLate()) break;
+  if (!only_first) begin(priority, std::max(priority, Priority::normal));
+  for (; next_ < solutions_.size(); ++next_) {
+    const std::size_t i = next_;
+    if (i > 0 && (only_first || problem_->isLate())) break;
     Solution solution = solutions_[i].get();
     result.evaluations += solution.evaluations;
     if (solution.is_feasible) {
@@ -161,11 +163,11 @@ WaypointSolver::Result WaypointSolver::solve(Priority priority, const std::funct
       return result;
     }
     if (i > 0) continue;
-    first = std::move(solution.x);
-    begin(priority, priority);
+    first_ = std::move(solution.x);
+    if (!only_first) begin(priority, priority);
     if (at_first_failure) at_first_failure();
   }
-  result.failure = failureAt(std::move(first));
+  result.failure = failureAt(first_);
   return result;
 }
 

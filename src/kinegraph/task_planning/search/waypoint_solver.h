@@ -23,13 +23,15 @@ class WaypointSolver {
     int threads = 1;
     std::function<bool()> is_late = {};  ///< true: the solver gives up; called by several threads
     std::function<std::shared_ptr<ManipulationHelper>()> helper = {};  ///< makes helpers; none: ManipulationHelper
+    double margin = kTaskMargin;                                       ///< preferred clearance, m
   };
 
   /// Prepares the problems. Each `seed` leads to other waypoints; with 0, the first guess samples neither placements
   /// nor grasps. The scene is only copied; `settings` must outlive the solver. Threads query `stopped`; once it returns
-  /// true, nobody needs the result.
+  /// true, nobody needs the result. `later`: actions that follow; placements leave room for theirs.
   WaypointSolver(SpeculativeExecutor& executor, const Settings& settings, std::shared_ptr<const Config> scene,
-                 std::vector<TaskAction> actions, int seed, CancellationToken stopped = {});
+                 std::vector<TaskAction> actions, int seed, CancellationToken stopped = {},
+                 std::vector<TaskAction> later = {});
   ~WaypointSolver();
 
   /// Allows threads to start: on the first guess with priority `first`, on the others with priority `others`.
@@ -42,8 +44,9 @@ class WaypointSolver {
   };
 
   /// Solves, with `priority` for guesses that threads still have to start. `at_first_failure` is called when the first
-  /// guess has failed.
-  Result solve(Priority priority = Priority::high, const std::function<void()>& at_first_failure = {});
+  /// guess has failed. With `only_first`, no other guess is tried; a second call tries the others.
+  Result solve(Priority priority = Priority::high, const std::function<void()>& at_first_failure = {},
+               bool only_first = false);
 
  private:
   struct Problem;
@@ -58,6 +61,8 @@ class WaypointSolver {
   std::shared_ptr<Problem> problem_;
   std::vector<std::shared_ptr<Choice>> choices_;  ///< of variants
   std::vector<Speculative<Solution>> solutions_;  ///< of the guesses of each choice, in order
+  std::size_t next_ = 0;                          ///< the next guess
+  VectorXd first_;                                ///< the end of the solver from the first guess
 };
 
 }  // namespace kinegraph

@@ -1,0 +1,277 @@
+#include "kinegraph/api/observed_world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/simulation/scene_bodies.h"
+#include "kinegraph/task_planning/search/motion_checks.h"
+#include "kinegraph/task_planning/task_doors.h"
+
+namespace kinegraph {
+
+namespace {
+
+using Words = std::vector<std::string>;
+
+double cosineOfDegrees(double degrees) { return std::cos(degrees * std::numbers::pi / 180.); }
+
+constexpr double kSlipped = .02;                 ///< m: tolerance of held objects in the hand
+constexpr double kOff = .03;                     ///< m: tolerance of standing objects
+constexpr double kNearOff = .008;                ///< m: tolerance of objects and places that come next
+const double kUpright = cosineOfDegrees(10.);    ///< objects that tilt more have fallen
+const double kNearTurned = cosineOfDegrees(4.);  ///< tolerance of the rotation of objects that come next
+constexpr double kTouch = 5e-3;                  ///< m: objects that are closer touch
+constexpr double kJointOff = .05;                ///< rad or m: tolerance of joints
+
+bool isSimulated(BotOp& bot) {
+  try {
+    bot.getWorld();
+    return true;
+  } catch (const RobotFault&) {
+    return false;
+  }
+}
+
+/// Whether an object looks the same after any rotation about its axis.
+bool isRound(const Frame& frame) {
+  const ShapeType type = frame.getShapeType();
+  return type == ShapeType::cylinder || type == ShapeType::ssCylinder || type == ShapeType::capsule ||
+         type == ShapeType::sphere;
+}
+
+double cosineBetween(const Frame& a, const Frame& b) {
+  const Matrix3d R = a.getRotationMatrix().transpose() * b.getRotationMatrix();
+  return isRound(a) ? R(2, 2) : .5 * (R.trace() - 1.);
+}
+
+/// Returns the place that an object stands on: the nearest of those that it touches and whose center is lower; "" if
+/// none.
+std::string placeBelow(const Config& C, const std::string& obj, const Words& places) {
+  const double height = C.getFrame(obj).getPosition().z();
+  double nearest = std::numeric_limits<double>::infinity();
+  std::string below;
+  for (const std::string& place : places) {
+    if (place == obj || !(C.getFrame(place).getPosition().z() < height)) continue;
+    const double gap = std::abs(gapOf(C, obj, place));
+    if (gap < nearest || (gap == nearest && place < below)) nearest = gap, below = place;
+  }
+  return nearest <= kTouch ? below : "";
+}
+
+Frame rootOf(const Config& C, const std::string& name) {
+  Frame frame = C.getFrame(name);
+  while (const std::optional<Frame> parent = frame.getParent()) frame = *parent;
+  return frame;
+}
+
+bool isBelow(const Config& C, const std::string& name, const std::string& ancestor) {
+  std::optional<Frame> frame = C.findFrame(name);
+  while (frame && frame->getName() != ancestor) frame = frame->getParent();
+  return frame.has_value();
+}
+
+void requireMovable(const std::string& obj, const Words& doors, const Config& world) {
+  if (!(world.getFrame(obj).getMass() > 0.))
+    throw ValueError(cat("execute: '", obj,
+                         "' has no mass, so that it stays where it is in the simulated world; call "
+                         "C.getFrame('",
+                         obj, "').setMass(...) before BotOp(C)"));
+  for (const std::string& door : doors) {
+    if (isBelow(world, obj, door))
+      throw ValueError(cat("execute: '", obj, "' hangs below '", door,
+                           "', so that it is a part of it in the simulated world; call C.getFrame('", obj,
+                           "').unLink() before BotOp(C)"));
+  }
+}
+
+}  // namespace
+
+void requireMovable(const TaskPlan& plan, const Config& world) {
+  const Words objects = wordsOf(plan.start, "is_object"), doors = wordsOf(plan.start, "is_guided");
+  for (const TaskAction& action : plan.actions) {
+    const std::string obj = objectOf(action);
+    if (std::ranges::find(objects, obj) != objects.end()) requireMovable(obj, doors, world);
+    if (isGuided(action) && !attributeFlag(world.getFrame(obj).data(), "noMotor", false))
+      throw ValueError(
+          cat("execute: a motor moves '", obj,
+              "' in the simulated world; set the attribute noMotor of its frame before BotOp(C), so that a "
+              "hand can move it"));
+  }
+}
+
+ObservedWorld::ObservedWorld(BotOp& bot, Config& seen, std::function<ObservedPoses()> observe)
+    : bot_(bot), seen_(seen), observe_(std::move(observe)), is_simulated_(kinegraph::isSimulated(bot)) {}
+
+void ObservedWorld::setPlan(const TaskPlan& plan) {
+  hands_ = wordsOf(plan.start, "is_gripper");
+  objects_ = wordsOf(plan.start, "is_object");
+  places_ = wordsOf(plan.start, "is_place");
+  const Words names = seen_.getJointNames(), doors = wordsOf(plan.start, "is_guided");
+  doors_.clear();
+  driven_.clear();
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    if (std::ranges::find(doors, names[k]) != doors.end())
+      doors_[names[k]] = Eigen::Index(k);
+    else
+      driven_.push_back(Eigen::Index(k));
+  }
+  held_.clear();
+  for (const std::string& obj : objects_) {
+    const std::string hand = plan.scenes.empty() ? "" : holderOf(plan.scenes[0], obj, hands_);
+    const auto parent = plan.scenes.empty() ? std::nullopt : plan.scenes[0].getFrame(obj).getParent();
+    const bool is_on_another = parent && std::ranges::find(objects_, parent->getName()) != objects_.end();
+    if (!hand.empty() && !is_on_another) take(obj, hand);
+  }
+  if (!observe_ && is_simulated_) return;
+  for (const std::string& obj : objects_)
+    if (!believed_.contains(obj)) believed_[obj] = seen_.getFrame(obj).getPose();
+}
+
+void ObservedWorld::advance(double seconds) {
+  bot_.sync(seen_, seconds);
+  placeBelieved();
+}
+
+void ObservedWorld::look() {
+  bot_.sync(seen_, 0.);
+  if (observe_) {
+    for (const auto& [name, pose] : observe_()) {
+      seen_.getFrame(name);  // throws FrameNotFound
+      if (!pose) continue;
+      const auto held = held_.find(name);
+      believed_[name] = held == held_.end() ? *pose : seen_.getFrame(held->second).getPose().inverse() * *pose;
+    }
+  }
+  placeBelieved();
+}
+
+/// Moves objects that cameras observe to their last poses, or along with the hand.
+void ObservedWorld::placeBelieved() {
+  for (const auto& [obj, pose] : believed_) {
+    const auto held = held_.find(obj);
+    seen_.getFrame(obj).setPose(held == held_.end() ? pose : seen_.getFrame(held->second).getPose() * pose);
+  }
+}
+
+void ObservedWorld::take(const std::string& obj, const std::string& hand) {
+  const Pose grip = seen_.getFrame(hand).getPose().inverse() * seen_.getFrame(obj).getPose();
+  held_[obj] = hand;
+  grips_[obj] = grip;
+  if (const auto believed = believed_.find(obj); believed != believed_.end()) believed->second = grip;
+}
+
+void ObservedWorld::release(const std::string& obj) {
+  held_.erase(obj);
+  if (const auto believed = believed_.find(obj); believed != believed_.end())
+    believed->second = seen_.getFrame(obj).getPose();
+}
+
+bool ObservedWorld::touches(const std::string& hand, const std::string& obj) const {
+  return gapOf(seen_, obj, hand) <= kTouch;
+}
+
+double ObservedWorld::gripForce(const std::string& hand, const std::string& obj) const {
+  const std::vector<Contact> contacts = bot_.getContacts();
+  if (contacts.empty()) return std::numeric_limits<double>::infinity();
+  std::optional<Frame> head = seen_.findFrame(hand);
+  while (head && head->getJointType() == JointType::none && head->getParent()) head = head->getParent();
+  double sum = 0.;
+  for (const Contact& contact : contacts) {
+    const bool is_first = isBelow(seen_, contact.frame_a, obj), is_second = isBelow(seen_, contact.frame_b, obj);
+    if (is_first != is_second && isBelow(seen_, is_first ? contact.frame_b : contact.frame_a, head->getName()))
+      sum += contact.force.norm();
+  }
+  return sum;
+}
+
+std::string ObservedWorld::slipped() const {
+  for (const auto& [obj, hand] : held_) {
+    const Pose now = seen_.getFrame(hand).getPose().inverse() * seen_.getFrame(obj).getPose();
+    const double off = (now.p - grips_.at(obj).p).norm();
+    if (off > kSlipped) return cat("'", obj, "' is not in '", hand, "': it is ", fixed(off, 3), " m off");
+  }
+  return "";
+}
+
+VectorXd ObservedWorld::jointErrors(const VectorXd& q) const { return (bot_.get_q() - q).cwiseAbs()(driven_); }
+
+std::string ObservedWorld::deviation(Config planned, const VectorXd& q, const Words& near) const {
+  planned.setJointState(q);
+  Eigen::Index worst = 0;
+  if (const double most = jointErrors(q).maxCoeff(&worst); most > kJointOff) {
+    const std::string joint = planned.getJointNames()[std::size_t(driven_[std::size_t(worst)])];
+    return cat("the robot is held up: joint '", joint, "' is ", fixed(most, 3), " off");
+  }
+  for (const auto& [door, dof] : doors_) {
+    if (const double off = std::abs(seen_.getJointState()[dof] - q[dof]); off > kJointOff)
+      return cat("'", door, "' is ", fixed(off, 3), " (m or rad) away from where it should be");
+  }
+  for (const std::string& obj : objects_)
+    if (std::string failure = objectDeviation(obj, planned); !failure.empty()) return failure;
+  for (const std::string& name : near) {
+    const std::optional<Frame> is = seen_.findFrame(name), shall = planned.findFrame(name);
+    if (!is || !shall || held_.contains(name)) continue;
+    const double off = (is->getPosition() - shall->getPosition()).norm();
+    if (off > kNearOff) return cat("'", name, "' is ", fixed(off, 3), " m away from where it should be");
+    if (cosineBetween(*is, *shall) < kNearTurned) return cat("'", name, "' has rotated");
+  }
+  return "";
+}
+
+std::string ObservedWorld::objectDeviation(const std::string& obj, const Config& planned) const {
+  const Frame is = seen_.getFrame(obj), shall = planned.getFrame(obj);
+  if (const auto held = held_.find(obj); held != held_.end()) {
+    const std::string& hand = held->second;
+    const Pose in_hand = seen_.getFrame(hand).getPose().inverse() * is.getPose();
+    const Pose planned_in_hand = planned.getFrame(hand).getPose().inverse() * shall.getPose();
+    const double off = (in_hand.p - planned_in_hand.p).norm();
+    return off > kSlipped ? cat("'", obj, "' is not in '", hand, "': it is ", fixed(off, 3), " m off") : "";
+  }
+  const double off = (is.getPosition() - shall.getPosition()).norm();
+  if (off > kOff) return cat("'", obj, "' is ", fixed(off, 3), " m away from where it should be");
+  const bool is_level = is.getRotationMatrix().col(2).dot(shall.getRotationMatrix().col(2)) >= kUpright;
+  return is_level ? "" : cat("'", obj, "' has tilted");
+}
+
+std::vector<std::string> ObservedWorld::missedGoals(const std::vector<Literal>& goal, const Config& C) const {
+  Words missed;
+  for (const Literal& literal : goal) {
+    if (literal.predicate != "on" || literal.arguments.size() != 2) continue;
+    const std::optional<Frame> parent = C.getFrame(literal.arguments[1]).getParent();
+    if ((parent && parent->getName() == literal.arguments[0]) == literal.negated) missed.push_back(literal.str());
+  }
+  const VectorXd q = seen_.getJointState();
+  const std::vector<TaskDoor> doors = doorsOf(seen_);
+  for (const Literal& literal : goal) {
+    if ((literal.predicate != "opened" && literal.predicate != "closed") || literal.arguments.size() != 1) continue;
+    const auto door = std::ranges::find(doors, literal.arguments[0], &TaskDoor::name);
+    const bool holds = door != doors.end() && door->stateAt(q[door->dof]) == literal.predicate;
+    if (holds == literal.negated) missed.push_back(literal.str());
+  }
+  return missed;
+}
+
+Config ObservedWorld::scene() const {
+  Config C = seen_;
+  Words objects = objects_;
+  std::ranges::sort(objects);
+  std::ranges::stable_sort(objects, {}, [&](const std::string& obj) { return C.getFrame(obj).getPosition().z(); });
+  std::map<std::string, std::string> below;  // the parents of before do not count
+  for (const std::string& obj : objects) {
+    const auto held = held_.find(obj);
+    const bool is_held = held != held_.end() && touches(held->second, obj);
+    below[obj] = is_held ? held->second : placeBelow(C, obj, places_);
+    const std::optional<Frame> was = C.getFrame(obj).getParent();
+    const bool was_on_another = was && std::ranges::find(objects_, was->getName()) != objects_.end();
+    if (was && (was_on_another || !holderOf(C, obj, hands_).empty())) hang(C, obj, rootOf(C, obj).getName());
+  }
+  for (const std::string& obj : objects)
+    if (!below[obj].empty()) hang(C, obj, below[obj]);
+  return C;
+}
+
+}  // namespace kinegraph

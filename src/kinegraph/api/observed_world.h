@@ -1,0 +1,69 @@
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "kinegraph/api/task_execution.h"
+
+namespace kinegraph {
+
+/// Throws ValueError if an object that actions move has no mass or is a part of a door in a simulated world, or if a
+/// motor moves a door there.
+void requireMovable(const TaskPlan& plan, const Config& world);
+
+/// The world during an execution as it is observed, the objects in hands, and its deviations from a plan.
+class ObservedWorld {
+ public:
+  ObservedWorld(BotOp& bot, Config& seen, std::function<ObservedPoses()> observe);
+
+  /// Takes over the hands, objects, places and doors of a plan, and the objects that its hands hold at the start.
+  void setPlan(const TaskPlan& plan);
+
+  void advance(double seconds);  ///< of control time
+  void look();                   ///< observes all objects
+
+  const Config& seen() const { return seen_; }
+  bool isSimulated() const { return is_simulated_; }
+
+  // --- hands
+  void take(const std::string& obj, const std::string& hand);
+  void release(const std::string& obj);
+  const std::map<std::string, std::string>& held() const { return held_; }  ///< hands by objects
+  bool touches(const std::string& hand, const std::string& obj) const;
+
+  /// The sum of the forces between an object and the links of a hand, N; infinite in a world without contacts.
+  double gripForce(const std::string& hand, const std::string& obj) const;
+  std::string slipped() const;  ///< the first held object that has moved in its hand since it was taken, or ""
+
+  // --- the plan
+  const std::map<std::string, Eigen::Index>& doors() const { return doors_; }  ///< indices in q
+  VectorXd jointErrors(const VectorXd& q) const;                               ///< |q - robot|, without doors
+
+  /// Returns the first deviation from the scene of an action at q, or "". `near` lists the frames that have to be at
+  /// their places exactly enough to be grasped or stood on.
+  std::string deviation(Config planned, const VectorXd& q, const std::vector<std::string>& near) const;
+
+  /// Returns the literals of a goal about places and doors that do not hold in `C`, which `scene` returned.
+  std::vector<std::string> missedGoals(const std::vector<Literal>& goal, const Config& C) const;
+
+  /// The observed world, with held objects attached to hands, and standing objects to their places.
+  Config scene() const;
+
+ private:
+  void placeBelieved();
+  std::string objectDeviation(const std::string& obj, const Config& planned) const;
+
+  BotOp& bot_;
+  Config& seen_;
+  const std::function<ObservedPoses()> observe_;
+  const bool is_simulated_;
+  std::vector<std::string> hands_, objects_, places_;
+  std::map<std::string, std::string> held_;
+  std::map<std::string, Pose> grips_;     ///< of held objects in the axes of the hand, when they were taken
+  std::map<std::string, Pose> believed_;  ///< world poses of objects, or poses in the hand, that cameras observe
+  std::map<std::string, Eigen::Index> doors_;
+  std::vector<Eigen::Index> driven_;  ///< indices of the other joints in q
+};
+
+}  // namespace kinegraph

@@ -1,0 +1,163 @@
+#include "kinegraph/task_planning/search/meant_contacts.h"
+
+#include <algorithm>
+#include <optional>
+#include <set>
+
+#include "kinegraph/task_planning/search/motion_checks.h"
+#include "kinegraph/task_planning/shape_points.h"
+#include "kinegraph/task_planning/task_doors.h"
+
+namespace kinegraph {
+
+namespace {
+
+using Names = std::set<std::string>;
+
+constexpr double kNearAtRest = .012;  ///< m: closer bodies at the ends of a motion may belong to each other
+constexpr double kBelow = 3e-3;       ///< m: what ends less than this above the lowest point of an object is below it
+
+/// The nearest frame with an active joint, from a frame upwards; null for static frames. It identifies a link.
+const FrameData* headOf(const Frame& frame) {
+  const FrameData* up = &frame.data();
+  while (up && !(up->moves() && dofSource(*up).joint->active)) up = up->parent;
+  return up;
+}
+
+/// The frames with shapes of the same link as a frame.
+Names linkOf(const Config& C, const std::string& name) {
+  const FrameData* head = headOf(C.getFrame(name));
+  Names parts;
+  for (const Frame& frame : C.getFrames())
+    if (frame.data().shape && headOf(frame) == head) parts.insert(frame.getName());
+  return parts;
+}
+
+/// The frames with shapes at or below a frame.
+Names bodyOf(const Config& C, const std::string& name) {
+  Names parts;
+  const std::optional<Frame> body = C.findFrame(name);
+  if (!body) return parts;
+  if (body->data().shape) parts.insert(name);
+  for (const Frame& frame : body->getSubtree())
+    if (frame.data().shape) parts.insert(frame.getName());
+  return parts;
+}
+
+double extremeHeight(const Config& C, const Names& parts, bool highest) {
+  double height = highest ? -1e9 : 1e9;
+  for (const std::string& part : parts) {
+    const Frame frame = C.getFrame(part);
+    for (const Vector3d& point : boxCorners(frame)) {
+      const double z = (frame.getPose().transform() * point).z();
+      height = highest ? std::max(height, z) : std::min(height, z);
+    }
+  }
+  return height;
+}
+
+/// Collects the pairs whose contact is meant.
+class MeantPairs {
+ public:
+  /// Changes the q of the scene.
+  MeantPairs(Config& scene, const std::vector<std::string>& hands)
+      : scene_(scene), hands_(hands.begin(), hands.end()) {}
+
+  void addAction(const TaskAction& action) {
+    if (action.empty()) return;
+    Names held;  // hands in the action
+    for (const std::string& word : action)
+      if (hands_.contains(word)) held.insert(word);
+    Names bodies = bodyOf(scene_, objectOf(action));
+    if (isHold(action) || isGuided(action)) bodies = bodyOf(scene_, action[2]);
+    for (const std::string& hand : held) add(linkOf(scene_, hand), bodies);
+    if (isPick(action) && action.size() > 2) addNamed(bodies, action[2]);
+    if (isPlace(action) && action.size() > 3) addNamed(bodies, action[3]);
+  }
+
+  /// All pairs that are near at q.
+  void addNear(const VectorXd& q) {
+    scene_.setJointState(q);
+    for (const Config::NearPair& pair : scene_.getCollisions(kNearAtRest)) add(nameOf(pair.a), nameOf(pair.b));
+  }
+
+  /// What is near an object at q, with `only_below` only what it stands on.
+  void addNearObject(const VectorXd& q, const std::string& obj, bool only_below) {
+    if (!scene_.findFrame(obj)) return;
+    scene_.setJointState(q);
+    const Names parts = bodyOf(scene_, obj);
+    const double lowest = extremeHeight(scene_, parts, false);
+    for (const Config::NearPair& pair : scene_.getCollisions(kNearAtRest)) {
+      const std::string a = nameOf(pair.a), b = nameOf(pair.b);
+      if (parts.contains(a) == parts.contains(b)) continue;
+      const std::string& other = parts.contains(a) ? b : a;
+      if (only_below && extremeHeight(scene_, {other}, true) > lowest + kBelow) continue;
+      add(a, b);
+    }
+  }
+
+  FramePairs pairs() const { return {pairs_.begin(), pairs_.end()}; }
+
+ private:
+  std::string nameOf(int id) const { return scene_.getFrame(id).getName(); }
+
+  void add(const std::string& a, const std::string& b) { pairs_.insert(std::minmax(a, b)); }
+
+  void add(const Names& some, const Names& others) {
+    for (const std::string& a : some)
+      for (const std::string& b : others)
+        if (a != b) add(a, b);
+  }
+
+  void addNamed(const Names& bodies, const std::string& place) {
+    if (scene_.findFrame(place) && scene_.getFrame(place).data().shape) add(bodies, {place});
+  }
+
+  Config& scene_;
+  const Names hands_;
+  std::set<std::pair<std::string, std::string>> pairs_;
+};
+
+FramePairs meantPairs(Config& C, const VectorXd& q0, const VectorXd& q1, const TaskAction& action,
+                      const TaskAction& before, const std::vector<std::string>& hands) {
+  MeantPairs meant(C, hands);
+  meant.addAction(before);
+  meant.addAction(action);
+  const auto isSliding = [](const TaskAction& a) { return startsSliding(a) || endsSliding(a) || isGuided(a); };
+  if (before.empty() || isSliding(before) || isSliding(action)) meant.addNear(q0);
+  if (isSliding(action) || (!action.empty() && action[0] == "pose")) meant.addNear(q1);
+  if (isPick(before) || before.empty()) meant.addNearObject(q0, before.empty() ? "" : objectOf(before), false);
+  if (isPlace(action)) meant.addNearObject(q1, objectOf(action), true);
+  return meant.pairs();
+}
+
+}  // namespace
+
+Surroundings::Surroundings(const Config& C, const VectorXd& q0, const VectorXd& q1, const TaskAction& action,
+                           const TaskAction& before, const std::vector<std::string>& hands)
+    : all_(C), unmeant_(C) {
+  ignorePairs(unmeant_, meantPairs(unmeant_, q0, q1, action, before, hands));
+}
+
+std::string Surroundings::violation(const MatrixXd& path, double margin) const {
+  std::string found = firstContact(all_, path);
+  return found.empty() && margin > 0. ? firstContact(unmeant_, path, margin) : found;
+}
+
+NearBodies Surroundings::nearest(const MatrixXd& path, double limit, bool of_world) const {
+  NearBodies nearest{"", "", limit};
+  Config scene = unmeant_;
+  for (Eigen::Index row = 0; row < path.rows(); ++row) {
+    scene.setJointState(path.row(row));
+    for (const Config::NearPair& pair : scene.getCollisions(nearest.distance)) {
+      const Frame a = scene.getFrame(pair.a), b = scene.getFrame(pair.b);
+      if (pair.distance >= nearest.distance) continue;
+      const FrameData *head_a = headOf(a), *head_b = headOf(b);
+      if (head_a == head_b || (of_world && head_a && head_b)) continue;
+      nearest = {a.getName(), b.getName(), pair.distance};
+    }
+  }
+  return nearest;
+}
+
+}  // namespace kinegraph

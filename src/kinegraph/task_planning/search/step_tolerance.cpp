@@ -1,0 +1,72 @@
+#include "kinegraph/task_planning/search/step_tolerance.h"
+
+#include <algorithm>
+
+#include "kinegraph/common/text.h"
+#include "kinegraph/task_planning/search/motion_checks.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr Eigen::Index kEvery = 8;  ///< rows of a path that are left out between two
+
+/// Some rows of a path, its ends included.
+MatrixXd sampled(const MatrixXd& path) {
+  const Eigen::Index last = path.rows() - 1, count = last / kEvery;
+  MatrixXd rows(count + 2, path.cols());
+  for (Eigen::Index k = 0; k <= count; ++k) rows.row(k) = path.row(k * kEvery);
+  rows.row(count + 1) = path.row(last);
+  return rows;
+}
+
+/// The colliding shapes of the fingers of a hand: those of its link that inactive joints move.
+std::vector<std::string> fingerShapes(const Config& C, const std::string& hand) {
+  const auto headOf = [](Frame frame, bool& is_finger) {
+    while (!frame.data().moves() || !frame.data().joint->active) {
+      is_finger = is_finger || frame.data().moves();
+      const std::optional<Frame> parent = frame.getParent();
+      if (!parent) break;
+      frame = *parent;
+    }
+    return frame;
+  };
+  bool unused = false;
+  const Frame head = headOf(C.getFrame(hand), unused);
+  std::vector<std::string> fingers;
+  for (const Frame& frame : C.getFrames()) {
+    bool is_finger = false;
+    if (frame.data().shape && frame.data().shape->contact && headOf(frame, is_finger) == head && is_finger)
+      fingers.push_back(frame.getName());
+  }
+  return fingers;
+}
+
+void lower(StepTolerance& tolerance, double error, const std::string& limit) {
+  if (error < tolerance.error) tolerance = {error, limit};
+}
+
+}  // namespace
+
+StepTolerance toleranceOf(const Config& C, const Surroundings& around, const MatrixXd& path, const TaskAction& action,
+                          const std::vector<std::string>& hands) {
+  StepTolerance tolerance{kMaxTolerance, ""};
+  const NearBodies near = around.nearest(sampled(path), kMaxTolerance, true);
+  if (!near.a.empty()) lower(tolerance, std::max(near.distance, 0.), cat("'", near.a, "' meets '", near.b, "'"));
+  Config end = C;
+  end.setJointState(path.row(path.rows() - 1));
+  if (action.size() < 4 || !end.findFrame(action[1])) return tolerance;
+  if (isPick(action) && std::ranges::find(hands, action[3]) != hands.end()) {
+    for (const std::string& finger : fingerShapes(end, action[3]))
+      for (const Frame& part : shapesOf(end.getFrame(action[1])))
+        if (part.data().shape->contact)
+          lower(tolerance, std::max(gapOf(end, finger, part.getName()), 0.),
+                cat("'", finger, "' meets '", part.getName(), "'"));
+  } else if (action[0] == "place" && end.findFrame(action[3])) {
+    lower(tolerance, std::max(supportOf(end.getFrame(action[1]), end.getFrame(action[3])), 0.),
+          cat("'", action[1], "' falls over"));
+  }
+  return tolerance;
+}
+
+}  // namespace kinegraph
