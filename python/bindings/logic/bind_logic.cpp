@@ -149,7 +149,8 @@ void bindProblem(nb::module_& m) {
 void bindLogic(nb::module_& m) {
   bindDomain(m);
   bindProblem(m);
-  nb::class_<PyPlanSearch> search(m, "PlanSearch", "Enumerates the plans of a problem in logic, the shortest or cheapest first.");
+  nb::class_<PyPlanSearch> search(m, "PlanSearch",
+                                  "Enumerates the plans of a problem in logic, the shortest or cheapest first.");
   nb::enum_<PlanSearch::Status>(m, "PlanSearchStatus", "How the last search for a plan ended.")
       .value("found", PlanSearch::Status::found)
       .value("exhausted", PlanSearch::Status::exhausted)

@@ -74,8 +74,8 @@ LogicRule ruleFrom(nb::handle t) {
                  literalsFrom(t[4]),          nb::cast<bool>(t[5]),  positionFrom(t[6])};
   for (nb::handle formula : t[7]) rule.conditions.push_back(formulaFrom(formula));
   for (nb::handle effect : t[8])
-    rule.conditional.push_back({nb::cast<Words>(effect[0]), nb::cast<Words>(effect[1]), formulaFrom(effect[2]),
-                                literalsFrom(effect[3])});
+    rule.conditional.push_back(
+        {nb::cast<Words>(effect[0]), nb::cast<Words>(effect[1]), formulaFrom(effect[2]), literalsFrom(effect[3])});
   rule.cost = nb::cast<double>(t[9]);
   rule.cost_functions = literalsFrom(t[10]);
   return rule;
@@ -85,8 +85,7 @@ nb::tuple domainState(const LogicDomain& domain) {
   nb::list rules;
   for (const LogicRule& rule : domain.rules) rules.append(ruleState(rule));
   return nb::make_tuple(domain.name, domain.symbols, rules, domain.types, state(domain.start),
-                        domain.distinct_variables, domain.constants, state(domain.predicates),
-                        state(domain.functions));
+                        domain.distinct_variables, domain.constants, state(domain.predicates), state(domain.functions));
 }
 
 LogicDomain domainFrom(const nb::tuple& t) {

@@ -8,6 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/scene/loading/reader.h"
+#include "kinegraph/scene/orphans.h"
 #include "kinegraph/scene/tree/scene_bytes.h"
 #include "scene/scene_docs.h"
 
@@ -103,10 +104,14 @@ void bindBuilding(nb::class_<PyConfig>& config) {
   config.def("clear", &PyConfig::clear, "Removes all frames.")
       .def(
           "addFile",
-          [](PyConfig& c, const PathText& file, const std::optional<std::string>& prefix) {
-            return withWarnings(c, c.addFile(file.text, prefix.value_or("")));
+          [](PyConfig& c, const PathText& file, const std::optional<std::string>& prefix, bool orphans) {
+            if (!orphans) return withWarnings(c, c.addFile(file.text, prefix.value_or("")));
+            std::vector<std::string> warnings;
+            const auto first = addFileWithOrphans(c, file.text, prefix.value_or(""), warnings);
+            for (const std::string& warning : warnings) emitWarning(warning);
+            return first;
           },
-          "filename"_a, "namePrefix"_a = nb::none(), docs::scene::addFile)
+          "filename"_a, "namePrefix"_a = nb::none(), "orphans"_a = false, docs::scene::addFile)
       .def(
           "addText",
           [](PyConfig& c, const std::string& text, const std::string& name) {

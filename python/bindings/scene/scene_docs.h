@@ -11,6 +11,7 @@ first; an .srdf file beside a .urdf file is read with it. On an error the scene 
 Args:
     filename: Path of a .g, .yml, .urdf or .srdf file, or of a MuJoCo .xml file. Paths of shipped models: ry.raiPath.
     namePrefix: Prefix of the frame names.
+    orphans: A frame whose parent is unknown has no parent, and a warning, instead of an error.
 Returns:
     The first added frame, or None if the file has none.
 Raises:

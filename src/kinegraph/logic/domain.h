@@ -40,9 +40,9 @@ inline bool hasValue(std::string_view predicate) { return predicate.size() > 1 &
 struct Formula {
   enum class Kind { literal, all, any, forall, exists };
   Kind kind = Kind::all;
-  Literal literal = {};                                ///< of Kind::literal
-  std::vector<Formula> parts = {};                     ///< one for quantifiers; `all` without parts is true
-  std::vector<std::string> variables = {}, types = {}; ///< of quantifiers; a type "" means any object
+  Literal literal = {};                                 ///< of Kind::literal
+  std::vector<Formula> parts = {};                      ///< one for quantifiers; `all` without parts is true
+  std::vector<std::string> variables = {}, types = {};  ///< of quantifiers; a type "" means any object
 
   /// `(or (on table cup) (not (exists ...)))`, as in PDDL
   std::string str() const;

@@ -96,7 +96,7 @@ class FactJoin {
 
   std::vector<Rule> rules_;
   std::vector<Facts> facts_;
-  std::vector<std::vector<Plan>> plans_;  ///< by the predicate of the trigger
+  std::vector<std::vector<Plan>> plans_;    ///< by the predicate of the trigger
   std::vector<std::pair<int, int>> queue_;  ///< predicate, index of the fact
   std::vector<std::size_t> found_;          ///< facts per owner
   std::function<void(int, std::size_t)> spend_, report_;

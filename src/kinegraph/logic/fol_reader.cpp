@@ -41,8 +41,8 @@ Literal readLiteral(LogicScanner& scan) {
     literal.arguments.push_back(exact(std::stod(value.text)));  // 2, 2. and 2.0 are one value
     literal.negated = scan.takeIf('!');
   } else {
-    throw ParseError(value.where, cat("expected a number, true or false behind ", literal.str(), "=, found ",
-                                      value.str()));
+    throw ParseError(value.where,
+                     cat("expected a number, true or false behind ", literal.str(), "=, found ", value.str()));
   }
   return literal;
 }
@@ -182,9 +182,9 @@ class FolReader {
     const bool valued = hasValue(literal.predicate);
     const std::string predicate = literal.predicate.substr(0, literal.predicate.size() - (valued ? 1 : 0));
     if (!known_.contains(predicate)) {
-      throw ParseError(literal.where,
-                       cat("unknown predicate '", predicate, "' in ", literal.str(),
-                           "; declare it in a line of its own", similarHint(predicate, {known_.begin(), known_.end()})));
+      throw ParseError(literal.where, cat("unknown predicate '", predicate, "' in ", literal.str(),
+                                          "; declare it in a line of its own",
+                                          similarHint(predicate, {known_.begin(), known_.end()})));
     }
     for (std::size_t i = 0; i + (valued ? 1 : 0) < literal.arguments.size(); ++i)
       require(literal.arguments[i], "symbol or variable");

@@ -20,7 +20,7 @@ struct GroundNames {
   std::vector<std::string> constants;
   std::map<std::string, int> constant_numbers;
   std::map<Shape, int> predicates;
-  std::set<Shape> changing;                                                        ///< in effects
+  std::set<Shape> changing;                                                     ///< in effects
   std::vector<std::unordered_map<FactTuple, int, FactTupleHash>> fact_numbers;  ///< by predicate
 
   int constant(const std::string& name);

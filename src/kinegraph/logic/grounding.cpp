@@ -230,7 +230,8 @@ class Grounder {
     if (formula.kind == Kind::literal) return !formula.negated && !formula.is_equality;
     if (formula.kind == Kind::forall) return false;
     if (formula.kind == Kind::any)
-      return !formula.parts.empty() && std::ranges::all_of(formula.parts, [](const auto& part) { return isPositive(part); });
+      return !formula.parts.empty() &&
+             std::ranges::all_of(formula.parts, [](const auto& part) { return isPositive(part); });
     return std::ranges::any_of(formula.parts, [](const auto& part) { return isPositive(part); });
   }
 

@@ -81,7 +81,7 @@ struct GroundProblem {
   /// Returns the literals that hold in a state: first those that never change.
   std::vector<Literal> literals(const FactSet& state) const;
 
-  std::unordered_map<std::string, int> numbers;  ///< indices of facts by their key
+  std::unordered_map<std::string, int> numbers;      ///< indices of facts by their key
   static std::string keyOf(const Literal& literal);  ///< `on table cup`
 };
 

@@ -189,8 +189,8 @@ void PddlConditions::readCost(const PddlExpression& at, LogicRule& rule, const W
 void PddlConditions::addCost(const PddlExpression& at, LogicRule& rule) {
   if (at.head() == "+") {
     for (std::size_t i = 1; i < at.list.size(); ++i) addCost(at.list[i], rule);
-  } else if (at.isList() || !(std::isdigit(static_cast<unsigned char>(at.word[0])) || at.word[0] == '-' ||
-                              at.word[0] == '.')) {
+  } else if (at.isList() ||
+             !(std::isdigit(static_cast<unsigned char>(at.word[0])) || at.word[0] == '-' || at.word[0] == '.')) {
     rule.cost_functions.push_back(names_.literalOf(at, rule.variables, true));
   } else {
     const double value = numberOf(at);

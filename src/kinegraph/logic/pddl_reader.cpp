@@ -48,7 +48,7 @@ class DomainReader {
   DomainReader() : names_(domain_), conditions_(names_) { domain_.distinct_variables = false; }
 
   LogicDomain read(const PddlExpression& all) {
-    const std::vector<std::string> known = {"domain",       ":requirements", ":types", ":constants",
+    const std::vector<std::string> known = {"domain",      ":requirements", ":types", ":constants",
                                             ":predicates", ":functions",    ":action"};
     for (std::size_t i = 1; i < all.list.size(); ++i) {
       const std::string head = all.list[i].head();
@@ -165,13 +165,11 @@ class DomainReader {
 class ProblemReader {
  public:
   explicit ProblemReader(const LogicDomain& domain)
-      : problem_{"problem", domain, domain.constants, domain.start, {}},
-        names_(problem_.domain),
-        conditions_(names_) {}
+      : problem_{"problem", domain, domain.constants, domain.start, {}}, names_(problem_.domain), conditions_(names_) {}
 
   LogicProblem read(const PddlExpression& all) {
-    const std::vector<std::string> known = {"problem", ":requirements", ":domain", ":objects", ":init", ":goal",
-                                            ":metric"};
+    const std::vector<std::string> known = {"problem", ":requirements", ":domain", ":objects",
+                                            ":init",   ":goal",         ":metric"};
     for (std::size_t i = 1; i < all.list.size(); ++i) {
       const std::string head = all.list[i].head();
       if (std::ranges::find(known, head) == known.end()) refusePart(all.list[i], "problem", known);

@@ -46,7 +46,9 @@ class PddlWords {
     requireOneCase();
   }
 
-  bool isType(const Literal& literal) const { return literal.arguments.size() == 1 && types_.contains(literal.predicate); }
+  bool isType(const Literal& literal) const {
+    return literal.arguments.size() == 1 && types_.contains(literal.predicate);
+  }
   bool knows(const Literal& literal) const {
     return literal.predicate == kEqual || isType(literal) ||
            names_.contains({literal.predicate, literal.arguments.size()});
@@ -136,7 +138,8 @@ class PddlWords {
     const auto require = [&](const std::string& word) {
       const auto [known, fresh] = seen.try_emplace(lowerCase(word), word);
       if (!fresh && known->second != word)
-        throw ValueError(cat("writePddl: '", known->second, "' and '", word, "' differ in case alone; PDDL has one case"));
+        throw ValueError(
+            cat("writePddl: '", known->second, "' and '", word, "' differ in case alone; PDDL has one case"));
     };
     for (const std::string& symbol : domain_.symbols) require(symbol);
     for (const LogicRule& rule : domain_.rules) {
@@ -282,9 +285,8 @@ Names constantsOf(const LogicDomain& domain) {
 }
 
 std::string writeFunctions(const LogicDomain& domain) {
-  const bool has_costs = std::ranges::any_of(domain.rules, [](const LogicRule& rule) {
-    return rule.cost > 0 || !rule.cost_functions.empty();
-  });
+  const bool has_costs = std::ranges::any_of(
+      domain.rules, [](const LogicRule& rule) { return rule.cost > 0 || !rule.cost_functions.empty(); });
   const bool has_total = std::ranges::any_of(
       domain.functions, [](const Signature& function) { return lowerCase(function.name) == "total-cost"; });
   if (!has_costs && domain.functions.empty()) return "";

@@ -9,7 +9,7 @@ namespace kinegraph {
 namespace {
 
 constexpr LandmarkCut::Cost kNever = LandmarkCut::kNever;
-constexpr long kAskEvery = 64;                       ///< expansions
+constexpr long kAskEvery = 64;                  ///< expansions
 constexpr LandmarkCut::Cost kLonger = 1 << 20;  ///< actions; a unit of cost outweighs them
 
 /// Whether the shortest plans are the cheapest.
@@ -31,7 +31,10 @@ std::vector<LandmarkCut::Cost> searchCosts(const GroundProblem& ground) {
 PlanSearch::PlanSearch(GroundProblem ground) : PlanSearch(std::move(ground), Options()) {}
 
 PlanSearch::PlanSearch(GroundProblem ground, Options options)
-    : ground_(std::move(ground)), options_(std::move(options)), costs_(searchCosts(ground_)), landmarks_(ground_, costs_) {
+    : ground_(std::move(ground)),
+      options_(std::move(options)),
+      costs_(searchCosts(ground_)),
+      landmarks_(ground_, costs_) {
   listActions();
   stateOf(ground_.start);
 }
@@ -91,8 +94,7 @@ const std::vector<PlanSearch::Edge>& PlanSearch::edges(int state) {
     for (std::size_t fact = 0; fact < needing_.size(); ++fact) {
       if (facts.has(int(fact))) candidates_.insert(candidates_.end(), needing_[fact].begin(), needing_[fact].end());
     }
-    std::erase_if(candidates_,
-                  [&](int a) { return !ground_.isApplicable(ground_.actions[std::size_t(a)], facts); });
+    std::erase_if(candidates_, [&](int a) { return !ground_.isApplicable(ground_.actions[std::size_t(a)], facts); });
     std::ranges::sort(candidates_);
     for (int a : candidates_) {
       const int to = stateOf(ground_.apply(a, facts));
@@ -224,8 +226,7 @@ bool PlanSearch::advance() {
     used_ += cost;
     path_.push_back({edge.to, 0});
     states_[std::size_t(edge.to)].on_path = true;
-    if (states_[std::size_t(edge.to)].is_goal && used_ == length_ && returned_.insert(actions_).second)
-      return true;
+    if (states_[std::size_t(edge.to)].is_goal && used_ == length_ && returned_.insert(actions_).second) return true;
   }
   return false;
 }

@@ -85,8 +85,8 @@ class PlanSearch {
 
   GroundProblem ground_;
   Options options_;
-  std::vector<Cost> costs_;                 ///< per action
-  std::vector<std::vector<int>> needing_;   ///< per fact: actions that are possible only with it
+  std::vector<Cost> costs_;                  ///< per action
+  std::vector<std::vector<int>> needing_;    ///< per fact: actions that are possible only with it
   std::vector<int> unneeding_, candidates_;  ///< the other actions; a buffer
   LandmarkCut landmarks_;
   std::vector<StateInfo> states_;

@@ -117,6 +117,7 @@ Mesh readMeshFile(const std::string& path) {
   if (!std::filesystem::is_regular_file(path)) throw FileError(cat("mesh file '", path, "' does not exist"));
   if (path.ends_with(".h5")) return readH5Mesh(path, "mesh");
   if (path.ends_with(".msh")) return readMshMesh(path);
+  if (path.ends_with(".tri")) return readTriMesh(path);
   checkMeshHeader(path);
   const AssimpScene scene = readAssimpScene(path);
   Mesh mesh;

@@ -11,18 +11,19 @@ namespace kinegraph {
 namespace {
 
 /// Builds the scene, unless the grammar has errors: they would cause spurious further errors.
-void build(SceneSource source, SceneTree& scene, SceneDiagnostics& diagnostics, std::vector<std::string>& warnings) {
+void build(SceneSource source, SceneTree& scene, SceneDiagnostics& diagnostics, std::vector<std::string>& warnings,
+           bool orphans = false) {
   diagnostics.throwErrors();
-  SceneBuilder(scene, diagnostics).build(source);
+  SceneBuilder(scene, diagnostics, orphans).build(source);
   diagnostics.throwErrors();
   for (std::string& warning : diagnostics.warnings()) warnings.push_back(std::move(warning));
 }
 
 }  // namespace
 
-void readSceneFile(const std::string& path, SceneTree& scene, std::vector<std::string>& warnings) {
+void readSceneFile(const std::string& path, SceneTree& scene, std::vector<std::string>& warnings, bool orphans) {
   SceneDiagnostics diagnostics;
-  build(readSource(path, diagnostics), scene, diagnostics, warnings);
+  build(readSource(path, diagnostics), scene, diagnostics, warnings, orphans);
 }
 
 void readSceneText(std::string_view text, const std::string& name, const std::string& folder, SceneTree& scene,

@@ -13,7 +13,8 @@ namespace kinegraph {
 /// expanded from the environment. Throws FileError or ParseError (with file:line:column, the source line and a
 /// caret);
 /// `scene` must then be discarded. Appends warnings ("file:line:column: ...") to `warnings`.
-void readSceneFile(const std::string& path, SceneTree& scene, std::vector<std::string>& warnings);
+/// `orphans`: frames with an unknown parent have none, and a warning, instead of an error.
+void readSceneFile(const std::string& path, SceneTree& scene, std::vector<std::string>& warnings, bool orphans = false);
 
 /// Reads scene text. `name` stands for the file in messages; included files are relative to `folder`.
 void readSceneText(std::string_view text, const std::string& name, const std::string& folder, SceneTree& scene,

@@ -148,6 +148,11 @@ FrameData* SceneBuilder::findParent(const std::string& name, const FrameData& fr
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), back);
   const bool counts = error == std::errc{} && end == name.data() + name.size() && back < 0 && back >= -place;
   if (counts && !scene_.find(name)) return frames_[place + back];
+  if (orphans_ && !scene_.find(name) && !scene_.find(source.prefix + name)) {
+    diagnostics_.warning(where, cat("parent of '", frame.name, "': '", name, "' is not a frame of this scene; '",
+                                    frame.name, "' has no parent"));
+    return nullptr;
+  }
   return find(name, source.prefix, where, cat("parent of '", frame.name, "':"));
 }
 
