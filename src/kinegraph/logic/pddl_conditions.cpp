@@ -125,8 +125,17 @@ void PddlConditions::split(Formula formula, std::vector<Literal>& literals, std:
 
 void PddlConditions::readEffects(const PddlExpression& at, LogicRule& rule) {
   readEffect(at, rule, {rule.variables, {}, {}, {}});
-  // Effects of PDDL are simultaneous: an added fact is not deleted.
-  std::ranges::stable_sort(rule.eff, {}, [](const Literal& effect) { return !effect.negated; });
+  // Effects of PDDL are simultaneous: an added fact is not deleted, and twice is once.
+  std::vector<Literal> all;
+  for (Literal& effect : rule.eff) {
+    Literal added = effect;
+    added.negated = false;
+    const bool is_known = std::ranges::find(all, effect) != all.end();
+    const bool is_undone = effect.negated && std::ranges::find(rule.eff, added) != rule.eff.end();
+    if (!is_known && !is_undone) all.push_back(effect);
+  }
+  std::ranges::stable_sort(all, {}, [](const Literal& effect) { return !effect.negated; });
+  rule.eff = std::move(all);
 }
 
 void PddlConditions::readEffect(const PddlExpression& at, LogicRule& rule, const Within& within) {
