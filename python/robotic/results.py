@@ -65,7 +65,8 @@ def _overrides(problem: Any) -> bool:
     """Whether a subclass of nlp.NLP describes itself by methods."""
     base = NLP
     return isinstance(problem, base) and any(
-        getattr(type(problem), name) is not getattr(base, name) for name in ("getDimension", "getFeatureTypes", "getBounds")
+        getattr(type(problem), name) is not getattr(base, name)
+        for name in ("getDimension", "getFeatureTypes", "getBounds")
     )
 
 

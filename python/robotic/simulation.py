@@ -79,7 +79,8 @@ class Simulation(kinegraph.Simulation):
             ArgumentError: A size is wrong.
         """
         if isinstance(state, kinegraph.SimulationState):
-            return super().setState(state)
+            super().setState(state)
+            return
         velocities = np.asarray(frameVelocities, float)
         free = [frame.ID for frame in self.getFreeFrames()]
         if velocities.size == 6 * self._scene.getFrameDimension() != 6 * len(free):

@@ -57,4 +57,6 @@ class MeshTool:
     def __getattr__(self, name: str) -> Any:
         if name.startswith("_"):
             raise AttributeError(name)
-        raise NotFound(f"MeshTool.{name}: not part of Kinegraph; instead: the package trimesh edits and converts meshes")
+        raise NotFound(
+            f"MeshTool.{name}: not part of Kinegraph; instead: the package trimesh edits and converts meshes"
+        )

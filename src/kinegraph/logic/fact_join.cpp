@@ -154,13 +154,11 @@ void FactJoin::finish(const Rule& rule, const std::vector<int>& binding) {
   for (const Atom& head : rule.heads) {
     FactTuple tuple;
     for (int argument : head.arguments) tuple.push_back(valueOf(argument, binding));
-    if (!addFact(head.predicate, std::move(tuple))) continue;
-    if (std::size_t(rule.owner) >= found_.size()) found_.resize(std::size_t(rule.owner) + 1, 0);
-    report_(rule.owner, ++found_[std::size_t(rule.owner)]);
+    if (addFact(head.predicate, std::move(tuple))) report_(rule.owner, head.predicate);
   }
 }
 
-void FactJoin::run(std::function<void(int, std::size_t)> spend, std::function<void(int, std::size_t)> found) {
+void FactJoin::run(std::function<void(int, std::size_t)> spend, std::function<void(int, int)> found) {
   spend_ = std::move(spend);
   report_ = std::move(found);
   makePlans();

@@ -57,8 +57,9 @@ class FactJoin {
   /// Adds a fact; false if it is known.
   bool addFact(int predicate, FactTuple tuple);
 
-  /// Computes all facts. `spend(owner, tries)` counts the facts that are tried, `found(owner, facts)` those that follow.
-  void run(std::function<void(int, std::size_t)> spend, std::function<void(int, std::size_t)> found);
+  /// Computes all facts. `spend(owner, tries)` counts the facts that are tried; `found(owner, predicate)` is called for
+  /// each fact that follows.
+  void run(std::function<void(int, std::size_t)> spend, std::function<void(int, int)> found);
 
   bool has(int predicate, const FactTuple& tuple) const { return facts_[std::size_t(predicate)].known.contains(tuple); }
   /// In the order in which they were found.
@@ -98,8 +99,8 @@ class FactJoin {
   std::vector<Facts> facts_;
   std::vector<std::vector<Plan>> plans_;    ///< by the predicate of the trigger
   std::vector<std::pair<int, int>> queue_;  ///< predicate, index of the fact
-  std::vector<std::size_t> found_;          ///< facts per owner
-  std::function<void(int, std::size_t)> spend_, report_;
+  std::function<void(int, std::size_t)> spend_;
+  std::function<void(int, int)> report_;
 };
 
 }  // namespace kinegraph

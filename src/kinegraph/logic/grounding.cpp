@@ -1,12 +1,12 @@
 #include "kinegraph/logic/grounding.h"
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 #include <set>
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/logic/ground_conditions.h"
+#include "kinegraph/logic/ground_costs.h"
 
 namespace kinegraph {
 
@@ -61,7 +61,7 @@ class Grounder {
     reach();
     numberFacts();
     for (std::size_t r = 0; r < rules().size(); ++r) makeRules(int(r));
-    makeCosts();
+    if (out_.problem.minimize_cost) setActionCosts(out_);
     makeGoal();
     for (const Literal& fact : out_.problem.start) {
       if (const int number = out_.factNumber(fact); number >= 0 && !fact.negated) out_.start.insert(number);
@@ -286,22 +286,28 @@ class Grounder {
 
   void reach() {
     for (int r = 0; r < int(rules().size()); ++r) addJoinRules(r);
-    // n^k matches in the worst case, for k preconditions and n facts.
+    std::vector<std::size_t> facts(rules().size(), 0), bindings(rules().size(), 0);
     names_.join.run(
         [&](int owner, std::size_t tries) {
           tries_ += tries;
-          if (tries_ <= kTriesPerAction * most_) return;
-          const LogicRule& rule = rules()[std::size_t(owner)];
-          throw ValueError(cat("ground: ", rule.where.str(), ": rule '", rule.name,
-                               "' is one too many: facts were held against preconditions ", kTriesPerAction * most_,
-                               " times; preconditions that tie its variables to one another would leave fewer"));
+          if (tries_ > kTriesPerAction * most_) refuseJoins(owner);
         },
-        [&](int owner, std::size_t facts) {
-          if (facts <= 2 * most_) return;  // each rule also records the values of its variables
+        [&](int owner, int predicate) {
+          const bool binds = predicate == indexed_[std::size_t(owner)].bindings;
+          if (++(binds ? bindings : facts)[std::size_t(owner)] <= most_) return;
+          if (binds) refuseJoins(owner);
           const LogicRule& rule = rules()[std::size_t(owner)];
           throw ValueError(cat("ground: ", rule.where.str(), ": rule '", rule.name, "' can make more than ", most_,
                                " facts true; the problem is too large"));
         });
+  }
+
+  /// n^k matches in the worst case, for k preconditions and n facts.
+  [[noreturn]] void refuseJoins(int owner) const {
+    const LogicRule& rule = rules()[std::size_t(owner)];
+    throw ValueError(cat("ground: ", rule.where.str(), ": rule '", rule.name,
+                         "' is one too many: facts were held against preconditions ", tries_,
+                         " times; preconditions that tie its variables to one another would leave fewer"));
   }
 
   /// Facts are numbered by predicate, then by constants.
@@ -376,47 +382,6 @@ class Grounder {
       std::erase(from, fact);
       if (std::ranges::find(to, fact) == to.end()) to.push_back(fact);
     }
-  }
-
-  double costOf(const GroundRule& action, const std::map<std::string, double>& values) const {
-    const LogicRule& rule = rules()[std::size_t(action.rule)];
-    double sum = rule.cost;
-    for (Literal function : rule.cost_functions) {
-      for (std::string& word : function.arguments) {
-        const auto variable = std::ranges::find(rule.variables, word);
-        if (variable != rule.variables.end()) word = action.arguments[std::size_t(variable - rule.variables.begin())];
-      }
-      const auto value = values.find(GroundProblem::keyOf(function));
-      if (value == values.end())
-        throw ParseError(function.where, cat("the cost ", function.str(), " of action '", rule.name, "' has no value"));
-      if (value->second < 0)
-        throw ParseError(function.where, cat("the cost ", function.str(), " of action '", rule.name, "' is ",
-                                             value->second, "; expected at least 0"));
-      sum += value->second;
-    }
-    return sum;
-  }
-
-  /// Costs are whole multiples of a power of ten, so that their sums are exact.
-  void makeCosts() {
-    if (!out_.problem.minimize_cost) return;
-    std::map<std::string, double> values;
-    for (const FunctionValue& value : out_.problem.values) values[GroundProblem::keyOf(value.function)] = value.value;
-    std::vector<double> costs;
-    for (const GroundRule& action : out_.actions) costs.push_back(costOf(action, values));
-    double scale = 1;
-    const auto is_whole = [&](double cost) {
-      const double scaled = cost * scale;
-      return std::abs(scaled - std::round(scaled)) <= 1e-9 * std::max(1., scaled);
-    };
-    while (scale < 1e6 && !std::ranges::all_of(costs, is_whole)) scale *= 10;
-    for (std::size_t a = 0; a < costs.size(); ++a) {
-      if (!is_whole(costs[a]) || costs[a] * scale > 1e9)
-        throw ValueError(cat("ground: the cost ", costs[a], " of (", join(out_.action(int(a)), " "),
-                             ") is too fine or too large; expected at most 6 decimals and 1e9 of them"));
-      out_.actions[a].cost = std::llround(costs[a] * scale);
-    }
-    out_.cost_unit = 1 / scale;
   }
 
   void makeGoal() {

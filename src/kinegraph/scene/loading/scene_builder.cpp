@@ -166,7 +166,7 @@ FrameData& SceneBuilder::addOrigin(FrameData& joint_frame, const Pose& before) {
 
 void SceneBuilder::interpret(FrameData& frame, const SourceFrame& source) {
   AttributeReader read = reader(frame, source);
-  if (!frame.parent && !source.node.parents.empty())
+  if (!frame.parent && !source.node.parents.empty() && !(orphans_ && !read.find({"joint"})))
     return read.applyBody(frame);  // the missing parent is already reported
   const std::optional<Pose> before = read.readBefore(), behind = read.readBehind();
   if (const Node* node = read.find({"from", "to"})) {
