@@ -113,7 +113,7 @@ void bindObjectives(nb::class_<PyKomo>& komo) {
                    "typing.Sequence[str] | str = [], "
                    "type: OT, scale: numpy.typing.ArrayLike | None = None, target: numpy.typing.ArrayLike | None = "
                    "None, order: int = -1, margin: float = 0.0) -> None"),
-           docs::komo::addObjectiveByName)
+           docs::komo::addObjectiveByTimes)
       .def(
           "addFreeMotion",
           [](PyKomo& k, Optional times, double margin, double scale) {

@@ -87,7 +87,7 @@ def view_setCamera(self: Config, *where: Any) -> None:
         ArgumentError: The arguments have another form.
     """
     viewer = self.viewer()
-    if where == (None,):
+    if len(where) == 1 and where[0] is None:
         return viewer.setCamera(None)
     if len(where) == 1 and isinstance(where[0], (str, Frame)):
         return viewer.setCamera(where[0])
