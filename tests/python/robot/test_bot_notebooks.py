@@ -113,6 +113,7 @@ def test_a_bot_without_a_gripper_says_so() -> None:
         bot.getImage("unknown")
 
 
+@pytest.mark.filterwarnings("ignore:BotOp. joint")  # fast motions lag
 def test_a_motion_that_is_too_fast_keeps_its_time_in_simulation_with_a_warning(C: ry.Config) -> None:
     """Notebooks lift an object in .1 s; the reference's simulation has no limits."""
     bot = ry.BotOp(C, False)
@@ -130,6 +131,7 @@ def test_a_motion_that_is_too_fast_keeps_its_time_in_simulation_with_a_warning(C
         kinegraph.BotOp(C, False).move([up, down], [0.1, 0.3])
 
 
+@pytest.mark.filterwarnings("ignore:BotOp. joint")  # fast motions lag
 def test_a_grasp_planned_by_the_helper_and_lifted_fast(C: ry.Config) -> None:
     """The helper has the calls of the problem."""
     C.addFrame("obj").setPosition([-0.25, 0.1, 0.7]).setShape(ry.ST.ssBox, [0.04, 0.2, 0.1, 0.005]).setMass(0.1)
