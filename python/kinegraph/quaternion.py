@@ -298,6 +298,10 @@ class Quaternion:
         """Returns w x y z, shape (4,)."""
         return self._q.copy()
 
+    def getArr(self) -> Array:
+        """Returns w x y z, shape (4,), like asArr."""
+        return self.asArr()
+
     def getMatrix(self) -> Array:
         """Returns the rotation matrix, shape (3, 3)."""
         w, x, y, z = self._q / np.linalg.norm(self._q)

@@ -1,10 +1,11 @@
 """Runs scripts written for the reference: `from robotic import ry` or `import robotic as ry`.
 
-A thin layer over kinegraph with the same classes and functions under the same names, and four differences:
+A thin layer over kinegraph with the same classes and functions under the same names, and five differences:
 
 - `feasible` of a solve follows the reference's rule; see `SolverReturn`.
-- A simulated `BotOp` slows down motions that exceed its limits, with a warning.
-- `Config.getFrame` returns None for an unknown frame, with a warning.
+- A simulated `BotOp` moves beyond its limits and into obstacles, with a warning; `kinegraph.BotOp` is strict.
+- `Config.getFrame` returns None for an unknown frame, and a frame with an unknown parent has none, with a warning.
+- States of a `Simulation` unpack as (X, q, V, qDot), and solvers keep their trace.
 - Names of the reference without an implementation here exist, and raise an explaining error when used.
 
 Both packages can be imported in one process; neither changes the other.
@@ -39,6 +40,7 @@ from .not_yet import (
 from .operation import BotOp
 from .results import NLP_Solver, SolverReturn
 from .scenes import Config
+from .simulation import Simulation, SimulationState
 
 __all__ = [
     *kinegraph.__all__,
@@ -68,7 +70,7 @@ _LAZY = {
     "robotic.keywords": ("arg",),
 }
 _MODULE_OF = {name: module for module, names in _LAZY.items() for name in names}
-_SUBMODULES = ("DataGen", "algo", "calib", "manipulation", "nlp", "render", "test")
+_SUBMODULES = ("DataGen", "algo", "calib", "manipulation", "nlp", "render", "src", "test", "tools")
 
 if not TYPE_CHECKING:  # otherwise type checkers accept any name
     globals().update(
@@ -82,11 +84,6 @@ if not TYPE_CHECKING:  # otherwise type checkers accept any name
     def __getattr__(name: str) -> _Any:
         if name.startswith("__"):
             raise AttributeError(name)
-        if name in ("src", "tools"):
-            try:
-                return _import_module("." + name, __name__)
-            except ImportError as error:  # the message names the replacement
-                raise AttributeError(str(error)) from None
         if name in _SUBMODULES:
             return _import_module("." + name, __name__)
         if name in _MODULE_OF:

@@ -6,6 +6,8 @@ from typing import Any
 
 import kinegraph
 
+from .nlp import NLP
+
 BOUND = 0.1
 FORMER_OPTIONS = {"maxLambda": "lambdaMax", "maxStep": "stepMax"}
 
@@ -52,8 +54,72 @@ class SolverReturn(kinegraph.SolverReturn):
         return f"<SolverReturn {self.status.name}: {self}>"
 
 
+def _named(problem: Any) -> Any:
+    """Returns a problem with the attributes that the solver reads; older ones have methods instead."""
+    if all(hasattr(problem, name) for name in ("dimension", "bounds")) and not _overrides(problem):
+        return problem
+    return _Methods(problem)
+
+
+def _overrides(problem: Any) -> bool:
+    """Whether a subclass of nlp.NLP describes itself by methods."""
+    base = NLP
+    return isinstance(problem, base) and any(
+        getattr(type(problem), name) is not getattr(base, name)
+        for name in ("getDimension", "getFeatureTypes", "getBounds")
+    )
+
+
+class _Methods:
+    """A problem whose dimension, types and bounds come from methods."""
+
+    def __init__(self, problem: Any) -> None:
+        self._problem = problem
+
+    def _value(self, method: str, *names: str) -> Any:
+        if hasattr(self._problem, method):
+            return getattr(self._problem, method)()
+        found = [name for name in names if hasattr(self._problem, name)]
+        return getattr(self._problem, (found or names)[0])
+
+    @property
+    def dimension(self) -> int:
+        return int(self._value("getDimension", "dimension"))
+
+    @property
+    def types(self) -> Any:
+        return self._value("getFeatureTypes", "types", "featureTypes")
+
+    @property
+    def bounds(self) -> Any:
+        return self._value("getBounds", "bounds")
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._problem, name)
+
+
 class NLP_Solver(kinegraph.NLP_Solver):
-    """Solves an NLP, as kinegraph.NLP_Solver; feasibility of results follows the reference's rule."""
+    """Solves an NLP, as kinegraph.NLP_Solver; feasibility of results follows the reference's rule.
+
+    Variables and errors of each evaluation are recorded without setTracing.
+    """
+
+    def __init__(self, *args: Any, **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        super().setTracing(True, True)
+
+    def setPyProblem(self, problem: object) -> NLP_Solver:
+        """Sets a Python object as the problem, with attributes or with getDimension, getFeatureTypes and getBounds.
+
+        Args:
+            problem: Object with dimension, types, bounds, or these methods, and evaluate(x) -> (phi, J).
+        Returns:
+            The solver.
+        Raises:
+            ArgumentError: The problem lacks something, or a size is wrong.
+        """
+        super().setPyProblem(_named(problem))
+        return self
 
     def solve(self, resampleInitialization: int = -1, verbose: int = -100) -> SolverReturn:
         """Solves from the last x or the problem's initial point. Ctrl-C ends the solve and returns the best x so far.

@@ -10,7 +10,7 @@ from kinegraph import Frame, FrameNotFound, KinegraphWarning
 
 
 class Config(kinegraph.Config):
-    """Like kinegraph.Config, but an unknown frame gives None and a warning with similar names instead of an error."""
+    """Like kinegraph.Config, but an unknown frame gives a warning with similar names instead of an error."""
 
     def getFrame(self, frameName: str, warnIfNotExist: bool = True) -> Frame:
         """Returns the first frame with a name.
@@ -27,6 +27,37 @@ class Config(kinegraph.Config):
             if warnIfNotExist:
                 warnings.warn(str(error), KinegraphWarning, stacklevel=2)
             return None  # type: ignore[return-value]  # kinegraph.Config declares a Frame
+
+    def addFile(self, filename: Any, namePrefix: str | None = None, orphans: bool = True, **options: Any) -> Frame | None:
+        """Adds the frames of a file, as kinegraph.Config.addFile; a frame with an unknown parent has none, and a warning.
+
+        Args:
+            filename, namePrefix: As in kinegraph.Config.addFile.
+            orphans: False: an unknown parent is an error.
+            options: floating, strict and xacro, as in kinegraph.Config.addFile.
+        Returns:
+            The first added frame, or None if the file has none.
+        Raises:
+            FileError: The file cannot be read.
+            ParseError: The file has an error; the message has the file, the line and the column.
+        """
+        return super().addFile(filename, namePrefix, orphans=orphans, **options)
+
+    def addFrame(self, name: str, parent: Any = "", args: str = "") -> Frame:
+        """Adds a frame, as kinegraph.Config.addFrame; with an unknown parent it has none, and a warning.
+
+        Args:
+            name, parent, args: As in kinegraph.Config.addFrame.
+        Returns:
+            The frame.
+        Raises:
+            ParseError: args has an error.
+        """
+        try:
+            return super().addFrame(name, parent, args)
+        except FrameNotFound as error:
+            warnings.warn(f"{error}; '{name}' has no parent", KinegraphWarning, stacklevel=2)
+            return super().addFrame(name, "", args)
 
     def delFrame(self, frame: Any) -> None:
         """Deletes a frame if it exists; warns otherwise.

@@ -106,6 +106,14 @@ void bindObjectives(nb::class_<PyKomo>& komo) {
                    "type: OT, scale: numpy.typing.ArrayLike | None = None, target: numpy.typing.ArrayLike | None = "
                    "None, order: int = -1, margin: float = 0.0) -> None"),
            docs::komo::addObjectiveByName)
+      .def("addObjective", addObjective, "times"_a, "feature"_a, "frames"_a = std::vector<std::string>(), "type"_a,
+           "scale"_a = nb::none(), "target"_a = nb::none(), "order"_a = -1, "margin"_a = 0.,
+           nb::sig("def addObjective(self, *, times: numpy.typing.ArrayLike | None, feature: FS | "
+                   "collections.abc.Callable, frames: "
+                   "typing.Sequence[str] | str = [], "
+                   "type: OT, scale: numpy.typing.ArrayLike | None = None, target: numpy.typing.ArrayLike | None = "
+                   "None, order: int = -1, margin: float = 0.0) -> None"),
+           docs::komo::addObjectiveByTimes)
       .def(
           "addFreeMotion",
           [](PyKomo& k, Optional times, double margin, double scale) {

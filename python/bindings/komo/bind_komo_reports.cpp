@@ -49,8 +49,8 @@ nb::dict entryOf(const Objective& objective, double error) {
   entry["order"] = objective.order;
   entry["type"] = objectiveTypeName(objective.type);
   const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> scale = objective.scale;
-  entry["scale"] = toNumpy(scale.data(), std::size_t(scale.size()));
-  entry["target"] = toNumpy(objective.target);
+  entry["scale"] = std::vector<double>(scale.data(), scale.data() + scale.size());  // lists, as JSON takes them
+  entry["target"] = std::vector<double>(objective.target.data(), objective.target.data() + objective.target.size());
   entry["times"] = objective.times;
   entry["slices"] = std::vector<int>{objective.from, objective.to};
   return entry;

@@ -34,6 +34,17 @@ std::string readFile(const PathText& path) {
   return text.str();
 }
 
+Words texts(const std::vector<Formula>& formulas) {
+  Words out;
+  for (const Formula& formula : formulas) out.push_back(formula.str());
+  return out;
+}
+
+Words joined(Words list, const Words& more) {
+  list.insert(list.end(), more.begin(), more.end());
+  return list;
+}
+
 Words texts(const std::vector<Literal>& literals) {
   Words out;
   for (const Literal& literal : literals) out.push_back(literal.str());
@@ -87,7 +98,7 @@ void bindDomain(nb::module_& m) {
           "fromPddlText", [](const std::string& text, const std::string& name) { return readPddlDomain(text, name); },
           "text"_a, "name"_a = "text", docs::logic::fromPddlText)
       .def(
-          "toFol", [](const LogicDomain& d) { return writeFol(d); }, "The domain in the language of .fol files.")
+          "toFol", [](const LogicDomain& d) { return writeFol(d); }, docs::logic::toFol)
       .def(
           "toPddl", [](const LogicDomain& d) { return writePddlDomain(d); }, docs::logic::toPddl)
       .def("addAction", addAction, "name"_a, "variables"_a, "pre"_a, "eff"_a, docs::logic::addAction)
@@ -127,7 +138,10 @@ void bindProblem(nb::module_& m) {
       .def_prop_ro(
           "start", [](const LogicProblem& p) { return texts(p.start); }, "Literals that hold at the start.")
       .def_prop_ro(
-          "goal", [](const LogicProblem& p) { return texts(p.goal); }, "Literals that shall hold.");
+          "goal", [](const LogicProblem& p) { return joined(texts(p.goal), texts(p.goal_conditions)); },
+          "Literals that shall hold, then other conditions as in PDDL.")
+      .def_ro("minimize_cost", &LogicProblem::minimize_cost,
+              "Whether the cheapest plans come first (:metric), or the shortest.");
 }
 
 }  // namespace
@@ -135,7 +149,8 @@ void bindProblem(nb::module_& m) {
 void bindLogic(nb::module_& m) {
   bindDomain(m);
   bindProblem(m);
-  nb::class_<PyPlanSearch> search(m, "PlanSearch", "Enumerates the plans of a problem in logic, the shortest first.");
+  nb::class_<PyPlanSearch> search(m, "PlanSearch",
+                                  "Enumerates the plans of a problem in logic, the shortest or cheapest first.");
   nb::enum_<PlanSearch::Status>(m, "PlanSearchStatus", "How the last search for a plan ended.")
       .value("found", PlanSearch::Status::found)
       .value("exhausted", PlanSearch::Status::exhausted)
@@ -164,8 +179,15 @@ void bindLogic(nb::module_& m) {
           },
           "All actions, as lists of words.")
       .def_prop_ro(
-          "unreachable", [](const PyPlanSearch& s) { return texts(s.search->problem().unreachable); },
-          "Literals of the goal that nothing can make true.")
+          "unreachable",
+          [](const PyPlanSearch& s) {
+            return joined(texts(s.search->problem().unreachable), texts(s.search->problem().impossible));
+          },
+          "Literals and conditions of the goal that nothing can make true.")
+      .def(
+          "cost",
+          [](const PyPlanSearch& s, const Plan& plan) { return s.ground().cost(actionNumbers(s.ground(), plan)); },
+          "actions"_a, docs::logic::cost)
       .def_prop_ro(
           "diagnostics", [](const PyPlanSearch& s) { return diagnostics(s.search->problem()); },
           "What is odd about the problem, a line each: rules that can never fire, and why.");

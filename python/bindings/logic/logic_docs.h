@@ -29,21 +29,43 @@ inline constexpr char fromFolText[] = R"(Reads a domain from text in the languag
 
 )" KINEGRAPH_OF_TEXT;
 
-inline constexpr char fromPddl[] = R"(Reads a domain from a PDDL file: STRIPS, types, negative preconditions, equality.
+inline constexpr char fromPddl[] = R"(Reads a domain from a PDDL file.
+
+Conditions have and, or, not, imply, forall, exists and =; effects and, not, when, forall and (increase (total-cost) ...).
+Types may have several supertypes, and `either`. Names are compared without case. Requirements are not needed. The file
+may contain the problem, too.
 
 )" KINEGRAPH_OF_FILE;
 
 inline constexpr char fromPddlText[] =
-    R"(Reads a domain from text in PDDL: STRIPS, types, negative preconditions, equality.
+    R"(Reads a domain from text in PDDL, as fromPddl does.
 
 )" KINEGRAPH_OF_TEXT;
 
-inline constexpr char toPddl[] = R"(Writes the domain in PDDL.
+inline constexpr char toPddl[] = R"(Writes the domain in PDDL, so that fromPddl reads the same domain.
+
+ANY becomes a quantifier. A predicate with several numbers of arguments gets a name for each, as `on` and `on-3`.
 
 Returns:
     The text.
 Raises:
-    ArgumentError: The domain has automatic rules, or ANY.)";
+    ArgumentError: The domain has automatic rules, or names that differ in case alone.)";
+
+inline constexpr char toFol[] = R"(Writes the domain in the language of .fol files.
+
+Returns:
+    The text.
+Raises:
+    ArgumentError: The domain has or, forall, exists or when, which .fol files lack.)";
+
+inline constexpr char cost[] = R"(Returns the cost of a sequence of actions; their number if the problem has no metric.
+
+Args:
+    actions: A list of actions, each a list of words.
+Returns:
+    The sum of the costs.
+Raises:
+    ArgumentError: An action is unknown.)";
 
 inline constexpr char addAction[] = R"(Adds an action. Unknown words become symbols.
 
@@ -64,7 +86,7 @@ Args:
 Raises:
     ParseError: A literal is invalid.)";
 
-inline constexpr char problemFromPddl[] = R"(Reads a problem from a PDDL file.
+inline constexpr char problemFromPddl[] = R"(Reads a problem from a PDDL file, with its goal and metric.
 
 Args:
     domain: The domain.
@@ -75,20 +97,22 @@ Raises:
     FileError: It cannot be read.
     ParseError: The file is invalid; the message begins with file:line:column.)";
 
-inline constexpr char problemToPddl[] = R"(Writes the problem in PDDL.
+inline constexpr char problemToPddl[] = R"(Writes the problem in PDDL, so that fromPddl reads the same problem.
 
 Returns:
     The text.
 Raises:
-    ArgumentError: The problem has ANY.)";
+    ArgumentError: The goal has a predicate that no action has, and does not hold at the start.)";
 
-inline constexpr char search[] = R"(Prepares the enumeration of the plans of a problem, the shortest first.
+inline constexpr char search[] = R"(Prepares the enumeration of the plans of a problem.
+
+The shortest plans come first. If the problem has a metric, the cheapest come first, and of equal cost the shortest.
 
 Args:
     problem: The problem.
     max_expansions: Maximum number of states that are expanded.
 Raises:
-    ParseError: A word of the goal is unknown, or a predicate has inconsistent numbers of arguments.
+    ParseError: A word of the goal is unknown, or no rule and no fact has its number of arguments.
     ArgumentError: There are too many actions.)";
 
 inline constexpr char next[] = R"(Returns the next plan.

@@ -50,7 +50,7 @@ std::shared_ptr<RobotDriver> simulatedDriver(const PyConfig& config) {
 }
 
 void makeBot(PyBotOp* self, PyConfig& config, bool use_real_robot, bool, std::shared_ptr<RobotDriver> driver,
-             bool realtime) {
+             bool realtime, bool strict) {
   if (parameter("bot/blockRealRobot", false, "True or False")) {
     use_real_robot = false;
     driver = nullptr;
@@ -62,6 +62,7 @@ void makeBot(PyBotOp* self, PyConfig& config, bool use_real_robot, bool, std::sh
   const bool is_there = driver && !driver->world();
   BotOpOptions options = optionsOf(config, realtime || (is_there && use_real_robot));
   if (!driver) driver = simulatedDriver(config);
+  options.safety.lag_stops = strict || is_there;
   std::unique_ptr<BotOp> bot;
   {
     const nb::gil_scoped_release unlock;
@@ -113,6 +114,8 @@ void bindState(nb::class_<PyBotOp>& bot) {
           "getInfo", [](const PyBotOp& b) { return RobotInfo(b->getInfo()); },
           "Returns the RobotInfo of the robot, with its limits.")
       .def("getFault", call(&BotOp::getFault), "Returns the cause of the fault; empty without one.")
+      .def("takeWarning", call(&BotOp::takeWarning),
+           "Returns and clears the warning of a joint that came too far from its command, with strict=False.")
       .def("getMode", call(&BotOp::getMode), "Returns the present control mode.");
 }
 
@@ -370,7 +373,7 @@ void bindRobot(nb::module_& m) {
           "Reference of the joint velocities, (n,).");
   nb::class_<PyBotOp> bot(m, "BotOp", nb::is_weak_referenceable(), docs::robot::BotOp);
   bot.def("__init__", makeBot, "C"_a, "useRealRobot"_a = false, "auto_launch"_a = true, "driver"_a.none() = nb::none(),
-          "realtime"_a = false, docs::robot::BotOp_make);
+          "realtime"_a = false, "strict"_a = true, docs::robot::BotOp_make);
   bindState(bot);
   bindMotions(bot);
   bindTime(bot);

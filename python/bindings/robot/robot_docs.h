@@ -27,6 +27,8 @@ Args:
     auto_launch: Ignored; scripts of the reference package pass it.
     driver: A RobotDriver; None for a simulated robot.
     realtime: A thread moves the robot in wall-clock time.
+    strict: A joint that comes .3 rad or m from its command stops the robot (RobotFault). False: in simulation it is a
+        warning, which takeWarning() returns.
 Raises:
     ArgumentError: useRealRobot is set without a driver, or the driver's joints are not those of C.
     RobotFault: The robot reports an error.)";

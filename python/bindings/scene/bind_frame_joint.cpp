@@ -7,6 +7,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/tree/inertia_edits.h"
+#include "kinegraph/scene/tree/joint_limits.h"
 #include "kinegraph/scene/tree/tree_edits.h"
 #include "scene/frame_joint_docs.h"
 
@@ -54,7 +55,11 @@ void bindFrameJoint(nb::class_<Frame>& frame) {
           [](Frame& f, JointType type, const std::optional<Numbers>& limits, const std::optional<Numbers>& axis,
              double scale, const std::optional<Frame>& mimic) -> Frame& {
             const std::vector<double> none;
-            return f.setJoint(type, limits ? limits->list() : none, axis ? axis->list() : none, scale, mimic);
+            f.setJoint(type, limits ? limits->list() : none, axis ? axis->list() : none, scale, mimic);
+            std::string warning;
+            if (limits && limitsInTurn(limits->list(), warning))
+              emitWarning(cat("Frame.setJoint: frame '", f.getName(), "': ", warning));
+            return f;
           },
           "jointType"_a, "limits"_a = nb::none(), "axis"_a = nb::none(), "scale"_a = 1., "mimic"_a = nb::none(), kChain,
           docs::frame_joint::setJoint)

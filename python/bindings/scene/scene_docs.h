@@ -17,6 +17,7 @@ Args:
     xacro: Arguments of a .xacro file, by name. Such files need the package xacrodoc (kinegraph[xacro]).
     floating: Gives the root frame a free joint below a new frame `world`, for legged and other robots without a fixed
         base: q gets 7 more entries (position and quaternion), and the robot falls in a Simulation.
+    orphans: A frame whose parent is unknown has no parent, and a warning, instead of an error.
 Returns:
     The first added frame, or None if the file has none.
 Raises:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -79,17 +79,17 @@ def getTrace_costs(self: NLP_Solver) -> NDArray[np.float64]:
 
 def addStableFrame(
     self: KOMO,
-    name: str,
+    name: str | JT,
     parent: str,
-    jointType: JT,
-    stable: bool = True,
+    jointType: JT | str,
+    stable: bool | str = True,
     initName: str | Frame | None = None,
     initFrame: Frame | None = None,
 ) -> Frame:
     """Adds a frame with a joint to all slices, like addFrameDof.
 
     Args:
-        name, parent, jointType: Name, parent and joint type of the frame.
+        name, parent, jointType: Name, parent and joint type of the frame; or joint type, parent and name.
         stable: Whether the joint has the same values in all slices.
         initName, initFrame: Initial pose: the name of a frame, or a frame.
     Returns:
@@ -97,9 +97,13 @@ def addStableFrame(
     Raises:
         FrameNotFound: A name is not in the scene.
     """
+    if isinstance(name, JT):  # the order of 0.1.5 to 0.1.9: type, parent, name, initial frame
+        if isinstance(stable, str):
+            stable, initName = True, stable
+        name, jointType = str(jointType), name
     if isinstance(initName, Frame):
         initName, initFrame = None, initName
-    return self.addFrameDof(name, parent, jointType, stable, initName, initFrame)
+    return self.addFrameDof(str(name), parent, cast(JT, jointType), bool(stable), initName, initFrame)
 
 
 def reportProblem(self: KOMO) -> None:

@@ -140,7 +140,7 @@ def addObject(
     shape: ST = ST.none,
     size: ArrayLike = (),
     color: ArrayLike = (),
-    radius: float = -1.0,
+    radius: float | ArrayLike = -1.0,
     pos: ArrayLike = (),
     quat: ArrayLike = (),
 ) -> Frame:
@@ -150,7 +150,8 @@ def addObject(
         name, parent: Names of the frame and its parent; empty: no parent.
         shape, size: See setShape, m.
         color: (3,) or (4,), in [0, 1].
-        radius: Radius of rounded shapes, m; if positive, it becomes the last entry of size.
+        radius: Radius of rounded shapes, m; if positive, it becomes the last entry of size. Three numbers are pos, as
+            in scripts of 2019.
         pos, quat: Pose relative to the parent, (3,) in m and (4,) w x y z.
     Returns:
         The frame.
@@ -158,10 +159,13 @@ def addObject(
         FrameNotFound: There is no such parent.
         ArgumentError: A size, a color or a pose has a wrong shape.
     """
+    if np.size(radius) == 3:
+        radius, pos = -1.0, radius
+    rounded = [float(np.asarray(radius))] if np.asarray(radius) > 0.0 else []
     frame = self.addFrame(name, parent)
     if shape != ST.none:
         numbers = list(np.atleast_1d(np.asarray(size, float)))
-        frame.setShape(shape, [*numbers, radius] if radius > 0.0 else numbers)
+        frame.setShape(shape, [*numbers, *rounded])
     for numbers, local, world in (
         (pos, frame.setRelativePosition, frame.setPosition),
         (quat, frame.setRelativeQuaternion, frame.setQuaternion),
@@ -218,6 +222,37 @@ def getType(self: Frame) -> ST:
     return self.getShapeType()
 
 
+def setDensity(self: Frame, density: float) -> Frame:
+    """Sets mass and inertia of the frame's shape, filled with a density.
+
+    Args:
+        density: kg/m^3.
+    Returns:
+        The frame.
+    Raises:
+        ArgumentError: The frame has no shape with a volume, or the density is not positive.
+    """
+    if not density > 0.0:
+        raise ArgumentError(f"Frame.setDensity: the density is {density}; expected a number above 0")
+    a, b, c = np.moveaxis(self.getMeshPoints()[self.getMeshTriangles()], 1, 0)
+    volume = float(np.einsum("ij,ij->i", a, np.cross(b, c)).sum()) / 6.0
+    if not volume > 0.0:
+        raise ArgumentError(f"Frame.setDensity: the shape of '{self.name}' has no volume")
+    return self.setMass(density * volume)
+
+
+def simplify(
+    self: Config, pruneNamed: bool = False, pruneNonContact: bool = False, pruneTransparent: bool = False
+) -> None:
+    """Removes frames without which the links move alike, like processStructure(True, True, ...).
+
+    Args:
+        pruneNamed: Not used; frames with names are removed, too, if they only structure the tree.
+        pruneNonContact, pruneTransparent: Also removes leaves that never collide, or with an alpha below 1.
+    """
+    self.processStructure(True, True, pruneNonContact, pruneTransparent)
+
+
 CONFIG_METHODS = [
     frame,
     frames,
@@ -232,5 +267,6 @@ CONFIG_METHODS = [
     getCollisionFree,
     getTotalPenetration,
     addObject,
+    simplify,
 ]
-FRAME_METHODS = [info, addAttributes, addAttribute, getType]
+FRAME_METHODS = [info, addAttributes, addAttribute, getType, setDensity]

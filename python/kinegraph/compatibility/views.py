@@ -81,12 +81,14 @@ def view_setCamera(self: Config, *where: Any) -> None:
     """Sets the camera to a frame, to a pose, or to a position directed to a target.
 
     Args:
-        where: A frame or its name; (7,): x y z in m, qw qx qy qz, the camera's z forward; or two arrays (3,), m: the
+        where: None for the initial camera; a frame or its name; (7,): x y z in m, qw qx qy qz, the camera's z forward; or two arrays (3,), m: the
             camera's position and its target.
     Raises:
         ArgumentError: The arguments have another form.
     """
     viewer = self.viewer()
+    if len(where) == 1 and where[0] is None:
+        return viewer.setCamera(None)
     if len(where) == 1 and isinstance(where[0], (str, Frame)):
         return viewer.setCamera(where[0])
     sizes = [np.size(one) for one in where]

@@ -10,7 +10,7 @@
 namespace kinegraph {
 
 /// A predicate with arguments, `(on table cup)`, or its negation, `(on table cup)!`. Arguments are constants or
-/// variables of the rule.
+/// variables of the rule. `(height cup)=2` is the predicate `height=` with the value as the last argument.
 struct Literal {
   std::string predicate;
   std::vector<std::string> arguments = {};
@@ -33,14 +33,50 @@ inline constexpr std::string_view kAny = "ANY";
 /// The equality predicate; effects must not contain it.
 inline constexpr std::string_view kEqual = "=";
 
+/// Whether a predicate has a value, `(height cup)=2`.
+inline bool hasValue(std::string_view predicate) { return predicate.size() > 1 && predicate.ends_with('='); }
+
+/// A condition in negation normal form: what PDDL has beyond a list of literals.
+struct Formula {
+  enum class Kind { literal, all, any, forall, exists };
+  Kind kind = Kind::all;
+  Literal literal = {};                                 ///< of Kind::literal
+  std::vector<Formula> parts = {};                      ///< one for quantifiers; `all` without parts is true
+  std::vector<std::string> variables = {}, types = {};  ///< of quantifiers; a type "" means any object
+
+  /// `(or (on table cup) (not (exists ...)))`, as in PDDL
+  std::string str() const;
+  bool operator==(const Formula&) const = default;
+};
+
+/// Effects that apply if a condition holds before the action, for all values of own variables.
+struct ConditionalEffect {
+  std::vector<std::string> variables = {}, types = {};
+  Formula when = {};
+  std::vector<Literal> eff = {};
+  bool operator==(const ConditionalEffect&) const = default;
+};
+
 /// An action (a decision), or a rule that fires automatically. If the precondition holds, the effects apply in order.
 struct LogicRule {
   std::string name;
   std::vector<std::string> variables;
-  std::vector<std::string> types = {};  ///< unary predicates, one per variable; empty: untyped
+  std::vector<std::string> types = {};  ///< unary predicates, one per variable, "": any object; empty: all untyped
   std::vector<Literal> pre, eff;
   bool is_decision = true;
   SourcePosition where = {};
+  // PDDL only
+  std::vector<Formula> conditions = {};             ///< they hold in addition to `pre`
+  std::vector<ConditionalEffect> conditional = {};  ///< simultaneous with `eff`; an added fact is not deleted
+  double cost = 0;                                  ///< the constant part
+  std::vector<Literal> cost_functions = {};         ///< their values in the problem are added
+};
+
+/// A predicate or a function with its arguments, `(on ?p - place ?x)`.
+struct Signature {
+  std::string name;
+  std::vector<std::string> variables = {}, types = {};  ///< a type "" means any object
+  bool operator==(const Signature&) const = default;
 };
 
 /// Actions and rules, with their predicates and constants.
@@ -48,9 +84,21 @@ struct LogicDomain {
   std::string name = "domain";
   std::vector<std::string> symbols;  ///< predicates and constants, in the order of declaration
   std::vector<LogicRule> rules;
-  std::vector<std::pair<std::string, std::string>> types;  ///< type, supertype; PDDL only
+  std::vector<std::pair<std::string, std::string>> types;  ///< type, supertype or ""; PDDL only; several per type
   std::vector<Literal> start;                              ///< initial facts of every problem
   bool distinct_variables = true;                          ///< different variables are different objects; false in PDDL
+  // PDDL only
+  std::vector<std::string> constants = {};
+  std::vector<Signature> predicates = {}, functions = {};
+};
+
+/// Begins the name of a type that has the name of a predicate: types and predicates of PDDL have separate names.
+inline constexpr std::string_view kTypePrefix = "type:";
+
+/// The value of a function, as the cost `(= (length a b) 3)`.
+struct FunctionValue {
+  Literal function;
+  double value = 0;
 };
 
 /// A domain, objects, initial facts, and a goal.
@@ -60,6 +108,10 @@ struct LogicProblem {
   std::vector<std::string> constants;
   std::vector<Literal> start;  ///< those of the domain included
   std::vector<Literal> goal;
+  // PDDL only
+  std::vector<Formula> goal_conditions = {};  ///< they hold in addition to `goal`
+  std::vector<FunctionValue> values = {};
+  bool minimize_cost = false;  ///< the sum of the actions' costs; false: the number of actions
 };
 
 }  // namespace kinegraph

@@ -1,9 +1,11 @@
 #include "kinegraph/logic/fol_reader.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <set>
 #include <sstream>
+#include <utility>
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/logic/logic_scanner.h"
@@ -16,38 +18,115 @@ using Token = LogicScanner::Token;
 
 const std::vector<std::string> kReserved = {"QUIT", "WAIT", "Terminate", "ANY", "INFEASIBLE"};
 
-/// `(p a b)`, `(p a b)!`
+/// `(p a b)`, `(p a b)!`, `(p a b)=2`; commas are spaces.
 Literal readLiteral(LogicScanner& scan) {
   Literal literal;
   literal.where = scan.expect('(', "of a literal such as (on table cup)").where;
+  while (scan.takeIf(',')) {
+  }
   literal.predicate = scan.expectWord("a predicate").text;
-  while (scan.peek().isWord() || scan.peek().kind == Token::Kind::number) literal.arguments.push_back(scan.take().text);
+  while (scan.peek().isWord() || scan.peek().kind == Token::Kind::number || scan.peek().is(',')) {
+    const Token word = scan.take();
+    if (!word.is(',')) literal.arguments.push_back(word.text);
+  }
   scan.expect(')', "after the arguments of a literal");
   literal.negated = scan.takeIf('!');
-  if (scan.peek().is('=')) {
-    throw ParseError(scan.peek().where,
-                     cat("literals with values, ", literal.str(), "=..., are not supported; facts hold or do not"));
+  if (!scan.takeIf('=')) return literal;
+  if (literal.negated) throw ParseError(literal.where, cat(literal.str(), "= has both '!' and a value"));
+  const Token value = scan.take();
+  if (value.isWord() && (value.text == "true" || value.text == "false")) {
+    literal.negated = value.text == "false";
+  } else if (value.kind == Token::Kind::number) {
+    literal.predicate += "=";
+    literal.arguments.push_back(exact(std::stod(value.text)));  // 2, 2. and 2.0 are one value
+    literal.negated = scan.takeIf('!');
+  } else {
+    throw ParseError(value.where,
+                     cat("expected a number, true or false behind ", literal.str(), "=, found ", value.str()));
   }
   return literal;
 }
 
+/// An effect that sets a value deletes the value before.
+std::vector<Literal> withValuesReplaced(const std::vector<Literal>& effects) {
+  std::vector<Literal> all;
+  for (const Literal& effect : effects) {
+    if (hasValue(effect.predicate) && !effect.negated) {
+      Literal before = effect;
+      before.negated = true;
+      before.arguments.back() = std::string(kAny);
+      all.push_back(std::move(before));
+    }
+    all.push_back(effect);
+  }
+  return all;
+}
+
+/// The inverse, for writing.
+std::vector<Literal> withoutReplacedValues(const std::vector<Literal>& effects) {
+  std::vector<Literal> all;
+  for (const Literal& effect : effects) {
+    const bool replaces = hasValue(effect.predicate) && effect.negated && effect.arguments.back() == kAny;
+    if (!replaces) all.push_back(effect);
+  }
+  return all;
+}
+
+std::string folText(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw FileError(cat("readFol: cannot read '", path, "'"));
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
 class FolReader {
  public:
-  FolReader(std::string_view text, const std::string& file) : scan_(text, file, '#') {}
+  FolReader() { known_.insert(kReserved.begin(), kReserved.end()); }
 
-  LogicDomain read() {
-    for (const std::string& word : kReserved) known_.insert(word);
-    while (scan_.peek().kind != Token::Kind::end) readEntry();
+  LogicDomain read(std::string_view text, const std::string& file) {
+    readEntries(text, file);
     return std::move(domain_);
   }
 
  private:
+  void readEntries(std::string_view text, const std::string& file) {
+    LogicScanner outer = std::exchange(scan_, LogicScanner(text, file, '#'));
+    const std::string outer_file = std::exchange(file_, file);
+    files_.push_back(std::filesystem::weakly_canonical(file).string());
+    while (scan_.peek().kind != Token::Kind::end) readEntry();
+    files_.pop_back();
+    file_ = outer_file;
+    scan_ = std::move(outer);
+  }
+
+  /// Reads `Include = 'words.g'`, a path relative to this file.
+  void include(const Token& word) {
+    scan_.takeIf('=') || scan_.takeIf(':');
+    const bool angle = scan_.takeIf('<');
+    Token name = scan_.take();
+    if (name.kind != Token::Kind::text && name.kind != Token::Kind::word)
+      throw ParseError(name.where, cat("expected the name of a file behind Include, found ", name.str()));
+    std::string& path = name.text;
+    if (path.size() > 1 && path.front() == '\'' && path.back() == '\'') path = path.substr(1, path.size() - 2);
+    if (angle) scan_.expect('>', "after the name of the file");
+    const std::filesystem::path full = std::filesystem::path(file_).parent_path() / path;
+    if (!std::filesystem::is_regular_file(full))
+      throw ParseError(name.where, cat("Include: there is no file '", full.lexically_normal().string(), "'"));
+    if (std::ranges::find(files_, std::filesystem::weakly_canonical(full).string()) != files_.end())
+      throw ParseError(word.where, cat("'", path, "' includes itself"));
+    const std::string text = folText(full.string());
+    readEntries(text, full.lexically_normal().string());
+  }
+
   void readEntry() {
     if (scan_.takeIf(',')) return;
     const Token word = scan_.expectWord("a symbol, START_STATE, DecisionRule or Rule");
-    if (word.text == "START_STATE") {
+    if (word.text == "Include") {
+      include(word);
+    } else if (word.text == "START_STATE") {
       scan_.takeIf(':');
-      domain_.start = readBlock({});
+      for (Literal& fact : readBlock({})) domain_.start.push_back(std::move(fact));
     } else if (word.text == "DecisionRule" || word.text == "Rule") {
       readRule(word);
     } else if (word.text == "FOL_World" || word.text == "REWARD") {
@@ -100,12 +179,15 @@ class FolReader {
       throw ParseError(literal.where, cat("unknown ", what, " '", word, "' in ", literal.str(),
                                           "; declare it in a line of its own", similarHint(word, near)));
     };
-    if (!known_.contains(literal.predicate)) {
-      throw ParseError(literal.where, cat("unknown predicate '", literal.predicate, "' in ", literal.str(),
+    const bool valued = hasValue(literal.predicate);
+    const std::string predicate = literal.predicate.substr(0, literal.predicate.size() - (valued ? 1 : 0));
+    if (!known_.contains(predicate)) {
+      throw ParseError(literal.where, cat("unknown predicate '", predicate, "' in ", literal.str(),
                                           "; declare it in a line of its own",
-                                          similarHint(literal.predicate, {known_.begin(), known_.end()})));
+                                          similarHint(predicate, {known_.begin(), known_.end()})));
     }
-    for (const std::string& word : literal.arguments) require(word, "symbol or variable");
+    for (std::size_t i = 0; i + (valued ? 1 : 0) < literal.arguments.size(); ++i)
+      require(literal.arguments[i], "symbol or variable");
   }
 
   void takeLabel(const char* label) {
@@ -135,7 +217,7 @@ class FolReader {
     rule.pre = readBlock(rule.variables);
     scan_.takeIf(',');
     takeLabel("eff");
-    rule.eff = readBlock(rule.variables);
+    rule.eff = withValuesReplaced(readBlock(rule.variables));
     scan_.takeIf(',');
     if (scan_.peek().isWord() || scan_.peek().is('[')) scan_.fail("'}' of the rule; further entries are not supported");
     scan_.expect('}', "of the rule");
@@ -158,7 +240,9 @@ class FolReader {
     }
   }
 
-  LogicScanner scan_;
+  LogicScanner scan_{"", "", '#'};
+  std::string file_;
+  std::vector<std::string> files_;  ///< that are being read
   LogicDomain domain_;
   std::set<std::string> known_;
 };
@@ -171,15 +255,9 @@ std::string writeBlock(const std::vector<Literal>& literals) {
 
 }  // namespace
 
-LogicDomain readFol(std::string_view text, const std::string& file) { return FolReader(text, file).read(); }
+LogicDomain readFol(std::string_view text, const std::string& file) { return FolReader().read(text, file); }
 
-LogicDomain readFolFile(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw FileError(cat("readFol: cannot read '", path, "'"));
-  std::stringstream text;
-  text << in.rdbuf();
-  return readFol(text.str(), path);
-}
+LogicDomain readFolFile(const std::string& path) { return readFol(folText(path), path); }
 
 std::vector<Literal> readLiterals(std::string_view text, const std::string& file) {
   LogicScanner scan(text, file, '#');
@@ -200,8 +278,12 @@ std::string writeFol(const LogicDomain& domain) {
   for (const Literal& literal : domain.start) text += "  " + literal.str() + "\n";
   text += "}\n";
   for (const LogicRule& rule : domain.rules) {
+    if (!rule.conditions.empty() || !rule.conditional.empty()) {
+      throw ValueError(cat("writeFol: action '", rule.name,
+                           "' has conditions with or, forall or exists, or effects with when; .fol files have none"));
+    }
     text += cat(rule.is_decision ? "DecisionRule " : "Rule ", rule.name, " {\n  ", join(rule.variables), "\n");
-    text += writeBlock(rule.pre) + writeBlock(rule.eff) + "}\n";
+    text += writeBlock(rule.pre) + writeBlock(withoutReplacedValues(rule.eff)) + "}\n";
   }
   return text;
 }
@@ -210,10 +292,11 @@ void addAction(LogicDomain& domain, const std::string& name, const std::vector<s
                std::string_view pre, std::string_view eff) {
   // The reader checks the new rule, too.
   LogicDomain alone;
-  LogicRule rule{name, variables, {}, readLiterals(pre, "pre"), readLiterals(eff, "eff")};
+  LogicRule rule{name, variables, {}, readLiterals(pre, "pre"), withValuesReplaced(readLiterals(eff, "eff"))};
   for (const auto* list : {&rule.pre, &rule.eff}) {
     for (const Literal& literal : *list) {
-      alone.symbols.push_back(literal.predicate);
+      const std::size_t value = hasValue(literal.predicate) ? 1 : 0;
+      alone.symbols.push_back(literal.predicate.substr(0, literal.predicate.size() - value));
       for (const std::string& word : literal.arguments) {
         if (std::ranges::find(variables, word) == variables.end()) alone.symbols.push_back(word);
       }

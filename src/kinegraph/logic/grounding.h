@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "kinegraph/logic/domain.h"
@@ -23,23 +24,42 @@ class FactSet {
   std::vector<std::uint64_t> words_;
 };
 
+/// Facts that must hold, facts that must not, and disjunctions of which one alternative must hold.
+struct GroundCondition {
+  std::vector<int> pre = {}, pre_not = {};
+  std::vector<int> any = {};  ///< indices of GroundProblem::disjunctions
+
+  bool isTrue() const { return pre.empty() && pre_not.empty() && any.empty(); }
+  bool operator==(const GroundCondition&) const = default;
+};
+
+/// Effects under a condition, which is tested before the action.
+struct GroundEffect {
+  GroundCondition when = {};
+  std::vector<int> adds = {}, deletes = {};
+};
+
 /// A rule with constants for its variables; facts are indices.
-struct GroundRule {
-  int rule = 0;                        ///< index in the domain
-  std::vector<std::string> arguments;  ///< of its variables
-  std::vector<int> pre, pre_not;       ///< facts that must hold, and facts that must not
-  std::vector<int> adds, deletes;      ///< no fact is in both
+struct GroundRule : GroundCondition {
+  int rule = 0;                              ///< index in the domain
+  std::vector<std::string> arguments = {};   ///< of its variables
+  std::vector<int> adds = {}, deletes = {};  ///< no fact is in both
+  std::vector<GroundEffect> when = {};       ///< deletes come before all adds
+  std::int64_t cost = 1;                     ///< in units of GroundProblem::cost_unit; rules cost nothing
 };
 
 /// A ground problem: the facts that can hold and change, and the rules that change them.
 struct GroundProblem {
   LogicProblem problem;
-  std::vector<Literal> facts;       ///< by index
-  std::vector<GroundRule> actions;  ///< in the order of the rules, then of the constants
-  std::vector<GroundRule> rules;    ///< that fire automatically
-  FactSet start;                    ///< after the rules have fired
-  std::vector<int> goal, goal_not;
+  std::vector<Literal> facts;                              ///< by index
+  std::vector<GroundRule> actions;                         ///< in the order of the rules, then of the constants
+  std::vector<GroundRule> rules;                           ///< that fire automatically
+  std::vector<std::vector<GroundCondition>> disjunctions;  ///< alternatives
+  FactSet start;                                           ///< after the rules have fired
+  std::vector<int> goal, goal_not, goal_any;
   std::vector<Literal> unreachable;  ///< literals of the goal that no rule can make true
+  std::vector<Formula> impossible;   ///< conditions of the goal that can never hold
+  double cost_unit = 1;
 
   /// Returns the words of an action, name and arguments: (pick cup table hand).
   std::vector<std::string> action(int number) const;
@@ -47,7 +67,11 @@ struct GroundProblem {
   /// Returns the index of a fact, -1 if it can never hold or never changes.
   int factNumber(const Literal& literal) const;
 
-  bool isApplicable(const GroundRule& rule, const FactSet& state) const;
+  /// Returns the sum of the costs of actions; their number if the problem has no metric.
+  double cost(const std::vector<int>& plan) const;
+
+  bool isApplicable(const GroundRule& rule, const FactSet& state) const { return holds(rule, state); }
+  bool holds(const GroundCondition& condition, const FactSet& state) const;
   bool isGoal(const FactSet& state) const;
 
   /// Returns the state after an action and all rules. Throws ValueError if the rules never end.
@@ -56,11 +80,14 @@ struct GroundProblem {
 
   /// Returns the literals that hold in a state: first those that never change.
   std::vector<Literal> literals(const FactSet& state) const;
+
+  std::unordered_map<std::string, int> numbers;      ///< indices of facts by their key
+  static std::string keyOf(const Literal& literal);  ///< `on table cup`
 };
 
 /// Grounds a problem: finds the facts that are reachable without deletes, and all rules that can fire then. Throws
-/// ParseError with the position for predicates with inconsistent numbers of arguments and for unknown words in the
-/// goal. Throws ValueError for more than `most` ground rules, or if the combinations for one rule would take minutes.
+/// ParseError with the position for unknown words in the goal, and for a predicate of the goal with a number of
+/// arguments that no rule and no fact has. Throws ValueError for more than `most` ground rules, or if the combinations for one rule would take minutes.
 GroundProblem ground(LogicProblem problem, std::size_t most = 2000000);
 
 /// Returns likely mistakes in a problem, a sentence with its position each: predicates in preconditions that nothing

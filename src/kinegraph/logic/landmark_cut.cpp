@@ -6,29 +6,41 @@ namespace kinegraph {
 
 namespace {
 
-/// Removes duplicates, because a cut would reduce the cost of an operator twice that needs a node twice.
+constexpr LandmarkCut::Cost kLargestBucket = 1000;
+
+/// Removes duplicates, because an operator waits for each of its nodes once.
 void pushOnce(std::vector<int>& nodes, int node) {
   if (std::ranges::find(nodes, node) == nodes.end()) nodes.push_back(node);
 }
 
 }  // namespace
 
-LandmarkCut::LandmarkCut(const GroundProblem& ground) : ground_(ground), negation_(ground.facts.size(), -1) {
-  nodes_ = int(ground.facts.size());
+LandmarkCut::LandmarkCut(const GroundProblem& ground)
+    : LandmarkCut(ground, std::vector<Cost>(ground.actions.size(), 1)) {}
+
+LandmarkCut::LandmarkCut(const GroundProblem& ground, const std::vector<Cost>& costs)
+    : ground_(ground), costs_(costs), negation_(ground.facts.size(), -1) {
+  nodes_ = int(ground.facts.size() + ground.disjunctions.size());
   always_ = nodes_++;
   goal_ = nodes_++;
+  for (Cost cost : costs) small_ &= cost <= kLargestBucket;
+  const GroundCondition end{ground.goal, ground.goal_not, ground.goal_any};
   for (const auto* list : {&ground.actions, &ground.rules}) {
     for (const GroundRule& rule : *list) {
-      for (int fact : rule.pre_not) negation(fact);
+      prepareNegations(rule);
+      for (const GroundEffect& effect : rule.when) prepareNegations(effect.when);
     }
   }
-  for (int fact : ground.goal_not) negation(fact);
-  for (const GroundRule& action : ground.actions) addOperator(action, 1);
-  for (const GroundRule& rule : ground.rules) addOperator(rule, 0);
-  Operator end{ground.goal, {goal_}, 0};
-  for (int fact : ground.goal_not) pushOnce(end.pre, negation(fact));
-  if (end.pre.empty()) end.pre.push_back(always_);
-  operators_.push_back(std::move(end));
+  for (const auto& alternatives : ground.disjunctions) {
+    for (const GroundCondition& one : alternatives) prepareNegations(one);
+  }
+  prepareNegations(end);
+  for (std::size_t a = 0; a < ground.actions.size(); ++a) addOperators(ground.actions[a], int(a));
+  for (const GroundRule& rule : ground.rules) addOperators(rule, -1);
+  for (std::size_t d = 0; d < ground.disjunctions.size(); ++d) {
+    for (const GroundCondition& one : ground.disjunctions[d]) addOperator({&one}, {disjunctionNode(int(d))}, {}, -1);
+  }
+  addOperator({&end}, {goal_}, {}, -1);
 }
 
 int LandmarkCut::negation(int fact) {
@@ -40,73 +52,139 @@ int LandmarkCut::negation(int fact) {
   return node;
 }
 
-void LandmarkCut::addOperator(const GroundRule& rule, int cost) {
-  Operator made{{}, rule.adds, cost};
-  for (int fact : rule.pre) pushOnce(made.pre, fact);
-  for (int fact : rule.pre_not) pushOnce(made.pre, negation(fact));
+void LandmarkCut::prepareNegations(const GroundCondition& condition) {
+  for (int fact : condition.pre_not) negation(fact);
+}
+
+void LandmarkCut::addOperator(const std::vector<const GroundCondition*>& conditions, const std::vector<int>& adds,
+                              const std::vector<int>& deletes, int owner) {
+  Operator made{{}, adds, deletes, owner};
+  for (const GroundCondition* condition : conditions) {
+    for (int fact : condition->pre) pushOnce(made.pre, fact);
+    for (int fact : condition->pre_not) pushOnce(made.pre, negation(fact));
+    for (int number : condition->any) pushOnce(made.pre, disjunctionNode(number));
+  }
   if (made.pre.empty()) made.pre.push_back(always_);
   operators_.push_back(std::move(made));
 }
 
+void LandmarkCut::addOperators(const GroundRule& rule, int owner) {
+  addOperator({&rule}, rule.adds, rule.deletes, owner);
+  for (const GroundEffect& effect : rule.when) addOperator({&rule, &effect.when}, effect.adds, effect.deletes, owner);
+}
+
 void LandmarkCut::require(int action, int fact_not) {
-  pushOnce(operators_[std::size_t(action)].pre, negation(fact_not));
+  const int node = negation(fact_not);
+  for (Operator& op : operators_) {
+    if (op.owner == action) pushOnce(op.pre, node);
+  }
   linked_ = false;
 }
 
 /// Lists the operators that need and add each node; deletes add a negation that is needed.
 void LandmarkCut::link() {
-  const std::size_t actions = ground_.actions.size();
   needed_by_.assign(std::size_t(nodes_), {});
   added_by_.assign(std::size_t(nodes_), {});
+  owned_by_.assign(costs_.size(), {});
   for (std::size_t o = 0; o < operators_.size(); ++o) {
     Operator& op = operators_[o];
-    if (o + 1 < operators_.size()) {
-      const GroundRule& rule = o < actions ? ground_.actions[o] : ground_.rules[o - actions];
-      op.adds = rule.adds;
-      for (int fact : rule.deletes) {
-        if (negation_[std::size_t(fact)] >= 0) op.adds.push_back(negation_[std::size_t(fact)]);
-      }
+    for (int fact : op.deletes) {
+      if (negation_[std::size_t(fact)] >= 0) pushOnce(op.adds, negation_[std::size_t(fact)]);
     }
     for (int node : op.pre) needed_by_[std::size_t(node)].push_back(int(o));
     for (int node : op.adds) added_by_[std::size_t(node)].push_back(int(o));
+    if (op.owner >= 0) owned_by_[std::size_t(op.owner)].push_back(int(o));
   }
   linked_ = true;
 }
 
-/// Finds the supporter with the largest value of each operator; false if the goal is unreachable.
-bool LandmarkCut::explore(const std::vector<int>& begin) {
-  value_.assign(std::size_t(nodes_), kNever);
-  supporter_.assign(operators_.size(), -1);
-  missing_.resize(operators_.size());
-  for (std::size_t o = 0; o < operators_.size(); ++o) missing_[o] = int(operators_[o].pre.size());
-  for (auto& list : bucket_) list.clear();
-  if (bucket_.empty()) bucket_.resize(1);
-  for (int node : begin) {
-    value_[std::size_t(node)] = 0;
-    bucket_[0].push_back(node);
+/// Lowers the value of a node.
+void LandmarkCut::reach(int node, Cost value) {
+  if (value >= value_[std::size_t(node)]) return;
+  value_[std::size_t(node)] = value;
+  if (!small_) {
+    heap_.emplace_back(-value, node);
+    std::ranges::push_heap(heap_);
+    return;
   }
-  for (std::size_t c = 0; c < bucket_.size(); ++c) {
-    for (std::size_t i = 0; i < bucket_[c].size(); ++i) {
-      const int node = bucket_[c][i];
-      if (value_[std::size_t(node)] != int(c)) continue;
-      for (int o : needed_by_[std::size_t(node)]) {
-        if (--missing_[std::size_t(o)] > 0) continue;
-        supporter_[std::size_t(o)] = node;
-        const int value = int(c) + cost_[std::size_t(o)];
-        for (int add : operators_[std::size_t(o)].adds) {
-          if (value >= value_[std::size_t(add)]) continue;
-          value_[std::size_t(add)] = value;
-          if (std::size_t(value) >= bucket_.size()) bucket_.resize(std::size_t(value) + 1);
-          bucket_[std::size_t(value)].push_back(add);
-        }
-      }
-    }
-  }
-  return value_[std::size_t(goal_)] < kNever;
+  if (std::size_t(value) >= bucket_.size()) bucket_.resize(std::size_t(value) + 1);
+  bucket_[std::size_t(value)].push_back(node);
+  at_ = std::min(at_, std::size_t(value));
 }
 
-/// Reduces the cost of the operators that enter the zone with free paths to the goal. Returns the reduction.
-int LandmarkCut::cut(const std::vector<int>& begin) {
+/// Removes the entry with the least value and returns the value; kNever if there is none.
+LandmarkCut::Cost LandmarkCut::popped(int& node) {
+  if (!small_) {
+    if (heap_.empty()) return kNever;
+    std::ranges::pop_heap(heap_);
+    const Cost value = -heap_.back().first;
+    node = heap_.back().second;
+    heap_.pop_back();
+    return value;
+  }
+  while (at_ < bucket_.size() && bucket_[at_].empty()) ++at_;
+  if (at_ >= bucket_.size()) return kNever;
+  node = bucket_[at_].back();
+  bucket_[at_].pop_back();
+  return Cost(at_);
+}
+
+/// Computes the values of all nodes and the supporter of each operator, its precondition with the largest value.
+void LandmarkCut::explore(const std::vector<int>& begin) {
+  value_.assign(std::size_t(nodes_), kNever);
+  supporter_.assign(operators_.size(), -1);
+  supporter_value_.assign(operators_.size(), kNever);
+  missing_.resize(operators_.size());
+  for (std::size_t o = 0; o < operators_.size(); ++o) missing_[o] = int(operators_[o].pre.size());
+  at_ = 0;
+  for (int node : begin) reach(node, 0);
+  int node = 0;
+  for (Cost value = popped(node); value < kNever; value = popped(node)) {
+    if (value_[std::size_t(node)] != value) continue;
+    for (int o : needed_by_[std::size_t(node)]) {
+      if (--missing_[std::size_t(o)] > 0) continue;
+      supporter_[std::size_t(o)] = node;
+      supporter_value_[std::size_t(o)] = value;
+      const Cost next = value + costOf(o);
+      for (int add : operators_[std::size_t(o)].adds) reach(add, next);
+    }
+  }
+}
+
+void LandmarkCut::findSupporter(int op) {
+  Cost most = -1;
+  for (int node : operators_[std::size_t(op)].pre) {
+    if (value_[std::size_t(node)] <= most) continue;
+    most = value_[std::size_t(node)];
+    supporter_[std::size_t(op)] = node;
+  }
+  supporter_value_[std::size_t(op)] = most;
+}
+
+/// Updates values and supporters after the costs of some operators fell.
+void LandmarkCut::exploreAgain(const std::vector<int>& changed) {
+  at_ = bucket_.size();
+  for (int o : changed) {
+    if (supporter_[std::size_t(o)] < 0) continue;
+    const Cost next = supporter_value_[std::size_t(o)] + costOf(o);
+    for (int add : operators_[std::size_t(o)].adds) reach(add, next);
+  }
+  int node = 0;
+  for (Cost value = popped(node); value < kNever; value = popped(node)) {
+    if (value_[std::size_t(node)] != value) continue;
+    for (int o : needed_by_[std::size_t(node)]) {
+      if (supporter_[std::size_t(o)] != node || supporter_value_[std::size_t(o)] <= value) continue;
+      const Cost before = supporter_value_[std::size_t(o)];
+      findSupporter(o);
+      if (supporter_value_[std::size_t(o)] == before) continue;
+      const Cost next = supporter_value_[std::size_t(o)] + costOf(o);
+      for (int add : operators_[std::size_t(o)].adds) reach(add, next);
+    }
+  }
+}
+
+/// Reduces the cost of the actions that enter the zone with free paths to the goal. Returns the reduction.
+LandmarkCut::Cost LandmarkCut::cut(const std::vector<int>& begin, std::vector<int>& changed) {
   zone_.assign(std::size_t(nodes_), 0);
   before_.assign(std::size_t(nodes_), 0);
   std::vector<int> stack = {goal_};
@@ -116,7 +194,7 @@ int LandmarkCut::cut(const std::vector<int>& begin) {
     stack.pop_back();
     for (int o : added_by_[std::size_t(node)]) {
       const int from = supporter_[std::size_t(o)];
-      if (from < 0 || cost_[std::size_t(o)] > 0 || zone_[std::size_t(from)]) continue;
+      if (from < 0 || zone_[std::size_t(from)] || costOf(o) > 0) continue;
       zone_[std::size_t(from)] = 1;
       stack.push_back(from);
     }
@@ -131,7 +209,7 @@ int LandmarkCut::cut(const std::vector<int>& begin) {
       if (supporter_[std::size_t(o)] != node) continue;
       const std::vector<int>& adds = operators_[std::size_t(o)].adds;
       if (std::ranges::any_of(adds, [&](int add) { return zone_[std::size_t(add)]; })) {
-        leading.push_back(o);
+        leading.push_back(operators_[std::size_t(o)].owner);
         continue;
       }
       for (int add : adds) {
@@ -141,16 +219,23 @@ int LandmarkCut::cut(const std::vector<int>& begin) {
       }
     }
   }
-  int least = kNever;
-  for (int o : leading) least = std::min(least, cost_[std::size_t(o)]);
-  for (int o : leading) cost_[std::size_t(o)] -= least;
+  std::ranges::sort(leading);
+  leading.erase(std::unique(leading.begin(), leading.end()), leading.end());
+  Cost least = kNever;
+  for (int owner : leading) least = std::min(least, cost_[std::size_t(owner)]);
+  changed.clear();
+  for (int owner : leading) {
+    cost_[std::size_t(owner)] -= least;
+    const std::vector<int>& operators = owned_by_[std::size_t(owner)];
+    changed.insert(changed.end(), operators.begin(), operators.end());
+  }
   return least;
 }
 
-int LandmarkCut::operator()(const FactSet& state) {
-  if (!ground_.unreachable.empty()) return kNever;
+LandmarkCut::Cost LandmarkCut::operator()(const FactSet& state) {
+  if (!ground_.unreachable.empty() || !ground_.impossible.empty()) return kNever;
   if (!linked_) link();
-  std::vector<int> begin = {always_};
+  std::vector<int> begin = {always_}, changed;
   for (std::size_t fact = 0; fact < negation_.size(); ++fact) {
     if (state.has(int(fact))) {
       begin.push_back(int(fact));
@@ -158,12 +243,13 @@ int LandmarkCut::operator()(const FactSet& state) {
       begin.push_back(negation_[fact]);
     }
   }
-  cost_.resize(operators_.size());
-  for (std::size_t o = 0; o < operators_.size(); ++o) cost_[o] = operators_[o].cost;
-  int sum = 0;
-  while (explore(begin)) {
+  cost_ = costs_;
+  explore(begin);
+  Cost sum = 0;
+  while (value_[std::size_t(goal_)] < kNever) {
     if (value_[std::size_t(goal_)] == 0) return sum;
-    sum += cut(begin);
+    sum += cut(begin, changed);
+    exploreAgain(changed);
   }
   return kNever;
 }

@@ -8,16 +8,45 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kNever = LandmarkCut::kNever;
-constexpr long kAskEvery = 64;  ///< expansions
+constexpr LandmarkCut::Cost kNever = LandmarkCut::kNever;
+constexpr long kAskEvery = 64;                  ///< expansions
+constexpr LandmarkCut::Cost kLonger = 1 << 20;  ///< actions; a unit of cost outweighs them
+
+/// Whether the shortest plans are the cheapest.
+bool haveEqualCosts(const GroundProblem& ground) {
+  return std::ranges::all_of(ground.actions,
+                             [&](const GroundRule& action) { return action.cost == ground.actions.front().cost; });
+}
+
+/// Costs such that the least sum is cheapest, and of these shortest.
+std::vector<LandmarkCut::Cost> searchCosts(const GroundProblem& ground) {
+  std::vector<LandmarkCut::Cost> costs;
+  const bool equal = haveEqualCosts(ground);
+  for (const GroundRule& action : ground.actions) costs.push_back(equal ? 1 : action.cost * kLonger + 1);
+  return costs;
+}
 
 }  // namespace
 
 PlanSearch::PlanSearch(GroundProblem ground) : PlanSearch(std::move(ground), Options()) {}
 
 PlanSearch::PlanSearch(GroundProblem ground, Options options)
-    : ground_(std::move(ground)), options_(std::move(options)), landmarks_(ground_) {
+    : ground_(std::move(ground)),
+      options_(std::move(options)),
+      costs_(searchCosts(ground_)),
+      landmarks_(ground_, costs_) {
+  listActions();
   stateOf(ground_.start);
+}
+
+/// Lists each action at one of its preconditions, the one with the fewest actions so far.
+void PlanSearch::listActions() {
+  needing_.resize(ground_.facts.size());
+  for (std::size_t a = 0; a < ground_.actions.size(); ++a) {
+    const std::vector<int>& pre = ground_.actions[a].pre;
+    const auto least = std::ranges::min_element(pre, {}, [&](int fact) { return needing_[std::size_t(fact)].size(); });
+    (least == pre.end() ? unneeding_ : needing_[std::size_t(*least)]).push_back(int(a));
+  }
 }
 
 int PlanSearch::stateOf(const FactSet& facts) {
@@ -32,7 +61,7 @@ int PlanSearch::stateOf(const FactSet& facts) {
   return same.back();
 }
 
-int PlanSearch::bound(int state) {
+PlanSearch::Cost PlanSearch::bound(int state) {
   StateInfo& info = states_[std::size_t(state)];
   if (info.bound < 0) {
     info.bound = info.is_goal ? 0 : landmarks_(info.facts);
@@ -61,10 +90,15 @@ const std::vector<PlanSearch::Edge>& PlanSearch::edges(int state) {
     }
     std::vector<Edge> list;
     const FactSet facts = states_[std::size_t(state)].facts;
-    for (std::size_t a = 0; a < ground_.actions.size(); ++a) {
-      if (!ground_.isApplicable(ground_.actions[a], facts)) continue;
-      const int to = stateOf(ground_.apply(int(a), facts));
-      if (to != state) list.push_back({int(a), to});
+    candidates_ = unneeding_;
+    for (std::size_t fact = 0; fact < needing_.size(); ++fact) {
+      if (facts.has(int(fact))) candidates_.insert(candidates_.end(), needing_[fact].begin(), needing_[fact].end());
+    }
+    std::erase_if(candidates_, [&](int a) { return !ground_.isApplicable(ground_.actions[std::size_t(a)], facts); });
+    std::ranges::sort(candidates_);
+    for (int a : candidates_) {
+      const int to = stateOf(ground_.apply(a, facts));
+      if (to != state) list.push_back({a, to});
     }
     states_[std::size_t(state)].edges = std::move(list);
     states_[std::size_t(state)].expanded = true;
@@ -73,11 +107,11 @@ const std::vector<PlanSearch::Edge>& PlanSearch::edges(int state) {
 }
 
 /// A* from a state. Each expanded state gets a bound on its own distance.
-int PlanSearch::exactDistance(int state) {
+PlanSearch::Cost PlanSearch::exactDistance(int state) {
   if (bound(state), states_[std::size_t(state)].exact) return states_[std::size_t(state)].bound;
-  using Entry = std::tuple<int, int, long, int>;  // g + bound, -g, order, state
+  using Entry = std::tuple<Cost, Cost, long, int>;  // g + bound, -g, order, state
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-  std::unordered_map<int, std::pair<int, int>> reached;  // state -> g, before
+  std::unordered_map<int, std::pair<Cost, int>> reached;  // state -> g, before
   std::vector<int> closed;
   long order = 0;
   reached[state] = {0, -1};
@@ -85,10 +119,10 @@ int PlanSearch::exactDistance(int state) {
   while (!open.empty()) {
     const auto [f, minus_g, number, s] = open.top();
     open.pop();
-    const int g = -minus_g;
+    const Cost g = -minus_g;
     if (g > reached[s].first) continue;
     if (states_[std::size_t(s)].exact) {
-      const int total = g + states_[std::size_t(s)].bound;
+      const Cost total = g + states_[std::size_t(s)].bound;
       if (total > f) {  // outdated entry
         open.push({total, minus_g, order++, s});
         continue;
@@ -106,12 +140,13 @@ int PlanSearch::exactDistance(int state) {
     closed.push_back(s);
     for (const Edge& edge : edges(s)) {
       if (isForbidden(edge.action, states_[std::size_t(s)].facts)) continue;
-      const int rest = bound(edge.to);
+      const Cost rest = bound(edge.to);
       if (rest >= kNever) continue;
+      const Cost next = g + costs_[std::size_t(edge.action)];
       const auto known = reached.find(edge.to);
-      if (known != reached.end() && known->second.first <= g + 1) continue;
-      reached[edge.to] = {g + 1, s};
-      open.push({g + 1 + rest, -(g + 1), order++, edge.to});
+      if (known != reached.end() && known->second.first <= next) continue;
+      reached[edge.to] = {next, s};
+      open.push({next + rest, -next, order++, edge.to});
     }
   }
   for (int c : closed) {  // the goal is unreachable from all of them
@@ -121,12 +156,16 @@ int PlanSearch::exactDistance(int state) {
   return kNever;
 }
 
-int PlanSearch::distance() {
+double PlanSearch::distance() {
+  Cost least = 0;
   try {
-    return exactDistance(0);
+    least = exactDistance(0);
   } catch (Stopped) {
-    return bound(0);
+    least = bound(0);
   }
+  if (least >= kNever) return std::numeric_limits<double>::infinity();
+  if (!haveEqualCosts(ground_)) return double(least / kLonger) * ground_.cost_unit;
+  return double(least) * (ground_.actions.empty() ? 1 : double(ground_.actions.front().cost) * ground_.cost_unit);
 }
 
 void PlanSearch::forbid(int action, const std::vector<int>& facts) {
@@ -148,7 +187,7 @@ void PlanSearch::restart() {
   }
   path_.clear();
   actions_.clear();
-  length_ = 0;
+  used_ = length_ = 0;
 }
 
 bool PlanSearch::beginsForbidden() const { return !beginnings_.empty() && beginnings_.contains(actions_); }
@@ -156,13 +195,15 @@ bool PlanSearch::beginsForbidden() const { return !beginnings_.empty() && beginn
 void PlanSearch::leave() {
   states_[std::size_t(path_.back().state)].on_path = false;
   path_.pop_back();
-  if (!actions_.empty()) actions_.pop_back();
+  if (actions_.empty()) return;
+  used_ -= costs_[std::size_t(actions_.back())];
+  actions_.pop_back();
 }
 
 /// Advances to the next plan of the current length; false if there is none.
 bool PlanSearch::advance() {
   while (!path_.empty()) {
-    const int state = path_.back().state, used = int(actions_.size());
+    const int state = path_.back().state;
     const std::vector<Edge>& list = edges(state);
     if (states_[std::size_t(state)].is_goal || path_.back().next >= list.size()) {
       leave();
@@ -170,8 +211,9 @@ bool PlanSearch::advance() {
     }
     const Edge edge = list[path_.back().next++];
     if (states_[std::size_t(edge.to)].on_path || isForbidden(edge.action, states_[std::size_t(state)].facts)) continue;
-    int total = used + 1 + bound(edge.to);
-    if (total <= length_) total = used + 1 + exactDistance(edge.to);
+    const Cost cost = costs_[std::size_t(edge.action)];
+    Cost total = used_ + cost + bound(edge.to);
+    if (total <= length_) total = used_ + cost + exactDistance(edge.to);
     if (total > length_) {
       next_length_ = std::min(next_length_, total);
       continue;
@@ -181,10 +223,10 @@ bool PlanSearch::advance() {
       actions_.pop_back();
       continue;
     }
+    used_ += cost;
     path_.push_back({edge.to, 0});
     states_[std::size_t(edge.to)].on_path = true;
-    if (states_[std::size_t(edge.to)].is_goal && int(actions_.size()) == length_ && returned_.insert(actions_).second)
-      return true;
+    if (states_[std::size_t(edge.to)].is_goal && used_ == length_ && returned_.insert(actions_).second) return true;
   }
   return false;
 }
@@ -210,6 +252,7 @@ std::optional<std::vector<int>> PlanSearch::next() {
     for (StateInfo& info : states_) info.on_path = false;
     path_.clear();
     actions_.clear();
+    used_ = 0;
   }
   return std::nullopt;
 }

@@ -12,8 +12,9 @@
 
 namespace kinegraph {
 
-/// Enumerates the plans of a problem, the shortest first: all sequences of actions that end in the first state with the
-/// goal and visit no state twice. The order depends only on the problem and on the forbidden actions.
+/// Enumerates the plans of a problem: all sequences of actions that end in the first state with the goal and visit no
+/// state twice. The shortest come first; if the problem has a metric, the cheapest come first, and of equal cost the
+/// shortest. The order depends only on the problem and on the forbidden actions.
 ///
 /// Distances to the goal are exact, by A* with a closed list and landmarks. Bounds of other states are reused (Koenig,
 /// Likhachev, Adaptive A*, 2005). The enumeration has no dead ends.
@@ -49,16 +50,18 @@ class PlanSearch {
   long expansions() const { return expansions_; }
   std::size_t states() const { return states_.size(); }
 
-  /// Returns the minimum number of allowed actions from the start to the goal; LandmarkCut::kNever if there is no plan.
-  int distance();
+  /// Returns the minimum number of allowed actions from the start to the goal, with a metric their minimum cost;
+  /// infinity if there is no plan.
+  double distance();
 
  private:
+  using Cost = LandmarkCut::Cost;  ///< of cost and number of actions, see `searchCosts`
   struct Edge {
     int action, to;
   };
   struct StateInfo {
     FactSet facts;
-    int bound = -1;  ///< lower bound of the distance to the goal; -1: unknown
+    Cost bound = -1;  ///< lower bound of the distance to the goal; -1: unknown
     bool exact = false, expanded = false, on_path = false, is_goal = false;
     std::vector<Edge> edges;
   };
@@ -69,17 +72,22 @@ class PlanSearch {
   struct Stopped {};  ///< thrown at the limit
 
   int stateOf(const FactSet& facts);
-  int bound(int state);
+  Cost bound(int state);
   const std::vector<Edge>& edges(int state);
   bool isForbidden(int action, const FactSet& facts) const;
-  int exactDistance(int state);
+  Cost exactDistance(int state);
   bool advance();
   void restart();
   void leave();
   bool beginsForbidden() const;
 
+  void listActions();
+
   GroundProblem ground_;
   Options options_;
+  std::vector<Cost> costs_;                  ///< per action
+  std::vector<std::vector<int>> needing_;    ///< per fact: actions that are possible only with it
+  std::vector<int> unneeding_, candidates_;  ///< the other actions; a buffer
   LandmarkCut landmarks_;
   std::vector<StateInfo> states_;
   std::unordered_map<std::uint64_t, std::vector<int>> by_hash_;
@@ -88,7 +96,7 @@ class PlanSearch {
   std::set<std::vector<int>> returned_;  ///< all plans so far
   std::vector<Step> path_;
   std::vector<int> actions_;
-  int length_ = 0, next_length_ = 0;
+  Cost used_ = 0, length_ = 0, next_length_ = 0;
   long expansions_ = 0;
   Status status_ = Status::found;
 };

@@ -81,6 +81,11 @@ LoopMode BotOp::getMode() const {
   return loop_->mode();
 }
 
+std::string BotOp::takeWarning() {
+  const Lock lock(mutex_);
+  return loop_->takeWarning();
+}
+
 std::string BotOp::getFault() const {
   const Lock lock(mutex_);
   return loop_->fault();

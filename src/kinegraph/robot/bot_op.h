@@ -85,6 +85,7 @@ class BotOp {
   const RobotInfo& getInfo() const { return loop_->info(); }
   LoopMode getMode() const;
   std::string getFault() const;  ///< cause of the fault; empty without one
+  std::string takeWarning();     ///< returns and clears the warning of a lag, without SafetyLimits::lag_stops
 
   // --- motions
   // ---------------------------------------------------------------------------------------------------------

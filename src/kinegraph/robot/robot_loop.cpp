@@ -90,7 +90,13 @@ void RobotLoop::accept(const RobotState& state) {
     state_ = state;
     if (error.empty() && clock_pause_ > safety_.clock_timeout)
       error = cat("its clock has stood still for ", clock_pause_, " s");
-    if (error.empty()) error = trackingFault();
+    const std::string lag = error.empty() ? trackingFault() : "";
+    if (safety_.lag_stops) {
+      error = error.empty() ? lag : error;
+    } else if (!lag.empty() && !lags_) {
+      warning_ = lag;
+    }
+    lags_ = !lag.empty();
   }
   if (!error.empty()) stop(error);
 }
@@ -148,7 +154,7 @@ void RobotLoop::requireReady(const char* call, const VectorXd& q) const {
     throw RobotFault(cat(call, ": the robot was stopped: ", fault_, "; resolve the cause, then call recover()"));
   for (Eigen::Index i = 0; i < q.size(); ++i) {
     const double distance = std::abs(q[i] - state_.q[i]);
-    if (distance <= safety_.start_distance || mode_ == LoopMode::floating) continue;
+    if (distance <= safety_.start_distance || mode_ == LoopMode::floating || !safety_.lag_stops) continue;
     throw RobotFault(cat(call, ": joint '", info_.joints[std::size_t(i)], "' is at ", state_.q[i], ", ", distance,
                          " from the start of the motion; call hold() first, so that the motion starts at the robot"));
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <utility>
 
 #include "kinegraph/robot/command_log.h"
 #include "kinegraph/robot/motion_limits.h"
@@ -21,6 +22,7 @@ struct SafetyLimits {
   double start_distance = .05;    ///< rad or m: a motion starts at most this far from the robot, per joint
   double tracking_distance = .3;  ///< rad or m: a stiff joint that is farther from its command is a fault
   double clock_timeout = .1;      ///< s: a robot's clock that stands still for longer is a fault
+  bool lag_stops = true;          ///< false: a joint that is far from its command is a warning only
 };
 
 /// Moves a robot in control periods: `step` writes the reference at the end of the period to the driver, within the
@@ -45,6 +47,9 @@ class RobotLoop {
   double time() const { return double(log_.ticks) * log_.period; }  ///< control time, s
   LoopMode mode() const { return mode_; }
   const std::string& fault() const { return fault_; }  ///< cause of the fault; empty without one
+
+  /// Returns and clears the warning of a joint that came too far from its command; empty if none did.
+  std::string takeWarning() { return std::exchange(warning_, {}); }
   const RobotState& state() const { return state_; }
   const ReferenceMotion& motion() const { return motion_; }  ///< of the modes follow and hold
   const RobotInfo& info() const { return info_; }
@@ -93,7 +98,8 @@ class RobotLoop {
   RobotInfo info_;
   CommandLog log_;
   LoopMode mode_ = LoopMode::hold;
-  std::string fault_;
+  std::string fault_, warning_;
+  bool lags_ = false;
   RobotState state_;
   double clock_pause_ = 0.;  ///< how long the robot's clock has stood still, s
   ReferenceMotion motion_;

@@ -224,9 +224,11 @@ Frame& Frame::setJoint(JointType type, const std::vector<double>& limits, const 
       throw ValueError(cat("frame '", frame.name, "': limits of a ", jointTypeName(type), " joint are ", 2 * dofs,
                            " numbers (all lower, then all upper), not ", limits.size()));
     }
-    joint.lower = Eigen::Map<const VectorXd>(limits.data(), dofs);
-    joint.upper = Eigen::Map<const VectorXd>(limits.data() + dofs, dofs);
-    if (const std::string why = limitsError(limits); !why.empty())
+    std::string in_turn;
+    const std::vector<double> given = limitsInTurn(limits, in_turn).value_or(limits);
+    joint.lower = Eigen::Map<const VectorXd>(given.data(), dofs);
+    joint.upper = Eigen::Map<const VectorXd>(given.data() + dofs, dofs);
+    if (const std::string why = limitsError(given); !why.empty())
       throw ValueError(cat("frame '", frame.name, "': ", why));
   }
   if (!axis.empty()) {

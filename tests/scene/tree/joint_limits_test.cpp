@@ -26,21 +26,26 @@ TEST(LimitsError, SuggestsSwappedLimitsInTheRightOrder) {
   EXPECT_EQ(limitsError(std::vector<double>{1., -1., 2., 3.}), "");  // the advice
 }
 
-TEST(LimitsError, WritesLimitsOfEarlierYearsAsTheyAreWrittenToday) {
-  for (const std::vector<double>& limits : {std::vector<double>{-1., 1., -2., 2.}, {-1., 1., -1., 1.}}) {
-    EXPECT_NE(limitsError(limits).find("all lower limits come first"), std::string::npos);
-  }
-  EXPECT_NE(limitsError(std::vector<double>{-1., 1., -2., 2.}).find("[-1 -2 1 2]"), std::string::npos);
+TEST(LimitsInTurn, ReadsLimitsOfEarlierYearsInTodaysOrder) {
+  std::string warning;
+  EXPECT_EQ(limitsInTurn(std::vector<double>{-1., 1., -2., 2.}, warning), (std::vector<double>{-1., -2., 1., 2.}));
+  EXPECT_NE(warning.find("[-1 -2 1 2]"), std::string::npos);
+  EXPECT_EQ(limitsInTurn(std::vector<double>{-1., 1., -1., 1.}, warning), (std::vector<double>{-1., -1., 1., 1.}));
+  EXPECT_FALSE(limitsInTurn(std::vector<double>{-1., -2., 1., 2.}, warning));  // today's order
+  EXPECT_FALSE(limitsInTurn(std::vector<double>{2., -1., 1., 3.}, warning));   // neither
+  EXPECT_FALSE(limitsInTurn(std::vector<double>{1., -1.}, warning));
 }
 
-TEST(LimitsError, IsReportedForFilesAndForCalls) {
+TEST(LimitsInTurn, HoldsForFilesAndForCalls) {
   Config config;
-  expectError<ParseError>([&] { config.addText("a: {} b (a): { joint: transXY, limits: [-1 1 -2 2] }"); },
-                          {"all lower limits come first", "[-1 -2 1 2]"});
-  config.addText("a: {} b (a): {}");
+  config.addText("a: {} b (a): { joint: transXY, limits: [-1 1 -2 2] }");
+  const std::vector<std::string> warnings = config.takeWarnings();
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("[-1 -2 1 2]"), std::string::npos);
+  config.getFrame("b").setJoint(JointType::transXY, {-1., 1., -1., 1.});
   expectError<ValueError>(
       [&] {
-        config.getFrame("b").setJoint(JointType::transXY, {-1., 1., -1., 1.});
+        config.getFrame("b").setJoint(JointType::transXY, {1., -1., 2., -2.});
       },
-      {"frame 'b'", "[-1 -1 1 1]"});
+      {"frame 'b'", "a lower limit is above its upper limit"});
 }

@@ -193,6 +193,7 @@ Mesh readMeshFile(const std::string& path, std::vector<std::string>* files) {
     throw FileError(cat("mesh file '", path, "' is a Git LFS pointer; 'git lfs pull' fetches the mesh"));
   if (extension == ".h5") return readH5Mesh(path, "mesh");
   if (extension == ".msh") return readMshMesh(path);
+  if (extension == ".tri") return readTriMesh(path);
   Mesh mesh;
   if (extension == ".stl") {
     mesh = readStlMesh(content, path);

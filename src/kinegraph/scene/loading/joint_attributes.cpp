@@ -67,9 +67,15 @@ void AttributeReader::readLimits(Joint& joint) {
     return error(*limits, cat("a ", jointTypeName(joint.type), " joint has ", 2 * dofs,
                               " limits (all lower, then all upper), got ", v->size()));
   }
-  joint.lower = Eigen::Map<const VectorXd>(v->data(), Eigen::Index(dofs));
-  joint.upper = Eigen::Map<const VectorXd>(v->data() + dofs, Eigen::Index(dofs));
-  if (const std::string why = limitsError({v->data(), 2 * dofs}); !why.empty()) error(*limits, why);
+  std::vector<double> given(v->data(), v->data() + 2 * dofs);
+  std::string in_turn;
+  if (const auto ordered = limitsInTurn(given, in_turn)) {
+    warning(*limits, in_turn);
+    given = *ordered;
+  }
+  joint.lower = Eigen::Map<const VectorXd>(given.data(), Eigen::Index(dofs));
+  joint.upper = Eigen::Map<const VectorXd>(given.data() + dofs, Eigen::Index(dofs));
+  if (const std::string why = limitsError(given); !why.empty()) error(*limits, why);
 }
 
 void AttributeReader::readDofs(Joint& joint) {

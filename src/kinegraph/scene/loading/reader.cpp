@@ -12,10 +12,10 @@ namespace {
 
 /// Builds the scene, unless the grammar has errors: they would cause spurious further errors.
 void build(SceneSource source, SceneTree& scene, SceneDiagnostics& diagnostics, std::vector<std::string>& warnings,
-           bool strict) {
+           const FileOptions& options) {
   diagnostics.throwErrors();
-  SceneBuilder(scene, diagnostics).build(source);
-  diagnostics.throwErrors(strict);
+  SceneBuilder(scene, diagnostics, options.orphans).build(source);
+  diagnostics.throwErrors(options.strict);
   for (std::string& warning : diagnostics.warnings()) warnings.push_back(std::move(warning));
 }
 
@@ -24,13 +24,13 @@ void build(SceneSource source, SceneTree& scene, SceneDiagnostics& diagnostics, 
 void readSceneFile(const std::string& path, SceneTree& scene, std::vector<std::string>& warnings,
                    const FileOptions& options) {
   SceneDiagnostics diagnostics;
-  build(readSource(path, diagnostics, options.xacro), scene, diagnostics, warnings, options.strict);
+  build(readSource(path, diagnostics, options.xacro), scene, diagnostics, warnings, options);
 }
 
 void readSceneText(std::string_view text, const std::string& name, const std::string& folder, SceneTree& scene,
                    std::vector<std::string>& warnings, bool strict) {
   SceneDiagnostics diagnostics;
-  build(readSource(text, name, folder, diagnostics), scene, diagnostics, warnings, strict);
+  build(readSource(text, name, folder, diagnostics), scene, diagnostics, warnings, {.strict = strict});
 }
 
 void readSemanticsFile(const std::string& path, const std::string& prefix, SceneTree& scene,

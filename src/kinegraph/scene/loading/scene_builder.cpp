@@ -148,6 +148,11 @@ FrameData* SceneBuilder::findParent(const std::string& name, const FrameData& fr
   const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), back);
   const bool counts = error == std::errc{} && end == name.data() + name.size() && back < 0 && back >= -place;
   if (counts && !scene_.find(name)) return frames_[place + back];
+  if (orphans_ && !scene_.find(name) && !scene_.find(source.prefix + name)) {
+    diagnostics_.warning(where, cat("parent of '", frame.name, "': '", name, "' is not a frame of this scene; '",
+                                    frame.name, "' has no parent"));
+    return nullptr;
+  }
   return find(name, source.prefix, where, cat("parent of '", frame.name, "':"));
 }
 
@@ -161,7 +166,7 @@ FrameData& SceneBuilder::addOrigin(FrameData& joint_frame, const Pose& before) {
 
 void SceneBuilder::interpret(FrameData& frame, const SourceFrame& source) {
   AttributeReader read = reader(frame, source);
-  if (!frame.parent && !source.node.parents.empty())
+  if (!frame.parent && !source.node.parents.empty() && !(orphans_ && !read.find({"joint"})))
     return read.applyBody(frame);  // the missing parent is already reported
   const std::optional<Pose> before = read.readBefore(), behind = read.readBehind();
   if (const Node* node = read.find({"from", "to"})) {

@@ -13,7 +13,9 @@ namespace kinegraph {
 /// references to other frames by name.
 class SceneBuilder {
  public:
-  SceneBuilder(SceneTree& scene, SceneDiagnostics& diagnostics) : scene_(scene), diagnostics_(diagnostics) {}
+  /// `orphans`: a frame whose parent is unknown has no parent, and a warning, instead of an error.
+  SceneBuilder(SceneTree& scene, SceneDiagnostics& diagnostics, bool orphans = false)
+      : scene_(scene), diagnostics_(diagnostics), orphans_(orphans) {}
 
   /// Adds all frames of a source to an empty scene.
   void build(SceneSource& source);
@@ -46,6 +48,7 @@ class SceneBuilder {
 
   SceneTree& scene_;
   SceneDiagnostics& diagnostics_;
+  bool orphans_ = false;
   std::vector<FrameData*> frames_;  ///< one per source frame
 };
 

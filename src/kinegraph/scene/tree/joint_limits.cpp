@@ -29,18 +29,29 @@ std::string limitsError(std::span<const double> limits) {
                   limits[dofs + crossed]);
   mistake += "; all lower limits come first, then all upper ones";
   std::string lower, upper;
-  if (in_turn) {
-    for (std::size_t i = 0; i < dofs; ++i) {
-      lower += cat(limits[2 * i], " ");
-      upper += cat(limits[2 * i + 1], i + 1 < dofs ? " " : "");
-    }
-    return cat(mistake, ": [", lower, upper, "] if these are the lower and upper limit of each dof in turn");
-  }
   for (std::size_t i = 0; i < dofs; ++i) {
     lower += cat(std::min(limits[i], limits[dofs + i]), " ");
     upper += cat(std::max(limits[i], limits[dofs + i]), i + 1 < dofs ? " " : "");
   }
   return cat(mistake, ": [", lower, upper, "] if only these are swapped");
+}
+
+std::optional<std::vector<double>> limitsInTurn(std::span<const double> limits, std::string& warning) {
+  const std::size_t dofs = limits.size() / 2;
+  if (dofs < 2 || limitsError(limits).empty()) return std::nullopt;
+  std::vector<double> ordered(2 * dofs);
+  for (std::size_t i = 0; i < dofs; ++i) {
+    if (!(limits[2 * i] <= limits[2 * i + 1])) return std::nullopt;
+    ordered[i] = limits[2 * i];
+    ordered[dofs + i] = limits[2 * i + 1];
+  }
+  std::string current;
+  for (double limit : ordered) current += cat(current.empty() ? "" : " ", limit);
+  warning =
+      cat("limits are read as the lower and upper limit of each dof in turn; all lower limits come first, then "
+          "all upper ones: [",
+          current, "]");
+  return ordered;
 }
 
 }  // namespace kinegraph

@@ -1,13 +1,18 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 namespace kinegraph {
 
 /// Explains why `limits` are not the limits of a joint with `limits.size() / 2` dofs (all lower, then all upper); "" if
-/// they are valid. Older files alternate lower and upper limits; the message then shows the current order. [-1 1 -1 1]
-/// counts as such a list: read in the current order, it would fix every dof.
+/// they are valid. [-1 1 -1 1] is not: it would fix every dof.
 std::string limitsError(std::span<const double> limits);
+
+/// Older files alternate lower and upper limits, [-1 1 -2 2]. Returns such a list in the current order, [-1 -2 1 2], if
+/// it is not valid as it is; `warning` then says so.
+std::optional<std::vector<double>> limitsInTurn(std::span<const double> limits, std::string& warning);
 
 }  // namespace kinegraph
