@@ -81,8 +81,8 @@ def arc(P, axis, center, angle):
 
 
 def sequence(poses, blend):
-    """Straight moves through poses; corners replaced, from `blend` (m) before to `blend` after, by a curve with continuous
-    curvature (a quintic whose second derivative is zero at both ends)."""
+    """Returns straight moves through poses. A quintic with continuous curvature replaces each corner, from `blend` (m)
+    before to `blend` after it."""
     poses = [np.asarray(p, float) for p in poses]
     out, last = [], poses[0]
     for i in range(1, len(poses) - 1):

@@ -3,24 +3,27 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <string>
 
 #include "kinegraph/common/errors.h"
 
 namespace kinegraph {
 namespace {
 
-/// Three hinges in the plane; the tool is 1.1 m from the base at most.
-Config planarArm() {
+/// Three hinges in the plane, and more frames; the tool is 1.1 m from the base at most.
+Config planarArm(const std::string& more = {}) {
   Config C;
-  C.addText(R"(
+  C.addText(std::string(R"(
 base: {}
 j1 (base): { joint: hingeZ, limits: [-3 3] }
 l1 (j1): { shape: capsule, size: [.3 .03], Q: [.25 0 0 .7071068 0 .7071068 0], contact: 1 }
 j2 (j1): { joint: hingeZ, pre: [.5 0 0], limits: [-3 3] }
 j3 (j2): { joint: hingeZ, pre: [.5 0 0], limits: [-3 3] }
 tool (j3): { shape: sphere, size: [.01], Q: [.1 0 0], contact: -1 }
-)");
-  C.setJointState(VectorXd{{.3, .8, -1.1}});
+)") + more);
+  VectorXd q = VectorXd::Zero(C.getJointDimension());
+  q.head<3>() << .3, .8, -1.1;
+  C.setJointState(q);
   return C;
 }
 
@@ -43,7 +46,7 @@ TEST(PlanToolPath, FollowsALineAtConstantSpeedWithinTheProvenDeviation) {
     EXPECT_LE(std::abs(p[0] - .6), plan.position_deviation);
     EXPECT_LE(std::abs(p[1] + .2 - plan.way(t).place), 1e-4);
     EXPECT_LE(plan.speed(t), .1 * (1. + 1e-9));
-    if (t > .1 && t < plan.duration() - .1) EXPECT_GT(plan.speed(t), .0995);
+    if (t > .15 && t < plan.duration() - .15) EXPECT_GT(plan.speed(t), .0995);
   }
 }
 
@@ -109,9 +112,10 @@ TEST(PlanToolPath, EqualArgumentsGiveEqualBits) {
 }
 
 TEST(PlanToolPath, FollowsAPartThatAJointMoves) {
-  Config C = planarArm();
-  C.addText(
-      "turntable: {pose: \"t(.7 0 0)\", joint: hingeZ, limits: [-3, 3]}\npart(turntable): {pose: \"t(.1 0 0)\"}\n");
+  Config C = planarArm(R"(
+turntable (base): { joint: hingeZ, pre: [.7 0 0], limits: [-3 3] }
+part (turntable): { Q: [.1 0 0] }
+)");
   const ToolPath path = ToolPath("tool", "part").start(Vector3d(0., -.05, 0.)).line(Vector3d(0., .05, 0.)).free();
   const ToolPathPlan plan = planToolPath(C, {path}, {.speed = .05});
   ASSERT_TRUE(plan.feasible()) << plan.message;

@@ -132,7 +132,7 @@ TEST(ToolCurve, ApproachAndRetractAreAlongTheFreeAxis) {
 
 TEST(ToolCurve, RejectsPathsWithoutLengthAndArcsOnALine) {
   EXPECT_THROW(curveOfPath(ToolPath("tool")), ValueError);
-  EXPECT_THROW(curveOfPath(ToolPath("tool").line(Vector3d::Zero())), ValueError);
+  EXPECT_THROW(curveOfPath(ToolPath("tool").line(Vector3d(0., 0., 0.))), ValueError);
   EXPECT_THROW(curveOfPath(ToolPath("tool").arc(Vector3d(1., 0., 0.), Vector3d(2., 0., 0.))), ValueError);
 }
 

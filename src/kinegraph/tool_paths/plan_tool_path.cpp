@@ -20,7 +20,7 @@ namespace {
 
 constexpr double kFitShare = .25;  // of the tolerance, for fitting rows
 constexpr int kLeastTimingIntervals = 100;
-constexpr int kTimingTrials = 3;      // with more and more intervals
+constexpr int kTimingTrials = 4;      // with more and more intervals
 constexpr double kIdle = .02;         // share of the duration without a limit that is reached
 constexpr int kSolutionsPerPath = 3;  // for transfers and orders
 constexpr const char* kPlanToolPath = "planToolPath";

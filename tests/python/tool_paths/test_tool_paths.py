@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 import kinegraph as ry
+from kinegraph.cli import main
 
 X, Y, Z = np.eye(3)
 LIMITS = {"acceleration": 6.0, "jerk": 120.0}
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture
 def scene():
     C = ry.Config()
     C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
@@ -74,7 +75,7 @@ def test_a_circle_is_round_and_ends_at_its_start(scene):
 
 
 def test_the_free_axis_stays_in_its_cone_between_obstacles(scene):
-    C = ry.Config(scene)
+    C = scene
     s = np.linspace(-0.12, 0.12, 481)
     points = np.stack([s, 0.32 + 0 * s, 0.85 + 0 * s], axis=1)
     for k, x in enumerate((-0.05, 0.05)):
@@ -132,7 +133,7 @@ def test_without_a_limit_that_is_reached_the_tool_is_never_slow(scene):
 
 
 def test_a_start_that_cannot_do_it_names_one_that_can(scene):
-    C = ry.Config(scene)
+    C = scene
     start = C.getFrame("tool").getPose()
     path = ry.ToolPath("tool").start(start).line(start[:3] + 0.1 * X + 0.2 * Y - 0.1 * Z)
     good = ry.planToolPath(C, path)
@@ -153,7 +154,7 @@ def test_equal_arguments_give_equal_bits_and_plans_are_pickled(scene):
 
 
 def test_a_failure_names_place_and_pair(scene):
-    C = ry.Config(scene)
+    C = scene
     start = C.getFrame("tool").getPose()
     C.addFrame("block").setShape(ry.ST.box, [0.3, 0.04, 0.3]).setPosition(start[:3] + 0.2 * Y).setContact(1)
     plan = ry.planToolPath(C, ry.ToolPath("tool").line(start[:3] + 0.4 * Y))
@@ -181,6 +182,29 @@ def test_rows_are_read_from_a_file(scene, tmp_path):
         ry.ToolPath.read(file)
     with pytest.raises(ry.FileError, match="nothing.csv"):
         ry.ToolPath.read(tmp_path / "nothing.csv")
+
+
+def test_a_simulated_robot_follows_the_plan(scene):
+    end = scene.getFrame("tool").getPosition() + 0.1 * Y
+    plan = ry.planToolPath(scene, ry.ToolPath("tool").line(end), speed=0.1)
+    assert plan, plan.message
+    bot = ry.BotOp(scene, False)
+    bot.follow(plan)
+    bot.wait(scene)
+    scene.setJointState(bot.get_q())
+    assert np.linalg.norm(scene.getFrame("tool").getPosition() - end) < 2e-3
+
+
+def test_the_command_line_writes_the_motion(scene, tmp_path):
+    file, rows, motion = tmp_path / "scene.g", tmp_path / "seam.csv", tmp_path / "motion.csv"
+    scene.write(file)
+    start = scene.getFrame("tool").getPosition()
+    np.savetxt(rows, start + np.linspace(0, 0.1, 51)[:, None] * Y, delimiter=",")
+    command = ["toolpath", str(file), "--points", str(rows), "--free", "z", "--speed", "0.05", "-o", str(motion)]
+    assert main([*command, "--no-view"]) == 0
+    table = np.loadtxt(motion, delimiter=",", skiprows=1)
+    x = poses(scene, table[:, 1:])[:, :3]
+    assert distance_from_line(x, start, start + 0.1 * Y).max() <= 2e-5
 
 
 def test_invalid_arguments_are_explained(scene):
