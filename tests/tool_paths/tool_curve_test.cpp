@@ -106,6 +106,15 @@ TEST(ToolCurve, RowsWithRoundingGiveASmoothCurve) {
   EXPECT_LT(curve.fitError(), 5e-6);
 }
 
+TEST(ToolCurve, FewRowsAtRightAnglesAreLinesWithCorners) {
+  MatrixXd points(4, 3);
+  points << 0., 0., 0., .1, 0., 0., .1, .1, 0., 0., .1, 0.;
+  const ToolCurve curve = curveOfPath(ToolPath::along("tool", points));
+  EXPECT_NEAR(curve.length(), .3, kExact);
+  EXPECT_EQ(curve.corners().size(), 2u);
+  EXPECT_LT((curve.at(.25).p - Vector3d(.05, .1, 0.)).norm(), kExact);
+}
+
 TEST(ToolCurve, TheReversedCurveIsTheSamePlaceByPlace) {
   ToolPath path("tool");
   path.start(poseAt(0., 0., 0.)).line(poseAt(.1, 0., 0., .5)).arc(Vector3d(.15, .05, 0.), poseAt(.2, 0., .1, 1.));

@@ -23,8 +23,8 @@ Args:
 inline constexpr char along[] =
     R"(Makes a path from dense rows of points or poses, samples of a smooth curve.
 
-A spline is fitted to the rows within a quarter of the tolerance of planToolPath. Corners between rows, sharper than .35
-rad and sharper than those beside them, stay: the tool stops there.
+A spline is fitted to the rows within a quarter of the tolerance of planToolPath. Corners between rows stay if they are
+sharper than 1 rad, or sharper than .35 rad and than those beside them: the tool stops there.
 
 Args:
     points: Shape (K, 3), m, or poses (K, 7): x y z qw qx qy qz.

@@ -18,6 +18,7 @@ constexpr double kSamePlace = 1e-7;     // m or rad, between two poses
 constexpr double kCornerSlope = .01;    // largest jump of the direction that is no corner
 constexpr double kCornerRotation = .5;  // rad/m, likewise of the rotation
 constexpr double kCornerOfRows = .35;   // rad between rows
+constexpr double kAlwaysCorner = 1.;    // rad between rows
 constexpr double kSharper = 2.5;        // than at the rows before and after
 constexpr int kFirstStride = 16;        // rows between the first knots
 constexpr int kMaxFitRounds = 20;
@@ -293,7 +294,8 @@ void PrimitiveList::rows(const ToolPathElement& element) {
   for (int first = 0, k = 1; k < count; ++k) {
     const std::size_t i = std::size_t(k);
     const double beside = k + 1 < count ? std::max(corner[i - 1], corner[i + 1]) : 0.;
-    const bool ends = k + 1 == count || (corner[i] > kCornerOfRows && corner[i] > kSharper * beside);
+    const bool ends =
+        k + 1 == count || (corner[i] > kAlwaysCorner || (corner[i] > kCornerOfRows && corner[i] > kSharper * beside));
     if (!ends) continue;
     std::vector<double> t = {0.};
     MatrixXd y(9, k - first + 1);
