@@ -26,8 +26,8 @@ _SCENE = [*_MODEL, "gfile", "parsers", "scene"]
 _PROBLEMS = [*_SCENE, "features", "nlp", "komo", "solvers"]
 _PLANNING = [*_PROBLEMS, "ik", "trajectories", "rrt"]
 
-EVERYTHING = [*_PLANNING, "control", "exporters", "trajectory_optimization", "planning", "logic", "task_planning"]
-EVERYTHING += ["rendering", "simulation", "robot", "viewer", "api"]
+EVERYTHING = [*_PLANNING, "control", "exporters", "trajectory_optimization", "planning", "tool_paths"]
+EVERYTHING += ["logic", "task_planning", "rendering", "simulation", "robot", "viewer", "api"]
 
 BELOW: dict[str, list[str]] = {
     "common": [],
@@ -69,6 +69,7 @@ BELOW: dict[str, list[str]] = {
         *_PLANNING,
         *(f"planning/{room}" for room in ("steering", "search", "smoothing", "dynamic_obstacles")),
     ],
+    "tool_paths": [*_PLANNING, "ik", "planning"],
     "logic": ["common", "gfile"],
     "task_planning": [*_PROBLEMS, "ik", "logic"],
     "task_planning/lgp": [*_PROBLEMS, "logic", "task_planning"],
@@ -148,6 +149,7 @@ CONTENTS = {
     "planning/smoothing": "shortcuts, rope shortcuts, repeated searches for shorter paths",
     "planning/dynamic_obstacles": "obstacles with known trajectories, timing among them",
     "planning": "`planMotion`, replanning, roadmaps, proofs of infeasibility",
+    "tool_paths": "straight, circular and dense curves of a tool, `planToolPath`",
     "logic": "facts, rules, `.fol` and PDDL files, grounding, plan search; no geometry",
     "task_planning": "manipulation helpers, facts of a scene, task rules, waypoint problems",
     "task_planning/lgp": "`LGP_Tool` and its abstraction of actions",

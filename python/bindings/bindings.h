@@ -61,6 +61,7 @@ void bindSkeleton(nb::module_& m);
 void bindIk(nb::module_& m);
 void bindTrajectory(nb::module_& m);
 void bindRetime(nb::module_& m);
+void bindToolPaths(nb::module_& m);
 void bindPathFinder(nb::module_& m);
 void bindPlan(nb::module_& m);
 void bindRoadmap(nb::module_& m);

@@ -56,6 +56,7 @@ NB_MODULE(_core, m) {
   bindPathFinder(m);
   bindPlan(m);
   bindRoadmap(m);
+  bindToolPaths(m);
   bindSpline(m);
   bindSplineMotion(m);
   bindTasks(m);

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import re
 import sys
 from collections.abc import Callable
@@ -10,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from . import __version__
-from ._core import Config, ConfigurationViewer, checkFile, planMotion
+from ._core import Config, ConfigurationViewer, ToolPath, Trajectory, checkFile, planMotion, planToolPath
 from .compatibility.parameters import params_get
 from .errors import ArgumentError, Error, FileError
 from .model_paths import raiPath, similarModels
@@ -78,6 +79,22 @@ def _parser() -> argparse.ArgumentParser:
     plan.add_argument("--time-limit", type=float, default=float("inf"), help="s (default: none)")
     plan.add_argument("-o", "--output", metavar="CSV", help="output file, a row per 10 ms: time, then joint values")
     plan.add_argument("--no-view", action="store_true", help="print only")
+
+    tool = commands.add_parser(
+        "toolpath", help="plan the motion of a tool along rows of points or poses; exit status 1 if there is none"
+    )
+    tool.add_argument("file")
+    tool.add_argument("--frame", default="tool", help="the frame that moves along the path (default: tool)")
+    tool.add_argument("--points", required=True, metavar="CSV", help="rows x y z, with a normal, or with a quaternion")
+    tool.add_argument("--relative-to", metavar="FRAME", help="frame in whose coordinates rows are given")
+    tool.add_argument("--free", choices=["x", "y", "z"], help="axis of the tool about which it may rotate")
+    tool.add_argument("--tilt", type=float, default=0.0, help="half angle of a cone around the free axis, degrees")
+    tool.add_argument("--speed", type=float, default=0.1, help="m/s (default: 0.1)")
+    tool.add_argument("--tolerance", type=float, default=2e-5, help="distance from the path, m (default: 2e-5)")
+    tool.add_argument("--margin", type=float, default=0.0, help="distance to obstacles, m (default: 0)")
+    tool.add_argument("--approach", type=float, default=0.0, help="length of an approach and a retract, m")
+    tool.add_argument("-o", "--output", metavar="CSV", help="output file, a row per 10 ms: time, then joint values")
+    tool.add_argument("--no-view", action="store_true", help="print only")
 
     reach = commands.add_parser(
         "reachability", help="compute the reachable cells of a robot, within limits and without collisions"
@@ -188,6 +205,46 @@ def _jointValues(config: Config, words: list[str], option: str) -> Any:
         ) from None
 
 
+def _saveMotion(config: Config, motion: Trajectory, path: str) -> None:
+    """Writes a row per 10 ms: time, then joint values."""
+    count = max(2, round(motion.duration / 0.01) + 1)
+    with open(path, "w") as file:
+        print("time", *config.getJointNames()[: config.getJointDimension()], sep=",", file=file)
+        for i in range(count):
+            t = motion.duration * i / (count - 1)
+            print(t, *motion.eval(t)[0], sep=",", file=file)
+
+
+def _toolPath(options: argparse.Namespace) -> int:
+    config = _load(options.file)
+    path = ToolPath.read(options.points, frame=options.frame, relativeTo=options.relative_to)
+    if options.free:
+        path.free(options.free)
+    if options.tilt:
+        path.tilt(math.radians(options.tilt))
+    plan = planToolPath(
+        config,
+        path,
+        speed=options.speed,
+        tolerance=options.tolerance,
+        margin=options.margin,
+        approach=options.approach,
+        retract=options.approach,
+    )
+    if not plan:
+        print(f"{plan.status.name}: {plan.message}")
+        return 1
+    print(f"solved: {plan.duration:.2f} s, within {1e3 * plan.deviation[0]:.4f} mm of the path")
+    for _, begin, end, speed, cause in plan.slow:
+        print(f"{begin:.3f} to {end:.3f} m: down to {speed:.4f} m/s, {cause}")
+    if options.output:
+        _saveMotion(config, plan, options.output)
+    if not options.no_view:
+        rows = plan.sample(50.0)[1]
+        config.view_path(rows, max(1.0, plan.duration), True, "the motion")
+    return 0
+
+
 def _plan(options: argparse.Namespace) -> int:
     config = _load(options.file)
     words = options.goal
@@ -206,12 +263,7 @@ def _plan(options: argparse.Namespace) -> int:
     if not motion.feasible:
         return 1
     if options.output:
-        count = max(2, round(motion.duration / 0.01) + 1)
-        with open(options.output, "w") as file:
-            print("time", *config.getJointNames()[: config.getJointDimension()], sep=",", file=file)
-            for i in range(count):
-                t = motion.duration * i / (count - 1)
-                print(t, *motion.eval(t)[0], sep=",", file=file)
+        _saveMotion(config, motion, options.output)
     if not options.no_view:
         config.view_path(motion.path, max(1.0, motion.duration), True, "the motion")
     return 0
@@ -336,6 +388,8 @@ def main(arguments: list[str] | None = None) -> int:
             print("\n".join(robotNames()))
         if options.command == "plan":
             return _plan(options)
+        if options.command == "toolpath":
+            return _toolPath(options)
         if options.command == "reachability":
             _reachability(options)
         if options.command == "selfcollisions":

@@ -65,6 +65,12 @@ FOUND = {
     ],
     "sensitivities": [r"^\(70, 7\) True", r"'position of box, x'", r"^True$", r"^4 .*shortest one"],
     "simulation": [r"\(64, 7\) \(64, 1, 7\)"],
+    "tool_paths": [
+        r"<ToolPathPlan solved: 1 path in \d\.\d+ s>",
+        r"\['approach', 'path', 'retract'\]",
+        r"m/s, \w+ of ",
+        r"out_of_reach \(0, 0\.\d+\) path 0, 0\.\d+ m: no configuration reaches the path",
+    ],
     "first_pick_and_place": [
         r"^failure: \(pick \w+ table l_gripper\)",
         r"^reached the goal after \d actions and \d repair",

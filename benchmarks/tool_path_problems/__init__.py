@@ -1,0 +1,1 @@
+"""The problems of benchmarks/tool_paths.py, and their judge."""

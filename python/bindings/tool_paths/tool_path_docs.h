@@ -1,0 +1,146 @@
+#pragma once
+
+/// The docstrings of bind_tool_paths.cpp.
+namespace kinegraph::python::docs::tool_path {
+
+inline constexpr char ToolPath[] =
+    R"(A curve of poses that a frame, the tool, follows. It has lines, arcs, circles, splines, and dense rows of poses.
+
+    path = ry.ToolPath("pen", relativeTo="part").start(first).line(second).arc(via, third, blend=.01).free()
+
+Poses are arrays of shape (7,): x y z qw qx qy qz, m; or positions (3,), at which the tool keeps the rotation that it
+has. They are in the coordinates of the world or of another frame, which may move. The place of the tool on the path is
+its distance along the curve in m; a rotation on the spot counts .1 m per rad. Methods return the path itself.)";
+
+inline constexpr char make[] =
+    R"(Makes a path without elements.
+
+Args:
+    frame: Name of the frame that moves along the path.
+    relativeTo: Name of the frame in whose coordinates poses are given; None: the world. Either frame may move: the
+        part may be in the hand, or on a positioner.)";
+
+inline constexpr char along[] =
+    R"(Makes a path from dense rows of points or poses, samples of a smooth curve.
+
+A spline is fitted to the rows within a quarter of the tolerance of planToolPath. Corners between rows stay if they are
+sharper than 1 rad, or sharper than .35 rad and than those beside them: the tool stops there.
+
+Args:
+    points: Shape (K, 3), m, or poses (K, 7): x y z qw qx qy qz.
+    normals: Shape (K, 3): the direction of the tool's z axis at each point. None: poses, or the tool keeps its
+        rotation.
+    frame: Name of the frame that moves along the path.
+    relativeTo: Name of the frame in whose coordinates rows are given; None: the world.
+Returns:
+    A ToolPath.
+Raises:
+    ValueError: Another shape, fewer than two rows, or numbers that are not finite.)";
+
+inline constexpr char read[] =
+    R"(Reads a path from a text file with one row per line.
+
+Rows have 3 numbers (x y z, m), 6 (with a normal) or 7 (x y z qw qx qy qz), separated by commas, semicolons or spaces.
+Lines that begin with # and one line of column names are skipped.
+
+Args:
+    file: Path of the file.
+    frame: Name of the frame that moves along the path.
+    relativeTo: Name of the frame in whose coordinates rows are given; None: the world.
+Returns:
+    A ToolPath.
+Raises:
+    FileError: The file cannot be read.
+    ParseError: The file has other content; the message has line and column.)";
+
+inline constexpr char start[] =
+    R"(Sets the first pose. Without it, the path starts at the pose of the tool at the time of planning.
+
+Args:
+    pose: Shape (7,) or (3,).)";
+
+inline constexpr char line[] =
+    R"(Appends a straight line; the tool rotates at a constant rate.
+
+Args:
+    pose: Its end, shape (7,), or (3,) to keep the rotation.
+    blend: Radius (m) of the sphere around the corner at its start, within which a curve with continuous curvature
+        replaces the corner; 0: the tool stops at the corner. Radii that overlap are reduced, with a warning.)";
+
+inline constexpr char arc[] =
+    R"(Appends a circular arc.
+
+Args:
+    via: A position on the arc, shape (3,), m.
+    pose: Its end, shape (7,), or (3,) to keep the rotation.
+    blend: As for line.)";
+
+inline constexpr char circle[] =
+    R"(Appends a circle or a part of it. The tool keeps its rotation.
+
+Args:
+    center: Shape (3,), m.
+    axis: Direction of the axis, shape (3,).
+    angle: rad, counterclockwise about the axis; may be negative, and larger than a full circle.
+    blend: As for line.)";
+
+inline constexpr char spline[] =
+    R"(Appends a cubic spline through the present end and all of these poses.
+
+Args:
+    poses: Shape (K, 7), or (K, 3) to keep the rotation.)";
+
+inline constexpr char free[] =
+    R"(Frees the rotation about an axis of the tool.
+
+Args:
+    about: "x", "y" or "z".)";
+
+inline constexpr char tilt[] =
+    R"(Allows the free axis to lean from its direction within a cone. Frees the rotation about z if no axis is free.
+
+Args:
+    angle: Half angle of the cone, rad, below pi / 2.)";
+
+inline constexpr char ToolPathPlan[] =
+    R"(The motion that planToolPath found, or the reason why there is none; a Trajectory. True if there is a motion.)";
+
+inline constexpr char plan[] =
+    R"(Plans the motion of a robot whose tool follows paths.
+
+The branch of the inverse kinematics, and the angles that a path leaves free, come from a search: all solutions at the
+start of a path are followed along it, and a graph of their configurations is searched if none gets to the end without
+collision. There is no threshold for jumps. The deviation of the tool from its curve and freedom of collisions are
+proven for all times. The tool moves at the given speed where the limits of the joints allow it, and as fast as they
+allow elsewhere; plan.slow lists where. Paths are connected by planMotion. The Config is not changed, and equal
+arguments give equal bits.
+
+Args:
+    config: Scene; its q is tried first.
+    paths: A ToolPath or a sequence of them.
+    speed: Speed of the tool along the path, m/s.
+    order: "given", or "free": any order, each path from either end.
+    approach: Length (m) of a straight approach along the tool's free axis, or z, before each path. 0: none.
+    retract: Length (m) of a straight retract after each path. 0: none.
+    tolerance: Largest distance of the tool from the curve, m.
+    rotation_tolerance: Largest rotation of the tool, or of its free axis, from the curve, rad. With a cone, the axis is
+        never outside of it.
+    margin: Distance that all pairs keep, m.
+    touching: Names of frames that the tool's link may touch.
+    start: Configuration at the start of the first path, shape (n,): its branch is then given. None: the best one.
+    transfer_from: Configuration of the robot, shape (n,); adds a transfer from there to the first path. None: the
+        motion begins at the first path.
+    velocity: Limit of |dq/dt|, a number or one per joint. None: the model's.
+    acceleration: Limit of |d2q/dt2|. None: full speed within a quarter of a second.
+    jerk: Limit of |d3q/dt3|. None: no limit.
+    tool_acceleration: Limit along the path, m/s^2.
+    tool_jerk: Limit along the path, m/s^3; counts if jerk is given.
+    time_limit: Ends the search after so many seconds.
+    seed: Of the samples.
+Returns:
+    A ToolPathPlan.
+Raises:
+    FrameNotFound: A frame of a path or in touching does not exist.
+    ValueError: An argument is invalid, or no joint moves a tool.)";
+
+}  // namespace kinegraph::python::docs::tool_path

@@ -1,0 +1,312 @@
+#include "kinegraph/tool_paths/plan_tool_path.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "kinegraph/collision/edge_check.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/stopwatch.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/planning/plan_motion.h"
+#include "kinegraph/planning/plan_timing.h"
+#include "kinegraph/tool_paths/path_order.h"
+#include "kinegraph/tool_paths/path_search.h"
+#include "kinegraph/tool_paths/slow_stretches.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kFitShare = .25;  // of the tolerance, for fitting rows
+constexpr int kLeastTimingIntervals = 100;
+constexpr int kTimingTrials = 4;      // with more and more intervals
+constexpr double kIdle = .02;         // share of the duration without a limit that is reached
+constexpr int kSolutionsPerPath = 3;  // for transfers and orders
+constexpr const char* kPlanToolPath = "planToolPath";
+
+void requirePositive(const char* name, double value) {
+  if (!(value > 0.)) throw ValueError(cat(kPlanToolPath, ": ", name, " is ", value, "; expected a number > 0"));
+}
+
+void requireNotNegative(const char* name, double value) {
+  if (!(value >= 0.) || !std::isfinite(value))
+    throw ValueError(cat(kPlanToolPath, ": ", name, " is ", value, "; expected a finite number >= 0"));
+}
+
+/// A copy of the scene in which the links of the tools may touch some frames.
+Config withTouching(const Config& config, const std::vector<ToolPath>& paths,
+                    const std::vector<std::string>& touching) {
+  Config scene(config);
+  if (touching.empty()) return scene;
+  const std::shared_ptr<const KinematicModel> model = config.model();
+  SceneTree& tree = *scene.scene();
+  for (const std::string& name : touching) {
+    const int other = frameId(*model, name, "planToolPath: touching");
+    for (const ToolPath& path : paths) {
+      const int tool = frameId(*model, path.frame(), kPlanToolPath);
+      for (std::size_t frame = 0; frame < model->frame_link.size(); ++frame)
+        if (model->frame_link[frame] == model->frame_link[std::size_t(tool)] && model->geometry[frame])
+          tree.frames()[frame]->no_contact.push_back(tree.frames()[std::size_t(other)].get());
+    }
+  }
+  tree.structureChanged();
+  return scene;
+}
+
+/// The joint curve in the other direction.
+JointCurve reversed(const JointCurve& curve) {
+  JointCurve back = curve;
+  back.pieces = {};
+  const CubicPieces& pieces = curve.pieces;
+  bool corner = false;
+  for (int k = pieces.pieces() - 1; k >= 0; --k) {
+    const double begin = pieces.begin[std::size_t(k)], end = pieces.end(k);
+    MatrixXd y(pieces.coefficient[0].rows(), 2), slope(y.rows(), 2);
+    y << pieces.eval(k, end), pieces.eval(k, begin);
+    slope << -pieces.eval(k, end, 1), -pieces.eval(k, begin, 1);
+    back.pieces.addHermite({pieces.length - end, pieces.length - begin}, y, slope, corner);
+    corner = pieces.is_corner[std::size_t(k)];
+  }
+  return back;
+}
+
+/// One planToolPath call.
+class ToolPathPlanner {
+ public:
+  ToolPathPlanner(const Config& config, const std::vector<ToolPath>& paths, const ToolPathOptions& options,
+                  const CancellationToken& cancellation, const ProgressCallback& progress)
+      : config_(config),
+        touching_(withTouching(config, paths, options.touching)),
+        paths_(paths),
+        options_(options),
+        cancellation_(cancellation),
+        progress_(progress),
+        checker_(touching_.state(), options.margin) {
+    transfer_.margin = options.margin;
+    transfer_.velocity = options.velocity, transfer_.acceleration = options.acceleration, transfer_.jerk = options.jerk;
+    transfer_.seed = options.seed;
+    limits_ = planLimits(config, transfer_);
+    transfer_.velocity = limits_.velocity, transfer_.acceleration = limits_.acceleration;
+  }
+
+  ToolPathPlan run() {
+    if (!solveAll()) return std::move(plan_);
+    const std::vector<OrderedPath> order = orderOf();
+    for (std::size_t k = 0; k < order.size(); ++k)
+      if (!addPath(order[k], k)) return std::move(plan_);
+    plan_.status = ToolPathStatus::solved;
+    plan_.setParts(std::move(parts_), config_.getJointDimension());
+    return std::move(plan_);
+  }
+
+ private:
+  /// A solution of a path in one direction.
+  struct Variant {
+    int solution;
+    bool reversed;
+  };
+
+  bool solveAll() {
+    const bool several = paths_.size() > 1 || options_.transfer_from.has_value();
+    for (std::size_t k = 0; k < paths_.size(); ++k) {
+      if (progress_) progress_({int(k), int(paths_.size())});
+      if (clock_.seconds() > options_.time_limit)
+        return fail(ToolPathStatus::out_of_time, int(k), 0., "the time limit ended the search");
+      tools_.push_back(std::make_unique<ToolKinematics>(touching_, paths_[k]));
+      ToolKinematics& tool = *tools_.back();
+      const VectorXd present = config_.getJointState();
+      curves_.emplace_back(paths_[k], Pose(tool.pose(present)), kFitShare * options_.tolerance, options_.approach,
+                           options_.retract);
+      for (const std::string& warning : curves_.back().warnings())
+        plan_.warnings.push_back(cat("path ", k, ": ", warning));
+      PathSearchSettings settings;
+      settings.limits = {limits_.velocity, limits_.acceleration, options_.speed};
+      settings.tolerance = {options_.tolerance, options_.rotation_tolerance};
+      settings.seed = options_.seed;
+      settings.wanted = several ? kSolutionsPerPath : 1;
+      settings.cancellation = cancellation_;
+      settings.first = {present};
+      if (k == 0 && options_.start) settings.first = {*options_.start}, settings.only_first = true;
+      // Solutions near those of the path before shorten the transfers.
+      if (k > 0)
+        for (const JointCurve& curve : solutions_[k - 1].curves) settings.first.push_back(curve.pieces.eval(0.));
+      solutions_.push_back(searchPath(tool, curves_.back(), checker_, settings));
+      if (!solutions_.back().curves.empty()) continue;
+      std::string other;
+      if (settings.only_first) {
+        settings.only_first = false;
+        const PathSolutions free_start = searchPath(tool, curves_.back(), checker_, settings);
+        if (!free_start.curves.empty())
+          other = cat("; from the start (",
+                      free_start.curves[0].pieces.eval(0.).transpose().format(
+                          Eigen::IOFormat(4, Eigen::DontAlignCols, ", ", ", ")),
+                      ") there is a motion");
+      }
+      return failPath(int(k), other);
+    }
+    return true;
+  }
+
+  bool fail(ToolPathStatus status, int path, double place, const std::string& text) {
+    plan_.status = status;
+    plan_.where = {path, place};
+    plan_.message = cat("path ", path, ", ", place, " m: ", text);
+    return false;
+  }
+
+  bool failPath(int path, const std::string& more) {
+    const PathFailure& failure = solutions_.back().failure;
+    plan_.frames = failure.frames;
+    plan_.joint = failure.joint;
+    plan_.reached.resize(Eigen::Index(failure.reached.size()), config_.getJointDimension());
+    for (std::size_t k = 0; k < failure.reached.size(); ++k)
+      plan_.reached.row(Eigen::Index(k)) = failure.reached[k].transpose();
+    return fail(failure.status, path, failure.place - curves_.back().approachEnd(), failure.text + more);
+  }
+
+  std::vector<OrderedPath> orderOf() {
+    OrderProblem problem;
+    problem.velocity = limits_.velocity;
+    problem.free_order = options_.free_order;
+    problem.from = options_.transfer_from;
+    problem.seed = options_.seed;
+    const bool both = options_.free_order && options_.approach == options_.retract;
+    for (const PathSolutions& solutions : solutions_) {
+      problem.variants.emplace_back();
+      for (int k = 0; k < int(solutions.curves.size()); ++k) {
+        const CubicPieces& pieces = solutions.curves[std::size_t(k)].pieces;
+        const VectorXd first = pieces.eval(0.), last = pieces.eval(pieces.length);
+        problem.variants.back().push_back({k, false, first, last});
+        if (both) problem.variants.back().push_back({k, true, last, first});
+      }
+    }
+    return orderPaths(problem);
+  }
+
+  bool addPath(const OrderedPath& choice, std::size_t position) {
+    const int path = choice.path;
+    ToolKinematics& tool = *tools_[std::size_t(path)];
+    const JointCurve& solved = solutions_[std::size_t(path)].curves[std::size_t(choice.solution)];
+    const JointCurve joints = choice.reversed ? reversed(solved) : solved;
+    const ToolCurve curve = choice.reversed ? curves_[std::size_t(path)].reversed() : curves_[std::size_t(path)];
+    const VectorXd start = joints.pieces.eval(0.);
+    std::optional<VectorXd> from = options_.transfer_from;
+    if (position > 0) from = last_;
+    if (from && !addTransfer(*from, start, path)) return false;
+    TimedPath timed;
+    if (!time(tool, curve, joints, timed))
+      return fail(ToolPathStatus::too_fast, path, 0., cat("there is no timing: ", timed.message));
+    const double begin = parts_.empty() ? 0. : parts_.back().begin + parts_.back().timed.duration();
+    const double in = timed.scaling().timeOf(curve.approachEnd()), out = timed.scaling().timeOf(curve.retractStart());
+    const auto segment = [&](ToolSegment::Kind kind, double a, double b) {
+      if (b > a) plan_.segments.push_back({kind, path, choice.reversed, begin + a, begin + b});
+    };
+    segment(ToolSegment::Kind::approach, 0., in);
+    segment(ToolSegment::Kind::path, in, out);
+    segment(ToolSegment::Kind::retract, out, timed.duration());
+    addSlowStretches(timed, path, curve.approachEnd(), curve.retractStart(), timingLimits(), tool.model(), plan_.slow);
+    plan_.position_deviation = std::max(plan_.position_deviation, joints.position_deviation);
+    plan_.rotation_deviation = std::max(plan_.rotation_deviation, joints.rotation_deviation);
+    last_ = joints.pieces.eval(joints.pieces.length);
+    parts_.push_back({begin, path, curve.approachEnd(), false, std::move(timed)});
+    return true;
+  }
+
+  bool addTransfer(const VectorXd& from, const VectorXd& to, int path) {
+    if ((to - from).cwiseAbs().maxCoeff() < 1e-6) return true;
+    // Ends of paths may touch what the paths touch.
+    const MotionPlan plan = planMotion(touching_, MotionGoal(to), transfer_, from, cancellation_);
+    if (!plan.feasible())
+      return fail(ToolPathStatus::no_transfer, path, 0., cat("there is no transfer to its start: ", plan.message));
+    const double begin = parts_.empty() ? 0. : parts_.back().begin + parts_.back().timed.duration();
+    plan_.segments.push_back({ToolSegment::Kind::transfer, path, false, begin, begin + plan.duration()});
+    parts_.push_back({begin, path, 0., true, plan.timed_path});
+    return true;
+  }
+
+  /// The limits of the joints, and of the tool's way as one more dof.
+  MotionLimits timingLimits() const {
+    const Eigen::Index n = limits_.velocity.size();
+    MotionLimits limits = limits_;
+    const auto append = [n](VectorXd& values, double last) {
+      values.conservativeResize(n + 1);
+      values[n] = last;
+    };
+    append(limits.velocity, options_.speed);
+    append(limits.acceleration, options_.tool_acceleration);
+    if (limits.limitsJerk()) append(limits.jerk, options_.tool_jerk);
+    return limits;
+  }
+
+  bool time(ToolKinematics& tool, const ToolCurve& curve, const JointCurve& joints, TimedPath& timed) {
+    RetimeOptions options;
+    options.cancellation = cancellation_;
+    const PathCurve path = withToolWay(tool, curve, joints.pieces);
+    MatrixXd points(path.pieces() + 1, path.dofs());
+    for (int k = 0; k <= path.pieces(); ++k)
+      points.row(k) = path.eval(k < path.pieces() ? path.begin(k) : path.length()).transpose();
+    const MotionLimits limits = timingLimits();
+    // A coarse grid keeps the limits between its points by being slower everywhere; a finer one has to pay less.
+    options.intervals = std::max(kLeastTimingIntervals, path.pieces());
+    timed = retime(points, path, limits, options);
+    for (int trial = 1; trial < kTimingTrials && timed.feasible() && idleShare(timed, limits) > kIdle; ++trial) {
+      options.intervals *= 2;
+      TimedPath finer = retime(points, path, limits, options);
+      if (finer.feasible() && finer.duration() < timed.duration()) timed = std::move(finer);
+    }
+    return timed.feasible();
+  }
+
+  const Config& config_;
+  const Config touching_;
+  const std::vector<ToolPath>& paths_;
+  const ToolPathOptions& options_;
+  const CancellationToken& cancellation_;
+  const ProgressCallback& progress_;
+  EdgeChecker checker_;
+  PlanOptions transfer_;
+  MotionLimits limits_;
+  Stopwatch clock_;
+  std::vector<std::unique_ptr<ToolKinematics>> tools_;
+  std::vector<ToolCurve> curves_;
+  std::vector<PathSolutions> solutions_;
+  std::vector<ToolPathPlan::Part> parts_;
+  VectorXd last_;
+  ToolPathPlan plan_;
+};
+
+}  // namespace
+
+void ToolPathOptions::validate(int dofs) const {
+  requirePositive("speed", speed);
+  requirePositive("tool_acceleration", tool_acceleration);
+  requirePositive("tool_jerk", tool_jerk);
+  requireNotNegative("approach", approach);
+  requireNotNegative("retract", retract);
+  requireNotNegative("margin", margin);
+  requirePositive("tolerance", tolerance);
+  requirePositive("rotation_tolerance", rotation_tolerance);
+  const std::pair<const char*, const VectorXd*> limits[] = {
+      {"velocity", &velocity}, {"acceleration", &acceleration}, {"jerk", &jerk}};
+  for (const auto& [name, values] : limits) {
+    if (values->size() > 1 && values->size() != dofs)
+      throw ValueError(cat(kPlanToolPath, ": ", name, " has ", values->size(), " entries; expected 1 or ", dofs));
+    for (const double value : *values) requirePositive(name, value);
+  }
+  const std::pair<const char*, const std::optional<VectorXd>*> configurations[] = {{"start", &start},
+                                                                                   {"transfer_from", &transfer_from}};
+  for (const auto& [name, q] : configurations)
+    if (*q && ((*q)->size() != dofs || !(*q)->allFinite()))
+      throw ValueError(
+          cat(kPlanToolPath, ": ", name, " has ", (*q)->size(), " entries; expected ", dofs, " finite ones"));
+}
+
+ToolPathPlan planToolPath(const Config& config, const std::vector<ToolPath>& paths, const ToolPathOptions& options,
+                          const CancellationToken& cancellation, const ProgressCallback& progress) {
+  options.validate(config.getJointDimension());
+  if (paths.empty()) throw ValueError("planToolPath: there are no paths; expected at least one");
+  return ToolPathPlanner(config, paths, options, cancellation, progress).run();
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,144 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinegraph/common/cancellation.h"
+#include "kinegraph/common/progress.h"
+#include "kinegraph/planning/motion_plan.h"
+#include "kinegraph/scene/config.h"
+#include "kinegraph/tool_paths/tool_path.h"
+#include "kinegraph/trajectories/retime.h"
+
+namespace kinegraph {
+
+/// Settings of planToolPath.
+struct ToolPathOptions {
+  double speed = .1;                       ///< of the tool along the path, m/s
+  double tool_acceleration = 2.;           ///< along the path, m/s^2
+  double tool_jerk = 40.;                  ///< along the path, m/s^3; counts if `jerk` is given
+  double approach = 0.;                    ///< length of a straight approach along the tool's axis before each path, m
+  double retract = 0.;                     ///< length of a straight retract after each path, m
+  double tolerance = 2e-5;                 ///< largest distance of the tool from the curve, m
+  double rotation_tolerance = 8e-5;        ///< largest rotation of the tool (or of its axis) from the curve, rad
+  double margin = 0.;                      ///< distance that all pairs keep, m
+  bool free_order = false;                 ///< paths may be done in any order and from either end
+  VectorXd velocity = {};                  ///< limits of |dq/dt|, per dof or one for all; empty: the model's
+  VectorXd acceleration = {};              ///< limits of |d2q/dt2|; empty: full speed within a quarter of a second
+  VectorXd jerk = {};                      ///< limits of |d3q/dt3|; empty: none
+  std::vector<std::string> touching = {};  ///< frames that the tool's link may touch
+  std::optional<VectorXd> start = {};      ///< configuration at the start of the first path; none: the best one
+  std::optional<VectorXd> transfer_from = {};  ///< where the robot is; adds a transfer from there; none: no transfer
+  double time_limit = std::numeric_limits<double>::infinity();  ///< s, of the search
+  std::uint64_t seed = 0;
+
+  void validate(int dofs) const;  ///< throws ValueError that names the first invalid field
+};
+
+enum class ToolPathStatus {
+  solved,
+  out_of_reach,  ///< no configuration reaches a place of a path
+  in_collision,  ///< configurations reach it, but pairs are closer than the margin
+  no_branch,     ///< no configuration continues the motion: joint limits or a singularity end it
+  too_fast,      ///< there is no timing
+  no_transfer,   ///< no motion leads to a path
+  out_of_time,   ///< the time limit ended the search
+};
+
+std::string toolPathStatusName(ToolPathStatus status);
+
+/// A part of the motion.
+struct ToolSegment {
+  enum class Kind { transfer, approach, path, retract };
+  Kind kind = Kind::path;
+  int path = 0;               ///< index of the path; of a transfer: the path that it leads to
+  bool reversed = false;      ///< the path is done from its end to its start
+  double from = 0., to = 0.;  ///< times, s
+};
+
+std::string toolSegmentName(ToolSegment::Kind kind);
+
+/// A stretch on which the tool is slower than asked.
+struct SlowStretch {
+  int path = 0;
+  double from = 0., to = 0.;  ///< places, m from the start of the path in the direction of motion
+  double speed = 0.;          ///< the least, m/s
+  std::string cause;          ///< "velocity of 'wrist_2'", "acceleration of the tool", ...
+};
+
+/// A place on a path, m from its start in the direction of motion; negative on the approach.
+struct ToolPlace {
+  int path = -1;
+  double place = 0.;
+};
+
+/// The motion that planToolPath found, or the reason why there is none. Without a motion, eval throws ValueError.
+class ToolPathPlan final : public Trajectory {
+ public:
+  ToolPathStatus status = ToolPathStatus::out_of_time;
+  std::string message;                ///< "" if solved, else path, place, and cause
+  std::vector<std::string> warnings;  ///< such as blends that were made smaller
+  ToolPlace where;                    ///< of the failure; path -1 if solved
+  std::vector<std::string> frames;    ///< the pair in collision at the failure, or none
+  std::string joint;                  ///< the joint whose limit ends the motion, or ""
+  MatrixXd reached;                   ///< (K, n): without a motion, configurations up to the place of the failure
+  std::vector<ToolSegment> segments;  ///< in the order of time
+  std::vector<SlowStretch> slow;
+  double position_deviation = 0.;  ///< proven at all times, m
+  double rotation_deviation = 0.;  ///< proven at all times, rad; beyond the cone if there is one
+
+  bool feasible() const { return status == ToolPathStatus::solved; }
+  int dimension() const override { return dofs_; }
+  double duration() const override { return duration_; }
+  void evalTo(double t, double* q, double* velocity, double* acceleration) const override;
+
+  /// The path that is being done at time t (s), and the place on it; path -1 on a transfer.
+  ToolPlace way(double t) const;
+
+  /// Speed of the tool relative to its path at time t (s), m/s; 0 on a transfer.
+  double speed(double t) const;
+
+  std::string str() const;  ///< "solved: 3 paths in 12.3 s", or the status and the message
+
+  /// A timed part: a path with approach and retract, or a transfer.
+  struct Part {
+    double begin = 0.;  ///< time of its start, s
+    int path = 0;
+    double offset = 0.;  ///< s of the curve at which the path proper starts
+    bool is_transfer = false;
+    TimedPath timed;  ///< with one more dof, the tool's way, unless it is a transfer
+  };
+
+  /// Builds a plan from its parts; times of segments and the duration follow from them.
+  void setParts(std::vector<Part> parts, int dofs);
+  const std::vector<Part>& parts() const { return parts_; }
+
+ private:
+  const Part& partAt(double t) const;
+
+  std::vector<Part> parts_;
+  int dofs_ = 0;
+  double duration_ = 0.;
+};
+
+/// Plans the motion of a robot whose tool follows paths.
+///
+///     ToolPath seam = ToolPath::along("pen", points, normals).tilt(.2);
+///     ToolPathPlan plan = planToolPath(C, {seam}, {.speed = .05});
+///     if (plan.feasible()) bot.follow(plan);
+///
+/// The branch of the inverse kinematics, and the angles that a path leaves free, come from a search: all solutions at
+/// the start of a path are followed along it, and a graph of their configurations is searched if none gets to the end
+/// without collision. The deviation of the tool from its curve is proven for all times (jointCurveAlong), and so is
+/// freedom of collisions with the margin. The tool moves at `speed` where the limits of the joints allow it, and as
+/// fast as they allow elsewhere; `slow` lists where. Paths are connected by planMotion.
+///
+/// The Config is not changed. Equal arguments give equal bits, unless the time limit ends the search. Throws ValueError
+/// for invalid arguments, and FrameNotFound.
+ToolPathPlan planToolPath(const Config& config, const std::vector<ToolPath>& paths, const ToolPathOptions& options = {},
+                          const CancellationToken& cancellation = {}, const ProgressCallback& progress = {});
+
+}  // namespace kinegraph

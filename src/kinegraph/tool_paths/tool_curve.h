@@ -1,0 +1,61 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "kinegraph/tool_paths/cubic_pieces.h"
+#include "kinegraph/tool_paths/tool_path.h"
+
+namespace kinegraph {
+
+/// Desired position (m) and unit x and z axes of the tool.
+struct ToolTarget {
+  Vector3d p, x, z;
+
+  Pose pose() const;
+  ToolTarget() = default;
+  explicit ToolTarget(const VectorXd& y) : p(y.head<3>()), x(y.segment<3>(3)), z(y.segment<3>(6)) {}
+
+  /// A unit axis of the tool (0 x, 1 y, 2 z).
+  Vector3d axis(int number) const { return number == 0 ? x : number == 2 ? z : Vector3d(z.cross(x)); }
+};
+
+/// The curve of a ToolPath by its length s, 0 <= s <= length() (m): position, x axis and z axis of the tool as cubic
+/// pieces. |dp/ds| is near 1; a rotation on the spot counts kOnTheSpot m per rad.
+class ToolCurve {
+ public:
+  static constexpr double kOnTheSpot = .1;
+
+  /// `present` is the pose of the tool relative to the path's reference frame; the path starts there unless it has a
+  /// start. Rows are fitted to within `tolerance` (m, and as much rad per kOnTheSpot). `approach` and `retract` (m) add
+  /// lines along the free axis, or z, of the tool to both ends. Throws ValueError for paths without length and arcs
+  /// without a center.
+  ToolCurve(const ToolPath& path, const Pose& present, double tolerance, double approach = 0., double retract = 0.);
+
+  double length() const { return pieces_.length; }
+  double approachEnd() const { return approach_end_; }    ///< s at which the path proper starts
+  double retractStart() const { return retract_start_; }  ///< s at which it ends
+  const CubicPieces& pieces() const { return pieces_; }
+  ToolTarget at(double s) const { return ToolTarget(pieces_.eval(s)); }
+
+  /// Places at which the tool has to stop, ascending, without the ends.
+  std::vector<double> corners() const;
+
+  /// Bound of the distance between the pieces and the curve they stand for, m. For rows, the curve is the polyline.
+  double fitError() const { return fit_error_; }
+
+  /// Messages about blends that were made smaller.
+  const std::vector<std::string>& warnings() const { return warnings_; }
+
+  /// The same curve from its end to its start.
+  ToolCurve reversed() const;
+
+ private:
+  ToolCurve() = default;
+
+  CubicPieces pieces_;
+  double fit_error_ = 0., approach_end_ = 0., retract_start_ = 0.;
+  std::vector<std::string> warnings_;
+};
+
+}  // namespace kinegraph

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "kinegraph/math/pose.h"
+
+namespace kinegraph {
+
+/// A pose on a tool path; without a rotation, the tool keeps the rotation that it has.
+struct ToolWaypoint {
+  Vector3d p = Vector3d::Zero();
+  std::optional<Quaterniond> rotation = {};
+
+  ToolWaypoint() = default;
+  ToolWaypoint(const Vector3d& position) : p(position) {}
+  ToolWaypoint(const Pose& pose) : p(pose.p), rotation(pose.q) {}
+};
+
+/// A part of a tool path, from the end of the part before.
+struct ToolPathElement {
+  enum class Kind {
+    line,    ///< straight to waypoints[0]; the tool rotates at a constant rate
+    arc,     ///< a circular arc through the position of waypoints[0] to waypoints[1]
+    circle,  ///< about an axis through a center by an angle; the tool keeps its rotation
+    spline,  ///< a cubic spline through all waypoints
+    rows,    ///< dense samples of a smooth curve, to which a spline is fitted; the first row is its start
+  };
+  Kind kind = Kind::line;
+  std::vector<ToolWaypoint> waypoints = {};
+  Vector3d center = Vector3d::Zero(), axis = Vector3d::UnitZ();  ///< of a circle
+  double angle = 0.;                                             ///< of a circle, rad
+  double blend = 0.;  ///< radius (m) around the start of the element within which a smooth curve replaces the corner
+};
+
+/// A curve of poses that a frame, the tool, follows: lines, arcs, circles, splines, and dense rows of poses or points.
+///
+///     ToolPath seam("pen");
+///     seam.start(first).line(second).arc(via, third, .01).free();
+///
+/// Poses are in the coordinates of the world or of another frame, which may move. The place of the tool on the path is
+/// its distance along the curve in m; a rotation on the spot counts .1 m per rad.
+class ToolPath {
+ public:
+  /// `frame` moves; poses are in the coordinates of `relative_to`, "" for the world. Either may move.
+  explicit ToolPath(std::string frame, std::string relative_to = {});
+
+  /// The same from dense rows: points (K, 3) in m with normals (K, 3), the direction of the tool's z axis, or poses (K,
+  /// 7) and no normals. The tool's x axis turns as little as possible about the normals. Throws ValueError for other
+  /// shapes, fewer than two rows, numbers that are not finite, and normals without a direction.
+  static ToolPath along(std::string frame, const MatrixXd& points, const MatrixXd& normals = {},
+                        std::string relative_to = {});
+
+  /// Reads rows of 3 (x y z), 6 (with a normal) or 7 numbers (x y z qw qx qy qz) from a file, separated by commas,
+  /// semicolons or spaces. Lines that begin with # and one line of column names are skipped. Throws FileError if it
+  /// cannot be read, and ParseError with line and column for other content.
+  static ToolPath read(const std::string& file, std::string frame, std::string relative_to = {});
+
+  /// Sets the first pose. Without it, the path starts at the pose of the tool at the time of planning.
+  ToolPath& start(const ToolWaypoint& pose);
+
+  /// Appends a straight line. `blend` (m) is the radius of the sphere around the corner at its start within which a
+  /// curve with continuous curvature replaces the corner; 0 stops there.
+  ToolPath& line(const ToolWaypoint& to, double blend = 0.);
+
+  /// Appends a circular arc through `via` to a pose. Throws ValueError when planned if the points are on a line.
+  ToolPath& arc(const Vector3d& via, const ToolWaypoint& to, double blend = 0.);
+
+  /// Appends a circle, or a part of it by `angle` (rad), about an axis through `center`.
+  ToolPath& circle(const Vector3d& center, const Vector3d& axis, double angle, double blend = 0.);
+
+  /// Appends a cubic spline through the present end and all of these waypoints.
+  ToolPath& spline(std::vector<ToolWaypoint> waypoints);
+
+  /// Frees the rotation about an axis of the tool (0 x, 1 y, 2 z), at all places. Throws ValueError for other axes.
+  ToolPath& free(int about = 2);
+
+  /// Allows the free axis to lean by at most `angle` (rad, below pi / 2) from its direction, in a cone. Calls `free` if
+  /// no axis is free yet.
+  ToolPath& tilt(double angle);
+
+  const std::string& frame() const { return frame_; }
+  const std::string& relativeTo() const { return relative_to_; }
+  const std::optional<ToolWaypoint>& first() const { return first_; }
+  const std::vector<ToolPathElement>& elements() const { return elements_; }
+  int freeAxis() const { return free_axis_; }  ///< -1: the rotation is given
+  double cone() const { return cone_; }        ///< rad
+
+  std::string str() const;  ///< "3 elements of 'pen' relative to 'part', free about z, tilt 0.26 rad"
+
+ private:
+  ToolPath& append(ToolPathElement element);
+
+  std::string frame_, relative_to_;
+  std::optional<ToolWaypoint> first_;
+  std::vector<ToolPathElement> elements_;
+  int free_axis_ = -1;
+  double cone_ = 0.;
+};
+
+}  // namespace kinegraph

@@ -1,0 +1,225 @@
+"""Tool paths: distances from the curve by samples, limits by differences, failures with place and pair."""
+
+import pickle
+
+import numpy as np
+import pytest
+
+import kinegraph as ry
+from kinegraph.cli import main
+
+X, Y, Z = np.eye(3)
+LIMITS = {"acceleration": 6.0, "jerk": 120.0}
+
+
+@pytest.fixture
+def scene():
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    hand = "l_gripper"
+    C.addFrame("pen", hand).setShape(ry.ST.capsule, [0.06, 0.008]).setRelativePosition([0, 0, -0.032]).setContact(-2)
+    C.addFrame("tool", hand).setRelativePosition([0, 0, -0.08])
+    return C
+
+
+def poses(C, q, frame="tool"):
+    return C.evalBatch(ry.FS.pose, [frame], q)[0]
+
+
+def samples(plan, rate=1000.0):
+    return plan.sample(rate)[:2]
+
+
+def shares(C, q, h):
+    """The largest velocity, acceleration and jerk by differences, as shares of their limits."""
+    v, a, j = (np.diff(q, k, axis=0) / h**k for k in (1, 2, 3))
+    return (
+        np.max(np.abs(v) / C.getVelocityLimits()),
+        np.abs(a).max() / LIMITS["acceleration"],
+        np.abs(j).max() / LIMITS["jerk"],
+    )
+
+
+def distance_from_line(p, a, b):
+    u = (b - a) / np.linalg.norm(b - a)
+    s = np.clip((p - a) @ u, 0, np.linalg.norm(b - a))
+    return np.linalg.norm(p - a - s[:, None] * u, axis=1)
+
+
+def test_a_line_is_straight_at_constant_speed_within_all_limits(scene):
+    start = scene.getFrame("tool").getPose()
+    end = start[:3] + 0.1 * X + 0.2 * Y - 0.1 * Z
+    plan = ry.planToolPath(scene, ry.ToolPath("tool").line(end), speed=0.1, **LIMITS)
+    assert plan, plan.message
+    t, q = samples(plan)
+    x = poses(scene, q)
+    assert distance_from_line(x[:, :3], start[:3], end).max() <= plan.deviation[0] <= 2e-5
+    assert np.linalg.norm(x[-1, :3] - end) < 1e-6
+    turned = 2 * np.arccos(np.clip(np.abs(x[:, 3:] @ start[3:]), 0, 1))
+    assert turned.max() <= plan.deviation[1] + 1e-7 <= 8e-5
+    assert max(shares(scene, q, t[1])) <= 1.001
+    speed = np.linalg.norm(np.diff(x[:, :3], axis=0), axis=1) / t[1]
+    assert speed.max() <= 0.1 * 1.001
+    assert np.mean(np.abs(speed / 0.1 - 1) < 5e-3) > 0.85
+
+
+def test_a_circle_is_round_and_ends_at_its_start(scene):
+    start = scene.getFrame("tool").getPose()[:3]
+    center = start - 0.08 * Z
+    plan = ry.planToolPath(scene, ry.ToolPath("tool").circle(center, [1, 0, 0], 2 * np.pi), speed=0.1, **LIMITS)
+    assert plan, plan.message
+    x = poses(scene, samples(plan)[1])[:, :3]
+    assert np.abs(np.linalg.norm(x - center, axis=1) - 0.08).max() <= plan.deviation[0]
+    assert np.linalg.norm(x[-1] - start) < 2e-5
+    assert plan.duration == pytest.approx(2 * np.pi * 0.08 / 0.1, abs=0.3)
+
+
+def test_the_free_axis_stays_in_its_cone_between_obstacles(scene):
+    C = scene
+    s = np.linspace(-0.12, 0.12, 481)
+    points = np.stack([s, 0.32 + 0 * s, 0.85 + 0 * s], axis=1)
+    for k, x in enumerate((-0.05, 0.05)):
+        C.addFrame(f"clamp{k}", "table").setShape(ry.ST.ssBox, [0.03, 0.03, 0.05, 0.002]).setPosition(
+            [x, 0.36, 0.87]
+        ).setContact(1)
+    normals = np.tile([0.0, 0.0, 1.0], (len(s), 1))
+    path = ry.ToolPath.along(points, normals).tilt(0.25)
+    plan = ry.planToolPath(C, path, speed=0.1, margin=0.001, **LIMITS)
+    assert plan, plan.message
+    t, q = samples(plan)
+    z, _ = C.evalBatch(ry.FS.vectorZ, ["tool"], q)
+    assert np.arccos(np.clip(z[:, 2], -1, 1)).max() <= 0.25
+    assert C.isValid(q, margin=0.001 - 1e-9).all()
+    assert max(shares(C, q, t[1])) <= 1.001
+
+
+def test_segments_follow_each_other_without_jumps(scene):
+    start = scene.getFrame("tool").getPose()
+    paths = [
+        ry.ToolPath("tool").start(start + np.r_[d, np.zeros(4)]).line(start[:3] + d + 0.05 * Y).free()
+        for d in np.array([[0.1, 0, -0.1], [-0.1, 0, -0.1], [0.0, 0.1, -0.1]])
+    ]
+    plan = ry.planToolPath(
+        scene,
+        paths,
+        speed=0.1,
+        order="free",
+        approach=0.02,
+        retract=0.02,
+        transfer_from=scene.getJointState(),
+        **LIMITS,
+    )
+    assert plan, plan.message
+    kinds = [kind for kind, *_ in plan.segments]
+    assert kinds == ["transfer", "approach", "path", "retract"] * 3
+    assert sorted(path for kind, path, *_ in plan.segments if kind == "path") == [0, 1, 2]
+    for before, after in zip(plan.segments, plan.segments[1:]):
+        assert before[4] == pytest.approx(after[3], abs=1e-9)
+    t, q = samples(plan)
+    assert max(shares(scene, q, t[1])) <= 1.001
+    assert scene.isValid(q).all()
+    np.testing.assert_allclose(q[0], scene.getJointState(), atol=1e-9)
+
+
+def test_without_a_limit_that_is_reached_the_tool_is_never_slow(scene):
+    plan = ry.planToolPath(scene, ry.ToolPath("tool").line(scene.getFrame("tool").getPosition() + 0.2 * Y), speed=2.0)
+    assert plan, plan.message
+    assert plan.slow
+    for path, begin, end, speed, cause in plan.slow:
+        assert path == 0
+        assert 0 <= begin <= end <= 0.2 + 1e-9
+        assert speed < 2.0
+        assert " of " in cause
+
+
+def test_a_start_that_cannot_do_it_names_one_that_can(scene):
+    C = scene
+    start = C.getFrame("tool").getPose()
+    path = ry.ToolPath("tool").start(start).line(start[:3] + 0.1 * X + 0.2 * Y - 0.1 * Z)
+    good = ry.planToolPath(C, path)
+    assert good, good.message
+    same = ry.planToolPath(C, path, start=good.eval(0.0)[0])
+    assert same, same.message
+    np.testing.assert_allclose(same.eval(0.0)[0], good.eval(0.0)[0], atol=1e-6)
+
+
+def test_equal_arguments_give_equal_bits_and_plans_are_pickled(scene):
+    path = ry.ToolPath("tool").line(scene.getFrame("tool").getPosition() + 0.2 * Y).free()
+    a, b = (ry.planToolPath(scene, path, seed=3) for _ in range(2))
+    copy = pickle.loads(pickle.dumps(a))
+    for other in (b, copy):
+        assert other.duration == a.duration
+        assert (other.eval(0.7)[0] == a.eval(0.7)[0]).all()
+        assert (other.slow, other.segments, other.deviation) == (a.slow, a.segments, a.deviation)
+
+
+def test_a_failure_names_place_and_pair(scene):
+    C = scene
+    start = C.getFrame("tool").getPose()
+    C.addFrame("block").setShape(ry.ST.box, [0.3, 0.04, 0.3]).setPosition(start[:3] + 0.2 * Y).setContact(1)
+    plan = ry.planToolPath(C, ry.ToolPath("tool").line(start[:3] + 0.4 * Y))
+    assert plan.status == ry.ToolPathStatus.in_collision, plan.message
+    assert "block" in plan.frames
+    assert plan.where[0] == 0
+    assert 0.0 < plan.where[1] < 0.2
+    assert f"{plan.where[1]:.3g}"[:4] in plan.message
+    assert len(plan.reached) > 0
+    with pytest.raises(ValueError, match="there is no motion"):
+        plan.eval(0.0)
+
+
+def test_rows_are_read_from_a_file(scene, tmp_path):
+    start = scene.getFrame("tool").getPosition()
+    rows = start + np.linspace(0, 0.1, 101)[:, None] * [0, 1, 0]
+    file = tmp_path / "seam.csv"
+    file.write_text("x, y, z\n# a comment\n" + "\n".join(",".join(map(repr, map(float, row))) for row in rows))
+    plan = ry.planToolPath(scene, ry.ToolPath.read(file, frame="tool"), speed=0.1)
+    assert plan, plan.message
+    x = poses(scene, samples(plan)[1])[:, :3]
+    assert distance_from_line(x, rows[0], rows[-1]).max() <= 2e-5
+    file.write_text("0,0,0\n0,0,a\n")
+    with pytest.raises(ry.ParseError, match=r"seam.csv:2:5: not a number"):
+        ry.ToolPath.read(file)
+    with pytest.raises(ry.FileError, match="nothing.csv"):
+        ry.ToolPath.read(tmp_path / "nothing.csv")
+
+
+def test_a_simulated_robot_follows_the_plan(scene):
+    end = scene.getFrame("tool").getPosition() + 0.1 * Y
+    plan = ry.planToolPath(scene, ry.ToolPath("tool").line(end), speed=0.1)
+    assert plan, plan.message
+    bot = ry.BotOp(scene, False)
+    bot.follow(plan)
+    bot.wait(scene)
+    scene.setJointState(bot.get_q())
+    assert np.linalg.norm(scene.getFrame("tool").getPosition() - end) < 2e-3
+
+
+def test_the_command_line_writes_the_motion(scene, tmp_path):
+    file, rows, motion = tmp_path / "scene.g", tmp_path / "seam.csv", tmp_path / "motion.csv"
+    scene.write(file)
+    start = scene.getFrame("tool").getPosition()
+    np.savetxt(rows, start + np.linspace(0, 0.1, 51)[:, None] * Y, delimiter=",")
+    command = ["toolpath", str(file), "--points", str(rows), "--free", "z", "--speed", "0.05", "-o", str(motion)]
+    assert main([*command, "--no-view"]) == 0
+    table = np.loadtxt(motion, delimiter=",", skiprows=1)
+    x = poses(scene, table[:, 1:])[:, :3]
+    assert distance_from_line(x, start, start + 0.1 * Y).max() <= 2e-5
+
+
+def test_invalid_arguments_are_explained(scene):
+    path = ry.ToolPath("tool")
+    with pytest.raises(ValueError, match="expected 7"):
+        path.line([0, 0, 0, 1])
+    with pytest.raises(ValueError, match="about is 'w'"):
+        path.free("w")
+    with pytest.raises(ValueError, match="tilt"):
+        path.tilt(2.0)
+    with pytest.raises(ValueError, match="has no length"):
+        ry.planToolPath(scene, path)
+    with pytest.raises(ValueError, match="speed is -1"):
+        ry.planToolPath(scene, path.line([0.3, 0.3, 1.0]), speed=-1)
+    with pytest.raises(ry.FrameNotFound, match="tol"):
+        ry.planToolPath(scene, ry.ToolPath("tol").line([0.3, 0.3, 1.0]))
+    with pytest.raises(ValueError, match="order is 'any'"):
+        ry.planToolPath(scene, path, order="any")

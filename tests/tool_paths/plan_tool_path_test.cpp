@@ -1,0 +1,142 @@
+#include "kinegraph/tool_paths/plan_tool_path.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "kinegraph/common/errors.h"
+
+namespace kinegraph {
+namespace {
+
+/// Three hinges in the plane, and more frames; the tool is 1.1 m from the base at most.
+Config planarArm(const std::string& more = {}) {
+  Config C;
+  C.addText(std::string(R"(
+base: {}
+j1 (base): { joint: hingeZ, limits: [-3 3] }
+l1 (j1): { shape: capsule, size: [.3 .03], Q: [.25 0 0 .7071068 0 .7071068 0], contact: 1 }
+j2 (j1): { joint: hingeZ, pre: [.5 0 0], limits: [-3 3] }
+j3 (j2): { joint: hingeZ, pre: [.5 0 0], limits: [-3 3] }
+tool (j3): { shape: sphere, size: [.01], Q: [.1 0 0], contact: -1 }
+)") + more);
+  VectorXd q = VectorXd::Zero(C.getJointDimension());
+  q.head<3>() << .3, .8, -1.1;
+  C.setJointState(q);
+  return C;
+}
+
+Vector3d toolAt(Config& C, const VectorXd& q) {
+  C.setJointState(q);
+  return C.getFrame("tool").getPosition();
+}
+
+TEST(PlanToolPath, FollowsALineAtConstantSpeedWithinTheProvenDeviation) {
+  Config C = planarArm();
+  const ToolPath path = ToolPath("tool").start(Vector3d(.6, -.2, 0.)).line(Vector3d(.6, .2, 0.));
+  const ToolPathPlan plan =
+      planToolPath(C, {path}, {.speed = .1, .acceleration = VectorXd{{6.}}, .jerk = VectorXd{{120.}}});
+  ASSERT_TRUE(plan.feasible()) << plan.message;
+  EXPECT_LE(plan.position_deviation, 2e-5);
+  EXPECT_NEAR(plan.duration(), 4. + .1, .05);  // and the ramps
+  for (int k = 0; k <= 4000; ++k) {
+    const double t = plan.duration() * k / 4000.;
+    const Vector3d p = toolAt(C, plan.eval(t).q);
+    EXPECT_LE(std::abs(p[0] - .6), plan.position_deviation);
+    EXPECT_LE(std::abs(p[1] + .2 - plan.way(t).place), 1e-4);
+    EXPECT_LE(plan.speed(t), .1 * (1. + 1e-9));
+    if (t > .15 && t < plan.duration() - .15) EXPECT_GT(plan.speed(t), .0995);
+  }
+}
+
+TEST(PlanToolPath, NamesThePlaceBeyondReach) {
+  Config C = planarArm();
+  const ToolPathPlan plan =
+      planToolPath(C, {ToolPath("tool").start(Vector3d(.6, 0., 0.)).line(Vector3d(1.4, 0., 0.)).free()});
+  EXPECT_EQ(plan.status, ToolPathStatus::out_of_reach) << plan.message;
+  EXPECT_EQ(plan.where.path, 0);
+  EXPECT_NEAR(plan.where.place, .5, 5e-3);  // 1.1 m from the base
+  EXPECT_GT(plan.reached.rows(), 10);
+  EXPECT_THROW(plan.eval(0.), ValueError);
+}
+
+TEST(PlanToolPath, NamesThePairInTheWay) {
+  Config C = planarArm();
+  Frame box = C.addFrame("block");
+  box.setShape(ShapeType::box, {.1, .1, .1}).setPosition({.6, .1, 0.});
+  box.setContact(1);
+  const ToolPathPlan plan =
+      planToolPath(C, {ToolPath("tool").start(Vector3d(.6, -.2, 0.)).line(Vector3d(.6, .2, 0.)).free()});
+  EXPECT_EQ(plan.status, ToolPathStatus::in_collision) << plan.message;
+  EXPECT_NEAR(plan.where.place, .24, 2e-3);  // the sphere of .01 m touches the face at y = .05
+  ASSERT_EQ(plan.frames.size(), 2u);
+  EXPECT_TRUE((plan.frames[0] == "tool") != (plan.frames[1] == "tool"));
+  EXPECT_TRUE((plan.frames[0] == "block") != (plan.frames[1] == "block"));
+}
+
+TEST(PlanToolPath, ToolsMayTouchNamedFrames) {
+  Config C = planarArm();
+  Frame box = C.addFrame("block");
+  box.setShape(ShapeType::box, {.02, .6, .1}).setPosition({.625, 0., 0.});  // the sphere is 5 mm inside
+  box.setContact(1);
+  const ToolPath path = ToolPath("tool").start(Vector3d(.61, -.1, 0.)).line(Vector3d(.61, .1, 0.)).free();
+  EXPECT_EQ(planToolPath(C, {path}).status, ToolPathStatus::in_collision);
+  EXPECT_TRUE(planToolPath(C, {path}, {.touching = {"block"}}).feasible());
+}
+
+TEST(PlanToolPath, SlowsDownWhereAJointAllowsNoMore) {
+  Config C = planarArm();
+  const ToolPath path = ToolPath("tool").start(Vector3d(.6, -.2, 0.)).line(Vector3d(.6, .2, 0.));
+  const ToolPathPlan plan =
+      planToolPath(C, {path}, {.speed = .5, .velocity = VectorXd{{.4}}, .acceleration = VectorXd{{8.}}});
+  ASSERT_TRUE(plan.feasible()) << plan.message;
+  double fastest = 0.;
+  for (int k = 0; k <= 2000; ++k)
+    fastest = std::max(fastest, plan.eval(plan.duration() * k / 2000.).velocity.cwiseAbs().maxCoeff());
+  EXPECT_LE(fastest, .4 * (1. + 1e-9));
+  EXPECT_GT(fastest, .399);
+  ASSERT_FALSE(plan.slow.empty());
+  bool by_velocity = false;
+  for (const SlowStretch& slow : plan.slow) by_velocity = by_velocity || slow.cause.find("velocity of '") == 0;
+  EXPECT_TRUE(by_velocity);
+}
+
+TEST(PlanToolPath, EqualArgumentsGiveEqualBits) {
+  Config C = planarArm();
+  const ToolPath path = ToolPath("tool").start(Vector3d(.5, -.2, 0.)).line(Vector3d(.7, .2, 0.)).free();
+  const ToolPathPlan a = planToolPath(C, {path}), b = planToolPath(C, {path});
+  ASSERT_TRUE(a.feasible()) << a.message;
+  EXPECT_EQ(a.duration(), b.duration());
+  EXPECT_EQ(a.eval(.3).q, b.eval(.3).q);
+}
+
+TEST(PlanToolPath, FollowsAPartThatAJointMoves) {
+  Config C = planarArm(R"(
+turntable (base): { joint: hingeZ, pre: [.7 0 0], limits: [-3 3] }
+part (turntable): { Q: [.1 0 0] }
+)");
+  const ToolPath path = ToolPath("tool", "part").start(Vector3d(0., -.05, 0.)).line(Vector3d(0., .05, 0.)).free();
+  const ToolPathPlan plan = planToolPath(C, {path}, {.speed = .05});
+  ASSERT_TRUE(plan.feasible()) << plan.message;
+  for (int k = 0; k <= 500; ++k) {
+    C.setJointState(plan.eval(plan.duration() * k / 500.).q);
+    const Pose X = C.getFrame("part").getPose().inverse() * C.getFrame("tool").getPose();
+    EXPECT_LE(std::abs(X.p[0]), 2e-5);
+    EXPECT_LE(std::abs(X.p[1]), .05 + 2e-5);
+  }
+}
+
+TEST(PlanToolPath, RejectsInvalidArguments) {
+  Config C = planarArm();
+  const ToolPath path = ToolPath("tool").line(Vector3d(.6, 0., 0.));
+  EXPECT_THROW(planToolPath(C, {}), ValueError);
+  EXPECT_THROW(planToolPath(C, {path}, {.speed = 0.}), ValueError);
+  EXPECT_THROW(planToolPath(C, {path}, {.velocity = VectorXd{{1., 1.}}}), ValueError);
+  EXPECT_THROW(planToolPath(C, {path}, {.touching = {"nobody"}}), FrameNotFound);
+  EXPECT_THROW(planToolPath(C, {ToolPath("too").line(Vector3d(.6, 0., 0.))}), FrameNotFound);
+  EXPECT_THROW(planToolPath(C, {ToolPath("base").line(Vector3d(.6, 0., 0.))}), ValueError);
+}
+
+}  // namespace
+}  // namespace kinegraph
