@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Writes the variants with collision of shipped robots: models/<robot>/<robot>_collision.g.
 
-Every opaque mesh of a variant collides, by its convex hull. Pairs of links that one joint connects, that collide in nearly
-all or in no configurations, or that touch at home, are excluded.
+Every opaque mesh of a variant collides, by its convex hull. Pairs of links that one joint connects, that collide in
+nearly all or in no configurations, or that touch at home, are excluded.
 """
 
 from pathlib import Path

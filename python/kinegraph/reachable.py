@@ -164,8 +164,8 @@ def _grid(config: Config, frame: str, spacing: float, seed: int) -> np.ndarray:
 
 
 def _configurations(config: Config, rng: np.random.Generator, count: int) -> np.ndarray:
-    """Returns random configurations within the limits, shape (count, n). Hinges without limits take any angle, balls any
-    orientation."""
+    """Returns random configurations within the limits, shape (count, n). Hinges without limits take any angle, balls
+    any orientation."""
     low, high = np.array(config.getJointLimits(), float)
     names = config.getJointNames()[: len(low)]
     kinds = [str(config.getFrame(name.rsplit(":", 1)[0]).getJointType()).rsplit(".")[-1] for name in names]

@@ -28,8 +28,11 @@ class Config(kinegraph.Config):
                 warnings.warn(str(error), KinegraphWarning, stacklevel=2)
             return None  # type: ignore[return-value]  # kinegraph.Config declares a Frame
 
-    def addFile(self, filename: Any, namePrefix: str | None = None, orphans: bool = True, **options: Any) -> Frame | None:
-        """Adds the frames of a file, as kinegraph.Config.addFile; a frame with an unknown parent has none, and a warning.
+    def addFile(
+        self, filename: Any, namePrefix: str | None = None, orphans: bool = True, **options: Any
+    ) -> Frame | None:
+        """Adds the frames of a file, as kinegraph.Config.addFile; a frame with an unknown parent has none, and a
+        warning.
 
         Args:
             filename, namePrefix: As in kinegraph.Config.addFile.

@@ -392,7 +392,8 @@ TEST_F(MjcfReader, AHeightFieldIsAMeshOfConvexParts) {
 
 TEST_F(MjcfReader, OneWarningListsTheIgnoredElements) {
   load(
-      "<worldbody><body><joint name='j'/></body></worldbody><actuator><motor joint='j'/><motor tendon='t'/><motor tendon='t'/></actuator>"
+      "<worldbody><body><joint name='j'/></body></worldbody><actuator><motor joint='j'/><motor tendon='t'/><motor "
+      "tendon='t'/></actuator>"
       "<sensor><jointpos joint='j'/></sensor>");
   ASSERT_EQ(warnings_.size(), 1u);
   EXPECT_NE(warnings_[0].find("ignored elements: actuator/motor (2), sensor/jointpos (1)"), std::string::npos)

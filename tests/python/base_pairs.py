@@ -1,5 +1,5 @@
-"""Pairs that collide here, but not in the reference: it excludes one joint more than `contact: -k` says at a base without
-a joint."""
+"""Pairs that collide here, but not in the reference: it excludes one joint more than `contact: -k` says at a base
+without a joint."""
 
 import itertools
 

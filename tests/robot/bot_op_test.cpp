@@ -271,7 +271,7 @@ TEST(BotOp, WhatIsGraspedByNameMovesWithTheHand) {
   b.bot.moveTo(pair(0., 0.));
   b.bot.wait(b.C);
   EXPECT_NEAR(b.C.getFrame("box").getPosition().y(), .9 * std::sin(.5), 1e-9);  // stayed
-  EXPECT_NEAR(b.bot.getGripperPos(0), .07, 1e-12);  // as wide as the fingers open
+  EXPECT_NEAR(b.bot.getGripperPos(0), .07, 1e-12);                              // as wide as the fingers open
   expectError<FrameNotFound>([&] { b.bot.gripperCloseGrasp(0, "bax"); }, {"bax", "box"});
   expectError<ValueError>([&] { b.bot.gripperMove(2); }, {"no gripper 2; the robot has 1: gripper"});
 }

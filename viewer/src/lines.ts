@@ -5,7 +5,8 @@ import { LineSegmentsGeometry } from "three/addons/lines/LineSegmentsGeometry.js
 
 const WIDTH = 2; // pixels
 
-/** Line segments of a width in pixels, between consecutive pairs of points, in the colors of their ends or in one color.
+/** Line segments of a width in pixels, between consecutive pairs of points, in the colors of their ends or in one
+color.
  * */
 export class WideLines extends LineSegments2 {
   /** `points`: positions, and colors if they have own ones. */

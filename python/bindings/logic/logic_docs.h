@@ -31,9 +31,9 @@ inline constexpr char fromFolText[] = R"(Reads a domain from text in the languag
 
 inline constexpr char fromPddl[] = R"(Reads a domain from a PDDL file.
 
-Conditions have and, or, not, imply, forall, exists and =; effects and, not, when, forall and (increase (total-cost) ...).
-Types may have several supertypes, and `either`. Names are compared without case. Requirements are not needed. The file
-may contain the problem, too.
+Conditions have and, or, not, imply, forall, exists and =; effects and, not, when, forall and (increase (total-cost)
+...). Types may have several supertypes, and `either`. Names are compared without case. Requirements are not needed. The
+file may contain the problem, too.
 
 )" KINEGRAPH_OF_FILE;
 

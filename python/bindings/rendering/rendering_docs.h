@@ -56,8 +56,8 @@ Returns:
 inline constexpr char depthImage2PointCloud[] =
     R"(Converts a depth image to points, on the rays through the centers of the pixels.
 
-The pixel in row v and column u has its center at (u + 0.5, v + 0.5). Points of pixels that the camera did not see (depth
-< 0) are zeros; points[depth > 0] leaves them out.
+The pixel in row v and column u has its center at (u + 0.5, v + 0.5). Points of pixels that the camera did not see
+(depth < 0) are zeros; points[depth > 0] leaves them out.
 
 Args:
     depth: Shape (height, width), m, along the camera's z axis.

@@ -35,8 +35,8 @@ Vector3d position(const Frame& frame, const Numbers& numbers, const char* call) 
   return numbers.values;
 }
 
-/// Warns of a quaternion far from unit length, or one that is probably x y z w: it is often a misordered pose. The texts
-/// are constant, so that Python shows them once.
+/// Warns of a quaternion far from unit length, or one that is probably x y z w: it is often a misordered pose. The
+/// texts are constant, so that Python shows them once.
 void warnOfOrder(const Vector4d& wxyz) {
   const double norm = wxyz.norm();
   if (wxyz == Vector4d(0., 0., 0., 1.))

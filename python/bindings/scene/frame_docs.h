@@ -37,7 +37,8 @@ Args:
 Returns:
     The frame itself.
 Raises:
-    ArgumentError: A value has another type, or a word has a meaning in files only (joint, shape, pose, ...); the message
+    ArgumentError: A value has another type, or a word has a meaning in files only (joint, shape, pose, ...); the
+    message
         names the method to call instead.)";
 
 inline constexpr char setAttribute[] = R"(Sets one attribute; see setAttributes.

@@ -81,7 +81,8 @@ def view_setCamera(self: Config, *where: Any) -> None:
     """Sets the camera to a frame, to a pose, or to a position directed to a target.
 
     Args:
-        where: None for the initial camera; a frame or its name; (7,): x y z in m, qw qx qy qz, the camera's z forward; or two arrays (3,), m: the
+        where: None for the initial camera; a frame or its name; (7,): x y z in m, qw qx qy qz, the camera's z forward;
+        or two arrays (3,), m: the
             camera's position and its target.
     Raises:
         ArgumentError: The arguments have another form.

@@ -131,8 +131,8 @@ class Dispatcher:
         self._item_seconds = seconds if self._item_seconds is None else 0.7 * self._item_seconds + 0.3 * seconds
 
     def _lost(self, worker: int, how: WorkerDied) -> None:
-        """Handles the death of a worker: its first batch is suspicious, the others only waited. While the worker started,
-        all of them waited."""
+        """Handles the death of a worker: its first batch is suspicious, the others only waited. While the worker
+        started, all of them waited."""
         suspect, *others = self._sent[worker] or [None]
         self._sent[worker].clear()
         self._scenes[worker].clear()

@@ -43,9 +43,9 @@ def map(
     is returned. Random numbers come from `seed`, an optional parameter of the function.
 
     Items are sent in batches of about 0.1 s, longer with more than 50 workers. If a worker dies (out of memory,
-    killed), its items are computed again. An item is a failure if three workers die while they compute it. A scene is sent once to each
-    worker. Items are read when needed, and with `out` results are not stored in memory, so that ten million items need
-    no more memory than a thousand.
+    killed), its items are computed again. An item is a failure if three workers die while they compute it. A scene is
+    sent once to each worker. Items are read when needed, and with `out` results are not stored in memory, so that ten
+    million items need no more memory than a thousand.
 
     A terminal shows a progress bar. Ctrl-C ends the map and returns the finished results; a second one raises.
 

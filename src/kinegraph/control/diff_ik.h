@@ -44,9 +44,9 @@ enum class DiffIkStatus {
 /// Tasks of several priorities have one program per priority, in the directions that no earlier task depends on.
 ///
 /// Each step reads the scene again, so that targets and obstacles may move. A step never throws because of limits: from
-/// beyond a limit the joint returns as fast as velocities allow. If dampers contradict the limits or each other, they are
-/// relaxed by the least sum of squares, and the tasks are followed in the remaining directions. A joint with equal limits
-/// does not move. After the first step nothing allocates.
+/// beyond a limit the joint returns as fast as velocities allow. If dampers contradict the limits or each other, they
+/// are relaxed by the least sum of squares, and the tasks are followed in the remaining directions. A joint with equal
+/// limits does not move. After the first step nothing allocates.
 class DiffIk {
  public:
   /// Shares the scene, without a copy. Its current q is the posture.
@@ -65,8 +65,8 @@ class DiffIk {
 
   void setTarget(int task, const VectorXd& target);
 
-  /// Sets the configuration that the nullspace of the tasks moves to, (n,). Throws ValueError for another size and for numbers
-  /// that are not finite.
+  /// Sets the configuration that the nullspace of the tasks moves to, (n,). Throws ValueError for another size and for
+  /// numbers that are not finite.
   void setPosture(const VectorXd& q);
 
   /// Computes the velocity for the next `dt` s, (n,), and moves the scene by it if `apply`. Throws ValueError unless dt

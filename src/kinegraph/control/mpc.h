@@ -81,9 +81,9 @@ class Mpc {
   /// one row for all. Throws ValueError for other sizes, and for orientations by quaternions.
   void setTarget(int objective, const MatrixXd& targets);
 
-  /// Computes the motion from the measured q and dq/dt (n,), `dt` s after the last call (none: tau; ignored in the first
-  /// call). Throws ValueError for vectors of another size or with entries that are not finite, and for a dt that is
-  /// negative or not finite, before anything changes.
+  /// Computes the motion from the measured q and dq/dt (n,), `dt` s after the last call (none: tau; ignored in the
+  /// first call). Throws ValueError for vectors of another size or with entries that are not finite, and for a dt that
+  /// is negative or not finite, before anything changes.
   const MpcResult& step(const VectorXd& q, const VectorXd& velocity, std::optional<double> dt = {});
 
   /// Forgets all results: the next call is cold and at the beginning of the horizon.

@@ -48,7 +48,8 @@ struct IkResult {
 ///
 /// Joints that move no target relative to its reference frame keep their values. Only pairs that joints move relative
 /// to each other count as collisions. If only joints that keep their values could separate such a pair, an overlap of
-/// up to `max_start_penetration` is a warning, as at the start of planMotion; if it is deeper, the status is not `solved`.
+/// up to `max_start_penetration` is a warning, as at the start of planMotion; if it is deeper, the status is not
+/// `solved`.
 ///
 /// The Config is not changed, and the same arguments give the same bits. Throws FrameNotFound, and ValueError for
 /// targets that no active joint moves, and for targets taken from a frame that the targets move.

@@ -87,7 +87,8 @@ struct GroundProblem {
 
 /// Grounds a problem: finds the facts that are reachable without deletes, and all rules that can fire then. Throws
 /// ParseError with the position for unknown words in the goal, and for a predicate of the goal with a number of
-/// arguments that no rule and no fact has. Throws ValueError for more than `most` ground rules, or if the combinations for one rule would take minutes.
+/// arguments that no rule and no fact has. Throws ValueError for more than `most` ground rules, or if the combinations
+/// for one rule would take minutes.
 GroundProblem ground(LogicProblem problem, std::size_t most = 2000000);
 
 /// Returns likely mistakes in a problem, a sentence with its position each: predicates in preconditions that nothing

@@ -103,8 +103,8 @@ class BotOp {
   void move(const MatrixXd& path, const VectorXd& times, bool overwrite = false, double overwrite_time = -1.);
 
   /// Moves along the lines between the points, with corners that are rounded by .01 rad or m at most, in the shortest
-  /// time within max_velocity, max_acceleration, and the joints' limits (`retime`). Starts after the present motion, and
-  /// rests at the end.
+  /// time within max_velocity, max_acceleration, and the joints' limits (`retime`). Starts after the present motion,
+  /// and rests at the end.
   void moveAutoTimed(const MatrixXd& path, double max_velocity = 1., double max_acceleration = 1.);
 
   /// Executes a trajectory as it is: the reference of each control period is trajectory.eval(t), with velocity and

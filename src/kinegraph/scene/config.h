@@ -36,7 +36,8 @@ class Config {
   /// .xml (MJCF), .srdf, .xacro (expanded by the function of setXacroExpander), otherwise the .g language. `prefix` is
   /// put before the names. An .srdf file adds collision pairs, groups and states to frames that already exist; one
   /// beside a .urdf file is read with it. Flaws of URDF and MJCF files are mended with a warning, or refused if
-  /// `options.strict`. `options.floating` gives the root a free joint. On an error (FileError, ParseError) the configuration is unchanged.
+  /// `options.strict`. `options.floating` gives the root a free joint. On an error (FileError, ParseError) the
+  /// configuration is unchanged.
   std::optional<Frame> addFile(const std::string& path, const std::string& prefix = {},
                                const FileOptions& options = {});
 

@@ -28,8 +28,8 @@ class ModelShapes {
   using BodyPairs = std::set<std::pair<int, int>>;
 
   /// Lists the pairs of geoms whose contacts the contact bits of robots do not express: pairs within a robot that
-  /// collide in plans, unless the robot is `declared`; pairs of bodies of which some shapes collide in plans and some do
-  /// not; and pairs with different frictions, so that the mean of both counts (with `all_listed` every pair with a
+  /// collide in plans, unless the robot is `declared`; pairs of bodies of which some shapes collide in plans and some
+  /// do not; and pairs with different frictions, so that the mean of both counts (with `all_listed` every pair with a
   /// friction attribute, because it may be changed later). Disables contacts of pairs that never collide in plans.
   /// `overlapping` contains the body pairs without contacts.
   void addPairs(const ContactRules& rules, const std::vector<bool>& declared, const BodyPairs& overlapping,

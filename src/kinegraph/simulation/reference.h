@@ -50,8 +50,8 @@ class Reference {
   Reference() = default;
 
   /// Starts a command that lasts `tau` s. `u` has the finite numbers of the control vector of `mode`. If `exact`,
-  /// commanded positions are reached at its end, however far away, at a constant velocity: without motors nothing limits
-  /// it.
+  /// commanded positions are reached at its end, however far away, at a constant velocity: without motors nothing
+  /// limits it.
   void command(const SceneModel& model, const VectorXd& u, double tau, ControlMode mode,
                const SimulationOptions& options, bool exact);
 

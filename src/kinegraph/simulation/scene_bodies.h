@@ -45,9 +45,9 @@ struct SceneBodies {
 /// Divides a scene into bodies. A frame without parent or with a joint starts a link; everything below it without a
 /// joint belongs to that link. A link with a joint moves by it. A link without a joint, or with a rigid one, moves
 /// freely if it has a mass and is attached neither to a robot nor to a frame `world`; otherwise it is part of its
-/// parent. A robot starts at a frame with the attribute `multibody`, or at the first joint of a chain; its base is fixed
-/// unless `multibody_fixedBase` is false. `measured` frames become bodies of their own. Throws ValueError with the
-/// frame's name for invalid masses.
+/// parent. A robot starts at a frame with the attribute `multibody`, or at the first joint of a chain; its base is
+/// fixed unless `multibody_fixedBase` is false. `measured` frames become bodies of their own. Throws ValueError with
+/// the frame's name for invalid masses.
 SceneBodies divideScene(const SceneTree& scene, const std::set<int>& measured = {});
 
 /// Returns a frame's attribute as a truth value or number, or `otherwise` without one. Throws ValueError for other

@@ -55,8 +55,8 @@ double World::inertiaAt(const Vector3d& point, int body) {
                        1e-9);
 }
 
-/// Adds the spring force f = m (w^2 (target - p) - 2 w dp/dt) to the forces on the body. A point far off the body, and a
-/// target far away, pull less: otherwise the spring would be too stiff for the body's small rotational inertia.
+/// Adds the spring force f = m (w^2 (target - p) - 2 w dp/dt) to the forces on the body. A point far off the body, and
+/// a target far away, pull less: otherwise the spring would be too stiff for the body's small rotational inertia.
 void World::addPerturbation() {
   const mjModel& m = *physics_;
   mjData& d = *data_;

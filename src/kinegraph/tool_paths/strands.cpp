@@ -287,7 +287,7 @@ namespace {
 constexpr int kSmoothingRounds = 25;
 constexpr double kSmoothEnough = 1e-3;     // rad or m, of the last round
 constexpr double kSmoothingMargin = 5e-4;  // m, of configurations between which edges are free
-constexpr double kStiffness = 400.;       // of the second differences, per unit of the distance from the chain
+constexpr double kStiffness = 400.;        // of the second differences, per unit of the distance from the chain
 constexpr int kSmoothProjectionSteps = 6;
 
 /// Solves (1 + stiffness D2' D2) x = y in place, with x fixed at both ends if `ends` is set, one column per dof.

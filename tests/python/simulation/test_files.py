@@ -1,4 +1,5 @@
-"""Robots and things from URDF and MJCF files in a simulation: what collides, what falls, what brakes; against MuJoCo."""
+"""Robots and things from URDF and MJCF files in a simulation: what collides, what falls, what brakes; against
+MuJoCo."""
 
 import warnings
 

@@ -85,8 +85,8 @@ void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, 
     append(scene, *node.mChildren[child], transform, textures, mesh);
 }
 
-/// Removes the vertices that belong to no triangle, if there are triangles: loose points, and ends of lines, are no part
-/// of a surface.
+/// Removes the vertices that belong to no triangle, if there are triangles: loose points, and ends of lines, are no
+/// part of a surface.
 void removeLoosePoints(Mesh& mesh) {
   if (mesh.triangles.empty()) return;
   std::vector<std::uint32_t> place(mesh.vertices.size(), 0);

@@ -11,9 +11,9 @@ namespace kinegraph {
 /// Reads a mesh file (stl, obj, ply, dae, glb and other formats of assimp) as one mesh, with node transforms applied
 /// and a color per vertex from vertex colors or materials. Vertices of a part with equal positions, colors and texture
 /// coordinates are joined. Ignores the up axis of a Collada file. Reads the group "mesh" of an HDF5 file (h5),
-/// MuJoCo's format from a .msh file, and the reference's from a .tri file. Appends the paths of all files that it opens to `files`. Throws FileError for
-/// files that are missing, unreadable, truncated, without vertices or with non-finite coordinates, and for Git LFS
-/// pointers.
+/// MuJoCo's format from a .msh file, and the reference's from a .tri file. Appends the paths of all files that it opens
+/// to `files`. Throws FileError for files that are missing, unreadable, truncated, without vertices or with non-finite
+/// coordinates, and for Git LFS pointers.
 Mesh readMeshFile(const std::string& path, std::vector<std::string>* files = nullptr);
 
 /// Reads an STL text or binary file from its bytes; `path` names it in messages. Bytes behind the last triangle are

@@ -60,8 +60,8 @@ struct Grid {
 /// A shape without pose, color or owner: type, size, and mesh or core points if the type has them.
 /// `size` has exactly the entries of the type (m):
 ///   box x y z | sphere r | capsule length r | cylinder length r | ssBox x y z r | ssCylinder length R r
-///   ssBoxElip x y z ex ey ez r | ssCvx r | quad x y | plane x y | marker length | sdf, tensor x y z | camera none, or its symbol's
-///   length | others none
+///   ssBoxElip x y z ex ey ez r | ssCvx r | quad x y | plane x y | marker length | sdf, tensor x y z | camera none, or
+///   its symbol's length | others none
 /// Boxes have full outer widths including rounding; the axis of capsule and cylinder is z; the length of a capsule is
 /// the length of its core segment. A plane is endless, and solid below its xy plane; its sizes are those of the
 /// rectangle that is drawn.

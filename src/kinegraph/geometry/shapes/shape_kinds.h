@@ -12,8 +12,8 @@ namespace kinegraph {
 
 /// Collision geometry of a shape: a core swept by a ball. The axis of a core, if any, is z. Lengths in m.
 struct ShapeCore {
-  /// `half_space` is everything below the xy plane. Of the others, five use the vertices of the shape's mesh (their hull; the hulls of its convex parts; each vertex; a
-  /// segment per pair of vertices) or its grid.
+  /// `half_space` is everything below the xy plane. Of the others, five use the vertices of the shape's mesh (their
+  /// hull; the hulls of its convex parts; each vertex; a segment per pair of vertices) or its grid.
   enum class Form {
     point,
     segment,

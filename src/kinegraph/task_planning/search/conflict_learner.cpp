@@ -70,8 +70,8 @@ void ConflictLearner::learnWaypointFailure(const Actions& actions, std::size_t f
 }
 
 /// Tests the last action with only those before it that matter, without other objects, then also without single objects
-/// in its way: the smaller the failing problem, the more general the conflict. `known`: the failure of the prefix; null:
-/// unknown.
+/// in its way: the smaller the failing problem, the more general the conflict. `known`: the failure of the prefix;
+/// null: unknown.
 void ConflictLearner::learnLast(const Actions& prefix, const FutureFailure& known) {
   const std::vector<Literal>& start = logic_.start();
   const auto [alone, before] = actionsAlone(prefix);

@@ -21,8 +21,8 @@ struct NearBodies {
 /// put down, of the object with what it stands on, of a pusher, of a door with its case. All other pairs keep a margin.
 class Surroundings {
  public:
-  /// `C`: the scene of the motion, with held objects attached; it must outlive the surroundings. The motion leads from q0 to q1; `before` is the action
-  /// that ended at q0, empty if there is none.
+  /// `C`: the scene of the motion, with held objects attached; it must outlive the surroundings. The motion leads from
+  /// q0 to q1; `before` is the action that ended at q0, empty if there is none.
   Surroundings(const Config& C, const VectorXd& q0, const VectorXd& q1, const TaskAction& action,
                const TaskAction& before, const std::vector<std::string>& hands);
 

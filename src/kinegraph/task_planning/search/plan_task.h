@@ -34,10 +34,10 @@ struct TaskOptions {
 /// of reach, size and room, then waypoints with grasps and placements, then motions test whether bodies can carry them
 /// out. Each failure becomes a constraint of the logic. A solved plan has passed checkTaskPlan.
 ///
-/// Among feasible plans the robust one is taken: objects are put down with their whole footprint on their place, towards
-/// its middle and apart from others; hands approach and retreat straight; and all pairs whose contact is not meant keep
-/// `margin`. Where only less is possible, TaskPlan::warnings say between what, and how much. TaskPlan::tolerances has
-/// the error of poses that each step survives.
+/// Among feasible plans the robust one is taken: objects are put down with their whole footprint on their place,
+/// towards its middle and apart from others; hands approach and retreat straight; and all pairs whose contact is not
+/// meant keep `margin`. Where only less is possible, TaskPlan::warnings say between what, and how much.
+/// TaskPlan::tolerances has the error of poses that each step survives.
 ///
 ///     TaskPlan plan = planTask(C, "(on tray cup) (on tray jug)");
 ///     std::cout << plan.str() << '\n';
@@ -45,8 +45,9 @@ struct TaskOptions {
 /// Without a domain, the actions are those of defaultDomain. Grippers, objects and places are the frames that the scene
 /// labels (`logical: { is_gripper }`). A scene without labels has as grippers the frames whose names end with
 /// "gripper", as objects the frames with a rigid joint and a shape, and as places level boxes that do not move. Fingers
-/// are taken to be open, as `execute` opens them before each grasp. The Config is not changed. Finding no plan is a status. Throws ParseError for words of the goal that are not in the
-/// scene, ValueError for actions without a rule and for invalid options.
+/// are taken to be open, as `execute` opens them before each grasp. The Config is not changed. Finding no plan is a
+/// status. Throws ParseError for words of the goal that are not in the scene, ValueError for actions without a rule and
+/// for invalid options.
 TaskPlan planTask(const Config& C, const std::string& goal, const TaskOptions& options = {});
 
 /// Returns a function for TaskPlan::replanner.

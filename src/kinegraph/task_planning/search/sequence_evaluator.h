@@ -16,8 +16,8 @@ namespace kinegraph {
 
 /// Evaluates sequences of actions in geometry: solves for waypoints, plans the motions between them, and checks the
 /// plan. A long sequence whose waypoints are not found together is solved in pieces, one after the other, each from the
-/// end of the one before, with backtracking; its placements leave room for those of later pieces. The outcome depends on
-/// the actions and the seed only. Several threads may evaluate at the same time.
+/// end of the one before, with backtracking; its placements leave room for those of later pieces. The outcome depends
+/// on the actions and the seed only. Several threads may evaluate at the same time.
 class SequenceEvaluator {
  public:
   /// `scene` is planned in; checkTaskPlan gets `original`. Both are only copied. `limits`: velocity and acceleration of

@@ -299,8 +299,8 @@ MotionPlan TaskMotions::countedPlan(PathResult& result) {
 }
 
 /// The configurations of a straight motion away from q after an action, q first: a hand retreats from a placed object
-/// along its axis or up, it lifts a picked one, and a hook retreats from a pulled object. It keeps the margin if it can,
-/// and is as long as possible; q alone if none is collision-free. It is also collision-free in reverse.
+/// along its axis or up, it lifts a picked one, and a hook retreats from a pulled object. It keeps the margin if it
+/// can, and is as long as possible; q alone if none is collision-free. It is also collision-free in reverse.
 std::vector<VectorXd> TaskMotions::retreat(const Config& C, const Surroundings& around, const VectorXd& q,
                                            const TaskAction& action) const {
   const bool is_pulled = !action.empty() && action[0] == "hook_end";
