@@ -40,8 +40,7 @@ objects the frames with a rigid joint and a shape, and as places level boxes tha
 
 inline constexpr char planTasks[] =
     R"doc(Plans ever faster: the first plan is that of planTask, and each further plan takes less time than the one
-    before. Further
-plans come from other waypoints of the same actions, and from other actions.
+before. Further plans come from other waypoints of the same actions, and from other actions.
 
     for plan in ry.planTasks(C, "(on tray cup)", max_evaluations=20000):
         print(plan.duration)
@@ -57,8 +56,8 @@ nothing of the search. Objects move only by being taken along.
 In logic, the goal has to hold after the last action. The motion must not jump, is at rest where an action begins and
 ends, and keeps its limits of velocity and acceleration. Joints stay within their limits, and shapes overlap by at most
 1 mm, also between samples (`Config.checkMotion`). A hand touches the object that it takes, to 1 mm. An object that is
-put down stands level to half a degree, at the height of its place to 1 mm, with its center 5 mm inside the edges, and
-with its center of mass above the area shared with the place. Objects that stand on a carried object tilt by less than 5
+put down stands level to half a degree, at the height of its place to 1 mm. Its center is 5 mm inside the edges, and its
+center of mass is above the area shared with the place. Objects that stand on a carried object tilt by less than 5
 degrees and are accelerated by at most 2 m/s^2. Pushed objects move straight and level, away from the pusher. Doors move
 only while a hand holds their handle. At rest, nothing overlaps.
 
@@ -76,12 +75,14 @@ Raises:
 inline constexpr char defaultDomain[] =
     R"(Returns the domain of planTask if none is passed. Its actions are:
 
-pick (Obj From Hand) for objects with nothing on them, lift (Obj From Hand) for objects labeled is_carrier, with
-everything that stands on them, place (Obj Hand To), handover (Obj Hand To), lay (Obj Hand To Face) if the goal names
-the face that points up, pose (Obj Hand Goal) for frames labeled is_pose, push_start (Obj From Hand) and push_end (Obj
-Hand To) for objects labeled is_pushable, hook_start (Obj From Hook Tool Hand) and hook_end (Obj Hook To Tool Hand) with
-a tool that has a part labeled is_hook, and hold, open and close (Door Handle Hand) for frames labeled is_door or
-is_drawer that have a part labeled is_handle.
+- pick (Obj From Hand), for objects with nothing on them;
+- lift (Obj From Hand), for objects labeled is_carrier, with everything that stands on them;
+- place (Obj Hand To) and handover (Obj Hand To);
+- lay (Obj Hand To Face), if the goal names the face that points up;
+- pose (Obj Hand Goal), for frames labeled is_pose;
+- push_start (Obj From Hand) and push_end (Obj Hand To), for objects labeled is_pushable;
+- hook_start (Obj From Hook Tool Hand) and hook_end (Obj Hook To Tool Hand), with a tool with a part labeled is_hook;
+- hold, open and close (Door Handle Hand), for frames labeled is_door or is_drawer that have a part labeled is_handle.
 
 Returns:
     A domain, to which actions can be added.)";

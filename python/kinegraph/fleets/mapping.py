@@ -60,7 +60,7 @@ def map(
         seed: Seed of the items' seeds.
         out: A folder for results as Parquet files (extra `fleets`), instead of memory: a dict is a row, a pyarrow table
             several rows. If the folder has results of the same run, the run continues after them. A run is the same if
-            its function (code, defaults, and what it refers to), seed, first item and number of items are.
+            its function (code, defaults and references), seed, first item and number of items are.
         errors: "collect": an item that raises is a failure, with a warning, and the others continue. "raise": the first
             failure ends the map.
         progress: Whether to draw the progress bar.

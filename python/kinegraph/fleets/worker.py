@@ -123,7 +123,7 @@ def packAnswer(answer: Answer) -> bytes:
 
 
 def _serve(connection: Connection) -> None:
-    """Tells that it is ready, by an empty message, and answers batches until the connection closes."""
+    """Sends an empty message as soon as it is ready, and answers batches until the connection closes."""
     try:
         sys.path[:] = pickle.loads(connection.recv_bytes())
         worker = Worker(*pickle.loads(connection.recv_bytes()))

@@ -1,4 +1,4 @@
-"""Writes results to a folder of Parquet files as they arrive, so that an interrupted run can continue."""
+"""Writes results to a folder of Parquet files as they arrive; an interrupted run can continue."""
 
 from __future__ import annotations
 

@@ -132,7 +132,7 @@ class DiffIk {
   VectorXd slope_;
   MatrixXd normals_;  ///< of the constraints a' x >= b, one column each
   VectorXd bounds_;
-  VectorXd slack_;  ///< per constraint: by which it gives way
+  VectorXd slack_;  ///< relaxation of each constraint
   VectorXd excess_, rate_, direction_;
   std::vector<Source> sources_;  ///< per constraint
   std::vector<Relaxed> relaxed_;

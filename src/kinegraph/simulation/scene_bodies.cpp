@@ -69,7 +69,7 @@ bool isSolidToLookAt(const FrameData& frame) {
 }
 
 /// Decides which shapes take part in the simulation: those that `simulate` names, those that collide in plans, and
-/// opaque ones, unless the attribute `visual` says that they are only looked at. A transparent shape that is drawn
+/// opaque ones, unless they have the attribute `visual`. A transparent shape that is drawn
 /// around an opaque one of its link with contact 0 leaves its place to that one.
 std::vector<bool> collidingFrames(const SceneTree& scene, std::vector<std::string>& warnings) {
   const auto ownerOf = [](const FrameData& f) {  // the frame of the joint that moves it, or else its parent
@@ -315,7 +315,7 @@ class Divider {
       }
     };
     addSurfaces(true);
-    if (body.inertia.mass == 0.) addSurfaces(false);  // a link that is only looked at
+    if (body.inertia.mass == 0.) addSurfaces(false);  // a link of visual shapes only
   }
 
   const SceneTree& scene_;

@@ -37,7 +37,7 @@ def after(C: ry.Config, plan: ry.TaskPlan, seconds: float = 2.0) -> ry.Config:
 
 
 def overhang(C: ry.Config, name: str, place: str) -> float:
-    """By how much the footprint of a box exceeds its place, m."""
+    """Returns the overhang of the footprint of a box over its place, m."""
     a, b = C.getFrame(place), C.getFrame(name)
     R = a.getRotationMatrix().T @ b.getRotationMatrix()
     at = a.getRotationMatrix().T @ (b.getPosition() - a.getPosition())

@@ -30,7 +30,9 @@ void readSceneFile(const std::string& path, SceneTree& scene, std::vector<std::s
 void readSceneText(std::string_view text, const std::string& name, const std::string& folder, SceneTree& scene,
                    std::vector<std::string>& warnings, bool strict) {
   SceneDiagnostics diagnostics;
-  build(readSource(text, name, folder, diagnostics), scene, diagnostics, warnings, {.strict = strict});
+  FileOptions options;
+  options.strict = strict;
+  build(readSource(text, name, folder, diagnostics), scene, diagnostics, warnings, options);
 }
 
 void readSemanticsFile(const std::string& path, const std::string& prefix, SceneTree& scene,
