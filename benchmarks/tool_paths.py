@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plans tool paths of seven families and judges them: deviation, limits, speed, places of failures, and processor time.
 
-    python benchmarks/tool_paths.py [--seeds 0 1] [--only e-sphere]
+    python benchmarks/tool_paths.py [--seeds 0 1] [--families abcdefg] [--robots panda ur10]
 
 Robots: a Panda with a pen and a UR10 with a rod. tool_path_problems/families.py draws the families by a seed; lines,
 circles and rasters are dense rows of poses, .5 mm apart. The judge samples motions every ms. Its kinematics come from a
@@ -120,12 +120,11 @@ def rows_length(rows):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seeds", type=int, nargs="+", default=[0, 1])
-    parser.add_argument("--only", default="", help="names of problems begin like this")
+    parser.add_argument("--families", default="abcdefg", help="their letters")
+    parser.add_argument("--robots", nargs="+", default=["panda", "ur10"], choices=["panda", "ur10"])
     options = parser.parse_args()
     times, wrong = {}, []
-    for problem in families.all_problems(options.seeds):
-        if not problem["name"].startswith(options.only):
-            continue
+    for problem in families.all_problems(options.seeds, options.families, options.robots):
         C, plan, ms = planned(problem)
         text, right = line(problem, C, plan, ms)
         print(text, flush=True)

@@ -384,15 +384,18 @@ def wrong(robot, seed):
     )
 
 
-def all_problems(seeds=range(4)):
-    for robot in ("panda", "ur10"):
+def all_problems(seeds, families="abcdefg", robots=("panda", "ur10")):
+    """Draws the problems of these families and robots by seeds."""
+    draw = {
+        "a": lambda robot, seed: lines(robot, seed, "a"),
+        "b": lambda robot, seed: lines(robot, seed, "b"),
+        "c": lambda robot, seed: lines(robot, seed, "c"),
+        "d": rounds,
+        "e": raster,
+        "f": seams,
+        "g": wrong,
+    }
+    for robot in robots:
         for seed in seeds:
-            yield lines(robot, seed, "a")
-            yield lines(robot, seed, "b")
-            yield lines(robot, seed, "c")
-            yield rounds(robot, seed)
-        for seed in list(seeds)[:3]:
-            yield raster(robot, seed)
-            yield wrong(robot, seed)
-        for seed in list(seeds)[:2]:
-            yield seams(robot, seed)
+            for family in families:
+                yield draw[family](robot, seed)

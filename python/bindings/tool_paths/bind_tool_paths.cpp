@@ -1,4 +1,5 @@
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -188,7 +189,7 @@ void bindToolPathPlan(nb::module_& m) {
           "\"\" if there is a motion; else the path, the place on it, and the cause.")
       .def_ro("warnings", &ToolPathPlan::warnings, "Sentences, such as of blends that were made smaller.")
       .def_prop_ro(
-          "where", [](const ToolPathPlan& p) { return nb::make_tuple(p.where.path, p.where.place); },
+          "where", [](const ToolPathPlan& p) { return std::pair(p.where.path, p.where.place); },
           "Place of the failure: index of the path, and m from its start; path -1 if there is a motion.")
       .def_ro("frames", &ToolPathPlan::frames, "The pair in collision at the place of the failure, or [].")
       .def_ro("joint", &ToolPathPlan::joint,
@@ -203,19 +204,16 @@ void bindToolPathPlan(nb::module_& m) {
                    "Stretches on which the tool is slower than asked: (path, from, to, speed, cause), in m from the "
                    "start of the path in the direction of motion, and m/s. cause is such as \"velocity of 'wrist_2'\".")
       .def_prop_ro(
-          "deviation", [](const ToolPathPlan& p) { return nb::make_tuple(p.position_deviation, p.rotation_deviation); },
+          "deviation", [](const ToolPathPlan& p) { return std::pair(p.position_deviation, p.rotation_deviation); },
           "Bounds of the distance (m) and the rotation (rad) of the tool from its paths, proven for all times.")
       .def(
           "way",
           [](const ToolPathPlan& p, double t) {
             const ToolPlace place = p.way(t);
-            return nb::make_tuple(place.path, place.place);
+            return std::pair(place.path, place.place);
           },
-          "t"_a,
-          "Returns the index of the path at time t (s), -1 on a transfer, and the place on it, m; negative on an "
-          "approach.")
-      .def("speed", &ToolPathPlan::speed, "t"_a,
-           "Returns the speed of the tool along its path at time t (s), m/s; 0 on a transfer.")
+          "t"_a, doc::way)
+      .def("speed", &ToolPathPlan::speed, "t"_a, doc::speed)
       .def("__getstate__", planState)
       .def("__setstate__", setPlanState)
       .def("__repr__", [](const ToolPathPlan& p) { return cat("<ToolPathPlan ", inPython(p.str()), ">"); });

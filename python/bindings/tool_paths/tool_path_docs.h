@@ -57,7 +57,11 @@ inline constexpr char start[] =
     R"(Sets the first pose. Without it, the path starts at the pose of the tool at the time of planning.
 
 Args:
-    pose: Shape (7,) or (3,).)";
+    pose: Shape (7,) or (3,).
+Returns:
+    The path itself.
+Raises:
+    ValueError: A pose has another number of entries, or they are not finite.)";
 
 inline constexpr char line[] =
     R"(Appends a straight line; the tool rotates at a constant rate.
@@ -65,7 +69,11 @@ inline constexpr char line[] =
 Args:
     pose: Its end, shape (7,), or (3,) to keep the rotation.
     blend: Radius (m) of the sphere around the corner at its start, within which a curve with continuous curvature
-        replaces the corner; 0: the tool stops at the corner. Radii that overlap are reduced, with a warning.)";
+        replaces the corner; 0: the tool stops at the corner. Radii that overlap are reduced, with a warning.
+Returns:
+    The path itself.
+Raises:
+    ValueError: The pose has another number of entries, or blend is negative.)";
 
 inline constexpr char arc[] =
     R"(Appends a circular arc.
@@ -73,7 +81,11 @@ inline constexpr char arc[] =
 Args:
     via: A position on the arc, shape (3,), m.
     pose: Its end, shape (7,), or (3,) to keep the rotation.
-    blend: As for line.)";
+    blend: As for line.
+Returns:
+    The path itself.
+Raises:
+    ValueError: A pose has another number of entries, or blend is negative.)";
 
 inline constexpr char circle[] =
     R"(Appends a circle or a part of it. The tool keeps its rotation.
@@ -82,28 +94,64 @@ Args:
     center: Shape (3,), m.
     axis: Direction of the axis, shape (3,).
     angle: rad, counterclockwise about the axis; may be negative, and larger than a full circle.
-    blend: As for line.)";
+    blend: As for line.
+Returns:
+    The path itself.
+Raises:
+    ValueError: An array has another length, or the axis has no direction.)";
 
 inline constexpr char spline[] =
     R"(Appends a cubic spline through the present end and all of these poses.
 
 Args:
-    poses: Shape (K, 7), or (K, 3) to keep the rotation.)";
+    poses: Shape (K, 7), or (K, 3) to keep the rotation.
+Returns:
+    The path itself.
+Raises:
+    ValueError: A pose has another number of entries, or they are not finite.)";
 
 inline constexpr char free[] =
     R"(Frees the rotation about an axis of the tool.
 
 Args:
-    about: "x", "y" or "z".)";
+    about: "x", "y" or "z".
+Returns:
+    The path itself.
+Raises:
+    ValueError: about is another text.)";
 
 inline constexpr char tilt[] =
     R"(Allows the free axis to lean from its direction within a cone. Frees the rotation about z if no axis is free.
 
 Args:
-    angle: Half angle of the cone, rad, below pi / 2.)";
+    angle: Half angle of the cone, rad, below pi / 2.
+Returns:
+    The path itself.
+Raises:
+    ValueError: The angle is not between 0 and pi / 2.)";
 
 inline constexpr char ToolPathPlan[] =
     R"(The motion that planToolPath found, or the reason why there is none; a Trajectory. True if there is a motion.)";
+
+inline constexpr char way[] =
+    R"(Returns the place of the tool.
+
+Args:
+    t: Time, s, clamped to the duration.
+Returns:
+    Index of the path, -1 on a transfer, and the place on it, m from its start; negative on an approach.
+Raises:
+    ValueError: There is no motion, or t is NaN.)";
+
+inline constexpr char speed[] =
+    R"(Returns the speed of the tool along its path.
+
+Args:
+    t: Time, s, clamped to the duration.
+Returns:
+    m/s; 0 on a transfer.
+Raises:
+    ValueError: There is no motion, or t is NaN.)";
 
 inline constexpr char plan[] =
     R"(Plans the motion of a robot whose tool follows paths.
