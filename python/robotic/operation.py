@@ -33,7 +33,8 @@ class BotOp(kinegraph.BotOp):
         try:
             super().move(path, times, overwrite, overwriteCtrlTime)
         except kinegraph.ArgumentError as error:
-            if not (self._simulated and "limit" in str(error)):
+            is_too_fast = "take at least" in str(error) or "take longer" in str(error)
+            if not (self._simulated and is_too_fast):
                 raise
             warnings.warn(
                 f"{error}; the simulated robot moves in the given time, and its limits are not kept from now on",

@@ -161,4 +161,5 @@ def test_a_grasp_planned_by_the_helper_and_lifted_fast(C: ry.Config) -> None:
     bot.wait(C, forKeyPressed=False, forTimeToEnd=False, forGripper=True)
     bot.move(paths[1], [0.1])  # the limits are not kept after the first warning
     bot.wait(C, forKeyPressed=False, forTimeToEnd=True)
+    bot.sync(C, 1.0)  # the robot comes after its reference
     assert C.getFrame("obj").getPosition()[2] > 0.9  # it is held
