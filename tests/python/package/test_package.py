@@ -108,10 +108,7 @@ print(sorted({name.split('.')[0] for name in sys.modules} & {'scipy', 'matplotli
 
 
 def test_mesh_files_and_camera_images_load_their_libraries_when_they_are_first_needed(tmp_path):
-    (tmp_path / "a.stl").write_text(
-        "solid a\nfacet normal 0 0 1\nouter loop\n"
-        "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid a\n"
-    )
+    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     code = """
 import sys, kinegraph
 loaded = lambda: [name for name in ('libassimp', 'libmujoco', 'libcoal') if name in open('/proc/self/maps').read()]
@@ -120,7 +117,7 @@ print(loaded())
 C.addFrame('a').setMeshFile(sys.argv[1])
 print(loaded(), len(C.getFrame('a').getMeshTriangles()))
 """
-    run = [sys.executable, "-c", code, str(tmp_path / "a.stl")]
+    run = [sys.executable, "-c", code, str(tmp_path / "a.obj")]
     program = subprocess.run(run, capture_output=True, text=True, check=True)
     assert program.stdout.splitlines() == ["[]", "['libassimp'] 1"]
 
@@ -128,10 +125,10 @@ print(loaded(), len(C.getFrame('a').getMeshTriangles()))
 def test_a_library_that_is_missing_is_named(tmp_path):
     """One that is no library stands in for it."""
     (tmp_path / "libassimp.so.6").write_text("no library")
-    (tmp_path / "a.stl").write_text("solid\nendsolid")
+    (tmp_path / "a.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")
     code = "import sys, kinegraph; kinegraph.Config().addFrame('a').setMeshFile(sys.argv[1])"
     environment = {**os.environ, "LD_LIBRARY_PATH": f"{tmp_path}:{os.environ.get('LD_LIBRARY_PATH', '')}"}
-    run = [sys.executable, "-c", code, str(tmp_path / "a.stl")]
+    run = [sys.executable, "-c", code, str(tmp_path / "a.obj")]
     program = subprocess.run(run, capture_output=True, text=True, env=environment)
     assert program.returncode == 1
     assert (
