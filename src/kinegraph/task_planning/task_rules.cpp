@@ -245,7 +245,7 @@ Config withOpenings(const Config& C, const std::vector<std::string>& hands) {
     };
     const auto found = std::ranges::find_if(all, isBelow);
     if (found != all.end() && found->maxWidth() > 0.)
-      frame.editAttributes().set({"opening", {}, {}, {found->maxWidth()}, {}});
+      frame.editAttributes().set({"opening", {}, {}, {found->maxWidth(), {}}, {}});
   }
   return scene;
 }

@@ -41,8 +41,8 @@ class PathCurve {
   struct Parts {
     int dofs = 0, degree = 1;
     double length = 0.;
-    std::vector<double> begin, marks, coefficients;
-    std::vector<bool> is_line, stops;
+    std::vector<double> begin{}, marks{}, coefficients{};
+    std::vector<bool> is_line{}, stops{};
   };
   Parts parts() const;
   static PathCurve fromParts(const Parts& parts);  ///< throws ValueError if their sizes do not match
