@@ -6,7 +6,7 @@ namespace kinegraph {
 
 /// How a scene file is read.
 struct FileOptions {
-  bool strict = false;   ///< warnings about the file are errors
+  bool strict = false;     ///< warnings about the file are errors
   XacroArguments xacro{};  ///< arguments of a .xacro file
   /// Gives the root frame a free joint below a new frame `world`; a legged robot then falls in a simulation. Throws
   /// ValueError if the file has several roots, or a root that cannot move.
