@@ -135,14 +135,14 @@ void bindBuilding(nb::class_<PyConfig>& config) {
   config.def("clear", &PyConfig::clear, "Removes all frames.")
       .def(
           "addFile",
-          [](PyConfig& c, const PathText& file, const std::optional<std::string>& prefix, bool floating, bool strict,
-             const std::optional<Attributes>& xacro, bool orphans) {
+          [](PyConfig& c, const PathText& file, const std::optional<std::string>& prefix, bool strict,
+             const std::optional<Attributes>& xacro, bool floating, bool orphans) {
             const FileOptions options{
                 .strict = strict, .xacro = xacroArguments(xacro), .floating = floating, .orphans = orphans};
             return withWarnings(c, c.addFile(file.text, prefix.value_or(""), options));
           },
-          "filename"_a, "namePrefix"_a = nb::none(), nb::kw_only(), "floating"_a = false, "strict"_a = false,
-          "xacro"_a = nb::none(), "orphans"_a = false, docs::scene::addFile)
+          "filename"_a, "namePrefix"_a = nb::none(), nb::kw_only(), "strict"_a = false, "xacro"_a = nb::none(),
+          "floating"_a = false, "orphans"_a = false, docs::scene::addFile)
       .def(
           "addText",
           [](PyConfig& c, const std::string& text, const std::string& name, bool strict) {

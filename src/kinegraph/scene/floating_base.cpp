@@ -11,12 +11,12 @@ void checkFloatingRoot(const SceneTree& scene, const std::string& path) {
   for (const auto& frame : scene.frames()) {
     if (frame->parent) continue;
     if (root)
-      throw ValueError(cat("addFile: floating=True needs a single root frame; '", path, "' has '", root->name,
+      throw ValueError(cat("addFile: `floating` needs a single root frame; '", path, "' has '", root->name,
                            "' and '", frame->name, "'"));
     root = frame.get();
   }
   if (!root || root->joint || root->name == "world")
-    throw ValueError(cat("addFile: floating=True needs a root frame that can move; that of '", path, "' is ",
+    throw ValueError(cat("addFile: `floating` needs a root frame that can move; that of '", path, "' is ",
                          root ? cat("'", root->name, "'") : "missing", ". In MJCF a <freejoint/> lets a body float"));
 }
 

@@ -225,7 +225,7 @@ class Divider {
       if (!heavy || lowest < kInTheAir || isSupported(*root)) continue;
       result_.warnings.push_back(cat(
           "Simulation: the base '", root->name, "' of a robot is fixed in the air, ", std::round(100. * lowest) / 100.,
-          " m above the ground. To let the robot fall, load it with addFile(..., floating=True), or give the base"
+          " m above the ground. To let the robot fall, load its file with the option `floating`, or give the base"
           " `multibody_fixedBase: false`; `multibody_fixedBase: true` silences this warning"));
     }
   }

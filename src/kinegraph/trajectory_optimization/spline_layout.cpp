@@ -108,7 +108,9 @@ SplineLayout layOutSpline(const Path& path, const SplineMotionOptions& options) 
   const MatrixXd B = splineBasis(path.grid(), options);
   const int points = int(B.cols()) - 1;  // the first one is the start
   const Eigen::MatrixXi columns = jointColumns(path);
-  SplineLayout layout{.map = std::make_shared<LinearMap>(), .knots = knotsOf(path.grid(), options)};
+  SplineLayout layout;
+  layout.map = std::make_shared<LinearMap>();
+  layout.knots = knotsOf(path.grid(), options);
   layout.ends_at_rest = options.ends_at_rest;
   for (int j = 0; j < columns.cols(); ++j)
     if (isOfEachSlice(columns, j)) layout.splined.push_back(j);

@@ -30,14 +30,14 @@ def test_evalBatchGivesWhatEvalGives(panda):
 def test_nearestPointsOfAllPairs(panda):
     Q, pairs = configurations(panda, 12), panda.getCollidablePairs()
     d, points, normals = panda.getNearestPoints(Q)
-    assert d.shape == (12, 45) and points.shape == (12, 45, 2, 3) and normals.shape == (12, 45, 3)
+    assert d.shape == (12, 46) and points.shape == (12, 46, 2, 3) and normals.shape == (12, 46, 3)
     np.testing.assert_array_equal(d, panda.getDistances(Q))
     np.testing.assert_allclose(points[:, :, 0] - points[:, :, 1], d[..., None] * normals, rtol=0, atol=1e-12)
     np.testing.assert_allclose(np.linalg.norm(normals, axis=2), 1, rtol=0, atol=1e-12)
     for i in (0, 5):
         panda.setJointState(Q[i])
         here = panda.getNearestPoints()
-        assert [a.shape for a in here] == [(45,), (45, 2, 3), (45, 3)]
+        assert [a.shape for a in here] == [(46,), (46, 2, 3), (46, 3)]
         for one, all_of_them in zip(here, (d, points, normals)):
             np.testing.assert_array_equal(one, all_of_them[i])
         for k in (0, 17, 44):
@@ -49,7 +49,7 @@ def test_nearestPointsOfAllPairs(panda):
             )
     ball = panda.addFrame("ball").setShape(ry.ST.sphere, [0.1]).setContact(1)
     more = panda.getNearestPoints()[0].shape[0]
-    assert more == len(panda.getCollidablePairs()) // 2 > 45
+    assert more == len(panda.getCollidablePairs()) // 2 > 46
     ball.setPosition([5.0, 0, 0])
     assert panda.getNearestPoints()[0].max() > 3
     with pytest.raises(ry.ArgumentError, match="getNearestPoints"):

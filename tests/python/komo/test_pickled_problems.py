@@ -95,6 +95,7 @@ ATTACHMENTS = {
 }
 
 
+@pytest.mark.filterwarnings("ignore:no moving shape of the scene")
 @pytest.mark.parametrize(("symbol", "frames"), ATTACHMENTS.items())
 def test_mode_switches(symbol, frames):
     komo = ry.KOMO(scene(), 2, 4, 2, True)

@@ -26,7 +26,6 @@ FOUND = {
         r"from above: <IkResult solved in 1 attempt",
         r"the palm is above the target by 0\.103 m",
         r"from below: no solution .*'table' and 'l_panda_coll7' overlap",
-        r"^\[\]$",
         r"collisions with the box: [1-9]",
     ],
     "dynamics": [r"^True \d+\.\d+", r"^\[ *[-+\d.e ]* -9\.81"],

@@ -162,7 +162,7 @@ def test_an_attribute_lets_the_base_fall_without_a_joint(tmp_path):
 
 
 def test_only_a_root_that_can_move_may_float(tmp_path):
-    with pytest.raises(ry.ArgumentError, match="floating=True needs a root frame that can move"):
+    with pytest.raises(ry.ArgumentError, match="`floating` needs a root frame that can move"):
         load(tmp_path, "<mujoco><worldbody><geom size='.1'/></worldbody></mujoco>", floating=True)
 
 

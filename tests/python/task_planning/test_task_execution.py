@@ -211,6 +211,7 @@ def test_a_thing_that_is_moved_leaves_the_grip_of_another_alone() -> None:
     assert before > 20 and force() == pytest.approx(before, rel=0.05)
 
 
+@pytest.mark.filterwarnings("ignore:no moving shape of the scene")
 def test_the_base_of_a_robot_is_no_object() -> None:
     C = ry.Config()
     C.addText("world: {}\ntable (world): { shape: ssBox, size: [2 2 .1 .02] }")

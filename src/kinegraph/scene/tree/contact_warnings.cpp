@@ -124,7 +124,8 @@ std::vector<std::string> describe(const ContactWarnings& warnings, const SceneTr
   for (const int frame : warnings.without_contact) names.push_back(nameOf(frame));
   if (!names.empty()) {
     sentences.push_back(
-        cat("no moving shape of the robot ", listed(names),
+        cat("no moving shape of ",
+            names == std::vector<std::string>{"'world'"} ? "the scene" : cat("the robot ", listed(names)),
             " can collide, because `contact` is 0 for all of them: every configuration and motion counts as free."
             " Use its variant with collision (of shipped robots: <name>_collision.g), or give its shapes `contact`"));
   }
