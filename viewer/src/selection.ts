@@ -20,6 +20,9 @@ const expressible = (name: string): string => {
   const possible = name.replace(/[\s(),"']/g, "_");
   return KEYWORDS.has(possible) ? `${possible}_` : possible || "frame";
 };
+/** Returns the name of a frame's entry. With a parent behind it, a quoted name may have brackets. */
+const entryName = (name: string, hasParent: boolean): string =>
+  quoted(hasParent && !/[\s"]/.test(name) ? name : expressible(name));
 
 interface Placement {
   position: THREE.Vector3;
@@ -120,8 +123,8 @@ export class Selection {
     const { position, rotation } = this.relative(shown);
     const pose = [...position.toArray(), ...wxyz(rotation)].map((x) => Number(x.toFixed(6)));
     const place = values.length > 0 ? `q: [${values.join(", ")}]` : `pose: [${pose.join(", ")}]`;
-    const inside = above ? ` (${quoted(expressible(above.message.name))})` : "";
-    return `${quoted(expressible(name))}${inside}: { ${[place, details].filter((x) => x !== "").join(", ")} }`;
+    const inside = above ? ` (${entryName(above.message.name, above.message.parent >= 0)})` : "";
+    return `${entryName(name, above !== undefined)}${inside}: { ${[place, details].filter((x) => x !== "").join(", ")} }`;
   }
 
   private shown(): Shown | undefined {
@@ -227,10 +230,10 @@ export class Selection {
   }
 
   private copy(button: HTMLElement): void {
-    const text = this.asText(), name = this.shown()?.message.name ?? "", isChanged = expressible(name) !== name;
+    const text = this.asText(), name = this.shown()?.message.name ?? "", written = entryName(name, this.shown()?.message.parent !== -1);
     const copied = navigator.clipboard?.writeText(text) ?? Promise.reject(new Error("no clipboard"));
     copied.then(
-      () => (button.textContent = isChanged ? `copied as ${expressible(name)}` : "copied"),
+      () => (button.textContent = written === quoted(name) ? "copied" : `copied as ${written}`),
       () => prompt("copy this text", text),
     );
     setTimeout(() => (button.textContent = "copy as .g"), 1500);
