@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -63,7 +65,9 @@ TEST_F(UrdfReader, FramesAreNamedAfterLinksAndJoints) {
 
 TEST_F(UrdfReader, InfiniteLimitsAreNone) {
   Config config = load(joint("revolute", "<limit lower='-inf' upper='inf' effort='inf' velocity='+inf'/>"));
-  EXPECT_EQ(config.getJointLimits(), (MatrixXd(2, 1) << 0, -1).finished()) << "which says that there are none";
+  EXPECT_EQ(
+      config.getJointLimits(),
+      (MatrixXd(2, 1) << -std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()).finished());
   EXPECT_EQ(config.getFrame("j").attributes().find("ctrl_limits"), nullptr);
   config = load(joint("prismatic", "<axis xyz='1 0 0'/><limit lower='0' upper='inf'/>"));
   EXPECT_EQ(config.getJointLimits()(0, 0), 0.);

@@ -1,5 +1,7 @@
 #include "kinegraph/common/file_paths.h"
 
+#include <sys/stat.h>
+
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
@@ -14,6 +16,13 @@ namespace kinegraph {
 namespace fs = std::filesystem;
 
 namespace {
+
+/// Whether a file or folder exists. Most of the files that scenes name are optional, and missing: path objects would
+/// take most of the time of loading.
+bool isThere(const std::string& path) {
+  struct stat status;
+  return ::stat(path.c_str(), &status) == 0;
+}
 
 /// Replaces $NAME by the environment variable; a name that is none remains.
 std::string expandEnvironment(const std::string& path) {
@@ -53,6 +62,7 @@ std::string percentDecoded(const std::string& path) {
 /// with the separators of Windows.
 std::vector<std::string> readingsOf(const std::string& path) {
   std::vector<std::string> readings = {path};
+  if (path.find_first_of("$%\\") == std::string::npos) return readings;
   const auto addEach = [&](const auto& change) {
     for (std::size_t i = 0, count = readings.size(); i < count; ++i) {
       std::string changed = change(readings[i]);
@@ -77,10 +87,11 @@ fs::path ignoringCase(const fs::path& path) {
   std::error_code error;
   fs::path found = path.root_path();
   for (const fs::path& part : path.relative_path()) {
-    if (fs::exists(found / part, error)) {
+    if (isThere((found / part).string())) {
       found /= part;
       continue;
     }
+    if (!isThere(found.string())) return {};
     const std::string wanted = lower(part.string());
     std::vector<fs::path> matches;
     for (const auto& entry : fs::directory_iterator(found, error)) {
@@ -93,10 +104,10 @@ fs::path ignoringCase(const fs::path& path) {
 }
 
 /// Returns the first existing file of all readings in a folder, or "".
-std::string existingIn(const fs::path& folder, const std::vector<std::string>& readings) {
-  std::error_code error;
+std::string existingIn(const std::string& folder, const std::vector<std::string>& readings) {
   for (const std::string& reading : readings) {
-    if (fs::exists(folder / reading, error)) return (folder / reading).lexically_normal().string();
+    if (reading.starts_with('/') ? isThere(reading) : isThere(folder + "/" + reading))
+      return (fs::path(folder) / reading).lexically_normal().string();
   }
   return "";
 }
@@ -115,10 +126,11 @@ LocatedFile inPackages(const std::string& path, const std::string& folder) {
   };
   if (visitPackageFolders(name, folder, has) || rest.empty()) return found;
   for (const std::string& candidate : candidates) {
+    if (!isThere(candidate)) continue;
     const fs::path other = ignoringCase(fs::path(candidate) / readings.back());
     if (!other.empty()) return {other.string(), cat("'", other.filename().string(), "' is read instead")};
   }
-  for (fs::path above = folder; above.has_relative_path(); above = above.parent_path()) {
+  for (std::string above = folder; above.size() > 1; above.resize(above.rfind('/') + 1 > 1 ? above.rfind('/') : 0)) {
     found.path = existingIn(above, readings);
     if (!found.path.empty()) {
       found.assumption = cat("package '", name, "' is not found; '", found.path, "' is read");

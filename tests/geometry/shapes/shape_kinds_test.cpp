@@ -54,7 +54,7 @@ TEST(ShapeKinds, RowsStandInTheOrderOfTheirNumbersAndAreComplete) {
 
 TEST(ShapeKinds, AShapeCollidesWithinTheBoundsOfItsSurfaceAndReachesThem) {
   for (const ShapeKind& kind : shapeKinds()) {
-    if (!kind.surface || !kind.core) continue;
+    if (!kind.surface || !kind.core || kind.type == ShapeType::plane) continue;  // a plane is endless
     const Geometry geometry = sampleOf(kind);
     const auto [low, high] = boundsOf(tessellate(geometry));
     const auto body = makeCollisionBody(geometry);
