@@ -11,8 +11,8 @@ void checkFloatingRoot(const SceneTree& scene, const std::string& path) {
   for (const auto& frame : scene.frames()) {
     if (frame->parent) continue;
     if (root)
-      throw ValueError(cat("addFile: `floating` needs a single root frame; '", path, "' has '", root->name,
-                           "' and '", frame->name, "'"));
+      throw ValueError(cat("addFile: `floating` needs a single root frame; '", path, "' has '", root->name, "' and '",
+                           frame->name, "'"));
     root = frame.get();
   }
   if (!root || root->joint || root->name == "world")
