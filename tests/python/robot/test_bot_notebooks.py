@@ -123,8 +123,10 @@ def test_a_motion_that_is_too_fast_keeps_its_time_in_simulation_with_a_warning(C
         bot.move([up, down], [0.1, 0.3])
     assert bot.getTimeToEnd() == pytest.approx(0.3)
     bot.sync(C, 0.5 * bot.getTimeToEnd())
+    assert abs(bot.get_qDot()).max() > 0.3  # it moves there
     bot.wait(C)
-    np.testing.assert_allclose(bot.get_q(), down, atol=0.1)
+    bot.sync(C, 2.0)  # the robot comes after its reference
+    np.testing.assert_allclose(bot.get_q(), down, atol=2e-3)
     with pytest.raises(ry.ArgumentError, match="its limits are"):  # no duration helps
         bot.move([q + 10.0], [1.0])
     with pytest.raises(ry.ArgumentError, match="take at least"):
