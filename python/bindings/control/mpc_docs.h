@@ -65,8 +65,8 @@ Raises:
 inline constexpr char at[] =
     R"(Evaluates the motion of the last call, at rest after the end.
 
-Between slices the motion is cubic. Where a cubic would be faster than the fastest slice, the velocity changes linearly
-instead, so that limits of velocity that hold in the slices hold at all times.
+Between slices the motion is cubic. If a cubic would be faster than the fastest slice, the velocity changes linearly
+instead. Limits of velocity that hold in the slices thus hold at all times.
 
 Args:
     time: Time after the last call, s.

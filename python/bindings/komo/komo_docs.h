@@ -18,37 +18,22 @@ Raises:
     FrameNotFound: A frame is not in the scene.
     ArgumentError: The frames do not fit the feature, times are outside of the path, or a size is wrong.)";
 
-inline constexpr char addObjectiveByName[] =
-    R"(Adds scale * (feature - target) as a cost or constraint in some slices, with all arguments by name.
-
-Args:
-    time: Phase times: [] for all slices, [t] for one, [from, to] inclusive.
-    feature: A symbol of FS, or a custom function as for Config.eval.
-    frames: Name of a frame, or a list of names.
-    type: OT.sos, OT.eq, OT.ineq, OT.f, OT.ineqB or OT.ineqP.
-    scale: A number, one per component of the feature, or a matrix.
-    target: A number, or one per component, in the feature's units.
-    order: Order of the time derivative; -1 for the feature's own.
-    margin: For accumulatedCollisions, pairCollisions and distance: closer shapes count as colliding, m.
-Raises:
-    FrameNotFound: A frame is not in the scene.
-    ArgumentError: The frames do not fit the feature, times are outside of the path, or a size is wrong.)";
-
-inline constexpr char addObjectiveByTimes[] =
-    R"(Adds scale * (feature - target) as a cost or constraint in some slices, with all arguments by name.
-
-Args:
-    times: Phase times: [] for all slices, [t] for one, [from, to] inclusive.
-    feature: A symbol of FS, or a custom function as for Config.eval.
-    frames: Name of a frame, or a list of names.
-    type: OT.sos, OT.eq, OT.ineq, OT.f, OT.ineqB or OT.ineqP.
-    scale: A number, one per component of the feature, or a matrix.
-    target: A number, or one per component, in the feature's units.
-    order: Order of the time derivative; -1 for the feature's own.
-    margin: For accumulatedCollisions, pairCollisions and distance: closer shapes count as colliding, m.
-Raises:
-    FrameNotFound: A frame is not in the scene.
-    ArgumentError: The frames do not fit the feature, times are outside of the path, or a size is wrong.)";
+#define KINEGRAPH_OBJECTIVE_BY_NAME(time)                                                                      \
+  "Adds scale * (feature - target) as a cost or constraint in some slices, with all arguments by name.\n\n"    \
+  "Args:\n    " time                                                                                           \
+  ": Phase times: [] for all slices, [t] for one, [from, to] inclusive.\n"                                     \
+  "    feature: A symbol of FS, or a custom function as for Config.eval.\n"                                    \
+  "    frames: Name of a frame, or a list of names.\n"                                                         \
+  "    type: OT.sos, OT.eq, OT.ineq, OT.f, OT.ineqB or OT.ineqP.\n"                                            \
+  "    scale: A number, one per component of the feature, or a matrix.\n"                                      \
+  "    target: A number, or one per component, in the feature's units.\n"                                      \
+  "    order: Order of the time derivative; -1 for the feature's own.\n"                                       \
+  "    margin: For accumulatedCollisions, pairCollisions and distance: closer shapes count as colliding, m.\n" \
+  "Raises:\n    FrameNotFound: A frame is not in the scene.\n"                                                 \
+  "    ArgumentError: The frames do not fit the feature, times are outside of the path, or a size is wrong."
+inline constexpr char addObjectiveByName[] = KINEGRAPH_OBJECTIVE_BY_NAME("time");
+inline constexpr char addObjectiveByTimes[] = KINEGRAPH_OBJECTIVE_BY_NAME("times");
+#undef KINEGRAPH_OBJECTIVE_BY_NAME
 
 inline constexpr char addFreeMotion[] =
     R"(Keeps all shapes that may collide apart, in slices and continuously between them.

@@ -43,7 +43,7 @@ std::string firstContact(const Config& scene, const MatrixXd& path, double margi
     if (contact->dof >= 0)
       return cat("joint ", scene.getJointNames()[std::size_t(contact->dof)], " is beyond its limits");
     const std::string pair = cat(scene.getFrame(contact->a).getName(), " and ", scene.getFrame(contact->b).getName());
-    if (margin > 0.)
+    if (margin > 0. && contact->distance >= 0.)
       return cat(pair, " are ", fixed(1e3 * contact->distance, 1), " mm apart on the way, less than ",
                  fixed(1e3 * margin, 1), " mm");
     return cat(pair, " overlap by ", fixed(-contact->distance, 4), " m on the way");

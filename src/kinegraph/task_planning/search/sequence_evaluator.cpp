@@ -287,8 +287,9 @@ void SequenceEvaluator::judge(TaskPlan& plan, const Motions& parts) const {
       const NearBodies near = around.nearest(path, settings_.margin - 2. * kMarginSlack);
       if (!near.a.empty())
         plan.warnings.push_back(cat(planText({motion.action}), ": '", near.a, "' and '", near.b, "' are ",
-                                    fixed(1e3 * near.distance, 1), " mm apart on the way, less than the margin of ",
-                                    fixed(1e3 * settings_.margin, 1), " mm"));
+                                    fixed(1e3 * std::max(near.distance, 0.), 1),
+                                    " mm apart on the way, less than the margin of ", fixed(1e3 * settings_.margin, 1),
+                                    " mm"));
     }
     plan.tolerances.push_back(toleranceOf(motion.part.config, around, path, motion.action, hands));
   }
