@@ -176,6 +176,7 @@ if _TYPE_CHECKING:
     from .fleets import imap, readResults
     from .fleets import map as map  # not in __all__: a star import keeps Python's own
     from .interactive import interactiveIk
+    from .lerobot import LeRobotWriter, Randomization, checkDataset, demonstrate, mergeShards
     from .manipulation import KOMO_ManipulationHelper, ManipulationModelling
     from .problems import get_NLP_Problem_names, make_NLP_Problem
     from .quaternion import Quaternion
@@ -198,6 +199,7 @@ _LAZY = {  # module: names
     "film": ("saveFilm",),
     "fleets": ("imap", "readResults", "map"),
     "interactive": ("interactiveIk",),
+    "lerobot": ("LeRobotWriter", "Randomization", "checkDataset", "demonstrate", "mergeShards"),
     "manipulation": ("KOMO_ManipulationHelper", "ManipulationModelling"),
     "problems": ("get_NLP_Problem_names", "make_NLP_Problem"),
     "quaternion": ("Quaternion",),
@@ -209,7 +211,7 @@ _MODULE_OF = {name: module for module, names in _LAZY.items() for name in names}
 
 def __getattr__(name: str) -> _Any:
     if name in _LAZY or name == "test":
-        return _import_module(".test", __name__)
+        return _import_module("." + name, __name__)
     if name not in _MODULE_OF:
         raise AttributeError(f"module '{__name__}' has no attribute '{name}'", name=name, obj=_sys.modules[__name__])
     value = globals()[name] = getattr(_import_module("." + _MODULE_OF[name], __name__), name)

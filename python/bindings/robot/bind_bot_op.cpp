@@ -80,11 +80,11 @@ auto call(Result (BotOp::*method)(Args...)) {
   };
 }
 
-template <class Result>
-auto call(Result (BotOp::*method)() const) {
-  return [method](const PyBotOp& self) -> Result {
+template <class Result, class... Args>
+auto call(Result (BotOp::*method)(Args...) const) {
+  return [method](const PyBotOp& self, Args... args) -> Result {
     const nb::gil_scoped_release unlock;
-    return (*self.*method)();
+    return (*self.*method)(std::forward<Args>(args)...);
   };
 }
 
@@ -206,7 +206,48 @@ void bindMotions(nb::class_<PyBotOp>& bot) {
           "velocity"_a = nb::list(), "acceleration"_a = nb::list(), "effort"_a = nb::list(), docs::robot::setLimits);
 }
 
+/// Calls a function of Python from waiting calls; it is stored where Python's garbage collector finds it.
+void watch(PyBotOp& self, const nb::callable& function, double period) {
+  const long number = self.next_watch++;
+  const auto call = [&self, number](double time) {
+    const nb::gil_scoped_acquire lock;
+    const auto found = self.watched.find(number);
+    if (found == self.watched.end()) return false;
+    try {
+      if (nb::object(found->second)(time).ptr() != Py_False) return true;
+    } catch (...) {
+      self.watched.erase(number);
+      throw;
+    }
+    self.watched.erase(number);
+    return false;
+  };
+  self->watch(period, call);
+  self.watched.emplace(number, function);
+}
+
+int traverseBot(PyObject* self, visitproc visit, void* arg) {
+  Py_VISIT(Py_TYPE(self));
+  if (!nb::inst_ready(self)) return 0;
+  for (const auto& [number, function] : nb::inst_ptr<PyBotOp>(self)->watched) Py_VISIT(function.ptr());
+  return 0;
+}
+
+int clearBot(PyObject* self) {
+  nb::inst_ptr<PyBotOp>(self)->watched.clear();
+  return 0;
+}
+
+PyType_Slot bot_slots[] = {{Py_tp_traverse, reinterpret_cast<void*>(traverseBot)},
+                           {Py_tp_clear, reinterpret_cast<void*>(clearBot)},
+                           {0, nullptr}};
+
 void bindTime(nb::class_<PyBotOp>& bot) {
+  bot.def(
+      "watch", [](PyBotOp& b, double period, const nb::callable& function) { watch(b, function, period); }, "period"_a,
+      "function"_a,
+      nb::sig("def watch(self, period: float, function: collections.abc.Callable[[float], object]) -> None"),
+      docs::robot::watch);
   bot.def(
          "sync",
          [](PyBotOp& b, PyConfig& c, double seconds, const std::string& message) {
@@ -236,6 +277,7 @@ void bindGrippers(nb::class_<PyBotOp>& bot) {
           },
           "id"_a, "objName"_a, "force"_a = 10., "width"_a = .05, "speed"_a = .1, docs::robot::gripperCloseGrasp)
       .def("getGripperPos", call(&BotOp::getGripperPos), "id"_a, docs::robot::getGripperPos)
+      .def("getGripperTarget", call(&BotOp::getGripperTarget), "id"_a, docs::robot::getGripperTarget)
       .def("gripperDone", call(&BotOp::gripperDone), "id"_a, docs::robot::gripperDone);
 }
 
@@ -263,8 +305,8 @@ void bindWorld(nb::class_<PyBotOp>& bot) {
           },
           "frame"_a, "pose"_a, docs::robot::setFramePose)
       .def(
-          "getWorld", [](PyBotOp& b) { return PyConfig{call(&BotOp::getWorld)(b)}; },
-          "Returns a copy of the simulated world in its present state, a Config.")
+          "getWorld", [](PyBotOp& b) { return PyConfig{call(&BotOp::getWorld)(b)}; }, docs::robot::getWorld)
+      .def("isSimulated", call(&BotOp::isSimulated), "Tells whether the robot moves in a simulated world.")
       .def(
           "getContacts", [](PyBotOp& b) { return contactDicts(call(&BotOp::getContacts)(b)); },
           docs::robot::getContacts);
@@ -371,7 +413,7 @@ void bindRobot(nb::module_& m) {
       .def_prop_ro(
           "qvel_ref", [](const StepObservation& o) { return toNumpy(o.qvel_ref); },
           "Reference of the joint velocities, (n,).");
-  nb::class_<PyBotOp> bot(m, "BotOp", nb::is_weak_referenceable(), docs::robot::BotOp);
+  nb::class_<PyBotOp> bot(m, "BotOp", nb::type_slots(bot_slots), nb::is_weak_referenceable(), docs::robot::BotOp);
   bot.def("__init__", makeBot, "C"_a, "useRealRobot"_a = false, "auto_launch"_a = true, "driver"_a.none() = nb::none(),
           "realtime"_a = false, "strict"_a = true, docs::robot::BotOp_make);
   bindState(bot);

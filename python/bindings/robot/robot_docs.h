@@ -173,6 +173,35 @@ Raises:
     ArgumentError: waitTime is negative.
     RobotFault: The robot was stopped; C is set to its state nevertheless.)";
 
+inline constexpr char getGripperTarget[] = R"(Returns the width of the last command to a gripper.
+
+Args:
+    id: Number of the gripper, from 0.
+Returns:
+    The width, m: the smallest one after a command to close, and the initial width before any command.
+Raises:
+    ArgumentError: There is no such gripper.)";
+
+inline constexpr char watch[] = R"(Calls a function regularly while calls wait: to record, publish, or guard a motion.
+
+The calls come from sync, wait, home, stop, repeated queries, and the execution of plans, in virtual and in real time,
+in the thread of the caller. The first one comes with the next wait. Queries inside the function do not advance the
+clock, and it cannot wait; it may hold the robot and command motions and grippers. An exception in it holds the robot
+and is raised by the waiting call.
+
+Args:
+    period: Control time between two calls, s; 0: each control period. A call comes at the first control period that is
+        not before its time. In real time a late call is skipped.
+    function: Called with the control time, s. It is called no more after it has returned False or raised an exception.
+Raises:
+    ArgumentError: The period is negative or not finite.)";
+
+inline constexpr char getWorld[] = R"(Returns a copy of the simulated world in its present state.
+
+Returns:
+    A Config. For a robot without a simulated world: the scene of the constructor and the frames of later syncs, with the
+    robot's q and the openings of its grippers.)";
+
 inline constexpr char wait[] = R"(Syncs until an event occurs.
 
 Args:

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <memory>
 #include <set>
 
@@ -34,6 +35,9 @@ class PyBotOp {
     return *bot_;
   }
   BotOp* operator->() const { return &**this; }
+
+  std::map<long, nb::object> watched;  ///< functions of `watch` by number; Python's garbage collector sees them
+  long next_watch = 0;
 
  private:
   std::unique_ptr<BotOp> bot_;

@@ -44,16 +44,18 @@ std::string asSRDF(const PyConfig& config) {
   return text;
 }
 
-std::string asMJCF(const PyConfig& config) {
+std::string asMJCF(const PyConfig& config, bool motors) {
   std::vector<std::string> warnings;
-  const std::string text = writeMjcf(config, {}, &warnings);
+  MjcfOptions options;
+  options.motors = motors;
+  const std::string text = writeMjcf(config, options, &warnings);
   emitAll(warnings);
   return text;
 }
 
-std::string writeMJCF(const PyConfig& config, const PathText& file) {
+std::string writeMJCF(const PyConfig& config, const PathText& file, bool motors) {
   std::vector<std::string> warnings;
-  const std::string text = saveMjcf(config, file.text, &warnings);
+  const std::string text = saveMjcf(config, file.text, &warnings, motors);
   emitAll(warnings);
   return text;
 }
@@ -128,8 +130,8 @@ void bindFormats(nb::class_<PyConfig>& config, nb::class_<Frame>& frame) {
       .def("write", writeG, "filename"_a = nb::none(), docs::formats::write)
       .def("writeURDF", writeURDF, "filename"_a = nb::none(), docs::formats::writeURDF)
       .def("asSRDF", asSRDF, docs::formats::asSRDF)
-      .def("asMJCF", asMJCF, "Returns the scene as MJCF text with inline meshes; MuJoCo loads it with the same poses.")
-      .def("writeMJCF", writeMJCF, "filename"_a, docs::formats::writeMJCF);
+      .def("asMJCF", asMJCF, nb::kw_only(), "motors"_a = false, docs::formats::asMJCF)
+      .def("writeMJCF", writeMJCF, "filename"_a, nb::kw_only(), "motors"_a = false, docs::formats::writeMJCF);
   frame.def(
       "asDict", [](const Frame& f) { return Attributes(toDict(describeFrame(f.data()))); },
       "Returns the frame's current state as attributes of a .g file.");

@@ -88,7 +88,8 @@ inline constexpr char writeURDF[] = R"(Returns the scene as URDF text, and warns
 Args:
     filename: Path of a file to write, too. Shapes without a URDF element go to .stl files in a folder beside it;
         without a file they are omitted with a warning. Disabled collision pairs, groups of joints and named states go
-        to an .srdf file of the same name (asSRDF). Joints outside of q are fixed.
+        to an .srdf file of the same name (asSRDF). Hands move by their joint and
+        those that mimic it; other joints outside of q are fixed.
 Returns:
     The text.
 Raises:
@@ -100,6 +101,14 @@ inline constexpr char asSRDF[] =
 Returns:
     The text; '' if it would be empty.)";
 
+inline constexpr char asMJCF[] =
+    R"(Returns the scene as MJCF text with inline meshes; MuJoCo loads it with the same poses.
+
+Args:
+    motors: As for writeMJCF.
+Returns:
+    The text.)";
+
 inline constexpr char writeMJCF[] =
     R"(Writes the scene as MJCF; MuJoCo loads it with the same poses.
 
@@ -107,6 +116,9 @@ Bodies, joints, geoms and sites have the names of their frames.
 
 Args:
     filename: Path of the file. Meshes that MuJoCo cannot read directly go to a folder beside it.
+    motors: Adds actuators with the gains and force limits of the simulation, hands that open and close, free joints of
+        objects with a mass, and options for contacts. An actuator has the name of its joint. Its ctrl is q + v kv / kp
+        for a reference q with velocity v; that of a hand is the position of its joint, m or rad.
 Returns:
     The text.
 Raises:

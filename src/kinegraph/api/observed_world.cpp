@@ -7,6 +7,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/robot/scene_grippers.h"
 #include "kinegraph/simulation/scene_bodies.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/task_doors.h"
@@ -26,15 +27,6 @@ const double kUpright = cosineOfDegrees(10.);    ///< objects that tilt more hav
 const double kNearTurned = cosineOfDegrees(4.);  ///< tolerance of the rotation of objects that come next
 constexpr double kTouch = 5e-3;                  ///< m: objects that are closer touch
 constexpr double kJointOff = .05;                ///< rad or m: tolerance of joints
-
-bool isSimulated(BotOp& bot) {
-  try {
-    bot.getWorld();
-    return true;
-  } catch (const RobotFault&) {
-    return false;
-  }
-}
 
 /// Whether an object looks the same after any rotation about its axis.
 bool isRound(const Frame& frame) {
@@ -103,8 +95,28 @@ void requireMovable(const TaskPlan& plan, const Config& world) {
   }
 }
 
+std::map<std::string, int> grippersOf(const BotOp& bot, const Config& scene) {
+  const std::vector<GripperInfo>& grippers = bot.getInfo().grippers;
+  const std::vector<SceneGripper> hands = findGrippers(scene);  // a driver may have another name for a hand
+  std::map<std::string, int> numbers;
+  for (std::size_t i = 0; i < grippers.size(); ++i)
+    numbers[hands.size() == grippers.size() ? hands[i].info.name : grippers[i].name] = int(i);
+  return numbers;
+}
+
+void requireGrippers(const TaskPlan& plan, const std::map<std::string, int>& grippers) {
+  for (const TaskAction& action : plan.actions) {
+    if (!(isPick(action) || isHold(action) || action[0] == "handover") || grippers.contains(action[3])) continue;
+    Words names;
+    for (const auto& [name, number] : grippers) names.push_back(name);
+    throw ValueError(cat("execute: the plan closes '", action[3], "', and the robot's driver has ",
+                         names.empty() ? std::string("no gripper") : cat("the grippers ", join(names, ", ")),
+                         "; list its grippers in RobotInfo.grippers, in the order of the scene's hands"));
+  }
+}
+
 ObservedWorld::ObservedWorld(BotOp& bot, Config& seen, std::function<ObservedPoses()> observe)
-    : bot_(bot), seen_(seen), observe_(std::move(observe)), is_simulated_(kinegraph::isSimulated(bot)) {}
+    : bot_(bot), seen_(seen), observe_(std::move(observe)), is_simulated_(bot.isSimulated()) {}
 
 void ObservedWorld::setPlan(const TaskPlan& plan) {
   hands_ = wordsOf(plan.start, "is_gripper");

@@ -12,6 +12,13 @@ namespace kinegraph {
 /// motor moves a door there.
 void requireMovable(const TaskPlan& plan, const Config& world);
 
+/// Returns the numbers of a robot's grippers by the names of the scene's hands, in whose order a driver lists them; by
+/// their own names if their numbers differ.
+std::map<std::string, int> grippersOf(const BotOp& bot, const Config& scene);
+
+/// Throws ValueError if a plan closes a hand that is none of these.
+void requireGrippers(const TaskPlan& plan, const std::map<std::string, int>& grippers);
+
 /// The world during an execution as it is observed, the objects in hands, and its deviations from a plan.
 class ObservedWorld {
  public:

@@ -76,8 +76,8 @@ class TaskRun::Impl {
     limits_ = limitsOf(options_, plan_.path.cols());
     repairs_left_ = plan_.replanner ? options_.repairs : 0;
     if (world_.isSimulated()) requireMovable(plan_, seen);
-    const std::vector<GripperInfo>& grippers = bot.getInfo().grippers;
-    for (std::size_t i = 0; i < grippers.size(); ++i) grippers_[grippers[i].name] = int(i);
+    grippers_ = grippersOf(bot, seen);
+    if (!world_.isSimulated()) requireGrippers(plan_, grippers_);
     world_.setPlan(plan_);
   }
 
@@ -422,14 +422,16 @@ std::string TaskExecution::str() const {
 
 Config worldOf(BotOp& bot, const TaskPlan& plan) {
   plan.requireScenes("execute");
-  try {
-    return bot.getWorld();
-  } catch (const RobotFault&) {  // a real robot
-    if (plan.scenes.empty()) throw;
-    Config scene = plan.scenes.front();
-    scene.setJointState(bot.get_q());
-    return scene;
+  Config world = bot.getWorld();
+  if (bot.isSimulated() || plan.scenes.empty()) return world;
+  for (const std::string& obj : wordsOf(plan.start, "is_object")) {
+    const std::optional<Frame> object = world.findFrame(obj);
+    if (!object)
+      throw ValueError(
+          cat("execute: '", obj, "' is not in the scene of the robot; call bot.sync(C) with a scene that has it"));
+    Frame(*object).setPose(plan.scenes.front().getFrame(obj).getPose());
   }
+  return world;
 }
 
 TaskExecution execute(const TaskPlan& plan, BotOp& bot, Config& seen, const ExecutionOptions& options) {

@@ -100,7 +100,8 @@ class TaskRun {
   std::unique_ptr<Impl> impl_;
 };
 
-/// Returns the simulated world of a robot; for a real robot, the scene of the plan with the robot's q.
+/// Returns the simulated world of a robot; for a real robot, its scene with the
+/// robot's q and the objects of the plan at their places.
 Config worldOf(BotOp& bot, const TaskPlan& plan);
 
 /// Executes a plan on a robot, and makes new plans if the world deviates; see TaskRun.

@@ -53,6 +53,9 @@ std::string MjcfGeoms::geom(const FrameData& frame, const std::string& name, con
     const Vector4d c = shape.color->cwiseMax(0.).cwiseMin(1.);
     text += cat(" rgba=\"", mjcfNumbers({c[0], c[1], c[2], c[3]}), "\"");
   }
+  const Node* node = frame.attributes->find("friction");
+  if (const double* friction = node ? node->value.as<double>() : nullptr; options_.motors && friction)
+    text += cat(" friction=\"", exact(*friction), " 0.005 0.0001\"");
   if (shape.contact == 0) text += " contype=\"0\" conaffinity=\"0\"";
   return text + "/>";
 }

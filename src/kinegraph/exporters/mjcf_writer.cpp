@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/exporters/mjcf_geoms.h"
+#include "kinegraph/exporters/mjcf_motors.h"
 #include "kinegraph/exporters/srdf_writer.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/parsers/xml.h"
@@ -25,9 +27,6 @@ bool hasShape(const FrameData& frame) {
 }
 
 bool isCamera(const FrameData& frame) { return frame.shape && frame.shape->geometry->type == ShapeType::camera; }
-
-/// Returns whether q moves the frame. Inactive joints and their mimics are fixed.
-bool movedByQ(const FrameData& frame) { return frame.moves() && dofSource(frame).joint->active; }
 
 bool rotatesFreely(const Joint& joint) {
   const auto is_quaternion = [](const MotionStep& step) { return step.kind == MotionStep::Kind::quaternion; };
@@ -57,7 +56,9 @@ struct Follower {
 class MjcfWriter {
  public:
   MjcfWriter(const Config& config, const MjcfOptions& options, std::vector<std::string>* warnings)
-      : config_(config), options_(options), warnings_(warnings), geoms_(options, warnings) {}
+      : config_(config), options_(options), warnings_(warnings), geoms_(options, warnings) {
+    if (options.motors) motors_.emplace(config_);
+  }
 
   std::string write() {
     for (const auto& frame : config_.scene()->frames()) {
@@ -71,20 +72,29 @@ class MjcfWriter {
     }
     std::string text = cat("<mujoco model=\"", xmlEscaped(options_.model_name), "\">\n",
                            "  <compiler angle=\"radian\" inertiafromgeom=\"false\" balanceinertia=\"true\"/>\n");
+    if (motors_) text += MjcfMotors::options();
     if (!geoms_.assets().empty()) text += cat("  <asset>\n", geoms_.assets(), "  </asset>\n");
     text += cat("  <worldbody>\n", text_, "  </worldbody>\n");
     if (const std::string exclusions = excludedPairs(); !exclusions.empty())
       text += cat("  <contact>\n", exclusions, "  </contact>\n");
     if (const std::string followers = equalities(); !followers.empty())
       text += cat("  <equality>\n", followers, "  </equality>\n");
+    const bool controls = motors_ && !motors_->controls().empty();
+    if (motors_) text += motors_->text();
     if (!qpos_.empty())
-      text += cat("  <keyframe>\n    <key name=\"now\" qpos=\"", mjcfNumbers(qpos_), "\"/>\n  </keyframe>\n");
+      text += cat("  <keyframe>\n    <key name=\"now\" qpos=\"", mjcfNumbers(qpos_), "\"",
+                  controls ? cat(" ctrl=\"", mjcfNumbers(motors_->controls()), "\"") : "", "/>\n  </keyframe>\n");
     return text + "</mujoco>\n";
   }
 
  private:
   void warn(const std::string& message) {
     if (warnings_) warnings_->push_back(message);
+  }
+
+  /// Returns whether q or, with motors, a hand moves the frame. Other inactive joints and their mimics are fixed.
+  bool isMoved(const FrameData& frame) const {
+    return frame.moves() && (dofSource(frame).joint->active || (motors_ && motors_->isFinger(frame)));
   }
 
   /// A name unused by other elements of that kind.
@@ -119,7 +129,7 @@ class MjcfWriter {
   bool isLeaf(const FrameData& frame) const {
     const bool weighs_apart =
         frame.inertia && !(hasShape(frame) && frame.parent);  // the body includes the mass of its shapes
-    return frame.children.empty() && !movedByQ(frame) && !weighs_apart && !referred_.contains(&frame);
+    return frame.children.empty() && !isMoved(frame) && !weighs_apart && !referred_.contains(&frame);
   }
 
   /// Returns whether the frame only carries its child, so its joint moves to the child's body.
@@ -127,9 +137,9 @@ class MjcfWriter {
     if (frame.children.size() != 1 || hasShape(frame) || isCamera(frame) || frame.inertia || referred_.contains(&frame))
       return false;
     const FrameData& child = *frame.children[0];
-    if (!movedByQ(frame)) return movedByQ(child) && !frame.moves() && frame.name == child.name + "_origin";
-    if (!movedByQ(child) && mergesIntoChild(child)) return !rotatesFreely(*frame.joint);  // an origin
-    return !movedByQ(child) && (!rotatesFreely(*frame.joint) || child.relativePose().q.vec().isZero(0.));
+    if (!isMoved(frame)) return isMoved(child) && !frame.moves() && frame.name == child.name + "_origin";
+    if (!isMoved(child) && mergesIntoChild(child)) return !rotatesFreely(*frame.joint);  // an origin
+    return !isMoved(child) && (!rotatesFreely(*frame.joint) || child.relativePose().q.vec().isZero(0.));
   }
 
   void addBody(const FrameData& top, int parent, bool parent_moves, int depth) {
@@ -137,7 +147,7 @@ class MjcfWriter {
     Pose pose;
     std::vector<ChainJoint> chain;
     for (;; frame = frame->children[0]) {
-      if (movedByQ(*frame)) {
+      if (isMoved(*frame)) {
         chain.push_back({frame, pose});
       } else {
         warnFixed(*frame);
@@ -160,7 +170,8 @@ class MjcfWriter {
     const int id = int(bodies_.size());
     const Body& above = bodies_[parent];
     bodies_.push_back({name, joints.empty() ? above.weld : id, joints.empty() ? above.parent_weld : above.weld});
-    line(depth, cat("<body name=\"", xmlEscaped(name), "\"", mjcfPose(pose), ">"));
+    line(depth, cat("<body name=\"", xmlEscaped(name), "\"", mjcfPose(pose),
+                    motors_ && motors_->isDriven(*frame) ? " gravcomp=\"1\"" : "", ">"));
     for (std::size_t at = 0; at < joints.size();) {
       const std::size_t end = joints.find('\n', at);
       line(depth + 1, joints.substr(at, end - at));
@@ -228,6 +239,7 @@ class MjcfWriter {
         const std::string name = unused("joint", moving == 1 ? frame.name : cat(frame.name, "_", index));
         joint_names_[{&frame, dof}] = name;
         text += cat("<joint name=\"", xmlEscaped(name), "\"");
+        if (motors_) text += motors_->jointAttributes(frame);
         if (!step.translates() && !anchor.isZero(0.)) text += cat(" pos=\"", mjcfVector(anchor), "\"");
         ++index;
       }
@@ -243,6 +255,7 @@ class MjcfWriter {
         text += cat(step.translates() ? " type=\"slide\"" : "", " axis=\"", mjcfVector(direction), "\"",
                     range(frame, dof, std::abs(scale)), "/>\n");
         qpos_.push_back(std::abs(scale) * source.q[dof]);
+        if (motors_) motors_->add(frame, dof, joint_names_[{&frame, dof}], qpos_.back(), std::abs(scale));
       }
       if (joint.mimic && step.moves())
         followers_.push_back({&frame, dof, step.dofs() == 1 ? std::abs(scale / source.scale) : 0.});
@@ -272,7 +285,8 @@ class MjcfWriter {
         continue;
       }
       text += cat("    <joint joint1=\"", xmlEscaped(joint_names_.at({follower.frame, follower.dof})), "\" joint2=\"",
-                  xmlEscaped(leader->second), "\" polycoef=\"0 ", exact(follower.factor), " 0 0 0\"/>\n");
+                  xmlEscaped(leader->second), "\" polycoef=\"0 ", exact(follower.factor), " 0 0 0\"",
+                  motors_ ? MjcfMotors::coupling() : "", "/>\n");
     }
     return text;
   }
@@ -347,6 +361,7 @@ class MjcfWriter {
   const MjcfOptions& options_;
   std::vector<std::string>* warnings_;
   MjcfGeoms geoms_;
+  std::optional<MjcfMotors> motors_;
   std::string text_;
   std::vector<Follower> followers_;
   std::vector<double> qpos_;
@@ -360,6 +375,7 @@ class MjcfWriter {
 }  // namespace
 
 std::string writeMjcf(const Config& config, const MjcfOptions& options, std::vector<std::string>* warnings) {
+  if (options.motors) return MjcfWriter(withFreeObjects(config), options, warnings).write();
   return MjcfWriter(config, options, warnings).write();
 }
 

@@ -10,6 +10,10 @@ namespace kinegraph {
 struct MjcfOptions {
   std::string model_name = "scene";
   std::string mesh_folder;  ///< folder for .stl files of meshes that MuJoCo cannot read directly; empty: inline numbers
+
+  /// Adds what a simulation needs: actuators with the gains and force limits of `Simulation` (MjcfMotors), hands that
+  /// open and close, free joints of objects with a mass, and options for contacts.
+  bool motors = false;
 };
 
 /// Converts the scene to an MJCF text; MuJoCo loads it with the same poses:
@@ -31,6 +35,8 @@ struct MjcfOptions {
 /// Moving bodies without mass get 1 g. MuJoCo's q equals the scene's by joint name; with a joint_scale it is |scale|
 /// * q.
 /// The current q is the keyframe `now`. Joints outside of q and their mimics are fixed at their current values.
+/// With `motors`, an actuator has the name of its joint. Its `ctrl` is the reference of q + v kv / kp, with the velocity
+/// v of the reference; that of a hand is the position of its joint. The keyframe holds the present q.
 /// Non-colliding pairs of bodies are <exclude>. Content without an MJCF equivalent is omitted and listed in
 /// `warnings`.
 std::string writeMjcf(const Config& config, const MjcfOptions& options = {},
@@ -38,6 +44,7 @@ std::string writeMjcf(const Config& config, const MjcfOptions& options = {},
 
 /// Writes the scene to an MJCF file. The model gets the file's name; meshes that need files go to the folder
 /// <file without extension>_meshes. Returns the text. Throws FileError.
-std::string saveMjcf(const Config& config, const std::string& path, std::vector<std::string>* warnings = nullptr);
+std::string saveMjcf(const Config& config, const std::string& path, std::vector<std::string>* warnings = nullptr,
+                     bool motors = false);
 
 }  // namespace kinegraph

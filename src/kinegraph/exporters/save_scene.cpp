@@ -40,8 +40,9 @@ std::string saveUrdf(const Config& config, const std::string& path, std::vector<
   return text;
 }
 
-std::string saveMjcf(const Config& config, const std::string& path, std::vector<std::string>* warnings) {
+std::string saveMjcf(const Config& config, const std::string& path, std::vector<std::string>* warnings, bool motors) {
   MjcfOptions options;
+  options.motors = motors;
   options.model_name = fs::path(path).stem().string();
   options.mesh_folder = (fs::path(path).parent_path() / (options.model_name + "_meshes")).string();
   const std::string text = writeMjcf(config, options, warnings);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "kinegraph/common/text.h"
+#include "kinegraph/exporters/mjcf_motors.h"
 #include "kinegraph/exporters/srdf_writer.h"
 #include "kinegraph/exporters/stl_writer.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
@@ -58,18 +59,6 @@ bool isOriginOfJoint(const FrameData& frame) {
          frame.name == frame.children[0]->name + "_origin";
 }
 
-/// Returns whether q moves the frame. Inactive joints and their mimics are fixed.
-bool isFree(const FrameData& frame) { return frame.moves() && dofSource(frame).joint->active; }
-
-/// The child that is the link of this frame's joint, or null.
-const FrameData* linkOfJoint(const FrameData& frame) {
-  if (!frame.parent || !isBare(frame) || frame.children.size() != 1) return nullptr;
-  const FrameData& child = *frame.children[0];
-  if (child.joint || isShapeOfLink(child) || isOriginOfJoint(child) || !child.pose.p.isZero(0.)) return nullptr;
-  const bool turnable = isFree(frame) && frame.joint->steps.size() == 1 && frame.joint->dofs() == 1;
-  return turnable || child.pose.isIdentity(0.) ? &child : nullptr;
-}
-
 /// One joint of a URDF file.
 struct JointElement {
   std::string name, type, parent, child;
@@ -83,7 +72,7 @@ struct JointElement {
 class UrdfWriter {
  public:
   UrdfWriter(const Config& config, const UrdfOptions& options, std::vector<std::string>* warnings)
-      : config_(config), options_(options), warnings_(warnings) {}
+      : config_(config), options_(options), warnings_(warnings), fingers_(fingerJoints(config)) {}
 
   std::string write() {
     for (const auto& frame : config_.scene()->frames()) reserved_.insert(frame->name);
@@ -109,6 +98,20 @@ class UrdfWriter {
  private:
   void warn(const std::string& message) {
     if (warnings_) warnings_->push_back(message);
+  }
+
+  /// Returns whether q or a hand moves the frame. Other inactive joints and their mimics are fixed.
+  bool isFree(const FrameData& frame) const {
+    return frame.moves() && (dofSource(frame).joint->active || fingers_.contains(&frame));
+  }
+
+  /// The child that is the link of this frame's joint, or null.
+  const FrameData* linkOfJoint(const FrameData& frame) const {
+    if (!frame.parent || !isBare(frame) || frame.children.size() != 1) return nullptr;
+    const FrameData& child = *frame.children[0];
+    if (child.joint || isShapeOfLink(child) || isOriginOfJoint(child) || !child.pose.p.isZero(0.)) return nullptr;
+    const bool turnable = isFree(frame) && frame.joint->steps.size() == 1 && frame.joint->dofs() == 1;
+    return turnable || child.pose.isIdentity(0.) ? &child : nullptr;
   }
 
   void reportLosses() {
@@ -380,6 +383,7 @@ class UrdfWriter {
   const Config& config_;
   const UrdfOptions& options_;
   std::vector<std::string>* warnings_;
+  const std::set<const FrameData*> fingers_;  ///< joints of hands
   std::string text_;
   std::set<std::string> reserved_;  ///< names of frames
   std::set<std::string> links_, joints_;

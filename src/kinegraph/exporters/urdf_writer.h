@@ -25,7 +25,8 @@ struct UrdfOptions {
 /// Shapes become visuals; with a contact flag they become collisions, and visuals too unless transparent. A capsule
 /// becomes a cylinder with two spheres; rounded boxes and cylinders lose their rounding. A joint of several dofs
 /// becomes a floating or planar joint if possible, else a chain of joints <frame>_0, <frame>_1, ... of one dof each; a
-/// ball joint becomes three. Joints outside of q and their mimics are fixed at their current values. URDF stores no
+/// ball joint becomes three. Hands move: their joint, which is outside of q, and those that mimic it are joints. Other
+/// joints outside of q and their mimics are fixed at their current values. URDF stores no
 /// joint state: its zero is q = 0, and with a joint_scale its unit is that of scale * q. Content without a URDF
 /// equivalent is omitted and listed in `warnings`.
 std::string writeUrdf(const Config& config, const UrdfOptions& options = {},

@@ -20,6 +20,14 @@ BotOp::BotOp(const Config& config, std::shared_ptr<RobotDriver> driver, BotOpOpt
     throw ValueError(cat("BotOp: robot '", loop_->info().name, "' has ", joints, " joints; the configuration has ",
                          home_.size(), ": ", join(config.getJointNames())));
   if (options_.realtime && !is_simulated) options_.hyper_speed = 1.;
+  gripper_targets_.resize(loop_->info().grippers.size());
+  for (std::size_t i = 0; i < std::min(gripper_targets_.size(), loop_->state().grippers.size()); ++i)
+    gripper_targets_[i] = loop_->state().grippers[i].width;
+  if (!is_simulated) {
+    scene_ = config;
+    fingers_ = findGrippers(config);
+    if (fingers_.size() != loop_->info().grippers.size()) fingers_.clear();  // which is which?
+  }
   if (options_.realtime && !(options_.hyper_speed > 0.))
     options_.realtime = false;  // as fast as the computation allows
   if (options_.realtime) thread_ = std::jthread([this](const std::stop_token& stop) { runThread(stop); });
@@ -114,6 +122,13 @@ void BotOp::gripper(const char* call, GripperCommand command) {
   command.speed = std::min(command.speed, info.max_speed);
   command.force = std::min(command.force, info.max_force);
   loop_->apply(command);
+  gripper_targets_[std::size_t(command.gripper)] = command.grasp ? info.min_width : command.width;
+}
+
+double BotOp::getGripperTarget(int gripper) const {
+  requireGripper("BotOp::getGripperTarget", gripper);
+  const Lock lock(mutex_);
+  return gripper_targets_[std::size_t(gripper)];
 }
 
 void BotOp::gripperMove(int gripper, double width, double speed) {
@@ -148,9 +163,25 @@ bool BotOp::gripperDone(int gripper) {
 
 Config BotOp::getWorld() const {
   const Lock lock(mutex_);
-  SimulatedWorld* world = loop_->driver().world();
-  if (!world) throw RobotFault(cat("BotOp::getWorld: robot '", loop_->info().name, "' is not simulated"));
-  return world->config();
+  if (SimulatedWorld* world = loop_->driver().world()) return world->config();
+  Config scene = scene_;
+  scene.setJointState(loop_->state().q);
+  moveFingers(scene);
+  return scene;
+}
+
+bool BotOp::isSimulated() const {
+  const Lock lock(mutex_);
+  return loop_->driver().world() != nullptr;
+}
+
+/// Sets the fingers of a scene to the openings of the robot's grippers.
+void BotOp::moveFingers(Config& config) const {
+  const auto& states = loop_->state().grippers;
+  for (std::size_t i = 0; i < std::min(fingers_.size(), states.size()); ++i) {
+    if (config.scene()->find(fingers_[i].joint))
+      config.setJointState(VectorXd::Constant(1, fingers_[i].opening.positionAt(states[i].width)), {fingers_[i].joint});
+  }
 }
 
 std::vector<Contact> BotOp::getContacts() const {
@@ -165,6 +196,7 @@ void BotOp::update(Config& config) const {
     world->updateConfig(config);
   } else {
     config.setJointState(loop_->state().q);
+    moveFingers(config);
   }
 }
 

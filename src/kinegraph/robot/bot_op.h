@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <chrono>
 #include <functional>
 #include <iosfwd>
@@ -9,6 +10,7 @@
 
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/robot/robot_loop.h"
+#include "kinegraph/robot/scene_grippers.h"
 
 namespace kinegraph {
 
@@ -145,6 +147,15 @@ class BotOp {
   /// since the last call, or 0; in real time a key ends the wait.
   int sync(Config& C, double wait_time = .1, const std::string& message = {});
 
+  /// Calls `function` with the control time (s) now and every `period` s of control time, from the calls that wait
+  /// (`sync`, `wait`, `home`, `stop`, repeated queries, the execution of plans), in the thread of the caller. The first
+  /// call comes with the next wait. It ends when the function returns false, or with an exception, which also holds the
+  /// robot and is passed on. The state does not change during a call: queries do not advance the clock, and waiting is
+  /// refused; motions, `hold` and grippers may be commanded. Calls come at control periods: at the first one that is
+  /// not before k * period. In real time a late call is skipped, not repeated. `period` = 0: every control period.
+  /// Throws ValueError.
+  void watch(double period, std::function<bool(double)> function);
+
   /// Syncs until a key is pressed, the motion ends, or all grippers are done, as selected. Returns the key, 'g' for
   /// grippers, else 0. Without a viewer it does not wait for keys alone.
   int wait(Config& C, bool for_key = true, bool for_end = true, bool for_gripper = false, double sync_period = .05);
@@ -160,6 +171,10 @@ class BotOp {
   double getGripperPos(int gripper);  ///< width of the opening, m
   bool gripperDone(int gripper);
 
+  /// Returns the width of the last command, m: the smallest one after a command to close, and the width at the
+  /// construction before any command.
+  double getGripperTarget(int gripper) const;
+
   // --- the simulated world
   // ---------------------------------------------------------------------------------------------
 
@@ -167,12 +182,17 @@ class BotOp {
   void detach(const std::string& from, const std::string& to);
   void setFramePose(const std::string& frame, const Pose& pose);
 
-  Config getWorld() const;  ///< a copy of the simulated world in its present state
+  bool isSimulated() const;  ///< the robot moves in a simulated world
+
+  /// Returns a copy of the simulated world in its present state. For a robot without one: the scene that was passed to
+  /// the constructor, and the frames of later syncs, with the robot's q and the openings of its grippers.
+  Config getWorld() const;
 
   /// Returns the present contacts in the simulated world; none without forces, and for a real robot.
   std::vector<Contact> getContacts() const;
 
-  /// Sets `config`, which has frames of the same names, to the present state of robot and world.
+  /// Sets `config`, which has frames of the same names, to the present state of robot and world. Without a simulated
+  /// world these are q and the openings of grippers.
   void update(Config& config) const;
 
   /// Renders the view of a camera, given by its frame's name; see CameraRenderer::render. Throws FrameNotFound,
@@ -212,7 +232,16 @@ class BotOp {
   using Clock = std::chrono::steady_clock;
   using Lock = std::unique_lock<std::mutex>;
 
+  struct Watch {
+    double begin = 0., period = 0.;  ///< s
+    long count = 0;                  ///< the number of the next call
+    std::function<bool(double)> function;
+  };
+
   void countQuery(Query query);
+  void callWatches();
+  double nextWatch() const;
+  void moveFingers(Config& config) const;
   void stepOnce(const Lock& lock);
   void advance(double seconds, bool keys_end_it);
   void advanceVirtually(double seconds);
@@ -240,6 +269,7 @@ class BotOp {
 
   BotOpOptions options_;
   Config model_;  ///< for efforts
+  Config scene_;  ///< of a robot without a simulated world
   VectorXd home_;
   std::unique_ptr<RobotLoop> loop_;
   mutable std::mutex mutex_;                 ///< guards the loop
@@ -251,6 +281,10 @@ class BotOp {
   long external_count_ = 0;
   std::unique_ptr<std::ofstream> record_;
   std::shared_ptr<BotCameras> cameras_;  ///< created by the first image
+  std::vector<std::shared_ptr<Watch>> watches_;
+  std::vector<double> gripper_targets_;    ///< m
+  std::atomic<std::thread::id> watching_;  ///< the thread that calls a function of `watch`
+  std::vector<SceneGripper> fingers_;      ///< of the robot's grippers, without a simulated world
   Clock::time_point started_ = Clock::now(), next_ = started_, checked_ = started_;
   std::jthread thread_;  ///< the last member, so that it ends first
 };

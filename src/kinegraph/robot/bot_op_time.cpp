@@ -1,5 +1,6 @@
 // The clock of a BotOp: virtual time, and the thread of real time.
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 
 #include "kinegraph/common/text.h"
@@ -57,7 +58,7 @@ void BotOp::checkCancellation() {
 
 /// A repeated query at the same virtual time advances it by one period.
 void BotOp::countQuery(Query query) {
-  if (options_.realtime) return;
+  if (options_.realtime || watching_ != std::thread::id()) return;
   long& last = last_query_[std::size_t(query)];
   if (last == loop_->tick()) advanceVirtually(options_.period);
   last = loop_->tick();
@@ -77,11 +78,13 @@ void BotOp::pace() {
 void BotOp::advanceVirtually(double seconds) {
   pending_time_ += seconds;
   const bool paced = options_.hyper_speed > 0. && isWatched();
+  callWatches();
   for (; pending_time_ >= options_.period * (1. - 1e-9); pending_time_ -= options_.period) {
     {
       const Lock lock(mutex_);
       stepOnce(lock);
     }
+    callWatches();
     if (paced) pace();
     if (Clock::now() - checked_ > kCheck) checkCancellation();
   }
@@ -91,12 +94,68 @@ void BotOp::advanceVirtually(double seconds) {
 void BotOp::waitRealtime(double seconds, bool keys_end_it) {
   const auto end = Clock::now() + wallTime(seconds, options_.hyper_speed);
   for (auto now = Clock::now(); now < end && !(keys_end_it && key_); now = Clock::now()) {
-    std::this_thread::sleep_until(std::min(end, now + kCheck));
+    const auto due = now + wallTime(nextWatch(), options_.hyper_speed);
+    std::this_thread::sleep_until(std::min({end, now + kCheck, due}));
     checkCancellation();
+    callWatches();
+  }
+}
+
+void BotOp::watch(double period, std::function<bool(double)> function) {
+  if (!(period >= 0.) || !std::isfinite(period))
+    throw ValueError(cat("BotOp::watch: the period is ", period, " s; expected 0 or more"));
+  if (!function) throw ValueError("BotOp::watch: there is no function");
+  const Lock lock(mutex_);
+  watches_.push_back(std::make_shared<Watch>(loop_->time(), std::max(period, options_.period), 0, std::move(function)));
+}
+
+/// Returns the time until the next call of a watch, s; at most a second.
+double BotOp::nextWatch() const {
+  const Lock lock(mutex_);
+  double due = 1.;
+  for (const auto& watch : watches_)
+    due = std::min(due, watch->begin + double(watch->count) * watch->period - loop_->time());
+  return std::max(due, .2 * options_.period);
+}
+
+/// Calls the functions of `watch` that are due. Without the lock, so that they may call the robot.
+void BotOp::callWatches() {
+  if (watches_.empty() || watching_ == std::this_thread::get_id()) return;
+  double now = 0.;
+  {
+    const Lock lock(mutex_);
+    now = loop_->time();
+  }
+  for (std::size_t i = 0; i < watches_.size();) {  // a function may add others
+    const std::shared_ptr<Watch> watch = watches_[i];
+    const double rounding = 1e-6 * options_.period;
+    bool goes_on = true;
+    if (watch->begin + double(watch->count) * watch->period <= now + rounding) {
+      watch->count = long(std::floor((now + rounding - watch->begin) / watch->period)) + 1;
+      watching_ = std::this_thread::get_id();
+      try {
+        goes_on = watch->function(now);
+      } catch (...) {
+        watching_ = std::thread::id();
+        const Lock lock(mutex_);
+        std::erase(watches_, watch);
+        holdNow();
+        throw;
+      }
+      watching_ = std::thread::id();
+    }
+    const Lock lock(mutex_);
+    if (goes_on) {
+      ++i;
+    } else {
+      std::erase(watches_, watch);
+    }
   }
 }
 
 void BotOp::advance(double seconds, bool keys_end_it) {
+  if (watching_ == std::this_thread::get_id())
+    throw ValueError("BotOp: a function of watch cannot wait (sync, wait, home, stop); it may command motions");
   if (!(seconds >= 0.)) throw ValueError(cat("BotOp: the time to wait is ", seconds, " s; expected 0 or more"));
   checkCancellation();
   if (options_.realtime) {
@@ -143,12 +202,16 @@ void BotOp::requireRunning(const char* call) const {
         cat(call, ": the robot was stopped: ", loop_->fault(), "; resolve the cause, then call recover()"));
 }
 
-/// Copies frames that are new in the configuration since its last sync into the simulated world.
+/// Copies frames that are new in the configuration since its last sync into the world.
 void BotOp::addNewFrames(const Config& C) {
   if (C.scene()->structureRevision() == seen_structure_) return;
   seen_structure_ = C.scene()->structureRevision();
   const Lock lock(mutex_);
-  if (SimulatedWorld* world = loop_->driver().world()) world->addObjects(C);
+  if (SimulatedWorld* world = loop_->driver().world()) {
+    world->addObjects(C);
+  } else {
+    copyNewFrames(C, scene_);
+  }
 }
 
 int BotOp::sync(Config& C, double wait_time, const std::string& message) {
