@@ -13,6 +13,7 @@ from typing import Any
 from . import __version__
 from ._core import Config, ConfigurationViewer, ToolPath, Trajectory, checkFile, planMotion, planToolPath
 from .compatibility.parameters import params_get
+from .demonstrate_command import addDemonstrate, demonstrateCommand
 from .errors import ArgumentError, Error, FileError
 from .model_paths import raiPath, similarModels
 from .robot_files import robotNames, robotPath
@@ -124,6 +125,8 @@ def _parser() -> argparse.ArgumentParser:
     pairs.add_argument(
         "-o", "--output", metavar="SRDF", help="output file with the pairs to be ignored, for a URDF of the same robot"
     )
+
+    addDemonstrate(commands)
 
     check = commands.add_parser("check", help="report errors and warnings in scene files; exit status 1 with an error")
     check.add_argument("files", nargs="+", metavar="FILE")
@@ -394,6 +397,8 @@ def main(arguments: list[str] | None = None) -> int:
             _reachability(options)
         if options.command == "selfcollisions":
             _selfCollisions(options)
+        if options.command == "demonstrate":
+            demonstrateCommand(options)
         if options.command == "check":
             return _check(options.files, options.strict)
     except KeyboardInterrupt:

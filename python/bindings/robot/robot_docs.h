@@ -199,8 +199,8 @@ Raises:
 inline constexpr char getWorld[] = R"(Returns a copy of the simulated world in its present state.
 
 Returns:
-    A Config. For a robot without a simulated world: the scene of the constructor and the frames of later syncs, with the
-    robot's q and the openings of its grippers.)";
+    A Config. For a robot without a simulated world: the scene of the constructor and the frames of later syncs, with
+    the robot's q and the openings of its grippers.)";
 
 inline constexpr char wait[] = R"(Syncs until an event occurs.
 

@@ -141,7 +141,9 @@ def _filmFaults(root: Path, info: Any, episodes: Any, key: str) -> list[str]:
         )
         begin, end = row[f"videos/{key}/from_timestamp"], row[f"videos/{key}/to_timestamp"]
         if abs(begin - ends.get(path, 0.0)) > 1e-9 or abs((end - begin) * info["fps"] - row["length"]) > 1e-6:
-            faults.append(f"episode {row['episode_index']} has {row['length']} frames and {key} from {begin} to {end} s")
+            faults.append(
+                f"episode {row['episode_index']} has {row['length']} frames and {key} from {begin} to {end} s"
+            )
         ends[path] = end
     for path, end in ends.items():
         try:

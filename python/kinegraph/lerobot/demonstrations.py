@@ -131,9 +131,9 @@ def demonstrate(
     """Makes a data set of LeRobot: plans a task in random variations of a scene, and executes the plans in simulation.
 
     Each attempt varies the scene, plans (planTask), executes (TaskPlan.execute), and films. The simulation decides
-    whether the goal is reached. A state has the joint values and the openings of hands; an action has the command of the
-    next frame. The same seed gives the same bytes for every engine and number of workers. A call with the same arguments
-    continues a data set that is not finished.
+    whether the goal is reached. A state has the joint values and the openings of hands; an action has the command of
+    the next frame. The same seed gives the same bytes for every engine and number of workers. A call with the same
+    arguments continues a data set that is not finished.
 
     Args:
         scene: A scene, or a function of a random generator that makes one. Objects need a mass.
@@ -146,8 +146,8 @@ def demonstrate(
         seed: Seed of all random numbers.
         engine: "threads", "processes" or "ray", as for map.
         workers: Number of workers, as for map.
-        keep: "success": episodes that reach the goal, also after repairs; "clean": only without repairs; "all": failures,
-            too. Attempts without a plan have no frames and are left out.
+        keep: "success": episodes that reach the goal, also after repairs; "clean": only without repairs; "all":
+            failures, too. Attempts without a plan have no frames and are left out.
         randomize: Called with the scene, a random generator and the cameras; Randomization() by default. `lambda *_:
             None` varies nothing.
         task: The task as a sentence; by default the goal's words.

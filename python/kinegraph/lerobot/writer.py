@@ -38,10 +38,10 @@ Names = Sequence[str]
 class LeRobotWriter:
     """Writes episodes as a data set of LeRobot, format v3.0.
 
-    Each writer makes one shard: one Parquet file and one film per camera. `close` finishes it and describes all finished
-    shards of the folder by `mergeShards`. Several writers, on several machines, write into one folder if their shards
-    have different numbers. A shard that was not closed, as after a crash, is not part of the data set, and a new writer
-    of its number replaces it.
+    Each writer makes one shard: one Parquet file and one film per camera. `close` finishes it and describes all
+    finished shards of the folder by `mergeShards`. Several writers, on several machines, write into one folder if their
+    shards have different numbers. A shard that was not closed, as after a crash, is not part of the data
+    set, and a new writer of its number replaces it.
     """
 
     def __init__(
@@ -63,7 +63,7 @@ class LeRobotWriter:
             fps: Frames per second.
             state: Names of the entries of `observation.state`.
             action: Names of the entries of `action`; by default those of the state.
-            cameras: Height and width (pixels, even) of the images of each camera, which become `observation.images.NAME`.
+            cameras: Height and width (pixels, even) of the images of each camera, `observation.images.NAME`.
             robot_type: Name of the robot.
             codec: Codec of films, "h264" or "av1".
             shard: Number of the shard.
@@ -327,9 +327,7 @@ def _writeFrames(root: Path, shard: int, header: Any, frame: int, episode: int, 
 
 def _episode(row: Any, shard: int, frame: int, episode: int, number: Mapping[str, int]) -> dict[str, Any]:
     """Returns the description of an episode, with its numbers in the data set."""
-    statistics = {
-        name: {k: np.array(v) for k, v in part.items()} for name, part in row["stats"].items()
-    }
+    statistics = {name: {k: np.array(v) for k, v in part.items()} for name, part in row["stats"].items()}
     count = row["length"]
     for name, values in {
         "episode_index": np.full(count, episode),

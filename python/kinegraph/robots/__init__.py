@@ -4,7 +4,7 @@ The drivers are tested against stand-ins for the vendors' packages, and *not* on
 hand. They import the vendors' packages when they connect.
 """
 
-from .franka import FrankaDriver
+from .panda import PandaDriver
 from .ur import UrDriver
 
-__all__ = ["FrankaDriver", "UrDriver"]
+__all__ = ["PandaDriver", "UrDriver"]

@@ -147,7 +147,7 @@ void MjcfMotors::add(const FrameData& frame, int dof, const std::string& joint, 
 
 void MjcfMotors::addHand(const FrameData& frame, const std::string& joint, double value) {
   const FrameData& source = dofSource(frame);
-  wraps_.push_back({&source, joint, motionScale(frame) / motionScale(source)});
+  wraps_.push_back({&source, joint, std::abs(motionScale(frame) / motionScale(source))});  // the axis has the sign
   if (&frame != &source) return;
   hands_.push_back(&source);
   controls_.push_back(value);

@@ -59,8 +59,8 @@ class MjcfMotors {
   std::vector<double> controls_;
 };
 
-/// Returns a copy of a scene in which each frame that a simulation lets fall, one with a mass on a joint of type rigid
-/// that carries no other joint, has a free joint in the world.
+/// Returns a copy of a scene in which objects have free joints in the world: the frames with a mass and a joint of type
+/// rigid that carry no other joint. A simulation lets them fall.
 Config withFreeObjects(const Config& config);
 
 /// Returns the joints of hands (inactive, with one dof, and followed by others) and their followers.

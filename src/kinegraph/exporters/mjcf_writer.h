@@ -35,7 +35,7 @@ struct MjcfOptions {
 /// Moving bodies without mass get 1 g. MuJoCo's q equals the scene's by joint name; with a joint_scale it is |scale|
 /// * q.
 /// The current q is the keyframe `now`. Joints outside of q and their mimics are fixed at their current values.
-/// With `motors`, an actuator has the name of its joint. Its `ctrl` is the reference of q + v kv / kp, with the velocity
+/// With `motors`, an actuator has the name of its joint. Its `ctrl` is the reference q + v kv / kp, with the velocity
 /// v of the reference; that of a hand is the position of its joint. The keyframe holds the present q.
 /// Non-colliding pairs of bodies are <exclude>. Content without an MJCF equivalent is omitted and listed in
 /// `warnings`.

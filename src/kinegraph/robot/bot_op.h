@@ -147,13 +147,12 @@ class BotOp {
   /// since the last call, or 0; in real time a key ends the wait.
   int sync(Config& C, double wait_time = .1, const std::string& message = {});
 
-  /// Calls `function` with the control time (s) now and every `period` s of control time, from the calls that wait
-  /// (`sync`, `wait`, `home`, `stop`, repeated queries, the execution of plans), in the thread of the caller. The first
-  /// call comes with the next wait. It ends when the function returns false, or with an exception, which also holds the
-  /// robot and is passed on. The state does not change during a call: queries do not advance the clock, and waiting is
-  /// refused; motions, `hold` and grippers may be commanded. Calls come at control periods: at the first one that is
-  /// not before k * period. In real time a late call is skipped, not repeated. `period` = 0: every control period.
-  /// Throws ValueError.
+  /// Calls `function` with the control time (s) now and every `period` s of control time. The calls come from those
+  /// that wait (`sync`, `wait`, `home`, `stop`, repeated queries, the execution of plans), in their thread. The first
+  /// one comes with the next wait. It ends when the function returns false, or with an exception, which also holds the
+  /// robot and is passed on. The state does not change during a call: queries do not advance the clock, and waiting
+  /// is refused; motions, `hold` and grippers may be commanded. A call comes at the first control period that is not
+  /// before its time. In real time a late call is skipped. `period` = 0: every control period. Throws ValueError.
   void watch(double period, std::function<bool(double)> function);
 
   /// Syncs until a key is pressed, the motion ends, or all grippers are done, as selected. Returns the key, 'g' for

@@ -122,7 +122,10 @@ def test_episodes_that_do_not_fit_are_refused(tmp_path: Path, change: dict, mess
 @pytest.mark.parametrize(
     "damage, message",
     [
-        (lambda root: (root / "videos/observation.images.top/chunk-000/file-000.mp4").write_bytes(b"x"), "cannot be read"),
+        (
+            lambda root: (root / "videos/observation.images.top/chunk-000/file-000.mp4").write_bytes(b"x"),
+            "cannot be read",
+        ),
         (lambda root: (root / "data/chunk-000/file-000.parquet").unlink(), "is missing"),
         (lambda root: replaced(root, '"total_frames": 11', '"total_frames": 12'), "total_frames is 12"),
         (lambda root: replaced(root, '"v3.0"', '"v2.1"'), "codebase_version is v2.1"),
@@ -143,7 +146,11 @@ def replaced(root: Path, old: str, new: str) -> None:
 def scene() -> ry.Config:
     C = ry.Config()
     C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
-    box = C.addFrame("box", "table").setRelativePosition([0.2, 0.25, 0.09]).setShape(ry.ST.ssBox, [0.04, 0.05, 0.08, 0.004])
+    box = (
+        C.addFrame("box", "table")
+        .setRelativePosition([0.2, 0.25, 0.09])
+        .setShape(ry.ST.ssBox, [0.04, 0.05, 0.08, 0.004])
+    )
     box.setContact(1).setJoint(ry.JT.rigid).setMass(0.1)
     tray = C.addFrame("tray", "table").setRelativePosition([-0.25, 0.25, 0.055])
     tray.setShape(ry.ST.ssBox, [0.14, 0.14, 0.01, 0.004]).setContact(1)

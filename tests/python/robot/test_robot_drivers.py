@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import kinegraph as ry
-from kinegraph.robots import FrankaDriver, UrDriver
+from kinegraph.robots import PandaDriver, UrDriver
 
 
 def ur_scene() -> ry.Config:
@@ -233,7 +233,7 @@ def panda() -> ry.Config:
 
 
 def test_a_franka_follows_and_reports_its_torques(franka: FrankaStandIn, panda: ry.Config) -> None:
-    bot = ry.BotOp(panda, driver=FrankaDriver(panda, "franka"))
+    bot = ry.BotOp(panda, driver=PandaDriver(panda, "franka"))
     assert franka.calls == ["connect franka", "hand franka", "start"]
     q = bot.get_q() + 0.2 * np.eye(7)[0]
     bot.moveTo(q)
@@ -254,7 +254,7 @@ def test_a_franka_follows_and_reports_its_torques(franka: FrankaStandIn, panda: 
 
 
 def test_a_franka_s_hand_moves_while_the_arm_does(franka: FrankaStandIn, panda: ry.Config) -> None:
-    bot = ry.BotOp(panda, driver=FrankaDriver(panda, "franka"))
+    bot = ry.BotOp(panda, driver=PandaDriver(panda, "franka"))
     bot.gripperClose(ry.ArgWord._left, force=30.0)
     bot.sync(panda)
     assert not bot.gripperDone(0) and bot.getGripperPos(0) == pytest.approx(0.08)
@@ -267,7 +267,7 @@ def test_a_franka_s_hand_moves_while_the_arm_does(franka: FrankaStandIn, panda: 
 
 
 def test_a_reflex_of_a_franka_is_reported_and_cleared(franka: FrankaStandIn, panda: ry.Config) -> None:
-    bot = ry.BotOp(panda, driver=FrankaDriver(panda, "franka", hand=False))
+    bot = ry.BotOp(panda, driver=PandaDriver(panda, "franka", hand=False))
     franka.errors = "[cartesian_reflex]"
     with pytest.raises(ry.RobotFault, match="cartesian_reflex"):
         bot.wait(panda)

@@ -151,10 +151,12 @@ def test_real_time_calls_come_from_the_waiting_thread() -> None:
 
 
 def test_a_robot_with_a_function_that_refers_to_it_is_freed() -> None:
-    bot = ry.BotOp(panda())
-    bot.watch(0.1, lambda _: bot.get_q())
-    freed = weakref.ref(bot)
-    del bot
+    def made() -> weakref.ref:
+        bot = ry.BotOp(panda())
+        bot.watch(0.1, lambda _: bot.get_q())
+        return weakref.ref(bot)
+
+    freed = made()
     gc.collect()
     assert freed() is None
 

@@ -1,4 +1,4 @@
-"""Franka's arms with their hand, through panda-python (`pip install kinegraph[franka]`)."""
+"""Franka's Panda with its hand, through panda-python (`pip install kinegraph[panda]`)."""
 
 from __future__ import annotations
 
@@ -70,8 +70,8 @@ class _Hand:
         self._thread.join(timeout=5.0)
 
 
-class FrankaDriver(RobotDriver):
-    """A Panda or FR3 with its hand. Untried on hardware.
+class PandaDriver(RobotDriver):
+    """A Panda with its hand. Untried on hardware. An FR3 has another protocol, which panda-python refuses.
 
     The loop of 1 kHz runs in panda-python's thread; this driver passes it setpoints. Its controller has one stiffness
     per joint, so that setCompliance uses the diagonal of the compliance only.
@@ -177,5 +177,5 @@ class FrankaDriver(RobotDriver):
             RuntimeError: There is no hand.
         """
         if self._hand is None:
-            raise RuntimeError("FrankaDriver: the arm has no hand")
+            raise RuntimeError("PandaDriver: the arm has no hand")
         self._hand.command(command)
