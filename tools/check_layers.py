@@ -96,7 +96,8 @@ DOORS: dict[tuple[str, str], set[str]] = {
     ("planning", "api"): {"MotionPlan::view", "PathFinder::view"},
     ("robot", "api"): {
         *{"BotOp::BotOp", "BotOp::cameras", "BotOp::getCameraFxycxy", "BotOp::getImageAndDepth"},
-        *{"BotOp::getImageDepthPcl"},
+        *{"BotOp::getImageDepthPcl", "BotOp::moveAlong", "BotOp::moveCircular", "BotOp::moveLinear"},
+        *{"BotOp::moveSequence"},
     },
     ("scene", "api"): {"Config::eval", "Config::view", "Config::viewPath", "Config::viewer", "Config::watchFile"},
     ("simulation", "api"): {"Recording::saveHtml", "Simulation::run", "Simulation::view"},

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph {
 namespace {
@@ -47,6 +48,29 @@ TEST(PlanToolPath, FollowsALineAtConstantSpeedWithinTheProvenDeviation) {
     EXPECT_LE(std::abs(p[1] + .2 - plan.way(t).place), 1e-4);
     EXPECT_LE(plan.speed(t), .1 * (1. + 1e-9));
     if (t > .15 && t < plan.duration() - .15) EXPECT_GT(plan.speed(t), .0995);
+  }
+}
+
+/// The elbow of planarArm is at acos((d^2 - .5) / .5) for a wrist at a distance d from the base. On the line x = .6
+/// with a constant rotation, d^2 = .25 + y^2, and the angle has its extreme in the middle.
+TEST(PlanToolPath, JointLimitsHoldBetweenTheKnotsOfTheCurve) {
+  const double extreme = std::acos(-.5);
+  const ToolPath path = ToolPath("tool").start(Pose(Vector3d(.6, -.2, 0.))).line(Vector3d(.6, .2, 0.));
+  for (const double room : {1e-4, -.01}) {
+    Config C = planarArm(cat("Edit j2: { limits: [", -extreme - room, ", ", extreme + room, "] }"));
+    const ToolPathPlan plan = planToolPath(C, {path}, {.speed = .1});
+    if (room < 0.) {
+      EXPECT_EQ(plan.status, ToolPathStatus::no_branch);
+      EXPECT_EQ(plan.joint, "j2");
+      EXPECT_NEAR(plan.where.place, .2 - std::sqrt(.25 + .5 * std::cos(extreme + room)), .01);
+      continue;
+    }
+    ASSERT_TRUE(plan.feasible()) << plan.message;
+    double largest = 0.;
+    for (int k = 0; k <= 20000; ++k)
+      largest = std::max(largest, std::abs(plan.eval(plan.duration() * k / 20000.).q[1]));
+    EXPECT_LE(largest, extreme + room);
+    EXPECT_NEAR(largest, extreme, 1e-4);
   }
 }
 

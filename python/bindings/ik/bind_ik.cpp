@@ -45,53 +45,58 @@ class ProgressBar {
 };
 
 nb::object solve(PyConfig& config, nb::handle targets, const std::optional<IkOptions>& base, int threads, int verbose,
-                 bool apply, nb::kwargs more) {
+                 bool apply, bool all, nb::kwargs more) {
   IkOptions options = base.value_or(IkOptions());
   setFields(options, more);
   IkProblems problems = readIkTargets(config, targets);
   if (apply && problems.is_batch)
     throw ValueError(cat("solveIk: apply needs a single problem; the targets define ", problems.problems.size()));
+  if (all && problems.is_batch)
+    throw ValueError(cat("solveIk: all needs a single problem; the targets define ", problems.problems.size()));
   if (options.collisions) warnOfContacts(config);
   const IkSolver solver(config, problems.problems[0], options);
   ProgressBar bar(problems.problems.size(), verbose);
   IkResults results;
   {
     const nb::gil_scoped_release unlock;
-    results = solver.solve(std::move(problems.problems), threads, std::ref(bar));
+    results = all ? solveIkAll(config, problems.problems[0], options, CheckInterrupts())
+                  : solver.solve(std::move(problems.problems), threads, std::ref(bar));
     bar.finish();
   }
   if (verbose > 0)
-    nb::print(
-        cat("solveIk: ", problems.is_batch ? resultsText(results) : resultText(results[0]), " ", bar.seconds(), " s")
-            .c_str());
+    nb::print(cat("solveIk: ", problems.is_batch || all ? resultsText(results) : resultText(results[0]), " ",
+                  bar.seconds(), " s")
+                  .c_str());
   if (!results.empty())  // they do not depend on the numbers of the targets
     for (const std::string& warning : results[0].warnings) emitWarning(cat("solveIk: ", inPython(warning)));
-  if (problems.is_batch) return nb::cast(std::move(results));
   if (apply && results[0].feasible()) config.setJointState(results[0].q);
+  if (problems.is_batch || all) return nb::cast(std::move(results));
   return nb::cast(std::move(results[0]));
 }
 
 /// Returns a signature of `solveIk` for type checkers: targets with these types of keys and values, and `apply`, give a
 /// `result`.
 std::string signature(const std::string& frame, const std::string& target, const std::string& apply,
-                      const std::string& result) {
+                      const std::string& all, const std::string& result) {
   return cat("def solveIk(config: Config, targets: collections.abc.Mapping[", frame, ", ", target,
              "], options: IkOptions | None = None, *, threads: int = 1, verbose: int = 0, apply: ", apply,
-             ", **fields: float) -> ", result);
+             ", all: ", all, ", **fields: float) -> ", result);
 }
 
 /// Binds one function with several signatures: only arrays with several rows make a batch, which rejects `apply`.
 void bindSolveIk(nb::module_& m) {
   const auto bind = [&](const std::string& text, const auto&... doc) {
     m.def("solveIk", solve, "config"_a, "targets"_a, "options"_a = nb::none(), nb::kw_only(), "threads"_a = 1,
-          "verbose"_a = 0, "apply"_a = false, "fields"_a, nb::sig(text.c_str()), doc...);
+          "verbose"_a = 0, "apply"_a = false, "all"_a = false, "fields"_a, nb::sig(text.c_str()), doc...);
   };
   const std::string numbers = "collections.abc.Sequence[float]", place = cat("str | Frame | ", numbers);
   const std::string target = cat(place, " | collections.abc.Mapping[str, ", place, "]");
-  bind(signature("str", target, "bool = False", "IkResult"), docs::ik::solveIk);
-  bind(signature("Frame", target, "bool = False", "IkResult"));
-  bind(signature("typing.Any", "typing.Any", "typing.Literal[True]", "IkResult"));
-  bind(signature("typing.Any", "typing.Any", "bool = False", "IkResult | IkResults"));
+  const std::string no = "typing.Literal[False] = False", yes = "typing.Literal[True]", either = "bool = False";
+  bind(signature("str", target, either, no, "IkResult"), docs::ik::solveIk);
+  bind(signature("Frame", target, either, no, "IkResult"));
+  bind(signature("typing.Any", "typing.Any", yes, no, "IkResult"));
+  bind(signature("typing.Any", "typing.Any", either, yes, "IkResults"));
+  bind(signature("typing.Any", "typing.Any", either, either, "IkResult | IkResults"));
 }
 
 }  // namespace

@@ -21,13 +21,18 @@ Args:
     options: IkOptions, or None for the defaults.
     threads: Number of threads for the problems of a batch.
     verbose: 1 prints a line at the end, and a progress bar during long searches.
-    apply: Sets the scene's q to the solution, if there is one.
+    apply: Sets the scene's q to the solution, if there is one; with `all`, to the first.
+    all: Finds all solutions, the nearest to the present q first. Those that differ by whole turns count once. The pose
+        of a frame that six hinges move has a closed form if the arm has a spherical wrist, or parallel axes as UR arms
+        have. With seven hinges, one of them steps over its range in 32 steps. Other targets have the solutions found
+        from `attempts` starting points. The general method checks each one.
     fields: Any field of IkOptions by name, such as best=True, collisions=False, margin=.02, attempts=20; tolerance
         sets position_tolerance (m) and rotation_tolerance (rad).
 Returns:
-    IkResult, or IkResults for N problems. Without a solution result.feasible is False, and result.message names the
-    missed targets with their errors, the active limits, and the colliding pairs. Pairs that no joint of a target
-    separates and that overlap by max_start_penetration (5 mm) at most are a warning.
+    IkResult, or IkResults for N problems and with `all`: one per solution, or one that says why there is none. Without
+    a solution result.feasible is False, and result.message names the missed targets with their errors, the active
+    limits, and the colliding pairs. Pairs that no joint of a target separates and that overlap by max_start_penetration (5 mm)
+    at most are a warning.
 Raises:
     FrameNotFound: A frame is not in the scene.
     ArgumentError: A target has a wrong shape, no active joint moves it, it is the pose of a frame that the targets

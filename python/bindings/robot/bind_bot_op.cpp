@@ -418,6 +418,7 @@ void bindRobot(nb::module_& m) {
           "realtime"_a = false, "strict"_a = true, docs::robot::BotOp_make);
   bindState(bot);
   bindMotions(bot);
+  bindToolMoves(bot);
   bindTime(bot);
   bindGrippers(bot);
   bindWorld(bot);

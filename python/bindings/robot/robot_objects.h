@@ -44,5 +44,6 @@ class PyBotOp {
 };
 
 void bindRobotDriver(nb::module_& m);
+void bindToolMoves(nb::class_<PyBotOp>& bot);
 
 }  // namespace kinegraph::python

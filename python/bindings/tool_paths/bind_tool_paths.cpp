@@ -10,8 +10,17 @@
 #include "kinegraph/tool_paths/plan_tool_path.h"
 #include "python_names.h"
 #include "tool_paths/tool_path_docs.h"
+#include "tool_paths/tool_waypoint.h"
 
 namespace kinegraph::python {
+
+ToolWaypoint waypointOf(const char* call, const VectorXd& numbers) {
+  if (numbers.size() != 3 && numbers.size() != 7)
+    throw ValueError(
+        cat(call, ": the pose has ", numbers.size(), " numbers; expected 7 (x y z qw qx qy qz) or a position (3)"));
+  if (numbers.size() == 3) return Vector3d(numbers);
+  return Pose::fromNumbers(numbers);
+}
 
 namespace {
 
@@ -25,11 +34,7 @@ Vector3d vector3(const char* call, const char* name, const Numbers& numbers) {
 }
 
 ToolWaypoint waypoint(const char* call, const VectorXd& numbers) {
-  if (numbers.size() != 3 && numbers.size() != 7)
-    throw ValueError(cat("ToolPath.", call, ": the pose has ", numbers.size(),
-                         " numbers; expected 7 (x y z qw qx qy qz) or a position (3)"));
-  if (numbers.size() == 3) return Vector3d(numbers);
-  return Pose::fromNumbers(numbers);
+  return waypointOf(cat("ToolPath.", call).c_str(), numbers);
 }
 
 MatrixXd rows(const char* call, const Numbers& numbers) {
@@ -135,7 +140,7 @@ nb::typed<nb::list, nb::tuple> slow(const ToolPathPlan& plan) {
   return list;
 }
 
-nb::tuple planState(const ToolPathPlan& p) {
+nb::tuple toolPlanState(const ToolPathPlan& p) {
   nb::list parts;
   for (const ToolPathPlan::Part& part : p.parts())
     parts.append(nb::make_tuple(part.begin, part.path, part.offset, part.is_transfer, part.timed));
@@ -146,7 +151,7 @@ nb::tuple planState(const ToolPathPlan& p) {
                         p.dimension());
 }
 
-void setPlanState(ToolPathPlan& plan, const nb::tuple& t) {
+void setToolPlanState(ToolPathPlan& plan, const nb::tuple& t) {
   ToolPathPlan p;
   p.status = ToolPathStatus(nb::cast<int>(t[0]));
   p.message = nb::cast<std::string>(t[1]);
@@ -214,8 +219,8 @@ void bindToolPathPlan(nb::module_& m) {
           },
           "t"_a, doc::way)
       .def("speed", &ToolPathPlan::speed, "t"_a, doc::speed)
-      .def("__getstate__", planState)
-      .def("__setstate__", setPlanState)
+      .def("__getstate__", toolPlanState)
+      .def("__setstate__", setToolPlanState)
       .def("__repr__", [](const ToolPathPlan& p) { return cat("<ToolPathPlan ", inPython(p.str()), ">"); });
 }
 

@@ -66,6 +66,19 @@ std::vector<IkResult> solveIkBatch(const Config& config, const std::vector<std::
                                    const IkOptions& options = {}, int threads = 1,
                                    const ProgressCallback& progress = {}, const CancellationToken& cancellation = {});
 
+/// Finds all solutions, the nearest to the Config's q first. Solutions that differ by whole turns of hinges count once,
+/// with the turns that are the nearest to q.
+///
+/// The pose of a frame that six hinges move has solutions in closed form if the arm has a spherical wrist or shoulder,
+/// or three parallel axes as UR arms have (closed_form.h). If six of seven hinges are such an arm, the other one steps
+/// over its range in 32 steps: these are samples of curves of solutions. Other targets have the solutions that the
+/// method of solveIk finds from `options.attempts` starting points, and perhaps more. That method checks and polishes
+/// each solution: it is within limits and tolerances, and collision-free if `options.collisions`.
+///
+/// Without a solution, the only result is that of solveIk, with its message. Throws as solveIk does.
+std::vector<IkResult> solveIkAll(const Config& config, const std::vector<IkTarget>& targets,
+                                 const IkOptions& options = {}, const CancellationToken& cancellation = {});
+
 struct IkProblem;
 
 /// solveIk in two stages: the constructor computes everything that does not depend on the numbers of the targets,

@@ -17,6 +17,10 @@ namespace kinegraph {
 struct CameraImage;
 class BotCameras;
 class BotOp;
+class ToolPath;
+class ToolPathPlan;
+struct ToolPathOptions;
+struct ToolWaypoint;
 
 /// Settings of a BotOp.
 struct BotOpOptions {
@@ -117,6 +121,27 @@ class BotOp {
   /// Throws ValueError if the robot or its reference is not at the trajectory's start, within the tolerances, and if
   /// the trajectory exceeds a limit of position, velocity, acceleration or effort.
   void follow(const Trajectory& trajectory, const FollowOptions& options = {});
+
+  /// Moves a frame, the tool, straight to a pose in the world, or to a position with its present rotation: planToolPath
+  /// from the end of the present motion, then follow. With `overwrite`, the robot brakes first, and the line begins
+  /// where it comes to rest.
+  ///
+  /// Limits of the robot count in addition to those of `options`, whose `start` and `transfer_from` are those of the
+  /// robot. Without a motion, the robot gets no command beyond the braking, and the plan has status, place and message.
+  /// Throws as planToolPath and follow do, and RobotFault if the robot was stopped.
+  ToolPathPlan moveLinear(const std::string& frame, const ToolWaypoint& target, const ToolPathOptions& options,
+                          bool overwrite = false);
+
+  /// The same along a circular arc through `via` (m) to a pose.
+  ToolPathPlan moveCircular(const std::string& frame, const Vector3d& via, const ToolWaypoint& target,
+                            const ToolPathOptions& options, bool overwrite = false);
+
+  /// The same along straight lines through several poses, with corners blended within a radius (m); 0 stops there.
+  ToolPathPlan moveSequence(const std::string& frame, const std::vector<ToolWaypoint>& targets, double blend,
+                            const ToolPathOptions& options, bool overwrite = false);
+
+  /// The same along any path. If it has a start of its own, a collision-free motion leads there first.
+  ToolPathPlan moveSequence(const ToolPath& path, const ToolPathOptions& options, bool overwrite = false);
 
   void hold();                         ///< stops at once, and stays there, at full stiffness
   void floating(double damping = 0.);  ///< sets the stiffness to zero; damping is a share of the robot's, 0 .. 1
@@ -258,6 +283,7 @@ class BotOp {
   void start(const char* call, const Trajectory& trajectory, const FollowOptions& options, double begin);
   void requireStart(const char* call, const Trajectory& trajectory, const FollowOptions& options, double begin) const;
   double nextStart() const;
+  ToolPathPlan moveAlong(const char* call, const ToolPath& path, ToolPathOptions options, bool overwrite);
   void holdNow();
   void holdIfBlocked();
   double trackingError() const;

@@ -1,6 +1,7 @@
 #include "kinegraph/tool_paths/cubic_pieces.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace kinegraph {
 
@@ -38,6 +39,26 @@ MatrixXd secondDerivatives(const std::vector<double>& s, const MatrixXd& y) {
 int CubicPieces::pieceAt(double s) const {
   const auto after = std::upper_bound(begin.begin(), begin.end(), s);
   return std::max(0, int(after - begin.begin()) - 1);
+}
+
+CubicPieces::Range CubicPieces::range(int piece) const {
+  const double from = begin[std::size_t(piece)], h = end(piece) - from;
+  const MatrixXd& c = coefficient[std::size_t(piece)];
+  const VectorXd last = eval(piece, end(piece));
+  Range range{c.col(0).cwiseMin(last), c.col(0).cwiseMax(last)};
+  for (Eigen::Index row = 0; row < c.rows(); ++row) {
+    // Zeros of the derivative d + 2 b x + 3 a x^2, without cancellation.
+    const double d = c(row, 1), b = c(row, 2), a = 3. * c(row, 3), square = b * b - a * d;
+    if (square < 0.) continue;
+    const double sum = -b - std::copysign(std::sqrt(square), b);
+    for (const double x : {sum / a, d / sum}) {
+      if (!(x > 0. && x < h)) continue;
+      const double y = c(row, 0) + x * (c(row, 1) + x * (c(row, 2) + x * c(row, 3)));
+      range.least[row] = std::min(range.least[row], y);
+      range.largest[row] = std::max(range.largest[row], y);
+    }
+  }
+  return range;
 }
 
 VectorXd CubicPieces::eval(int piece, double s, int order) const {

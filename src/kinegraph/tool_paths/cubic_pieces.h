@@ -24,6 +24,12 @@ struct CubicPieces {
   VectorXd eval(int piece, double s, int order = 0) const;
   VectorXd eval(double s, int order = 0) const { return eval(pieceAt(s), s, order); }
 
+  /// The least and the largest value of each row of y on a piece.
+  struct Range {
+    VectorXd least, largest;  ///< (d,)
+  };
+  Range range(int piece) const;
+
   /// Appends a smooth section: the cubic spline with continuous second derivatives and not-a-knot ends through the
   /// columns of y (d, K) at s (K,). Three columns give a parabola, two a line. `corner`: one is at its start.
   void addSpline(const std::vector<double>& s, const MatrixXd& y, bool corner);

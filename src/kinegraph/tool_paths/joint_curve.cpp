@@ -12,11 +12,11 @@ namespace kinegraph {
 namespace {
 
 constexpr int kMaxRefineRounds = 16;
+constexpr int kMaxLimitRounds = 8;  // a spline that leaves the limits of joints gets more knots there
 constexpr int kMaxKnots = 40000;
 constexpr double kLargestNodeProduct = .003547;  // of (u)(u - 1/4)(u - 1/2)(u - 3/4)(u - 1) on [0, 1]
 constexpr double kConeShare = .93;
 constexpr int kProjectionSteps = 8;
-constexpr int kLimitParts = 4;  // of a piece, between which joint limits are checked
 
 using Columns = Eigen::Matrix<double, 9, 5>;
 
@@ -96,6 +96,15 @@ class DeviationProof {
   const ToolCurve& curve_;
 };
 
+/// A dof that leaves its limits by more than kLimitTolerance somewhere on a piece, or -1.
+int dofBeyondLimits(const KinematicModel& model, const CubicPieces& pieces, int piece) {
+  const CubicPieces::Range range = pieces.range(piece);
+  for (int j = 0; j < model.dofs; ++j)
+    if (range.largest[j] > model.upper[j] + kLimitTolerance || range.least[j] < model.lower[j] - kLimitTolerance)
+      return j;
+  return -1;
+}
+
 /// The spline through knots, split at corners.
 CubicPieces splineBetweenCorners(const std::vector<double>& s, const std::vector<VectorXd>& q,
                                  const std::vector<double>& corners) {
@@ -147,7 +156,10 @@ JointCurve jointCurveAlong(ToolKinematics& tool, const ToolCurve& curve, std::ve
       result.position_deviation = std::max(result.position_deviation, bound.position);
       result.rotation_deviation = std::max(result.rotation_deviation, bound.rotation);
       const double cone_excess = tool.cone() > 0. ? 1e-12 : rotation;
-      if (bound.position <= position && bound.rotation <= cone_excess) continue;
+      const int beyond = dofBeyondLimits(tool.model(), result.pieces, piece);
+      if (beyond >= 0 && round >= kMaxLimitRounds)
+        return fails(result.pieces.begin[std::size_t(piece)], beyond, "a joint leaves its limits");
+      if (bound.position <= position && bound.rotation <= cone_excess && beyond < 0) continue;
       const double middle = .5 * (result.pieces.begin[std::size_t(piece)] + result.pieces.end(piece));
       VectorXd there = result.pieces.eval(piece, middle);
       const double share = bound.rotation > cone_excess && tool.cone() > 0. ? kConeShare * .97 : kConeShare;
@@ -192,16 +204,6 @@ JointCurve jointCurveAlong(ToolKinematics& tool, const ToolCurve& curve, std::ve
   }
   result.position_deviation += curve.fitError();
   result.rotation_deviation += curve.fitError() / ToolCurve::kOnTheSpot;
-  const KinematicModel& model = tool.model();
-  for (int piece = 0; piece < result.pieces.pieces(); ++piece) {
-    const double begin = result.pieces.begin[std::size_t(piece)], h = result.pieces.end(piece) - begin;
-    for (int part = 0; part <= kLimitParts; ++part) {
-      const VectorXd at = result.pieces.eval(piece, begin + h * part / kLimitParts);
-      for (int j = 0; j < tool.dofs(); ++j)
-        if (at[j] > model.upper[j] + kLimitTolerance || at[j] < model.lower[j] - kLimitTolerance)
-          return fails(begin, j, "a joint leaves its limits");
-    }
-  }
   return result;
 }
 

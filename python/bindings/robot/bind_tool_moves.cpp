@@ -1,0 +1,86 @@
+#include <nanobind/stl/optional.h>
+#include <nanobind/stl/string.h>
+#include <nanobind/stl/vector.h>
+
+#include "arguments.h"
+#include "bindings.h"
+#include "kinegraph/tool_paths/plan_tool_path.h"
+#include "python_names.h"
+#include "robot/robot_objects.h"
+#include "robot/tool_moves_docs.h"
+#include "tool_paths/tool_waypoint.h"
+
+namespace kinegraph::python {
+
+namespace {
+
+using MaybeLimit = std::optional<Numbers>;
+
+/// Binds a method that moves a tool: arguments of its own, `names`, and then those that all of them have. `move` is
+/// called without the interpreter lock.
+template <class... Own, class Move, class... Names>
+void bindToolMove(nb::class_<PyBotOp>& bot, const char* name, const char* doc, Move move, const Names&... names) {
+  bot.def(
+      name,
+      [name, move](PyBotOp& self, Own... own, double speed, double tolerance, double rotation_tolerance, double margin,
+                   const std::vector<std::string>& touching, const MaybeLimit& velocity, const MaybeLimit& acceleration,
+                   const MaybeLimit& jerk, double tool_acceleration, double tool_jerk,
+                   const std::optional<double>& time_limit, bool overwrite) {
+        ToolPathOptions options;
+        options.speed = speed, options.tool_acceleration = tool_acceleration, options.tool_jerk = tool_jerk;
+        options.tolerance = tolerance, options.rotation_tolerance = rotation_tolerance;
+        options.margin = margin, options.touching = touching;
+        if (velocity) options.velocity = velocity->values;
+        if (acceleration) options.acceleration = acceleration->values;
+        if (jerk) options.jerk = jerk->values;
+        if (time_limit) options.time_limit = *time_limit;
+        const ToolPathPlan plan = [&] {
+          const nb::gil_scoped_release unlock;
+          return move(*self, own..., options, overwrite);
+        }();
+        if (!plan.feasible()) emitWarning(cat(name, ": there is no motion: ", inPython(plan.message)));
+        return plan;
+      },
+      names..., "speed"_a = ToolPathOptions().speed, nb::kw_only(), "tolerance"_a = ToolPathOptions().tolerance,
+      "rotation_tolerance"_a = ToolPathOptions().rotation_tolerance, "margin"_a = 0.,
+      "touching"_a = std::vector<std::string>(), "velocity"_a = nb::none(), "acceleration"_a = nb::none(),
+      "jerk"_a = nb::none(), "tool_acceleration"_a = ToolPathOptions().tool_acceleration,
+      "tool_jerk"_a = ToolPathOptions().tool_jerk, "time_limit"_a = nb::none(), "overwrite"_a = false, doc);
+}
+
+}  // namespace
+
+void bindToolMoves(nb::class_<PyBotOp>& bot) {
+  using Name = const std::string&;
+  using Pose = const Numbers&;
+  bindToolMove<Name, Pose>(
+      bot, "moveLinear", docs::robot::moveLinear,
+      [](BotOp& b, Name frame, Pose target, const ToolPathOptions& options, bool overwrite) {
+        return b.moveLinear(frame, waypointOf("moveLinear", target.values), options, overwrite);
+      },
+      "frame"_a, "target"_a);
+  bindToolMove<Name, Pose, Pose>(
+      bot, "moveCircular", docs::robot::moveCircular,
+      [](BotOp& b, Name frame, Pose via, Pose target, const ToolPathOptions& options, bool overwrite) {
+        return b.moveCircular(frame, waypointOf("moveCircular", via.values).p,
+                              waypointOf("moveCircular", target.values), options, overwrite);
+      },
+      "frame"_a, "via"_a, "target"_a);
+  bindToolMove<Name, const std::vector<Numbers>&, double>(
+      bot, "moveSequence", docs::robot::moveSequence,
+      [](BotOp& b, Name frame, const std::vector<Numbers>& targets, double blend, const ToolPathOptions& options,
+         bool overwrite) {
+        std::vector<ToolWaypoint> waypoints;
+        for (const Numbers& target : targets) waypoints.push_back(waypointOf("moveSequence", target.values));
+        return b.moveSequence(frame, waypoints, blend, options, overwrite);
+      },
+      "frame"_a, "targets"_a, "blend"_a = 0.);
+  bindToolMove<const ToolPath&>(
+      bot, "moveSequence", docs::robot::moveSequencePath,
+      [](BotOp& b, const ToolPath& path, const ToolPathOptions& options, bool overwrite) {
+        return b.moveSequence(path, options, overwrite);
+      },
+      "path"_a);
+}
+
+}  // namespace kinegraph::python
