@@ -114,3 +114,19 @@ def test_all_slices_of_a_motion(config: kg.Config, browser: Browser, tmp_path: P
     browser.evaluate("document.querySelector('#motion').style.visibility = 'hidden'")  # fonts differ
     browser.wait_for("!kinegraph.playing() && kinegraph.slice() === 8")
     check(browser.picture(), "slices", tmp_path)
+
+
+TRIANGLE = "v -0.5 0 0\nv 0.5 0 0\nv 0 0 1\nf 1 2 3\n"
+
+
+def test_a_mesh_without_material_has_the_color_of_its_frame_on_the_page_and_in_pictures(
+    config: kg.Config, browser: Browser, tmp_path: Path
+) -> None:
+    file = tmp_path / "triangle.obj"
+    file.write_text(TRIANGLE)
+    config.addFrame("sign").setMeshFile(str(file)).setColor([0.9, 0.1, 0.1])
+    show(config, browser, [0, -3, 0.4], [0, 0, 0.4])
+    x, y = browser.pixel([0, 0, 0.3])
+    for picture, place in ((browser.picture(), (int(y), int(x))), (config.viewer().getRgb(), None)):
+        red, green, blue = (int(c) for c in picture[place or (len(picture) // 2, picture.shape[1] // 2)])
+        assert red > 2.5 * green and red > 2.5 * blue, (red, green, blue)

@@ -1,11 +1,16 @@
-type Field = ["int", number] | ["number", number] | ["number[]", number[]];
+type Field = ["int", number] | ["number", number] | ["number[]", number[]] | ["string", string];
 
-/** Encodes a command for the server: int32, float64, and arrays as length and float64s. */
+const utf8 = new TextEncoder();
+
+function sizeOf([kind, value]: Field): number {
+  if (kind === "int") return 4;
+  if (kind === "number") return 8;
+  return 4 + (kind === "string" ? utf8.encode(value).length : 8 * value.length);
+}
+
+/** Encodes a command for the server: int32, float64, arrays as length and float64s, texts as length and UTF-8. */
 export function writeCommand(...fields: Field[]): Uint8Array<ArrayBuffer> {
-  const size = fields.reduce(
-    (sum, [kind, value]) => sum + (kind === "int" ? 4 : kind === "number" ? 8 : 4 + 8 * value.length),
-    0,
-  );
+  const size = fields.reduce((sum, field) => sum + sizeOf(field), 0);
   const view = new DataView(new ArrayBuffer(size));
   let at = 0;
   const int = (value: number): void => view.setInt32((at += 4) - 4, value, true);
@@ -13,7 +18,12 @@ export function writeCommand(...fields: Field[]): Uint8Array<ArrayBuffer> {
   for (const [kind, value] of fields) {
     if (kind === "int") int(value);
     else if (kind === "number") double(value);
-    else {
+    else if (kind === "string") {
+      const bytes = utf8.encode(value);
+      int(bytes.length);
+      new Uint8Array(view.buffer).set(bytes, at);
+      at += bytes.length;
+    } else {
       int(value.length);
       value.forEach(double);
     }

@@ -13,7 +13,7 @@ const KEYS: [string, string][] = [
   ["Alt 1 … Alt 4", "view from the front, the side, above, aslant"],
   ["Alt ← → ↑ ↓", "rotate"],
   ["Alt Page up, down", "nearer, farther"],
-  ["Alt T, J, O", "frames, joints, view"],
+  ["Alt U, T, J, O", "program, frames, joints, view"],
   ["Alt P", "save a picture"],
   ["Alt R", "measure"],
   ["Alt G, Alt B", "move, rotate the selected frame"],

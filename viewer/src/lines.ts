@@ -10,7 +10,7 @@ color.
  * */
 export class WideLines extends LineSegments2 {
   /** `points`: positions, and colors if they have own ones. */
-  constructor(points: THREE.BufferGeometry, color: THREE.Color, opacity: number) {
+  constructor(points: THREE.BufferGeometry, color: THREE.Color, opacity: number, width = WIDTH) {
     const position = points.getAttribute("position"), own = points.getAttribute("color");
     const geometry = new LineSegmentsGeometry().setPositions(position.array as Float32Array);
     if (own) geometry.setColors(own.array as Float32Array);
@@ -19,7 +19,7 @@ export class WideLines extends LineSegments2 {
       new LineMaterial({
         color: own ? 0xffffff : color,
         vertexColors: own !== undefined,
-        linewidth: WIDTH,
+        linewidth: width,
         opacity,
         transparent: opacity < 1,
         fog: true,

@@ -1,7 +1,9 @@
 import * as THREE from "three";
+import { Controls } from "./controls";
 import { Connection, type Listener, recordedMessages, replay } from "./connection";
 import { Display, type Option } from "./display";
 import { find, make } from "./element";
+import { Drawings } from "./drawings";
 import { Exports } from "./exports";
 import { Help } from "./help";
 import { JointPanel } from "./joints";
@@ -12,6 +14,7 @@ import { InputEvents } from "./input";
 import { Memory } from "./memory";
 import {
   BinaryKind,
+  clickCommand,
   keyCommand,
   type AppearanceMessage,
   type MotionMessage,
@@ -20,9 +23,11 @@ import {
 } from "./messages";
 import { Motion } from "./motion";
 import { NearLines } from "./near";
+import { Notices } from "./notices";
 import { Warnings } from "./warnings";
 import { requireWebGL } from "./webgl";
 import { Panel } from "./panel";
+import { Plots } from "./plots";
 import { Quads } from "./quads";
 import { Quality } from "./quality";
 import { Run } from "./run";
@@ -57,7 +62,12 @@ const warnings = new Warnings(stage, shown.frames, recorded ? null : send, () =>
   panel.showWarnings(warnings.all, warnings.ignored);
   selection.refresh();
 });
-const panel = new Panel(display, shown.frames, switched, (id) => selection.select(id));
+const controls = new Controls(recorded ? null : send);
+const plots = new Plots();
+const drawings = new Drawings(stage, shown.frames);
+const notices = new Notices();
+let hasPlots = false;
+const panel = new Panel(display, shown.frames, switched, (id) => selection.select(id), () => plots.request());
 stage.onDraw(() => shown.prepare((at) => stage.pixelsPerMeter(at), stage.hurries));
 const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id), (id) => warnings.about(id));
 const timeline = new Timeline(stage, shown, joints, moved);
@@ -111,6 +121,10 @@ function setAppearance(appearance: AppearanceMessage): void {
   redisplay();
 }
 
+function showProgram(isNew: boolean): void {
+  panel.showProgram(controls.count > 0 || hasPlots, isNew);
+}
+
 function receive(message: ServerMessage): void {
   switch (message.kind) {
     case "scene":
@@ -120,6 +134,23 @@ function receive(message: ServerMessage): void {
       unplaced = true;
       panel.refresh();
       selection.refresh();
+      drawings.refresh();
+      break;
+    case "controls":
+      showProgram(controls.read(message.controls));
+      break;
+    case "draw":
+      drawings.announce(message);
+      break;
+    case "undraw":
+      drawings.remove(message.name);
+      break;
+    case "plots":
+      hasPlots = message.series.length > 0;
+      showProgram(plots.setSeries(message.series));
+      break;
+    case "notify":
+      notices.show(message);
       break;
     case "joints":
       joints.setJoints(message.structure, message.joints);
@@ -170,6 +201,10 @@ function receiveBinary(data: ArrayBuffer): void {
     joints.setState(new Float64Array(data, 8));
   } else if (kind === BinaryKind.quad) {
     quads.read(data);
+  } else if (kind === BinaryKind.drawing) {
+    drawings.readData(data);
+  } else if (kind === BinaryKind.samples) {
+    plots.readSamples(data);
   } else if (kind === BinaryKind.motion && announced) {
     timeline.start(new Motion(announced, data));
     exports.refresh();
@@ -190,6 +225,9 @@ const listener: Listener = {
     run.end();
     shown.clear();
     quads.clear();
+    drawings.clear();
+    plots.clear();
+    controls.read([]);
     find("ended").hidden = true;
   },
   message: receive,
@@ -209,6 +247,7 @@ stage.onMove(() => {
 stage.onClick((event) => {
   if (selection.isHeld || input.blocks) return;
   const hit = stage.pick(event);
+  if (hit) send(clickCommand(hit.id, hit.point.toArray(), hit.normal.toArray()));
   if (measure.on) measure.click(hit);
   else if (hit) selection.select(hit.id);
   else selection.close();
@@ -274,6 +313,7 @@ addEventListener("keydown", (event) => {
   if (event.key === "?") return help.toggle();
   if (event.key === "Home") return stage.home();
   if (timeline.takeKey(event.key)) return event.preventDefault();
+  if (!event.ctrlKey && !event.metaKey && controls.takeKey(event.key)) return;
   const code = keyCode(event);
   if (code === 0) return;
   const option = digits ? DIGITS[event.key] : undefined;
@@ -296,6 +336,8 @@ Object.assign(window, {
     violatedPairs: () => timeline.pairCount,
     warnings: () => ({ marks: warnings.markCount, texts: warnings.all.map(({ text }) => text) }),
     quads: () => quads.count,
+    drawings: () => drawings.names,
+    plots: () => plots.sizes,
     meshes: () => shown.meshCount,
     geometries: () => stage.renderer.info.memory.geometries,
     idle: () => stage.idle && !shown.pictures.busy,

@@ -11,6 +11,8 @@ export const BinaryKind = {
   motion: 4,
   quad: 5,
   image: 6,
+  drawing: 7,
+  samples: 8,
 } as const;
 
 export interface ShapeMessage {
@@ -47,6 +49,27 @@ export interface WarningMessage {
   text: string;
   frames: number[];
   ignored: number;
+}
+
+export interface ControlMessage {
+  id: number;
+  type: string;
+  label: string;
+  folder: string;
+  unit: string;
+  key: string;
+  lower: number;
+  upper: number;
+  number: number;
+  text: string;
+  options: string[];
+}
+
+export interface SeriesMessage {
+  id: number;
+  name: string;
+  unit: string;
+  curves: number;
 }
 
 export interface TraceMessage {
@@ -129,6 +152,40 @@ export interface MotionMessage {
   traces: TraceMessage[];
 }
 
+export interface ControlsMessage {
+  kind: "controls";
+  controls: ControlMessage[];
+}
+
+export interface DrawMessage {
+  kind: "draw";
+  name: string;
+  type: string;
+  frame: string;
+  text: string;
+  width: number;
+  size: number;
+  pose: number[];
+  focal: number;
+  aspect: number;
+}
+
+export interface UndrawMessage {
+  kind: "undraw";
+  name: string;
+}
+
+export interface PlotsMessage {
+  kind: "plots";
+  series: SeriesMessage[];
+}
+
+export interface NotifyMessage {
+  kind: "notify";
+  text: string;
+  level: string;
+}
+
 export interface RunMessage {
   kind: "run";
   shown: number;
@@ -176,4 +233,10 @@ export const perturbCommand = (structure: number, frame: number, point: number[]
 export const warningsCommand = (structure: number): Uint8Array<ArrayBuffer> =>
   writeCommand(["int", 12], ["int", structure]);
 
-export type ServerMessage = SceneMessage | JointsMessage | TextMessage | CameraMessage | AppearanceMessage | NearMessage | WarningsMessage | SelectMessage | MotionMessage | RunMessage;
+export const controlCommand = (id: number, number: number, text: string): Uint8Array<ArrayBuffer> =>
+  writeCommand(["int", 13], ["int", id], ["number", number], ["string", text]);
+
+export const clickCommand = (frame: number, point: number[], normal: number[]): Uint8Array<ArrayBuffer> =>
+  writeCommand(["int", 14], ["int", frame], ["number[]", point], ["number[]", normal]);
+
+export type ServerMessage = SceneMessage | JointsMessage | TextMessage | CameraMessage | AppearanceMessage | NearMessage | WarningsMessage | SelectMessage | MotionMessage | ControlsMessage | DrawMessage | UndrawMessage | PlotsMessage | NotifyMessage | RunMessage;

@@ -4,7 +4,7 @@ import type { WarningMessage } from "./messages";
 import type { Shown } from "./shown";
 import { SceneTree } from "./tree";
 
-const TABS = { frames: "T", joints: "J", view: "O" } as const;
+const TABS = { program: "U", frames: "T", joints: "J", view: "O" } as const;
 const NAMED = 12; // largest number of buttons for the frames of a warning
 type Tab = keyof typeof TABS;
 const tabNames = Object.keys(TABS) as Tab[];
@@ -17,12 +17,14 @@ export class Panel {
   private readonly boxes = new Map<Option, HTMLInputElement>();
   private readonly tabs = new Map<Tab, HTMLButtonElement>();
   private tab: Tab = "frames";
+  private wasClosed = false; // by a user
 
   constructor(
     private readonly display: Display,
     private readonly frames: ReadonlyMap<number, Shown>,
     private readonly changed: () => void,
     private readonly selectFrame: (id: number) => void,
+    private readonly opened: () => void,
   ) {
     this.tree = new SceneTree(find("tree"), find<HTMLInputElement>("search"), display.hidden, changed, selectFrame);
     for (const option of optionNames) find("options").append(this.makeBox(option));
@@ -38,6 +40,14 @@ export class Panel {
   /** Call when frames have been added, removed or changed. */
   refresh(): void {
     if (this.isOpen && this.tab === "frames") this.tree.show(this.frames);
+  }
+
+  /** Shows the program's tab if it has content; opens it if it has just got some, unless a user closed the panel. */
+  showProgram(hasContent: boolean, isNew: boolean): void {
+    this.tabs.get("program")!.hidden = !hasContent;
+    if (!hasContent && this.tab === "program") this.tab = "frames";
+    if (hasContent && isNew && !this.wasClosed && matchMedia("(min-width: 561px)").matches) this.open("program", false);
+    else this.mark();
   }
 
   /** Call when options have been changed elsewhere. */
@@ -70,7 +80,7 @@ export class Panel {
   takeKey(code: string): boolean {
     const letter = code.replace("Key", "");
     const option = optionNames.find((name) => OPTIONS[name].letter === letter);
-    const tab = tabNames.find((name) => TABS[name] === letter);
+    const tab = tabNames.find((name) => TABS[name] === letter && !this.tabs.get(name)!.hidden);
     if (option) this.toggle(option);
     else if (tab) this.isOpen && this.tab === tab ? this.close() : this.open(tab);
     else return false;
@@ -82,20 +92,23 @@ export class Panel {
   }
 
   close(): void {
+    this.wasClosed = true;
     this.root.hidden = true;
     this.mark();
   }
 
-  private open(tab: Tab): void {
+  private open(tab: Tab, focuses = true): void {
     this.tab = tab;
     this.root.hidden = false;
     this.mark();
     this.refresh();
-    find(`tab-${tab}`).querySelector<HTMLElement>("input, button")?.focus();
+    this.opened();
+    if (focuses) find(`tab-${tab}`).querySelector<HTMLElement>("input, button")?.focus();
   }
 
   private mark(): void {
     this.button.ariaExpanded = String(this.isOpen);
+    this.root.classList.toggle("wide", this.tab === "program");
     for (const [name, button] of this.tabs) {
       button.ariaSelected = String(name === this.tab);
       find(`tab-${name}`).hidden = name !== this.tab;
@@ -106,6 +119,7 @@ export class Panel {
     const button = make("button", { textContent: name, title: `Alt ${TABS[name]}`, onclick: () => this.open(name) });
     button.setAttribute("role", "tab");
     button.setAttribute("aria-controls", `tab-${name}`);
+    button.hidden = name === "program";
     this.tabs.set(name, button);
     return button;
   }

@@ -70,7 +70,7 @@ export function materialsOf({ material }: THREE.Mesh): THREE.Material[] {
 }
 
 /** Arrows along x (red), y (green) and z (blue). */
-function marker(length: number): THREE.Object3D {
+export function marker(length: number): THREE.Object3D {
   const group = new THREE.Group();
   const shaft = new THREE.CylinderGeometry(0.02 * length, 0.02 * length, 0.8 * length, 12).translate(0, 0.4 * length, 0);
   const tip = new THREE.ConeGeometry(0.06 * length, 0.2 * length, 20).translate(0, 0.9 * length, 0);

@@ -6,6 +6,7 @@
 
 #include "features/feature_arguments.h"
 #include "ik/ik_targets.h"
+#include "kinegraph/api/plan_view.h"
 #include "kinegraph/common/stopwatch.h"
 #include "kinegraph/planning/refine_path.h"
 #include "planning/path_lines_docs.h"
@@ -13,6 +14,7 @@
 #include "planning/plan_docs.h"
 #include "planning/plan_objects.h"
 #include "python_names.h"
+#include "viewer/py_viewer.h"
 
 namespace kinegraph::python {
 
@@ -152,11 +154,10 @@ PyConfig planPictureIn(const PyMotionPlan& plan, const PyConfig& config, const s
   return PyConfig{plan.picture(config, frames ? toNames(*frames) : std::vector<std::string>()), nullptr};
 }
 
-int viewPlan(const PyMotionPlan& plan, const PyConfig& config, const std::optional<FrameNames>& frames, bool pause) {
-  const nb::object shown = nb::cast(planPictureIn(plan, config, frames));
-  if (!plan.feasible()) return nb::cast<int>(shown.attr("view")(pause, inPython(plan.message)));
-  const double seconds = std::max(plan.options.timing ? plan.duration() : plan.length, 1e-3);
-  return nb::cast<int>(shown.attr("view_path")(toNumpy(plan.path), seconds, pause, plan.str()));
+int viewPlan(const PyMotionPlan& plan, PyConfig& config, const std::optional<FrameNames>& frames, bool pause) {
+  const Config shown(planPictureIn(plan, config, frames));
+  if (!plan.feasible()) return viewOnPage(config, shown, pause, inPython(plan.message));
+  return playOnPage(config, shown, shownPlan(plan, shown), pause, plan.str());
 }
 
 Array refined(MatrixXd (*refine)(const Config&, const MatrixXd&, const RefineOptions&), const PyConfig& config,

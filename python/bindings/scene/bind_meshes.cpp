@@ -12,40 +12,13 @@
 #include "kinegraph/geometry/shapes/convex_hull.h"
 #include "kinegraph/scene/frame_shapes.h"
 #include "scene/meshes_docs.h"
+#include "scene/point_arguments.h"
 
 namespace kinegraph::python {
 
 namespace {
 
 using OptionalNumbers = const std::optional<Numbers>&;
-
-std::vector<Vector3d> points(const Numbers& numbers, const char* what) {
-  if (numbers.values.size() % 3 != 0) throw ValueError(cat(what, " are n x 3 numbers, got ", numbers.values.size()));
-  if (!numbers.values.allFinite()) throw ValueError(cat(what, " have numbers that are not finite"));
-  std::vector<Vector3d> list(numbers.values.size() / 3);
-  for (std::size_t i = 0; i < list.size(); ++i) list[i] = numbers.values.segment<3>(3 * Eigen::Index(i));
-  return list;
-}
-
-/// Colors of n points, 0..255: 3 or 4 numbers per point, an image with as many pixels, or one color for all.
-PointColors colorsOf(OptionalNumbers numbers, std::size_t n) {
-  if (!numbers || numbers->values.size() == 0) return {};
-  const std::size_t size = std::size_t(numbers->values.size());
-  std::size_t columns = numbers->rank == 2 ? numbers->columns() : size;
-  if (numbers->rank < 2 && size == 3 * n && n > 1) columns = 3;
-  if (numbers->rank > 2 && n > 0 && size % n == 0) columns = size / n;
-  if ((columns != 3 && columns != 4) || (size != columns && size != columns * n)) {
-    throw ValueError(cat("got ", size, " color numbers for ", n,
-                         " points; expected 3 (rgb) or 4 (rgba) per point, or one color, in 0..255"));
-  }
-  PointColors colors(size / columns, {0, 0, 0, 255});
-  for (std::size_t i = 0; i < size; ++i) {
-    const double x = numbers->values[Eigen::Index(i)];
-    if (!(x >= 0. && x <= 255.)) throw ValueError(cat("color number ", x, " is not in 0..255"));
-    colors[i / columns][i % columns] = std::uint8_t(std::lround(x));
-  }
-  return colors;
-}
 
 /// Reads whole numbers from 0 to `limit` - 1.
 std::vector<std::uint32_t> indices(const Numbers& numbers, std::size_t limit, const char* what) {
@@ -62,7 +35,7 @@ std::vector<std::uint32_t> indices(const Numbers& numbers, std::size_t limit, co
 Frame& setMesh(Frame& frame, const Numbers& vertices, const Numbers& triangles, OptionalNumbers colors,
                OptionalNumbers parts) {
   Mesh mesh;
-  mesh.vertices = points(vertices, "mesh vertices");
+  mesh.vertices = pointList(vertices, "mesh vertices");
   mesh.colors = colorsOf(colors, mesh.vertices.size());
   const std::vector<std::uint32_t> corners = indices(triangles, mesh.vertices.size(), "mesh triangles");
   if (corners.size() % 3 != 0) throw ValueError(cat("mesh triangles are m x 3 indices, got ", corners.size()));
@@ -75,7 +48,7 @@ Frame& setMesh(Frame& frame, const Numbers& vertices, const Numbers& triangles, 
 }
 
 Frame& setConvexMesh(Frame& frame, const Numbers& core, OptionalNumbers colors, double radius) {
-  std::vector<Vector3d> corners = points(core, "core points");
+  std::vector<Vector3d> corners = pointList(core, "core points");
   const PointColors given = colorsOf(colors, corners.size());
   if (radius == 0.) {
     Mesh hull = convexHull(corners);
@@ -94,13 +67,13 @@ Frame& setConvexMesh(Frame& frame, const Numbers& core, OptionalNumbers colors, 
 
 Frame& setPointCloud(Frame& frame, const Numbers& cloud, OptionalNumbers colors) {
   Mesh mesh;
-  mesh.vertices = points(cloud, "points");
+  mesh.vertices = pointList(cloud, "points");
   mesh.colors = colorsOf(colors, mesh.vertices.size());
   return frame.setMesh(std::move(mesh));
 }
 
 Frame& setLinesOf(Frame& frame, const Numbers& vertices, OptionalNumbers colors, bool connected) {
-  const std::vector<Vector3d> ends = points(vertices, "line points");
+  const std::vector<Vector3d> ends = pointList(vertices, "line points");
   setLines(frame, ends, colorsOf(colors, ends.size()), connected);
   return frame;
 }

@@ -10,6 +10,7 @@
 #include "python_names.h"
 #include "task_planning/task_objects.h"
 #include "task_planning/task_plan_docs.h"
+#include "viewer/py_viewer.h"
 
 namespace kinegraph::python {
 
@@ -60,13 +61,8 @@ void play(const PyTaskPlan& plan, nb::handle_t<PyConfig> C, bool pause) {
 
 int view(const PyTaskPlan& plan, nb::handle_t<PyConfig> C, bool pause) {
   auto& scene = nb::cast<PyConfig&>(C);
-  if (plan.path.rows() == 0)
-    return show(nb::cast(copyOf(plan.failedConfiguration(scene))), pause, cat(plan.message, "\n", plan.searchTree()));
-  const MatrixXd before = scene.getFrameState();
-  play(plan, C, false);
-  const int key = show(C, pause, plan.str());
-  scene.setFrameState(before);
-  return key;
+  if (plan.path.rows() > 0) return playOnPage(scene, scene, taskMotion(plan, scene), pause, plan.str());
+  return viewOnPage(scene, failedScene(plan, scene), pause, inPython(cat(plan.message, "\n", plan.searchTree())));
 }
 
 Array frames(const PyTaskPlan& plan, const PyConfig& C, double rate) {

@@ -27,16 +27,14 @@ Raises:
     ParseError: A literal is invalid.)";
 
 inline constexpr char view[] =
-    R"(Shows the plan in the viewer of a scene: its motion. Without a motion, it shows the search tree and, in red, the
-waypoint that failed in the longest branch.
+    R"(Plays the plan on the page of a scene, with a time slider. Without a motion, the page shows the reason, the search
+tree and, in red, the waypoint that failed in the longest branch, if one did.
 
 Args:
-    C: The scene of the call to planTask; it is restored afterwards.
+    C: The scene of the call to planTask; it does not change.
     pause: Waits for a key.
 Returns:
-    The key that was pressed, 0 if none.
-Raises:
-    ArgumentError: There is neither a motion nor a waypoint that failed; the message has the reason.)";
+    The key that was pressed, 0 if none.)";
 
 inline constexpr char play[] =
     R"(Shows the motion of each action in the viewer of a scene, with held objects moving along.

@@ -51,7 +51,8 @@ bool waitForClient(PyViewer& viewer, double seconds) {
 
 /// Returns the self-contained HTML page, whether a server runs or not.
 std::string pageOf(PyViewer& viewer) {
-  return viewer.isOpen() || !viewer.scene ? viewer.recording() : recordedScene(Config(*viewer.scene));
+  if (viewer.isOpen() || !viewer.scene) return viewer.recording();
+  return recordedScene(Config(*viewer.scene), nullptr, "Kinegraph", viewer.content());
 }
 
 constexpr int kFirstPort = 7000;
@@ -176,12 +177,28 @@ void bindViews(nb::class_<PyConfig>& config) {
 
 }  // namespace
 
+int viewOnPage(PyConfig& config, Config shown, bool pause, const std::string& message) {
+  const std::shared_ptr<PyViewer> viewer = showIn(config);
+  if (!show(*viewer, message, false)) return pause ? kEscape : 0;
+  const nb::gil_scoped_release unlock;
+  return viewer->view(shown, pause, message, interrupted);
+}
+
+int playOnPage(PyConfig& config, const Config& shown, const ShownMotion& motion, bool pause,
+               const std::string& message) {
+  const std::shared_ptr<PyViewer> viewer = showIn(config);
+  if (!openPage(*viewer)) return pause ? kEscape : 0;
+  const nb::gil_scoped_release unlock;
+  return viewer->showMotion(shown, motion, pause, message, interrupted);
+}
+
 void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
   nb::class_<PyViewer> viewer(m, "ConfigurationViewer",
                               "Shows a configuration in the browser, and renders pictures of it.");
   bindPage(viewer);
   bindPictures(viewer);
   bindViewerInput(m, viewer);
+  bindPageContent(m, viewer);
   bindViews(config);
 }
 

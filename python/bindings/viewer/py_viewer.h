@@ -3,6 +3,8 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "bindings.h"
 #include "kinegraph/rendering/camera_renderer.h"
@@ -51,6 +53,7 @@ struct PyViewer : ConfigViewer {
   bool visuals_only = false;
   int saved = 0;                           ///< number of saved pictures
   std::map<int, Quad> quads;               ///< images on top of the scene
+  std::vector<std::string> folders;        ///< of new controls, outermost first
   std::optional<CameraRenderer> renderer;  ///< created with the first picture
   RendererOptions renderer_options;        ///< options of the renderer
 
@@ -71,6 +74,11 @@ bool openPage(PyViewer& viewer);
 /// Stores the message, and opens the page. Returns false, without a page, if `offscreen` is set or openPage opens none.
 bool show(PyViewer& viewer, const std::optional<std::string>& message, bool offscreen);
 
+/// Shows another scene, or a motion in it, on the page of `config`. As Config.view and Config.view_path.
+int viewOnPage(PyConfig& config, Config shown, bool pause, const std::string& message);
+int playOnPage(PyConfig& config, const Config& shown, const ShownMotion& motion, bool pause,
+               const std::string& message);
+
 /// Returns the viewer's camera: as set, or as a user has moved the page's since.
 Camera cameraNow(PyViewer& viewer);
 
@@ -85,6 +93,9 @@ bool interrupted();
 
 /// Binds user input on the page, and images on top of it.
 void bindViewerInput(nb::module_& m, nb::class_<PyViewer>& viewer);
+
+/// Binds what a program adds to the page: controls, drawings, plots and notifications.
+void bindPageContent(nb::module_& m, nb::class_<PyViewer>& viewer);
 
 /// Binds the picture calls of a viewer.
 void bindPictures(nb::class_<PyViewer>& viewer);

@@ -1,10 +1,12 @@
 // Shows plans and paths in the viewer.
+#include "kinegraph/api/plan_view.h"
+
 #include <algorithm>
 
 #include "kinegraph/common/errors.h"
-#include "kinegraph/planning/motion_plan.h"
 #include "kinegraph/planning/path_finder.h"
 #include "kinegraph/viewer/config_viewer.h"
+#include "kinegraph/viewer/motions.h"
 
 namespace kinegraph {
 
@@ -14,10 +16,19 @@ constexpr double kSecondsPerWaypoint = .05, kMinSeconds = 1.;  // playback of a 
 
 }  // namespace
 
+ShownMotion shownPlan(const MotionPlan& plan, const Config& picture) {
+  const double seconds = std::max(plan.options.timing ? plan.duration() : plan.length, 1e-3);
+  ShownMotion motion = motionAlong(picture, plan.path, seconds);
+  motion.start = ShownMotion::Start::play;
+  return motion;
+}
+
 int MotionPlan::view(const Config& config, const std::vector<std::string>& frames, bool pause) const {
   Config shown = picture(config, frames);
-  if (!feasible()) return shown.view(pause, message);
-  return shown.viewPath(path, std::max(options.timing ? duration() : length, 1e-3), pause, str());
+  ConfigViewer& viewer = Config(config.scene()).viewer();  // config's own page
+  const auto never = [] { return false; };
+  if (!feasible()) return viewer.view(shown, pause, message, never);
+  return viewer.showMotion(shown, shownPlan(*this, shown), pause, str(), never);
 }
 
 int PathFinder::view(bool pause, const std::string& message) const {

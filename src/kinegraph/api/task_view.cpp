@@ -5,6 +5,7 @@
 #include "kinegraph/api/task_view.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/viewer/config_viewer.h"
 
 namespace kinegraph {
 
@@ -78,13 +79,37 @@ Config TaskPlan::failedConfiguration(const Config& C) const {
   return scene;
 }
 
+ShownMotion taskMotion(const TaskPlan& plan, const Config& C) {
+  constexpr double kRate = 25.;  // slices per second
+  ShownMotion motion;
+  motion.seconds = std::max(plan.duration(), 1e-3);
+  motion.start = ShownMotion::Start::play;
+  const std::vector<MatrixXd> frames = plan.frames(C, kRate);
+  std::size_t part = 0;
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    std::vector<Pose>& slice = motion.poses.emplace_back();
+    for (const auto& row : frames[k].rowwise())
+      slice.push_back({row.head<3>().transpose(), Quaterniond(row[3], row[4], row[5], row[6])});
+    const double t = plan.duration() * double(k) / double(frames.size() - 1);
+    while (part + 1 < plan.segments.size() && t > plan.times[plan.segments[part].end - 1]) ++part;
+    motion.texts.push_back(plan.actions.empty() ? "" : planText({plan.actions[part]}));
+  }
+  return motion;
+}
+
+Config failedScene(const TaskPlan& plan, const Config& C) {
+  const bool failed_there = std::any_of(plan.tree.begin(), plan.tree.end(), [](const TaskBranch& branch) {
+    return branch.failed_configuration != nullptr;
+  });
+  return failed_there ? plan.failedConfiguration(C) : Config(C);
+}
+
 int TaskPlan::view(Config& C, bool pause) const {
-  if (path.rows() == 0) return failedConfiguration(C).view(pause, cat(message, "\n", searchTree()));
-  const MatrixXd before = C.getFrameState();
-  play(C);
-  const int key = C.view(pause, str());
-  C.setFrameState(before);
-  return key;
+  ConfigViewer& viewer = C.viewer();
+  const auto never = [] { return false; };
+  if (path.rows() > 0) return viewer.showMotion(C, taskMotion(*this, C), pause, str(), never);
+  Config shown = failedScene(*this, C);
+  return viewer.view(shown, pause, cat(message, "\n", searchTree()), never);
 }
 
 }  // namespace kinegraph

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "kinegraph/task_planning/search/task_plan.h"
+#include "kinegraph/viewer/messages/shown_motion.h"
 
 namespace kinegraph {
 
@@ -12,5 +13,13 @@ using ShowScene = std::function<int(bool pause, const std::string& text)>;
 
 /// TaskPlan::play with another way to show C. Throws ValueError if the plan has no motion.
 void playTask(const TaskPlan& plan, Config& C, bool pause, const ShowScene& show);
+
+/// Returns the motion of a plan with held objects, to be played at once; each slice has the text of its action. Throws
+/// ValueError if the plan has no motion.
+ShownMotion taskMotion(const TaskPlan& plan, const Config& C);
+
+/// Returns the scene for a plan without a motion: C, with a translucent red copy of the waypoint that failed in the
+/// longest branch, if one did.
+Config failedScene(const TaskPlan& plan, const Config& C);
 
 }  // namespace kinegraph

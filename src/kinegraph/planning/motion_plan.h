@@ -82,7 +82,7 @@ class MotionPlan : public Trajectory {
   /// FrameNotFound for an unknown name.
   Config picture(const Config& config, const std::vector<std::string>& frames = {}) const;
 
-  /// Shows the picture in the browser and plays the motion in it, as Config::view.
+  /// Shows the picture on the page of `config`, until its next view, and plays the motion there.
   int view(const Config& config, const std::vector<std::string>& frames = {}, bool pause = false) const;
 
   /// The options for a motion that begins at time t (s) of this one: times of dynamic obstacles are shifted by t.

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "kinegraph/common/text.h"
+#include "kinegraph/viewer/shown_scene.h"
 
 namespace kinegraph {
 
@@ -38,6 +39,10 @@ ViewerServer& ConfigViewer::server() {
   if (!server_) {
     server_ = std::make_unique<ViewerServer>(options_);
     server_->onCommand([edits = edits_](const Command& command) { return edits->apply(command); });
+    server_->show([&](ShownScene& scene) {
+      scene.content = content();
+      return true;
+    });
     server_->setMessage(message());
     if (!isHeadless()) announce(*server_);
     openBrowser(server_->url());
@@ -90,6 +95,15 @@ std::string ConfigViewer::recording() {
   return server().recording();
 }
 
+void ConfigViewer::contentChanged() {
+  if (isOpen()) server_->show([](ShownScene&) { return true; });
+}
+
+int ConfigViewer::takeKey() {
+  poll();
+  return isOpen() ? server_->takeKey() : 0;
+}
+
 void ConfigViewer::close() {
   server_.reset();
   remember("");
@@ -112,6 +126,7 @@ bool ConfigViewer::takeEdits(Config& config) { return items_.isOf(config) && edi
 int ConfigViewer::view(Config& config, bool pause, const std::optional<std::string>& message,
                        const CancellationToken& cancellation) {
   takeEdits(config);
+  poll();
   update(config);
   const int key = wait(pause, message, cancellation);
   if (pause && takeEdits(config)) update(config);
@@ -160,6 +175,7 @@ int ConfigViewer::waitKey(const std::string& prompt, const CancellationToken& ca
   bool entered = false, seen = false;
   auto last_seen = std::chrono::steady_clock::now();
   const int key = server().waitKey([&] {
+    poll();
     const auto now = std::chrono::steady_clock::now();
     if (clients() > 0) {
       last_seen = now;

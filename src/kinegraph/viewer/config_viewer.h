@@ -6,6 +6,7 @@
 
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/scene/config.h"
+#include "kinegraph/viewer/programmable_viewer.h"
 #include "kinegraph/viewer/scene_edits.h"
 #include "kinegraph/viewer/scene_items.h"
 
@@ -13,7 +14,7 @@ namespace kinegraph {
 
 /// Shows a configuration in the browser. The server starts, and a browser opens, at the first call that shows
 /// something.
-class ConfigViewer {
+class ConfigViewer : public ProgrammableViewer {
  public:
   explicit ConfigViewer(ViewerOptions options = {}) : options_(std::move(options)) {}
 
@@ -58,7 +59,7 @@ class ConfigViewer {
   std::optional<PageCamera> takeViewpoint() { return isOpen() ? server_->takeViewpoint() : std::nullopt; }
   std::string url() { return server().url(); }
   int clients() const { return isOpen() ? server_->clients() : 0; }
-  int takeKey() { return isOpen() ? server_->takeKey() : 0; }
+  int takeKey();  ///< also runs the callbacks that are due
   bool isOpen() const { return server_ && server_->isOurs(); }
   void close();
 
@@ -71,6 +72,9 @@ class ConfigViewer {
   /// With false, no call waits for users, as with KINEGRAPH_HEADLESS; pages are still shown.
   void setWaits(bool waits) { waits_ = waits; }
   bool waits() const { return waits_ && !isHeadless(); }
+
+ protected:
+  void contentChanged() override;
 
  private:
   /// Shows the message with a request for a key, and waits for one.

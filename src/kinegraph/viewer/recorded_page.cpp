@@ -47,11 +47,13 @@ std::string recordedPage(const std::vector<Outgoing>& messages) {
   return page;
 }
 
-std::string recordedScene(const Config& config, const ShownMotion* motion, const std::string& title) {
+std::string recordedScene(const Config& config, const ShownMotion* motion, const std::string& title,
+                          std::shared_ptr<PageContent> content) {
   SceneItems items;
   items.read(config);
   ShownScene scene;
   scene.title = title;
+  scene.content = std::move(content);
   scene.update(items.items());
   scene.setJoints(items.structure(), items.joints(), config.getJointState());
   scene.setWarnings(sceneWarnings(config));

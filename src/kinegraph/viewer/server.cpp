@@ -7,6 +7,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/viewer/shown_scene.h"
 #include "kinegraph/viewer/web_server.h"
 
 namespace kinegraph {
@@ -50,6 +51,8 @@ class ViewerServer::Impl {
     if (const auto* viewpoint = std::get_if<ViewpointCommand>(&command)) return state_->moveCamera(*viewpoint);
     if (const auto* run = std::get_if<RunCommand>(&command)) return state_->steerRun(*run);
     if (const auto* perturb = std::get_if<PerturbCommand>(&command)) return state_->perturb(*perturb);
+    if (const auto* control = std::get_if<ControlCommand>(&command)) return receiveControl(*control);
+    if (const auto* click = std::get_if<ClickCommand>(&command)) return state_->click(*click);
     std::optional<EditedScene> edited;
     try {
       const std::lock_guard lock(answer_mutex_);
@@ -61,6 +64,11 @@ class ViewerServer::Impl {
       scene.setEdited(*edited);
       return true;
     });
+    state_->changed.notify_all();
+  }
+
+  void receiveControl(const ControlCommand& command) {
+    changeScene([&](ShownScene& scene) { return scene.content && scene.content->apply(command); });
     state_->changed.notify_all();
   }
 

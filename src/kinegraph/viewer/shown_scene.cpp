@@ -253,6 +253,10 @@ void ShownScene::setCamera(const PageCamera& camera) {
   camera_revision_ = ++revision_;
 }
 
+std::string ShownScene::nameOf(int item) const {
+  return item >= 0 && item < int(frames_.size()) ? frames_[std::size_t(item)].item.name : "";
+}
+
 FrameMessage ShownScene::frameMessage(std::size_t index) const {
   const Shown& shown = frames_[index];
   const ViewItem& item = shown.item;
@@ -347,6 +351,7 @@ std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
     if (motion_.empty()) send(MotionMessage{});
     out.insert(out.end(), motion_.begin(), motion_.end());
   }
+  if (content) content->addMessages(seen.content, out);
   seen.revision = revision_;
   return out;
 }

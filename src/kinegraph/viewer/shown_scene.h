@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/viewer/page_content.h"
 #include "kinegraph/viewer/server.h"
 
 namespace kinegraph {
@@ -15,12 +16,6 @@ namespace kinegraph {
 struct FrameMessage;
 struct JointsMessage;
 struct AppearanceMessage;
-
-/// A message for a browser. Large ones are shared by all browsers.
-struct Outgoing {
-  std::shared_ptr<const std::string> data;
-  bool binary;
-};
 
 /// The shown scene, with the changes since any earlier revision. Not synchronized.
 class ShownScene {
@@ -30,6 +25,7 @@ class ShownScene {
     std::uint64_t revision = 0;
     std::set<int> meshes;  ///< meshes in use at that revision; a browser drops all others
     std::set<int> images;  ///< the same for images on them
+    PageContent::Seen content;
   };
 
   /// Updates the items. Returns whether anything differs.
@@ -56,7 +52,11 @@ class ShownScene {
   bool setText(std::string ShownScene::*field, const std::string& text);
   void setCamera(const PageCamera& camera);
 
+  /// Returns the name of an item, or "".
+  std::string nameOf(int item) const;
+
   std::string title, message, error;
+  std::shared_ptr<PageContent> content;  ///< what the program adds to the page; null: nothing
 
   /// Returns the messages that update a browser from `seen` to the present, and updates `seen`.
   std::vector<Outgoing> messagesSince(Seen& seen) const;

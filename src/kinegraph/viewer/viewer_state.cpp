@@ -46,6 +46,15 @@ void ViewerState::moveCamera(const ViewpointCommand& command) {
   camera_moved = true;
 }
 
+/// Invalid clicks, and those on frames that are gone, are ignored.
+void ViewerState::click(const ClickCommand& command) {
+  if (command.point.size() != 3 || command.normal.size() != 3) return;
+  const std::lock_guard lock(mutex);
+  const std::string frame = scene.nameOf(command.frame);
+  if (frame.empty() || !scene.content) return;
+  scene.content->click({frame, Vector3d(command.point.data()), Vector3d(command.normal.data())});
+}
+
 void ViewerState::steerRun(const RunCommand& command) {
   {
     const std::lock_guard lock(mutex);

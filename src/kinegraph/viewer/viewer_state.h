@@ -30,6 +30,7 @@ struct ViewerState {
   void addEvent(const EventCommand& event);
   void moveCursor(const CursorCommand& cursor);
   void moveCamera(const ViewpointCommand& viewpoint);
+  void click(const ClickCommand& click);
   void steerRun(const RunCommand& command);
   void perturb(const PerturbCommand& command);
   void addClient();

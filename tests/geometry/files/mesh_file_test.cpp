@@ -58,7 +58,25 @@ TEST_F(MeshFile, AnObjFileGivesItsVerticesAndTriangles) {
   const Mesh mesh = readMeshFile(write("corner.obj", kTetrahedron));
   EXPECT_EQ(mesh.triangles.size(), 4u);
   EXPECT_NEAR(volume(mesh), 1., kFloat);
-  EXPECT_EQ(mesh.colors.size(), mesh.vertices.size());
+}
+
+TEST_F(MeshFile, AMeshWithoutMaterialsHasNoColors) {
+  const std::string ply =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const std::string missing = "mtllib missing.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\n";
+  const std::string off = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const std::vector<std::pair<const char*, std::string>> files = {
+      {"bare.obj", kTetrahedron},
+      {"lost.obj", missing},
+      {"bare.ply", ply},
+      {"bare.off", off},
+      {"bare.stl", binaryStl(1, {{0, 0, 0, 1, 0, 0, 1, 1, 0}})}};
+  for (const auto& [name, text] : files) {
+    const Mesh mesh = readMeshFile(write(name, text));
+    EXPECT_GE(mesh.vertices.size(), 3u) << name;
+    EXPECT_TRUE(mesh.colors.empty()) << name;
+  }
 }
 
 TEST_F(MeshFile, PolygonsAreCutIntoTriangles) {

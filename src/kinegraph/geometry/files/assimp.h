@@ -15,7 +15,8 @@ namespace kinegraph {
 // clang-format off
 #define KINEGRAPH_ASSIMP_FUNCTIONS(X) \
   X(aiCreatePropertyStore) X(aiReleasePropertyStore) X(aiSetImportPropertyInteger) X(aiImportFileExWithProperties) \
-  X(aiApplyPostProcessing) X(aiReleaseImport) X(aiGetErrorString) X(aiGetMaterialColor) X(aiGetMaterialTexture)
+  X(aiApplyPostProcessing) X(aiReleaseImport) X(aiGetErrorString) X(aiGetMaterialColor) \
+  X(aiGetMaterialString) X(aiGetMaterialTexture)
 // clang-format on
 
 /// The assimp functions used here, under their own names.

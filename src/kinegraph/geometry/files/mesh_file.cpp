@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <sstream>
 #include <unordered_map>
 
@@ -44,14 +45,47 @@ struct VertexKeyHash {
   }
 };
 
-void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, MeshTextures& textures, Mesh& mesh) {
+/// Returns the color of a material in the file. Nothing for a material that assimp has added because a part has none:
+/// it is named "DefaultMaterial", or white (glTF) or gray (OFF) without a name.
+std::optional<aiColor4D> colorOf(const aiScene& scene, unsigned index) {
+  if (index >= scene.mNumMaterials) return std::nullopt;
+  const aiMaterial* material = scene.mMaterials[index];
+  aiString name;
+  aiColor4D color;
+  if (assimp().aiGetMaterialColor(material, AI_MATKEY_COLOR_DIFFUSE, &color) != aiReturn_SUCCESS) return std::nullopt;
+  assimp().aiGetMaterialString(material, AI_MATKEY_NAME, &name);
+  const std::string_view named = name.C_Str();
+  const bool is_plain = color == aiColor4D(1.f, 1.f, 1.f, 1.f) || color == aiColor4D(.6f, .6f, .6f, 1.f);
+  if (named == AI_DEFAULT_MATERIAL_NAME || (named.empty() && is_plain)) return std::nullopt;
+  return color;
+}
+
+/// Returns whether a file has materials of its own: those of an OBJ file are in another file, which may be missing.
+bool hasMaterials(const std::string& extension, const std::vector<std::string>& opened) {
+  return extension != ".obj" || std::any_of(opened.begin(), opened.end(), [](const std::string& path) {
+           std::error_code error;
+           return lowerExtension(path) == ".mtl" && std::filesystem::is_regular_file(path, error);
+         });
+}
+
+/// The colors of the parts of a mesh: of their vertices, else of their materials.
+struct PartColors {
+  bool from_materials;
+  bool any = false;  ///< a part has a color
+
+  std::optional<aiColor4D> of(const aiScene& scene, const aiMesh& part) {
+    const auto color = from_materials ? colorOf(scene, part.mMaterialIndex) : std::nullopt;
+    any = any || color || part.HasVertexColors(0);
+    return color;
+  }
+};
+
+void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, MeshTextures& textures,
+            PartColors& part_colors, Mesh& mesh) {
   const aiMatrix4x4 transform = above * node.mTransformation;
   for (unsigned m = 0; m < node.mNumMeshes; ++m) {
     const aiMesh& part = *scene.mMeshes[node.mMeshes[m]];
-    aiColor4D diffuse(.8f, .8f, .8f, 1.f);
-    if (part.mMaterialIndex < scene.mNumMaterials) {
-      assimp().aiGetMaterialColor(scene.mMaterials[part.mMaterialIndex], AI_MATKEY_COLOR_DIFFUSE, &diffuse);
-    }
+    const aiColor4D diffuse = part_colors.of(scene, part).value_or(aiColor4D(.8f, .8f, .8f, 1.f));
     const std::uint32_t first = std::uint32_t(mesh.vertices.size());
     const bool textured = part.HasTextureCoords(0);
     std::unordered_map<VertexKey, std::uint32_t, VertexKeyHash> places;
@@ -82,7 +116,7 @@ void append(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, 
     addTexture(mesh, first, coordinates, first_triangle, textures.of(part.mMaterialIndex));
   }
   for (unsigned child = 0; child < node.mNumChildren; ++child)
-    append(scene, *node.mChildren[child], transform, textures, mesh);
+    append(scene, *node.mChildren[child], transform, textures, part_colors, mesh);
 }
 
 /// Removes the vertices that belong to no triangle, if there are triangles: loose points, and ends of lines, are no
@@ -199,9 +233,13 @@ Mesh readMeshFile(const std::string& path, std::vector<std::string>* files) {
     mesh = readStlMesh(content, path);
   } else {
     checkMeshHeader(path);
-    const AssimpScene scene = readAssimpScene(path, files);
+    std::vector<std::string> opened;
+    const AssimpScene scene = readAssimpScene(path, &opened);
+    if (files) files->insert(files->end(), opened.begin(), opened.end());
     MeshTextures textures(*scene, path, files);
-    append(*scene, *scene->mRootNode, aiMatrix4x4(), textures, mesh);
+    PartColors part_colors{hasMaterials(extension, opened)};
+    append(*scene, *scene->mRootNode, aiMatrix4x4(), textures, part_colors, mesh);
+    if (!part_colors.any) mesh.colors.clear();
     mesh.texcoords.resize(mesh.texcoords.empty() ? 0 : mesh.vertices.size());
   }
   removeLoosePoints(mesh);

@@ -14,7 +14,6 @@ namespace kinegraph {
 namespace {
 
 constexpr std::size_t kStlHeader = 84, kStlTriangle = 50;  // bytes
-constexpr std::array<std::uint8_t, 4> kStlGray = {153, 153, 153, 255};
 
 using StlPoint = std::array<float, 3>;
 
@@ -38,10 +37,7 @@ class StlBuilder {
     mesh_.triangles.reserve(triangles);
   }
 
-  Mesh take() {
-    mesh_.colors.assign(mesh_.vertices.size(), kStlGray);
-    return std::move(mesh_);
-  }
+  Mesh take() { return std::move(mesh_); }
 
  private:
   struct Hash {

@@ -100,8 +100,8 @@ struct TaskPlan : Trajectory {
   /// The branches as a tree: a line per action, with the cause behind the last action of each branch.
   std::string searchTree() const;
 
-  /// Shows the plan in the browser: its motion or, without a motion, the search tree and the failedConfiguration. `C`
-  /// is the scene of the call to planTask; it is restored afterwards. Returns the key pressed, or 0.
+  /// Plays the plan on the page of `C`, with a time slider; without a motion, the page shows the search tree and, if a
+  /// waypoint failed, the failedConfiguration. `C` is the scene of the call to planTask. Returns the key pressed, or 0.
   int view(Config& C, bool pause = true) const;
 
   /// Shows the motion of each action, with held objects moving along; `pause` waits for a key before each action. `C`

@@ -4,13 +4,16 @@
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "kinegraph/common/utf8.h"
+
 namespace kinegraph {
 
-/// Reads the fields of a command from a browser in order: int32, float64, and arrays as length and float64s. Returns
-/// false for missing fields and for numbers that are not finite.
+/// Reads the fields of a command from a browser in order: int32, float64, arrays as length and float64s, texts as
+/// length and UTF-8. Returns false for missing fields and for numbers that are not finite.
 class CommandReader {
  public:
   explicit CommandReader(std::string_view data) : rest_(data) {}
@@ -29,6 +32,14 @@ class CommandReader {
     for (double& value : values) {
       if (!read(value)) return false;
     }
+    return true;
+  }
+  /// Bytes that are not UTF-8 become U+FFFD.
+  bool read(std::string& text) {
+    int size;
+    if (!read(size) || size < 0 || std::size_t(size) > rest_.size()) return false;
+    text = validUtf8(rest_.substr(0, std::size_t(size)), nullptr, "\xef\xbf\xbd");
+    rest_.remove_prefix(std::size_t(size));
     return true;
   }
   bool atEnd() const { return rest_.empty(); }

@@ -87,8 +87,22 @@ struct WarningsCommand {
   int structure = 0;
 };
 
+struct ControlCommand {
+  static constexpr int kKind = 13;
+  int id = 0;
+  double number = 0;
+  std::string text;
+};
+
+struct ClickCommand {
+  static constexpr int kKind = 14;
+  int frame = 0;
+  std::vector<double> point;
+  std::vector<double> normal;
+};
+
 /// A command of a browser.
-using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand, ViewpointCommand, RunCommand, PerturbCommand, WarningsCommand>;
+using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand, ViewpointCommand, RunCommand, PerturbCommand, WarningsCommand, ControlCommand, ClickCommand>;
 
 /// Reads a binary message from a browser; returns nothing unless it is exactly one command.
 inline std::optional<Command> readCommand(std::string_view data) {
@@ -108,6 +122,8 @@ inline std::optional<Command> readCommand(std::string_view data) {
     case RunCommand::kKind: return readFields<RunCommand>(reader, &RunCommand::what);
     case PerturbCommand::kKind: return readFields<PerturbCommand>(reader, &PerturbCommand::structure, &PerturbCommand::frame, &PerturbCommand::point, &PerturbCommand::target);
     case WarningsCommand::kKind: return readFields<WarningsCommand>(reader, &WarningsCommand::structure);
+    case ControlCommand::kKind: return readFields<ControlCommand>(reader, &ControlCommand::id, &ControlCommand::number, &ControlCommand::text);
+    case ClickCommand::kKind: return readFields<ClickCommand>(reader, &ClickCommand::frame, &ClickCommand::point, &ClickCommand::normal);
   }
   return std::nullopt;
 }

@@ -53,6 +53,31 @@ static boost::json::value jsonOf(const WarningMessage& m) {
   };
 }
 
+static boost::json::value jsonOf(const ControlMessage& m) {
+  return boost::json::object{
+      {"id", jsonOf(m.id)},
+      {"type", jsonOf(m.type)},
+      {"label", jsonOf(m.label)},
+      {"folder", jsonOf(m.folder)},
+      {"unit", jsonOf(m.unit)},
+      {"key", jsonOf(m.key)},
+      {"lower", jsonOf(m.lower)},
+      {"upper", jsonOf(m.upper)},
+      {"number", jsonOf(m.number)},
+      {"text", jsonOf(m.text)},
+      {"options", jsonOf(m.options)},
+  };
+}
+
+static boost::json::value jsonOf(const SeriesMessage& m) {
+  return boost::json::object{
+      {"id", jsonOf(m.id)},
+      {"name", jsonOf(m.name)},
+      {"unit", jsonOf(m.unit)},
+      {"curves", jsonOf(m.curves)},
+  };
+}
+
 static boost::json::value jsonOf(const TraceMessage& m) {
   return boost::json::object{
       {"name", jsonOf(m.name)},
@@ -153,6 +178,50 @@ static boost::json::value jsonOf(const MotionMessage& m) {
   };
 }
 
+static boost::json::value jsonOf(const ControlsMessage& m) {
+  return boost::json::object{
+      {"kind", "controls"},
+      {"controls", jsonOf(m.controls)},
+  };
+}
+
+static boost::json::value jsonOf(const DrawMessage& m) {
+  return boost::json::object{
+      {"kind", "draw"},
+      {"name", jsonOf(m.name)},
+      {"type", jsonOf(m.type)},
+      {"frame", jsonOf(m.frame)},
+      {"text", jsonOf(m.text)},
+      {"width", jsonOf(m.width)},
+      {"size", jsonOf(m.size)},
+      {"pose", jsonOf(m.pose)},
+      {"focal", jsonOf(m.focal)},
+      {"aspect", jsonOf(m.aspect)},
+  };
+}
+
+static boost::json::value jsonOf(const UndrawMessage& m) {
+  return boost::json::object{
+      {"kind", "undraw"},
+      {"name", jsonOf(m.name)},
+  };
+}
+
+static boost::json::value jsonOf(const PlotsMessage& m) {
+  return boost::json::object{
+      {"kind", "plots"},
+      {"series", jsonOf(m.series)},
+  };
+}
+
+static boost::json::value jsonOf(const NotifyMessage& m) {
+  return boost::json::object{
+      {"kind", "notify"},
+      {"text", jsonOf(m.text)},
+      {"level", jsonOf(m.level)},
+  };
+}
+
 static boost::json::value jsonOf(const RunMessage& m) {
   return boost::json::object{
       {"kind", "run"},
@@ -183,6 +252,16 @@ std::string jsonText(const WarningsMessage& message) { return boost::json::seria
 std::string jsonText(const SelectMessage& message) { return boost::json::serialize(jsonOf(message)); }
 
 std::string jsonText(const MotionMessage& message) { return boost::json::serialize(jsonOf(message)); }
+
+std::string jsonText(const ControlsMessage& message) { return boost::json::serialize(jsonOf(message)); }
+
+std::string jsonText(const DrawMessage& message) { return boost::json::serialize(jsonOf(message)); }
+
+std::string jsonText(const UndrawMessage& message) { return boost::json::serialize(jsonOf(message)); }
+
+std::string jsonText(const PlotsMessage& message) { return boost::json::serialize(jsonOf(message)); }
+
+std::string jsonText(const NotifyMessage& message) { return boost::json::serialize(jsonOf(message)); }
 
 std::string jsonText(const RunMessage& message) { return boost::json::serialize(jsonOf(message)); }
 

@@ -18,6 +18,8 @@ enum class BinaryKind : std::uint32_t {
   motion = 4,
   quad = 5,
   image = 6,
+  drawing = 7,
+  samples = 8,
 };
 
 struct ShapeMessage {
@@ -54,6 +56,27 @@ struct WarningMessage {
   std::string text;
   std::vector<int> frames;
   int ignored = 0;
+};
+
+struct ControlMessage {
+  int id = 0;
+  std::string type;
+  std::string label;
+  std::string folder;
+  std::string unit;
+  std::string key;
+  double lower = 0;
+  double upper = 0;
+  double number = 0;
+  std::string text;
+  std::vector<std::string> options;
+};
+
+struct SeriesMessage {
+  int id = 0;
+  std::string name;
+  std::string unit;
+  int curves = 0;
 };
 
 struct TraceMessage {
@@ -127,6 +150,35 @@ struct MotionMessage {
   std::vector<TraceMessage> traces;
 };
 
+struct ControlsMessage {
+  std::vector<ControlMessage> controls;
+};
+
+struct DrawMessage {
+  std::string name;
+  std::string type;
+  std::string frame;
+  std::string text;
+  double width = 0;
+  double size = 0;
+  std::vector<double> pose;
+  double focal = 0;
+  double aspect = 0;
+};
+
+struct UndrawMessage {
+  std::string name;
+};
+
+struct PlotsMessage {
+  std::vector<SeriesMessage> series;
+};
+
+struct NotifyMessage {
+  std::string text;
+  std::string level;
+};
+
 struct RunMessage {
   int shown = 0;
   int steered = 0;
@@ -147,6 +199,11 @@ std::string jsonText(const NearMessage& message);
 std::string jsonText(const WarningsMessage& message);
 std::string jsonText(const SelectMessage& message);
 std::string jsonText(const MotionMessage& message);
+std::string jsonText(const ControlsMessage& message);
+std::string jsonText(const DrawMessage& message);
+std::string jsonText(const UndrawMessage& message);
+std::string jsonText(const PlotsMessage& message);
+std::string jsonText(const NotifyMessage& message);
 std::string jsonText(const RunMessage& message);
 
 }  // namespace kinegraph

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "kinegraph/planning/motion_plan.h"
+#include "kinegraph/viewer/messages/shown_motion.h"
+
+namespace kinegraph {
+
+/// Returns the motion of a plan in its picture (MotionPlan::picture), with the plan's times or, without times, its
+/// length as seconds. It plays at once.
+ShownMotion shownPlan(const MotionPlan& plan, const Config& picture);
+
+}  // namespace kinegraph
