@@ -1,6 +1,6 @@
 """The structure of the site: which page is in which section, and which names are on which page of the reference."""
 
-TUTORIALS = ["first_pick_and_place"]  # pages of docs/; the examples follow
+TUTORIALS = ["own_robot", "first_pick_and_place"]  # pages of docs/; the examples follow
 
 HOW_TO = [
     ("Scenes and robots", ["scenes", "robots", "ik", "features"]),
