@@ -9,6 +9,13 @@ HOW_TO = [
     ("Robots that move", ["control", "operation", "simulation", "dynamics"]),
     ("Many problems", ["fleets", "sensitivities", "solvers"]),
     ("Programs", ["viewer", "cpp"]),
+    (
+        "Coming from",
+        [
+            "coming_from_robotic",
+            "coming_from_moveit",
+        ],
+    ),
 ]
 
 EXPLANATION = ["architecture", "speed", "limits"]

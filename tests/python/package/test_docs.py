@@ -22,6 +22,8 @@ FOUND = {
         r"<IkResult solved in 1 attempt",
         r"False no solution in 100 attempts; at the nearest, frame 'l_gripper' misses its position by 1\.06\d* m",
     ],
+    "coming_from_moveit": [r"^PlanStatus.solved", r"^\[0\.3 +0\.3 +1\. +\]"],
+    "coming_from_robotic": [r"^True "],
     "conventions": [
         r"from above: <IkResult solved in 1 attempt",
         r"the palm is above the target by 0\.103 m",
@@ -123,6 +125,32 @@ def test_the_code_of_a_page_runs_from_top_to_bottom(page, tmp_path):
     assert run.returncode == 0, run.stderr
     for found in FOUND.get(page.stem, []):
         assert re.search(found, run.stdout, re.MULTILINE), f"{found} is not in\n{run.stdout}"
+
+
+# Files that entries of tables read.
+FILES = {
+    "scene.xml": "<mujoco><worldbody><body name='ball'><freejoint/><geom size='.1'/></body></worldbody></mujoco>",
+    "arm.urdf": """<robot name='arm'><link name='base'/><link name='hand'/><joint name='j' type='revolute'>
+        <parent link='base'/><child link='hand'/><limit lower='-1' upper='1' velocity='1' effort='1'/></joint></robot>""",
+    "arm.srdf": """<robot name='arm'><group name='all'><joint name='j'/></group>
+        <group_state name='ready' group='all'><joint name='j' value='.5'/></group_state></robot>""",
+    "poses.csv": "0 0.3 0.3 1.0\n1 0.4 0.3 1.0\n",
+}
+
+
+@pytest.mark.parametrize("page", sorted(DOCS.glob("coming_from_*.md")), ids=lambda page: page.stem)
+def test_the_entries_of_a_page_for_newcomers_run_after_its_code(page, tmp_path):
+    rows = [line.strip("| ").split(" | ") for line in page.read_text().split("\n") if line.startswith("|")][2:]
+    assert len(rows) >= 20 and any(here.startswith("not here") for _, here in rows)
+    entries = [entry for _, here in rows for entry in re.findall(r"`([^`]+)`", here)]
+    for name, text in FILES.items():
+        (tmp_path / name).write_text(text)
+    program = tmp_path / "program.py"  # a file: a traceback shows the entry
+    program.write_text("\n".join([*blocks(page, "python"), *entries]))
+    run = subprocess.run(
+        [sys.executable, "-W", "error", program], cwd=tmp_path, capture_output=True, text=True, timeout=120
+    )
+    assert run.returncode == 0, run.stderr
 
 
 def test_every_page_with_code_says_what_it_finds():
