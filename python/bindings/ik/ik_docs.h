@@ -20,7 +20,7 @@ Args:
         tuple of it and frames, with a point. Arrays (N, ...) define N problems.
     options: IkOptions, or None for the defaults.
     threads: Number of threads for the problems of a batch.
-    verbose: 1 prints a line at the end, and a progress bar during long searches.
+    verbose: 1 logs a line at the end, and shows a progress bar during long searches.
     apply: Sets the scene's q to the solution, if there is one.
     fields: Any field of IkOptions by name, such as best=True, collisions=False, margin=.02, attempts=20; tolerance
         sets position_tolerance (m) and rotation_tolerance (rad).
