@@ -6,7 +6,9 @@ function(kinegraph_find_prefix result python)
   execute_process(
     COMMAND "${python}" -c "import cmeel, pathlib; print((pathlib.Path(cmeel.__file__).parent.parent / 'cmeel.prefix').as_posix())"
     OUTPUT_VARIABLE prefix OUTPUT_STRIP_TRAILING_WHITESPACE RESULT_VARIABLE status ERROR_QUIET)
-  if(status EQUAL 0 AND EXISTS "${prefix}/lib/cmake/Qhull" AND EXISTS "${prefix}/include/boost/json.hpp" AND EXISTS "${prefix}/lib64/cmake/zlib" AND EXISTS "${prefix}/lib/cmake/tinyxml2" AND EXISTS "${prefix}/../mujoco/include")
+  if(status EQUAL 0 AND EXISTS "${prefix}/include/boost/json.hpp" AND EXISTS "${prefix}/include/eigen3"
+     AND EXISTS "${prefix}/lib/cmake/Qhull" AND EXISTS "${prefix}/lib64/cmake/zlib" AND EXISTS "${prefix}/lib/cmake/tinyxml2"
+     AND EXISTS "${prefix}/include/assimp" AND EXISTS "${prefix}/../mujoco/include")
     set(${result} "${prefix}" PARENT_SCOPE)
   else()
     set(${result} "" PARENT_SCOPE)
@@ -16,7 +18,7 @@ endfunction()
 set(KINEGRAPH_REQUIREMENTS_PYTHON "${Python_EXECUTABLE}")  # has the wheels, and pip
 kinegraph_find_prefix(KINEGRAPH_PREFIX "${Python_EXECUTABLE}")
 if(NOT KINEGRAPH_PREFIX)
-  set(venv "${CMAKE_BINARY_DIR}/requirements")
+  set(venv "${PROJECT_BINARY_DIR}/requirements")
   if(NOT EXISTS "${venv}/bin/python")
     message(STATUS "Installing the build requirements into ${venv}")
     execute_process(COMMAND "${Python_EXECUTABLE}" -m venv "${venv}" COMMAND_ERROR_IS_FATAL ANY)
@@ -33,17 +35,36 @@ if(NOT KINEGRAPH_PREFIX)
 endif()
 list(PREPEND CMAKE_PREFIX_PATH "${KINEGRAPH_PREFIX}")
 
-find_package(Eigen3 3.4 CONFIG REQUIRED)
-find_package(assimp CONFIG REQUIRED)
-find_package(boost_headers CONFIG REQUIRED)  # Beast and JSON are header-only
-find_package(Qhull CONFIG REQUIRED)
-find_package(tinyxml2 CONFIG REQUIRED)
-find_package(ZLIB CONFIG REQUIRED HINTS "${KINEGRAPH_PREFIX}/lib64/cmake/zlib")
+# The libraries have names of their own: a project that adds this one by add_subdirectory finds its packages as before.
+foreach(library qhull_r tinyxml2 z)
+  find_library(KINEGRAPH_LIBRARY_${library} ${library} PATHS "${KINEGRAPH_PREFIX}/lib" "${KINEGRAPH_PREFIX}/lib64"
+               NO_DEFAULT_PATH NO_CACHE REQUIRED)
+  add_library(kinegraph::${library} SHARED IMPORTED GLOBAL)
+  set_target_properties(kinegraph::${library} PROPERTIES IMPORTED_LOCATION "${KINEGRAPH_LIBRARY_${library}}"
+                        INTERFACE_INCLUDE_DIRECTORIES "${KINEGRAPH_PREFIX}/include")
+endforeach()
+set(KINEGRAPH_LIBRARIES kinegraph::qhull_r kinegraph::tinyxml2 kinegraph::z)
 find_package(Threads REQUIRED)
+set_target_properties(Threads::Threads PROPERTIES IMPORTED_GLOBAL ON)
+list(APPEND KINEGRAPH_LIBRARIES Threads::Threads ${CMAKE_DL_LIBS})
+
+# Eigen is that of the parent project, if it has one.
+if(TARGET Eigen3::Eigen)
+  set(KINEGRAPH_EIGEN Eigen3::Eigen)
+  get_target_property(KINEGRAPH_EIGEN_FOLDERS Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+  list(GET KINEGRAPH_EIGEN_FOLDERS 0 KINEGRAPH_EIGEN_FOLDER)
+else()
+  set(KINEGRAPH_EIGEN kinegraph::eigen)
+  set(KINEGRAPH_EIGEN_FOLDER "${KINEGRAPH_PREFIX}/include/eigen3")
+  add_library(kinegraph::eigen INTERFACE IMPORTED GLOBAL)
+  target_include_directories(kinegraph::eigen SYSTEM INTERFACE "${KINEGRAPH_EIGEN_FOLDER}")
+endif()
 
 # Assimp reads mesh files and MuJoCo renders camera images. Both are large and loaded at their first use by these names
-# (common/dynamic_library.h).
-get_target_property(KINEGRAPH_ASSIMP_LIBRARY assimp::assimp IMPORTED_SONAME_RELEASE)
+# (common/dynamic_library.h). Assimp's is libassimp.so and the first number of its version.
+file(GLOB assimp RELATIVE "${KINEGRAPH_PREFIX}/lib" "${KINEGRAPH_PREFIX}/lib/libassimp.so.*")
+list(FILTER assimp INCLUDE REGEX "[.]so[.][0-9]+$")
+list(GET assimp 0 KINEGRAPH_ASSIMP_LIBRARY)
 
 # The wheel of MuJoCo has the headers and one library, which depends on the C library only.
 get_filename_component(KINEGRAPH_MUJOCO "${KINEGRAPH_PREFIX}/../mujoco" ABSOLUTE)
@@ -72,4 +93,17 @@ function(kinegraph_install_libraries target folder component)
       message(FATAL_ERROR "libraries not found: ${missing}")
     endif()
   ]] COMPONENT ${component})
+endfunction()
+
+# Installs the license texts of this library and of all software that a package contains.
+function(kinegraph_install_licenses folder component)
+  file(GLOB texts "${PROJECT_SOURCE_DIR}/licenses/*")
+  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" ${texts} DESTINATION "${folder}" COMPONENT ${component})
+  file(GLOB mujoco "${KINEGRAPH_MUJOCO}/../mujoco_core-*.dist-info/licenses/LICENSE")
+  if(NOT mujoco)
+    message(FATAL_ERROR "The wheel of MuJoCo has no license text below ${KINEGRAPH_MUJOCO}/..")
+  endif()
+  get_filename_component(mujoco "${mujoco}" DIRECTORY)
+  install(FILES "${mujoco}/LICENSE" RENAME mujoco.txt DESTINATION "${folder}" COMPONENT ${component})
+  install(FILES "${mujoco}/LICENSES_THIRD_PARTY.md" RENAME mujoco_third_party.md DESTINATION "${folder}" COMPONENT ${component})
 endfunction()

@@ -6,7 +6,9 @@
 #   lib                      libkinegraph
 #   lib/kinegraph/lib        its libraries
 #   lib/cmake/kinegraph      kinegraphConfig.cmake
+#   lib/pkgconfig            kinegraph.pc
 #   share/kinegraph/models   the models
+#   share/kinegraph/licenses the licenses of the library and of all that the prefix contains
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/kinegraph")
@@ -55,24 +57,39 @@ endif()
 
 install(TARGETS kinegraph EXPORT kinegraphTargets COMPONENT cpp)
 install(EXPORT kinegraphTargets NAMESPACE kinegraph:: DESTINATION "${package_folder}" COMPONENT cpp)
-get_target_property(eigen_folders Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
-list(GET eigen_folders 0 eigen_folder)
-get_directory_property(options DIRECTORY "${PROJECT_SOURCE_DIR}" COMPILE_OPTIONS)
-separate_arguments(flags NATIVE_COMMAND "${CMAKE_CXX_FLAGS}")
 install(CODE "set(python [[${Python_EXECUTABLE}]])
 set(repository [[${PROJECT_SOURCE_DIR}]])
 set(folder [[${CMAKE_INSTALL_INCLUDEDIR}]])
 set(work [[${CMAKE_CURRENT_BINARY_DIR}/install]])
-set(preprocess [[${CMAKE_CXX_COMPILER};${flags};${options};-I${eigen_folder}]])" COMPONENT cpp)
+set(checks [[${KINEGRAPH_CHECKS}]])" COMPONENT cpp)
 install(SCRIPT "${PROJECT_SOURCE_DIR}/cmake/InstallHeaders.cmake" COMPONENT cpp)
-install(DIRECTORY "${eigen_folder}/Eigen" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/kinegraph/eigen3" COMPONENT cpp)
+install(DIRECTORY "${KINEGRAPH_EIGEN_FOLDER}/Eigen" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/kinegraph/eigen3" COMPONENT cpp)
+kinegraph_install_licenses("${CMAKE_INSTALL_DATADIR}/kinegraph/licenses" cpp)
 install(DIRECTORY "${PROJECT_SOURCE_DIR}/models" DESTINATION "${CMAKE_INSTALL_DATADIR}/kinegraph" COMPONENT cpp)
 configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/kinegraphConfig.cmake.in" "${CMAKE_CURRENT_BINARY_DIR}/kinegraphConfig.cmake"
                               INSTALL_DESTINATION "${package_folder}"
-                              PATH_VARS CMAKE_INSTALL_INCLUDEDIR CMAKE_INSTALL_DATADIR libraries_folder)
+                              PATH_VARS CMAKE_INSTALL_INCLUDEDIR CMAKE_INSTALL_LIBDIR CMAKE_INSTALL_DATADIR libraries_folder)
 write_basic_package_version_file("${CMAKE_CURRENT_BINARY_DIR}/kinegraphConfigVersion.cmake" COMPATIBILITY SameMinorVersion)
 install(FILES "${CMAKE_CURRENT_BINARY_DIR}/kinegraphConfig.cmake" "${CMAKE_CURRENT_BINARY_DIR}/kinegraphConfigVersion.cmake"
         DESTINATION "${package_folder}" COMPONENT cpp)
+
+# For pkg-config. The folders are relative to the file.
+file(RELATIVE_PATH prefix_of_pc "/${CMAKE_INSTALL_LIBDIR}/pkgconfig" "/")
+set(definitions "-DEIGEN_MALLOC_ALREADY_ALIGNED=${KINEGRAPH_EIGEN_MALLOC}")
+set(run_path "\${libdir}")
+set(needed "")
+if(library_type STREQUAL "STATIC_LIBRARY")
+  set(run_path "\${libdir}/kinegraph/lib")
+  string(APPEND definitions " -DKINEGRAPH_MODELS=\\\"\${prefix}/${CMAKE_INSTALL_DATADIR}/kinegraph/models\\\"")
+  foreach(library qhull_r tinyxml2 z)
+    execute_process(COMMAND "${CMAKE_OBJDUMP}" -p "${KINEGRAPH_LIBRARY_${library}}" OUTPUT_VARIABLE text COMMAND_ERROR_IS_FATAL ANY)
+    string(REGEX MATCH "SONAME +([^ \n]+)" _ "${text}")
+    string(APPEND needed " -l:${CMAKE_MATCH_1}")
+  endforeach()
+  set(needed " -L${run_path}${needed} -pthread -ldl")
+endif()
+configure_file("${PROJECT_SOURCE_DIR}/cmake/kinegraph.pc.in" "${CMAKE_CURRENT_BINARY_DIR}/kinegraph.pc" @ONLY)
+install(FILES "${CMAKE_CURRENT_BINARY_DIR}/kinegraph.pc" DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig" COMPONENT cpp)
 
 # The build folder has the models in share/kinegraph/models as well: see modelPath.
 file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/share/kinegraph")

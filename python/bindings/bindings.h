@@ -42,6 +42,7 @@ void warnOfContacts(const PyConfig& config);
 void warnOfMissingContacts(const PyConfig& config);
 
 void bindErrors(nb::module_& m);
+void bindLog();
 void bindScene(nb::module_& m);
 void bindJoints(nb::class_<PyConfig>& config);
 void bindCollisions(nb::module_& m, nb::class_<PyConfig>& config);

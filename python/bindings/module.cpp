@@ -38,6 +38,7 @@ NB_MODULE(_core, m) {
   nb::set_leak_warnings(false);
   m.attr("__version__") = KINEGRAPH_VERSION;
   bindErrors(m);
+  bindLog();
   bindTrajectory(m);
   bindScene(m);
   bindRendering(m);

@@ -9,6 +9,7 @@ import numpy as np
 
 from ._core import Config, ManipulationHelper, NLP_Solver, SolverReturn
 from .errors import ArgumentError
+from .log_messages import logger
 
 _OPTIONS = {"damping": 1e-1, "stopTolerance": 1e-3, "lambdaMax": 100.0, "stopInners": 20, "stopEvals": 200}
 
@@ -52,7 +53,7 @@ class KOMO_ManipulationHelper(ManipulationHelper):
         """Solves the problem from the current path of its KOMO.
 
         Args:
-            verbose: 1: prints the result in a line; more: prints the lines of the solver, too; 0: prints nothing.
+            verbose: 1: logs the result in a line; more: the lines of the solver, too; 0: nothing.
         Returns:
             The result. The path is in `path` if it is feasible.
         Raises:
@@ -65,7 +66,7 @@ class KOMO_ManipulationHelper(ManipulationHelper):
         self.path = komo.getPath() if self.ret.feasible else None
         if verbose > 0:
             said = "feasible" if self.ret.feasible else "infeasible"
-            print(f"  -- {said}: {self.info}{': ' if self.info else ''}{self.ret.message}")
+            logger.info("  -- %s: %s%s%s", said, self.info, ": " if self.info else "", self.ret.message)
         return self.ret
 
     def sub_motion(

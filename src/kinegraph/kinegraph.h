@@ -13,6 +13,8 @@
 /// explains how to build with it. Lengths are in m, angles in rad, quaternions (w, x, y, z), poses
 /// (x, y, z, qw, qx, qy, qz).
 
+#include "kinegraph/common/compiler_check.h"
+
 #include "kinegraph/api/camera_view.h"          // CameraView: images
 #include "kinegraph/api/custom_feature.h"       // functions of frames as features
 #include "kinegraph/api/model_path.h"           // modelPath
@@ -26,6 +28,7 @@
 #include "kinegraph/collision/edge_check.h"     // EdgeChecker: collision checks of configurations and edges
 #include "kinegraph/collision/limit_check.h"    // withinLimits
 #include "kinegraph/common/errors.h"            // exceptions
+#include "kinegraph/common/log.h"               // setLogSink: messages of the library
 #include "kinegraph/common/random.h"            // Rng
 #include "kinegraph/control/diff_ik.h"          // DiffIk: joint velocities, one step at a time
 #include "kinegraph/control/mpc.h"              // Mpc: model predictive control

@@ -23,18 +23,19 @@ std::string messageOf(const std::function<void()>& call) {
 
 TEST(DynamicLibrary, GivesFunctionsByTheirNames) {
   double (*cosine)(double) = nullptr;
-  DynamicLibrary("libm.so.6", "a cosine").load(cosine, "cos");
+  DynamicLibrary("libm.so.6", "a cosine", "cos").load(cosine, "cos");
   EXPECT_EQ(cosine(0.), 1.);
 }
 
 TEST(DynamicLibrary, AMissingLibraryIsNamedWithWhatItIsNeededFor) {
-  const std::string message = messageOf([] { DynamicLibrary("libnowhere.so.7", "a camera image"); });
+  const std::string message = messageOf([] { DynamicLibrary("libnowhere.so.7", "a camera image", "mj_step"); });
   EXPECT_TRUE(message.starts_with("a camera image needs the library libnowhere.so.7, which cannot be loaded: "))
       << message;
 }
 
 TEST(DynamicLibrary, AMissingFunctionIsNamed) {
   void (*function)() = nullptr;
-  const std::string message = messageOf([&] { DynamicLibrary("libm.so.6", "a cosine").load(function, "kosinus"); });
+  const std::string message =
+      messageOf([&] { DynamicLibrary("libm.so.6", "a cosine", "cos").load(function, "kosinus"); });
   EXPECT_EQ(message, "a cosine needs another version of libm.so.6: this one has no kosinus");
 }

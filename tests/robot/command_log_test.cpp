@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <locale>
+
 #include "tests/robot/arm.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
@@ -55,6 +57,29 @@ TEST(CommandLog, IsSavedAndLoaded) {
   EXPECT_EQ(CommandLog::load(path).text(), sample().text());
   expectError<FileError>([&] { CommandLog::load((folder / "missing").string()); }, {"cannot read", "missing"});
   expectError<FileError>([&] { sample().save((folder / "missing/log").string()); }, {"cannot write"});
+}
+
+TEST(CommandLog, IsWrittenAndReadInTheCLocaleWhateverThatOfTheProgram) {
+  struct CommaAndDots final : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+  };
+  CommandLog log = sample();
+  log.ticks = 1635;
+  const std::string text = log.text();
+  const std::locale before = std::locale::global(std::locale(std::locale::classic(), new CommaAndDots));
+  const std::string with_commas = log.text();
+  long ticks = 0;
+  try {
+    ticks = CommandLog::fromText(text).ticks;
+  } catch (const Error& error) {
+    ADD_FAILURE() << error.what();
+  }
+  std::locale::global(before);
+  EXPECT_EQ(with_commas, text);
+  EXPECT_NE(text.find("1635 end"), std::string::npos);
+  EXPECT_EQ(ticks, 1635);
 }
 
 TEST(CommandLog, SaysWhereATextIsNone) {

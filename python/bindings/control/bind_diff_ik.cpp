@@ -19,7 +19,7 @@ VectorXd limitsOf(const std::optional<Numbers>& given, const PyConfig& config) {
   return given->rank == 0 ? VectorXd::Constant(config.getJointDimension(), given->values[0]) : given->values;
 }
 
-void makeDiffIk(DiffIk* self, const PyConfig& config, const std::optional<Numbers>& velocity,
+void makeDiffIk(DiffIk* self, PyConfig& config, const std::optional<Numbers>& velocity,
                 const std::optional<Numbers>& acceleration, double posture, double damping, bool collisions,
                 double margin, double collision_gain, double influence_distance) {
   DiffIkOptions options;

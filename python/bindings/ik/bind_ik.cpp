@@ -6,6 +6,7 @@
 #include "ik/ik_objects.h"
 #include "ik/ik_targets.h"
 #include "kinegraph/common/errors.h"
+#include "kinegraph/common/log.h"
 #include "kinegraph/common/stopwatch.h"
 #include "kinegraph/common/text.h"
 #include "python_names.h"
@@ -64,9 +65,8 @@ nb::object solve(PyConfig& config, nb::handle targets, const std::optional<IkOpt
     bar.finish();
   }
   if (verbose > 0)
-    nb::print(cat("solveIk: ", problems.is_batch || all ? resultsText(results) : resultText(results[0]), " ",
-                  bar.seconds(), " s")
-                  .c_str());
+    logMessage(LogLevel::info, cat("solveIk: ", problems.is_batch || all ? resultsText(results) : resultText(results[0]),
+                                   " ", bar.seconds(), " s"));
   if (!results.empty())  // they do not depend on the numbers of the targets
     for (const std::string& warning : results[0].warnings) emitWarning(cat("solveIk: ", inPython(warning)));
   if (apply && results[0].feasible()) config.setJointState(results[0].q);

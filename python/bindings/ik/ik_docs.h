@@ -20,7 +20,7 @@ Args:
         tuple of it and frames, with a point. Arrays (N, ...) define N problems.
     options: IkOptions, or None for the defaults.
     threads: Number of threads for the problems of a batch.
-    verbose: 1 prints a line at the end, and a progress bar during long searches.
+    verbose: 1 logs a line at the end, and shows a progress bar during long searches.
     apply: Sets the scene's q to the solution, if there is one; with `all`, to the first.
     all: Finds all solutions, the nearest to the present q first. Those that differ by whole turns count once. The pose
         of a frame that six hinges move has a closed form if the arm has a spherical wrist, or parallel axes as UR arms

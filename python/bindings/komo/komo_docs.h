@@ -211,7 +211,7 @@ inline constexpr char optimize[] = R"(Solves the problem from the present path.
 
 Args:
     addInitializationNoise: Standard deviation of noise added to the path first, rad or m.
-    verbose: 1 prints a line at the end, higher values print the steps.
+    verbose: 1 logs a line at the end, higher values log the steps.
 Returns:
     The SolverReturn.
 Raises:

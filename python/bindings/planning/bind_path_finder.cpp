@@ -3,6 +3,7 @@
 #include <nanobind/stl/vector.h>
 
 #include "defaults.h"
+#include "kinegraph/common/log.h"
 #include "kinegraph/planning/path_finder.h"
 #include "option_class.h"
 #include "planning/path_finder_docs.h"
@@ -81,9 +82,9 @@ PathResult solve(PyPathFinder& finder, int verbose) {
   }
   verbose = std::max(verbose, finder.options().verbose);
   if (verbose > 0)
-    nb::print(cat("RRT_PathFinder: ", result.feasible ? cat("path of ", finder.path().rows(), " configurations, ") : "",
-                  inPython(result.message), ", ", result.evals, " samples, ", result.time, " s")
-                  .c_str());
+    logMessage(LogLevel::info, cat("RRT_PathFinder: ",
+                                   result.feasible ? cat("path of ", finder.path().rows(), " configurations, ") : "",
+                                   inPython(result.message), ", ", result.evals, " samples, ", result.time, " s"));
   if (verbose > 1 && result.feasible) viewFinder(finder, true, result.message, true);
   return result;
 }

@@ -59,7 +59,7 @@ inline constexpr char solve[] =
     R"(Searches a path. Equal seeds (rnd_seed) give equal paths. Ctrl-C ends the search.
 
 Args:
-    verbose: 0: silent; 1: prints a line; 2 and more: also shows the path and waits.
+    verbose: 0: silent; 1: logs a line; 2 and more: also shows the path and waits.
 Returns:
     The outcome. x is the path, shape (K, n), start and goal included, configurations at most stepsize apart; feasible
     is True if there is one. Otherwise x is empty and message says why, as "the start collides: ...". evals is the

@@ -19,7 +19,7 @@ namespace kinegraph::python {
 Frame toFrame(const Config& config, nb::handle name_or_id, const char* who) {
   if (nb::isinstance<nb::str>(name_or_id))
     return Frame(config.scene(), config.scene()->get(nb::cast<std::string>(name_or_id), who));
-  if (nb::isinstance<nb::int_>(name_or_id)) return config.getFrame(nb::cast<int>(name_or_id));
+  if (nb::isinstance<nb::int_>(name_or_id)) return Config(config.scene()).getFrame(nb::cast<int>(name_or_id));
   if (nb::isinstance<Frame>(name_or_id)) return nb::cast<Frame>(name_or_id);
   throw ValueError(cat("a frame is given by its name or id, not by a ",
                        nb::cast<std::string>(nb::str(name_or_id.type().attr("__name__")))));
@@ -35,7 +35,7 @@ Result withWarnings(PyConfig& config, Result result) {
   return result;
 }
 
-std::optional<Frame> getFrame(const PyConfig& config, const std::string& name, bool warn) {
+std::optional<Frame> getFrame(PyConfig& config, const std::string& name, bool warn) {
   return warn ? config.getFrame(name) : config.findFrame(name);
 }
 
@@ -119,8 +119,7 @@ void bindProtocols(nb::class_<PyConfig>& config) {
              new (&c) PyConfig{Config(sceneFromBytes({bytes.c_str(), bytes.size()})), nullptr};
            })
       .def("__len__", &PyConfig::getFrameDimension)
-      .def("__iter__",
-           [](const PyConfig& c) { return nb::typed<nb::iterator, Frame>(nb::iter(nb::cast(c.getFrames()))); })
+      .def("__iter__", [](PyConfig& c) { return nb::typed<nb::iterator, Frame>(nb::iter(nb::cast(c.getFrames()))); })
       .def(
           "__contains__", [](const PyConfig& c, const std::string& name) { return c.findFrame(name).has_value(); },
           "name"_a)

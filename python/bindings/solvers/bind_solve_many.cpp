@@ -8,6 +8,7 @@
 #include "bindings.h"
 #include "defaults.h"
 #include "kinegraph/common/errors.h"
+#include "kinegraph/common/log.h"
 #include "kinegraph/common/stopwatch.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/trajectory_optimization/multi_start.h"
@@ -47,9 +48,8 @@ class SolveManyMonitor {
     if (drawn_) draw(here_.wasPressed() ? done : total_);
     if (here_.wasPressed() && all.best().x.size() == 0) throwKeyboardInterrupt();
     if (verbose_ < 1) return;
-    nb::print(cat(what_, ": ", feasible, " of ", done, " are feasible, in ", stopwatch_.seconds(),
-                  " s; the best: ", all.chosen, ", ", inPython(all.best().str()))
-                  .c_str());
+    logMessage(LogLevel::info, cat(what_, ": ", feasible, " of ", done, " are feasible, in ", stopwatch_.seconds(),
+                                   " s; the best: ", all.chosen, ", ", inPython(all.best().str())));
   }
 
  private:

@@ -11,7 +11,7 @@ Args:
     problems: KOMO, NLP or NLP_Solver objects, all different. A KOMO is left at its solution.
     threads: Number of threads.
     best: True solves all problems; False ends with the first feasible one in the list.
-    verbose: 1 prints a line at the end, and shows a progress bar if it takes long.
+    verbose: 1 logs a line at the end, and shows a progress bar if it takes long.
     options: Options of the solvers, except for NLP_Solver objects, which have their own; None for the defaults.
 Returns:
     SolverReturns: results in the order of the problems, chosen (the index of the best), best.
@@ -27,7 +27,7 @@ Args:
     best: True solves from all, for the feasible solution of least cost; False ends with the first feasible one.
     threads: Number of threads; the result does not depend on it.
     seed: Seed of the random guesses.
-    verbose: 1 prints a line at the end, and shows a progress bar if it takes long.
+    verbose: 1 logs a line at the end, and shows a progress bar if it takes long.
     options: Options of the solver; None for the defaults.
 Returns:
     SolverReturns: best, chosen (its index), results.

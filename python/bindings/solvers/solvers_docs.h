@@ -33,7 +33,7 @@ inline constexpr char makeSolver[] = R"(Creates a solver of a problem.
 
 Args:
     problem: The problem.
-    verbose: 1 prints a line at the end; larger values print steps.)";
+    verbose: 1 logs a line at the end; larger values log steps.)";
 
 inline constexpr char setProblem[] = R"(Sets the problem. Only one call is allowed.
 

@@ -8,6 +8,7 @@
 #include "bindings.h"
 #include "defaults.h"
 #include "kinegraph/common/errors.h"
+#include "kinegraph/common/log.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/task_planning/lgp/lgp_tool.h"
 #include "logic/logic_objects.h"
@@ -243,10 +244,7 @@ void makeTool(PyLgpTool* self, const PyConfig& C, std::shared_ptr<Abstraction> t
   LgpOptions options;
   options.threads = threads;
   options.cancellation = asksForInterrupts();
-  options.print = [](const std::string& line) {
-    const nb::gil_scoped_acquire lock;
-    nb::print(inPython(line).c_str());
-  };
+  options.print = [](const std::string& line) { logMessage(LogLevel::info, inPython(line)); };
   if (!results.is_none()) {
     options.accepts = [results](const SolverResult& result) {
       const nb::gil_scoped_acquire lock;

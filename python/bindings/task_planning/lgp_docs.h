@@ -160,7 +160,7 @@ inline constexpr char solve[] =
     R"(Searches for a new plan with feasible waypoints. Repeated calls give further plans. Ctrl-C ends it.
 
 Args:
-    verbose: 1: prints a line per plan that was tried; 0: prints nothing.
+    verbose: 1: logs a line per plan that was tried; 0: logs nothing.
     maxSolves: Maximum number of solves of waypoint problems.
 Returns:
     True if a plan was found. Else `status` is LgpStatus.infeasible (the logic has no plan at all) or no_plan_found, and
@@ -200,7 +200,7 @@ Returns:
 inline constexpr char solvePiecewiseMotions[] = R"(Solves the motions of all actions, one after the other.
 
 Args:
-    verbose: 1: prints a line per action; 0: prints nothing.
+    verbose: 1: logs a line per action; 0: logs nothing.
 Returns:
     The results. The paths are in `paths`.
 )" KINEGRAPH_LGP_NO_PLAN;
@@ -209,7 +209,7 @@ inline constexpr char solveFullMotion[] =
     R"(Solves the motion of all actions, from the waypoints, then from perturbed ones.
 
 Args:
-    verbose: 1: prints the result in a line; 0: prints nothing.
+    verbose: 1: logs the result in a line; 0: logs nothing.
 Returns:
     The result. The path is in `path`, the problem in `motion`.
 )" KINEGRAPH_LGP_NO_PLAN;

@@ -43,8 +43,8 @@ Raises:
     OSError: The file cannot be written.)";
 
 inline constexpr char view[] =
-    R"(Shows the scene in the browser, in a notebook below the cell. The first call prints the page's address, and opens
-a browser if there is a display. With KINEGRAPH_HEADLESS=1 it opens nothing, prints nothing and does not wait.
+    R"(Shows the scene in the browser, in a notebook below the cell. The first call logs the page's address, and opens
+a browser if there is a display. With KINEGRAPH_HEADLESS=1 it opens nothing, logs nothing and does not wait.
 
 Args:
     pause: Whether to wait for a key in the browser, or Enter on the terminal.

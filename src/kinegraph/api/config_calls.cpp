@@ -1,6 +1,5 @@
 // The methods of Config that need the rooms above the scene.
-#include <iostream>
-
+#include "kinegraph/common/log.h"
 #include "kinegraph/features/eval.h"
 #include "kinegraph/viewer/config_viewer.h"
 #include "kinegraph/viewer/motions.h"
@@ -38,7 +37,7 @@ int Config::viewPath(const MatrixXd& path, double seconds, bool pause, const std
 }
 
 void Config::watchFile(const std::string& path) {
-  const auto print = [](const std::string& text) { std::cout << text << std::endl; };
+  const auto print = [](const std::string& text) { logMessage(LogLevel::notice, text); };
   kinegraph::watchFile(*this, viewer(), path, print, neverStops);
 }
 

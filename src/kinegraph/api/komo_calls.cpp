@@ -9,9 +9,6 @@ namespace kinegraph {
 
 namespace {
 
-/// Wraps a Komo that the caller keeps alive.
-std::shared_ptr<Komo> borrowed(Komo& komo) { return {std::shared_ptr<void>(), &komo}; }
-
 int show(Komo& komo, const ShownMotion& motion, bool pause, const std::string& message) {
   ConfigViewer& viewer = komo.viewer();
   if (!viewer.isOpen()) viewer.setTitle("KOMO Viewer");
@@ -20,7 +17,7 @@ int show(Komo& komo, const ShownMotion& motion, bool pause, const std::string& m
 
 }  // namespace
 
-std::shared_ptr<Nlp> Komo::nlp() { return makeNlp(borrowed(*this)); }
+std::shared_ptr<Nlp> Komo::nlp() { return makeNlp(sharing()); }
 
 SolverResult Komo::solve() {
   SolverOptions quiet;
@@ -36,7 +33,7 @@ SolverResult Komo::solve(const SolverOptions& options) {
 }
 
 SolveManyResult Komo::solveFromMany(int starts, const SolveManyOptions& options, std::uint64_t seed) {
-  return kinegraph::solveFromMany(borrowed(*this), sampleStarts(*this, starts, seed), {}, options);
+  return kinegraph::solveFromMany(sharing(), sampleStarts(*this, starts, seed), {}, options);
 }
 
 int Komo::view(bool pause, const std::string& message) {

@@ -14,8 +14,10 @@ namespace kinegraph {
 /// library.
 class DynamicLibrary {
  public:
-  /// `purpose` names the function that needs the library. Throws FileError with its name if it cannot be loaded.
-  DynamicLibrary(std::string name, std::string purpose);
+  /// `purpose` names the function that needs the library, and `symbol` one of the library's own functions. If the
+  /// program has another library with these functions, such as another version, this one keeps to its own (deep
+  /// binding). Throws FileError with the name if the library cannot be loaded.
+  DynamicLibrary(std::string name, std::string purpose, const char* symbol);
 
   /// Sets `function` to the function of that name. Throws FileError if the library does not have it.
   template <class Function>

@@ -1,5 +1,8 @@
 #include "kinegraph/common/text.h"
 
+#include <locale.h>
+#include <stdlib.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -16,6 +19,22 @@ void appendNumber(std::string& text, double value) {
       std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, 6);
   (void)error;
   text.append(buffer.data(), end);
+}
+
+std::string numberText(double value, int digits) {
+  std::array<char, 64> buffer;
+  const auto [end, error] =
+      std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::general, digits);
+  (void)error;
+  return {buffer.data(), end};
+}
+
+double readNumber(const char* text, const char** end) {
+  static const locale_t kClassic = newlocale(LC_ALL_MASK, "C", locale_t{});
+  char* behind = nullptr;
+  const double number = strtod_l(text, &behind, kClassic);
+  if (end) *end = behind;
+  return number;
 }
 
 std::string exact(double value) {

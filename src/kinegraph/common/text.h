@@ -1,5 +1,6 @@
 #pragma once
 
+#include <locale>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -24,6 +25,7 @@ void appendText(std::string& text, const T& value) {
     text += std::to_string(value);
   } else {
     std::ostringstream out;
+    out.imbue(std::locale::classic());
     out << value;
     text += out.str();
   }
@@ -36,6 +38,13 @@ std::string cat(const Args&... args) {
   (appendText(text, args), ...);
   return text;
 }
+
+/// Returns a number with the given count of digits, in the format of streams.
+std::string numberText(double value, int digits);
+
+/// Reads a number at the beginning of a text as std::strtod does, but always in the C locale. `end` is set behind it;
+/// to `text` if there is none.
+double readNumber(const char* text, const char** end = nullptr);
 
 /// Returns the shortest decimal text that parses to exactly `value`.
 std::string exact(double value);

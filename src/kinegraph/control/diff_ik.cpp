@@ -54,7 +54,7 @@ void DiffIkOptions::validate(int dofs) const {
   if (!std::isfinite(margin)) throw ValueError(cat("DiffIk: margin is ", margin, "; expected a finite number (m)"));
 }
 
-DiffIk::DiffIk(const Config& config, const DiffIkOptions& options)
+DiffIk::DiffIk(Config& config, const DiffIkOptions& options)
     : config_(config.scene()), options_(options), posture_(config.getJointState()) {
   options_.validate(config_.getJointDimension());
   prepare();

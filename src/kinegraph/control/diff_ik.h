@@ -49,8 +49,8 @@ enum class DiffIkStatus {
 /// limits does not move. After the first step nothing allocates.
 class DiffIk {
  public:
-  /// Shares the scene, without a copy. Its current q is the posture.
-  explicit DiffIk(const Config& config, const DiffIkOptions& options = {});
+  /// Moves this scene, without a copy. Its current q is the posture.
+  explicit DiffIk(Config& config, const DiffIkOptions& options = {});
 
   /// Adds a feature that shall become zero, or `target`. `weight` multiplies its components. `gain` in (0, 1] is the
   /// share of the error that one step removes. Tasks with a higher `priority` number only use directions that tasks

@@ -63,6 +63,17 @@ struct VelocityInterval {
 
 HorizonTrajectory::HorizonTrajectory(std::vector<double> times, MatrixXd q, VectorXd velocity)
     : times_(std::move(times)), q_(std::move(q)) {
+  findVelocities(velocity);
+}
+
+void HorizonTrajectory::assign(std::span<const double> times, const Eigen::Ref<const MatrixXd>& q,
+                               const Eigen::Ref<const VectorXd>& velocity) {
+  times_.assign(times.begin(), times.end());
+  q_ = q;
+  findVelocities(velocity);
+}
+
+void HorizonTrajectory::findVelocities(const Eigen::Ref<const VectorXd>& velocity) {
   const auto last = int(times_.size()) - 1;
   assert(last >= 0 && q_.cols() == last + 1 && velocity.size() == q_.rows());
   velocity_.resize(q_.rows(), q_.cols());

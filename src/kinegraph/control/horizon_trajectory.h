@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,10 @@ class HorizonTrajectory final : public Trajectory {
   /// `times` (K) ascend from 0, K >= 1; `q` (n, K) has one point per column; `velocity` (n,) is that at time 0.
   HorizonTrajectory(std::vector<double> times, MatrixXd q, VectorXd velocity);
 
+  /// Replaces the motion; the memory is requested again only if K changes.
+  void assign(std::span<const double> times, const Eigen::Ref<const MatrixXd>& q,
+              const Eigen::Ref<const VectorXd>& velocity);
+
   int dimension() const override { return int(q_.rows()); }
   double duration() const override { return times_.back(); }
   void evalTo(double t, double* q, double* velocity, double* acceleration) const override;
@@ -30,6 +35,7 @@ class HorizonTrajectory final : public Trajectory {
            (times_[std::size_t(interval) + 1] - times_[std::size_t(interval)]);
   }
   double largest(int dof, int interval) const { return interval == 0 ? largest_first_[dof] : largest_[dof]; }
+  void findVelocities(const Eigen::Ref<const VectorXd>& velocity);
   void limitVelocities();
 
   std::vector<double> times_;

@@ -56,6 +56,7 @@ Mpc::Mpc(const Komo& komo, const MpcOptions& given) : options(given), komo_(std:
   shifted_x_ = feasible_x_ = x_, shifted_dual_ = dual_;
   q_ = path.initial().q, velocity_ = VectorXd::Zero(q_.size()), measured_ = q_;
   solver_.verbose = 0;
+  updateMotion();
 }
 
 void Mpc::requireProblem() const {
@@ -201,6 +202,7 @@ const MpcResult& Mpc::step(const VectorXd& q, const VectorXd& velocity, std::opt
   setPresent(q, velocity);
   has_path_ = true;
   search();
+  updateMotion();
   result_.time = stopwatch.seconds();
   return result_;
 }
@@ -312,6 +314,7 @@ void Mpc::search() {
   } catch (...) {
     forget();
     restAt(q_);
+    updateMotion();
     throw;
   }
   const EvaluatedPoint& here = parts->here;
@@ -351,6 +354,7 @@ void Mpc::reset() {
   elapsed_ = 0.;
   past_ = 0;
   has_path_ = false;
+  updateMotion();
 }
 
 /// Returns the time of slice t after the last call; all past slices lie at the time of the call.
@@ -359,34 +363,47 @@ double Mpc::sliceTime(int t) const {
   return t < past_ ? 0. : (t + 1) * komo_->path().grid().tau() - now;
 }
 
-VectorXd Mpc::sliceJoints(int t) const {
+void Mpc::sliceJoints(int t, Eigen::Ref<VectorXd> q) const {
   const Path& path = komo_->path();
-  if (t < past_) return q_;
-  if (path.layout().plain) return path.state(t).q();
-  const std::vector<int> dofs = path.dofsOf(path.initial().joint_frames, t);
-  VectorXd q(dofs.size());
-  for (std::size_t d = 0; d < dofs.size(); ++d) q[Eigen::Index(d)] = path.state(t).q()[dofs[d]];
-  return q;
+  if (t < past_) {
+    q = q_;
+  } else if (path.layout().plain) {
+    q = path.state(t).q();
+  } else {
+    const std::vector<int> dofs = path.dofsOf(path.initial().joint_frames, t);
+    for (std::size_t d = 0; d < dofs.size(); ++d) q[Eigen::Index(d)] = path.state(t).q()[dofs[d]];
+  }
+}
+
+void Mpc::updateMotion() {
+  const int T = komo_->path().grid().slices(), points = T - past_ + 1;
+  times_.assign(1, 0.);
+  points_.resize(q_.size(), points);
+  points_.col(0) = q_;
+  for (int t = past_; t < T; ++t) {
+    times_.push_back(sliceTime(t));
+    sliceJoints(t, points_.col(t - past_ + 1));
+  }
+  if (points == 1)
+    motion_.assign(times_, points_, VectorXd::Zero(q_.size()));
+  else
+    motion_.assign(times_, points_, velocity_);
 }
 
 MotionPoint Mpc::at(double time) const {
-  if (std::isnan(time)) throw ValueError("Mpc: time is NaN; expected a number of seconds after the last call");
-  const HorizonTrajectory motion = horizon();
-  if (time > motion.duration()) return {motion.eval(motion.duration()).q, VectorXd::Zero(q_.size())};
-  MotionState state = motion.eval(time);
-  return {std::move(state.q), std::move(state.velocity)};
+  MotionPoint point;
+  at(time, point);
+  return point;
 }
 
-HorizonTrajectory Mpc::horizon() const {
-  const int T = komo_->path().grid().slices(), points = T - past_ + 1;
-  std::vector<double> times{0.};
-  MatrixXd q(q_.size(), points);
-  q.col(0) = q_;
-  for (int t = past_; t < T; ++t) {
-    times.push_back(sliceTime(t));
-    q.col(t - past_ + 1) = sliceJoints(t);
-  }
-  return {std::move(times), std::move(q), points == 1 ? VectorXd::Zero(q_.size()) : velocity_};
+void Mpc::at(double time, MotionPoint& point) const {
+  if (std::isnan(time)) throw ValueError("Mpc: time is NaN; expected a number of seconds after the last call");
+  thread_local std::vector<double> acceleration;  // not wanted here
+  acceleration.resize(std::size_t(q_.size()));
+  point.q.resize(q_.size());
+  point.velocity.resize(q_.size());
+  motion_.evalTo(time, point.q.data(), point.velocity.data(), acceleration.data());
+  if (time > motion_.duration()) point.velocity.setZero();
 }
 
 }  // namespace kinegraph

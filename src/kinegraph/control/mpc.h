@@ -93,8 +93,11 @@ class Mpc {
   /// velocity where a cubic would be faster than the fastest slice (HorizonTrajectory). Throws ValueError for NaN.
   MotionPoint at(double time) const;
 
+  /// Writes the same point; a control loop that passes the same `point` again requests no memory.
+  void at(double time, MotionPoint& point) const;
+
   /// Returns a copy of the motion of the last call as a trajectory from the time of that call on, which equals `at`.
-  HorizonTrajectory horizon() const;
+  HorizonTrajectory horizon() const { return motion_; }
 
   MatrixXd getPath() const { return komo_->getPath(); }  ///< T x n
   const MpcResult& result() const { return result_; }
@@ -119,8 +122,9 @@ class Mpc {
   void restAt(const VectorXd& q);
   void forget();
 
+  void updateMotion();
   double sliceTime(int t) const;
-  VectorXd sliceJoints(int t) const;
+  void sliceJoints(int t, Eigen::Ref<VectorXd> q) const;
 
   std::shared_ptr<Komo> komo_;
   std::shared_ptr<Nlp> separate_;  ///< with one residual per pair instead of sums over pairs
@@ -134,6 +138,9 @@ class Mpc {
   VectorXd x_, shifted_x_, dual_, shifted_dual_, q_, velocity_, measured_;
   VectorXd feasible_x_;  ///< the last feasible motion, shifted to the present
   MpcResult result_;
+  HorizonTrajectory motion_{{0.}, MatrixXd::Zero(0, 1), VectorXd::Zero(0)};  ///< of the last call
+  std::vector<double> times_;                                                ///< of its points
+  MatrixXd points_;                                                          ///< (n, K)
   double elapsed_ = 0., step_seconds_ = 0.;
   int past_ = 0;                    ///< number of past slices
   int evals_without_feasible_ = 0;  ///< evaluations since the last feasible motion

@@ -11,9 +11,11 @@ struct LinkMotions {
   std::vector<Motion> velocity, acceleration;
 };
 
-LinkMotions propagate(const State& state, const VectorXd& dq, const VectorXd* ddq, const Vector3d& gravity) {
+/// `dq` and `ddq` have n numbers; `ddq` may be null.
+void propagate(const State& state, const double* dq, const double* ddq, const Vector3d& gravity, LinkMotions& motions) {
   const KinematicModel& model = state.model();
-  LinkMotions motions{std::vector<Motion>(model.links.size()), std::vector<Motion>(model.links.size())};
+  motions.velocity.assign(model.links.size(), Motion());
+  motions.acceleration.assign(model.links.size(), Motion());
   motions.acceleration[0].linear = -gravity;
   for (std::size_t l = 1; l < model.links.size(); ++l) {
     const KinematicModel::Link& link = model.links[l];
@@ -25,7 +27,7 @@ LinkMotions propagate(const State& state, const VectorXd& dq, const VectorXd* dd
       for (int k = 0; k < model.steps[s].dofs(); ++k, ++index) {
         const int dof = model.column_dof[index];
         own.add(dq[dof], column(state, index));
-        if (ddq) A.add((*ddq)[dof], column(state, index));
+        if (ddq) A.add(ddq[dof], column(state, index));
         norm_rate += state.q()[dof] * dq[dof];
         square += state.q()[dof] * state.q()[dof];
       }
@@ -37,15 +39,16 @@ LinkMotions propagate(const State& state, const VectorXd& dq, const VectorXd* dd
     motions.velocity[l] = V;
     motions.acceleration[l] = A;
   }
-  return motions;
 }
 
-VectorXd newtonEuler(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& dq,
-                     const VectorXd* ddq, const Vector3d& gravity) {
+void newtonEuler(const State& state, const std::vector<LinkInertia>& inertias, const double* dq, const double* ddq,
+                 const Vector3d& gravity, Eigen::Ref<VectorXd> force) {
+  thread_local LinkMotions motions;  // control loops request no memory
+  thread_local std::vector<Wrench> wrench;
   const KinematicModel& model = state.model();
-  const LinkMotions motions = propagate(state, dq, ddq, gravity);
-  std::vector<Wrench> wrench(model.links.size());
-  VectorXd force = VectorXd::Zero(model.dofs);
+  propagate(state, dq, ddq, gravity, motions);
+  wrench.assign(model.links.size(), Wrench());
+  force.setZero();
   for (std::size_t l = model.links.size() - 1; l > 0; --l) {
     const KinematicModel::Link& link = model.links[l];
     const WorldInertia inertia(inertias[l], state.linkPose(int(l)));
@@ -61,7 +64,6 @@ VectorXd newtonEuler(const State& state, const std::vector<LinkInertia>& inertia
     wrench[link.parent].linear += wrench[l].linear;
     wrench[link.parent].angular += wrench[l].angular;
   }
-  return force;
 }
 
 }  // namespace
@@ -82,14 +84,22 @@ void LinkInertia::add(const LinkInertia& part, const RigidTransform& X_LF) {
 
 VectorXd inverseDynamics(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& velocity,
                          const VectorXd& acceleration, const Vector3d& gravity) {
-  return newtonEuler(state, inertias, velocity, &acceleration, gravity);
+  VectorXd forces(state.model().dofs);
+  newtonEuler(state, inertias, velocity.data(), acceleration.data(), gravity, forces);
+  return forces;
+}
+
+void inverseDynamics(const State& state, const std::vector<LinkInertia>& inertias,
+                     const Eigen::Ref<const VectorXd>& velocity, const Eigen::Ref<const VectorXd>& acceleration,
+                     Eigen::Ref<VectorXd> forces, const Vector3d& gravity) {
+  newtonEuler(state, inertias, velocity.data(), acceleration.data(), gravity, forces);
 }
 
 EquationOfMotion equationOfMotion(const State& state, const std::vector<LinkInertia>& inertias,
                                   const VectorXd& velocity, const Vector3d& gravity) {
   const KinematicModel& model = state.model();
-  EquationOfMotion equation{MatrixXd::Zero(model.dofs, model.dofs),
-                            newtonEuler(state, inertias, velocity, nullptr, gravity)};
+  EquationOfMotion equation{MatrixXd::Zero(model.dofs, model.dofs), VectorXd(model.dofs)};
+  newtonEuler(state, inertias, velocity.data(), nullptr, gravity, equation.F);
   for (std::size_t l = 1; l < model.links.size(); ++l) {
     const WorldInertia inertia(inertias[l], state.linkPose(int(l)));
     if (inertia.mass == 0. && inertia.matrix.isZero(0.)) continue;
@@ -114,7 +124,8 @@ std::pair<double, Vector3d> centerOfMass(const State& state, const std::vector<L
 }
 
 double kineticEnergy(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& velocity) {
-  const LinkMotions motions = propagate(state, velocity, nullptr, Vector3d::Zero());
+  LinkMotions motions;
+  propagate(state, velocity.data(), nullptr, Vector3d::Zero(), motions);
   double twice = 0.;
   for (std::size_t l = 1; l < inertias.size(); ++l) {
     twice += power(motions.velocity[l], WorldInertia(inertias[l], state.linkPose(int(l))).times(motions.velocity[l]));

@@ -32,6 +32,11 @@ EquationOfMotion equationOfMotion(const State& state, const std::vector<LinkIner
 VectorXd inverseDynamics(const State& state, const std::vector<LinkInertia>& inertias, const VectorXd& velocity,
                          const VectorXd& acceleration, const Vector3d& gravity = kGravity);
 
+/// Writes the same forces into `forces` (n,), without memory from the heap after the first call of a thread.
+void inverseDynamics(const State& state, const std::vector<LinkInertia>& inertias,
+                     const Eigen::Ref<const VectorXd>& velocity, const Eigen::Ref<const VectorXd>& acceleration,
+                     Eigen::Ref<VectorXd> forces, const Vector3d& gravity = kGravity);
+
 /// Returns the total mass of all moving links, and their center of mass in world coordinates.
 std::pair<double, Vector3d> centerOfMass(const State& state, const std::vector<LinkInertia>& inertias);
 

@@ -30,15 +30,14 @@ void setMargin(Objective& objective, double margin) {
 
 }  // namespace
 
-Komo::Komo(const Config& config, double phases, int slices_per_phase, int order) {
+Komo::Komo(const Config& config, double phases, int slices_per_phase, int order) : Komo() {
   setConfig(config);
   setTiming(phases, slices_per_phase, 1., order);
 }
 
 Komo Komo::clone() const {
-  Komo copy(*this);
-  copy.motion_.path = path().clone();
-  copy.viewer_ = nullptr;
+  Komo copy(std::make_shared<MotionProblem>(*motion_));
+  copy.motion_->path = path().clone();
   return copy;
 }
 
@@ -58,13 +57,19 @@ Komo::Parts Komo::parts() const {
   return parts;
 }
 
-Komo::Komo(Parts parts) {
+std::shared_ptr<Komo> Komo::sharing() const {
+  const std::shared_ptr<Komo> other(new Komo(motion_.pointer()));
+  other->viewer_ = viewer_;
+  return other;
+}
+
+Komo::Komo(Parts parts) : Komo() {
   setConfig(parts.config);
   if (parts.path.states.empty()) return;
   setTiming(parts.phases, parts.slices_per_phase, parts.duration_per_phase, parts.order);
-  motion_.path.setContent(std::move(parts.path));
-  motion_.objectives = ObjectiveList(std::move(parts.objectives));
-  motion_.contacts = Contacts(std::move(parts.contacts));
+  motion_->path.setContent(std::move(parts.path));
+  motion_->objectives = ObjectiveList(std::move(parts.objectives));
+  motion_->contacts = Contacts(std::move(parts.contacts));
 }
 
 void Komo::requireUntouched(const char* what) const {
@@ -74,12 +79,12 @@ void Komo::requireUntouched(const char* what) const {
 
 void Komo::setConfig(const Config& config) {
   requireUntouched("configuration");
-  motion_.path.setScene(config);
+  motion_->path.setScene(config);
 }
 
 void Komo::setTiming(double phases, int slices_per_phase, double duration_per_phase, int order) {
   requireUntouched("timing");
-  motion_.path.setGrid(TimeGrid(phases, slices_per_phase, duration_per_phase, order));
+  motion_->path.setGrid(TimeGrid(phases, slices_per_phase, duration_per_phase, order));
 }
 
 void Komo::addObjective(const std::vector<double>& times, const FeatureSource& feature,
@@ -94,7 +99,7 @@ void Komo::addObjective(const std::vector<double>& times, const FeatureSource& f
                       .order = order,
                       .times = times};
   if (margin != 0.) setMargin(objective, margin);
-  motion_.require(std::move(objective));
+  motion_->require(std::move(objective));
 }
 
 void Komo::addFreeMotion(const std::vector<double>& times, double margin, double scale) {
@@ -110,13 +115,13 @@ void Komo::addFreeMotion(const std::vector<double>& times, double margin, double
                       .times = times,
                       .margin = margin,
                       .slack = kSlack};
-  motion_.require(objective);
+  motion_->require(objective);
   const auto [from, to] = path().grid().select(times);
   const int skipped =
       from == 0 && firstMotion(path()) == 0 ? 0 : 1;  // excludes motions that do not start in a constrained slice
   if (from + skipped > to) return;
   objective.between_slices = true;
-  motion_.require(std::move(objective), skipped);
+  motion_->require(std::move(objective), skipped);
 }
 
 void Komo::addControlObjective(const std::vector<double>& times, int order, double scale, const Target& target,
@@ -141,39 +146,39 @@ void Komo::addControlObjective(const std::vector<double>& times, int order, doub
   };
   if (frames.size() == initial.joint_frames.size()) frames.clear();
   const bool from_home = order == 0 && target.vector().size() == 0;
-  motion_.require({.feature = FeatureSymbol::qItself,
-                   .frames = std::move(frames),
-                   .type = ObjectiveType::sos,
-                   .scale = vector(weights),
-                   .target = from_home ? VectorXd(vector(home)) : target.vector(),
-                   .order = order,
-                   .times = times,
-                   .time_integral = order > 0},
-                  delta_from, delta_to);
+  motion_->require({.feature = FeatureSymbol::qItself,
+                    .frames = std::move(frames),
+                    .type = ObjectiveType::sos,
+                    .scale = vector(weights),
+                    .target = from_home ? VectorXd(vector(home)) : target.vector(),
+                    .order = order,
+                    .times = times,
+                    .time_integral = order > 0},
+                   delta_from, delta_to);
 }
 
 void Komo::addQuaternionNorms(const std::vector<double>& times, double scale, bool hard) {
   path().requireBuilt("addQuaternionNorms");
-  motion_.require({.feature = FeatureSymbol::qQuaternionNorms,
-                   .type = hard ? ObjectiveType::eq : ObjectiveType::sos,
-                   .scale = MatrixXd::Constant(1, 1, scale),
-                   .order = 0,
-                   .times = times,
-                   .frames_known = int(path().state(0).model().frame_dofs.size())});
+  motion_->require({.feature = FeatureSymbol::qQuaternionNorms,
+                    .type = hard ? ObjectiveType::eq : ObjectiveType::sos,
+                    .scale = MatrixXd::Constant(1, 1, scale),
+                    .order = 0,
+                    .times = times,
+                    .frames_known = int(path().state(0).model().frame_dofs.size())});
 }
 
 void Komo::addModeSwitch(const std::vector<double>& times, SwitchMode mode, const std::vector<std::string>& frames,
                          bool first) {
-  kinegraph::addModeSwitch(motion_, {times, mode, frames, first});
+  kinegraph::addModeSwitch(*motion_, {times, mode, frames, first});
 }
 
 void Komo::addRigidSwitch(double time, const std::string& parent, const std::string& object, bool no_jump) {
-  kinegraph::addRigidSwitch(motion_, time, parent, object, no_jump);
+  kinegraph::addRigidSwitch(*motion_, time, parent, object, no_jump);
 }
 
 void Komo::addFrameDof(const std::string& name, const std::string& parent, JointType type, bool stable,
                        const std::string& origin) {
-  kinegraph::addFrameDof(motion_.path, {name, parent, type, stable, origin});
+  kinegraph::addFrameDof(motion_->path, {name, parent, type, stable, origin});
 }
 
 std::vector<PathContact> Komo::checkMotion(double margin, double tolerance,
@@ -187,17 +192,17 @@ std::vector<PathContact> Komo::checkMotion(double margin, double tolerance,
 
 std::string Komo::addContactForce(const std::vector<double>& times, const std::string& object, const std::string& from,
                                   double friction, double mass) {
-  return kinegraph::addContactForce(motion_, {times, object, from, friction, mass});
+  return kinegraph::addContactForce(*motion_, {times, object, from, friction, mass});
 }
 
 std::string Komo::addFreeContactForce(const std::vector<double>& times, const std::string& object,
                                       const std::string& from, double friction, double mass, double distance) {
-  return kinegraph::addContactForce(motion_, {times, object, from, friction, mass, true, distance});
+  return kinegraph::addContactForce(*motion_, {times, object, from, friction, mass, true, distance});
 }
 
 std::string Komo::addForceExchange(const std::vector<double>& times, const std::string& object, const std::string& from,
                                    ForceExchange kind, double friction) {
-  return kinegraph::addForceExchange(motion_, {times, object, from, kind, friction});
+  return kinegraph::addForceExchange(*motion_, {times, object, from, kind, friction});
 }
 
 MatrixXd Komo::getPath(const std::vector<int>& frames) const {
@@ -217,7 +222,7 @@ Config Komo::configuration(int slice) const {
 
 void Komo::updateRootObjects(const Config& config) {
   path().requireBuilt("updateRootObjects");
-  motion_.path.updateRootObjects(config);
+  motion_->path.updateRootObjects(config);
 }
 
 }  // namespace kinegraph

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "kinegraph/common/cancellation.h"
+#include "kinegraph/common/held.h"
 #include "kinegraph/features/scale.h"
 #include "kinegraph/komo/force_exchange.h"
 #include "kinegraph/komo/motion_problem.h"
@@ -30,7 +31,7 @@ struct SolverResult;
 /// Source: Toussaint, A tutorial on Newton methods for constrained trajectory optimization, 2017.
 class Komo {
  public:
-  Komo() = default;
+  Komo() : Komo(std::make_shared<MotionProblem>()) {}
   Komo(Komo&&) = default;
   Komo& operator=(Komo&&) = default;
   Komo(const Config& config, double phases, int slices_per_phase, int order);
@@ -79,7 +80,7 @@ class Komo {
   void addQuaternionNorms(const std::vector<double>& times = {}, double scale = 3., bool hard = true);
 
   /// Removes all objectives, including those of mode switches. Attachments remain.
-  void clearObjectives() { motion_.objectives.clear(); }
+  void clearObjectives() { motion_->objectives.clear(); }
 
   // --- mode switches: changes of the kinematic structure along the path; see mode_switches.h -------------------------
 
@@ -107,7 +108,7 @@ class Komo {
   std::string addForceExchange(const std::vector<double>& times, const std::string& object, const std::string& from,
                                ForceExchange kind, double friction = .5);
 
-  std::vector<Interaction> interactions() const { return motion_.contacts.interactions(motion_.path); }
+  std::vector<Interaction> interactions() const { return motion_->contacts.interactions(motion_->path); }
 
   // --- the path ----------------------------------------------------------------------------------------------------
 
@@ -136,22 +137,22 @@ class Komo {
   // --- initialization; see path_initialization.h
   // ----------------------------------------------------------------------
 
-  void setPath(const MatrixXd& path) { initializePath(motion_.path, path); }
-  void setConstantPath(const VectorXd& q) { initializeConstant(motion_.path, q); }
-  void resetPath() { initializeFromStart(motion_.path); }
-  void setRandomPath(Rng& rng) { initializeRandom(motion_.path, rng); }
+  void setPath(const MatrixXd& path) { initializePath(motion_->path, path); }
+  void setConstantPath(const VectorXd& q) { initializeConstant(motion_->path, q); }
+  void resetPath() { initializeFromStart(motion_->path); }
+  void setRandomPath(Rng& rng) { initializeRandom(motion_->path, rng); }
   std::vector<int> setWaypoints(const std::vector<VectorXd>& waypoints, const WaypointOptions& options = {}) {
-    return initializeWaypoints(motion_.path, waypoints, options);
+    return initializeWaypoints(motion_->path, waypoints, options);
   }
   void setPhasePath(int phase, const std::vector<int>& frames, const MatrixXd& path, bool resample = false) {
-    initializePhase(motion_.path, phase, frames, path, resample);
+    initializePhase(motion_->path, phase, frames, path, resample);
   }
 
   // --- defined in higher rooms; include kinegraph/kinegraph.h
   // ----------------------------------------------------------
 
-  /// Returns this problem for a solver, which leaves the path at its result. The Komo must outlive it and must not be
-  /// moved meanwhile; see makeNlp.
+  /// Returns this problem for a solver, which leaves the path of this Komo at its result. It shares the path with this
+  /// Komo, and stays valid when the Komo is moved or destroyed; see makeNlp.
   std::shared_ptr<Nlp> nlp();
 
   /// Solves from the present path and leaves the path at the result. Failing to converge is a status, not an error.
@@ -174,24 +175,25 @@ class Komo {
 
   // --- the parts ---------------------------------------------------------------------------------------------------
 
-  const Path& path() const { return motion_.path; }
-  Path& path() { return motion_.path; }
-  const ObjectiveList& objectives() const { return motion_.objectives; }
-  const Contacts& contacts() const { return motion_.contacts; }
+  const Path& path() const { return motion_->path; }
+  Path& path() { return motion_->path; }
+  const ObjectiveList& objectives() const { return motion_->objectives; }
+  const Contacts& contacts() const { return motion_->contacts; }
 
   /// Returns and clears the warnings about calls without effect.
-  std::vector<std::string> takeWarnings() { return motion_.objectives.takeWarnings(); }
+  std::vector<std::string> takeWarnings() { return motion_->objectives.takeWarnings(); }
 
  private:
-  Komo(const Komo&) = default;  ///< see clone()
+  explicit Komo(std::shared_ptr<MotionProblem> motion) : motion_("Komo", std::move(motion)) {}
+  std::shared_ptr<Komo> sharing() const;  ///< another Komo with the same path, objectives and viewer
   void requireUntouched(const char* what) const;
 
-  MotionProblem motion_;
+  Held<std::shared_ptr<MotionProblem>> motion_;
   std::shared_ptr<ConfigViewer> viewer_;  ///< null until first used
 };
 
-/// Returns the problem of a Komo for a solver. It keeps the Komo alive and leaves its path at the point last evaluated.
-/// Objectives added to the Komo later are not part of it. After a change of the kinematic structure it throws Error.
+/// Returns the problem of a Komo for a solver; throws ValueError for null. It keeps the Komo alive, leaves its path at
+/// the last evaluated point, and lacks objectives added later. After a change of the structure it throws Error.
 std::shared_ptr<Nlp> makeNlp(std::shared_ptr<Komo> komo);
 
 /// Returns the Komo from which a problem was made; null for other problems.

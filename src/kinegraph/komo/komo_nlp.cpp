@@ -289,6 +289,7 @@ class KomoNlp final : public Nlp, public InitialGuesses, public LazyConstraints 
 }  // namespace
 
 std::shared_ptr<Nlp> makeNlp(std::shared_ptr<Komo> komo) {
+  if (!komo) throw ValueError("makeNlp: the Komo is null");
   if (komo->slices() == 0) throw Error("KOMO: there is no problem yet; call setConfig and setTiming first");
   return std::make_shared<KomoNlp>(std::move(komo));
 }

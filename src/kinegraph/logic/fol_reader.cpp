@@ -38,7 +38,7 @@ Literal readLiteral(LogicScanner& scan) {
     literal.negated = value.text == "false";
   } else if (value.kind == Token::Kind::number) {
     literal.predicate += "=";
-    literal.arguments.push_back(exact(std::stod(value.text)));  // 2, 2. and 2.0 are one value
+    literal.arguments.push_back(exact(readNumber(value.text.c_str())));  // 2, 2. and 2.0 are one value
     literal.negated = scan.takeIf('!');
   } else {
     throw ParseError(value.where,

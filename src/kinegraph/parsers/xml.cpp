@@ -6,7 +6,6 @@
 #include <cctype>
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/gfile/parser.h"
@@ -186,7 +185,7 @@ std::optional<std::vector<double>> numbersIn(std::string_view text) {
     double number = 0.;
     const auto [behind, error] = std::from_chars(at, end, number);
     if (error == std::errc::invalid_argument) return std::nullopt;
-    if (error != std::errc{}) number = std::strtod(std::string(at, behind).c_str(), nullptr);  // out of range
+    if (error != std::errc{}) number = readNumber(std::string(at, behind).c_str());  // out of range
     if (!std::isfinite(number)) return std::nullopt;
     if (behind != end && std::string_view(" \t\r\n").find(*behind) == std::string_view::npos) return std::nullopt;
     numbers.push_back(number);

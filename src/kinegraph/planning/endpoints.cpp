@@ -25,15 +25,9 @@ void requireState(const VectorXd& q, int dofs, const std::string& what, const ch
 
 std::string formatLength(double length) {
   const double size = std::abs(length);
-  char text[32];
-  if (size < 1e-3) {
-    std::snprintf(text, sizeof text, "%.3g um", 1e6 * length);
-  } else if (size < 1.) {
-    std::snprintf(text, sizeof text, "%.3g mm", 1e3 * length);
-  } else {
-    std::snprintf(text, sizeof text, "%.3g m", length);
-  }
-  return text;
+  if (size < 1e-3) return numberText(1e6 * length, 3) + " um";
+  if (size < 1.) return numberText(1e3 * length, 3) + " mm";
+  return numberText(length, 3) + " m";
 }
 
 std::string describePairs(const KinematicModel& model, const std::vector<ClearanceCheck::Nearest>& pairs) {

@@ -26,7 +26,7 @@ HandlerUse& handlerUse() {
 }
 
 Mujoco loadMujoco() {
-  const DynamicLibrary library(KINEGRAPH_MUJOCO_LIBRARY, "a camera image");
+  const DynamicLibrary library(KINEGRAPH_MUJOCO_LIBRARY, "a camera image", "mj_step");
   Mujoco functions;
   KINEGRAPH_MUJOCO_FUNCTIONS(KINEGRAPH_LIBRARY_LOAD)
   return functions;

@@ -12,8 +12,9 @@ namespace kinegraph {
 BotOp::BotOp(const Config& config, std::shared_ptr<RobotDriver> driver, BotOpOptions options)
     : options_(std::move(options)), model_(config), home_(config.getJointState()) {
   last_query_.fill(-1);
+  if (!driver) throw ValueError("BotOp: the driver is null");
   if (home_.size() == 0) throw ValueError("BotOp: the configuration has no active joints; expected a robot");
-  const bool is_simulated = driver && driver->world();
+  const bool is_simulated = driver->world();
   loop_ = std::make_unique<RobotLoop>(std::move(driver), options_.period, options_.safety);
   const std::size_t joints = loop_->info().joints.size();
   if (joints != std::size_t(home_.size()))
@@ -256,6 +257,7 @@ void BotOp::recordTo(const std::string& path) {
     record_.reset();
     throw FileError(cat("BotOp::recordTo: cannot write '", path, "'"));
   }
+  record_->imbue(std::locale::classic());
   *record_ << "# t, q, velocity, reference of q, of velocity; joints: " << join(loop_->info().joints, " ") << '\n';
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <fstream>
 #include <iomanip>
+#include <locale>
 #include <sstream>
 
 #include "kinegraph/common/text.h"
@@ -65,7 +66,9 @@ struct Writer {
 /// Reads the words of one line; errors name the line.
 class Line {
  public:
-  Line(const std::string& text, SourcePosition where) : in_(text), where_(std::move(where)) {}
+  Line(const std::string& text, SourcePosition where) : in_(text), where_(std::move(where)) {
+    in_.imbue(std::locale::classic());
+  }
 
   [[noreturn]] void fail(const std::string& reason) { throw ParseError(where_, reason); }
 
@@ -77,12 +80,9 @@ class Line {
 
   double number() {
     const std::string text = word();
-    try {
-      std::size_t used = 0;
-      const double value = std::stod(text, &used);
-      if (used == text.size()) return value;
-    } catch (const std::exception&) {
-    }
+    const char* end = nullptr;
+    const double value = readNumber(text.c_str(), &end);
+    if (end == text.c_str() + text.size()) return value;
     fail(cat("'", text, "' is not a number"));
   }
 
@@ -184,6 +184,7 @@ LoopCommand readCommand(Line& line) {
 
 std::string CommandLog::text() const {
   std::ostringstream out;
+  out.imbue(std::locale::classic());
   out << kHeader << "\nperiod " << exact(period) << "\n";
   for (const Entry& entry : entries) {
     out << entry.tick << ' ';

@@ -26,7 +26,7 @@ Config::Config(const Config& other) : Config(*other.scene_) { file_warnings_ = o
 Config& Config::operator=(const Config& other) {
   if (this != &other) {
     Config copy(other);
-    copy.scene_->viewer = std::exchange(scene_->viewer, nullptr);  // the viewer continues, showing the assigned scene
+    if (scene_) copy.scene_->viewer = std::exchange(scene_->viewer, nullptr);  // it continues, with the assigned scene
     *this = std::move(copy);
   }
   return *this;
@@ -153,7 +153,7 @@ void Config::delFrame(const std::string& name) { scene_->remove(scene_->get(name
 void Config::delFrame(const Frame& frame) { scene_->remove(ownFrame(frame, "delFrame")); }
 
 FrameData& Config::ownFrame(const Frame& frame, const char* call) const {
-  if (frame.scene() == scene_) return frame.data();
+  if (frame.scene() == scene_.pointer()) return frame.data();
   throw ValueError(cat(call, ": frame '", frame.getName(), "' belongs to another configuration"));
 }
 
@@ -185,42 +185,59 @@ void Config::attach(const std::string& parent, const std::string& child) {
   Frame(scene_, *top).setPose(world);
 }
 
-Frame Config::getFrame(std::string_view name) const { return Frame(scene_, scene_->get(name, "getFrame")); }
+Frame Config::readOnly(FrameData& frame) const {
+  Frame handle(scene_, frame);
+  handle.is_const_ = true;
+  return handle;
+}
+
+Frame Config::getFrame(std::string_view name) { return Frame(scene_, scene_->get(name, "getFrame")); }
+Frame Config::getFrame(std::string_view name) const { return readOnly(scene_->get(name, "getFrame")); }
+
+std::optional<Frame> Config::findFrame(std::string_view name) {
+  FrameData* frame = scene_->find(name);
+  return frame ? std::optional(Frame(scene_, *frame)) : std::nullopt;
+}
 
 std::optional<Frame> Config::findFrame(std::string_view name) const {
   FrameData* frame = scene_->find(name);
-  if (!frame) return std::nullopt;
-  return Frame(scene_, *frame);
+  return frame ? std::optional(readOnly(*frame)) : std::nullopt;
 }
 
 Frame Config::getFrame(int id) const {
   if (id < 0 || id >= getFrameDimension()) {
     throw ValueError(cat("getFrame: id ", id, " is not in 0..", getFrameDimension() - 1));
   }
-  return Frame(scene_, *scene_->frames()[id]);
+  return readOnly(*scene_->frames()[std::size_t(id)]);
 }
 
-std::vector<Frame> Config::getFrames() const {
+Frame Config::getFrame(int id) { return editable({std::as_const(*this).getFrame(id)}).front(); }
+
+namespace {
+
+bool isRoot(const FrameData& frame) { return !frame.parent; }
+bool hasActiveJoint(const FrameData& frame) { return frame.moves() && dofSource(frame).joint->active; }
+
+}  // namespace
+
+std::vector<Frame> Config::framesThat(bool (*apply)(const FrameData&)) const {
   std::vector<Frame> frames;
-  for (const auto& frame : scene_->frames()) frames.emplace_back(scene_, *frame);
+  for (const auto& frame : scene_->frames())
+    if (!apply || apply(*frame)) frames.push_back(readOnly(*frame));
   return frames;
 }
 
-std::vector<Frame> Config::getRoots() const {
-  std::vector<Frame> frames;
-  for (const auto& frame : scene_->frames()) {
-    if (!frame->parent) frames.emplace_back(scene_, *frame);
-  }
+std::vector<Frame> Config::editable(std::vector<Frame> frames) {
+  for (Frame& frame : frames) frame.is_const_ = false;
   return frames;
 }
 
-std::vector<Frame> Config::getJoints() const {
-  std::vector<Frame> frames;
-  for (const auto& frame : scene_->frames()) {
-    if (frame->moves() && dofSource(*frame).joint->active) frames.emplace_back(scene_, *frame);
-  }
-  return frames;
-}
+std::vector<Frame> Config::getFrames() const { return framesThat(nullptr); }
+std::vector<Frame> Config::getFrames() { return editable(framesThat(nullptr)); }
+std::vector<Frame> Config::getRoots() const { return framesThat(isRoot); }
+std::vector<Frame> Config::getRoots() { return editable(framesThat(isRoot)); }
+std::vector<Frame> Config::getJoints() const { return framesThat(hasActiveJoint); }
+std::vector<Frame> Config::getJoints() { return editable(framesThat(hasActiveJoint)); }
 
 MatrixXd Config::getFrameState() const {
   const State& state = scene_->state();
@@ -365,7 +382,7 @@ void Config::setRandom(Rng& rng) {
 
 namespace {
 
-void checkVelocity(const VectorXd& velocity, int dofs, const char* call) {
+void checkVelocity(const Eigen::Ref<const VectorXd>& velocity, int dofs, const char* call) {
   if (velocity.size() != dofs || !velocity.allFinite()) {
     throw ValueError(
         cat("Config::", call, ": got ", velocity.size(), " numbers; expected ", dofs, " finite ones, one per dof"));
@@ -383,6 +400,16 @@ VectorXd Config::inverseDynamics(const VectorXd& velocity, const VectorXd& accel
   checkVelocity(velocity, getJointDimension(), "inverseDynamics");
   checkVelocity(acceleration, getJointDimension(), "inverseDynamics");
   return kinegraph::inverseDynamics(scene_->state(), inertias(), velocity, acceleration);
+}
+
+void Config::inverseDynamics(const Eigen::Ref<const VectorXd>& velocity, const Eigen::Ref<const VectorXd>& acceleration,
+                             Eigen::Ref<VectorXd> forces) const {
+  checkVelocity(velocity, getJointDimension(), "inverseDynamics");
+  checkVelocity(acceleration, getJointDimension(), "inverseDynamics");
+  if (forces.size() != getJointDimension())
+    throw ValueError(cat("Config::inverseDynamics: there is room for ", forces.size(), " forces; expected ",
+                         getJointDimension(), ", one per dof"));
+  kinegraph::inverseDynamics(scene_->state(), inertias(), velocity, acceleration, forces);
 }
 
 std::vector<Config::NearPair> Config::getCollisions(double margin) const {

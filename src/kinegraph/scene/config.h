@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kinegraph/collision/motion_check.h"
+#include "kinegraph/common/held.h"
 #include "kinegraph/common/random.h"
 #include "kinegraph/scene/frame.h"
 #include "kinegraph/scene/loading/file_options.h"
@@ -19,13 +20,14 @@ class FeatureSource;
 struct Evaluation;
 
 /// A scene as a person edits it: named frames with joints, shapes and masses, and the joint vector q.
-/// Copies are deep. Derived data (world poses, the compiled KinematicModel) is updated automatically.
+/// Copies are deep. Derived data (world poses, the compiled KinematicModel) is updated automatically. Frames of a const
+/// Config can be read only. Calls on a Config that was moved from throw ValueError.
 class Config {
  public:
-  Config() : scene_(std::make_shared<SceneTree>()) {}
+  Config() : Config(std::make_shared<SceneTree>()) {}
   Config(const Config& other);
   explicit Config(const SceneTree& scene);  ///< a deep copy
-  explicit Config(std::shared_ptr<SceneTree> scene) : scene_(std::move(scene)) {}
+  explicit Config(std::shared_ptr<SceneTree> scene) : scene_("Config", std::move(scene)) {}
   Config& operator=(const Config& other);
   Config(Config&&) = default;
   Config& operator=(Config&&) = default;
@@ -69,12 +71,18 @@ class Config {
 
   // Frames
 
-  Frame getFrame(std::string_view name) const;  ///< the first frame with that name; throws FrameNotFound
+  Frame getFrame(std::string_view name);  ///< the first frame with that name; throws FrameNotFound
+  Frame getFrame(std::string_view name) const;
+  std::optional<Frame> findFrame(std::string_view name);
   std::optional<Frame> findFrame(std::string_view name) const;
-  Frame getFrame(int id) const;  ///< throws ValueError
+  Frame getFrame(int id);  ///< throws ValueError
+  Frame getFrame(int id) const;
+  std::vector<Frame> getFrames();
   std::vector<Frame> getFrames() const;
+  std::vector<Frame> getRoots();
   std::vector<Frame> getRoots() const;
-  std::vector<Frame> getJoints() const;  ///< frames whose joint is active and has dofs
+  std::vector<Frame> getJoints();  ///< frames whose joint is active and has dofs
+  std::vector<Frame> getJoints() const;
   std::vector<std::string> getFrameNames() const { return scene_->names(); }
   int getFrameDimension() const { return int(scene_->frames().size()); }
 
@@ -122,15 +130,17 @@ class Config {
   // Dynamics
 
   /// Inertia of each link; links as in model().
-  std::vector<LinkInertia> inertias() const {
-    return collectInertias(*scene_, *scene_->model(), *scene_->parameters());
-  }
+  const std::vector<LinkInertia>& inertias() const { return scene_->inertias(); }
 
   /// M(q) and F(q, dq) of u = M ddq + F at the current q, with gravity 9.81 m/s^2 along -z.
   EquationOfMotion equationOfMotion(const VectorXd& velocity) const;
 
   /// Generalized forces u (N m, N) for a velocity and an acceleration of q.
   VectorXd inverseDynamics(const VectorXd& velocity, const VectorXd& acceleration) const;
+
+  /// Writes the same forces into `forces` (n,); a control loop requests no memory with it.
+  void inverseDynamics(const Eigen::Ref<const VectorXd>& velocity, const Eigen::Ref<const VectorXd>& acceleration,
+                       Eigen::Ref<VectorXd> forces) const;
 
   /// Total mass (kg) of all moving links and its center, world coordinates, m.
   std::pair<double, Vector3d> centerOfMass() const { return kinegraph::centerOfMass(scene_->state(), inertias()); }
@@ -208,7 +218,11 @@ class Config {
   Frame addFrameBelow(const std::string& name, FrameData* parent, const std::string& attributes);
   FrameData& ownFrame(const Frame& frame, const char* call) const;  ///< throws ValueError for a frame of another Config
 
-  std::shared_ptr<SceneTree> scene_;
+  Frame readOnly(FrameData& frame) const;
+  std::vector<Frame> framesThat(bool (*apply)(const FrameData&)) const;  ///< read-only; null: all
+  static std::vector<Frame> editable(std::vector<Frame> frames);
+
+  Held<std::shared_ptr<SceneTree>> scene_;
   std::vector<std::string> warnings_, file_warnings_;
 };
 

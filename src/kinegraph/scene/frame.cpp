@@ -18,23 +18,37 @@ FrameData& Frame::data() const {
   return *data_;
 }
 
+FrameData& Frame::edit() {
+  if (is_const_)
+    throw ValueError(cat("frame '", data().name,
+                         "' is of a const Config and cannot be changed; get it from the Config ",
+                         "itself, or from a copy"));
+  return data();
+}
+
+Frame Frame::related(FrameData& data) const {
+  Frame frame(scene_, data);
+  frame.is_const_ = is_const_;
+  return frame;
+}
+
 Frame& Frame::setName(std::string name) {
   const FrameData* taken = name.empty() ? nullptr : scene_->find(name);
-  if (taken && taken != &data()) {
+  if (taken && taken != &edit()) {
     throw ValueError(cat("frame '", data().name, "' cannot be renamed to '", name, "'; another frame has that name"));
   }
-  scene_->rename(data(), std::move(name));
+  scene_->rename(edit(), std::move(name));
   return *this;
 }
 
 std::optional<Frame> Frame::getParent() const {
   if (!data().parent) return std::nullopt;
-  return Frame(scene_, *data().parent);
+  return related(*data().parent);
 }
 
 std::vector<Frame> Frame::getChildren() const {
   std::vector<Frame> frames;
-  for (FrameData* child : data().children) frames.emplace_back(scene_, *child);
+  for (FrameData* child : data().children) frames.push_back(related(*child));
   return frames;
 }
 
@@ -52,7 +66,7 @@ Pose Frame::getPose() const { return scene_->worldPose(data()); }
 Pose Frame::getRelativePose() const { return data().parent ? data().relativePose() : Pose(); }
 
 Frame& Frame::setPose(const Pose& pose) {
-  FrameData& frame = data();
+  FrameData& frame = edit();
   if (frame.parent) return setRelativePose(scene_->worldPose(*frame.parent).inverse() * pose);
   frame.pose = pose;
   scene_->poseChanged(frame);
@@ -69,7 +83,7 @@ Frame& Frame::setQuaternion(const Quaterniond& rotation) {
 }
 
 Frame& Frame::setRelativePose(const Pose& pose) {
-  FrameData& frame = data();
+  FrameData& frame = edit();
   if (!frame.parent) {
     throw ValueError(cat("frame '", frame.name, "' has no parent, so it has no relative pose; use setPose"));
   }
@@ -95,7 +109,7 @@ Frame& Frame::setRelativeQuaternion(const Quaterniond& rotation) {
 }
 
 Frame& Frame::setParent(const Frame& parent, bool keep_world_pose) {
-  FrameData& frame = data();
+  FrameData& frame = edit();
   if (parent.scene_ != scene_) {
     throw ValueError(cat("frame '", frame.name, "' cannot be attached to '", parent.getName(), "' of another Config"));
   }
@@ -106,7 +120,7 @@ Frame& Frame::setParent(const Frame& parent, bool keep_world_pose) {
 }
 
 Frame& Frame::unLink() {
-  FrameData& frame = data();
+  FrameData& frame = edit();
   if (!frame.parent) throw ValueError(cat("frame '", frame.name, "' has no parent to be unlinked from"));
   const Pose world = getPose();
   scene_->unlink(frame);
@@ -116,7 +130,7 @@ Frame& Frame::unLink() {
 }
 
 Shape& Frame::editableShape() {
-  FrameData& frame = data();
+  FrameData& frame = edit();
   if (!frame.shape) frame.shape = std::make_shared<Shape>();
   scene_->looksChanged(*frame.shape);
   return *frame.shape;
@@ -200,7 +214,7 @@ std::vector<double> Frame::getSize() const {
 
 Frame& Frame::setJoint(JointType type, const std::vector<double>& limits, const std::vector<double>& axis, double scale,
                        std::optional<Frame> mimic, const std::string& code) {
-  FrameData& frame = data();
+  FrameData& frame = edit();
   const Pose relative = frame.relativePose();
   if (type == JointType::none) {
     if (!limits.empty() || !axis.empty() || mimic) {
@@ -265,7 +279,7 @@ VectorXd Frame::getJointState() const {
 }
 
 Frame& Frame::setJointState(const VectorXd& q) {
-  FrameData& frame = data();
+  FrameData& frame = edit();
   if (!frame.joint) throw ValueError(cat("frame '", frame.name, "' has no joint"));
   Joint& joint = *dofSource(frame).joint;
   if (q.size() != joint.dofs() || !q.allFinite()) {
@@ -279,7 +293,7 @@ Frame& Frame::setJointState(const VectorXd& q) {
 }
 
 Frame& Frame::setMass(double mass, const std::vector<double>& matrix) {
-  FrameData& frame = data();
+  FrameData& frame = edit();
   if (!(mass >= 0.)) throw ValueError(cat("frame '", frame.name, "': mass ", mass, " kg is not zero or positive"));
   if (mass == 0.) {
     frame.inertia.reset();

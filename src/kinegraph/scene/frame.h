@@ -10,8 +10,8 @@
 namespace kinegraph {
 
 /// A handle on one frame of a Config. Copies refer to the same frame. The handle keeps the scene alive; after its frame
-/// is deleted, every call throws FrameDeleted. Setters return the frame for chaining. Poses are (x y z qw qx qy qz) in
-/// m; setters normalize quaternions.
+/// is deleted, every call throws FrameDeleted. Setters return the frame for chaining; of a frame of a const Config they
+/// throw ValueError. Poses are (x y z qw qx qy qz) in m; setters normalize quaternions.
 class Frame {
  public:
   Frame(std::shared_ptr<SceneTree> scene, FrameData& data);
@@ -78,17 +78,21 @@ class Frame {
   std::optional<Inertia> getInertia() const { return data().inertia; }
 
   const Graph& attributes() const { return *data().attributes; }
-  Graph& editAttributes() const { return data().attributes.edit(); }
+  Graph& editAttributes() { return edit().attributes.edit(); }
 
   FrameData& data() const;  ///< throws FrameDeleted
+  FrameData& edit();        ///< throws FrameDeleted, and ValueError for a frame of a const Config
   bool isDeleted() const { return data_->tree == nullptr; }
   const std::shared_ptr<SceneTree>& scene() const { return scene_; }
 
  private:
+  friend class Config;
   Shape& editableShape();
+  Frame related(FrameData& data) const;  ///< of the same Config
 
   std::shared_ptr<SceneTree> scene_;
   std::shared_ptr<FrameData> data_;
+  bool is_const_ = false;  ///< whether it is of a const Config
 };
 
 }  // namespace kinegraph

@@ -62,7 +62,7 @@ int contactOf(const Frame& frame, const Node& node) {
 
 void setLimits(Frame& frame, const Node& node) {
   const std::vector<double> limits = numbersOf(frame, node);
-  FrameData& data = frame.data();
+  FrameData& data = frame.edit();
   if (!data.joint) throw ValueError(cat("frame '", data.name, "' has no joint, so limits mean nothing"));
   const auto dofs = std::size_t(data.joint->dofs());
   if (limits.size() != 2 * dofs)

@@ -4,7 +4,7 @@ namespace kinegraph {
 
 const Physics& physics() {
   static const Physics functions = [] {
-    const DynamicLibrary library(KINEGRAPH_MUJOCO_LIBRARY, "a simulation");
+    const DynamicLibrary library(KINEGRAPH_MUJOCO_LIBRARY, "a simulation", "mj_step");
     Physics functions;
     KINEGRAPH_PHYSICS_FUNCTIONS(KINEGRAPH_LIBRARY_LOAD)
     return functions;

@@ -220,7 +220,7 @@ Recording Recording::load(const std::string& path) {
 Config Recording::makeConfig() const { return Config(sceneFromBytes(scene)); }
 
 std::vector<std::vector<Pose>> Recording::framePoses(const std::vector<std::size_t>& steps) const {
-  const Config config = makeConfig();
+  Config config = makeConfig();
   Simulation simulation(config, engine, options);
   std::vector<std::vector<Pose>> poses;
   for (const std::size_t step : steps) {
@@ -233,7 +233,7 @@ std::vector<std::vector<Pose>> Recording::framePoses(const std::vector<std::size
   return poses;
 }
 
-Simulation Recording::replay(const Config& config) const {
+Simulation Recording::replay(Config& config) const {
   Simulation simulation(config, engine, options);
   simulation.setState(start);
   for (const Call& call : calls) repeatCall(simulation, call);

@@ -63,7 +63,7 @@ struct Recording {
   void saveHtml(const std::string& path) const;
 
   /// Repeats the run on `config`, which makeConfig made. Throws Error if the final state differs from the recorded one.
-  Simulation replay(const Config& config) const;
+  Simulation replay(Config& config) const;
 };
 
 }  // namespace kinegraph

@@ -9,10 +9,11 @@
 
 namespace kinegraph {
 
-Simulation::Simulation(const Config& config, SimulationEngine engine, const SimulationOptions& options)
-    : impl_(std::make_unique<Impl>(config, engine, options)) {}
-Simulation::Simulation(const Simulation& other, SameModel) : impl_(std::make_unique<Impl>(*other.impl_)) {}
-Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+Simulation::Simulation(Config& config, SimulationEngine engine, const SimulationOptions& options)
+    : impl_("Simulation", std::make_unique<Impl>(config, engine, options)) {}
+Simulation::Simulation(const Simulation& other, SameModel)
+    : impl_("Simulation", std::make_unique<Impl>(*other.impl_)) {}
+Simulation::Simulation(std::unique_ptr<Impl> impl) : impl_("Simulation", std::move(impl)) {}
 Simulation::~Simulation() = default;
 Simulation::Simulation(Simulation&&) noexcept = default;
 Simulation& Simulation::operator=(Simulation&&) noexcept = default;
@@ -133,7 +134,8 @@ void Simulation::Impl::writeConfig() {
       readJoint(joint, qpos, q.data());
       continue;
     }
-    const VectorXd before = q;
+    using FewNumbers = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 7, 1>;  // on the stack
+    const FewNumbers before = q;
     readJoint(joint, qpos, q.data());
     if (q != before) scene.posesChanged();
   }
@@ -169,20 +171,38 @@ SimulationEngine Simulation::engine() const { return impl_->engine; }
 const SimulationOptions& Simulation::options() const { return impl_->options; }
 
 VectorXd Simulation::Impl::q() const {
-  VectorXd q = VectorXd::Zero(world->scene().dofs);
-  for (const ModelJoint& joint : world->scene().joints) {
-    if (joint.first_q >= 0) readJoint(joint, world->positions(), q.data() + joint.first_q);
-  }
+  VectorXd q(world->scene().dofs);
+  readPositions(q);
   return q;
 }
 
 VectorXd Simulation::Impl::qDot() const {
-  VectorXd velocity = VectorXd::Zero(world->scene().dofs);
+  VectorXd velocity(world->scene().dofs);
+  readVelocities(velocity);
+  return velocity;
+}
+
+void Simulation::Impl::readPositions(Eigen::Ref<VectorXd> q) const {
+  requireSize(q, "get_q");
+  q.setZero();
+  for (const ModelJoint& joint : world->scene().joints) {
+    if (joint.first_q >= 0) readJoint(joint, world->positions(), q.data() + joint.first_q);
+  }
+}
+
+void Simulation::Impl::readVelocities(Eigen::Ref<VectorXd> velocity) const {
+  requireSize(velocity, "get_qDot");
+  velocity.setZero();
   for (const ModelJoint& joint : world->scene().joints) {
     if (joint.first_q >= 0)
       readJointVelocity(joint, world->positions(), world->velocities(), velocity.data() + joint.first_q);
   }
-  return velocity;
+}
+
+void Simulation::Impl::requireSize(const Eigen::Ref<VectorXd>& numbers, const char* call) const {
+  if (numbers.size() != world->scene().dofs)
+    throw ValueError(cat("Simulation.", call, ": there is room for ", numbers.size(), " numbers; expected ",
+                         world->scene().dofs, ", one per dof"));
 }
 
 MatrixXd Simulation::Impl::freePoses() const {
@@ -222,6 +242,8 @@ void Simulation::Impl::setFreeVelocities(const MatrixXd& velocities) {
 
 VectorXd Simulation::get_q() const { return impl_->q(); }
 VectorXd Simulation::get_qDot() const { return impl_->qDot(); }
+void Simulation::get_q(Eigen::Ref<VectorXd> q) const { impl_->readPositions(q); }
+void Simulation::get_qDot(Eigen::Ref<VectorXd> velocity) const { impl_->readVelocities(velocity); }
 MatrixXd Simulation::get_frameVelocities() const { return impl_->freeVelocities(); }
 
 std::vector<Frame> Simulation::getFreeFrames() const {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kinegraph/common/cancellation.h"
+#include "kinegraph/common/held.h"
 #include "kinegraph/rendering/camera_renderer.h"
 #include "kinegraph/rendering/depth_image.h"
 #include "kinegraph/scene/config.h"
@@ -34,7 +35,7 @@ class Simulation {
  public:
   /// Throws ValueError with the frame's name for scenes that cannot be simulated, for invalid options, and for the
   /// engine bullet. Throws FileError if MuJoCo is missing.
-  explicit Simulation(const Config& config, SimulationEngine engine = SimulationEngine::physx,
+  explicit Simulation(Config& config, SimulationEngine engine = SimulationEngine::physx,
                       const SimulationOptions& options = {});
   ~Simulation();
   Simulation(Simulation&&) noexcept;
@@ -63,6 +64,8 @@ class Simulation {
   const SimulationOptions& options() const;
   VectorXd get_q() const;
   VectorXd get_qDot() const;
+  void get_q(Eigen::Ref<VectorXd> q) const;  ///< writes into (n,); throws ValueError for another size
+  void get_qDot(Eigen::Ref<VectorXd> velocity) const;
   std::vector<Frame> getFreeFrames() const;
   MatrixXd get_frameVelocities() const;  ///< of the free frames, F x 6: linear (m/s) and angular (rad/s), world
   VectorXd getReference() const;         ///< the q that the motors track
@@ -192,7 +195,7 @@ class Simulation {
   void show(const VectorXd& motions);  ///< sets the Config to recorded positions
   struct Impl;
   explicit Simulation(std::unique_ptr<Impl> impl);
-  std::unique_ptr<Impl> impl_;
+  Held<std::unique_ptr<Impl>> impl_;
 };
 
 }  // namespace kinegraph

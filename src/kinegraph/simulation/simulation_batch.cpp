@@ -49,7 +49,7 @@ struct SimulationBatch::Impl {
 
 SimulationBatch::SimulationBatch(const Config& config, int count, int threads, SimulationEngine engine,
                                  const SimulationOptions& options)
-    : impl_(std::make_unique<Impl>()) {
+    : impl_("SimulationBatch", std::make_unique<Impl>()) {
   if (count < 1 || count > 1000000)
     throw ValueError(cat("SimulationBatch: ", count, " environments; expected 1 to 1000000"));
   if (threads < 1 || threads > 1024)

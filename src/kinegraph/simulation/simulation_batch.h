@@ -61,7 +61,7 @@ class SimulationBatch {
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  Held<std::unique_ptr<Impl>> impl_;
 };
 
 }  // namespace kinegraph

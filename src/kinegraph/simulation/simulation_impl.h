@@ -21,6 +21,9 @@ struct Simulation::Impl {
 
   VectorXd q() const;
   VectorXd qDot() const;
+  void readPositions(Eigen::Ref<VectorXd> q) const;
+  void readVelocities(Eigen::Ref<VectorXd> velocity) const;
+  void requireSize(const Eigen::Ref<VectorXd>& numbers, const char* call) const;
   MatrixXd freePoses() const;
   MatrixXd freeVelocities() const;
   void setFreeVelocities(const MatrixXd& velocities);

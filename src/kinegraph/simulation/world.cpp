@@ -65,13 +65,17 @@ bool World::isGripperDone(int gripper) const {
 
 WorldState World::state() const {
   WorldState state;
+  saveState(state);
+  return state;
+}
+
+void World::saveState(WorldState& state) const {
   state.physics.resize(std::size_t(stateSize(*physics_)));
   physics().mj_getState(physics_.get(), data_.get(), state.physics.data(), mjSTATE_INTEGRATION);
   state.reference = reference_;
   state.grippers = grippers_;
   state.welds = welds_;
   state.perturbation = perturbation_;
-  return state;
 }
 
 void World::setState(const WorldState& state) {

@@ -82,6 +82,7 @@ class World {
   void step(const VectorXd& u, double tau, ControlMode mode, const CancellationToken& cancellation = {});
 
   WorldState state() const;
+  void saveState(WorldState& state) const;  ///< the same, into memory of an earlier state
   void setState(const WorldState& state);
 
   /// Copies the state of all frames that another world has, too. `old_frame` maps a frame's id to its id there, or to
@@ -140,7 +141,7 @@ class World {
   void moveGrippers(double h);
   void activate(std::size_t slot);
   void followReferences(double h);
-  void checkNumbers(const WorldState& before, double time);
+  void checkNumbers(double time);
 
   std::shared_ptr<const SceneModel> model_;
   SimulationOptions options_;
@@ -158,6 +159,7 @@ class World {
   std::vector<mjtNum> point_jacobian_, point_response_;    ///< of the perturbed point, 3 x nv: J and J M^-1
   std::vector<mjtNum> bias_, desired_acceleration_, torque_;
   GyroscopicForces gyroscopic_forces_;
+  WorldState before_;  ///< at the begin of the last step
   std::set<int> too_fast_;
 };
 

@@ -47,7 +47,7 @@ void World::checkCommand(const VectorXd& u, double tau, ControlMode mode) const 
 void World::step(const VectorXd& u, double tau, ControlMode mode, const CancellationToken& cancellation) {
   checkCommand(u, tau, mode);
   const MujocoErrors thrown;
-  const WorldState before = state();
+  saveState(before_);
   try {
     const int steps = std::max(1, int(std::ceil(tau / options_.inner_step - 1e-9)));
     const double h = tau / steps, start = data_->time;
@@ -64,10 +64,10 @@ void World::step(const VectorXd& u, double tau, ControlMode mode, const Cancella
     data_->time = start + tau;
     if (mode == ControlMode::torque) reference_.holdAt(*model_, data_->qpos, data_->qvel);
   } catch (...) {
-    setState(before);
+    setState(before_);
     throw;
   }
-  checkNumbers(before, data_->time);
+  checkNumbers(data_->time);
   is_computed_ = !is_kinematic_;
   copy_is_computed_ = false;
 }
@@ -243,13 +243,13 @@ void World::moveGrippers(double h) {
   }
 }
 
-void World::checkNumbers(const WorldState& before, double time) {
+void World::checkNumbers(double time) {
   const auto& warning = data_->warning;
   const bool full = warning[mjWARN_CONTACTFULL].number > 0 || warning[mjWARN_CNSTRFULL].number > 0;
   const bool bad =
       warning[mjWARN_BADQPOS].number > 0 || warning[mjWARN_BADQVEL].number > 0 || warning[mjWARN_BADQACC].number > 0;
   if (!full && !bad) return;
-  setState(before);
+  setState(before_);
   if (full) throw Error("Simulation.step: the contacts exceed the memory; the state before the step is restored");
   throw Error(
       cat("Simulation.step: the simulation diverges before ", time,

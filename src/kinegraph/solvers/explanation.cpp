@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <map>
-#include <sstream>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
@@ -79,16 +77,9 @@ Amount amountOfSlices(const Nlp& nlp, const VectorXd& phi, const std::vector<int
   return out;
 }
 
-/// Formats a number with three digits.
-std::string rounded(double value) {
-  std::ostringstream out;
-  out << std::setprecision(3) << value;
-  return out.str();
-}
-
 std::string withUnit(double meters) {
-  if (meters >= 1.) return rounded(meters) + " m";
-  return meters >= .01 ? rounded(1e2 * meters) + " cm" : rounded(1e3 * meters) + " mm";
+  if (meters >= 1.) return numberText(meters, 3) + " m";
+  return meters >= .01 ? numberText(1e2 * meters, 3) + " cm" : numberText(1e3 * meters, 3) + " mm";
 }
 
 std::string slicesText(const std::vector<int>& slices) {
@@ -230,8 +221,9 @@ std::string Amount::str() const {
   const std::string per = time_order == 0 ? "" : time_order == 1 ? "/s" : cat("/s^", time_order);
   std::vector<std::string> parts;
   if (!std::isnan(meters) && (meters > 0. || std::isnan(radians))) parts.push_back(withUnit(meters) + per);
-  if (!std::isnan(radians) && (radians > 0. || parts.empty())) parts.push_back(cat(rounded(radians), " rad", per));
-  return parts.empty() ? cat(rounded(scaled), " (scaled)") : join(parts, " and ");
+  if (!std::isnan(radians) && (radians > 0. || parts.empty()))
+    parts.push_back(cat(numberText(radians, 3), " rad", per));
+  return parts.empty() ? cat(numberText(scaled, 3), " (scaled)") : join(parts, " and ");
 }
 
 namespace {

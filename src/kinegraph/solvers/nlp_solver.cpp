@@ -1,9 +1,9 @@
 #include "kinegraph/solvers/nlp_solver.h"
 
 #include <algorithm>
-#include <cstdio>
 
 #include "kinegraph/common/errors.h"
+#include "kinegraph/common/log.h"
 #include "kinegraph/common/stopwatch.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/solvers/interface/best_so_far.h"
@@ -25,6 +25,7 @@ NlpSolver::NlpSolver(std::shared_ptr<Nlp> problem, int verbose) {
 }
 
 void NlpSolver::setProblem(std::shared_ptr<Nlp> problem) {
+  if (!problem) throw ValueError("NlpSolver: the problem is null");
   if (problem_) throw Error("NlpSolver: the solver has a problem already; make a new solver for another one");
   problem_ = std::move(problem);
 }
@@ -198,8 +199,8 @@ SolverResult NlpSolver::solve(bool resample, Rng& rng, const EvaluationCallback&
   result.problem = problem_;
   result.validity = problem_->validity(result.x);
   if (options.verbose > 0)
-    std::printf("==nlp== %s: %s  %s\n", solverStatusName(result.status).c_str(), result.summary().c_str(),
-                result.str().c_str());
+    logMessage(LogLevel::info,
+               cat("==nlp== ", solverStatusName(result.status), ": ", result.summary(), "  ", result.str()));
   return result;
 }
 

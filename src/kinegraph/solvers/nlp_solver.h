@@ -14,7 +14,7 @@ class NlpSolver {
   NlpSolver() = default;
   explicit NlpSolver(std::shared_ptr<Nlp> problem, int verbose = 1);
 
-  /// Throws Error if the solver has a problem already.
+  /// Throws Error if the solver has a problem already, and ValueError for null.
   void setProblem(std::shared_ptr<Nlp> problem);
   void setInitialization(const VectorXd& x);
   void setTracing(bool x, bool errors, bool phi, bool jacobian = false);

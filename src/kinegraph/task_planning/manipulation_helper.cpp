@@ -1,10 +1,10 @@
 #include "kinegraph/task_planning/manipulation_helper.h"
 
 #include <array>
-#include <iostream>
 #include <map>
 
 #include "kinegraph/common/errors.h"
+#include "kinegraph/common/log.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/komo/mode_switches.h"
@@ -266,8 +266,8 @@ const SolverResult& ManipulationHelper::solve(int verbose) {
   ret = solver.solve();
   path = ret->feasible ? komo->getPath() : MatrixXd();
   if (verbose > 0) {
-    std::cout << "  -- " << (ret->feasible ? "feasible" : "infeasible") << ": " << info << (info.empty() ? "" : ": ")
-              << ret->message << '\n';
+    logMessage(LogLevel::info, cat("  -- ", ret->feasible ? "feasible" : "infeasible", ": ", info,
+                                   info.empty() ? "" : ": ", ret->message));
   }
   return *ret;
 }

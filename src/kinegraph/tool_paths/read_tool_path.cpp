@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -20,8 +19,8 @@ std::optional<std::vector<double>> numbersOf(const std::string& line, std::size_
   for (std::size_t at = 0; (at = line.find_first_not_of(" \t,;\r", at)) != std::string::npos;) {
     const std::size_t end = std::min(line.find_first_of(" \t,;\r", at), line.size());
     const std::string word = line.substr(at, end - at);
-    char* rest = nullptr;
-    const double number = std::strtod(word.c_str(), &rest);
+    const char* rest = nullptr;
+    const double number = readNumber(word.c_str(), &rest);
     column = at + 1;
     if (*rest != '\0' || !std::isfinite(number)) return std::nullopt;
     numbers.push_back(number);

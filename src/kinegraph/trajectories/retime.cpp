@@ -174,7 +174,7 @@ std::string feasibleVelocity(const MatrixXd& path, const TimedPath& failed, cons
   slower.intervals = options.intervals;
   for (const double below : kBelowBound) {
     const std::string length = cat((1. - below) * low * requested.norm());  // rounded, so it is checked again
-    if (low > 0. && isFeasible(std::stod(length) / requested.norm()))
+    if (low > 0. && isFeasible(readNumber(length.c_str()) / requested.norm()))
       return cat("; a length of at most ", length, " would do");
   }
   return "";

@@ -14,18 +14,24 @@ constexpr double kLongestSampling = 1e8;  // samples
 }  // namespace
 
 MotionState Trajectory::eval(double t) const {
-  const int n = dimension();
-  MotionState state{VectorXd(n), VectorXd(n), VectorXd(n)};
-  evalTo(t, state.q.data(), state.velocity.data(), state.acceleration.data());
+  MotionState state;
+  eval(t, state);
   return state;
+}
+
+void Trajectory::eval(double t, MotionState& state) const {
+  const int n = dimension();
+  for (VectorXd* values : {&state.q, &state.velocity, &state.acceleration}) values->resize(n);
+  evalTo(t, state.q.data(), state.velocity.data(), state.acceleration.data());
 }
 
 MotionStates Trajectory::eval(const VectorXd& times) const {
   const Eigen::Index count = times.size();
   const int n = dimension();
+  MotionState state;
   MotionStates states{times, MatrixXd(count, n), MatrixXd(count, n), MatrixXd(count, n)};
   for (Eigen::Index k = 0; k < count; ++k) {
-    const MotionState state = eval(times[k]);
+    eval(times[k], state);
     states.q.row(k) = state.q.transpose();
     states.velocity.row(k) = state.velocity.transpose();
     states.acceleration.row(k) = state.acceleration.transpose();

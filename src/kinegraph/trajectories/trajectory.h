@@ -34,6 +34,9 @@ class Trajectory {
   /// Returns the state at time t (s); errors as `evalTo`.
   MotionState eval(double t) const;
 
+  /// Writes the state at time t (s); a control loop that passes the same `state` again requests no memory.
+  void eval(double t, MotionState& state) const;
+
   /// Returns the states at several times (s).
   MotionStates eval(const VectorXd& times) const;
 

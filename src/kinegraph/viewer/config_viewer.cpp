@@ -4,10 +4,10 @@
 #include <unistd.h>
 
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <utility>
 
+#include "kinegraph/common/log.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/viewer/shown_scene.h"
 
@@ -17,7 +17,7 @@ namespace {
 
 bool isOverSsh() { return std::getenv("SSH_CONNECTION") != nullptr; }
 
-/// Prints the address of the page.
+/// Logs the address of the page.
 void announce(const ViewerServer& server) {
   const std::string url = server.url();
   constexpr std::string_view kLocal = "http://localhost:";
@@ -26,8 +26,7 @@ void announce(const ViewerServer& server) {
     const std::string port = url.substr(kLocal.size(), url.find('/', kLocal.size()) - kLocal.size());
     hint = cat(" (on your own machine, after: ssh -L ", port, ":localhost:", port, " and the name of this machine)");
   }
-  std::printf("Viewer: %s%s\n", url.c_str(), hint.c_str());
-  std::fflush(stdout);
+  logMessage(LogLevel::notice, cat("Viewer: ", url, hint));
 }
 
 }  // namespace
@@ -168,10 +167,7 @@ int ConfigViewer::promptKey(const std::optional<std::string>& message, const Can
 int ConfigViewer::waitKey(const std::string& prompt, const CancellationToken& cancellation) {
   constexpr auto kPatience = std::chrono::seconds(5);  // a reloaded page is back sooner
   const bool patient = isPatient();
-  if (isatty(STDIN_FILENO)) {
-    std::printf("%s (in the browser, or Enter here)\n", prompt.c_str());
-    std::fflush(stdout);
-  }
+  if (isatty(STDIN_FILENO)) logMessage(LogLevel::notice, cat(prompt, " (in the browser, or Enter here)"));
   bool entered = false, seen = false;
   auto last_seen = std::chrono::steady_clock::now();
   const int key = server().waitKey([&] {

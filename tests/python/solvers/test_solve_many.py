@@ -104,9 +104,10 @@ def test_starts_of_a_wrong_shape_are_refused(two_answers, starts):
         two_answers.solveFromMany(starts)
 
 
-def test_verbose_says_how_many_are_feasible(two_answers, capsys):
+def test_verbose_says_how_many_are_feasible(two_answers, caplog):
+    caplog.set_level("INFO", "kinegraph")
     two_answers.solveFromMany(3, verbose=1)
-    assert "solveFromMany: 3 of 3 are feasible" in capsys.readouterr().out
+    assert "solveFromMany: 3 of 3 are feasible" in caplog.messages[-1]
 
 
 def test_discrete_choices_are_solved_together_and_the_best_is_chosen(arm):

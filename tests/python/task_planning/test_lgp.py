@@ -363,12 +363,13 @@ def test_results_of_robotic_are_by_its_rule():
     assert all(isinstance(piece, robotic.SolverReturn) for piece in lgp.solvePiecewiseMotions(0))
 
 
-def test_lines_are_printed_where_pythons_are(capsys):
+def test_lines_are_logged(caplog):
+    caplog.set_level("INFO", "kinegraph")
     _, _, lgp = tool("tower")
     assert lgp.solve()
     lgp.solvePiecewiseMotions()
     lgp.solveFullMotion()
-    said = capsys.readouterr().out.splitlines()
+    said = caplog.messages
     assert said[0] == "-- feasible: " + " ".join(f"({' '.join(action)})" for action in lgp.getSolvedPlan())
     assert said[1].startswith(f"-- ({' '.join(lgp.getSolvedPlan()[0])}): ") and said[-1].startswith("-- full motion: ")
 

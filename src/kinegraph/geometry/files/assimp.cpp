@@ -21,7 +21,7 @@ namespace kinegraph {
 namespace {
 
 Assimp loadAssimp() {
-  const DynamicLibrary library(KINEGRAPH_ASSIMP_LIBRARY, "a mesh file");
+  const DynamicLibrary library(KINEGRAPH_ASSIMP_LIBRARY, "a mesh file", "aiReleaseImport");
   Assimp functions;
   KINEGRAPH_ASSIMP_FUNCTIONS(KINEGRAPH_LIBRARY_LOAD)
   return functions;

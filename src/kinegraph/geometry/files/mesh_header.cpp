@@ -1,7 +1,6 @@
 #include "kinegraph/geometry/files/mesh_header.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -32,7 +31,7 @@ void forValues(std::string_view text, std::string_view key, std::string_view end
   }
 }
 
-double numberOf(std::string_view text) { return std::strtod(std::string(text.substr(0, 40)).c_str(), nullptr); }
+double numberOf(std::string_view text) { return readNumber(std::string(text.substr(0, 40)).c_str()); }
 
 /// Sums the element counts in the header of a PLY file.
 double elementsInPlyHeader(std::string_view text) {

@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <fstream>
+#include <locale>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
@@ -9,6 +10,7 @@ namespace kinegraph {
 
 Mesh readTriMesh(const std::string& path) {
   std::ifstream in(path);
+  in.imbue(std::locale::classic());
   const auto refuse = [&](const std::string& why) { throw FileError(cat("mesh file '", path, "': ", why)); };
   std::string word;
   long vertices = 0, triangles = 0;

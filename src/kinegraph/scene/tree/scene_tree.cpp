@@ -241,6 +241,7 @@ const std::shared_ptr<const Parameters>& SceneTree::parameters() {
       updateMovedParameters();
     }
     moved_.clear();
+    inertias_.clear();
     motion_checker_.reset();
     poses_stale_ = false;
     q_stale_ = true;
@@ -276,6 +277,12 @@ const State& SceneTree::state() {
     bodies_stale_ = true;
   }
   return *state_;
+}
+
+const std::vector<LinkInertia>& SceneTree::inertias() {
+  parameters();
+  if (inertias_.empty()) inertias_ = collectInertias(*this, *model_, *parameters_);
+  return inertias_;
 }
 
 NearPairs& SceneTree::nearPairs() {

@@ -97,6 +97,9 @@ class SceneTree {
   const std::shared_ptr<const Parameters>& parameters();
   const State& state();
 
+  /// Inertia of each link; collected on demand.
+  const std::vector<LinkInertia>& inertias();
+
   /// The collidable pairs, placed by state().
   NearPairs& nearPairs();
 
@@ -149,7 +152,8 @@ class SceneTree {
   std::shared_ptr<Parameters> previous_parameters_;  ///< the previous parameters
   std::vector<const FrameData*> previous_moved_;     ///< frames moved between the previous and the current parameters
   std::unique_ptr<State> state_;
-  VectorXd q_;  ///< the q last passed to `state_`
+  std::vector<LinkInertia> inertias_;  ///< for the current parameters; empty until needed
+  VectorXd q_;                         ///< the q last passed to `state_`
   std::unique_ptr<NearPairs> near_pairs_;
   std::unique_ptr<MotionChecker> motion_checker_;  ///< for the current parameters
   std::vector<Snapshot> snapshots_;

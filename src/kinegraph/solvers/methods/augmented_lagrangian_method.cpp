@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "kinegraph/common/log.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/solvers/methods/quadratic_step.h"
 
@@ -101,8 +102,9 @@ void AugmentedLagrangian::iterate() {
       problem.mu = penalty_.value();
     }
     if (options_.verbose > 2)
-      std::printf("    step %3d  evals %3d  |d| %.3g  predicted %.3g  violation %.3g  mu %.3g  damping %.3g\n", steps,
-                  function_.evals(), step.size, step.predicted, step.error, problem.mu, problem.damping);
+      logMessage(LogLevel::info,
+                 cat("    step ", steps, "  evals ", function_.evals(), "  |d| ", step.size, "  predicted ",
+                     step.predicted, "  violation ", step.error, "  mu ", problem.mu, "  damping ", problem.damping));
 
     // 3. Convergence. At non-smooth points costs may stagnate for hundreds of evaluations. A tiny step proves nothing
     // if
@@ -214,8 +216,8 @@ bool AugmentedLagrangian::activatesConstraints(bool is_solution) {
   if (activated_.empty()) return false;
   ++activations_;
   if (options_.verbose > 1)
-    std::printf("  evals %d  %zu constraints activated  violation %.3g\n", function_.evals(), activated_.size(),
-                here_.violation);
+    logMessage(LogLevel::info, cat("  evals ", function_.evals(), "  ", activated_.size(),
+                                   " constraints activated  violation ", here_.violation));
   for (std::size_t j = 0; j < constraints_.size(); ++j)
     if (std::ranges::find(activated_, constraints_[j]) != activated_.end()) lambda_[Eigen::Index(j)] = 0.;
   violation_.restart();
@@ -263,8 +265,8 @@ void AugmentedLagrangian::endRound(const Step& step) {
   ++rounds_;
   round_just_ended_ = true;
   if (options_.verbose > 1)
-    std::printf("  round %d  evals %d  cost %.6g  violation %.3g  mu %.3g\n", rounds_, function_.evals(), here_.cost,
-                step.error, penalty_.value());
+    logMessage(LogLevel::info, cat("  round ", rounds_, "  evals ", function_.evals(), "  cost ", here_.cost,
+                                   "  violation ", step.error, "  mu ", penalty_.value()));
   if (!holds(step.error) && meetsContradiction(step)) return;
   updateMultipliers(step.size);
   if (!holds(step.error) && !violation_.fellEnough(step.error)) penalty_.grow();

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
+#include "kinegraph/common/log.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/solvers/methods/sequential_quadratic_method.h"
 
@@ -222,11 +222,12 @@ void SequentialQuadratic::iterate() {
     for (int j = 0; j < lambda_.size(); ++j) promised += std::abs(step.lambda[j] * here_.c[j]);
     const double scale = std::max(1., std::abs(here_.cost));
     if (options_.verbose > 2) {
-      std::printf("    step %3d  evals %3d  cost %.10g  |d| %.3g  promised %.3g  violation %.3g%s\n", count,
-                  function_.evals(), here_.cost, size, promised, violation,
-                  !step.found         ? "  (no step)"
-                  : step.relaxed > 0. ? "  (relaxed)"
-                                      : "");
+      logMessage(LogLevel::info,
+                 cat("    step ", count, "  evals ", function_.evals(), "  cost ", numberText(here_.cost, 10), "  |d| ",
+                     size, "  promised ", promised, "  violation ", violation,
+                     !step.found         ? "  (no step)"
+                     : step.relaxed > 0. ? "  (relaxed)"
+                                         : ""));
     }
     const bool is_tiny = violation <= tolerance_ && step.found &&
                          ((size <= options_.stopTolerance * x_scale &&

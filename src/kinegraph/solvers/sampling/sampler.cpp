@@ -1,9 +1,9 @@
 #include "kinegraph/solvers/sampling/sampler.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 
+#include "kinegraph/common/log.h"
 #include "kinegraph/common/stopwatch.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/solvers/interface/best_so_far.h"
@@ -88,7 +88,7 @@ SolverResult NlpSampler::sample(Rng& rng, const EvaluationCallback& callback) {
   }
   result.problem = problem_;
   result.time = stopwatch.seconds();
-  if (options.verbose > 0) std::printf("==sampler== %s  %s\n", result.message.c_str(), result.str().c_str());
+  if (options.verbose > 0) logMessage(LogLevel::info, cat("==sampler== ", result.message, "  ", result.str()));
   return result;
 }
 

@@ -1,7 +1,6 @@
 #include "kinegraph/task_planning/lgp/lgp_starts.h"
 
-#include <iostream>
-
+#include "kinegraph/common/log.h"
 #include "kinegraph/common/ordered_parallel.h"
 #include "kinegraph/solvers/nlp_solver.h"
 
@@ -15,7 +14,7 @@ void LgpOptions::printLine(const std::string& line) const {
   if (print)
     print(line);
   else
-    std::cout << line << std::endl;
+    logMessage(LogLevel::info, line);
 }
 
 namespace {

@@ -21,7 +21,7 @@ struct LgpOptions {
   std::function<bool(const SolverResult&)> accepts =
       {};  ///< whether a result is a solution; none: SolverResult::feasible
   std::function<std::string(const SolverResult&)> describes = {};  ///< describes a result; none: SolverResult::summary
-  std::function<void(const std::string& line)> print = {};         ///< none: the standard output
+  std::function<void(const std::string& line)> print = {};         ///< none: logMessage
   CancellationToken cancellation = {};                             ///< queried on the calling thread; may throw
 
   bool isSolved(const SolverResult& result) const { return accepts ? accepts(result) : result.feasible; }

@@ -1,0 +1,40 @@
+# A project that adds this repository as a folder: its settings stay as they are, it installs its own files only, and its
+# flags are those of the library.
+set(work "${BUILD}/subdirectory_package")
+set(ENV{KINEGRAPH_HEADLESS} 1)
+unset(ENV{RAI_PATH})
+include("${SOURCE}/tests/run_command.cmake")
+file(REMOVE_RECURSE "${work}")
+set(configure "${CMAKE_COMMAND}" -S "${SOURCE}/tests/consumers/parent" -G "${GENERATOR}" "-DCMAKE_CXX_COMPILER=${COMPILER}"
+    "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DCMAKE_MAKE_PROGRAM=${MAKE_PROGRAM}" "-DPython_EXECUTABLE=${PYTHON}" "-DKINEGRAPH=${SOURCE}")
+
+# With objects that are compiled already, as a shared and as a static library.
+foreach(shared IN ITEMS ON OFF)
+  set(build "${work}/shared_${shared}")
+  set(choice)
+  if(NOT shared)
+    set(choice -DKINEGRAPH_STATIC=ON)
+  endif()
+  run(${configure} -B "${build}" "-DKINEGRAPH_OBJECTS=${BUILD}/kinegraph_objects.txt" "-DCMAKE_INSTALL_PREFIX=${build}/installed" ${choice})
+  run("${CMAKE_COMMAND}" --build "${build}" --target app)
+  run("${build}/app")
+  run("${CMAKE_COMMAND}" --install "${build}")
+  file(GLOB_RECURSE installed RELATIVE "${build}/installed" "${build}/installed/*")
+  if(NOT installed STREQUAL "bin/app")
+    message(FATAL_ERROR "the project installs ${installed}")
+  endif()
+endforeach()
+
+# The library is compiled for the processor that the project chooses, and its headers expect that.
+if(PROCESSOR MATCHES "x86_64|AMD64")
+  set(build "${work}/haswell")
+  run(${configure} -B "${build}" -DCMAKE_CXX_FLAGS=-march=haswell)
+  file(READ "${build}/compile_commands.json" commands)
+  if(commands MATCHES "x86-64-v2" OR NOT commands MATCHES "-march=haswell")
+    message(FATAL_ERROR "the library is not compiled with -march=haswell")
+  endif()
+  file(STRINGS "${build}/kinegraph/checks/kinegraph/build_check.h" check REGEX "EIGEN_MAX_ALIGN_BYTES != 32")
+  if(NOT check)
+    message(FATAL_ERROR "the headers do not expect -march=haswell")
+  endif()
+endif()
