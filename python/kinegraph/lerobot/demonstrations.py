@@ -189,6 +189,8 @@ def demonstrate(
     _requireSame(folder, json.loads(json.dumps(settings)))
     counts = [min(shard, episodes - k) for k in range(0, episodes, shard)]
     done = set(finishedShards(folder))
+    for k, count in enumerate(counts):
+        _requireCount(folder, k, count, k in done)
     missing = [(k, count) for k, count in enumerate(counts) if k not in done]
 
     def make(item: tuple[int, int]) -> int:
@@ -223,6 +225,18 @@ def _requireSame(folder: Path, settings: dict[str, Any]) -> None:
     if other:
         raise ArgumentError(
             f"demonstrate: '{folder}' has demonstrations with another {', '.join(other)}; choose another folder"
+        )
+
+
+def _requireCount(folder: Path, number: int, count: int, is_done: bool) -> None:
+    """Raises ArgumentError if a finished shard has another number of episodes."""
+    if not is_done:
+        return
+    found = len(json.loads((shardFolder(folder, number) / "episodes.json").read_text())["episodes"])
+    if found != count:
+        raise ArgumentError(
+            f"demonstrate: '{folder}' has {found} episodes in shard {number}; expected {count}. A data set grows by whole "
+            "shards; choose a multiple of `shard`, or another folder"
         )
 
 
