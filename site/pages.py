@@ -7,7 +7,7 @@ HOW_TO = [
     ("Motions", ["motion", "planning", "timing", "tool_paths"]),
     ("Tasks", ["tasks"]),
     ("Robots that move", ["control", "operation", "simulation", "dynamics"]),
-    ("Many problems", ["fleets", "sensitivities", "solvers"]),
+    ("Many problems", ["fleets", "lerobot", "sensitivities", "solvers"]),
     ("Programs", ["viewer", "cpp"]),
     (
         "Coming from",
@@ -64,6 +64,7 @@ NAMES = {
         "ConfigurationViewer CameraView CameraViewSensor ImageViewer saveFilm depthImage2PointCloud getArucoImage",
     ),
     "fleets": ("Many processes", "imap readResults"),
+    "lerobot": ("Data sets of LeRobot", "demonstrate LeRobotWriter Randomization checkDataset mergeShards"),
     "errors": (
         "Errors",
         "Error ArgumentError ArgumentTypeError FileError FrameDeleted FrameNotFound NotFound ParseError RobotFault "

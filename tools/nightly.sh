@@ -100,6 +100,7 @@ bench kinematics "$reference $peers" "--rounds 1 --count 100 $reference"
 stage benchmark_cpp_calls "$tests/bin/python" benchmarks/cpp_calls.py build/dev/benchmarks/kinegraph_calls \
   $(pick "--rounds 1" "$reference $peers")
 bench follow "--plans 200" "--plans 4"
+bench demonstrations "20" "1"
 bench collisions "$reference" "--shapes 100 --rounds 1"
 bench scene "$reference" ""
 bench reaches "--problems 120" "--problems 4"

@@ -119,17 +119,16 @@ TEST(WriteUrdf, ShapesWithoutAnElementOfTheirOwnBecomeMeshFiles) {
 TEST(WriteUrdf, AJointThatIsNoPartOfQIsFixedWhereItIsAndSaidSo) {
   const Config config = scene(
       "a: {} j (a): { joint: hingeX, q: .3 } f_origin (j): { pose: [0 0 1] } f (f_origin): { joint: transY, q: .04, "
-      "joint_active: False } tip (f): { pose: [0 0 0 1 1 0 0] } g (j): { joint: transY, mimic: f, joint_scale: -1 }");
+      "joint_active: False } tip (f): { pose: [0 0 0 1 1 0 0] }");
   std::vector<std::string> warnings;
   Config back = fromUrdf(writeUrdf(config, {}, &warnings));
   EXPECT_EQ(back.getJointNames(), std::vector<std::string>{"j"});
   back.setJointState(config.getJointState());
-  for (const char* name : {"f", "tip", "g"})
+  for (const char* name : {"f", "tip"})
     EXPECT_TRUE((config.getFrame(name).getPose().inverse() * back.getFrame(name).getPose()).isIdentity(1e-13)) << name;
-  ASSERT_EQ(warnings.size(), 3u);
+  ASSERT_EQ(warnings.size(), 2u);
   EXPECT_EQ(warnings[0], "joint 'f' is not in q (joint_active: false) and is fixed at q = 0.04");
-  EXPECT_EQ(warnings[1], "joint 'g' is fixed because the joint 'f' it mimics is fixed");
-  EXPECT_EQ(warnings[2], "URDF has no joint state and readers start at q = 0; joints at other values: j");
+  EXPECT_EQ(warnings[1], "URDF has no joint state and readers start at q = 0; joints at other values: j");
 }
 
 TEST(WriteUrdf, LostRoundingIsNamed) {

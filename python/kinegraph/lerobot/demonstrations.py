@@ -8,7 +8,7 @@ import os
 import shutil
 import warnings
 from collections.abc import Callable, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -26,25 +26,34 @@ TRIES = 20  # placements of an object, and attempts per episode
 OVERLAP = 1e-3  # m, of two shapes that touch
 
 
-@dataclass
 class Randomization:
-    """Random variations of a scene around its present state.
+    """Random variations of a scene around its present state."""
 
-    Attributes:
-        position: Largest displacement of objects along x and y, m.
-        rotation: Largest rotation of objects about z, rad.
-        mass: Largest relative change of masses.
-        friction: Range of the friction of objects; None leaves it.
-        color: Whether objects get random colors.
-        camera: Standard deviation of the positions of cameras, m.
-    """
+    def __init__(
+        self,
+        position: float = 0.05,
+        rotation: float = 0.5,
+        mass: float = 0.3,
+        friction: tuple[float, float] | None = (0.7, 1.2),
+        color: bool = True,
+        camera: float = 0.01,
+    ):
+        """Sets the size of the variations.
 
-    position: float = 0.05
-    rotation: float = 0.5
-    mass: float = 0.3
-    friction: tuple[float, float] | None = (0.7, 1.2)
-    color: bool = True
-    camera: float = 0.01
+        Args:
+            position: Largest displacement of objects along x and y, m.
+            rotation: Largest rotation of objects about z, rad.
+            mass: Largest relative change of masses, below 1.
+            friction: Range of the friction of objects; None leaves it.
+            color: Whether objects get random colors.
+            camera: Standard deviation of the positions of cameras, m.
+        Raises:
+            ArgumentError: A number is negative, or mass is 1 or more.
+        """
+        if min(position, rotation, mass, camera, *(friction or ())) < 0 or mass >= 1:
+            raise ArgumentError("Randomization: expected numbers that are not negative, and mass below 1")
+        self.position, self.rotation, self.mass = position, rotation, mass
+        self.friction, self.color, self.camera = friction, color, camera
 
     def __call__(self, C: Config, rng: np.random.Generator, cameras: Sequence[str] = ()) -> None:
         """Varies a scene. Objects stay where they are if no free place is found.
@@ -182,13 +191,15 @@ def demonstrate(
         "robot_type": robot_type,
         "codec": codec,
         "shard": shard,
-        "randomize": asdict(vary) if isinstance(vary, Randomization) else getattr(vary, "__qualname__", str(vary)),
+        "randomize": vars(vary) if isinstance(vary, Randomization) else getattr(vary, "__qualname__", str(vary)),
         "scene": scene.write() if isinstance(scene, Config) else getattr(scene, "__qualname__", str(scene)),
     }
     folder = Path(out)
     _requireSame(folder, json.loads(json.dumps(settings)))
     counts = [min(shard, episodes - k) for k in range(0, episodes, shard)]
     done = set(finishedShards(folder))
+    for k, count in enumerate(counts):
+        _requireCount(folder, k, count, k in done)
     missing = [(k, count) for k, count in enumerate(counts) if k not in done]
 
     def make(item: tuple[int, int]) -> int:
@@ -223,6 +234,18 @@ def _requireSame(folder: Path, settings: dict[str, Any]) -> None:
     if other:
         raise ArgumentError(
             f"demonstrate: '{folder}' has demonstrations with another {', '.join(other)}; choose another folder"
+        )
+
+
+def _requireCount(folder: Path, number: int, count: int, is_done: bool) -> None:
+    """Raises ArgumentError if a finished shard has another number of episodes."""
+    if not is_done:
+        return
+    found = len(json.loads((shardFolder(folder, number) / "episodes.json").read_text())["episodes"])
+    if found != count:
+        raise ArgumentError(
+            f"demonstrate: '{folder}' has {found} episodes in shard {number}; expected {count}. A data set grows by whole "
+            "shards; choose a multiple of `shard`, or another folder"
         )
 
 

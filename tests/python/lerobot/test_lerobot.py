@@ -210,3 +210,17 @@ def test_wrong_arguments_are_told_first(tmp_path: Path) -> None:
     with pytest.raises(ry.NotFound, match="cameraTopp"):
         ry.demonstrate(scene(), "(on tray box)", 1, tmp_path / "x", cameras=["cameraTopp"], progress=False)
     assert not (tmp_path / "x/meta").exists()
+
+
+def test_the_command_makes_and_continues_a_data_set(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    from kinegraph.cli import main
+
+    C = scene()
+    C.write(str(tmp_path / "scene.g"))
+    words = ["demonstrate", str(tmp_path / "scene.g"), "--goal", "(on tray box)", "-o", str(tmp_path / "out")]
+    words += ["--engine", "threads", "--workers", "1", "--fps", "10"]
+    for episodes in ("1", "11"):
+        assert main([*words, "--episodes", episodes]) == (0 if episodes == "1" else 1)
+    told = capsys.readouterr()
+    assert "1 episodes of 1 attempts" in told.out and "has 1 episodes in shard 0; expected 10" in told.err
+    assert ry.checkDataset(tmp_path / "out") == []

@@ -30,6 +30,7 @@ FOUND = {
         r"from below: no solution .*'table' and 'l_panda_coll7' overlap",
         r"collisions with the box: [1-9]",
     ],
+    "lerobot": [r"^2 episodes; faults: \[\]"],
     "dynamics": [r"^True \d+\.\d+", r"^\[ *[-+\d.e ]* -9\.81"],
     "motion": [
         r"\[.* 1\.962\d*e\+01\]",
