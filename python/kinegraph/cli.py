@@ -11,11 +11,24 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from . import __version__
-from ._core import Config, ConfigurationViewer, ToolPath, Trajectory, checkFile, planMotion, planToolPath
+from ._core import (
+    FS,
+    Config,
+    ConfigurationViewer,
+    ToolPath,
+    ToolPathPlan,
+    Trajectory,
+    checkFile,
+    planMotion,
+    planToolPath,
+)
 from .compatibility.parameters import params_get
 from .demonstrate_command import addDemonstrate, demonstrateCommand
 from .errors import ArgumentError, Error, FileError
+from .film import saveFilm
 from .model_paths import raiPath, similarModels
 from .robot_files import robotNames, robotPath
 from .scene_overview import describeActuators, describeScene
@@ -96,6 +109,8 @@ def _parser() -> argparse.ArgumentParser:
     tool.add_argument("--margin", type=float, default=0.0, help="distance to obstacles, m (default: 0)")
     tool.add_argument("--approach", type=float, default=0.0, help="length of an approach and a retract, m")
     tool.add_argument("-o", "--output", metavar="CSV", help="output file, a row per 10 ms: time, then joint values")
+    tool.add_argument("--picture", metavar="PNG", help="picture of the scene with the path, colored by speed")
+    tool.add_argument("--film", metavar="FILE", help="film of the motion: .mp4 or .webm")
     tool.add_argument("--no-view", action="store_true", help="print only")
 
     reach = commands.add_parser(
@@ -219,6 +234,17 @@ def _saveMotion(config: Config, motion: Trajectory, path: str) -> None:
             print(t, *motion.eval(t)[0], sep=",", file=file)
 
 
+def _addToolCurve(config: Config, plan: ToolPathPlan, rows: np.ndarray, frame: str) -> None:
+    """Adds the curve of the tool: green at its largest speed, over yellow to red at rest; gray on transfers."""
+    points = config.evalBatch(FS.position, [frame], rows)[0]
+    times = np.linspace(0.0, plan.duration, len(rows))
+    share = np.array([plan.speed(t) for t in times])
+    share = np.clip(share / max(share.max(), 1e-9), 0.0, 1.0)
+    colors = 255.0 * np.stack([np.minimum(1, 2 - 2 * share), np.minimum(1, 2 * share), 0 * share], axis=1)
+    colors[[plan.way(t)[0] < 0 for t in times]] = 128.0
+    config.addFrame("tool_path_curve").setLines(points, colors, True)
+
+
 def _toolPath(options: argparse.Namespace) -> int:
     config = _load(options.file)
     path = ToolPath.read(options.points, frame=options.frame, relativeTo=options.relative_to)
@@ -243,8 +269,15 @@ def _toolPath(options: argparse.Namespace) -> int:
         print(f"{begin:.3f} to {end:.3f} m: down to {speed:.4f} m/s, {cause}")
     if options.output:
         _saveMotion(config, plan, options.output)
+    rows = plan.sample(50.0)[1]
+    _addToolCurve(config, plan, rows, options.frame)
+    if options.picture:
+        config.setJointState(rows[0])
+        config.viewer().fit()
+        print(config.viewer().savePng(options.picture))
+    if options.film:
+        print(saveFilm(options.film, config, rows, max(1.0, plan.duration)))
     if not options.no_view:
-        rows = plan.sample(50.0)[1]
         config.view_path(rows, max(1.0, plan.duration), True, "the motion")
     return 0
 

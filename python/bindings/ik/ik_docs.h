@@ -31,8 +31,8 @@ Args:
 Returns:
     IkResult, or IkResults for N problems and with `all`: one per solution, or one that says why there is none. Without
     a solution result.feasible is False, and result.message names the missed targets with their errors, the active
-    limits, and the colliding pairs. Pairs that no joint of a target separates and that overlap by max_start_penetration (5 mm)
-    at most are a warning.
+    limits, and the colliding pairs. Pairs that no joint of a target separates and that overlap by
+    max_start_penetration (5 mm) at most are a warning.
 Raises:
     FrameNotFound: A frame is not in the scene.
     ArgumentError: A target has a wrong shape, no active joint moves it, it is the pose of a frame that the targets
