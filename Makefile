@@ -1,5 +1,6 @@
 # make demo           installs into .venv and runs the demo
 # make test           installs the requirements of the tests, and runs all tests
+# make docs           builds the site: build/site/html/index.html (make docs-serve: at http://localhost:8000)
 # make test-models    reads every robot of two large collections and compares with Pinocchio and MuJoCo (2 GB, minutes)
 # make tidy           runs clang-tidy on the library; ARGS="src/kinegraph/komo" takes some rooms
 # make nightly        runs tests, Clang, sanitizers, fuzzers and benchmarks, and writes docs/results/VERSION.md (hours);
@@ -9,7 +10,7 @@
 PYTHON ?= python3
 VENV := .venv
 
-.PHONY: demo install test test-models tidy nightly clean
+.PHONY: demo install test docs docs-serve test-models tidy nightly clean
 
 demo: install
 	$(VENV)/bin/kinegraph demo $(ARGS)
@@ -19,6 +20,12 @@ install: $(VENV)/bin/python
 
 test:
 	PYTHON="$(PYTHON)" bash tools/test.sh
+
+docs:
+	PYTHON="$(PYTHON)" bash tools/docs.sh
+
+docs-serve: docs
+	$(PYTHON) -m http.server --directory build/site/html 8000
 
 test-models:
 	PYTHON="$(PYTHON)" bash tools/test_models.sh $(ARGS)

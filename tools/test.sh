@@ -50,6 +50,8 @@ step "C++ tests"
 ctest --test-dir build/dev --output-on-failure --no-tests=error
 step "Python and browser tests"
 "$tests/bin/python" -m pytest -q
+step "the site"
+if [ "${KINEGRAPH_DOCS:-ON}" = ON ]; then quietly bash tools/docs.sh; fi
 step "a sample of the robots of example-robot-data (125 MB)"
 robots=$PWD/build/robots/cmeel.prefix/share
 [ -d "$robots" ] || "$tests/bin/python" -m pip install --no-deps --target build/robots example-robot-data==6.0.0

@@ -73,7 +73,7 @@ void checkMjcfBody(const XmlElement& body, Findings& findings) {
 
 void checkMjcfAttributes(const XmlElement& element, Findings& findings) {
   static const std::map<std::string, Names> known = {
-      {"body", {"name", "childclass", "pos", "quat", "axisangle", "xyaxes", "zaxis", "euler"}},
+      {"body", {"name", "childclass", "pos", "quat", "axisangle", "xyaxes", "zaxis", "euler", "gravcomp"}},
       {"joint",
        {"name", "class", "type", "pos", "axis", "ref", "range", "limited", "damping", "stiffness", "springref",
         "frictionloss", "armature"}},

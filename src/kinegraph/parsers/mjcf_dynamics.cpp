@@ -34,7 +34,7 @@ MjcfMotor motorOf(const MjcfElement& element, MjcfValues& values, std::vector<st
   if (kind == "position") {
     motor.stiffness = gear * gear * values.number(element, "kp", 1.);
     motor.damping = gear * gear * values.number(element, "kv", 0.);
-    if (element.attribute("dampratio")) unread.push_back("dampratio");
+    motor.damping_ratio = values.number(element, "dampratio", 0.);
   } else if (kind == "general") {
     const std::vector<double> gains = values.upTo(element, "gainprm", 10), bias = values.upTo(element, "biasprm", 10);
     gain = gains.empty() ? 1. : gains[0];
@@ -71,7 +71,10 @@ std::map<std::string, MjcfMotor> mjcfMotors(const MjcfDocument& document, MjcfVa
       MjcfMotor motor = motorOf(element, values, unread);
       MjcfMotor& sum = motors[joint->value];
       sum.effort = std::max(sum.effort, motor.effort);
-      if (sum.stiffness == 0.) std::tie(sum.stiffness, sum.damping) = std::pair(motor.stiffness, motor.damping);
+      if (sum.stiffness == 0.) {
+        motor.effort = sum.effort;
+        sum = motor;
+      }
     }
   }
   std::sort(unread.begin(), unread.end());
@@ -101,6 +104,7 @@ void addMjcfJointDynamics(const MjcfElement& joint, const MjcfMotor* motor, Mjcf
   if (!motor || motor->stiffness <= 0.) return;
   attributes.add("motorKp", motor->stiffness);
   attributes.add("motorKd", motor->damping);
+  addPositive("motorDampingRatio", motor->damping_ratio);
 }
 
 void addMjcfFriction(const MjcfElement& geom, MjcfValues& values, FrameAttributes& attributes) {

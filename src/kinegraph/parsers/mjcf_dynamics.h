@@ -13,6 +13,7 @@ namespace kinegraph {
 struct MjcfMotor {
   double effort = 0.;                   ///< limit; 0 for none
   double stiffness = 0., damping = 0.;  ///< of a position servo; stiffness 0 for other actuators
+  double damping_ratio = 0.;            ///< replaces the damping if positive; 1 is critical
 };
 
 /// Reads <actuator>: the limits and gains of actuators that drive a joint, by joint name. What is not represented

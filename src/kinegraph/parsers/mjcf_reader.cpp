@@ -274,6 +274,8 @@ class MjcfReader {
     const MjcfSettings& settings = document_.settingsAt(body.where);
     place.with_mass = settings.masses_only_of_geoms || (settings.masses_of_geoms && !inertial);
     if (inertial && !settings.masses_only_of_geoms) addMjcfInertial(*inertial, values_, findings_, attributes);
+    const double compensation = values_.number(MjcfElement(body, {}), "gravcomp", 0.);
+    if (compensation != 0.) attributes.add("gravityCompensation", compensation);
     addFrame(name, parent, body.where, std::move(attributes));
     addExclusions(name, graph_.nodes.back());
     place.masses = masses_.addBody(graph_.nodes.size() - 1);

@@ -1,6 +1,7 @@
 #include "kinegraph/simulation/model_index.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "kinegraph/common/errors.h"
@@ -80,7 +81,7 @@ class ModelIndex {
       for (const auto& step : made.steps) joint.steps.push_back(indexed(m, step));
       model_.joints.push_back(joint);
       const bool gripper = isFingerJoint(frame) && !parts_.followersOf(frame).empty();
-      if (!gripper && !attributeFlag(frame, "noMotor", false)) addServos(frame);
+      if (!gripper && !attributeFlag(frame, "noMotor", false)) addServos(frame, m);
       if (!gripper && attributeFlag(frame, "noMotor", false)) addSprings(made, *model_.model);
     }
   }
@@ -97,7 +98,7 @@ class ModelIndex {
     }
   }
 
-  void addServos(const FrameData& frame) {
+  void addServos(const FrameData& frame, const mjModel& m) {
     const ModelJoint& joint = model_.joints.back();
     int q = 0;
     for (std::size_t i = 0; i < joint.steps.size(); ++i) {
@@ -111,14 +112,15 @@ class ModelIndex {
         servo.kind = step.kind;
         servo.scale = joint.scale;
         servo.friction = attributeNumber(frame, "jointFriction", 0.);
-        setMotor(servo, frame);
+        setMotor(servo, frame, m.dof_M0[step.dof]);
         model_.servos.push_back(servo);
       }
       q += frame.joint->steps[i].dofs();
     }
   }
 
-  static void setMotor(Servo& servo, const FrameData& frame) {
+  /// `inertia`: of the motion in the reference configuration, kg m^2 or kg.
+  static void setMotor(Servo& servo, const FrameData& frame, double inertia) {
     const Node* node = frame.attributes->find("ctrl_limits");
     const NumberArray* limits = node ? node->value.as<NumberArray>() : nullptr;
     const auto limit = [&](std::size_t i) {
@@ -134,6 +136,8 @@ class ModelIndex {
       servo.gains = {attributeNumber(frame, "motorKp", 0.), attributeNumber(frame, "motorKd", 0.)};
       if (!(servo.gains->first >= 0.) || !(servo.gains->second >= 0.))
         throw ValueError(cat("Simulation: frame '", frame.name, "': motorKp and motorKd must not be negative"));
+      const double ratio = attributeNumber(frame, "motorDampingRatio", 0.);
+      if (ratio > 0.) servo.gains->second = 2. * ratio * std::sqrt(servo.gains->first * inertia);
     }
   }
 

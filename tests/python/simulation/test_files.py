@@ -255,6 +255,40 @@ def test_actuators_of_mjcf_limit_and_soften_the_motors(tmp_path):
     assert C.getEffortLimits()[0] == 9.0
 
 
+def test_bodies_of_mjcf_may_compensate_gravity(tmp_path):
+    text = """<mujoco><worldbody>
+        <body name="a" pos="0 0 1" gravcomp="1"><freejoint/><geom size=".05"/></body>
+        <body name="b" pos="1 0 1" gravcomp=".5"><freejoint/><geom size=".05"/></body></worldbody></mujoco>"""
+    model = mujoco.MjModel.from_xml_string(text)
+    data = mujoco.MjData(model)
+    for _ in range(150):  # of 2 ms
+        mujoco.mj_step(model, data)
+    C = load(tmp_path, text)
+    simulate(C, 0.3)
+    for body, height in (("a", data.qpos[2]), ("b", data.qpos[9])):
+        assert C.getFrame(body).getPosition()[2] == pytest.approx(height, abs=2e-3)
+
+
+@pytest.mark.parametrize("ratio", [0.3, 1.0, 2.0])
+def test_actuators_of_mjcf_may_give_a_damping_ratio(ratio, tmp_path):
+    text = f"""<mujoco><worldbody><body name="p" pos="0 0 2">
+        <joint name="j" axis="0 1 0" armature=".1"/>
+        <geom type="capsule" fromto="0 0 0 .5 0 0" size=".03" mass="1"/></body></worldbody>
+        <actuator><position joint="j" kp="40" dampratio="{ratio}"/></actuator></mujoco>"""
+    damping = -mujoco.MjModel.from_xml_string(text).actuator_biasprm[0, 2]  # N m s, computed by MuJoCo
+    paths = []
+    for number, gains in enumerate((f'dampratio="{ratio}"', f'kv="{damping}"')):
+        (tmp_path / str(number)).mkdir()
+        C = load(tmp_path / str(number), text.replace(f'dampratio="{ratio}"', gains))
+        S = ry.Simulation(C)
+        paths.append([])
+        for _ in range(40):
+            S.step([0.5], 0.01, ry.ControlMode.position)
+            paths[-1].append(C.getJointState()[0])
+    assert paths[0] == pytest.approx(paths[1], abs=1e-6)
+    assert paths[0][-1] > 0.1
+
+
 def test_what_of_mjcf_is_not_simulated_is_said(tmp_path):
     with pytest.warns(
         ry.KinegraphWarning, match=r"not part of the simulation: geom condim=1, geom solref, option wind"

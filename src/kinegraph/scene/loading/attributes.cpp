@@ -23,7 +23,7 @@ constexpr std::string_view kKnownAttributes[] = {
     "shape", "type", "size", "color", "mesh", "meshscale", "mesh_decomp", "mesh_points", "mesh_rope", "core", "sdf",
     "texture", "texcoords", "texture_repeat", "aruco_id", "mimic_shape", "contact", "mass", "inertia", "com", "visual_mesh", "visual_pose",
     "logical", "multibody", "multibody_fixedBase", "multibody_gravity", "simulate", "friction", "restitution",
-    "motorKp", "motorKd", "motorLambda", "motorMass", "gains", "servo", "noMotor", "angularDamping", "focalLength",
+    "motorKp", "motorKd", "motorDampingRatio", "motorLambda", "motorMass", "gains", "servo", "noMotor", "angularDamping", "focalLength",
     "fxycxy", "orthoAbsHeight", "heightAngle", "heightAbs", "zRange", "width", "height", "label", "part", "visual",
     "noVisual", "franka", "parent", "home", "contact_exclude", "vertices", "triangles", "vertex_colors",
     "joint_groups", "joint_states", "actuators", "mesh_parts", "grid_cells", "grid_values",

@@ -1,0 +1,140 @@
+#!/usr/bin/env python3
+"""Builds the site: pages of docs/, examples with their output and scenes, and the reference of Python and C++.
+
+    python site/build.py [OUT]      (build/site by default; open OUT/html/index.html)
+
+The environment needs kinegraph, the packages of site/requirements.txt and Doxygen. Results of examples are kept in
+OUT/cache by the content of their scripts. Warnings of Sphinx are errors.
+"""
+
+import importlib.util
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import command_line
+import cpp_reference
+import example_pages
+import pages
+import python_reference
+
+SITE = Path(__file__).resolve().parent
+REPOSITORY = SITE.parent
+PICTURES = (".png", ".svg", ".mp4", ".webp")
+
+
+def index(title: str, text: str, groups: list[tuple[str, list[str]]]) -> str:
+    """A page that lists others; names begin with / at the top of the sources."""
+    lines = [f"# {title}", "", text, ""]
+    for caption, names in groups:
+        lines += ["```{toctree}", ":maxdepth: 1", *([f":caption: {caption}"] if caption else []), *names, "```", ""]
+    return "\n".join(lines)
+
+
+def copyPages(out: Path) -> None:
+    """Copies docs/ and the texts beside it, with links that hold on the site."""
+    for file in sorted((REPOSITORY / "docs").rglob("*")):
+        target = out / file.relative_to(REPOSITORY / "docs")
+        if file.suffix in PICTURES:
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(file, target)
+        elif file.suffix == ".md":
+            target.parent.mkdir(parents=True, exist_ok=True)
+            text = file.read_text()
+            for source, page in (("../CHANGELOG.md", "changes.md"), ("../SECURITY.md", "security.md")):
+                text = text.replace(f"]({source}", f"]({page}")
+            target.write_text(text)
+    for source, page in (("CHANGELOG.md", "changes.md"), ("SECURITY.md", "security.md")):
+        text = (REPOSITORY / source).read_text().replace("](docs/", "](")
+        (out / page).write_text(text)
+    for page in ("index.md", "install.md", "conf.py"):
+        shutil.copy(SITE / page, out / page)
+    shutil.copytree(SITE / "static", out / "_static")
+
+
+def referencePages(out: Path, doxygen: Path) -> None:
+    found = importlib.util.find_spec("kinegraph")
+    if found is None or not found.origin:
+        raise SystemExit("site: kinegraph is not installed in this environment")
+    package = python_reference.loadPackage(Path(found.origin).parents[1])
+    cpp = cpp_reference.CppNames(doxygen)
+    exported = python_reference.exportedNames(package)
+    named = {page: (title, names.split()) for page, (title, names) in pages.NAMES.items()}
+    unknown = [name for _, names in named.values() for name in names if name not in exported]
+    if unknown:
+        raise SystemExit(f"site/pages.py: kinegraph does not export {', '.join(unknown)}")
+    placed = {name for _, names in named.values() for name in names}
+    named["more"] = ("More", [name for name in exported if name not in placed and not package[name].is_module])
+    twins = {}  # Python's names with the C++ name of the same thing
+    for name in exported:
+        other = pages.CPP_NAMES.get(name, name)
+        if other in cpp.kinds:
+            twins[name] = other
+    full = {name: f"kinegraph::{other}" for name, other in twins.items()}
+    python_reference.writePages(package, named, full, out / "reference" / "python")
+    entries: dict[str, tuple[str, list[tuple[str, str | None]]]] = {}
+    written: set[str] = set()
+    for page, (title, names) in named.items():
+        listed: list[tuple[str, str | None]] = [(twins[name], name) for name in names if name in twins]
+        listed += [(name, None) for name in pages.CPP_ONLY.get(page, "").split() if name in cpp.kinds]
+        fresh = [(name, twin) for name, twin in dict(listed).items() if name not in written]
+        written.update(name for name, _ in fresh)
+        if fresh:
+            entries[page] = (title, fresh)
+    cpp_reference.writePages(cpp, entries, out / "reference" / "cpp")
+    print(f"{len(exported)} names of Python, {len(written)} of C++")
+
+
+def indexPages(out: Path, examples: list[str]) -> None:
+    tutorials = [
+        ("Start here", [f"/{page}" for page in pages.TUTORIALS]),
+        ("Examples", [f"/examples/{e}" for e in examples]),
+    ]
+    how_to = [(caption, [f"/{page}" for page in names]) for caption, names in pages.HOW_TO]
+    results = [f"/results/{file.stem}" for file in sorted((out / "results").glob("*.md"))]
+    explanation = [("How it works", [f"/{page}" for page in pages.EXPLANATION]), ("Results", results)]
+    reference = [
+        ("Names", ["python/index", "cpp/index", "/command_line"]),
+        ("", [f"/{page}" for page in pages.REFERENCE]),
+    ]
+    reference += [("", ["/security"])]
+    for folder, title, text, groups in (
+        (
+            "tutorials",
+            "Tutorials",
+            "Each example runs as it stands. The pages show what it prints, and the scene it ends with.",
+            tutorials,
+        ),
+        ("how_to", "How-to guides", "Each page begins with the lines that most people need.", how_to),
+        ("reference", "Reference", "Names, arguments, units, defaults and errors.", reference),
+        ("explanation", "Explanation", "How it works, its limits, and what was measured.", explanation),
+    ):
+        (out / folder).mkdir(exist_ok=True)
+        (out / folder / "index.md").write_text(index(title, text, groups))
+
+
+def main() -> None:
+    out = Path(sys.argv[1] if len(sys.argv) > 1 else REPOSITORY / "build" / "site").resolve()
+    source = out / "source"
+    shutil.rmtree(source, ignore_errors=True)
+    source.mkdir(parents=True)
+    copyPages(source)
+    doxygen = cpp_reference.runDoxygen(REPOSITORY, out / "doxygen")
+    referencePages(source, doxygen)
+    command_line.writePage(source / "command_line.md")
+    scenes = source / "_extra" / "scenes"
+    scenes.mkdir(parents=True)
+    examples = example_pages.writePages(REPOSITORY / "examples", source / "examples", scenes, out / "cache")
+    indexPages(source, examples)
+    from kinegraph import __version__
+
+    environment = {**os.environ, "KINEGRAPH_VERSION": __version__, "KINEGRAPH_DOXYGEN": str(doxygen)}
+    command = [sys.executable, "-m", "sphinx", "-b", "html", "-q", "-W", "--keep-going", str(source), str(out / "html")]
+    subprocess.run(command, check=True, env=environment)
+    print(f"{out / 'html' / 'index.html'}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,92 @@
+"""The structure of the site: which page is in which section, and which names are on which page of the reference."""
+
+TUTORIALS = ["first_pick_and_place"]  # pages of docs/; the examples follow
+
+HOW_TO = [
+    ("Scenes and robots", ["scenes", "robots", "ik", "features"]),
+    ("Motions", ["motion", "planning", "timing", "tool_paths"]),
+    ("Tasks", ["tasks"]),
+    ("Robots that move", ["control", "operation", "simulation", "dynamics"]),
+    ("Many problems", ["fleets", "sensitivities", "solvers"]),
+    ("Programs", ["viewer", "cpp"]),
+]
+
+EXPLANATION = ["architecture", "speed", "limits"]
+
+REFERENCE = ["conventions", "releases"]  # beside the generated pages
+
+# Page of the reference: title and names. Python's names; a name without a page goes to the last one.
+NAMES = {
+    "scenes": ("Scenes", "Config Frame JT ST FrameView checkFile raiPath setRaiPath robotNames robotPath Quaternion"),
+    "features": ("Features", "FS Feature Sensitivity"),
+    "ik": ("Inverse kinematics", "solveIk IkOptions IkResult IkResults IkStatus reachability interactiveIk"),
+    "komo": (
+        "Motion optimization",
+        "KOMO OT SY NLP NLP_Solver NLP_SolverOptions OptMethod NLP_SolverID SolverReturn SolverReturns solveAll "
+        "Skeleton SplineMotion NLP_Sampler NLP_Factory make_NLP_Problem get_NLP_Problem_names",
+    ),
+    "planning": (
+        "Motion planning",
+        "planMotion planMotions MotionPlan MotionPlans MotionConstraint MotionContact PlanStatus PlanSearch "
+        "PlanSearchStatus shortcut smooth Roadmap RoadmapPath PathFinder RRT_PathFinder PathReturn PathContact",
+    ),
+    "timing": (
+        "Trajectories",
+        "Trajectory retime TimedPath RetimeStatus BSpline SplineTrajectory SampledTrajectory",
+    ),
+    "tool_paths": ("Tool paths", "ToolPath planToolPath ToolPathPlan ToolPathStatus"),
+    "tasks": (
+        "Tasks",
+        "planTask planTasks TaskPlan TaskPlans TaskStatus TaskBranch TaskRun TaskEvent TaskEventKind TaskExecution "
+        "checkTaskPlan Domain TaskRule TaskWaypoints defaultDomain doorStates sceneFacts ArgWord LogicProblem LGP_Tool "
+        "LgpStatus LGP_TAMP_Abstraction default_LGP_TAMP_Abstraction KOMO_ManipulationHelper ManipulationModelling",
+    ),
+    "control": ("Control", "DiffIk DiffIkStatus Mpc MpcResult TargetFile Gamepad"),
+    "simulation": (
+        "Simulation",
+        "Simulation SimulationBatch SimulationEngine SimulationOptions SimulationRecording SimulationState "
+        "ControlMode StepObservation",
+    ),
+    "operation": (
+        "Robots",
+        "BotOp RobotDriver RobotInfo RobotState RobotCommand SimulatedDriver KinematicDriver RecordedDriver CommandLog "
+        "GripperInfo GripperCommand GripperState servo LoopMode",
+    ),
+    "viewer": (
+        "Viewer and cameras",
+        "ConfigurationViewer CameraView CameraViewSensor ImageViewer saveFilm depthImage2PointCloud getArucoImage",
+    ),
+    "fleets": ("Many processes", "imap readResults"),
+    "errors": (
+        "Errors",
+        "Error ArgumentError ArgumentTypeError FileError FrameDeleted FrameNotFound NotFound ParseError RobotFault "
+        "KinegraphWarning",
+    ),
+}
+
+# Names that differ in C++.
+CPP_NAMES = {
+    "KOMO": "Komo",
+    "NLP": "Nlp",
+    "NLP_Solver": "NlpSolver",
+    "NLP_SolverOptions": "SolverOptions",
+    "NLP_Sampler": "NlpSampler",
+    "SolverReturn": "SolverResult",
+    "ConfigurationViewer": "ConfigViewer",
+    "RRT_PathFinder": "PathFinder",
+    "LGP_Tool": "LgpTool",
+    "raiPath": "modelPath",
+    "robotPath": "robotPath",
+}
+
+# Further names of C++ per page.
+CPP_ONLY = {
+    "scenes": "Pose FileOptions",
+    "features": "Residual",
+    "ik": "IkTarget",
+    "komo": "Objective ObjectiveType",
+    "planning": "PlanOptions MotionGoal",
+    "timing": "RetimeOptions",
+    "tasks": "PlanTaskOptions TaskPlanOptions",
+    "simulation": "Contact",
+}

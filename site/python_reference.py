@@ -1,0 +1,180 @@
+"""Writes the pages of Python's names, from the stub and the docstrings of the installed package."""
+
+import re
+from pathlib import Path
+
+import griffe
+
+SHORT = re.compile(r"(collections\.abc|typing|numpy\.typing|kinegraph\._core)\.")
+SPECIAL = ("__len__", "__getitem__", "__call__", "__iter__")
+
+
+def loadPackage(folder: Path) -> griffe.Object:
+    """Reads the package in `folder`/kinegraph without importing it."""
+    options = {"warnings": False, "returns_named_value": False, "returns_multiple_items": False}
+    return griffe.load(
+        "kinegraph",
+        search_paths=[str(folder)],
+        allow_inspection=False,
+        docstring_parser="google",
+        docstring_options=options,
+        resolve_aliases=True,
+    )
+
+
+def exportedNames(package: griffe.Object) -> list[str]:
+    return [str(name) for name in package.exports or [] if not str(name).startswith("_")]
+
+
+def annotation(text: object) -> str:
+    return SHORT.sub("", str(text)).replace("NDArray[numpy.float64]", "NDArray")
+
+
+def signature(function: griffe.Function, skips_self: bool) -> str:
+    parts, has_star = [], False
+    for parameter in function.parameters:
+        if skips_self and parameter.name in ("self", "cls"):
+            continue
+        kind = parameter.kind.value if parameter.kind else ""
+        mark = {"variadic positional": "*", "variadic keyword": "**"}.get(kind, "")
+        if kind == "keyword-only" and not has_star:
+            parts.append("*")
+            has_star = True
+        has_star |= mark == "*"
+        part = mark + parameter.name
+        if parameter.annotation:
+            part += f": {annotation(parameter.annotation)}"
+        if parameter.default is not None and not mark:
+            part += f" = {parameter.default}"
+        parts.append(part)
+    result = f" -> {annotation(function.returns)}" if function.returns else ""
+    return f"({', '.join(parts)}){result}"
+
+
+def oneLine(text: str) -> str:
+    return " ".join(text.split())
+
+
+def withFences(text: str) -> list[str]:
+    """Indented lines after an empty one are Python."""
+    lines: list[str] = []
+    is_code = False
+    for line in text.splitlines():
+        if line.startswith("    ") and not is_code and (not lines or not lines[-1].strip()):
+            lines.append("~~~python")
+            is_code = True
+        elif is_code and line.strip() and not line.startswith("    "):
+            while not lines[-1].strip():
+                lines.pop()
+            lines += ["~~~", ""]
+            is_code = False
+        lines.append(line[4:] if is_code else line)
+    return lines + (["~~~"] if is_code else [])
+
+
+def description(item: griffe.Object) -> list[str]:
+    """The docstring as MyST, with fields for arguments, results and errors."""
+    if not item.docstring:
+        return []
+    docstring = item.docstring
+    docstring.value = re.sub(r"\n(Returns|Raises|Yields):\n", r"\n\n\1:\n", docstring.value)
+    lines: list[str] = []
+    for section in docstring.parsed:
+        kind = section.kind.value
+        if kind == "text":
+            lines += [*withFences(section.value), ""]
+        elif kind in ("parameters", "other parameters"):
+            lines += [f":param {p.name}: {oneLine(p.description)}" for p in section.value]
+        elif kind == "attributes":
+            lines += [f"- `{p.name}`: {oneLine(p.description)}" for p in section.value] + [""]
+        elif kind in ("returns", "yields"):
+            lines += [f":returns: {' '.join(oneLine(r.description) for r in section.value)}"]
+        elif kind == "raises":
+            lines += [f":raises {annotation(r.annotation)}: {oneLine(r.description)}" for r in section.value]
+        elif kind == "examples":
+            lines += ["", "~~~python", *(str(example[1]) for example in section.value), "~~~", ""]
+        elif kind == "admonition":
+            lines += ["", f"**{section.title or 'Note'}** {oneLine(section.value.description)}", ""]
+    return lines
+
+
+def directive(kind: str, head: str, body: list[str], depth: int, options: list[str] | None = None) -> list[str]:
+    fence = ":" * (8 - depth)
+    return [f"{fence}{{{kind}}} {head}", *(f":{option}" for option in options or []), "", *body, fence, ""]
+
+
+def functionEntry(
+    variants: list[griffe.Function], name: str, depth: int, kind: str = "py:function", is_method: bool = False
+) -> list[str]:
+    is_static = is_method and "staticmethod" in variants[0].labels
+    body: list[str] = []
+    texts: list[list[str]] = []
+    for variant in variants:
+        text = description(variant)
+        if text and text not in texts:
+            texts.append(text)
+            body += text
+    heads = [name + signature(variant, is_method and not is_static) for variant in variants]
+    if len(heads) > 1:
+        body = ["Overloads:", "", "~~~python", *heads[1:], "~~~", "", *body]
+    return directive(kind, heads[0], body, depth, ["staticmethod:"] if is_static else [])
+
+
+def memberEntries(cls: griffe.Class, depth: int) -> list[str]:
+    members: dict[str, list] = {name: [member] for name, member in cls.members.items()}
+    for name, variants in getattr(cls, "overloads", {}).items():
+        if variants:
+            members[name] = list(variants)
+    lines: list[str] = []
+    for name, variants in members.items():
+        member = variants[-1]
+        if (name.startswith("_") and name not in SPECIAL) or member.is_alias:
+            continue
+        if member.is_function:
+            variants = list(member.overloads or variants) if len(variants) == 1 else variants
+            lines += functionEntry(variants, name, depth, "py:method", is_method=True)
+        elif member.is_attribute:
+            is_property = "property" in member.labels
+            options = [f"type: {annotation(member.annotation)}"] if member.annotation else []
+            if member.value is not None and not is_property and len(str(member.value)) < 30:
+                options.append(f"value: {member.value}")
+            lines += directive(
+                "py:property" if is_property else "py:attribute", name, description(member), depth, options
+            )
+    return lines
+
+
+def entry(package: griffe.Object, name: str, twin: str | None) -> list[str]:
+    """The section of a name, with a link to its counterpart in C++ if it has one."""
+    item, variants = package[name], []
+    if item.is_alias:
+        module = package.modules_collection[item.target_path.rsplit(".", 1)[0]]
+        variants = list(getattr(module, "overloads", {}).get(name, []))
+        item = variants[-1] if variants else item.final_target
+    lines = [f"## {name}", ""]
+    if twin:
+        lines += [f"In C++: {{cpp:any}}`{twin}`", ""]
+    if item.is_class:
+        init = item.members.get("__init__")
+        is_written = init is not None and init.is_function
+        head = name + (signature(init, True) if is_written else "")
+        body = description(item) + (["", *description(init)] if is_written else [])
+        return lines + directive("py:class", head, [*body, "", *memberEntries(item, 2)], 1)
+    if item.is_function:
+        return lines + functionEntry(variants or list(item.overloads or [item]), name, 1)
+    return lines + directive("py:data", name, description(item), 1)
+
+
+def writePages(
+    package: griffe.Object, pages: dict[str, tuple[str, list[str]]], twins: dict[str, str], out: Path
+) -> None:
+    out.mkdir(parents=True, exist_ok=True)
+    for page, (title, names) in pages.items():
+        lines = [f"# {title}", "", "```{py:currentmodule} kinegraph\n```", ""]
+        if any(name in twins for name in names):
+            lines += [f"The same in C++: [](../cpp/{page}.md).", ""]
+        for name in names:
+            lines += entry(package, name, twins.get(name))
+        (out / f"{page}.md").write_text("\n".join(lines))
+    index = ["# Python", "", "```{toctree}", ":maxdepth: 1", *pages, "```", ""]
+    (out / "index.md").write_text("\n".join(index))
