@@ -27,7 +27,7 @@ _PROBLEMS = [*_SCENE, "features", "nlp", "komo", "solvers"]
 _PLANNING = [*_PROBLEMS, "ik", "trajectories", "rrt"]
 
 EVERYTHING = [*_PLANNING, "control", "exporters", "trajectory_optimization", "planning", "tool_paths"]
-EVERYTHING += ["logic", "task_planning", "rendering", "simulation", "robot", "viewer", "api"]
+EVERYTHING += ["logic", "task_planning", "rendering", "perception", "simulation", "robot", "viewer", "api"]
 
 BELOW: dict[str, list[str]] = {
     "common": [],
@@ -75,6 +75,7 @@ BELOW: dict[str, list[str]] = {
     "task_planning/lgp": [*_PROBLEMS, "logic", "task_planning"],
     "task_planning/search": [*_PLANNING, "logic", "planning", "task_planning"],
     "rendering": _SCENE,
+    "perception": [*_SCENE, "rendering"],
     "simulation": [*_SCENE, "trajectories", "rendering"],
     "robot": [*_SCENE, "trajectories", "simulation"],
     "viewer/messages": _SCENE,
@@ -156,6 +157,7 @@ CONTENTS = {
     "task_planning/lgp": "`LGP_Tool` and its abstraction of actions",
     "task_planning/search": "`planTask`, `checkTaskPlan`",
     "rendering": "camera images without a display",
+    "perception": "poses of known shapes from depth images",
     "simulation": "a scene in time: MuJoCo, motors, grippers, simulation state",
     "robot": "`BotOp`, robot drivers, rate limiter and safety limits",
     "viewer/messages": "messages between the server and the page",

@@ -42,6 +42,7 @@ NB_MODULE(_core, m) {
   bindTrajectory(m);
   bindScene(m);
   bindRendering(m);
+  bindPerception(m);
   bindNlp(m);
   bindSolvers(m);
   bindKomo(m);

@@ -55,6 +55,7 @@ FOUND = {
     "19_own_action": [r"^solved: 2 actions, \d+\.\d+ s", r"\(show cup l_gripper\)"],
     "10_many_problems": [r"taken by r_gripper", r"6 of 6 feasible", r"\b10 configurations"],
     "32_a_data_set_overnight": [r"(1 episodes of \d+ attempts, \d+ frames, in .* faults: \[\]\s+){3}"],
+    "33_look_plan_pick": [r"blue was seen within \d\.\d mm", r"reached the goal after \d actions"],
     "27_calibrate": [r"step 4: configurations off by 0\.\d+ mrad", r"found within 0\.\d+ mm", r"elbow bent by"],
     "22_a_data_set": [r"in \d+ s|in \d\.\d+ s", r"2000 targets, \d\d\.\d % of them", r"of 20 motions found"],
     "21_execute_a_task": [

@@ -1,0 +1,44 @@
+#include "kinegraph/perception/depth_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kFarthest = 50.;  // m; a median depth beyond is not in meters
+
+}  // namespace
+
+void DepthView::validate(const std::string& where) const {
+  const auto fail = [&](const std::string& text) { throw ValueError(cat(where, ": ", text)); };
+  if (width <= 0 || height <= 0 || depth.size() != std::size_t(width) * std::size_t(height))
+    fail(cat("depth has ", depth.size(), " numbers; expected height x width = ", height, " x ", width));
+  if (!fxycxy.allFinite() || fxycxy[0] <= 0. || fxycxy[1] <= 0.)
+    fail("fxycxy has invalid focal lengths; expected fx fy cx cy in pixels, fx and fy > 0");
+  if (fxycxy[2] < .25 * width || fxycxy[2] > .75 * width || fxycxy[3] < .25 * height || fxycxy[3] > .75 * height)
+    fail(cat("the center (", fxycxy[2], ", ", fxycxy[3], ") of fxycxy does not fit an image of ", width, " x ", height,
+             " pixels; expected about (", .5 * width, ", ", .5 * height, "). Scale fxycxy with the image"));
+  if (!pose.p.allFinite() || !pose.q.coeffs().allFinite()) fail("the camera's pose has non-finite numbers");
+  if (!(noise > 0.) || !(bias >= 0.) || !std::isfinite(noise) || !std::isfinite(bias))
+    fail(cat("noise is ", noise, " and bias ", bias, "; expected noise > 0 and bias >= 0, both in 1/m"));
+  std::vector<float> measured;
+  for (std::size_t i = 0; i < depth.size(); i += 7) {
+    if (std::isfinite(depth[i]) && depth[i] > 0.f) measured.push_back(depth[i]);
+  }
+  if (measured.empty()) return;
+  const auto middle = measured.begin() + std::ptrdiff_t(measured.size() / 2);
+  std::nth_element(measured.begin(), middle, measured.end());
+  if (*middle > kFarthest)
+    fail(cat("the median depth is ", *middle, " m. If depths are in millimeters, pass unit=0.001"));
+}
+
+Pose DepthView::cameraPose(const Config& config) const {
+  return camera.empty() ? pose : config.getFrame(camera).getPose();
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,165 @@
+#include "kinegraph/perception/observed_views.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/geometry/distance/proximity.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr int kStride = 2;             // of the pixels of an image
+constexpr double kNearSurface = .004;  // m, points closer to a known fixed surface belong to it
+constexpr double kNearRobot = .012;    // m, the same for what joints move: they and the camera are known less exactly
+
+using Pixel = ObservedView::Pixel;
+
+/// The rows and columns of a ball's image.
+struct Window {
+  int top = 0, bottom = 0, left = 0, right = 0;  ///< half open
+};
+
+Window windowOf(const ObservedView& view, const Vector3d& center, double radius) {
+  const Vector3d c = view.X_WC.inverse() * center;
+  if (c.z() + radius <= 0.) return {};
+  if (c.z() - radius < .02) return {0, view.height, 0, view.width};
+  const double scale = 1. / (c.z() - radius);
+  const auto range = [&](double f, double middle, double x, int size, int& from, int& to) {
+    const double a = f * std::min((x - radius) * scale, (x - radius) / (c.z() + radius)) + middle;
+    const double b = f * std::max((x + radius) * scale, (x + radius) / (c.z() + radius)) + middle;
+    from = int(std::clamp(std::floor(a), 0., double(size)));
+    to = int(std::clamp(std::ceil(b) + 1., 0., double(size)));
+  };
+  Window window;
+  range(view.fx, view.cx, c.x(), view.width, window.left, window.right);
+  range(view.fy, view.cy, c.y(), view.height, window.top, window.bottom);
+  return window;
+}
+
+void markKnown(ObservedView& view, const std::vector<KnownShape>& known, const std::vector<Vector3d>& points) {
+  for (const KnownShape& shape : known) {
+    const double reach = shape.moves ? kNearRobot : kNearSurface;
+    const bool endless = shape.body->core() == CollisionBody::Core::half_space;
+    const Vector3d center = shape.X_WB * shape.body->boundCenter();
+    const double radius = shape.body->boundRadius() + reach;
+    const Window window = endless ? Window{0, view.height, 0, view.width} : windowOf(view, center, radius);
+    for (int row = window.top; row < window.bottom; ++row) {
+      for (int column = window.left; column < window.right; ++column) {
+        const std::size_t i = view.index(row, column);
+        if (view.pixels[i] != Pixel::other) continue;
+        if (!endless && (points[i] - center).squaredNorm() > radius * radius) continue;
+        const double sigma = 3. * view.noise * view.depth[i] * view.depth[i];
+        const double near = std::max(reach, sigma);
+        const RigidTransform X_WQ{Matrix3d::Identity(), points[i]};
+        if (!endless && !mayBeWithin(*shape.body, shape.X_WB, points[i], near)) continue;
+        if (proximity(*pointBody(), X_WQ, *shape.body, shape.X_WB).distance > near) continue;
+        view.pixels[i] = shape.moves ? Pixel::known : Pixel::background;
+      }
+    }
+  }
+}
+
+/// Nearest pixel outside of the background, by two sweeps that pass on the offsets of neighbors (Danielsson, 1980).
+void findNearest(ObservedView& view) {
+  view.nearest.assign(view.pixels.size(), -1);
+  for (std::size_t i = 0; i < view.pixels.size(); ++i) {
+    if (view.pixels[i] != Pixel::background) view.nearest[i] = std::int32_t(i);
+  }
+  const auto squared = [&](std::int32_t source, int row, int column) {
+    const int dy = source / view.width - row, dx = source % view.width - column;
+    return dx * dx + dy * dy;
+  };
+  const auto sweep = [&](int step) {
+    for (int n = 0; n < view.height; ++n) {
+      const int row = step > 0 ? n : view.height - 1 - n;
+      const auto pass = [&](int column, int from_row, int from_column) {
+        if (from_row < 0 || from_row >= view.height || from_column < 0 || from_column >= view.width) return;
+        const std::int32_t source = view.nearest[view.index(from_row, from_column)];
+        std::int32_t& own = view.nearest[view.index(row, column)];
+        if (source >= 0 && (own < 0 || squared(source, row, column) < squared(own, row, column))) own = source;
+      };
+      for (int column = 0; column < view.width; ++column) {
+        for (int side = -1; side <= 1; ++side) pass(column, row - step, column + side);
+        pass(column, row, column - 1);
+      }
+      for (int column = view.width - 1; column >= 0; --column) pass(column, row, column + 1);
+    }
+  };
+  sweep(1);
+  sweep(-1);
+}
+
+}  // namespace
+
+Vector3d ObservedView::point(int row, int column) const {
+  const double d = depth[index(row, column)];
+  return X_WC * Vector3d((column + .5 / kStride - cx) * d / fx, (row + .5 / kStride - cy) * d / fy, d);
+}
+
+bool isMoved(const Frame& frame) {
+  for (std::optional<Frame> at = frame; at; at = at->getParent()) {
+    if (at->data().joint && at->data().joint->dofs() > 0) return true;
+  }
+  return false;
+}
+
+std::vector<KnownShape> knownShapes(const Config& config, const std::set<int>& looked_for) {
+  std::vector<KnownShape> known;
+  for (const Frame& frame : config.getFrames()) {
+    const auto& shape = frame.data().shape;
+    if (!shape || looked_for.count(frame.id()) || shapeKind(shape->geometry->type).is_symbol) continue;
+    if (shape->geometry->type == ShapeType::pointCloud || shape->geometry->type == ShapeType::none) continue;
+    if (shape->contact == 0 && shape->color && (*shape->color)[3] < 1.) continue;
+    known.push_back({shape->body(), frame.getPose().transform(), frame.id(), isMoved(frame)});
+  }
+  std::stable_sort(known.begin(), known.end(), [](const KnownShape& a, const KnownShape& b) {
+    return a.body->core() < CollisionBody::Core::hull && b.body->core() >= CollisionBody::Core::hull;
+  });
+  return known;
+}
+
+ObservedView observe(const DepthView& given, const Pose& camera, const std::vector<KnownShape>& known,
+                     const double* support_height, const std::vector<SearchBall>& balls,
+                     std::vector<ObservedPoint>& points, int view_index) {
+  ObservedView view;
+  view.X_WC = camera.transform();
+  view.width = (given.width + kStride - 1) / kStride;
+  view.height = (given.height + kStride - 1) / kStride;
+  view.fx = given.fxycxy[0] / kStride;
+  view.fy = given.fxycxy[1] / kStride;
+  view.cx = given.fxycxy[2] / kStride;
+  view.cy = given.fxycxy[3] / kStride;
+  view.noise = given.noise;
+  view.bias = given.bias;
+  const std::size_t count = std::size_t(view.width) * std::size_t(view.height);
+  view.depth.assign(count, 0.f);
+  view.pixels.assign(count, Pixel::none);
+  std::vector<Vector3d> world(count);
+  for (int row = 0; row < view.height; ++row) {
+    for (int column = 0; column < view.width; ++column) {
+      const std::size_t i = view.index(row, column);
+      const float d =
+          given.depth[std::size_t(kStride * row) * std::size_t(given.width) + std::size_t(kStride * column)];
+      if (!std::isfinite(d) || d <= 0.f) continue;
+      view.depth[i] = d;
+      world[i] = view.point(row, column);
+      const double near = std::max(kNearSurface, 3. * view.noise * d * d);
+      const bool on_support = support_height && world[i].z() < *support_height + near;
+      view.pixels[i] = on_support ? Pixel::background : Pixel::other;
+    }
+  }
+  markKnown(view, known, world);
+  findNearest(view);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (view.pixels[i] != Pixel::other) continue;
+    const bool wanted = std::any_of(balls.begin(), balls.end(), [&](const SearchBall& ball) {
+      return (world[i] - ball.center).squaredNorm() < ball.radius * ball.radius;
+    });
+    if (wanted) points.push_back({world[i], view.noise * view.depth[i] * view.depth[i], view_index});
+  }
+  return view;
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "kinegraph/perception/depth_view.h"
+
+namespace kinegraph {
+
+enum class SeenStatus {
+  seen,         ///< the pose is measured, and the frame was moved to it
+  occluded,     ///< something is in front of it
+  not_in_view,  ///< it is outside of all images, or nothing was measured
+  not_there,    ///< the cameras looked through its place
+};
+
+/// The enumerator's spelling: "not_there".
+std::string seenStatusName(SeenStatus status);
+
+/// How a frame was seen.
+struct SeenFrame {
+  SeenStatus status = SeenStatus::not_in_view;
+  Pose pose;            ///< in the world; the last one unless the status is `seen`
+  MatrixXd covariance;  ///< 6 x 6, of (x y z in m, rotation vector in rad) in world axes; empty unless seen
+  MatrixXd free_directions = MatrixXd::Zero(0, 6);  ///< rows: unit displacements that the images do not determine, as
+                                                    ///< in `covariance`
+  std::vector<Pose> alternatives;                   ///< other poses that explain the images about as well
+  double visible = 0.;  ///< the share of the surface, seen if it were alone, that the cameras measured
+  double score = 0.;    ///< 1: all measurements at its surface agree; below 0: it is not there
+  std::string by;       ///< occluded: the frame in front of it; "" for something unknown
+
+  std::string str() const;
+};
+
+struct SeenScene {
+  std::map<std::string, SeenFrame> frames;
+  std::vector<std::string> warnings;
+
+  std::string str() const;
+};
+
+struct RegisterOptions {
+  /// The frame on whose top the things rest; "": they may be anywhere in the air. Frames with a joint of their own and
+  /// frames in a hand never rest.
+  std::string support = {};
+
+  double search_radius = .05;  ///< how far a thing may have moved since its last pose, m
+
+  /// Throws ValueError for an invalid radius.
+  void validate() const;
+};
+
+/// Moves frames to where depth images show them.
+///
+/// Each frame starts at its present pose. A robust fit minimizes the distances of measured points from the exact
+/// surfaces that face the camera. A thing on a support has x, y and the rotation about z as variables, a frame with a
+/// hinge or slide its dof, all others six directions. Measurements of the robot and other shapes of the scene are left
+/// out, and a point belongs to one thing only. Frames that are not seen keep their poses. Deterministic.
+///
+/// Throws FrameNotFound, and ValueError for invalid views and frames without a visible shape; the scene is then
+/// unchanged.
+SeenScene registerScene(Config& config, std::span<const DepthView> views, const std::vector<std::string>& frames,
+                        const RegisterOptions& options = {});
+
+}  // namespace kinegraph

@@ -1,0 +1,40 @@
+#include <cmath>
+
+#include "kinegraph/common/text.h"
+#include "kinegraph/perception/register_scene.h"
+
+namespace kinegraph {
+
+std::string seenStatusName(SeenStatus status) {
+  switch (status) {
+    case SeenStatus::seen:
+      return "seen";
+    case SeenStatus::occluded:
+      return "occluded";
+    case SeenStatus::not_in_view:
+      return "not_in_view";
+    default:
+      return "not_there";
+  }
+}
+
+std::string SeenFrame::str() const {
+  std::string text = seenStatusName(status);
+  if (status == SeenStatus::occluded) text += cat(" by ", by.empty() ? "something unknown" : cat("'", by, "'"));
+  if (status == SeenStatus::seen) {
+    text += cat(" at ", pose.p.x(), " ", pose.p.y(), " ", pose.p.z(), " (", int(std::lround(100. * visible)),
+                " % visible)");
+    if (free_directions.rows() > 0) text += cat(", ", free_directions.rows(), " free directions");
+    if (!alternatives.empty()) text += cat(", ", alternatives.size(), " alternatives");
+  }
+  return text;
+}
+
+std::string SeenScene::str() const {
+  std::vector<std::string> lines;
+  for (const auto& [name, frame] : frames) lines.push_back(cat(name, ": ", frame.str()));
+  for (const std::string& warning : warnings) lines.push_back(cat("warning: ", warning));
+  return join(lines, "\n");
+}
+
+}  // namespace kinegraph

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <limits>
+#include <memory>
+#include <set>
+#include <vector>
+
+#include "kinegraph/scene/frame.h"
+
+namespace kinegraph {
+
+struct TriangleTree;
+
+/// The signed distance of a point from a surface, m, and its gradient, a unit vector.
+struct SurfaceDistance {
+  double distance = std::numeric_limits<double>::infinity();
+  Vector3d gradient = Vector3d::UnitZ();
+};
+
+/// The surface of a frame and of what is rigidly attached to it, as cameras see it. Boxes, balls, capsules and
+/// cylinders are exact; other shapes are their triangles. Coordinates of the frame, m.
+class VisibleShape {
+ public:
+  /// Leaves out the frames `without` and what is attached to them. Throws ValueError if nothing visible is left.
+  explicit VisibleShape(const Frame& frame, const std::set<int>& without = {});
+  ~VisibleShape();
+  VisibleShape(VisibleShape&&) noexcept;
+
+  /// Distance from the part of the surface that faces `eye`. The nearest surface of a thin wall may be its far side,
+  /// which no camera has measured. The distance is infinite if no surface faces the eye.
+  SurfaceDistance facing(const Vector3d& point, const Vector3d& eye) const;
+
+  /// Distance from the surface, negative inside.
+  SurfaceDistance nearest(const Vector3d& point) const;
+
+  /// The largest extent along a unit direction, from the origin.
+  double extent(const Vector3d& direction) const;
+
+  /// Whether nothing of the shape lies between a point of its surface and the eye.
+  bool seesItself(const Vector3d& point, const Vector3d& eye) const;
+
+  double radius() const { return radius_; }  ///< of a ball about the origin that holds the shape
+
+  /// Points of the surface with outward normals, uniform and in random order.
+  const std::vector<Vector3d>& samples() const { return samples_; }
+  const std::vector<Vector3d>& normals() const { return normals_; }
+
+  /// Directions that may point down if it rests on a plane: outward normals of stable faces of the convex hull.
+  const std::vector<Vector3d>& restingDirections() const { return resting_; }
+
+  /// Ids of the frames whose shapes it has.
+  const std::vector<int>& frames() const { return frames_; }
+
+ private:
+  struct Part;
+  void add(const Shape& shape, const RigidTransform& X_FS);
+  void sample(const std::vector<Mesh>& surfaces);
+  void findRestingDirections();
+
+  std::vector<Part> parts_;
+  std::vector<int> frames_;
+  std::vector<Vector3d> samples_, normals_, resting_, hull_points_;
+  double radius_ = 0.;
+};
+
+}  // namespace kinegraph

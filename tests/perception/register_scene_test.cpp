@@ -1,0 +1,197 @@
+#include "kinegraph/perception/register_scene.h"
+
+#include <gtest/gtest.h>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/rendering/camera_renderer.h"
+
+namespace kinegraph {
+namespace {
+
+constexpr double kDegree = 3.14159265358979 / 180.;
+
+/// A table with a box, a standing cylinder and a mug of boxes, and a camera that looks down at them.
+Config tableScene() {
+  Config C;
+  C.addText(R"(
+    table: { shape: ssBox, size: [1.2, 1.2, .1, .005], pose: [0, 0, .6], contact: 1 }
+    box: { shape: ssBox, size: [.06, .1, .08, .002], pose: [.12, .05, .69], contact: 1 }
+    can: { shape: cylinder, size: [.12, .03], pose: [-.12, .05, .71], contact: 1 }
+    cam: { pose: [0, -.6, 1.2], focalLength: 1.25, width: 640, height: 480 }
+  )");
+  const Vector3d eye(0., -.6, 1.2), z = (Vector3d(0., .05, .65) - eye).normalized();
+  const Vector3d x = z.cross(Vector3d::UnitZ()).normalized();
+  Matrix3d R;
+  R << x, z.cross(x), z;
+  C.getFrame("cam").setPose(Pose(eye, Quaterniond(R)));
+  return C;
+}
+
+DepthView look(Config& C, const std::string& camera = "cam") {
+  CameraRenderer renderer;
+  const Camera from = cameraOf(C.getFrame(camera));
+  DepthView view;
+  view.depth = renderer.render(*C.scene(), from, true).depth;
+  view.width = from.width;
+  view.height = from.height;
+  view.fxycxy = from.fxycxy();
+  view.pose = from.pose;
+  return view;
+}
+
+/// Moves a frame by a step (m) and a rotation about z.
+void displace(Config& C, const std::string& name, const Vector3d& step, double degrees) {
+  Frame frame = C.getFrame(name);
+  const Pose old = frame.getPose();
+  const Quaterniond turn(Eigen::AngleAxisd(degrees * kDegree, Vector3d::UnitZ()));
+  frame.setPose(Pose(old.p + step, turn * old.q));
+}
+
+RegisterOptions onTable() {
+  RegisterOptions options;
+  options.support = "table";
+  return options;
+}
+
+TEST(RegisterScene, ADisplacedBoxReturnsToItsPlace) {
+  Config C = tableScene();
+  const std::vector<DepthView> views{look(C)};
+  const Pose truth = C.getFrame("box").getPose();
+  displace(C, "box", {.03, -.02, .03}, 25.);
+  const SeenScene seen = registerScene(C, views, {"box"}, onTable());
+  const Pose found = C.getFrame("box").getPose();
+  EXPECT_EQ(seen.frames.at("box").status, SeenStatus::seen) << seen.str();
+  EXPECT_LT((found.p - truth.p).norm(), .0005);
+  EXPECT_LT(found.q.angularDistance(truth.q), .2 * kDegree);
+  EXPECT_TRUE(seen.warnings.empty()) << seen.str();
+}
+
+TEST(RegisterScene, ABoxInTheAirIsFoundInSixDirections) {
+  Config C = tableScene();
+  const Quaterniond tilt(Eigen::AngleAxisd(.5, Vector3d(1., 2., 3.).normalized()));
+  C.getFrame("box").setPose(Pose(Vector3d(.1, .05, .8), tilt));
+  const std::vector<DepthView> views{look(C)};
+  const Quaterniond off(Eigen::AngleAxisd(.2, Vector3d(2., -1., 1.).normalized()));
+  C.getFrame("box").setPose(Pose(Vector3d(.11, .03, .81), off * tilt));
+  const SeenScene seen = registerScene(C, views, {"box"});
+  EXPECT_EQ(seen.frames.at("box").status, SeenStatus::seen) << seen.str();
+  EXPECT_LT((C.getFrame("box").getPosition() - Vector3d(.1, .05, .8)).norm(), .0015);
+  EXPECT_LT(C.getFrame("box").getQuaternion().angularDistance(tilt), 1. * kDegree);
+}
+
+TEST(RegisterScene, TheRotationOfAStandingCylinderIsAFreeDirection) {
+  Config C = tableScene();
+  const std::vector<DepthView> views{look(C)};
+  displace(C, "can", {.02, .02, 0.}, 0.);
+  const SeenFrame can = registerScene(C, views, {"can"}, onTable()).frames.at("can");
+  EXPECT_LT((can.pose.p - Vector3d(-.12, .05, .71)).norm(), .0005);
+  ASSERT_EQ(can.free_directions.rows(), 1);
+  EXPECT_NEAR(std::abs(can.free_directions(0, 5)), 1., 1e-3);
+  EXPECT_GT(can.covariance(5, 5), 1.);
+  EXPECT_LT(can.covariance(0, 0), 1e-4);
+}
+
+TEST(RegisterScene, AThingThatWasTakenAwayIsNotThereAndKeepsItsPose) {
+  Config C = tableScene(), empty = tableScene();
+  empty.delFrame("box");
+  const std::vector<DepthView> views{look(empty)};
+  const Pose before = C.getFrame("box").getPose();
+  const SeenScene seen = registerScene(C, views, {"box", "can"}, onTable());
+  EXPECT_EQ(seen.frames.at("box").status, SeenStatus::not_there) << seen.str();
+  EXPECT_EQ(seen.frames.at("can").status, SeenStatus::seen) << seen.str();
+  EXPECT_EQ(C.getFrame("box").getPose().numbers(), before.numbers());
+}
+
+TEST(RegisterScene, AHiddenThingIsOccludedByTheFrameBeforeIt) {
+  Config C = tableScene();
+  C.addFrame("wall").setShape(ShapeType::box, {.3, .02, .3}).setPosition({.12, -.1, .8});
+  const std::vector<DepthView> views{look(C)};
+  const SeenScene seen = registerScene(C, views, {"box"}, onTable());
+  EXPECT_EQ(seen.frames.at("box").status, SeenStatus::occluded) << seen.str();
+  EXPECT_EQ(seen.frames.at("box").by, "wall");
+}
+
+TEST(RegisterScene, AThingBesideTheImageIsNotInView) {
+  Config C = tableScene();
+  const std::vector<DepthView> views{look(C)};
+  C.getFrame("box").setPosition({2., 2., .69});
+  EXPECT_EQ(registerScene(C, views, {"box"}, onTable()).frames.at("box").status, SeenStatus::not_in_view);
+}
+
+TEST(RegisterScene, ADrawerMovesAlongItsJointOnly) {
+  Config C = tableScene();
+  C.addText(R"(
+    cabinet: { pose: [0, .3, .75] }
+    drawer (cabinet): { joint: transY, limits: [-.2, .2], q: -.05, shape: ssBox, size: [.2, .15, .08, .002] }
+  )");
+  const std::vector<DepthView> views{look(C)};
+  C.getFrame("drawer").setJointState(VectorXd::Constant(1, -.01));
+  const SeenScene seen = registerScene(C, views, {"drawer"}, onTable());
+  EXPECT_EQ(seen.frames.at("drawer").status, SeenStatus::seen) << seen.str();
+  EXPECT_NEAR(C.getFrame("drawer").getJointState()[0], -.05, .0005);
+}
+
+TEST(RegisterScene, TwoEqualBoxesSideBySideAreNotConfused) {
+  Config C = tableScene();
+  C.addFrame("box2").setShape(ShapeType::ssBox, {.06, .1, .08, .002}).setPosition({.19, .05, .69});
+  const std::vector<DepthView> views{look(C)};
+  displace(C, "box", {.02, .01, 0.}, 8.);
+  displace(C, "box2", {.02, -.01, 0.}, -8.);
+  const SeenScene seen = registerScene(C, views, {"box", "box2"}, onTable());
+  EXPECT_LT((seen.frames.at("box").pose.p - Vector3d(.12, .05, .69)).norm(), .001) << seen.str();
+  EXPECT_LT((seen.frames.at("box2").pose.p - Vector3d(.19, .05, .69)).norm(), .001) << seen.str();
+}
+
+TEST(RegisterScene, TheFarSideOfAThinWallDoesNotHoldThePose) {
+  Config C = tableScene();
+  C.addFrame("plate").setShape(ShapeType::ssBox, {.16, .004, .12, .0005}).setPosition({0., .2, .71});
+  const std::vector<DepthView> views{look(C)};
+  displace(C, "plate", {.004, .012, 0.}, 3.);
+  const SeenScene seen = registerScene(C, views, {"plate"}, onTable());
+  EXPECT_NEAR(seen.frames.at("plate").pose.p.y(), .2, .0005) << seen.str();
+}
+
+TEST(RegisterScene, EmptyAndFlippedViewsGiveWarnings) {
+  Config C = tableScene();
+  DepthView view = look(C);
+  const Pose before = C.getFrame("box").getPose();
+  DepthView flipped = view;
+  flipped.pose.q = flipped.pose.q * Quaterniond(Eigen::AngleAxisd(2.5, Vector3d::UnitX()));
+  const SeenScene turned = registerScene(C, std::vector{flipped}, {"box"}, onTable());
+  ASSERT_EQ(turned.warnings.size(), 1u);
+  EXPECT_NE(turned.warnings[0].find("Check the camera's pose"), std::string::npos) << turned.warnings[0];
+  std::fill(view.depth.begin(), view.depth.end(), std::nanf(""));
+  const SeenScene blind = registerScene(C, std::vector{view}, {"box"}, onTable());
+  ASSERT_EQ(blind.warnings.size(), 1u);
+  EXPECT_NE(blind.warnings[0].find("has no depth"), std::string::npos);
+  EXPECT_EQ(blind.frames.at("box").status, SeenStatus::not_in_view);
+  EXPECT_EQ(C.getFrame("box").getPose().numbers(), before.numbers());
+}
+
+TEST(RegisterScene, InvalidViewsAreErrorsThatNameTheCause) {
+  Config C = tableScene();
+  const DepthView view = look(C);
+  const auto messageOf = [&](const DepthView& bad) -> std::string {
+    try {
+      registerScene(C, std::vector{bad}, {"box"});
+    } catch (const ValueError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  DepthView bad = view;
+  for (float& d : bad.depth) d *= 1000.f;
+  EXPECT_NE(messageOf(bad).find("millimeters"), std::string::npos);
+  bad = view;
+  bad.fxycxy *= 2.;
+  EXPECT_NE(messageOf(bad).find("does not fit an image of 640 x 480"), std::string::npos);
+  bad = view;
+  bad.depth.pop_back();
+  EXPECT_NE(messageOf(bad).find("height x width"), std::string::npos);
+  EXPECT_THROW(registerScene(C, std::vector{view}, {"cam"}), ValueError);
+  EXPECT_THROW(registerScene(C, std::vector{view}, {"bax"}), FrameNotFound);
+  EXPECT_THROW(registerScene(C, std::vector{view}, {"box", "box"}), ValueError);
+}
+
+}  // namespace
+}  // namespace kinegraph

@@ -1,0 +1,140 @@
+"""Poses of known shapes from depth images: arguments, results, and robustness to the errors of a camera."""
+
+import numpy as np
+import pytest
+
+import kinegraph as ry
+
+SCENE = """
+table: { shape: ssBox, size: [1.2, 1.2, .1, .005], pose: [0, 0, .6], contact: 1 }
+box: { shape: ssBox, size: [.06, .1, .08, .002], pose: [.12, .05, .69], contact: 1 }
+can: { shape: cylinder, size: [.12, .03], pose: [-.12, .05, .71], contact: 1 }
+cam: { pose: [0, -.6, 1.2, .344, -.939, 0, 0], focalLength: 1.25, width: 640, height: 480 }
+"""
+
+
+@pytest.fixture
+def scene():
+    C = ry.Config()
+    C.addText(SCENE)
+    return C
+
+
+def look(C):
+    """The depth of the camera `cam` in m, and fx fy cx cy."""
+    view = ry.CameraView(C)
+    view.setCamera("cam")
+    return view.computeImageAndDepth()[1], view.getFxycxy()
+
+
+def moved(pose, step):
+    return np.concatenate([pose[:3] + step, pose[3:]])
+
+
+def test_a_moved_box_is_found_and_its_frame_moved(scene):
+    depth, fxycxy = look(scene)
+    truth = scene.getFrame("box").getPose()
+    scene.getFrame("box").setPose(moved(truth, [0.03, -0.02, 0.01]))
+    seen = ry.registerScene(scene, ry.DepthView(depth, fxycxy, "cam"), ["box"], support="table")
+    assert seen["box"].status == ry.SeenStatus.seen
+    assert seen["box"].pose == pytest.approx(truth, abs=1e-3)
+    assert scene.getFrame("box").getPose() == pytest.approx(seen["box"].pose, abs=1e-9)
+    assert seen.poses()["box"] == pytest.approx(truth, abs=1e-3)
+    assert seen["box"].covariance.shape == (6, 6)
+    assert 0.95 < seen["box"].visible <= 1
+    assert "box: seen at" in repr(seen)
+
+
+def test_millimeters_in_integers_and_a_pose_give_the_same_result_as_meters_and_a_frame(scene):
+    depth, fxycxy = look(scene)
+    camera = scene.getFrame("cam").getPose()
+    truth = scene.getFrame("can").getPose()
+    coarse = np.clip(np.round(1000 * depth), 0, None).astype(np.uint16)
+    for view in (ry.DepthView(coarse, fxycxy, camera), ry.DepthView(coarse.astype(float), fxycxy, "cam", unit=0.001)):
+        scene.getFrame("can").setPose(moved(truth, [0.02, 0.02, 0]))
+        seen = ry.registerScene(scene, [view], ["can"], support="table")
+        assert seen["can"].pose[:3] == pytest.approx(truth[:3], abs=5e-4)
+        assert len(seen["can"].free_directions) == 1
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_the_error_is_within_the_covariance_with_noise_holes_and_outliers(scene, seed):
+    rng = np.random.default_rng(seed)
+    depth, fxycxy = look(scene)
+    truth = scene.getFrame("box").getPose()
+    noisy = depth + 0.0027 * depth**2 * rng.normal(size=depth.shape)
+    noisy += rng.normal() * 0.0019 * depth**2  # an error that all pixels share
+    noisy[rng.random(depth.shape) < 0.1] = 0
+    noisy[rng.random(depth.shape) < 0.02] *= rng.uniform(0.8, 1.2)
+    scene.getFrame("box").setPose(moved(truth, rng.uniform(-0.03, 0.03, 3)))
+    seen = ry.registerScene(scene, ry.DepthView(noisy, fxycxy, "cam"), ["box"], support="table")
+    error = (seen["box"].pose - truth)[:2]
+    assert np.linalg.norm(error) < 0.006
+    assert error @ np.linalg.solve(seen["box"].covariance[:2, :2], error) < 14  # exceeded by 1 of 1000
+
+
+def test_what_is_gone_or_hidden_keeps_its_last_pose(scene):
+    before = scene.getFrame("box").getPose()
+    empty = scene.copy()
+    empty.delFrame("box")
+    view = ry.DepthView(*look(empty), "cam")
+    seen = ry.registerScene(scene, view, ["box", "can"], support="table")
+    assert seen["box"].status == ry.SeenStatus.not_there
+    assert seen.poses()["box"] is None
+    assert np.array_equal(scene.getFrame("box").getPose(), before)
+    hidden = scene.copy()
+    hidden.addFrame("stranger").setShape(ry.ST.box, [0.3, 0.02, 0.3]).setPosition([0.12, -0.1, 0.8])
+    seen = ry.registerScene(scene, ry.DepthView(*look(hidden), "cam"), ["box"], support="table")
+    assert seen["box"].status == ry.SeenStatus.occluded
+    assert seen["box"].by == ""
+
+
+def test_the_robot_does_not_hold_a_thing_that_its_hand_touches():
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    C.addText("cup: { shape: ssBox, size: [.05, .06, .12, .004], pose: [0, .3, .71], contact: 1 }")
+    eye, target = np.array([0.6, 0.9, 1.3]), np.array([0, 0.3, 0.7])
+    z = (target - eye) / np.linalg.norm(target - eye)
+    x = np.cross(z, [0, 0, 1])
+    x /= np.linalg.norm(x)
+    cam = C.addFrame("cam").setPosition(eye).setRotationMatrix(np.stack([x, np.cross(z, x), z], 1))
+    cam.setAttributes({"focalLength": 1.25, "width": 640, "height": 480})
+    result = ry.solveIk(C, {"l_gripper": [0.0, 0.3, 0.79]})
+    C.setJointState(result.q)
+    depth, fxycxy = look(C)
+    truth = C.getFrame("cup").getPose()
+    C.getFrame("cup").setPose(moved(truth, [0.02, -0.02, 0]))
+    seen = ry.registerScene(C, ry.DepthView(depth, fxycxy, "cam"), ["cup"], support="table")
+    assert seen["cup"].pose == pytest.approx(truth, abs=2e-3)
+
+
+@pytest.mark.parametrize(
+    ("call", "message"),
+    [
+        (lambda d, f: ry.DepthView(1000 * d, f, "cam"), "pass unit=0.001"),
+        (lambda d, f: ry.DepthView(d[::2, ::2], f, "cam"), "does not fit an image of 320 x 240"),
+        (lambda d, f: ry.DepthView(d[0], f, "cam"), "has 1 dimensions"),
+        (lambda d, f: ry.DepthView(d, f[:3], "cam"), "has 3 entries"),
+        (lambda d, f: ry.DepthView(d, f, [0, 0, 1]), "neither the name of a frame nor a pose"),
+        (lambda d, f: ry.DepthView(d > 1, f, "cam"), "type bool"),
+        (lambda d, f: ry.DepthView(d, f, "cam", noise=0), "noise is 0"),
+    ],
+)
+def test_invalid_views_are_errors(scene, call, message):
+    with pytest.raises(ry.ArgumentError, match=message):
+        call(*look(scene))
+
+
+def test_unknown_frames_and_an_empty_view_are_told(scene):
+    depth, fxycxy = look(scene)
+    with pytest.raises(ry.FrameNotFound, match="bax"):
+        ry.registerScene(scene, ry.DepthView(depth, fxycxy, "cam"), ["bax"])
+    with pytest.raises(ry.FrameNotFound, match="kam"):
+        ry.registerScene(scene, ry.DepthView(depth, fxycxy, "kam"), ["box"])
+    with pytest.raises(ry.ArgumentError, match="no views"):
+        ry.registerScene(scene, [], ["box"])
+    with pytest.warns(ry.KinegraphWarning, match="view 0 has no depth"):
+        seen = ry.registerScene(scene, ry.DepthView(0 * depth, fxycxy, "cam"), ["box"])
+    assert seen["box"].status == ry.SeenStatus.not_in_view
+    with pytest.raises(ry.FrameNotFound, match="was not looked for"):
+        seen["can"]
