@@ -121,7 +121,8 @@ Args:
     config: The scene of the plan.
 )";
 
-inline constexpr char view[] = R"(Shows the picture on the page of the scene, until its next view(), and plays the motion there.
+inline constexpr char view[] =
+    R"(Shows the picture on the page of the scene, until its next view(), and plays the motion there.
 
 Args:
     config: The scene of the plan.

@@ -27,8 +27,8 @@ Raises:
     ParseError: A literal is invalid.)";
 
 inline constexpr char view[] =
-    R"(Plays the plan on the page of a scene, with a time slider. Without a motion, the page shows the reason, the search
-tree and, in red, the waypoint that failed in the longest branch, if one did.
+    R"(Plays the plan on the page of a scene, with a time slider. Without a motion, the page shows the reason, the
+search tree and, in red, the waypoint that failed in the longest branch, if one did.
 
 Args:
     C: The scene of the call to planTask; it does not change.
