@@ -89,6 +89,18 @@ FOUND = {
         r"^reached the goal after 2 actions$",
         r"^<IkResult solved .*<MotionPlan solved",
     ],
+    "troubleshooting": [
+        r"^before: 0\.0\nafter: 0\.3\nmoved: False\n1\.0 0\.8$",
+        r"^holds: \[( +True){7}\]$",
+        r"invalid_goal: the goal is outside the limits: l_panda_joint4 is at 2, 2\.07?\d* beyond its limits",
+        r"invalid_goal: .*'table' and 'l_palm' overlap by 160 mm",
+        r"goal_unreachable: .* misses its position by 1\.06\d* m",
+        r"invalid_start: the start collides: 'l_palm' and 'box' overlap by 240 mm",
+        r"'wall' is near moving links but cannot collide because `contact` is 0",
+        r"^collisions: [1-9]",
+        r"q is beyond the limits; did you mean radians\?",
+        r"^\[1\. 0\. 0\. 0\.\]$",
+    ],
     "tasks": [
         r"^solved: 4 actions",
         r"^reached the goal after 4 actions$",
