@@ -9,7 +9,7 @@ HOW_TO = [
     ("Robots that move", ["control", "operation", "simulation", "dynamics"]),
     ("Many problems", ["fleets", "sensitivities", "solvers"]),
     ("Programs", ["viewer", "cpp"]),
-    ("Questions", ["troubleshooting"]),
+    ("Questions", ["troubleshooting", "faq"]),
 ]
 
 EXPLANATION = ["architecture", "speed", "limits"]

@@ -33,6 +33,18 @@ FOUND = {
         r"\[.* 1\.962\d*e\+01\]",
         r"^True False",
     ],
+    "faq": [
+        r"^tcp: <IkResult solved",
+        r"^both: <MotionPlan solved",
+        r"^carried: <MotionPlan solved",
+        r"^largest step: 0\.72 rad$",
+        r"^six joints: 6 True$",
+        r"^solutions: [1-9]",
+        r"^\(3,\) \(3, 7\)\nequal: True\n<MotionContact: table and \w+ at time 0\.7",
+        r"^line: <ToolPathPlan solved",
+        r"^level: <MotionPlan solved",
+        r"^0\.57 s, 3\.75 s$",
+    ],
     "features": [
         r"<SelfCollisionMatrix: \d+ pairs of frames in 2000 configurations: \d+ adjacent, \d+ always in collision, \d+ never",
         r"^\[\('\w+', '\w+', 'sometimes', 0\.\d+\)",
