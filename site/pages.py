@@ -14,7 +14,7 @@ HOW_TO = [
 
 EXPLANATION = ["architecture", "speed", "limits"]
 
-REFERENCE = ["conventions", "releases"]  # beside the generated pages
+REFERENCE = ["conventions", "errors", "releases"]  # beside the generated pages
 
 # Page of the reference: title and names. Python's names; a name without a page goes to the last one.
 NAMES = {

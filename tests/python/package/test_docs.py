@@ -33,6 +33,10 @@ FOUND = {
         r"\[.* 1\.962\d*e\+01\]",
         r"^True False",
     ],
+    "errors": [
+        r"^FileError scene file 'scene.g' does not exist$",
+        r"^PlanStatus.goal_unreachable the goal is out of reach: .* misses its position by 1\.06\d* m$",
+    ],
     "faq": [
         r"^tcp: <IkResult solved",
         r"^both: <MotionPlan solved",
