@@ -16,11 +16,12 @@ HOW_TO = [
             "coming_from_moveit",
         ],
     ),
+    ("Questions", ["troubleshooting", "faq"]),
 ]
 
 EXPLANATION = ["architecture", "speed", "limits"]
 
-REFERENCE = ["conventions", "releases"]  # beside the generated pages
+REFERENCE = ["conventions", "errors", "releases"]  # beside the generated pages
 
 # Page of the reference: title and names. Python's names; a name without a page goes to the last one.
 NAMES = {
