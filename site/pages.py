@@ -14,6 +14,8 @@ HOW_TO = [
         [
             "coming_from_robotic",
             "coming_from_moveit",
+            "coming_from_pinocchio",
+            "coming_from_mujoco",
         ],
     ),
 ]
