@@ -16,6 +16,7 @@ HOW_TO = [
             "coming_from_moveit",
             "coming_from_pinocchio",
             "coming_from_mujoco",
+            "coming_from_drake",
         ],
     ),
 ]
