@@ -17,6 +17,7 @@ HOW_TO = [
             "coming_from_pinocchio",
             "coming_from_mujoco",
             "coming_from_drake",
+            "coming_from_ompl",
         ],
     ),
 ]
