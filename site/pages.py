@@ -14,6 +14,10 @@ HOW_TO = [
         [
             "coming_from_robotic",
             "coming_from_moveit",
+            "coming_from_pinocchio",
+            "coming_from_mujoco",
+            "coming_from_drake",
+            "coming_from_ompl",
         ],
     ),
     ("Questions", ["troubleshooting", "faq"]),

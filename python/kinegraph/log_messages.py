@@ -4,8 +4,8 @@ They go to the logger "kinegraph" of the module `logging`, which a program confi
 
     logging.basicConfig(level=logging.INFO, format="%(message)s")
 
-Progress and results have the level INFO, which `logging` does not show by default. The address of a viewer and a
-request for a key have the level WARNING, which it prints to standard error.
+Progress and results have the level INFO; the address of a viewer and a request for a key have the level WARNING. In a
+program that configures no logging, messages are printed: the caller asked for them by `verbose` or by a viewer.
 """
 
 from __future__ import annotations
@@ -16,5 +16,8 @@ logger = logging.getLogger("kinegraph")
 
 
 def emit(is_notice: bool, message: str) -> None:
-    """Logs one message of the compiled library."""
-    logger.log(logging.WARNING if is_notice else logging.INFO, "%s", message)
+    """Logs one message of the compiled library, or prints it if the program has no handlers of the logger."""
+    if logger.hasHandlers():
+        logger.log(logging.WARNING if is_notice else logging.INFO, "%s", message)
+    else:
+        print(message, flush=True)
