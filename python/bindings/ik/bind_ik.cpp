@@ -65,8 +65,9 @@ nb::object solve(PyConfig& config, nb::handle targets, const std::optional<IkOpt
     bar.finish();
   }
   if (verbose > 0)
-    logMessage(LogLevel::info, cat("solveIk: ", problems.is_batch || all ? resultsText(results) : resultText(results[0]),
-                                   " ", bar.seconds(), " s"));
+    logMessage(LogLevel::info,
+               cat("solveIk: ", problems.is_batch || all ? resultsText(results) : resultText(results[0]), " ",
+                   bar.seconds(), " s"));
   if (!results.empty())  // they do not depend on the numbers of the targets
     for (const std::string& warning : results[0].warnings) emitWarning(cat("solveIk: ", inPython(warning)));
   if (apply && results[0].feasible()) config.setJointState(results[0].q);

@@ -15,7 +15,7 @@ enum class LogLevel {
 using LogSink = std::function<void(LogLevel level, std::string_view message)>;
 
 /// Sets the receiver of all messages. An empty function, the default, discards them. The library itself prints
-/// nothing. Python passes messages to the logger "kinegraph" of the module `logging`.
+/// nothing. Python prints messages, or passes them to the logger "kinegraph" of a configured module `logging`.
 ///
 ///     setLogSink(printMessage);
 void setLogSink(LogSink sink);
