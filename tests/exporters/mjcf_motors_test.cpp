@@ -60,8 +60,7 @@ TEST(MjcfMotors, GainsOfTheSceneReplaceThoseOfTheSimulation) {
 
 TEST(MjcfMotors, HandsMoveInUrdfAndOtherInactiveJointsAreFixed) {
   Config C;
-  C.addText(kHand);
-  C.addText("knob (world): { joint: hingeX, joint_active: False, q: .5 }");
+  C.addText(std::string(kHand) + "knob (world): { joint: hingeX, joint_active: False, q: .5 }\n");
   std::vector<std::string> warnings;
   const std::string text = writeUrdf(C, {}, &warnings);
   EXPECT_NE(text.find("<joint name=\"finger1\" type=\"prismatic\">"), std::string::npos) << text;

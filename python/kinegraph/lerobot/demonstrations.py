@@ -141,7 +141,8 @@ def demonstrate(
 
     Each attempt varies the scene, plans (planTask), executes (TaskPlan.execute), and films. The simulation decides
     whether the goal is reached. A state has the joint values and the openings of hands; an action has the command of
-    the next frame. The same seed gives the same bytes for every engine and number of workers. A call with the same
+    the next frame. The same seed gives the same frames and images for every engine and number of workers. The
+    bytes of films may differ on a busy machine. A call with the same
     arguments continues a data set that is not finished.
 
     Args:

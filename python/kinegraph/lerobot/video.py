@@ -11,9 +11,12 @@ import numpy as np
 from ..errors import ArgumentError, FileError
 from .layout import needed
 
-# a key frame at every second image, so that any image is decoded fast; one thread gives the same bytes everywhere
+# a key frame at every second image, so that any image is decoded fast
 CODECS: dict[str, tuple[str, dict[str, str]]] = {
-    "h264": ("libx264", {"g": "2", "crf": "23", "preset": "veryfast"}),
+    "h264": (
+        "libx264",
+        {"g": "2", "crf": "23", "preset": "veryfast", "x264-params": "threads=1:lookahead-threads=1:sync-lookahead=0"},
+    ),
     "av1": ("libsvtav1", {"g": "2", "crf": "30", "preset": "12", "svtav1-params": "lp=1"}),
 }
 

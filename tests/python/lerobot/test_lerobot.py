@@ -30,6 +30,11 @@ def digest(folder: Path) -> dict[str, str]:
     return {str(path.relative_to(folder)): hashlib.sha1(path.read_bytes()).hexdigest() for path in files}
 
 
+def tables(folder: Path) -> dict[str, str]:
+    """All files but the films, whose encoder does not repeat its bytes; statistics of the images are among them."""
+    return {name: found for name, found in digest(folder).items() if not name.endswith(".mp4")}
+
+
 def test_a_data_set_has_the_fields_and_types_of_the_format(tmp_path: Path) -> None:
     filled(tmp_path)
     assert ry.checkDataset(tmp_path) == []
@@ -164,7 +169,7 @@ def test_demonstrations_reach_the_goal_and_are_the_same_for_a_seed(tmp_path: Pat
     made = ry.demonstrate(scene(), "(on tray box)", 2, tmp_path / "a", **SMALL)
     assert ry.checkDataset(made.folder) == [] and made.episodes == 2 and made.attempts >= 2
     again = ry.demonstrate(scene(), "(on tray box)", 2, tmp_path / "b", engine="processes", workers=2, **SMALL)
-    assert digest(again.folder) == digest(made.folder)
+    assert tables(again.folder) == tables(made.folder)
     table = pq.read_table(made.folder / "data/chunk-000/file-000.parquet")
     state, action = (np.array(table[key].to_pylist()) for key in ("observation.state", "action"))
     assert state.shape[1] == 8 and state[:, 7].max() > 0.07 and 0.03 < state[:, 7].min() < 0.06
@@ -184,7 +189,7 @@ def test_demonstrations_continue_where_they_ended(tmp_path: Path) -> None:
     stamp = (tmp_path / "parts/shards/000000/frames.parquet").stat().st_mtime_ns
     parts = ry.demonstrate(scene(), "(on tray box)", 2, tmp_path / "parts", **SMALL)
     assert (tmp_path / "parts/shards/000000/frames.parquet").stat().st_mtime_ns == stamp
-    assert digest(parts.folder) == digest(whole.folder)
+    assert tables(parts.folder) == tables(whole.folder)
     with pytest.raises(ry.ArgumentError, match="has demonstrations with another seed"):
         ry.demonstrate(scene(), "(on tray box)", 2, tmp_path / "parts", seed=1, **SMALL)
 
