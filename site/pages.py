@@ -6,6 +6,7 @@ HOW_TO = [
     ("Scenes and robots", ["scenes", "robots", "ik", "features"]),
     ("Motions", ["motion", "planning", "timing", "tool_paths"]),
     ("Tasks", ["tasks"]),
+    ("Cameras", ["perception"]),
     ("Robots that move", ["control", "operation", "simulation", "dynamics"]),
     ("Many problems", ["fleets", "sensitivities", "solvers"]),
     ("Programs", ["viewer", "cpp"]),
@@ -56,6 +57,7 @@ NAMES = {
         "Viewer and cameras",
         "ConfigurationViewer CameraView CameraViewSensor ImageViewer saveFilm depthImage2PointCloud getArucoImage",
     ),
+    "perception": ("Perception", "DepthView registerScene SeenScene SeenFrame SeenStatus"),
     "fleets": ("Many processes", "imap readResults"),
     "errors": (
         "Errors",

@@ -46,7 +46,7 @@
 #include "kinegraph/logic/plan_search.h"                      // PlanSearch
 #include "kinegraph/nlp/callback_nlp.h"                       // custom problems
 #include "kinegraph/nlp/test_problems.h"                      // named problems
-#include "kinegraph/perception/register_scene.h"               // registerScene: poses from depth images
+#include "kinegraph/perception/register_scene.h"              // registerScene: poses from depth images
 #include "kinegraph/planning/path_finder.h"                   // paths between two configurations
 #include "kinegraph/planning/plan_motion.h"                   // planMotion
 #include "kinegraph/planning/plan_motions.h"                  // MotionPlans: ever better plans
