@@ -6,6 +6,7 @@ HOW_TO = [
     ("Scenes and robots", ["scenes", "robots", "ik", "features"]),
     ("Motions", ["motion", "planning", "timing", "tool_paths"]),
     ("Tasks", ["tasks"]),
+    ("Cameras", ["perception"]),
     ("Robots that move", ["control", "operation", "simulation", "dynamics"]),
     ("Many problems", ["fleets", "lerobot", "sensitivities", "solvers"]),
     ("Programs", ["viewer", "cpp"]),
@@ -68,6 +69,7 @@ NAMES = {
         "Viewer and cameras",
         "ConfigurationViewer CameraView CameraViewSensor ImageViewer saveFilm depthImage2PointCloud getArucoImage",
     ),
+    "perception": ("Perception", "DepthView registerScene SeenScene SeenFrame SeenStatus"),
     "fleets": ("Many processes", "imap readResults"),
     "lerobot": ("Data sets of LeRobot", "demonstrate LeRobotWriter Randomization checkDataset mergeShards"),
     "errors": (

@@ -151,7 +151,8 @@ void bindPerception(nb::module_& m) {
             }
             return poses;
           },
-          "Returns the pose of each frame that was seen, and None for the others, as execute(observe=...) takes them.")
+          "Returns the poses, shape (7,), of the frames that were seen, and None for the others; execute(observe=...)\n"
+          "takes them.")
       .def_ro("warnings", &SeenScene::warnings, "Sentences about views without depth, doubtful cameras and overlaps.")
       .def("__repr__", [](const SeenScene& s) { return cat("<SeenScene\n", inPython(s.str()), ">"); });
   m.def("registerScene", registerFrames, "config"_a, "views"_a, "frames"_a, nb::kw_only(), "support"_a = nb::none(),

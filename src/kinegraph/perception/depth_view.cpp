@@ -22,7 +22,7 @@ void DepthView::validate(const std::string& where) const {
     fail("fxycxy has invalid focal lengths; expected fx fy cx cy in pixels, fx and fy > 0");
   if (fxycxy[2] < .25 * width || fxycxy[2] > .75 * width || fxycxy[3] < .25 * height || fxycxy[3] > .75 * height)
     fail(cat("the center (", fxycxy[2], ", ", fxycxy[3], ") of fxycxy does not fit an image of ", width, " x ", height,
-             " pixels; expected about (", .5 * width, ", ", .5 * height, "). Scale fxycxy with the image"));
+             " pixels; expected about (", .5 * width, ", ", .5 * height, "), since fxycxy scales with the image"));
   if (!pose.p.allFinite() || !pose.q.coeffs().allFinite()) fail("the camera's pose has non-finite numbers");
   if (!(noise > 0.) || !(bias >= 0.) || !std::isfinite(noise) || !std::isfinite(bias))
     fail(cat("noise is ", noise, " and bias ", bias, "; expected noise > 0 and bias >= 0, both in 1/m"));

@@ -85,6 +85,7 @@ FOUND = {
         r"^\[ True  True\]",
         r"'arm' cannot rest at .* the limits are -3 to 3 N m",
     ],
+    "perception": [r"^box: seen at 0\.1\d* 0\.\d+ 0\.69", r"^can: seen at .* 1 free directions"],
     "sensitivities": [r"^\(70, 7\) True", r"'position of box, x'", r"^True$", r"^4 .*shortest one"],
     "simulation": [r"\(64, 7\) \(64, 1, 7\)"],
     "tool_paths": [
