@@ -200,3 +200,32 @@ TEST(SceneItems, DescribeAnEditAndItsConsequences) {
   config.addFrame("c");
   look();
 }
+
+TEST_F(SceneEditsTest, EditsAreUndoneAndDoneAgainInTurn) {
+  show();
+  const auto q = [&] { return edits.apply(WarningsCommand{1})->q; };
+  edits.apply(SetJointCommand{1, 0, .5});
+  edits.apply(SetJointCommand{1, 0, .75});  // the same drag
+  edits.apply(SetJointCommand{1, 1, .125});
+  EXPECT_TRUE(q().isApprox(Eigen::Vector2d(.75, .125)));
+  EXPECT_TRUE(edits.apply(UndoCommand{1})->q.isApprox(Eigen::Vector2d(.75, .25)));
+  EXPECT_TRUE(edits.apply(UndoCommand{1})->q.isApprox(Eigen::Vector2d(0., .25)));
+  EXPECT_FALSE(edits.apply(UndoCommand{1}));
+  EXPECT_TRUE(edits.apply(RedoCommand{1})->q.isApprox(Eigen::Vector2d(.75, .25)));
+  edits.apply(ResetJointsCommand{1});
+  EXPECT_FALSE(edits.apply(RedoCommand{1}));  // a new edit ends the old future
+  EXPECT_TRUE(edits.apply(UndoCommand{1})->q.isApprox(Eigen::Vector2d(.75, .25)));
+}
+
+TEST_F(SceneEditsTest, AnUndoneMoveOfAFrameReachesTheProgramThatHadTakenTheMove) {
+  show();
+  edits.apply(MoveFrameCommand{1, id("box"), numbers({2., 3., 0.})});
+  ASSERT_TRUE(edits.takeInto(config));
+  EXPECT_NEAR(config.getFrame("box").getPosition()[1], 3., kExact);
+  show();
+  ASSERT_TRUE(edits.apply(UndoCommand{1}));
+  ASSERT_TRUE(edits.takeInto(config));
+  EXPECT_TRUE(config.getFrame("box").getPosition().isApprox(Vector3d(1., 0., 0.)));
+  show(2);  // another structure
+  EXPECT_FALSE(edits.apply(RedoCommand{2}));
+}

@@ -100,6 +100,7 @@ def test_the_scene_itself_is_moved_with_the_keyboard(page: Browser) -> None:
     before = page.evaluate("kinegraph.camera()")
     page.press("3", code="Digit3", modifiers=1)  # Alt 3: from above
     page.wait_for(f"JSON.stringify(kinegraph.camera()) !== '{str(before).replace(' ', '')}'")
+    page.wait_for("kinegraph.idle()")  # it glides there
     above = page.evaluate("kinegraph.camera()")
     page.press("ArrowLeft", code="ArrowLeft", modifiers=1)
     page.press("PageUp", code="PageUp", modifiers=1)

@@ -323,6 +323,19 @@ def test_a_page_for_others_works_at_the_printed_address_and_requires_its_token(
     assert browser.evaluate("typeof kinegraph") == "undefined"
 
 
+def test_a_token_may_be_given(config: kg.Config, browser: Browser) -> None:
+    config.addFrame("here")
+    with pytest.raises(kg.ArgumentError, match="letters, digits"):
+        config.view(port=0, token="a b")
+    config.view(port=0, token="my-token_1")
+    url = config.viewer().url
+    assert url.endswith("/?token=my-token_1")
+    browser.open(url)
+    browser.call("Page.navigate", url=url.replace("my-token_1", "my-token_2"))
+    browser.wait_for("location.search.endsWith('2') && document.readyState === 'complete'")
+    assert browser.evaluate("typeof kinegraph") == "undefined"
+
+
 def test_the_page_runs_no_foreign_script_and_loads_nothing(config: kg.Config, browser: Browser) -> None:
     config.addFrame("world")
     config.view()

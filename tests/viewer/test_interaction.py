@@ -273,3 +273,20 @@ def test_interactive_ik_goes_to_the_target_once_where_nobody_can_drag(config: kg
     q = kg.interactiveIk(config, "l_gripper", "there")
     assert np.array_equal(q, config.getJointState())
     assert config.getFrame("l_gripper").getPosition() == pytest.approx([0.3, 0.3, 1.0], abs=1e-3)
+
+
+def test_edits_are_undone_and_done_again(arm: kg.Config, browser: Browser) -> None:
+    open_page(arm, browser)
+    browser.press_alt("J")
+    set_slider(browser, "slide", 0.5)
+    browser.wait_for("Math.abs(kinegraph.position('slide')[0] - 0.5) < 1e-6")
+    arm.view()
+    assert arm.getJointState()[1] == 0.5
+    browser.evaluate("document.activeElement.blur()")
+    browser.press("z", code="KeyZ", modifiers=2)
+    browser.wait_for("Math.abs(kinegraph.position('slide')[0]) < 1e-6")
+    assert arm.view() == 0 and arm.getJointState()[1] == 0
+    browser.click_button("redo")
+    browser.wait_for("Math.abs(kinegraph.position('slide')[0] - 0.5) < 1e-6")
+    arm.view()
+    assert arm.getJointState()[1] == 0.5

@@ -263,3 +263,37 @@ def test_a_long_message_scrolls(page: Browser, config: kg.Config) -> None:
     )
     assert inside < whole
     assert bottom < page.evaluate("innerHeight")
+
+
+def test_boxes_below_a_hidden_frame_are_gray(page: Browser) -> None:
+    page.press_alt("T")
+    box = "document.querySelector('[aria-label=\"show {}\"]')"
+    assert not page.evaluate(box.format("box") + ".disabled")
+    page.evaluate(box.format("table") + ".click()")
+    assert page.evaluate(f"[{box.format('box')}.disabled, {box.format('target')}.disabled]") == [True, False]
+    page.evaluate(box.format("table") + ".click()")
+    assert not page.evaluate(box.format("box") + ".disabled")
+
+
+def test_the_frame_under_a_resting_mouse_is_named(page: Browser) -> None:
+    page.mouse("mouseMoved", *page.pixel([0, 0, 0.5]))
+    page.wait_for("document.querySelector('#hover').checkVisibility()")
+    assert page.evaluate("document.querySelector('#hover').textContent") == "box"
+    assert page.evaluate("getComputedStyle(document.querySelector('#canvas')).cursor") == "pointer"
+    page.mouse("mouseMoved", 3, 3)
+    page.wait_for("!document.querySelector('#hover').checkVisibility()")
+
+
+def test_presets_glide(page: Browser) -> None:
+    places = """(async () => {
+      const places = new Set(), start = performance.now();
+      dispatchEvent(new KeyboardEvent("keydown", { altKey: true, code: "Digit3", key: "3" }));
+      while (performance.now() - start < 5000 && (places.size < 2 || !kinegraph.idle())) {
+        places.add(JSON.stringify(kinegraph.camera()));
+        await new Promise(requestAnimationFrame);
+      }
+      return [...places].map(JSON.parse);
+    })()"""
+    seen = page.evaluate(places)
+    assert len(seen) > 2
+    assert abs(seen[-1][0]) < 0.2 and seen[-1][2] > 1.5

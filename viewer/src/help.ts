@@ -16,6 +16,7 @@ const KEYS: [string, string][] = [
   ["Alt U, T, J, O", "program, frames, joints, view"],
   ["Alt P", "save a picture"],
   ["Alt R", "measure"],
+  ["Ctrl Z, Ctrl Y", "undo, redo edits of joints and frames"],
   ["Alt G, Alt B", "move, rotate the selected frame"],
   ["Space", "play or pause the motion, if there is one; else to the program"],
   ["Alt K", "play or pause the motion, or the simulation"],

@@ -1,5 +1,5 @@
 import { find, make } from "./element";
-import { type JointMessage, randomJointsCommand, resetJointsCommand, setJointCommand } from "./messages";
+import { type JointMessage, randomJointsCommand, redoCommand, resetJointsCommand, setJointCommand, undoCommand } from "./messages";
 
 const HALF_TURN = Math.PI; // rad: range to each side of dofs without limits
 const REACH = 1; // m, also for dofs without unit
@@ -30,6 +30,8 @@ export class JointPanel {
         { className: "buttons" },
         button("reset", "to where the joints are at home", resetJointsCommand),
         button("random", "anywhere within the limits", randomJointsCommand),
+        button("undo", "the last edit of joints or frames (Ctrl Z)", undoCommand),
+        button("redo", "what was undone (Ctrl Y)", redoCommand),
       ),
       this.list,
     );
@@ -37,6 +39,11 @@ export class JointPanel {
 
   get current(): { structure: number; joints: JointMessage[]; q: ArrayLike<number> } {
     return { structure: this.structure, joints: this.joints, q: this.q };
+  }
+
+  /** Undoes the last edit of joints or frames, or does it again. */
+  undo(again: boolean): void {
+    this.send((again ? redoCommand : undoCommand)(this.structure));
   }
 
   setJoints(structure: number, joints: JointMessage[]): void {

@@ -6,6 +6,7 @@ import { find, make } from "./element";
 import { Drawings } from "./drawings";
 import { Exports } from "./exports";
 import { Help } from "./help";
+import { Hover } from "./hover";
 import { JointPanel } from "./joints";
 import { keyCode, modifiersOf } from "./keys";
 import { lengthText } from "./lengths";
@@ -70,6 +71,7 @@ let hasPlots = false;
 const panel = new Panel(display, shown.frames, switched, (id) => selection.select(id), () => plots.request());
 stage.onDraw(() => shown.prepare((at) => stage.pixelsPerMeter(at), stage.hurries));
 const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id), (id) => warnings.about(id));
+new Hover(stage, (id) => shown.frames.get(id)?.message.name ?? "");
 const timeline = new Timeline(stage, shown, joints, moved);
 const run = new Run(stage, shown.frames, recorded ? null : send);
 const exports = new Exports(stage, timeline, shown.frames, recorded !== null);
@@ -310,6 +312,13 @@ addEventListener("keydown", (event) => {
   if (event.key === "Escape" && closeTopmost()) return;
   if (event.key === "Tab") return; // moves between the controls
   if (isTyping(event)) return;
+  if (event.ctrlKey || event.metaKey) {
+    const letter = event.key.toLowerCase();
+    if (letter === "z" || letter === "y") {
+      joints.undo(letter === "y" || event.shiftKey);
+      return event.preventDefault();
+    }
+  }
   if (event.key === "?") return help.toggle();
   if (event.key === "Home") return stage.home();
   if (timeline.takeKey(event.key)) return event.preventDefault();

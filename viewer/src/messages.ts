@@ -239,4 +239,10 @@ export const controlCommand = (id: number, number: number, text: string): Uint8A
 export const clickCommand = (frame: number, point: number[], normal: number[]): Uint8Array<ArrayBuffer> =>
   writeCommand(["int", 14], ["int", frame], ["number[]", point], ["number[]", normal]);
 
+export const undoCommand = (structure: number): Uint8Array<ArrayBuffer> =>
+  writeCommand(["int", 15], ["int", structure]);
+
+export const redoCommand = (structure: number): Uint8Array<ArrayBuffer> =>
+  writeCommand(["int", 16], ["int", structure]);
+
 export type ServerMessage = SceneMessage | JointsMessage | TextMessage | CameraMessage | AppearanceMessage | NearMessage | WarningsMessage | SelectMessage | MotionMessage | ControlsMessage | DrawMessage | UndrawMessage | PlotsMessage | NotifyMessage | RunMessage;

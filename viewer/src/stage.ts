@@ -109,6 +109,7 @@ export class Stage {
       this.timer.update(time);
       const seconds = this.timer.getDelta();
       for (const tick of this.ticks) tick(seconds);
+      this.viewpoint.glide(seconds);
       if (this.dirty) this.quality.change(time);
       else if (this.quality.rest(time)) this.redraw();
       this.draw();
@@ -153,7 +154,7 @@ export class Stage {
     this.redraw();
   }
 
-  /** Views the whole scene from a direction. */
+  /** Views the whole scene from a direction; the camera glides there. */
   lookAlong(direction: THREE.Vector3): void {
     this.viewpoint.lookAlong(direction, this.corners());
     this.redraw();
@@ -245,7 +246,7 @@ export class Stage {
 
   /** Returns whether the screen is up to date. */
   get idle(): boolean {
-    return !this.dirty && this.quality.isFull;
+    return !this.dirty && this.quality.isFull && !this.viewpoint.glides;
   }
 
   /** Returns the visible point at a place of the canvas. */

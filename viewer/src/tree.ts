@@ -58,7 +58,16 @@ export class SceneTree {
         .map((id) => this.item(id, branch(id), found !== null));
     this.element.replaceChildren(...branch(-1));
     if (this.element.childElementCount === 0) this.element.textContent = query ? "no such frame" : "no frames";
+    this.disable();
     this.select(this.selected);
+  }
+
+  /** Grays and disables the boxes below hidden frames, which are hidden whatever their boxes say. */
+  private disable(): void {
+    for (const box of this.element.querySelectorAll<HTMLInputElement>("summary input"))
+      box.closest("details")!.classList.toggle("off", !box.checked);
+    for (const box of this.element.querySelectorAll<HTMLInputElement>("input"))
+      box.disabled = box.closest(".leaf, details")!.parentElement!.closest("details.off") !== null;
   }
 
   /** Returns the frames whose names contain the text, and all above them. */
@@ -77,6 +86,7 @@ export class SceneTree {
     box.addEventListener("change", () => {
       if (box.checked) this.hidden.delete(name);
       else this.hidden.add(name);
+      this.disable();
       this.changed();
     });
     const frame = make("button", { className: "frame", textContent: name });

@@ -21,6 +21,15 @@ const FLIP = new THREE.Quaternion(1, 0, 0, 0);
 const fromWxyz = ([w = 1, x = 0, y = 0, z = 0]: number[]): THREE.Quaternion =>
   new THREE.Quaternion(x, y, z, w).normalize();
 
+const GLIDE = 0.3, // s
+  LONGEST_STEP = 0.1; // s, on slow machines
+
+/** A center of rotation, and the camera's place relative to it. */
+interface Placement {
+  away: THREE.Vector3;
+  target: THREE.Vector3;
+}
+
 /** The camera, perspective or orthographic, upright or rolled, and its control by users. */
 export class Viewpoint {
   readonly controls: OrbitControls;
@@ -33,6 +42,7 @@ export class Viewpoint {
   private pageAspect = 1;
   private reach = 0; // m
   private first: CameraMessage | null = null;
+  private glideEnd: { from: Placement; to: Placement; part: number } | null = null;
   private given = { near: 0, far: 0 }; // range set by the program, m; 0: none
   private readonly listeners: ((camera: Camera) => void)[] = [];
 
@@ -52,6 +62,7 @@ export class Viewpoint {
       return different;
     };
     this.controls.addEventListener("change", changed);
+    this.controls.addEventListener("start", () => (this.glideEnd = null));
     this.controls.addEventListener("end", moved);
   }
 
@@ -71,6 +82,7 @@ export class Viewpoint {
   /** Sets the program's camera; `home` returns to it. */
   set(given: CameraMessage): void {
     const { pose, distance, focal, ortho, aspect, near, far } = given;
+    this.glideEnd = null;
     this.first = given;
     if (focal > 0) this.focal = focal;
     this.height = ortho;
@@ -158,10 +170,43 @@ export class Viewpoint {
     if (this.first) this.first = { ...this.first, pose, distance };
   }
 
-  /** Moves a user's view to a direction, with all points in the picture. */
+  /** Moves a user's view to a direction, with all points in the picture: it glides there, unless the user's system
+   * asks for less motion. */
   lookAlong(direction: THREE.Vector3, points: THREE.Vector3[]): void {
+    const from = { away: this.camera.position.clone().sub(this.target), target: this.target.clone() };
     this.aim(direction, points);
+    const to = { away: this.camera.position.clone().sub(this.target), target: this.target.clone() };
+    this.glideEnd = null;
+    if (matchMedia("(prefers-reduced-motion: reduce)").matches) return this.moved();
+    this.glideEnd = { from, to, part: 0 };
+    this.place(from);
+  }
+
+  /** Call before each picture; `seconds` have passed since the last. Users end the motion by any of their own. */
+  glide(seconds: number): void {
+    const gliding = this.glideEnd;
+    if (!gliding) return;
+    gliding.part = Math.min(1, gliding.part + Math.min(seconds, LONGEST_STEP) / GLIDE);
+    const part = gliding.part * gliding.part * (3 - 2 * gliding.part);
+    const { from, to } = gliding;
+    const turn = new THREE.Quaternion().setFromUnitVectors(from.away.clone().normalize(), to.away.clone().normalize());
+    const length = from.away.length() ** (1 - part) * to.away.length() ** part;
+    const away = from.away.clone().applyQuaternion(new THREE.Quaternion().slerp(turn, part)).setLength(length);
+    const target = from.target.clone().lerp(to.target, part);
+    this.place(gliding.part < 1 ? { away, target } : to);
+    if (gliding.part < 1) return;
+    this.glideEnd = null;
     this.moved();
+  }
+
+  get glides(): boolean {
+    return this.glideEnd !== null;
+  }
+
+  private place({ away, target }: Placement): void {
+    this.camera.position.copy(target).add(away);
+    this.target.copy(target);
+    this.controls.update();
   }
 
   private aim(direction: THREE.Vector3, points: THREE.Vector3[]): void {
@@ -190,6 +235,7 @@ export class Viewpoint {
 
   /** Rotates about the target, by angles to the right and upwards (rad), and approaches it by a factor. */
   turn(right: number, up: number, nearer: number): void {
+    this.glideEnd = null;
     const { position } = this.camera;
     const away = position.clone().sub(this.target);
     const height = THREE.MathUtils.clamp(Math.asin(away.z / away.length()) + up, -1.55, 1.55);
@@ -205,6 +251,7 @@ export class Viewpoint {
 
   /** Turns to a point, and makes it the center of rotation. */
   focus(point: THREE.Vector3): void {
+    this.glideEnd = null;
     this.target.copy(point);
     this.controls.update();
     this.moved();

@@ -58,9 +58,11 @@ std::string pageOf(PyViewer& viewer) {
 constexpr int kFirstPort = 7000;
 
 int viewConfig(PyConfig& config, bool pause, const std::optional<std::string>& message, bool offscreen,
-               const std::optional<std::string>& host, const std::optional<int>& port) {
+               const std::optional<std::string>& host, const std::optional<int>& port,
+               const std::optional<std::string>& token) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
-  if (!offscreen && (host || port)) viewer->serveAt(host.value_or("127.0.0.1"), port.value_or(kFirstPort));
+  if (!offscreen && (host || port || token))
+    viewer->serveAt(host.value_or("127.0.0.1"), port.value_or(kFirstPort), token.value_or(""));
   if (!show(*viewer, message, offscreen)) return pause && !offscreen ? kEscape : 0;
   const nb::gil_scoped_release unlock;
   return viewer->view(config, pause, message, interrupted);
@@ -119,7 +121,7 @@ void watch(PyConfig& config, const PathText& file) {
 void bindPage(nb::class_<PyViewer>& viewer) {
   viewer.def_prop_ro("url", &PyViewer::url, "The page's address; starts the viewer if necessary.")
       .def("isOpen", &PyViewer::isOpen, "True while the viewer runs.")
-      .def("serveAt", &PyViewer::serveAt, "host"_a, "port"_a = kFirstPort, docs::viewer::serveAt)
+      .def("serveAt", &PyViewer::serveAt, "host"_a, "port"_a = kFirstPort, "token"_a = "", docs::viewer::serveAt)
       .def(
           "isPatient", [](PyViewer&) { return isPatient(); },
           "True at a terminal and over ssh: calls with pause then wait for the first browser.")
@@ -156,7 +158,7 @@ void bindPage(nb::class_<PyViewer>& viewer) {
 void bindViews(nb::class_<PyConfig>& config) {
   config
       .def("view", viewConfig, "pause"_a = false, "message"_a = nb::none(), "offscreen"_a = false, nb::kw_only(),
-           "host"_a = nb::none(), "port"_a = nb::none(), docs::viewer::view)
+           "host"_a = nb::none(), "port"_a = nb::none(), "token"_a = nb::none(), docs::viewer::view)
       .def(
           "view_close",
           [](PyConfig& c) {

@@ -53,18 +53,22 @@ Args:
     host: Address of the page, "127.0.0.1" by default; "0.0.0.0" also for browsers on other machines, which then need
         the token in the printed address.
     port: First port tried; 7000 by default, 0 for any free one.
+    token: Required from browsers, part of the printed address: letters, digits, "-" and "_". None: none on this
+        machine, else a random one.
 Returns:
     The code of the key pressed since the last call (ord("a"), 13 Enter, 27 Escape ...), or 0.
 Raises:
-    ArgumentError: The host is not an IP address, or the port is invalid.)";
+    ArgumentError: The host is not an IP address, or the port or the token is invalid.)";
 
 inline constexpr char serveAt[] = R"(Sets the address of the page; a page at another address is closed.
 
 Args:
     host: IP address: "127.0.0.1" for this machine, "0.0.0.0" also for other machines.
     port: First port tried; 0 for any free one.
+    token: Required from browsers, part of the address: letters, digits, "-" and "_"; "" is none on this machine, else a
+        random one.
 Raises:
-    ArgumentError: The host is not an IP address, or the port is invalid.
+    ArgumentError: The host is not an IP address, or the port or the token is invalid.
     Error: This machine does not have the address, or no port is free.)";
 
 inline constexpr char set_viewer[] = R"(Shows this scene in the viewer of another one.

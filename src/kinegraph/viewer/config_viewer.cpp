@@ -3,10 +3,13 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <chrono>
 #include <cstdlib>
 #include <utility>
 
+#include "kinegraph/common/errors.h"
 #include "kinegraph/common/log.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/viewer/shown_scene.h"
@@ -49,11 +52,15 @@ ViewerServer& ConfigViewer::server() {
   return *server_;
 }
 
-void ConfigViewer::serveAt(const std::string& host, int port) {
-  if (server_ && server_->isOurs() && options_.host == host && options_.port == port) return;
+void ConfigViewer::serveAt(const std::string& host, int port, const std::string& token) {
+  const bool is_same = options_.host == host && options_.port == port && options_.token == token;
+  if (server_ && server_->isOurs() && is_same) return;
+  if (!std::all_of(token.begin(), token.end(), [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; }))
+    throw ValueError(cat("viewer: the token is '", token, "'; expected letters, digits, '-' and '_'"));
   ViewerOptions options = options_;
   options.host = host;
   options.port = port;
+  options.token = token;
   const ViewerOptions before = std::exchange(options_, std::move(options));
   server_.reset();
   try {

@@ -66,8 +66,9 @@ class ConfigViewer : public ProgrammableViewer {
   ViewerServer& server();
 
   /// Sets the address of the page: "0.0.0.0" allows browsers on other machines, which then need the token in `url()`. A
-  /// page at another address is closed. Throws ValueError for an invalid address.
-  void serveAt(const std::string& host, int port);
+  /// page at another address is closed. With a `token`, all browsers need this one. Throws ValueError for an invalid
+  /// address, and for a token with other characters than letters, digits, '-' and '_'.
+  void serveAt(const std::string& host, int port, const std::string& token = "");
 
   /// With false, no call waits for users, as with KINEGRAPH_HEADLESS; pages are still shown.
   void setWaits(bool waits) { waits_ = waits; }

@@ -21,6 +21,8 @@ void SceneEdits::setScene(std::shared_ptr<const SceneTree> scene, int structure)
   if (structure != structure_) {
     joints_.clear();
     frames_.clear();
+    undo_.clear();
+    redo_.clear();
   }
   structure_ = structure;
   scene_ = std::move(scene);
@@ -87,19 +89,78 @@ bool SceneEdits::change(const Command& command) {
       },
       command);
   if (!current) return false;
-  Config& config = edited();
-  if (const auto* set = std::get_if<SetJointCommand>(&command)) {
-    if (set->joint < 0 || set->joint >= config.getJointDimension()) return false;
-    setJoint(set->joint, set->value);
-  } else if (std::get_if<ResetJointsCommand>(&command)) {
-    setAllJoints(config.model()->home);
-  } else if (std::get_if<RandomJointsCommand>(&command)) {
-    setAllJoints(randomJointState(config, random_));
-  } else if (const auto* move = std::get_if<MoveFrameCommand>(&command)) {
-    return moveFrame(move->frame, move->pose);
-  } else if (const auto* near = std::get_if<NearCommand>(&command)) {
+  edited();
+  if (std::holds_alternative<UndoCommand>(command)) return restore(undo_, redo_);
+  if (std::holds_alternative<RedoCommand>(command)) return restore(redo_, undo_);
+  if (std::holds_alternative<WarningsCommand>(command)) return true;
+  if (const auto* near = std::get_if<NearCommand>(&command)) {
     margin_ = std::clamp(near->margin, 0., 1.);
+    return true;
   }
+  return edit(command);
+}
+
+bool SceneEdits::edit(const Command& command) {
+  const VectorXd before = edited_->getJointState();
+  Step step{{}, {}, {int(command.index()), -1}, std::chrono::steady_clock::now()};
+  if (const auto* set = std::get_if<SetJointCommand>(&command)) {
+    if (set->joint < 0 || set->joint >= edited_->getJointDimension()) return false;
+    step.edited.second = set->joint;
+    setJoint(set->joint, set->value);
+  } else if (std::holds_alternative<ResetJointsCommand>(command)) {
+    setAllJoints(edited_->model()->home);
+  } else if (std::holds_alternative<RandomJointsCommand>(command)) {
+    setAllJoints(randomJointState(*edited_, random_));
+  } else if (const auto* move = std::get_if<MoveFrameCommand>(&command)) {
+    if (move->frame < 0 || move->frame >= edited_->getFrameDimension()) return false;
+    step.edited.second = move->frame;
+    const Pose pose = edited_->getFrame(move->frame).data().relativePose();
+    if (!moveFrame(move->frame, move->pose)) return false;
+    if (frames_.contains(move->frame)) step.frames[move->frame] = pose;
+  } else {
+    return false;
+  }
+  const VectorXd after = edited_->getJointState();
+  for (int i = 0; i < after.size(); ++i) {
+    if (after[i] != before[i]) step.joints[i] = before[i];
+  }
+  remember(std::move(step));
+  return true;
+}
+
+void SceneEdits::remember(Step step) {
+  constexpr std::size_t kMost = 100;
+  constexpr std::chrono::seconds kPause(1);  // a longer one separates edits of the same joint or frame
+  if (step.joints.empty() && step.frames.empty()) return;
+  redo_.clear();
+  if (!undo_.empty() && step.edited.second >= 0 && undo_.back().edited == step.edited &&
+      step.time - undo_.back().time < kPause) {
+    Step& last = undo_.back();  // keeps the older values
+    last.joints.merge(step.joints);
+    last.frames.merge(step.frames);
+    last.time = step.time;
+    return;
+  }
+  undo_.push_back(std::move(step));
+  if (undo_.size() > kMost) undo_.pop_front();
+}
+
+bool SceneEdits::restore(std::deque<Step>& from, std::deque<Step>& to) {
+  if (from.empty()) return false;
+  const Step step = std::move(from.back());
+  from.pop_back();
+  const VectorXd q = edited_->getJointState();
+  Step inverse{{}, {}, {-1, -1}, {}};
+  for (const auto& [id, pose] : step.frames) {
+    inverse.frames[id] = edited_->getFrame(id).data().relativePose();
+    place(*edited_, id, pose);
+    frames_[id] = pose;
+  }
+  for (const auto& [joint, value] : step.joints) {
+    inverse.joints[joint] = q[joint];
+    setJoint(joint, value);
+  }
+  to.push_back(std::move(inverse));
   return true;
 }
 

@@ -101,8 +101,18 @@ struct ClickCommand {
   std::vector<double> normal;
 };
 
+struct UndoCommand {
+  static constexpr int kKind = 15;
+  int structure = 0;
+};
+
+struct RedoCommand {
+  static constexpr int kKind = 16;
+  int structure = 0;
+};
+
 /// A command of a browser.
-using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand, ViewpointCommand, RunCommand, PerturbCommand, WarningsCommand, ControlCommand, ClickCommand>;
+using Command = std::variant<KeyCommand, SetJointCommand, ResetJointsCommand, RandomJointsCommand, MoveFrameCommand, NearCommand, EventCommand, CursorCommand, ViewpointCommand, RunCommand, PerturbCommand, WarningsCommand, ControlCommand, ClickCommand, UndoCommand, RedoCommand>;
 
 /// Reads a binary message from a browser; returns nothing unless it is exactly one command.
 inline std::optional<Command> readCommand(std::string_view data) {
@@ -124,6 +134,8 @@ inline std::optional<Command> readCommand(std::string_view data) {
     case WarningsCommand::kKind: return readFields<WarningsCommand>(reader, &WarningsCommand::structure);
     case ControlCommand::kKind: return readFields<ControlCommand>(reader, &ControlCommand::id, &ControlCommand::number, &ControlCommand::text);
     case ClickCommand::kKind: return readFields<ClickCommand>(reader, &ClickCommand::frame, &ClickCommand::point, &ClickCommand::normal);
+    case UndoCommand::kKind: return readFields<UndoCommand>(reader, &UndoCommand::structure);
+    case RedoCommand::kKind: return readFields<RedoCommand>(reader, &RedoCommand::structure);
   }
   return std::nullopt;
 }
