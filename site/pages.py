@@ -19,6 +19,7 @@ HOW_TO = [
             "coming_from_mujoco",
             "coming_from_drake",
             "coming_from_ompl",
+            "coming_from_curobo",
         ],
     ),
     ("Questions", ["troubleshooting", "faq"]),

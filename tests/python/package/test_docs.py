@@ -22,6 +22,7 @@ FOUND = {
         r"<IkResult solved in 1 attempt",
         r"False no solution in 100 attempts; at the nearest, frame 'l_gripper' misses its position by 1\.06\d* m",
     ],
+    "coming_from_curobo": [r"^[1-9]\d* of 100 solved", r"^PlanStatus.solved"],
     "coming_from_drake": [r"^True PlanStatus.solved", r"^SolverStatus.converged \(2, 7\)"],
     "coming_from_moveit": [r"^PlanStatus.solved", r"^\[0\.3 +0\.3 +1\. +\]"],
     "coming_from_mujoco": [r"^DiffIkStatus.solved \[-?0\. +-?0\. +-?0\.\]", r"^0\.5\d* True"],
