@@ -135,7 +135,7 @@ nb::typed<nb::list, nb::tuple> slow(const ToolPathPlan& plan) {
   return list;
 }
 
-nb::tuple planState(const ToolPathPlan& p) {
+nb::tuple toolPlanState(const ToolPathPlan& p) {
   nb::list parts;
   for (const ToolPathPlan::Part& part : p.parts())
     parts.append(nb::make_tuple(part.begin, part.path, part.offset, part.is_transfer, part.timed));
@@ -146,7 +146,7 @@ nb::tuple planState(const ToolPathPlan& p) {
                         p.dimension());
 }
 
-void setPlanState(ToolPathPlan& plan, const nb::tuple& t) {
+void setToolPlanState(ToolPathPlan& plan, const nb::tuple& t) {
   ToolPathPlan p;
   p.status = ToolPathStatus(nb::cast<int>(t[0]));
   p.message = nb::cast<std::string>(t[1]);
@@ -214,8 +214,8 @@ void bindToolPathPlan(nb::module_& m) {
           },
           "t"_a, doc::way)
       .def("speed", &ToolPathPlan::speed, "t"_a, doc::speed)
-      .def("__getstate__", planState)
-      .def("__setstate__", setPlanState)
+      .def("__getstate__", toolPlanState)
+      .def("__setstate__", setToolPlanState)
       .def("__repr__", [](const ToolPathPlan& p) { return cat("<ToolPathPlan ", inPython(p.str()), ">"); });
 }
 
