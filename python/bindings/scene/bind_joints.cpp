@@ -43,7 +43,10 @@ std::vector<std::string> jointNames(const PyConfig& config) {
 }  // namespace
 
 void bindJoints(nb::class_<PyConfig>& config) {
-  config.def("getJoints", &PyConfig::getJoints, "Returns the frames whose joint is active and has dofs.")
+  config
+      .def(
+          "getJoints", [](PyConfig& c) { return c.getJoints(); },
+          "Returns the frames whose joint is active and has dofs.")
       .def("getJointNames", jointNames, docs::joints::getJointNames)
       .def("getJointIDs", &PyConfig::getJointIDs, "Returns the ids of the frames with active joints.")
       .def(

@@ -187,8 +187,10 @@ void bindFrameAccess(nb::class_<PyConfig>& config) {
       .def("getFrame", getFrame, "frameName"_a, "warnIfNotExist"_a = true,
            nb::sig("def getFrame(self, frameName: str, warnIfNotExist: bool = True) -> Frame"), docs::scene::getFrame)
       .def("__getitem__", frameOf, "frame"_a, docs::scene::frame)
-      .def("getFrames", &PyConfig::getFrames, "Returns all frames, in order.")
-      .def("getRoots", &PyConfig::getRoots, "Returns the frames without a parent.")
+      .def(
+          "getFrames", [](PyConfig& c) { return c.getFrames(); }, "Returns all frames, in order.")
+      .def(
+          "getRoots", [](PyConfig& c) { return c.getRoots(); }, "Returns the frames without a parent.")
       .def("getFrameNames", &PyConfig::getFrameNames, "Returns the names of all frames, in order.")
       .def("getFrameDimension", &PyConfig::getFrameDimension, "Returns the number of frames.")
       .def(
