@@ -10,7 +10,7 @@ namespace {
 
 using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-Config panda() {
+Config heapArm() {
   Config C;
   C.addFile(modelPath("scenarios/pandaSingle.g"));
   C.addFrame("target").setPosition(C.getFrame("l_gripper").getPosition());
@@ -29,7 +29,7 @@ long requestsOf(const Call& call) {
 }  // namespace
 
 TEST(ControlHeap, KinematicsAndDynamicsRequestNoMemory) {
-  Config C = panda();
+  Config C = heapArm();
   VectorXd q = C.getJointState(), forces(q.size()), y(3);
   Rows J(3, q.size());
   Residual position = makeResidual(C.state(), FS::position, {"l_gripper"});
@@ -57,7 +57,7 @@ TEST(ControlHeap, TrajectoriesRequestNoMemory) {
 }
 
 TEST(ControlHeap, ModelPredictiveControlRequestsNoMemory) {
-  Config C = panda();
+  Config C = heapArm();
   Komo komo(C, 1., 20, 2);
   komo.addControlObjective({}, 2, .1);
   komo.addObjective({}, FS::accumulatedCollisions, {}, OT::eq);
@@ -80,7 +80,7 @@ TEST(ControlHeap, ModelPredictiveControlRequestsNoMemory) {
 }
 
 TEST(ControlHeap, SimulationsRequestNoMemory) {
-  Config C = panda();
+  Config C = heapArm();
   C.addFrame("box").setShape(ST::ssBox, {.06, .06, .06, .005}).setPosition({0., .3, .8}).setMass(1.);
   Simulation simulation(C);
   VectorXd q(7), velocity(7), goal = C.getJointState();
@@ -98,7 +98,7 @@ TEST(ControlHeap, SimulationsRequestNoMemory) {
 }
 
 TEST(ControlHeap, DifferentialInverseKinematicsRequestsNoMemory) {
-  Config C = panda();
+  Config C = heapArm();
   DiffIk ik(C);
   ik.addTask(FS::positionDiff, {"l_gripper", "target"});
   Frame target = C.getFrame("target");

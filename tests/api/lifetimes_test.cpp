@@ -7,13 +7,13 @@ using namespace kinegraph;
 
 namespace {
 
-Config panda() {
+Config lifetimesArm() {
   Config C;
   C.addFile(modelPath("scenarios/pandaSingle.g"));
   return C;
 }
 
-Komo reach(const Config& C) {
+Komo reachProblem(const Config& C) {
   Komo komo(C, 1, 1, 0);
   komo.addObjective({}, FS::jointState, {}, OT::sos, .1, C.getJointState());
   komo.addObjective({}, FS::position, {"l_gripper"}, OT::eq, 10., {.3, .3, 1.});
@@ -23,13 +23,13 @@ Komo reach(const Config& C) {
 }  // namespace
 
 TEST(Lifetimes, AResultOwnsItsProblem) {
-  const Config C = panda();
-  const SolverResult result = reach(C).solve();
+  const Config C = lifetimesArm();
+  const SolverResult result = reachProblem(C).solve();
   EXPECT_TRUE(result.feasible);
   VectorXd phi(result.problem->types().size());
   result.problem->evaluate(result.x, phi, nullptr);
   EXPECT_LT(phi.tail(3).norm(), 1e-2);
-  const Sensitivity sensitivity(result, {objectiveTarget(*result.problem, 1)});
+  Sensitivity sensitivity(result, {objectiveTarget(*result.problem, 1)});
   EXPECT_EQ(sensitivity.jacobian().cols(), 3);
   EXPECT_TRUE(sensitivity.jacobian().allFinite());
 }
@@ -38,7 +38,7 @@ TEST(Lifetimes, AProblemSharesThePathOfAKomoThatIsMovedOrDestroyed) {
   Komo moved;
   std::shared_ptr<Nlp> nlp;
   {
-    Komo komo = reach(panda());
+    Komo komo = reachProblem(lifetimesArm());
     nlp = komo.nlp();
     moved = std::move(komo);
     expectError<ValueError>([&] { komo.getPath(); }, {"Komo", "moved from"});
@@ -51,7 +51,7 @@ TEST(Lifetimes, AProblemSharesThePathOfAKomoThatIsMovedOrDestroyed) {
 }
 
 TEST(Lifetimes, MovedFromObjectsThrowUntilAnotherOneIsAssigned) {
-  Config C = panda();
+  Config C = lifetimesArm();
   Config D = std::move(C);
   expectError<ValueError>([&] { C.getFrames(); }, {"Config", "moved from"});
   expectError<ValueError>([&] { C.clear(); }, {"moved from"});
@@ -66,12 +66,12 @@ TEST(Lifetimes, MovedFromObjectsThrowUntilAnotherOneIsAssigned) {
 TEST(Lifetimes, NullArgumentsThrow) {
   expectError<ValueError>([] { NlpSolver(nullptr, 0); }, {"NlpSolver", "null"});
   expectError<ValueError>([] { makeNlp(std::shared_ptr<Komo>()); }, {"Komo is null"});
-  const Config C = panda();
+  const Config C = lifetimesArm();
   expectError<ValueError>([&] { BotOp(C, std::shared_ptr<RobotDriver>()); }, {"driver is null"});
 }
 
 TEST(Lifetimes, FramesOfAConstConfigCannotBeChanged) {
-  Config C = panda();
+  Config C = lifetimesArm();
   const Config& constant = C;
   Frame table = constant.getFrame("table");
   const Pose before = table.getPose();

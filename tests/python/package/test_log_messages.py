@@ -14,7 +14,7 @@ C = ry.Config()
 C.addFile(ry.raiPath("panda/panda.g"))
 komo = ry.KOMO(C, 1, 1, 0, False)
 komo.addObjective([], ry.FS.position, ["gripper"], ry.OT.eq, [10.0], [0.4, 0.2, 0.9])
-ry.NLP_Solver(komo.nlp(), verbose=2).solve()
+ry.NLP_Solver(komo.nlp(), verbose=3).solve()
 """
 
 
