@@ -33,6 +33,7 @@ class Grasps : public default_LGP_TAMP_Abstraction {
 };
 
 int main() try {
+  setLogSink(printMessage);
   Config C;
   C.addFile(modelPath("scenarios/pandaSingle.g"));
   const auto tray = [&](const std::string& name, const Vector3d& at) {
