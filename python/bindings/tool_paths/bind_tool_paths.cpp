@@ -127,7 +127,7 @@ std::vector<ToolPath> pathsFrom(nb::handle paths) {
   return all;
 }
 
-nb::typed<nb::list, nb::tuple> segments(const ToolPathPlan& plan) {
+nb::typed<nb::list, nb::tuple> toolPathSegments(const ToolPathPlan& plan) {
   nb::list list;
   for (const ToolSegment& s : plan.segments)
     list.append(nb::make_tuple(toolSegmentName(s.kind), s.path, s.reversed, s.from, s.to));
@@ -202,7 +202,7 @@ void bindToolPathPlan(nb::module_& m) {
       .def_prop_ro(
           "reached", [](const ToolPathPlan& p) { return toNumpy(p.reached); },
           "Without a motion: configurations up to the place of the failure, shape (K, n).")
-      .def_prop_ro("segments", segments,
+      .def_prop_ro("segments", toolPathSegments,
                    "Parts of the motion in the order of time: (kind, path, reversed, from, to). kind is \"transfer\", "
                    "\"approach\", \"path\" or \"retract\"; from and to are times, s.")
       .def_prop_ro("slow", slow,
