@@ -41,6 +41,8 @@ def look() -> dict[str, np.ndarray | None]:
 
 
 for name, pose in look().items():
+    if pose is None:
+        continue
     off = np.linalg.norm(pose[:3] - world.getFrame(name).getPosition())
     print(f"{name} was seen within {1e3 * off:.1f} mm")
 

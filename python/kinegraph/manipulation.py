@@ -9,7 +9,7 @@ import numpy as np
 
 from ._core import Config, ManipulationHelper, NLP_Solver, SolverReturn
 from .errors import ArgumentError
-from .log_messages import logger
+from .log_messages import emit
 
 _OPTIONS = {"damping": 1e-1, "stopTolerance": 1e-3, "lambdaMax": 100.0, "stopInners": 20, "stopEvals": 200}
 
@@ -66,7 +66,7 @@ class KOMO_ManipulationHelper(ManipulationHelper):
         self.path = komo.getPath() if self.ret.feasible else None
         if verbose > 0:
             said = "feasible" if self.ret.feasible else "infeasible"
-            logger.info("  -- %s: %s%s%s", said, self.info, ": " if self.info else "", self.ret.message)
+            emit(False, f"  -- {said}: {self.info}{': ' if self.info else ''}{self.ret.message}")
         return self.ret
 
     def sub_motion(

@@ -259,7 +259,7 @@ void bindPageContent(nb::module_& m, nb::class_<PyViewer>& viewer) {
           "notify", [](PyViewer& v, const std::string& text, const std::string& level) { v.notify(text, level); },
           "text"_a, "level"_a = "info", docs::content::notify)
       .def("log", logOne, "name"_a, "value"_a, "time"_a = nb::none(), "unit"_a = "", docs::content::log)
-      .def("log", logAll, "values"_a, "time"_a = nb::none(), "Appends samples to several plots, by their names.")
+      .def("log", logAll, "values"_a, "time"_a = nb::none(), docs::content::logAll)
       .def(
           "onClick", [](PyViewer& v, std::function<void(const Hit&)> function) { v.onClick(std::move(function)); },
           "function"_a.none(), docs::content::onClick);

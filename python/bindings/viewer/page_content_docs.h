@@ -16,7 +16,9 @@ inline constexpr char onChange[] = R"(Sets a function that is called with the va
 It runs in the program's thread, within `view`, `poll`, and `clicked` and `changed` of any control.
 
 Args:
-    function: Takes the value; None ends it.)";
+    function: Takes the value; None ends it.
+Raises:
+    ArgumentTypeError: It is not a function.)";
 
 inline constexpr char clicked[] =
     R"(Returns whether a user has clicked it since the last call. Runs callbacks that are due, before.)";
@@ -26,7 +28,9 @@ inline constexpr char onClickButton[] = R"(Sets a function that is called after 
 It runs in the program's thread, within `view`, `poll`, and `clicked` and `changed` of any control.
 
 Args:
-    function: Takes no argument; None ends it.)";
+    function: Takes no argument; None ends it.
+Raises:
+    ArgumentTypeError: It is not a function.)";
 
 inline constexpr char button[] = R"(Adds a button to the page. A known label returns the same button.
 
@@ -79,7 +83,9 @@ Returns:
 inline constexpr char folder[] = R"(Groups controls below a heading: those made in its with statement.
 
 Args:
-    name: The heading; folders may contain folders.)";
+    name: The heading; folders may contain folders.
+Returns:
+    The folder, for a with statement.)";
 
 inline constexpr char poll[] = R"(Runs the callbacks that are due. `view` does so, too.)";
 
@@ -180,10 +186,18 @@ Args:
 inline constexpr char log[] = R"(Appends a sample to a plot on the page, which grows.
 
 Args:
-    name: Name of the plot; a dict of names and values appends to several.
+    name: Name of the plot.
     value: A number, or numbers, one curve for each.
     time: s; None: seconds since the first call. Pages keep the last 100,000 samples.
     unit: Unit in the title of the plot.
+Raises:
+    ArgumentError: The number of values differs from that of earlier samples.)";
+
+inline constexpr char logAll[] = R"(Appends samples to several plots on the page.
+
+Args:
+    values: A dict of names and values, each a number or numbers, one curve for each.
+    time: s; None: seconds since the first call.
 Raises:
     ArgumentError: The number of values differs from that of earlier samples.)";
 
@@ -192,6 +206,8 @@ inline constexpr char onClick[] = R"(Sets a function that is called after a clic
 It runs in the program's thread, within `view`, `poll`, and `clicked` and `changed` of any control.
 
 Args:
-    function: Takes a Hit with `frame`, `point` and `normal`; None ends it.)";
+    function: Takes a Hit with `frame`, `point` and `normal`; None ends it.
+Raises:
+    ArgumentTypeError: It is not a function.)";
 
 }  // namespace kinegraph::python::docs::content
