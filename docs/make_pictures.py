@@ -9,8 +9,11 @@ FOLDER is docs if none is given. Needs the package, `websockets`, `av` and EGL. 
 
 import base64
 import os
+import re
+import shutil
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 from typing import Any
@@ -176,7 +179,18 @@ def page(folder: Path) -> None:
         )
 
 
-PICTURES = [gripperAxes, taskFilms, movingFilm, examplePictures, page]
+def ownRobot(folder: Path) -> None:
+    """The arm of the page on a robot of one's own, by the code of that page."""
+    blocks = re.findall(r"```python\n(.*?)```", (HERE / "own_robot.md").read_text(), re.DOTALL)
+    last = next(i for i, block in enumerate(blocks) if '"robot.png"' in block)
+    with tempfile.TemporaryDirectory() as place:
+        code = "\n".join(blocks[: last + 1])
+        environment = {**os.environ, "KINEGRAPH_HEADLESS": "1"}
+        subprocess.run([sys.executable, "-c", code], cwd=place, check=True, env=environment, stdout=subprocess.DEVNULL)
+        shutil.copy(Path(place) / "robot.png", folder / "own_robot.png")
+
+
+PICTURES = [gripperAxes, ownRobot, taskFilms, movingFilm, examplePictures, page]
 
 if __name__ == "__main__":
     for make in PICTURES:

@@ -77,8 +77,7 @@ def test_values_go_both_ways_and_lie_in_their_folders(
     browser.evaluate("document.querySelector('.control.check input').click()")
     browser.evaluate(f"{CONTROL.format('note')}.value = 'größer'")
     browser.evaluate(f"{CONTROL.format('note')}.dispatchEvent(new Event('change'))")
-    wait_until(lambda: note.value == "größer")
-    assert (width.value, hand.value, slow.value) == (0.06, "right", True)
+    wait_until(lambda: (note.value, width.value, hand.value, slow.value) == ("größer", 0.06, "right", True))
     assert width.changed() and not width.changed() and slow.changed()
     assert seen == [0.06]
     width.value = 0.02
