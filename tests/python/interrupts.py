@@ -15,21 +15,29 @@ class Interrupt:
 
 @contextmanager
 def interrupt_after(seconds: float) -> Iterator[Interrupt]:
-    """Interrupts the main thread as Ctrl-C does, after that time; never once the block has been left."""
+    """Interrupts the main thread as Ctrl-C does, after that time; never once the block has been left.
+
+    It strikes again every 5 seconds: Python discards a KeyboardInterrupt that comes within a callback of its garbage
+    collector, and packages of the tests register such callbacks.
+    """
     interrupt = Interrupt()
-    over = threading.Lock()
+    over = threading.Event()
+    striking = threading.Lock()
 
     def strike() -> None:
-        with over:
-            if not timer.finished.is_set():
-                interrupt.time = time.perf_counter()
-                _thread.interrupt_main()
+        wait = seconds
+        while not over.wait(wait):
+            with striking:
+                if not over.is_set():
+                    interrupt.time = interrupt.time or time.perf_counter()
+                    _thread.interrupt_main()
+            wait = 5
 
-    timer = threading.Timer(seconds, strike)
-    timer.start()
+    thread = threading.Thread(target=strike)
+    thread.start()
     try:
         yield interrupt
     finally:
-        with over:
-            timer.cancel()
-        timer.join()
+        with striking:
+            over.set()
+        thread.join()

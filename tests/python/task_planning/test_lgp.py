@@ -2,6 +2,8 @@
 
 import itertools
 import json
+import logging
+import signal
 from pathlib import Path
 
 import numpy as np
@@ -339,18 +341,41 @@ def test_functions_of_ones_own_in_problems_are_called_from_threads_too():
     assert paths[0] == paths[1]
 
 
+class Endless(Reaches):
+    def getNewActionSequence(self):
+        self.number = getattr(self, "number", 50) + 1
+        return [["reach", str(self.number)]]
+
+
 @pytest.mark.parametrize("threads", [1, 2])
 def test_ctrl_c_ends_a_search(threads):
-    class Endless(Reaches):
-        def getNewActionSequence(self):
-            self.number = getattr(self, "number", 50) + 1
-            return [["reach", str(self.number)]]
-
     C = floating_hand()
     lgp = ry.LGP_Tool(C, Endless(C, []), threads=threads)
     with interrupt_after(0.2), pytest.raises(KeyboardInterrupt):
         lgp.solve(0, maxSolves=10**8)
     assert lgp.solves > 0
+
+
+def test_ctrl_c_while_a_message_is_handled_ends_a_search(caplog):
+    class PressesOnce(logging.Handler):
+        messages = 0
+
+        def emit(self, record):
+            self.messages += 1
+            if self.messages == 1:
+                signal.raise_signal(signal.SIGINT)
+
+    handler = PressesOnce()
+    caplog.set_level("INFO", "kinegraph")
+    C = floating_hand()
+    lgp = ry.LGP_Tool(C, Endless(C, []))
+    logging.getLogger("kinegraph").addHandler(handler)
+    try:
+        with interrupt_after(60) as late, pytest.raises(KeyboardInterrupt):
+            lgp.solve(1, maxSolves=10**8)
+    finally:
+        logging.getLogger("kinegraph").removeHandler(handler)
+    assert handler.messages >= 1 and late.time is None
 
 
 def test_results_of_robotic_are_by_its_rule():
