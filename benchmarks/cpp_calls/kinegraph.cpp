@@ -4,6 +4,8 @@
 //                                                  then the frame's position, and the joints' limits
 #include "calls.h"
 #include "kinegraph/common/errors.h"
+#include "kinegraph/kinematics/kinematic_model.h"
+#include "kinegraph/kinematics/state.h"
 #include "kinegraph/scene/config.h"
 
 using namespace kinegraph;

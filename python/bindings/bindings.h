@@ -10,6 +10,7 @@
 #include "arrays.h"
 #include "kinds.h"
 #include "kinegraph/collision/edge_checkers.h"
+#include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/features/residual_cache.h"
 #include "kinegraph/scene/config.h"
 #include "recent_calls.h"

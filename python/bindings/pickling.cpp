@@ -5,6 +5,8 @@
 #include <nanobind/stl/vector.h>
 
 #include "features/feature_arguments.h"
+#include "kinegraph/features/forces.h"
+#include "kinegraph/features/recipe.h"
 
 namespace kinegraph::python {
 

@@ -2,6 +2,7 @@
 
 #include "arrays.h"
 #include "kinegraph/features/feature_source.h"
+#include "kinegraph/features/forces.h"
 
 namespace kinegraph::python {
 

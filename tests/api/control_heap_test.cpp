@@ -1,6 +1,7 @@
 // The calls that docs/cpp.md lists for control loops request no memory after the first ones.
 #include <gtest/gtest.h>
 
+#include "kinegraph/features/make_residual.h"
 #include "kinegraph/kinegraph.h"
 #include "tests/support/malloc_count.h"
 

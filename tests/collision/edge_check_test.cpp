@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "kinegraph/collision/motion_check.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/geometry/distance/proximity.h"
+#include "kinegraph/kinematics/kinematic_model.h"
+#include "kinegraph/kinematics/state.h"
 #include "kinegraph/scene/config.h"
 #include "tests/support/two_arms.h"
 

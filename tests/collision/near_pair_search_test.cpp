@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kinegraph/collision/near_pairs.h"
 #include "tests/support/crowd.h"
 
 using namespace kinegraph;

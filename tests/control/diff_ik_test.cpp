@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "kinegraph/features/eval.h"
 #include "tests/control/arm.h"
 #include "tests/support/expect_error.h"
 

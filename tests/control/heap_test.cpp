@@ -2,6 +2,7 @@
 
 #include "kinegraph/control/diff_ik.h"
 #include "kinegraph/control/mpc.h"
+#include "kinegraph/komo/path/path.h"
 #include "tests/control/arm.h"
 #include "tests/support/malloc_count.h"
 

@@ -2,6 +2,7 @@
 
 #include "kinegraph/exporters/mjcf_writer.h"
 #include "kinegraph/exporters/urdf_writer.h"
+#include "kinegraph/kinematics/kinematic_model.h"
 #include "tests/exporters/mujoco_model.h"
 #include "tests/support/temporary_folder.h"
 

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <set>
 
+#include "kinegraph/kinematics/kinematic_model.h"
 #include "tests/exporters/mujoco_model.h"
 #include "tests/exporters/random_scene.h"
 #include "tests/support/temporary_folder.h"

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "kinegraph/common/random.h"
+#include "kinegraph/kinematics/kinematic_model.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph {

@@ -7,6 +7,7 @@
 
 #include "kinegraph/gfile/writer.h"
 #include "kinegraph/parsers/urdf_reader.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 #include "tests/exporters/random_scene.h"
 #include "tests/support/scene.h"
 #include "tests/support/temporary_folder.h"

@@ -5,7 +5,9 @@
 #include <memory>
 #include <set>
 
+#include "kinegraph/collision/edge_checkers.h"
 #include "kinegraph/features/eval.h"
+#include "kinegraph/features/make_residual.h"
 #include "tests/features/heap.h"
 #include "tests/support/expect_error.h"
 

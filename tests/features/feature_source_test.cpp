@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/features/eval.h"
+#include "kinegraph/features/make_residual.h"
 #include "tests/features/slices.h"
 #include "tests/support/expect_error.h"
 

@@ -4,6 +4,7 @@
 
 #include "kinegraph/collision/motion_check.h"
 #include "kinegraph/features/eval.h"
+#include "kinegraph/features/make_residual.h"
 #include "tests/support/crowd.h"
 
 using namespace kinegraph;

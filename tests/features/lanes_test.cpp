@@ -3,6 +3,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/batch.h"
 #include "kinegraph/features/eval.h"
+#include "kinegraph/features/make_residual.h"
 #include "kinegraph/math/lane_widths.h"
 #include "tests/support/expect_error.h"
 

@@ -4,6 +4,7 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/eval.h"
+#include "kinegraph/kinematics/kinematic_model.h"
 
 using namespace kinegraph;
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kinegraph/features/make_residual.h"
 #include "tests/features/slices.h"
 #include "tests/features/worked_scene.h"
 #include "tests/support/expect_error.h"

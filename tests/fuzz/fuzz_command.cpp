@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "kinegraph/kinematics/state.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/viewer/access.h"
 #include "kinegraph/viewer/client_page.h"
 #include "kinegraph/viewer/scene_edits.h"

@@ -6,6 +6,7 @@
 #include "kinegraph/common/random.h"
 #include "kinegraph/ik/ik_nlp.h"
 #include "kinegraph/ik/solve_ik.h"
+#include "kinegraph/kinematics/kinematic_model.h"
 #include "tests/support/expect_error.h"
 
 namespace kinegraph {

@@ -6,6 +6,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "kinegraph/kinematics/kinematic_model.h"
+#include "kinegraph/kinematics/state.h"
 #include "tests/support/expect_error.h"
 
 namespace kinegraph {

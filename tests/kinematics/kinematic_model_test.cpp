@@ -4,6 +4,7 @@
 
 #include "kinegraph/common/random.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/kinematics/state.h"
 #include "kinegraph/scene/config.h"
 
 using namespace kinegraph;

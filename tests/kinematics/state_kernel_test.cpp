@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/common/random.h"
+#include "kinegraph/kinematics/kinematic_model.h"
+#include "kinegraph/kinematics/state.h"
 #include "kinegraph/scene/config.h"
 
 using namespace kinegraph;

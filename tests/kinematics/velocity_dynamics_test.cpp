@@ -6,6 +6,8 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/random.h"
+#include "kinegraph/kinematics/kinematic_model.h"
+#include "kinegraph/kinematics/state.h"
 #include "kinegraph/scene/config_dynamics.h"
 #include "tests/kinematics/random_vector.h"
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/komo/komo.h"
+#include "kinegraph/komo/objective_list.h"
 #include "kinegraph/solvers/nlp_solver.h"
 
 namespace kinegraph {

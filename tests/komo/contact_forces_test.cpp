@@ -1,7 +1,12 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/common/errors.h"
+#include "kinegraph/features/residual.h"
 #include "kinegraph/komo/komo.h"
+#include "kinegraph/komo/objective.h"
+#include "kinegraph/komo/objective_list.h"
+#include "kinegraph/komo/path/contacts.h"
+#include "kinegraph/komo/path/path.h"
 
 using namespace kinegraph;
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/komo/komo.h"
+#include "kinegraph/komo/path/path.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 #include "tests/support/malloc_count.h"
 

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/komo/komo.h"
+#include "kinegraph/komo/komo_parts.h"
+#include "kinegraph/komo/path/path.h"
 #include "tests/support/expect_error.h"
 
 namespace kinegraph {

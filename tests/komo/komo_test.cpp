@@ -6,6 +6,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/komo/path/path.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 
 using namespace kinegraph;

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "kinegraph/features/registry.h"
+#include "kinegraph/komo/komo.h"
+#include "kinegraph/komo/komo_parts.h"
+#include "kinegraph/scene/config.h"
 #include "kinegraph/solvers/nlp_solver.h"
 #include "tests/support/expect_error.h"
 

@@ -7,6 +7,7 @@
 #include "kinegraph/common/random.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/logic/action_words.h"
+#include "kinegraph/logic/landmark_cut.h"
 #include "kinegraph/logic/pddl.h"
 #include "kinegraph/logic/plan_search.h"
 #include "tests/logic/pddl_oracle.h"

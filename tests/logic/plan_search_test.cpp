@@ -9,6 +9,7 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/logic/fol_reader.h"
+#include "kinegraph/logic/landmark_cut.h"
 #include "kinegraph/logic/pddl.h"
 
 namespace kinegraph {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "kinegraph/kinematics/kinematic_model.h"
 #include "kinegraph/scene/loading/scene_source.h"
 #include "tests/exporters/mujoco_model.h"
 #include "tests/support/expect_error.h"

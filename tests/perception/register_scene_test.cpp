@@ -4,6 +4,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/rendering/camera_renderer.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 namespace {

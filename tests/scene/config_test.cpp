@@ -7,6 +7,9 @@
 #include <functional>
 
 #include "kinegraph/common/errors.h"
+#include "kinegraph/kinematics/kinematic_model.h"
+#include "kinegraph/kinematics/state.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 #include "tests/support/crowd.h"
 #include "tests/support/expect_error.h"
 

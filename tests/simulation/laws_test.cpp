@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "kinegraph/kinematics/dynamics.h"
 #include "kinegraph/simulation/simulation.h"
 
 namespace kinegraph {

@@ -5,6 +5,8 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/distance/proximity.h"
+#include "kinegraph/kinematics/kinematic_model.h"
+#include "kinegraph/kinematics/state.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph::testing {

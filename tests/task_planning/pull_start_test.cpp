@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kinegraph/komo/path/path.h"
 #include "kinegraph/nlp/nlp.h"
 #include "kinegraph/task_planning/task_waypoints.h"
 #include "tests/task_planning/task_scenes.h"

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "kinegraph/komo/path/path.h"
 #include "tests/support/expect_error.h"
 
 namespace kinegraph {

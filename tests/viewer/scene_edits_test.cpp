@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/common/random.h"
+#include "kinegraph/kinematics/kinematic_model.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/viewer/scene_items.h"
 
 using namespace kinegraph;

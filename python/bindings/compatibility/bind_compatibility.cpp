@@ -6,6 +6,7 @@
 #include "compatibility/compatibility_docs.h"
 #include "defaults.h"
 #include "kinegraph/compatibility/earlier_methods.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph::python {
 

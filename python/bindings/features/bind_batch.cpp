@@ -6,10 +6,13 @@
 #include "bindings.h"
 #include "features/batch_docs.h"
 #include "features/feature_arguments.h"
+#include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/batch.h"
 #include "kinegraph/features/eval.h"
+#include "kinegraph/features/make_residual.h"
+#include "kinegraph/geometry/distance/proximity.h"
 
 namespace kinegraph::python {
 

@@ -9,6 +9,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/eval.h"
+#include "kinegraph/features/make_residual.h"
 
 namespace kinegraph::python {
 

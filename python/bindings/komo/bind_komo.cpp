@@ -12,6 +12,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/registry.h"
+#include "kinegraph/komo/force_exchange.h"
 #include "kinegraph/komo/mode_switches.h"
 #include "kinegraph/komo/report.h"
 #include "kinegraph/komo/step_limit.h"

@@ -3,6 +3,10 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "kinegraph/features/forces.h"
+#include "kinegraph/komo/komo_parts.h"
+#include "kinegraph/komo/objective.h"
+#include "kinegraph/komo/path/mode.h"
 #include "komo/py_komo.h"
 #include "pickling.h"
 

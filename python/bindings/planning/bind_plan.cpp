@@ -9,6 +9,7 @@
 #include "kinegraph/api/plan_view.h"
 #include "kinegraph/common/stopwatch.h"
 #include "kinegraph/planning/refine_path.h"
+#include "kinegraph/planning/steering/joint_space.h"
 #include "planning/path_lines_docs.h"
 #include "planning/plan_arguments.h"
 #include "planning/plan_docs.h"

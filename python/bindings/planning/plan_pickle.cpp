@@ -1,6 +1,9 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include "kinegraph/planning/dynamic_obstacles/dynamic_scene.h"
+#include "kinegraph/planning/steering/joint_space.h"
+#include "kinegraph/trajectories/time_scaling.h"
 #include "pickling.h"
 #include "planning/plan_objects.h"
 

@@ -10,6 +10,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/rendering/depth_image.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 #include "rendering/images.h"
 #include "rendering/rendering_docs.h"
 #include "simulation/depth_noise.h"

@@ -11,6 +11,7 @@
 #include "kinegraph/common/log.h"
 #include "kinegraph/common/stopwatch.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/komo/path/path.h"
 #include "kinegraph/trajectory_optimization/multi_start.h"
 #include "komo/py_komo.h"
 #include "python_names.h"

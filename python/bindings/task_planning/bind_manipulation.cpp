@@ -7,6 +7,7 @@
 #include "bindings.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/komo/path/path.h"
 #include "task_planning/bind_tasks.h"
 #include "task_planning/manipulation_docs.h"
 #include "task_planning/py_manipulation.h"

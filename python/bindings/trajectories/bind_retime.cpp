@@ -7,6 +7,8 @@
 #include "kinegraph/api/retime_robot.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/trajectories/path_curve.h"
+#include "kinegraph/trajectories/time_scaling.h"
 #include "python_names.h"
 #include "trajectories/retime_docs.h"
 

@@ -6,6 +6,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/rendering/framing.h"
+#include "kinegraph/rendering/letters.h"
 #include "kinegraph/viewer/draw_quad.h"
 #include "rendering/images.h"
 #include "viewer/pictures_docs.h"

@@ -8,7 +8,10 @@
 
 #include "bindings.h"
 #include "kinegraph/rendering/camera_renderer.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/viewer/config_viewer.h"
+#include "kinegraph/viewer/page_content.h"
+#include "kinegraph/viewer/server.h"
 
 namespace kinegraph::python {
 

@@ -6,6 +6,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/rendering/depth_image.h"
 #include "kinegraph/robot/simulated_driver.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kinegraph/viewer/server.h"
+
 namespace kinegraph {
 
 std::vector<ShownRun::Contact> shownContacts(const std::vector<Contact>& contacts) {

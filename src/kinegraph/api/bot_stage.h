@@ -6,6 +6,7 @@
 
 #include "kinegraph/robot/bot_op.h"
 #include "kinegraph/viewer/config_viewer.h"
+#include "kinegraph/viewer/messages/shown_run.h"
 
 namespace kinegraph {
 

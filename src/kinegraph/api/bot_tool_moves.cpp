@@ -2,6 +2,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/planning/plan_timing.h"
 #include "kinegraph/robot/bot_op.h"
+#include "kinegraph/robot/robot_loop.h"
 #include "kinegraph/tool_paths/plan_tool_path.h"
 
 namespace kinegraph {

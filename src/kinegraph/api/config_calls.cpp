@@ -1,6 +1,7 @@
 // The methods of Config that need the rooms above the scene.
 #include "kinegraph/common/log.h"
 #include "kinegraph/features/eval.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/viewer/config_viewer.h"
 #include "kinegraph/viewer/motions.h"
 #include "kinegraph/viewer/watch_file.h"

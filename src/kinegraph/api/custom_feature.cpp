@@ -1,6 +1,7 @@
 #include "kinegraph/api/custom_feature.h"
 
 #include "kinegraph/features/custom_feature.h"
+#include "kinegraph/kinematics/state.h"
 
 namespace kinegraph {
 
@@ -9,6 +10,16 @@ namespace {
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 }  // namespace
+
+const std::string& FrameView::getName() const { return state_->model().frame_name[std::size_t(frame_)]; }
+
+const VectorXd& FrameView::getJointState() const { return state_->q(); }
+
+Vector3d FrameView::getPosition() const { return state_->position(frame_); }
+
+Matrix3d FrameView::getRotationMatrix() const { return state_->pose(frame_).R; }
+
+Pose FrameView::getPose() const { return Pose(state_->pose(frame_)); }
 
 MatrixXd FrameView::getPositionJacobian(const Vector3d& point) const {
   RowMajor J = RowMajor::Zero(3, state_->dofs());

@@ -9,17 +9,19 @@
 
 namespace kinegraph {
 
+class State;
+
 /// A frame at one configuration, the argument of a custom feature. Valid during the call only.
 class FrameView {
  public:
   FrameView(const State& state, int frame) : state_(&state), frame_(frame) {}
 
-  const std::string& getName() const { return state_->model().frame_name[std::size_t(frame_)]; }
-  const VectorXd& getJointState() const { return state_->q(); }  ///< joint values (n,)
-  Vector3d getPosition() const { return state_->position(frame_); }
+  const std::string& getName() const;
+  const VectorXd& getJointState() const;  ///< joint values (n,)
+  Vector3d getPosition() const;
   Quaterniond getQuaternion() const { return Quaterniond(getRotationMatrix()); }
-  Matrix3d getRotationMatrix() const { return state_->pose(frame_).R; }
-  Pose getPose() const { return Pose(state_->pose(frame_)); }
+  Matrix3d getRotationMatrix() const;
+  Pose getPose() const;
 
   /// Returns the derivative of the world position of a point of the frame, given in its coordinates (m): 3 x n.
   MatrixXd getPositionJacobian(const Vector3d& point = Vector3d::Zero()) const;

@@ -2,6 +2,7 @@
 #include "kinegraph/api/komo_motion.h"
 #include "kinegraph/api/solve_all.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/komo/path/path.h"
 #include "kinegraph/trajectory_optimization/multi_start.h"
 #include "kinegraph/viewer/config_viewer.h"
 

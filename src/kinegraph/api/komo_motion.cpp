@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kinegraph/komo/objective.h"
+#include "kinegraph/komo/objective_list.h"
 #include "kinegraph/komo/report.h"
 #include "kinegraph/viewer/scene_items.h"
 

@@ -6,6 +6,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/motor_limits.h"
+#include "kinegraph/trajectories/path_curve.h"
 
 namespace kinegraph {
 

@@ -8,6 +8,7 @@
 
 #include "kinegraph/simulation/simulation.h"
 #include "kinegraph/viewer/config_viewer.h"
+#include "kinegraph/viewer/server.h"
 
 namespace kinegraph {
 

@@ -1,15 +1,19 @@
 #include "kinegraph/collision/edge_check.h"
 
 #include "kinegraph/collision/edge_engine.h"
+#include "kinegraph/collision/motion_check.h"
 
 namespace kinegraph {
 
 static_assert(EdgeChecker::kLanes == EdgeEngine::kLanes);
 
 EdgeChecker::EdgeChecker(const State& scene, double margin, double tolerance)
-    : state_(scene), margin_(margin), tolerance_(tolerance), engine_(std::make_unique<EdgeEngine>(scene, tolerance)) {}
+    : state_(std::make_unique<const State>(scene)),
+      margin_(margin),
+      tolerance_(tolerance),
+      engine_(std::make_unique<EdgeEngine>(scene, tolerance)) {}
 
-EdgeChecker::EdgeChecker(const EdgeChecker& other) : EdgeChecker(other.state_, other.margin_, other.tolerance_) {}
+EdgeChecker::EdgeChecker(const EdgeChecker& other) : EdgeChecker(*other.state_, other.margin_, other.tolerance_) {}
 
 EdgeChecker::~EdgeChecker() = default;
 
@@ -41,7 +45,7 @@ const std::optional<MotionContact>& EdgeChecker::lastHit() const { return engine
 const std::optional<MotionContact>& EdgeChecker::lastHitPair() const { return engine_->lastHit(); }
 
 std::optional<MotionContact> EdgeChecker::firstContact(const double* from, const double* to) {
-  if (!motions_) motions_ = std::make_unique<MotionChecker>(state_);
+  if (!motions_) motions_ = std::make_unique<MotionChecker>(*state_);
   return motions_->firstContact(from, to, margin_, tolerance_);
 }
 

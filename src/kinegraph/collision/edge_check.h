@@ -6,11 +6,13 @@
 #include <span>
 #include <vector>
 
-#include "kinegraph/collision/motion_check.h"
+#include "kinegraph/collision/motion_contact.h"
 
 namespace kinegraph {
 
 class EdgeEngine;
+class MotionChecker;
+class State;
 
 /// Checks configurations and edges of one scene for collisions. An edge is the straight motion q(s) = (1 - s) from + s
 /// to, 0 <= s <= 1. It is free if all pairs that joints move apart (KinematicModel::movingPairs) keep the margin,
@@ -33,7 +35,7 @@ class EdgeChecker {
   void setMargin(double margin) { margin_ = margin; }
   void setTolerance(double tolerance);
 
-  const State& scene() const { return state_; }
+  const State& scene() const { return *state_; }
 
   /// Whether all pairs are at least `margin` apart at q (dofs numbers).
   bool isFree(const double* q);
@@ -70,7 +72,7 @@ class EdgeChecker {
   const std::vector<MotionContact>& approaches(const double* from, const double* to, double most);
 
  private:
-  State state_;
+  std::unique_ptr<const State> state_;
   double margin_, tolerance_;
   std::unique_ptr<EdgeEngine> engine_;
   std::unique_ptr<MotionChecker> motions_;  ///< constructed on first use

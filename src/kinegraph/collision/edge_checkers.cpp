@@ -1,5 +1,9 @@
 #include "kinegraph/collision/edge_checkers.h"
 
+#include <utility>
+
+#include "kinegraph/kinematics/state.h"
+
 namespace kinegraph {
 
 std::unique_ptr<EdgeChecker> EdgeCheckers::take(const State& scene, double margin, double tolerance) {

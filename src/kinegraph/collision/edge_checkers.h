@@ -3,6 +3,7 @@
 #include <mutex>
 
 #include "kinegraph/collision/edge_check.h"
+#include "kinegraph/kinematics/state.h"
 
 namespace kinegraph {
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kinegraph/kinematics/kinematic_model.h"
+
 namespace kinegraph {
 
 namespace {

@@ -2,9 +2,9 @@
 
 #include <optional>
 
-#include "kinegraph/kinematics/kinematic_model.h"
-
 namespace kinegraph {
+
+struct KinematicModel;
 
 /// Tolerance of joint limits, rad or m. Files round: single precision by 1e-7, and 3.14159 for pi by 3e-6.
 inline constexpr double kLimitTolerance = 1e-5;

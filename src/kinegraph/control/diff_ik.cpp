@@ -4,10 +4,13 @@
 #include <cmath>
 #include <limits>
 
+#include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/distance.h"
+#include "kinegraph/features/make_residual.h"
 #include "kinegraph/scene/motor_limits.h"
+#include "kinegraph/solvers/algebra/dual_active_set.h"
 
 namespace kinegraph {
 
@@ -54,8 +57,26 @@ void DiffIkOptions::validate(int dofs) const {
   if (!std::isfinite(margin)) throw ValueError(cat("DiffIk: margin is ", margin, "; expected a finite number (m)"));
 }
 
+struct DiffIk::Task {
+  FeatureSource feature;
+  std::vector<std::string> frames;
+  double weight, gain;
+  VectorXd target;
+  int priority;                    ///< kEquality for an equality
+  std::vector<Residual> residual;  ///< one
+  VectorXd y;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J;
+};
+
+DiffIk::~DiffIk() = default;
+DiffIk::DiffIk(DiffIk&&) noexcept = default;
+DiffIk& DiffIk::operator=(DiffIk&&) noexcept = default;
+
 DiffIk::DiffIk(Config& config, const DiffIkOptions& options)
-    : config_(config.scene()), options_(options), posture_(config.getJointState()) {
+    : config_(config.scene()),
+      options_(options),
+      posture_(config.getJointState()),
+      program_(std::make_unique<DualActiveSet>(kDependence)) {
   options_.validate(config_.getJointDimension());
   prepare();
 }
@@ -81,7 +102,7 @@ void DiffIk::prepare() {
   normals_.resize(n, rows), bounds_.resize(rows), sources_.reserve(std::size_t(rows)),
       relaxed_.reserve(std::size_t(rows));
   slack_.setZero(rows), excess_.resize(rows), rate_.resize(rows);
-  program_.resize(n, rows);
+  program_->resize(n, rows);
   active_.reserve(std::size_t(rows));
   free_.resize(n, n), product_.resize(n, n), reduced_cost_.resize(n, n), along_.resize(n);
   for (Task& task : tasks_) {
@@ -219,13 +240,13 @@ void DiffIk::solveFirst() {
 /// Solves the program of the first priority with an additional cost of the squared step. If there is no solution,
 /// change_ is as before.
 bool DiffIk::solveWithDamping(double damping) {
-  program_.clear();
-  program_.hessian() = cost_, program_.gradient() = slope_;
-  program_.hessian().diagonal().array() += damping;
-  for (int i = 0; i < int(sources_.size()); ++i) program_.addInequality(normals_.col(i), bounds_[i] - slack_[i]);
-  if (program_.solve() != QuadraticStatus::solved) return false;
-  change_ = program_.x();
-  collectActive(program_);
+  program_->clear();
+  program_->hessian() = cost_, program_->gradient() = slope_;
+  program_->hessian().diagonal().array() += damping;
+  for (int i = 0; i < int(sources_.size()); ++i) program_->addInequality(normals_.col(i), bounds_[i] - slack_[i]);
+  if (program_->solve() != QuadraticStatus::solved) return false;
+  change_ = program_->x();
+  collectActive(*program_);
   return true;
 }
 
@@ -238,18 +259,18 @@ void DiffIk::findLeastViolation() {
   const auto isPair = [&](int i) { return sources_[std::size_t(i)].kind == Source::Kind::pair; };
   change_ = VectorXd::Zero(change_.size()).cwiseMax(low_).cwiseMin(high_);
   for (int round = 0; round < kMaxRelaxations; ++round) {
-    program_.clear();
-    program_.hessian().setIdentity(), program_.hessian() *= kLeastStep, program_.gradient().setZero();
+    program_->clear();
+    program_->hessian().setIdentity(), program_->hessian() *= kLeastStep, program_->gradient().setZero();
     for (int i = 0; i < count; ++i) {
       const auto normal = normals_.col(i);
       excess_[i] = isPair(i) ? bounds_[i] - normal.dot(change_) : 0.;
-      if (!isPair(i)) program_.addInequality(normal, bounds_[i]);
+      if (!isPair(i)) program_->addInequality(normal, bounds_[i]);
       if (excess_[i] <= 0.) continue;
-      program_.hessian().noalias() += normal * normal.transpose();
-      program_.gradient() -= bounds_[i] * normal;
+      program_->hessian().noalias() += normal * normal.transpose();
+      program_->gradient() -= bounds_[i] * normal;
     }
-    if (program_.solve() != QuadraticStatus::solved) break;
-    direction_ = program_.x().cwiseMax(low_).cwiseMin(high_) - change_;
+    if (program_->solve() != QuadraticStatus::solved) break;
+    direction_ = program_->x().cwiseMax(low_).cwiseMin(high_) - change_;
     for (int i = 0; i < count; ++i) rate_[i] = isPair(i) ? normals_.col(i).dot(direction_) : 0.;
     const auto slopeAt = [&](double t) {  // of half the sum
       double slope = kLeastStep * (change_ + t * direction_).dot(direction_);
@@ -274,21 +295,21 @@ void DiffIk::findLeastViolation() {
 void DiffIk::solveRemaining() {
   const int k = free_count_;
   const auto free = free_.leftCols(k);
-  program_.clear();
-  program_.hessian().setIdentity(), program_.gradient().setZero();
+  program_->clear();
+  program_->hessian().setIdentity(), program_->gradient().setZero();
   product_.leftCols(k).noalias() = cost_ * free;
   reduced_cost_.topLeftCorner(k, k).noalias() = free.transpose() * product_.leftCols(k);
-  program_.hessian().topLeftCorner(k, k) = reduced_cost_.topLeftCorner(k, k);
+  program_->hessian().topLeftCorner(k, k) = reduced_cost_.topLeftCorner(k, k);
   slope_.noalias() += cost_ * change_;
-  program_.gradient().head(k).noalias() = free.transpose() * slope_;
+  program_->gradient().head(k).noalias() = free.transpose() * slope_;
   along_.setZero();
   for (int i = 0; i < int(sources_.size()); ++i) {
     along_.head(k).noalias() = free.transpose() * normals_.col(i);
-    program_.addInequality(along_, std::min(0., bounds_[i] - slack_[i] - normals_.col(i).dot(change_)));
+    program_->addInequality(along_, std::min(0., bounds_[i] - slack_[i] - normals_.col(i).dot(change_)));
   }
-  if (program_.solve() != QuadraticStatus::solved) return;
-  collectActive(program_);
-  change_.noalias() += free * program_.x().head(k);
+  if (program_->solve() != QuadraticStatus::solved) return;
+  collectActive(*program_);
+  change_.noalias() += free * program_->x().head(k);
 }
 
 void DiffIk::collectActive(const DualActiveSet& program) {

@@ -5,12 +5,16 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/collision/near_pairs.h"
-#include "kinegraph/features/eval.h"
+#include "kinegraph/features/feature_source.h"
 #include "kinegraph/scene/config.h"
-#include "kinegraph/solvers/algebra/dual_active_set.h"
 
 namespace kinegraph {
+
+class DualActiveSet;
+class PlacedBodies;
+class State;
+struct BodyPairs;
+struct KinematicModel;
 
 struct DiffIkOptions {
   VectorXd velocity;               ///< (n,), rad/s or m/s: limits; empty: the model's; infinity for none
@@ -51,6 +55,9 @@ class DiffIk {
  public:
   /// Moves this scene, without a copy. Its current q is the posture.
   explicit DiffIk(Config& config, const DiffIkOptions& options = {});
+  ~DiffIk();
+  DiffIk(DiffIk&&) noexcept;
+  DiffIk& operator=(DiffIk&&) noexcept;
 
   /// Adds a feature that shall become zero, or `target`. `weight` multiplies its components. `gain` in (0, 1] is the
   /// share of the error that one step removes. Tasks with a higher `priority` number only use directions that tasks
@@ -82,16 +89,8 @@ class DiffIk {
   std::string message() const;              ///< "" if solved; else the relaxed constraints, and by how much
 
  private:
-  struct Task {
-    FeatureSource feature;
-    std::vector<std::string> frames;
-    double weight, gain;
-    VectorXd target;
-    int priority;                    ///< kEquality for an equality
-    std::vector<Residual> residual;  ///< one
-    VectorXd y;
-    Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J;
-  };
+  struct Task;
+
   /// The origin of a constraint of the program.
   struct Source {
     enum class Kind { lower, upper, pair, equality } kind;
@@ -141,7 +140,7 @@ class DiffIk {
   MatrixXd free_, product_, reduced_cost_;  ///< free_: its first free_count_ columns span the free directions
   VectorXd along_;
   int free_count_ = 0;
-  DualActiveSet program_{kDependence};
+  std::unique_ptr<DualActiveSet> program_;
 
   static constexpr int kEquality = std::numeric_limits<int>::min();
 };

@@ -6,6 +6,12 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/stopwatch.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/control/horizon_nlp.h"
+#include "kinegraph/features/residual.h"
+#include "kinegraph/komo/objective_list.h"
+#include "kinegraph/komo/path/contacts.h"
+#include "kinegraph/komo/path/path.h"
+#include "kinegraph/komo/path_components.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian_method.h"
 
 namespace kinegraph {
@@ -58,6 +64,8 @@ Mpc::Mpc(const Komo& komo, const MpcOptions& given) : options(given), komo_(std:
   solver_.verbose = 0;
   updateMotion();
 }
+
+Mpc::~Mpc() = default;
 
 void Mpc::requireProblem() const {
   const Path& path = komo_->path();

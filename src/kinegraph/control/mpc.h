@@ -6,15 +6,17 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/control/horizon_nlp.h"
 #include "kinegraph/control/horizon_trajectory.h"
 #include "kinegraph/komo/komo.h"
-#include "kinegraph/komo/path_components.h"
 #include "kinegraph/solvers/interface/options.h"
 #include "kinegraph/solvers/interface/result.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 
 namespace kinegraph {
+
+class HorizonNlp;
+struct Parameters;
+struct PathComponent;
 
 struct MpcOptions {
   int evaluations = 50;         ///< budget of a call, at least 2: one step
@@ -67,6 +69,7 @@ class Mpc {
   /// Copies the problem. Throws ValueError for invalid options, a problem of order 0, objectives of addFreeMotion, and
   /// mode switches in a receding horizon.
   explicit Mpc(const Komo& komo, const MpcOptions& options = {});
+  ~Mpc();
 
   /// Sets the predicted poses of a frame that no joint moves, and of the frames below it: T x 7, T x 3 (position only),
   /// or one row for all slices. Throws FrameNotFound. Throws ValueError for other sizes, and for frames that joints

@@ -5,6 +5,7 @@
 #include "kinegraph/exporters/mesh_export.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 #include "kinegraph/parsers/xml.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

@@ -14,6 +14,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/files/image_file.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/scene/tree/visual_meshes.h"
 
 namespace kinegraph {

@@ -11,7 +11,9 @@
 #include "kinegraph/exporters/stl_writer.h"
 #include "kinegraph/geometry/shapes/convex_hull.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
+#include "kinegraph/kinematics/state.h"
 #include "kinegraph/scene/frame_shapes.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

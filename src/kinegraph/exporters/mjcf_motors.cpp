@@ -8,6 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/exporters/mjcf_geoms.h"
 #include "kinegraph/parsers/xml.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

@@ -13,6 +13,7 @@
 #include "kinegraph/exporters/srdf_writer.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/parsers/xml.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

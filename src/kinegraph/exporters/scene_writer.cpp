@@ -8,6 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/gfile/writer.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

@@ -6,6 +6,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/kinematics/contact_rules.h"
 #include "kinegraph/parsers/xml.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

@@ -14,6 +14,7 @@
 #include "kinegraph/geometry/shapes/tessellation.h"
 #include "kinegraph/parsers/urdf_model.h"
 #include "kinegraph/parsers/xml.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

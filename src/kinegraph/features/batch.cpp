@@ -3,11 +3,13 @@
 #include <algorithm>
 
 #include "kinegraph/collision/edge_check.h"
+#include "kinegraph/collision/edge_checkers.h"
 #include "kinegraph/collision/limit_check.h"
 #include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/parallel.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/features/residual.h"
 #include "kinegraph/kinematics/lane_kinematics.h"
 
 namespace kinegraph {

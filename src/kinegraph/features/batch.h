@@ -4,12 +4,15 @@
 #include <span>
 #include <vector>
 
-#include "kinegraph/collision/edge_checkers.h"
 #include "kinegraph/common/cancellation.h"
-#include "kinegraph/features/residual.h"
-#include "kinegraph/geometry/distance/proximity.h"
+#include "kinegraph/math/jacobian_rows.h"
 
 namespace kinegraph {
+
+class EdgeCheckers;
+class Residual;
+class State;
+struct Proximity;
 
 /// One configuration per row: its joint vector, or values computed from it.
 using RowMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;

@@ -3,11 +3,15 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "kinegraph/features/feature.h"
+#include "kinegraph/math/pose.h"
 
 namespace kinegraph {
+
+class Feature;
+class State;
 
 /// The result of a custom function: y, and optionally its Jacobian dy/dq (rows of y x n).
 struct FeatureValue {

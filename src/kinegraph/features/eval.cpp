@@ -2,6 +2,8 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/features/make_residual.h"
+#include "kinegraph/scene/config.h"
 
 namespace kinegraph {
 

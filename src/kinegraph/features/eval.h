@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "kinegraph/features/feature_source.h"
-#include "kinegraph/features/residual.h"
 #include "kinegraph/features/scale.h"
 #include "kinegraph/scene/config.h"
 
@@ -16,15 +15,8 @@ struct Evaluation {
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J;
 };
 
-/// Makes the residual of a feature of named frames of a scene. Errors name the feature, the frames and similar names.
-Residual makeResidual(const State& scene, const FeatureSource& feature, const std::vector<std::string>& frames,
-                      const Scale& scale = {}, const Target& target = {}, int order = -1);
-
 /// Evaluates a feature at the present q. Throws ValueError for features that need several configurations.
 Evaluation eval(const Config& config, const FeatureSource& feature, const std::vector<std::string>& frames,
                 const Scale& scale = {}, const Target& target = {}, int order = -1);
-
-/// Evaluates an existing residual into `y` (rows) and `J` (rows x dofs, filled with zeros).
-void eval(const Config& config, Residual& residual, Eigen::Ref<VectorXd> y, JacobianRows J);
 
 }  // namespace kinegraph

@@ -2,8 +2,13 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/features/feature.h"
+#include "kinegraph/features/recipe.h"
 
 namespace kinegraph {
+
+FeatureSource::FeatureSource(FeatureRecipe recipe)
+    : source_(std::make_shared<const FeatureRecipe>(std::move(recipe))) {}
 
 std::optional<FeatureSymbol> FeatureSource::symbol() const {
   const auto* symbol = std::get_if<FeatureSymbol>(&source_);

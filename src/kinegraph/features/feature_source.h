@@ -7,10 +7,13 @@
 #include <variant>
 #include <vector>
 
-#include "kinegraph/features/recipe.h"
 #include "kinegraph/features/registry.h"
 
 namespace kinegraph {
+
+class Feature;
+class State;
+struct FeatureRecipe;
 
 /// Source of a feature: a symbol of the registry, a recipe, or a custom function that makes it.
 class FeatureSource {
@@ -19,7 +22,7 @@ class FeatureSource {
   using Make = std::function<std::unique_ptr<Feature>(const std::vector<int>& frames, const State& state)>;
 
   FeatureSource(FeatureSymbol symbol) : source_(symbol) {}
-  FeatureSource(FeatureRecipe recipe) : source_(std::make_shared<const FeatureRecipe>(std::move(recipe))) {}
+  FeatureSource(FeatureRecipe recipe);
   FeatureSource(std::string name, Make make)
       : source_(std::make_shared<const Custom>(Custom{std::move(name), std::move(make)})) {}
 

@@ -7,6 +7,7 @@
 #include "kinegraph/features/box.h"
 #include "kinegraph/features/collisions.h"
 #include "kinegraph/features/distance.h"
+#include "kinegraph/features/feature.h"
 #include "kinegraph/features/forces.h"
 #include "kinegraph/features/joints.h"
 #include "kinegraph/features/masses.h"

@@ -6,9 +6,10 @@
 #include <utility>
 #include <vector>
 
-#include "kinegraph/features/feature.h"
-
 namespace kinegraph {
+
+class Feature;
+struct KinematicModel;
 
 /// Names of features. The numbers are those of the Python enum `ry.FS`.
 enum class FeatureSymbol : int {

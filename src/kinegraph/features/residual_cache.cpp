@@ -1,6 +1,7 @@
 #include "kinegraph/features/residual_cache.h"
 
 #include "kinegraph/features/eval.h"
+#include "kinegraph/features/make_residual.h"
 
 namespace kinegraph {
 

@@ -7,6 +7,7 @@
 #include "kinegraph/common/random.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/eval.h"
+#include "kinegraph/features/make_residual.h"
 #include "kinegraph/features/masses.h"
 #include "kinegraph/kinematics/chains.h"
 

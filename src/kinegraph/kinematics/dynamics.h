@@ -2,27 +2,10 @@
 
 #include <vector>
 
+#include "kinegraph/kinematics/inertia.h"
 #include "kinegraph/kinematics/state.h"
 
 namespace kinegraph {
-
-/// Inertial parameters of a link. Link 0 is the world; its inertia has no effect.
-struct LinkInertia {
-  double mass = 0.;                    ///< kg
-  Vector3d com = Vector3d::Zero();     ///< center of mass in the link, m
-  Matrix3d matrix = Matrix3d::Zero();  ///< about the center of mass, in the link's axes, kg m^2
-
-  /// Adds a rigidly attached part; `X_LF` is its pose in the link.
-  void add(const LinkInertia& part, const RigidTransform& X_LF);
-};
-
-inline const Vector3d kGravity{0., 0., -9.81};  ///< m/s^2
-
-/// The equation of motion u = M(q) ddq + F(q, dq), with generalized forces u (N m, N).
-struct EquationOfMotion {
-  MatrixXd M;  ///< n x n
-  VectorXd F;  ///< n: Coriolis, centrifugal and gravity terms
-};
 
 /// Computes both terms at the state's q and the velocity dq. Redundant dofs (the norm of a quaternion) have no inertia.
 EquationOfMotion equationOfMotion(const State& state, const std::vector<LinkInertia>& inertias,

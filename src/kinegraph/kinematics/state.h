@@ -4,12 +4,9 @@
 #include <vector>
 
 #include "kinegraph/kinematics/kinematic_model.h"
+#include "kinegraph/math/jacobian_rows.h"
 
 namespace kinegraph {
-
-/// Rows of a Jacobian in row-major order, as a view that features write or add to.
-using JacobianRows =
-    Eigen::Ref<Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>, 0, Eigen::OuterStride<>>;
 
 /// Kinematics of a KinematicModel at a joint vector q: link poses and the twist of each dof. Allocates no memory after
 /// construction.

@@ -4,6 +4,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/kinematics/dynamics.h"
 #include "kinegraph/kinematics/spatial_motion.h"
 
 namespace kinegraph {

@@ -1,21 +1,13 @@
 #pragma once
 
-#include "kinegraph/kinematics/dynamics.h"
+#include <vector>
+
+#include "kinegraph/kinematics/inertia.h"
 
 namespace kinegraph {
 
-/// Dynamics in velocities v instead of dq. They equal dq except for quaternions: these 4 dofs, of which 3 are free,
-/// have an angular velocity (3 numbers, rad/s) in the axes of the moved link. A free joint has 6 velocities: the linear
-/// one in the axes of its parent, m/s, and the angular one in its own axes. Mass matrices are regular then.
-///
-///     dq = T(q) v                                   velocityMap, n x nv
-///     M(q) dv + C(q, v) v + g(q) = u                rigidBodyDynamics
-///     h = A(q) v                                    centroidalMomentum
-struct RigidBodyDynamics {
-  MatrixXd M;  ///< nv x nv, kg, kg m, kg m^2
-  MatrixXd C;  ///< nv x nv; dM/dt - 2 C is skew
-  VectorXd g;  ///< nv: generalized forces that balance gravity, N m, N
-};
+class State;
+struct KinematicModel;
 
 /// Returns the number nv of velocities.
 int velocityDimension(const KinematicModel& model);

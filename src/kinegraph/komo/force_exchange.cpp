@@ -5,7 +5,9 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/distance.h"
+#include "kinegraph/features/recipe.h"
 #include "kinegraph/kinematics/dynamics.h"
+#include "kinegraph/komo/motion_problem.h"
 
 namespace kinegraph {
 

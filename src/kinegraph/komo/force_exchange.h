@@ -3,20 +3,11 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/komo/motion_problem.h"
+#include "kinegraph/komo/path/switch_mode.h"
 
 namespace kinegraph {
 
-/// Physical behavior of a contact that may move along both surfaces.
-enum class ForceExchange {
-  slide,          ///< the bodies touch; the force is along the normal
-  stick,          ///< the bodies touch without sliding; at kOrder 0 the force is within the friction cone
-  complementary,  ///< the bodies do not overlap; the force is along the normal, and zero unless they touch
-  bounce,         ///< the bodies touch in the first slice and separate with 0.9 of the speed; requires kOrder 2
-};
-
-/// Parses slide, stick, complementary or bounce. Throws NameError for other names and suggests similar ones.
-ForceExchange forceExchangeFromName(const std::string& name);
+struct MotionProblem;
 
 struct ForceExchangeSpec {
   std::vector<double> times;

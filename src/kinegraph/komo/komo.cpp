@@ -5,7 +5,11 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/komo/contact_forces.h"
+#include "kinegraph/komo/force_exchange.h"
+#include "kinegraph/komo/komo_parts.h"
 #include "kinegraph/komo/mode_switches.h"
+#include "kinegraph/komo/path/path_initialization.h"
+#include "kinegraph/komo/path/path_motion.h"
 
 namespace kinegraph {
 
@@ -33,6 +37,35 @@ void setMargin(Objective& objective, double margin) {
 Komo::Komo(const Config& config, double phases, int slices_per_phase, int order) : Komo() {
   setConfig(config);
   setTiming(phases, slices_per_phase, 1., order);
+}
+
+Komo::Komo() : Komo(std::make_shared<MotionProblem>()) {}
+
+Komo::Komo(std::shared_ptr<MotionProblem> motion) : motion_("Komo", std::move(motion)) {}
+
+const Path& Komo::path() const { return motion_->path; }
+Path& Komo::path() { return motion_->path; }
+const ObjectiveList& Komo::objectives() const { return motion_->objectives; }
+const Contacts& Komo::contacts() const { return motion_->contacts; }
+
+int Komo::slices() const { return path().grid().slices(); }
+int Komo::order() const { return path().grid().order(); }
+double Komo::tau() const { return path().grid().tau(); }
+int Komo::dofs() const { return path().dofs(); }
+
+void Komo::clearObjectives() { motion_->objectives.clear(); }
+std::vector<Interaction> Komo::interactions() const { return motion_->contacts.interactions(motion_->path); }
+std::vector<std::string> Komo::takeWarnings() { return motion_->objectives.takeWarnings(); }
+
+void Komo::setPath(const MatrixXd& path) { initializePath(motion_->path, path); }
+void Komo::setConstantPath(const VectorXd& q) { initializeConstant(motion_->path, q); }
+void Komo::resetPath() { initializeFromStart(motion_->path); }
+void Komo::setRandomPath(Rng& rng) { initializeRandom(motion_->path, rng); }
+std::vector<int> Komo::setWaypoints(const std::vector<VectorXd>& waypoints, const WaypointOptions& options) {
+  return initializeWaypoints(motion_->path, waypoints, options);
+}
+void Komo::setPhasePath(int phase, const std::vector<int>& frames, const MatrixXd& path, bool resample) {
+  initializePhase(motion_->path, phase, frames, path, resample);
 }
 
 Komo Komo::clone() const {

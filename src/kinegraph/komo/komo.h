@@ -7,16 +7,22 @@
 
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/common/held.h"
+#include "kinegraph/common/random.h"
+#include "kinegraph/features/feature_source.h"
 #include "kinegraph/features/scale.h"
-#include "kinegraph/komo/force_exchange.h"
-#include "kinegraph/komo/motion_problem.h"
-#include "kinegraph/komo/path/path_initialization.h"
-#include "kinegraph/komo/path/path_motion.h"
+#include "kinegraph/kinematics/joint.h"
+#include "kinegraph/komo/path/path_records.h"
+#include "kinegraph/komo/path/switch_mode.h"
 #include "kinegraph/nlp/nlp.h"
+#include "kinegraph/scene/config.h"
 
 namespace kinegraph {
 
 class ConfigViewer;
+class Contacts;
+class ObjectiveList;
+class Path;
+struct MotionProblem;
 struct SolveManyOptions;
 struct SolveManyResult;
 struct SolverOptions;
@@ -25,13 +31,11 @@ struct SolverResult;
 /// A trajectory optimization problem: T configurations (slices) of a scene, coupled by objectives on features of k+1
 /// consecutive ones. With one phase of one slice and order 0 it is inverse kinematics.
 ///
-/// It consists of a `Path` (time grid, modes, states), an `ObjectiveList` and `Contacts`. The methods here cover common
-/// use; the parts give access to everything else. The path is preceded by `order` copies of the initial configuration,
-/// so that motions start there, at rest.
+/// The path is preceded by `order` copies of the initial configuration, so that motions start there, at rest.
 /// Source: Toussaint, A tutorial on Newton methods for constrained trajectory optimization, 2017.
 class Komo {
  public:
-  Komo() : Komo(std::make_shared<MotionProblem>()) {}
+  Komo();
   Komo(Komo&&) = default;
   Komo& operator=(Komo&&) = default;
   Komo(const Config& config, double phases, int slices_per_phase, int order);
@@ -41,14 +45,7 @@ class Komo {
 
   /// The complete content of a Komo, from which it can be reconstructed, for example in another process. Empty before
   /// setTiming.
-  struct Parts {
-    Config config;
-    double phases = 0., duration_per_phase = 1.;
-    int slices_per_phase = 0, order = 0;
-    Path::Content path;
-    std::vector<Objective> objectives;
-    std::vector<ContactForce> contacts;
-  };
+  struct Parts;
   Parts parts() const;
   explicit Komo(Parts parts);  ///< throws ValueError if the parts are inconsistent
 
@@ -80,7 +77,7 @@ class Komo {
   void addQuaternionNorms(const std::vector<double>& times = {}, double scale = 3., bool hard = true);
 
   /// Removes all objectives, including those of mode switches. Attachments remain.
-  void clearObjectives() { motion_->objectives.clear(); }
+  void clearObjectives();
 
   // --- mode switches: changes of the kinematic structure along the path; see mode_switches.h -------------------------
 
@@ -108,14 +105,14 @@ class Komo {
   std::string addForceExchange(const std::vector<double>& times, const std::string& object, const std::string& from,
                                ForceExchange kind, double friction = .5);
 
-  std::vector<Interaction> interactions() const { return motion_->contacts.interactions(motion_->path); }
+  std::vector<Interaction> interactions() const;
 
   // --- the path ----------------------------------------------------------------------------------------------------
 
-  int slices() const { return path().grid().slices(); }  ///< T
-  int order() const { return path().grid().order(); }    ///< k
-  double tau() const { return path().grid().tau(); }     ///< s per slice
-  int dofs() const { return path().dofs(); }             ///< n, of the initial configuration
+  int slices() const;  ///< T
+  int order() const;   ///< k
+  double tau() const;  ///< s per slice
+  int dofs() const;    ///< n, of the initial configuration
 
   MatrixXd getPath(const std::vector<int>& frames = {}) const;  ///< T x n; see Path::joints
   MatrixXd getFrameState(int slice) const;                      ///< frames x 7; see Path::framePoses
@@ -137,16 +134,12 @@ class Komo {
   // --- initialization; see path_initialization.h
   // ----------------------------------------------------------------------
 
-  void setPath(const MatrixXd& path) { initializePath(motion_->path, path); }
-  void setConstantPath(const VectorXd& q) { initializeConstant(motion_->path, q); }
-  void resetPath() { initializeFromStart(motion_->path); }
-  void setRandomPath(Rng& rng) { initializeRandom(motion_->path, rng); }
-  std::vector<int> setWaypoints(const std::vector<VectorXd>& waypoints, const WaypointOptions& options = {}) {
-    return initializeWaypoints(motion_->path, waypoints, options);
-  }
-  void setPhasePath(int phase, const std::vector<int>& frames, const MatrixXd& path, bool resample = false) {
-    initializePhase(motion_->path, phase, frames, path, resample);
-  }
+  void setPath(const MatrixXd& path);
+  void setConstantPath(const VectorXd& q);
+  void resetPath();
+  void setRandomPath(Rng& rng);
+  std::vector<int> setWaypoints(const std::vector<VectorXd>& waypoints, const WaypointOptions& options = {});
+  void setPhasePath(int phase, const std::vector<int>& frames, const MatrixXd& path, bool resample = false);
 
   // --- defined in higher rooms; include kinegraph/kinegraph.h
   // ----------------------------------------------------------
@@ -173,18 +166,18 @@ class Komo {
   /// Returns the viewer of this problem, created on first use.
   ConfigViewer& viewer();
 
-  // --- the parts ---------------------------------------------------------------------------------------------------
+  // --- the parts, for the library itself: their headers are not installed ------------------------------------------
 
-  const Path& path() const { return motion_->path; }
-  Path& path() { return motion_->path; }
-  const ObjectiveList& objectives() const { return motion_->objectives; }
-  const Contacts& contacts() const { return motion_->contacts; }
+  const Path& path() const;
+  Path& path();
+  const ObjectiveList& objectives() const;
+  const Contacts& contacts() const;
 
   /// Returns and clears the warnings about calls without effect.
-  std::vector<std::string> takeWarnings() { return motion_->objectives.takeWarnings(); }
+  std::vector<std::string> takeWarnings();
 
  private:
-  explicit Komo(std::shared_ptr<MotionProblem> motion) : motion_("Komo", std::move(motion)) {}
+  explicit Komo(std::shared_ptr<MotionProblem> motion);
   std::shared_ptr<Komo> sharing() const;  ///< another Komo with the same path, objectives and viewer
   void requireUntouched(const char* what) const;
 

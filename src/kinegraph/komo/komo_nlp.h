@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kinegraph/komo/komo.h"
+#include "kinegraph/komo/objective.h"
 
 namespace kinegraph {
 

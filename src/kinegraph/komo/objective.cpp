@@ -7,6 +7,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/collisions.h"
 #include "kinegraph/features/joints.h"
+#include "kinegraph/features/residual.h"
 #include "kinegraph/kinematics/dynamics.h"
 #include "kinegraph/komo/collision/sampled_collisions.h"
 #include "kinegraph/komo/continuous_collisions.h"

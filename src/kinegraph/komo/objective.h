@@ -5,6 +5,7 @@
 
 #include "kinegraph/features/eval.h"
 #include "kinegraph/features/forces.h"
+#include "kinegraph/features/residual.h"
 #include "kinegraph/komo/collision/collision_sample.h"
 #include "kinegraph/komo/path/path.h"
 #include "kinegraph/nlp/nlp.h"

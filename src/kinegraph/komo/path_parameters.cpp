@@ -4,9 +4,11 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/features/residual.h"
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/komo/path_components.h"
 #include "kinegraph/komo/path_description.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

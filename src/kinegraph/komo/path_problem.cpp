@@ -5,6 +5,8 @@
 #include <map>
 #include <optional>
 
+#include "kinegraph/features/residual.h"
+
 namespace kinegraph {
 
 namespace {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/features/residual.h"
 #include "kinegraph/komo/motion_problem.h"
 
 namespace kinegraph {

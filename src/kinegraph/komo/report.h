@@ -7,6 +7,8 @@
 
 namespace kinegraph {
 
+struct Objective;
+
 /// Residuals of a trajectory optimization problem at its present path, summed by objective and slice.
 struct PathErrors {
   std::vector<double> per_objective;  ///< sum over its slices

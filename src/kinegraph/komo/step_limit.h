@@ -1,24 +1,14 @@
 #pragma once
 
-#include <cmath>
-
-#include "kinegraph/common/errors.h"
-#include "kinegraph/common/text.h"
-#include "kinegraph/komo/komo.h"
+#include <vector>
 
 namespace kinegraph {
+
+class Komo;
 
 /// Limits the motion of each joint between consecutive slices to `step` (rad, m), in the slices that `times` selects.
 /// Adds two inequalities per dof, in rad or m. Throws ValueError for a step that is not positive, and for a Komo of
 /// order 0.
-inline void addStepLimit(Komo& komo, double step, const std::vector<double>& times = {}) {
-  if (!(step > 0.) || !std::isfinite(step))
-    throw ValueError(cat("addStepLimit: step is ", step, "; expected a number > 0, rad or m"));
-  const double tau = komo.tau(), speed = step / tau;
-  for (const double sign : {1., -1.}) {
-    const VectorXd target = VectorXd::Constant(1, sign * speed);
-    komo.addObjective(times, FeatureSymbol::qItself, {}, ObjectiveType::ineq, sign * tau, target, 1);
-  }
-}
+void addStepLimit(Komo& komo, double step, const std::vector<double>& times = {});
 
 }  // namespace kinegraph

@@ -4,6 +4,8 @@
 #include <queue>
 #include <tuple>
 
+#include "kinegraph/logic/landmark_cut.h"
+
 namespace kinegraph {
 
 namespace {
@@ -34,10 +36,12 @@ PlanSearch::PlanSearch(GroundProblem ground, Options options)
     : ground_(std::move(ground)),
       options_(std::move(options)),
       costs_(searchCosts(ground_)),
-      landmarks_(ground_, costs_) {
+      landmarks_(std::make_unique<LandmarkCut>(ground_, costs_)) {
   listActions();
   stateOf(ground_.start);
 }
+
+PlanSearch::~PlanSearch() = default;
 
 /// Lists each action at one of its preconditions, the one with the fewest actions so far.
 void PlanSearch::listActions() {
@@ -64,7 +68,7 @@ int PlanSearch::stateOf(const FactSet& facts) {
 PlanSearch::Cost PlanSearch::bound(int state) {
   StateInfo& info = states_[std::size_t(state)];
   if (info.bound < 0) {
-    info.bound = info.is_goal ? 0 : landmarks_(info.facts);
+    info.bound = info.is_goal ? 0 : (*landmarks_)(info.facts);
     info.exact = info.is_goal || info.bound >= kNever;
   }
   return info.bound;
@@ -170,7 +174,7 @@ double PlanSearch::distance() {
 
 void PlanSearch::forbid(int action, const std::vector<int>& facts) {
   forbidden_[action].push_back(facts);
-  if (facts.size() == 1) landmarks_.require(action, facts.front());
+  if (facts.size() == 1) landmarks_->require(action, facts.front());
   restart();
 }
 

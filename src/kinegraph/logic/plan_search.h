@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <set>
@@ -8,9 +9,11 @@
 #include <vector>
 
 #include "kinegraph/common/cancellation.h"
-#include "kinegraph/logic/landmark_cut.h"
+#include "kinegraph/logic/grounding.h"
 
 namespace kinegraph {
+
+class LandmarkCut;
 
 /// Enumerates the plans of a problem: all sequences of actions that end in the first state with the goal and visit no
 /// state twice. The shortest come first; if the problem has a metric, the cheapest come first, and of equal cost the
@@ -33,6 +36,7 @@ class PlanSearch {
 
   explicit PlanSearch(GroundProblem ground);
   PlanSearch(GroundProblem ground, Options options);
+  ~PlanSearch();
 
   /// Returns the next plan, indices of actions.
   std::optional<std::vector<int>> next();
@@ -55,7 +59,7 @@ class PlanSearch {
   double distance();
 
  private:
-  using Cost = LandmarkCut::Cost;  ///< of cost and number of actions, see `searchCosts`
+  using Cost = std::int64_t;  ///< of cost and number of actions, see `searchCosts`
   struct Edge {
     int action, to;
   };
@@ -88,7 +92,7 @@ class PlanSearch {
   std::vector<Cost> costs_;                  ///< per action
   std::vector<std::vector<int>> needing_;    ///< per fact: actions that are possible only with it
   std::vector<int> unneeding_, candidates_;  ///< the other actions; a buffer
-  LandmarkCut landmarks_;
+  std::unique_ptr<LandmarkCut> landmarks_;
   std::vector<StateInfo> states_;
   std::unordered_map<std::uint64_t, std::vector<int>> by_hash_;
   std::unordered_map<int, std::vector<std::vector<int>>> forbidden_;

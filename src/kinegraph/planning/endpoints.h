@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/planning/motion_plan.h"
 #include "kinegraph/planning/steering/steering.h"
 
 namespace kinegraph {
@@ -31,14 +32,6 @@ std::string describePairs(const KinematicModel& model, const std::vector<Clearan
 
 /// A sentence on an endpoint that keeps less than the margin, called `what` in it; "" if it keeps the margin.
 std::string marginWarning(const KinematicModel& model, const Endpoint& end, double margin, const std::string& what);
-
-/// A frame that edges of the search collided with.
-struct MetObstacle {
-  int frame;  ///< id
-  std::string name;
-  double share;                 ///< of all colliding edges
-  std::vector<std::string> by;  ///< frames that collided with it
-};
 
 /// Counts the obstacles of colliding pairs, the most frequent first. The obstacle of a pair is the frame closer to the
 /// world.

@@ -5,6 +5,7 @@
 #include "kinegraph/collision/edge_check.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/planning/dynamic_obstacles/dynamic_scene.h"
 #include "kinegraph/planning/endpoints.h"
 
 namespace kinegraph {
@@ -32,6 +33,8 @@ std::string planStatusName(PlanStatus status) {
   }
   return "unknown";
 }
+
+int MotionPlan::dimension() const { return space ? space->dofs() : timed_path.dimension(); }
 
 void MotionPlan::evalTo(double t, double* q, double* velocity, double* acceleration) const {
   if (!feasible()) throw ValueError(cat("MotionPlan.eval: there is no motion; ", message));

@@ -6,13 +6,16 @@
 #include <vector>
 
 #include "kinegraph/common/cancellation.h"
-#include "kinegraph/planning/endpoints.h"
 #include "kinegraph/planning/plan_options.h"
-#include "kinegraph/planning/search/path_search.h"
+#include "kinegraph/rrt/search_tree.h"
 #include "kinegraph/trajectories/retime.h"
 #include "kinegraph/trajectories/trajectory.h"
 
 namespace kinegraph {
+
+class DynamicScene;
+class JointSpace;
+class State;
 
 enum class PlanStatus {
   solved,            ///< the motion is continuously collision-free
@@ -34,6 +37,14 @@ struct PlanStage {
   double seconds = 0.;   ///< wall time
   long evaluations = 0;  ///< PlanOptions says what one counts
   std::string note;      ///< the outcome; may be ""
+};
+
+/// A frame that edges of the search collided with.
+struct MetObstacle {
+  int frame;  ///< id
+  std::string name;
+  double share;                 ///< of all colliding edges
+  std::vector<std::string> by;  ///< frames that collided with it
 };
 
 /// The motion that planMotion found, or the reason why there is none. Without a motion, eval throws ValueError.
@@ -60,7 +71,7 @@ class MotionPlan : public Trajectory {
   /// s.
   const VectorXd& times() const { return timed_path.times; }
 
-  int dimension() const override { return space ? space->dofs() : timed_path.dimension(); }
+  int dimension() const override;
   double duration() const override { return feasible() ? timed_path.duration() : 0.; }
   void evalTo(double t, double* q, double* velocity, double* acceleration) const override;
 

@@ -7,7 +7,9 @@
 #include "kinegraph/kinematics/unit_norms.h"
 #include "kinegraph/planning/endpoints.h"
 #include "kinegraph/planning/pair_choice.h"
+#include "kinegraph/planning/search/path_search.h"
 #include "kinegraph/planning/smoothing/shortcut.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

@@ -7,11 +7,13 @@
 
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/common/option_table.h"
-#include "kinegraph/planning/search/path_search.h"
 #include "kinegraph/scene/config.h"
 #include "kinegraph/solvers/interface/result.h"
 
 namespace kinegraph {
+
+class JointSpace;
+class State;
 
 /// Settings of a PathFinder, with the names of the reference package.
 struct PathFinderOptions {

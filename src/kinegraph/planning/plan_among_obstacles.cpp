@@ -5,6 +5,7 @@
 
 #include "kinegraph/planning/dynamic_obstacles/dynamic_timing.h"
 #include "kinegraph/planning/plan_timing.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

@@ -3,6 +3,8 @@
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/planning/motion_plan.h"
 #include "kinegraph/scene/config.h"
+#include "kinegraph/trajectories/path_curve.h"
+#include "kinegraph/trajectories/time_scaling.h"
 
 namespace kinegraph {
 

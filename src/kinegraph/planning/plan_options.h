@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "kinegraph/common/option_table.h"
-#include "kinegraph/ik/solve_ik.h"
-#include "kinegraph/planning/dynamic_obstacles/dynamic_scene.h"
-#include "kinegraph/planning/steering/manifold.h"
+#include "kinegraph/ik/ik_target.h"
+#include "kinegraph/planning/dynamic_obstacles/obstacle_trajectory.h"
+#include "kinegraph/planning/steering/motion_constraint.h"
 
 namespace kinegraph {
 

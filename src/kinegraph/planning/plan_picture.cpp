@@ -4,8 +4,10 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/kinematics/state.h"
 #include "kinegraph/planning/motion_plan.h"
 #include "kinegraph/planning/roadmap.h"
+#include "kinegraph/planning/steering/joint_space.h"
 #include "kinegraph/scene/frame_shapes.h"
 
 namespace kinegraph {

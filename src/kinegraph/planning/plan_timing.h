@@ -3,7 +3,9 @@
 #include "kinegraph/planning/endpoints.h"
 #include "kinegraph/planning/plan_options.h"
 #include "kinegraph/scene/config.h"
+#include "kinegraph/trajectories/path_curve.h"
 #include "kinegraph/trajectories/retime.h"
+#include "kinegraph/trajectories/time_scaling.h"
 
 namespace kinegraph {
 

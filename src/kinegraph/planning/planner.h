@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "kinegraph/common/cancellation.h"
+#include "kinegraph/planning/endpoints.h"
 #include "kinegraph/planning/motion_plan.h"
 #include "kinegraph/planning/plan_options.h"
 #include "kinegraph/planning/smoothing/improve_path.h"

@@ -4,7 +4,9 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/planning/endpoints.h"
 #include "kinegraph/planning/plan_timing.h"
+#include "kinegraph/planning/search/path_search.h"
 #include "kinegraph/planning/smoothing/shortcut.h"
+#include "kinegraph/trajectories/path_curve.h"
 
 namespace kinegraph {
 

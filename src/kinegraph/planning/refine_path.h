@@ -3,7 +3,6 @@
 #include <cstdint>
 
 #include "kinegraph/common/cancellation.h"
-#include "kinegraph/planning/search/path_search.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph {

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
+#include "kinegraph/collision/motion_check.h"
 #include "kinegraph/planning/pair_choice.h"
 #include "kinegraph/planning/steering/pair_gradient.h"
 

@@ -7,7 +7,10 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/planning/endpoints.h"
+#include "kinegraph/planning/search/path_search.h"
 #include "kinegraph/planning/smoothing/shortcut.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 
@@ -52,6 +55,10 @@ Roadmap::Roadmap(const Config& config, double margin, std::uint64_t seed)
   space_->requireRanges("Roadmap");
   steering_ = steeringFor(*scene_, *space_, margin_);
 }
+
+Roadmap::~Roadmap() = default;
+Roadmap::Roadmap(Roadmap&&) noexcept = default;
+Roadmap& Roadmap::operator=(Roadmap&&) noexcept = default;
 
 int Roadmap::addNode(const VectorXd& q) {
   const int node = size();

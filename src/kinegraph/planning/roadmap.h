@@ -7,11 +7,14 @@
 #include <vector>
 
 #include "kinegraph/common/cancellation.h"
-#include "kinegraph/planning/endpoints.h"
-#include "kinegraph/planning/search/path_search.h"
+#include "kinegraph/common/random.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph {
+
+class JointSpace;
+class State;
+class Steering;
 
 /// The answer of Roadmap::findPath.
 struct RoadmapPath {
@@ -36,6 +39,9 @@ class Roadmap {
  public:
   /// Keeps all collidable pairs `margin` (m) apart. Throws ValueError for joints without limits and a negative margin.
   explicit Roadmap(const Config& config, double margin = 0., std::uint64_t seed = 0);
+  ~Roadmap();
+  Roadmap(Roadmap&&) noexcept;
+  Roadmap& operator=(Roadmap&&) noexcept;
 
   /// Adds so many collision-free random configurations, each with edges to the nearest ones. Throws ValueError for a
   /// negative number.

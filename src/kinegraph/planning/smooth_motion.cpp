@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "kinegraph/komo/komo.h"
+#include "kinegraph/komo/path/path.h"
 #include "kinegraph/planning/plan_timing.h"
 #include "kinegraph/solvers/nlp_solver.h"
 

@@ -6,9 +6,13 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
+#include "kinegraph/kinematics/kinematic_model.h"
+#include "kinegraph/kinematics/state.h"
 #include "kinegraph/rendering/framing.h"
 #include "kinegraph/rendering/gl_context.h"
+#include "kinegraph/rendering/letters.h"
 #include "kinegraph/rendering/mesh_library.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/scene/tree/visual_meshes.h"
 
 namespace kinegraph {

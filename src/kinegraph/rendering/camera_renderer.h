@@ -5,10 +5,11 @@
 #include <vector>
 
 #include "kinegraph/rendering/camera.h"
-#include "kinegraph/rendering/letters.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph {
+
+struct Letters;
 
 /// Settings of rendered images. The defaults are those of a sensor: fast.
 struct RendererOptions {

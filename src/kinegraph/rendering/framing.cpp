@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "kinegraph/geometry/shapes/tessellation.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/scene/tree/visual_meshes.h"
 
 namespace kinegraph {

@@ -6,6 +6,9 @@
 #include <limits>
 
 #include "kinegraph/common/text.h"
+#include "kinegraph/robot/robot_loop.h"
+#include "kinegraph/robot/scene_grippers.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 
@@ -61,6 +64,8 @@ VectorXd BotOp::get_qDot() {
 }
 
 VectorXd BotOp::get_qHome() const { return home_; }
+
+const RobotInfo& BotOp::getInfo() const { return loop_->info(); }
 
 VectorXd BotOp::get_tauExternal() {
   countQuery(queryExternal);

@@ -9,14 +9,15 @@
 #include <thread>
 
 #include "kinegraph/common/cancellation.h"
-#include "kinegraph/robot/robot_loop.h"
-#include "kinegraph/robot/scene_grippers.h"
+#include "kinegraph/robot/command_log.h"
 
 namespace kinegraph {
 
 struct CameraImage;
+struct SceneGripper;
 class BotCameras;
 class BotOp;
+class RobotLoop;
 class ToolPath;
 class ToolPathPlan;
 struct ToolPathOptions;
@@ -88,7 +89,7 @@ class BotOp {
   VectorXd get_tauExternal();  ///< (n,) N m or N; mean since the last call. NaN if the robot does not measure it
   double getTimeToEnd();       ///< s until the motion ends; 0 or less if it has ended, or if there is none
   int getKeyPressed() const { return key_; }  ///< key of the last sync
-  const RobotInfo& getInfo() const { return loop_->info(); }
+  const RobotInfo& getInfo() const;
   LoopMode getMode() const;
   std::string getFault() const;  ///< cause of the fault; empty without one
   std::string takeWarning();     ///< returns and clears the warning of a lag, without SafetyLimits::lag_stops

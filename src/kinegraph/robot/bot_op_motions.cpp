@@ -5,6 +5,8 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/robot/bot_op.h"
+#include "kinegraph/robot/robot_loop.h"
+#include "kinegraph/robot/scene_grippers.h"
 #include "kinegraph/trajectories/retime.h"
 
 namespace kinegraph {

@@ -5,6 +5,9 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/robot/bot_op.h"
+#include "kinegraph/robot/robot_loop.h"
+#include "kinegraph/robot/scene_grippers.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

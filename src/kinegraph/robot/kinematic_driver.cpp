@@ -3,7 +3,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinegraph/robot/scene_grippers.h"
+
 namespace kinegraph {
+
+struct KinematicDriver::Gripper {
+  SceneGripper scene;
+  GripperCommand command;
+  double width = 0.;
+  bool is_done = true;
+  std::string held;  ///< the attached frame
+};
+
+KinematicDriver::~KinematicDriver() = default;
+
+void KinematicDriver::updateConfig(Config& config) const { copyMotion(config_, config); }
+
+int KinematicDriver::addObjects(const Config& config) { return copyNewFrames(config, config_); }
 
 KinematicDriver::KinematicDriver(const Config& config)
     : config_(config),

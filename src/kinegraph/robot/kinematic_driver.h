@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kinegraph/robot/scene_grippers.h"
+#include "kinegraph/robot/robot_driver.h"
 
 namespace kinegraph {
 
@@ -10,6 +10,8 @@ class KinematicDriver final : public RobotDriver, private SimulatedWorld {
  public:
   /// Copies `config` as the world.
   explicit KinematicDriver(const Config& config);
+  ~KinematicDriver() override;
+  KinematicDriver(const KinematicDriver&) = delete;
 
   RobotInfo info() override;
   RobotState read() override;
@@ -20,20 +22,14 @@ class KinematicDriver final : public RobotDriver, private SimulatedWorld {
   SimulatedWorld* world() override { return this; }
 
  private:
-  struct Gripper {
-    SceneGripper scene;
-    GripperCommand command;
-    double width = 0.;
-    bool is_done = true;
-    std::string held;  ///< the attached frame
-  };
+  struct Gripper;
 
-  void updateConfig(Config& config) const override { copyMotion(config_, config); }
+  void updateConfig(Config& config) const override;
   const Config& config() const override { return config_; }
   void attach(const std::string& from, const std::string& to) override;
   void detach(const std::string& from, const std::string& to) override;
   void setFramePose(const std::string& frame, const Pose& pose) override;
-  int addObjects(const Config& config) override { return copyNewFrames(config, config_); }
+  int addObjects(const Config& config) override;
   void moveFingers(Gripper& gripper, double period);
 
   Config config_;

@@ -95,6 +95,22 @@ class SimulatedWorld {
   virtual std::vector<Contact> contacts() const { return {}; }
 };
 
+/// The control mode of a robot.
+enum class LoopMode : int {
+  follow,    ///< follows its reference motion, and rests at the end
+  hold,      ///< rests
+  floating,  ///< has no stiffness
+  fault,     ///< was stopped by a safety limit or by an error of the robot
+};
+
+/// Limits that stop a robot, or keep a motion from starting.
+struct SafetyLimits {
+  double start_distance = .05;    ///< rad or m: a motion starts at most this far from the robot, per joint
+  double tracking_distance = .3;  ///< rad or m: a stiff joint that is farther from its command is a fault
+  double clock_timeout = .1;      ///< s: a robot's clock that stands still for longer is a fault
+  bool lag_stops = true;          ///< false: a joint that is far from its command is a warning only
+};
+
 /// The interface of BotOp to a simulated or real robot. Calls come from one thread at a time. An exception of a driver
 /// puts the robot in fault, and BotOp reports its message.
 class RobotDriver {

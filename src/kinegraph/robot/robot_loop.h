@@ -6,24 +6,9 @@
 #include "kinegraph/robot/command_log.h"
 #include "kinegraph/robot/motion_limits.h"
 #include "kinegraph/robot/reference_motion.h"
+#include "kinegraph/robot/robot_driver.h"
 
 namespace kinegraph {
-
-/// The control mode of a robot.
-enum class LoopMode : int {
-  follow,    ///< follows its reference motion, and rests at the end
-  hold,      ///< rests
-  floating,  ///< has no stiffness
-  fault,     ///< was stopped by a safety limit or by an error of the robot
-};
-
-/// Limits that stop a robot, or keep a motion from starting.
-struct SafetyLimits {
-  double start_distance = .05;    ///< rad or m: a motion starts at most this far from the robot, per joint
-  double tracking_distance = .3;  ///< rad or m: a stiff joint that is farther from its command is a fault
-  double clock_timeout = .1;      ///< s: a robot's clock that stands still for longer is a fault
-  bool lag_stops = true;          ///< false: a joint that is far from its command is a warning only
-};
 
 /// Moves a robot in control periods: `step` writes the reference at the end of the period to the driver, within the
 /// robot's limits of position, velocity and acceleration, and reads the robot's state. A state with numbers that are

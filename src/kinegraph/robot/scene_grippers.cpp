@@ -1,5 +1,7 @@
 #include "kinegraph/robot/scene_grippers.h"
 
+#include "kinegraph/scene/tree/scene_tree.h"
+
 namespace kinegraph {
 
 namespace {

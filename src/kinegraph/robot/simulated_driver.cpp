@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "kinegraph/robot/scene_grippers.h"
+
 namespace kinegraph {
 
 namespace {
@@ -16,6 +18,12 @@ SimulatedDriver::SimulatedDriver(const Config& config, const SimulationOptions& 
     : config_(config), simulation_(config_, SimulationEngine::physx, options), grippers_(findGrippers(config_)) {
   stop("");
 }
+
+SimulatedDriver::~SimulatedDriver() = default;
+
+void SimulatedDriver::updateConfig(Config& config) const { copyMotion(config_, config); }
+
+int SimulatedDriver::addObjects(const Config& config) { return copyNewFrames(config, config_); }
 
 RobotInfo SimulatedDriver::info() {
   RobotInfo info = RobotInfo::of(config_, "simulated");

@@ -1,15 +1,18 @@
 #pragma once
 
-#include "kinegraph/robot/scene_grippers.h"
+#include "kinegraph/robot/robot_driver.h"
 #include "kinegraph/simulation/simulation.h"
 
 namespace kinegraph {
+
+struct SceneGripper;
 
 /// A robot in a simulated world with masses, contacts and friction. A gripper holds objects by force.
 class SimulatedDriver final : public RobotDriver, private SimulatedWorld {
  public:
   /// Copies `config` as the world. Throws ValueError if it cannot be simulated.
   explicit SimulatedDriver(const Config& config, const SimulationOptions& options = {});
+  ~SimulatedDriver() override;
 
   RobotInfo info() override;
   RobotState read() override;
@@ -22,12 +25,12 @@ class SimulatedDriver final : public RobotDriver, private SimulatedWorld {
   const Simulation& simulation() const { return simulation_; }
 
  private:
-  void updateConfig(Config& config) const override { copyMotion(config_, config); }
+  void updateConfig(Config& config) const override;
   const Config& config() const override { return config_; }
   void attach(const std::string& from, const std::string& to) override { simulation_.attach(from, to); }
   void detach(const std::string& from, const std::string& to) override { simulation_.detach(from, to); }
   void setFramePose(const std::string& frame, const Pose& pose) override;
-  int addObjects(const Config& config) override { return copyNewFrames(config, config_); }
+  int addObjects(const Config& config) override;
   std::vector<Contact> contacts() const override { return simulation_.getContacts(); }
   void stepStiff(double period);
   void stepCompliant(double period);

@@ -8,6 +8,12 @@
 
 namespace kinegraph {
 
+/// Statistics of one tree search.
+struct SearchReport {
+  long samples = 0, evaluations = 0;
+  int start_nodes = 0, goal_nodes = 0;
+};
+
 /// Configurations that a search reached from one or several roots, each by a straight edge from its parent.
 class SearchTree {
  public:

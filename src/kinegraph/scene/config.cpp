@@ -16,8 +16,11 @@
 #include "kinegraph/scene/loading/robot_semantics.h"
 #include "kinegraph/scene/tree/inertia_edits.h"
 #include "kinegraph/scene/tree/named_states.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
+
+Config::Config() : Config(std::make_shared<SceneTree>()) {}
 
 Config::Config(const SceneTree& scene) : Config() { scene_->append(scene, ""); }
 
@@ -49,6 +52,19 @@ std::string duplicatesWarning(SceneTree& scene, const SceneTree& added, const st
 }
 
 }  // namespace
+
+std::vector<std::string> Config::getFrameNames() const { return scene_->names(); }
+int Config::getFrameDimension() const { return int(scene_->frames().size()); }
+int Config::getJointDimension() const { return scene_->model()->dofs; }
+VectorXd Config::getJointState() const { return scene_->jointState(); }
+const std::vector<LinkInertia>& Config::inertias() const { return scene_->inertias(); }
+std::pair<double, Vector3d> Config::centerOfMass() const {
+  return kinegraph::centerOfMass(scene_->state(), inertias());
+}
+std::vector<std::pair<int, int>> Config::getCollidablePairs() const { return scene_->model()->collidable(); }
+std::shared_ptr<const KinematicModel> Config::model() const { return scene_->model(); }
+std::shared_ptr<const Parameters> Config::parameters() const { return scene_->parameters(); }
+const State& Config::state() const { return scene_->state(); }
 
 void Config::clear() {
   scene_->clear();

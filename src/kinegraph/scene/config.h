@@ -7,9 +7,10 @@
 #include <tuple>
 #include <vector>
 
-#include "kinegraph/collision/motion_check.h"
+#include "kinegraph/collision/motion_contact.h"
 #include "kinegraph/common/held.h"
 #include "kinegraph/common/random.h"
+#include "kinegraph/kinematics/inertia.h"
 #include "kinegraph/scene/frame.h"
 #include "kinegraph/scene/loading/file_options.h"
 
@@ -17,14 +18,17 @@ namespace kinegraph {
 
 class ConfigViewer;
 class FeatureSource;
+class State;
 struct Evaluation;
+struct KinematicModel;
+struct Parameters;
 
 /// A scene as a person edits it: named frames with joints, shapes and masses, and the joint vector q.
 /// Copies are deep. Derived data (world poses, the compiled KinematicModel) is updated automatically. Frames of a const
 /// Config can be read only. Calls on a Config that was moved from throw ValueError.
 class Config {
  public:
-  Config() : Config(std::make_shared<SceneTree>()) {}
+  Config();
   Config(const Config& other);
   explicit Config(const SceneTree& scene);  ///< a deep copy
   explicit Config(std::shared_ptr<SceneTree> scene) : scene_("Config", std::move(scene)) {}
@@ -83,8 +87,8 @@ class Config {
   std::vector<Frame> getRoots() const;
   std::vector<Frame> getJoints();  ///< frames whose joint is active and has dofs
   std::vector<Frame> getJoints() const;
-  std::vector<std::string> getFrameNames() const { return scene_->names(); }
-  int getFrameDimension() const { return int(scene_->frames().size()); }
+  std::vector<std::string> getFrameNames() const;
+  int getFrameDimension() const;
 
   /// World poses, shape (frames, 7): x y z qw qx qy qz, qw >= 0.
   MatrixXd getFrameState() const;
@@ -94,8 +98,8 @@ class Config {
 
   // Joints
 
-  int getJointDimension() const { return scene_->model()->dofs; }
-  VectorXd getJointState() const { return scene_->jointState(); }
+  int getJointDimension() const;
+  VectorXd getJointState() const;
   VectorXd getJointState(const std::vector<std::string>& names) const;
 
   /// Sets q, or the dofs of the named frames in that order, active or not. Throws ValueError for a wrong length and for
@@ -130,7 +134,7 @@ class Config {
   // Dynamics
 
   /// Inertia of each link; links as in model().
-  const std::vector<LinkInertia>& inertias() const { return scene_->inertias(); }
+  const std::vector<LinkInertia>& inertias() const;
 
   /// M(q) and F(q, dq) of u = M ddq + F at the current q, with gravity 9.81 m/s^2 along -z.
   EquationOfMotion equationOfMotion(const VectorXd& velocity) const;
@@ -143,7 +147,7 @@ class Config {
                        Eigen::Ref<VectorXd> forces) const;
 
   /// Total mass (kg) of all moving links and its center, world coordinates, m.
-  std::pair<double, Vector3d> centerOfMass() const { return kinegraph::centerOfMass(scene_->state(), inertias()); }
+  std::pair<double, Vector3d> centerOfMass() const;
 
   // Collisions
 
@@ -155,7 +159,7 @@ class Config {
   /// Pairs of frames that may collide. Both have a shape and a nonzero contact flag and belong to different links. A
   /// negative flag -k excludes contacts with the links above within k joints. `contact_exclude` excludes the frames it
   /// names; for both rules, a shape that is fixed to its parent counts as the parent's shape.
-  std::vector<std::pair<int, int>> getCollidablePairs() const { return scene_->model()->collidable(); }
+  std::vector<std::pair<int, int>> getCollidablePairs() const;
 
   /// All collidable pairs with a distance of at most `margin` (m), ordered by id. Includes pairs at a constant relative
   /// pose.
@@ -196,9 +200,9 @@ class Config {
 
   // Compiled data
 
-  std::shared_ptr<const KinematicModel> model() const { return scene_->model(); }
-  std::shared_ptr<const Parameters> parameters() const { return scene_->parameters(); }
-  const State& state() const { return scene_->state(); }
+  std::shared_ptr<const KinematicModel> model() const;
+  std::shared_ptr<const Parameters> parameters() const;
+  const State& state() const;
   const std::shared_ptr<SceneTree>& scene() const { return scene_; }
 
   /// Describes the scene: numbers of frames, joints and shapes, the colliding shapes, and contactWarnings().

@@ -3,6 +3,7 @@
 #include <string>
 
 #include "kinegraph/scene/frame.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

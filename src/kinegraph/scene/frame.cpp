@@ -6,6 +6,7 @@
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 #include "kinegraph/scene/tree/joint_limits.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

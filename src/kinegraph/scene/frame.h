@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/scene/tree/scene_tree.h"
+#include "kinegraph/scene/tree/frame_data.h"
 
 namespace kinegraph {
 

@@ -16,6 +16,7 @@
 #include "kinegraph/geometry/shapes/scale_mesh.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/textured_surface.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kinegraph/scene/config.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

@@ -5,6 +5,9 @@
 #include <limits>
 #include <vector>
 
+#include "kinegraph/kinematics/kinematic_model.h"
+#include "kinegraph/scene/tree/scene_tree.h"
+
 namespace kinegraph {
 
 namespace {

@@ -12,6 +12,7 @@
 #include "kinegraph/common/random.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/kinematics/chains.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "kinegraph/geometry/shapes/mass.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/task_planning/polygon.h"
 #include "kinegraph/task_planning/shape_points.h"
 #include "kinegraph/task_planning/task_actions.h"

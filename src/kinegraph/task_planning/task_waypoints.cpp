@@ -10,7 +10,9 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/task_planning/pull_start.h"
 #include "kinegraph/task_planning/shape_points.h"
+#include "kinegraph/task_planning/task_doors.h"
 #include "kinegraph/task_planning/task_tools.h"
+#include "kinegraph/task_planning/waypoint_slot.h"
 
 namespace kinegraph {
 
@@ -118,6 +120,8 @@ TaskWaypoints::TaskWaypoints(const Config& config, std::vector<TaskAction> words
   }
 }
 
+TaskWaypoints::~TaskWaypoints() = default;
+
 void TaskWaypoints::addActions(const TaskRules& rules) {
   for (std::size_t i = 0; i < actions.size(); ++i) {
     const auto rule = rules.find(actions[i][0]);
@@ -176,7 +180,7 @@ void TaskWaypoints::guide(double time, const std::string& name, const std::strin
   }
 }
 
-void TaskWaypoints::addSlot(Slot::Kind kind, const std::string& frame, int dofs, const std::string& face) {
+void TaskWaypoints::addSlot(SlotKind kind, const std::string& frame, int dofs, const std::string& face) {
   slots_.push_back({kind, slot_dofs_, frame, face});
   slot_dofs_ += dofs;
 }
@@ -194,7 +198,7 @@ void TaskWaypoints::switchTo(double time, const std::string& frame, const std::s
 void TaskWaypoints::attach(double time, const std::string& hand, const std::string& obj, bool touching, double gap) {
   const std::string name = cat("grasp_", hand, "_", obj, "_", roundText(time));
   m->add_stable_frame(JointType::free, hand, name);
-  addSlot(Slot::Kind::grasp, name, 7);
+  addSlot(SlotKind::grasp, name, 7);
   switchTo(time, name, obj);
   if (touching) komo().addObjective({time}, F::distance, {obj, hand}, O::eq, 1e1, -gap);
 }
@@ -202,7 +206,7 @@ void TaskWaypoints::attach(double time, const std::string& hand, const std::stri
 void TaskWaypoints::put(double time, const std::string& obj, const std::string& to) {
   const std::string name = cat("place_", to, "_", obj, "_", roundText(time));
   m->add_place_frame(to, obj, name);
-  addSlot(Slot::Kind::place, name, 3);
+  addSlot(SlotKind::place, name, 3);
   switchTo(time, name, obj);
   const std::size_t action = std::size_t(std::max(std::lround(time) - 1, 0L));
   const Placement* placement = nullptr;
@@ -241,7 +245,7 @@ void TaskWaypoints::put(double time, const std::string& obj, const std::string& 
 void TaskWaypoints::lay(double time, const std::string& obj, const std::string& to, const std::string& face) {
   const std::string name = cat("place_", to, "_", obj, "_", roundText(time));
   m->add_stable_frame(JointType::free, kRoom + to, name);
-  addSlot(Slot::Kind::lay, name, 7, face);
+  addSlot(SlotKind::lay, name, 7, face);
   switchTo(time, name, obj);
   const double least = placeSides(C.getFrame(to)).minCoeff();
   const Vector3d sizes = boxAround(C.getFrame(obj)).sizes();
@@ -257,7 +261,7 @@ void TaskWaypoints::push(double start, double end, const std::string& pusher, co
                          const std::string& to) {
   const std::string helper = cat("push_", pusher, "_", obj, "_", roundText(end));
   m->add_stable_frame(JointType::hingeZ, obj, helper);
-  addSlot(Slot::Kind::push, helper, 1);
+  addSlot(SlotKind::push, helper, 1);
   put(end, obj, to);
   komo().addObjective({end}, F::AlignYWithDiff, {helper, obj}, O::eq, 1e0, {}, 1);
   komo().addObjective({end}, F::quaternion, {obj}, O::eq, 1e1, {}, 1);

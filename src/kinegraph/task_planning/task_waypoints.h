@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "kinegraph/task_planning/manipulation_helper.h"
-#include "kinegraph/task_planning/placements.h"
-#include "kinegraph/task_planning/task_doors.h"
 #include "kinegraph/task_planning/task_rules.h"
 
 namespace kinegraph {
+
+struct Placement;
+struct TaskDoor;
 
 /// Default of the clearance that planTask keeps between all bodies whose contact is not meant, m.
 inline constexpr double kTaskMargin = .005;
@@ -25,6 +26,8 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
   TaskWaypoints(const Config& C, std::vector<TaskAction> actions, std::vector<std::string> variants,
                 std::shared_ptr<ManipulationHelper> helper = nullptr, double margin = kTaskMargin,
                 const std::vector<TaskAction>& later = {});
+  ~TaskWaypoints();
+  TaskWaypoints(const TaskWaypoints&) = delete;
 
   /// Adds the constraints of all actions. Throws NameError for an action without a rule.
   void addActions(const TaskRules& rules);
@@ -61,17 +64,11 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
   VectorXd start(Rng* rng, bool grasps = true) const;
 
  private:
-  /// Dofs of an added frame. Slots are the first dofs in x, in this order.
-  struct Slot {
-    enum class Kind { grasp, place, lay, push };
-    Kind kind;
-    int first;
-    std::string frame;
-    std::string face = {};                    ///< of `lay`
-    std::optional<Placement> placement = {};  ///< of `place`
-  };
+  enum class SlotKind;
+  struct Slot;
 
-  void addSlot(Slot::Kind kind, const std::string& frame, int dofs, const std::string& face = {});
+  /// Dofs of an added frame. Slots are the first dofs in x, in this order.
+  void addSlot(SlotKind kind, const std::string& frame, int dofs, const std::string& face = {});
   void keepDoors();
   VectorXd startOf(std::size_t action, const VectorXd& before, std::map<std::string, Vector3d>& at,
                    const std::map<std::string, Vector3d>& offsets) const;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kinegraph/common/text.h"
+#include "kinegraph/komo/path/path.h"
 #include "kinegraph/solvers/explanation.h"
 #include "kinegraph/task_planning/task_actions.h"
 

@@ -5,8 +5,11 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/ik/solve_ik.h"
+#include "kinegraph/komo/path/path.h"
 #include "kinegraph/task_planning/pull_start.h"
+#include "kinegraph/task_planning/task_doors.h"
 #include "kinegraph/task_planning/task_waypoints.h"
+#include "kinegraph/task_planning/waypoint_slot.h"
 
 // Initial guesses of waypoint problems.
 namespace kinegraph {
@@ -85,15 +88,15 @@ VectorXd nearWithTool(const Config& C, const TaskAction& action, const Vector3d&
 Vector3d TaskWaypoints::startSlot(const Slot& slot, const Nlp& nlp, VectorXd& x, Rng* rng, bool grasps) const {
   const int first = slot.first;
   const auto sample = [&](double low, double high) { return rng ? rng->uniform(low, high) : 0.; };
-  if (slot.kind == Slot::Kind::place) {
+  if (slot.kind == SlotKind::place) {
     for (int i = first; i < first + 2; ++i) x[i] = sample(.9 * nlp.lower()[i], .9 * nlp.upper()[i]);
     x[first + 2] = sample(-kMaxRotation, kMaxRotation);
     if (!rng && slot.placement) x.segment<3>(first) << slot.placement->at, slot.placement->angle;
-  } else if (slot.kind == Slot::Kind::lay) {
+  } else if (slot.kind == SlotKind::lay) {
     for (int i = first; i < first + 2; ++i) x[i] = sample(-.1, .1);
     x[first + 2] = .1;
     x.segment<4>(first + 3) = faceUp(slot.face, sample(-kMaxRotation, kMaxRotation));
-  } else if (slot.kind == Slot::Kind::grasp) {
+  } else if (slot.kind == SlotKind::grasp) {
     x.segment<7>(first) << 0., 0., 0., 1., 0., 0., 0.;
     if (rng && grasps) {
       for (int i = first + 3; i < first + 7; ++i) x[i] = rng->normal();
@@ -102,7 +105,7 @@ Vector3d TaskWaypoints::startSlot(const Slot& slot, const Nlp& nlp, VectorXd& x,
       x.segment<4>(first + 3) /= std::sqrt(squares);
     }
   }
-  return {x[first], slot.kind == Slot::Kind::push ? 0. : x[first + 1], 0.};
+  return {x[first], slot.kind == SlotKind::push ? 0. : x[first + 1], 0.};
 }
 
 VectorXd TaskWaypoints::start(Rng* rng, bool grasps) const {
@@ -111,7 +114,7 @@ VectorXd TaskWaypoints::start(Rng* rng, bool grasps) const {
   std::map<std::string, Vector3d> offsets;
   for (const Slot& slot : slots_) {
     const Vector3d offset = startSlot(slot, *nlp, x, rng, grasps);
-    if (slot.kind == Slot::Kind::place || slot.kind == Slot::Kind::lay) offsets[slot.frame] = offset;
+    if (slot.kind == SlotKind::place || slot.kind == SlotKind::lay) offsets[slot.frame] = offset;
   }
   std::optional<PullStart> pulls;
   const auto slotOf = [&](const std::string& name) {

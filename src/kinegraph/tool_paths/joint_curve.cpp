@@ -6,6 +6,7 @@
 
 #include "kinegraph/collision/limit_check.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/kinematics/kinematic_model.h"
 
 namespace kinegraph {
 

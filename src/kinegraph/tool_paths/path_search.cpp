@@ -5,6 +5,7 @@
 #include <map>
 
 #include "kinegraph/common/text.h"
+#include "kinegraph/kinematics/state.h"
 #include "kinegraph/planning/steering/joint_space.h"
 
 namespace kinegraph {

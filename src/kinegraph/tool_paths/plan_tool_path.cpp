@@ -10,6 +10,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/planning/plan_motion.h"
 #include "kinegraph/planning/plan_timing.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/tool_paths/path_order.h"
 #include "kinegraph/tool_paths/path_search.h"
 #include "kinegraph/tool_paths/slow_stretches.h"

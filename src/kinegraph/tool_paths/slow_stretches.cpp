@@ -6,6 +6,8 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/planning/steering/joint_space.h"
+#include "kinegraph/trajectories/path_curve.h"
+#include "kinegraph/trajectories/time_scaling.h"
 
 namespace kinegraph {
 

@@ -5,6 +5,8 @@
 #include <numbers>
 
 #include "kinegraph/ik/low_discrepancy.h"
+#include "kinegraph/kinematics/kinematic_model.h"
+#include "kinegraph/kinematics/state.h"
 
 namespace kinegraph {
 

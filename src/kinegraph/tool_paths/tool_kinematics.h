@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/kinematics/kinematic_model.h"
+#include "kinegraph/kinematics/state.h"
 #include "kinegraph/scene/config.h"
 #include "kinegraph/tool_paths/tool_curve.h"
 

@@ -4,6 +4,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/tool_paths/plan_tool_path.h"
+#include "kinegraph/trajectories/time_scaling.h"
 
 namespace kinegraph {
 

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "kinegraph/trajectories/jerk_limited_kernel.h"

@@ -1,9 +1,9 @@
 #pragma once
 
-#include <functional>
 #include <vector>
 
 #include "kinegraph/math/pose.h"
+#include "kinegraph/trajectories/path_limits.h"
 
 namespace kinegraph {
 
@@ -59,10 +59,6 @@ class PathCurve {
   std::vector<double> begin_, marks_, coefficients_;
   std::vector<char> is_line_, stops_;
 };
-
-/// Tells whether a curve along these points (M, dofs) is collision-free; between two points it deviates from the chord
-/// by at most `deviation` in every dof.
-using BlendCheck = std::function<bool(const MatrixXd& points, double deviation)>;
 
 struct BlendOptions {
   double tolerance = .01;  ///< largest distance of a blend from its corner, in every dof (rad or m)

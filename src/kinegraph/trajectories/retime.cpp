@@ -7,9 +7,17 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/trajectories/corner_stops.h"
 #include "kinegraph/trajectories/jerk_limited.h"
+#include "kinegraph/trajectories/path_curve.h"
+#include "kinegraph/trajectories/scaling_grid.h"
 #include "kinegraph/trajectories/time_optimal.h"
+#include "kinegraph/trajectories/time_scaling.h"
 
 namespace kinegraph {
+
+struct TimedPath::Motion {
+  PathCurve curve;
+  TimeScaling scaling;
+};
 
 void RetimeOptions::validate() const {
   if (intervals < 2 || intervals > 1000000)
@@ -302,13 +310,14 @@ TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimit
   limits.validate(curve.dofs());
   TimedPath timed;
   timed.path = path;
-  timed.curve_ = curve;
+  const auto motion = std::make_shared<TimedPath::Motion>(TimedPath::Motion{curve, {}});
+  timed.motion_ = motion;
   EndSpeeds ends{};
   ends.start = speedOf("start_velocity", options.start_velocity, curve, 0.);
   ends.end = speedOf("end_velocity", options.end_velocity, curve, curve.length());
   ends.start_acceleration = startAcceleration(options, curve, limits, ends.start);
   if (curve.length() == 0.) {
-    timed.scaling_.add({}, 0.);
+    motion->scaling.add({}, 0.);
     timed.times = VectorXd::Zero(path.rows());
     return timed;
   }
@@ -316,19 +325,19 @@ TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimit
   Timing timing;
   for (int trial = 0; trial == 0 || (needsFinerGrid(timing) && trial < kMaxTrials); ++trial) {
     if (trial > 0) budget.intervals = std::max(budget.intervals, std::min(2 * budget.intervals, kMaxIntervals));
-    const ScalingGrid grid(timed.curve_, limits, budget, bool(options.constraints));
+    const ScalingGrid grid(motion->curve, limits, budget, bool(options.constraints));
     checkLimited(grid, limits, budget);
     timing = options.constraints ? timingWithConstraints(grid, limits, options.constraints, ends, budget)
                                  : timingOf(grid, limits, {}, ends, budget);
   }
   timed.status = statusOf(timing.speeds.failure);
-  timed.message = failureText(timing.speeds, timed.curve_, options.constraints);
+  timed.message = failureText(timing.speeds, motion->curve, options.constraints);
   if (!timed.feasible()) return timed;
-  timed.scaling_ = std::move(timing.scaling);
+  motion->scaling = std::move(timing.scaling);
   timed.times.resize(Eigen::Index(curve.marks().size()));
   for (Eigen::Index i = 0; i < timed.times.size(); ++i) {
     budget.poll(int(i));
-    timed.times[i] = timed.scaling_.timeOf(curve.marks()[std::size_t(i)]);
+    timed.times[i] = motion->scaling.timeOf(curve.marks()[std::size_t(i)]);
   }
   return timed;
 }
@@ -356,10 +365,20 @@ MotionState motionAt(const PathCurve& curve, const TimeScaling& scaling, double 
 }
 
 void TimedPath::evalTo(double t, double* q, double* velocity, double* acceleration) const {
-  if (scaling_.phases().empty()) throw ValueError(cat("TimedPath::eval: there is no motion: ", message));
+  if (scaling().phases().empty()) throw ValueError(cat("TimedPath::eval: there is no motion: ", message));
   if (std::isnan(t)) throw ValueError("TimedPath::eval: t is NaN; expected a time in s");
-  motionAt(curve_, scaling_, t, q, velocity, acceleration);
+  motionAt(curve(), scaling(), t, q, velocity, acceleration);
 }
+
+const TimedPath::Motion& TimedPath::motion() const {
+  static const Motion kEmpty{};
+  return motion_ ? *motion_ : kEmpty;
+}
+
+const PathCurve& TimedPath::curve() const { return motion().curve; }
+const TimeScaling& TimedPath::scaling() const { return motion().scaling; }
+int TimedPath::dimension() const { return curve().dofs(); }
+double TimedPath::duration() const { return scaling().duration(); }
 
 std::string TimedPath::str() const {
   if (!feasible()) return cat(retimeStatusName(status), ": ", message);
@@ -371,7 +390,7 @@ TimedPath TimedPath::fromParts(RetimeStatus status, std::string message, MatrixX
   TimedPath timed;
   timed.status = status, timed.message = std::move(message);
   timed.path = std::move(path), timed.times = std::move(times);
-  timed.curve_ = std::move(curve), timed.scaling_ = std::move(scaling);
+  timed.motion_ = std::make_shared<const Motion>(Motion{std::move(curve), std::move(scaling)});
   return timed;
 }
 

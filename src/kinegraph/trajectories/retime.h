@@ -1,15 +1,17 @@
 #pragma once
 
 #include <functional>
+#include <memory>
 #include <string>
 
 #include "kinegraph/common/cancellation.h"
-#include "kinegraph/trajectories/path_curve.h"
-#include "kinegraph/trajectories/scaling_grid.h"
-#include "kinegraph/trajectories/time_scaling.h"
+#include "kinegraph/trajectories/path_limits.h"
 #include "kinegraph/trajectories/trajectory.h"
 
 namespace kinegraph {
+
+class PathCurve;
+class TimeScaling;
 
 /// Treatment of the corners of a path.
 enum class Corners {
@@ -58,12 +60,12 @@ class TimedPath final : public Trajectory {
   VectorXd times;       ///< (K,) s: time of each point, or of the nearest point of its blend; empty without a motion
 
   bool feasible() const { return status == RetimeStatus::timed; }
-  int dimension() const override { return curve_.dofs(); }
-  double duration() const override { return scaling_.duration(); }
+  int dimension() const override;
+  double duration() const override;
   void evalTo(double t, double* q, double* velocity, double* acceleration) const override;
 
-  const PathCurve& curve() const { return curve_; }
-  const TimeScaling& scaling() const { return scaling_; }
+  const PathCurve& curve() const;
+  const TimeScaling& scaling() const;
 
   /// Builds a TimedPath from its members.
   static TimedPath fromParts(RetimeStatus status, std::string message, MatrixXd path, VectorXd times, PathCurve curve,
@@ -74,8 +76,9 @@ class TimedPath final : public Trajectory {
  private:
   friend TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimits& limits,
                           const RetimeOptions& options);
-  PathCurve curve_;
-  TimeScaling scaling_;
+  struct Motion;
+  const Motion& motion() const;
+  std::shared_ptr<const Motion> motion_;  ///< null: empty
 };
 
 /// Computes the fastest motion along the points of a path (K, n) that keeps the limits at all times.

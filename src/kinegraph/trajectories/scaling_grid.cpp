@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"

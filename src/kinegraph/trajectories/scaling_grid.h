@@ -1,38 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <functional>
-#include <limits>
-#include <string>
 #include <vector>
 
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/trajectories/path_curve.h"
+#include "kinegraph/trajectories/path_limits.h"
 
 namespace kinegraph {
-
-/// Limits per dof: |dq/dt| <= velocity, |d2q/dt2| <= acceleration, |d3q/dt3| <= jerk. Positive, in rad or m, s;
-/// infinity for none. An empty `jerk` limits no jerk.
-struct MotionLimits {
-  VectorXd velocity, acceleration, jerk;
-
-  bool limitsJerk() const { return jerk.size() > 0; }
-  void validate(int dofs) const;  ///< throws ValueError
-};
-
-/// Linear constraints at a gridpoint, such as torque limits: low <= a s'' + b s'^2 + c <= high, (m,) each.
-struct ScalingConstraints {
-  VectorXd a, b, c;
-};
-
-/// Constraints of the caller: `at(s, piece)` returns m of them; their limits do not depend on s.
-struct ConstraintSource {
-  VectorXd low, high;  ///< (m,); infinity for none
-  std::function<ScalingConstraints(double s, int piece)> at;
-  std::vector<std::string> names;  ///< of the constraints, for messages
-  std::string unit;
-  explicit operator bool() const { return bool(at); }
-};
 
 /// The number of intervals of a time scaling, and a token to cancel its computation.
 struct ScalingBudget {

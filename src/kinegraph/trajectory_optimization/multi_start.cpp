@@ -4,6 +4,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/komo/path/path.h"
 
 namespace kinegraph {
 

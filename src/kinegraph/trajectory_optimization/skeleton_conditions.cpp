@@ -3,7 +3,10 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/features/recipe.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
+#include "kinegraph/komo/force_exchange.h"
+#include "kinegraph/komo/path/path.h"
 #include "kinegraph/trajectory_optimization/skeleton.h"
 
 namespace kinegraph {

@@ -7,11 +7,17 @@
 #include <cctype>
 #include <chrono>
 #include <cstdlib>
+#include <mutex>
 #include <utility>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/log.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/scene/config.h"
+#include "kinegraph/scene/tree/scene_tree.h"
+#include "kinegraph/viewer/scene_edits.h"
+#include "kinegraph/viewer/scene_items.h"
+#include "kinegraph/viewer/server.h"
 #include "kinegraph/viewer/shown_scene.h"
 
 namespace kinegraph {
@@ -34,56 +40,84 @@ void announce(const ViewerServer& server) {
 
 }  // namespace
 
+struct ConfigViewer::Impl {
+  ViewerOptions options;
+  std::mutex message_mutex{};  ///< a picture may be rendered while another thread waits for a key
+  std::string message{};
+  bool waits = true;
+  std::unique_ptr<ViewerServer> server{};
+  SceneItems items{};
+  std::shared_ptr<SceneEdits> edits = std::make_shared<SceneEdits>();
+};
+
+ConfigViewer::ConfigViewer() : ConfigViewer(ViewerOptions{}) {}
+ConfigViewer::ConfigViewer(ViewerOptions options) : impl_(new Impl{std::move(options)}) {}
+ConfigViewer::~ConfigViewer() = default;
+
+int ConfigViewer::structure() const { return impl_->items.structure(); }
+bool ConfigViewer::hasEdits() const { return impl_->edits->hasAny(); }
+bool ConfigViewer::isOpen() const { return impl_->server && impl_->server->isOurs(); }
+std::string ConfigViewer::url() { return server().url(); }
+int ConfigViewer::clients() const { return isOpen() ? impl_->server->clients() : 0; }
+void ConfigViewer::setWaits(bool waits) { impl_->waits = waits; }
+bool ConfigViewer::waits() const { return impl_->waits && !isHeadless(); }
+void ConfigViewer::setError(const std::string& text) { server().setError(text); }
+void ConfigViewer::select(int frame) { server().select(frame); }
+void ConfigViewer::setCamera(const PageCamera& camera) { server().setCamera(camera); }
+std::optional<PageCamera> ConfigViewer::takeViewpoint() {
+  return isOpen() ? impl_->server->takeViewpoint() : std::nullopt;
+}
+
 bool isPatient() { return isatty(STDIN_FILENO) || isOverSsh(); }
 
 ViewerServer& ConfigViewer::server() {
-  if (server_ && !server_->isOurs()) server_.reset();
-  if (!server_) {
-    server_ = std::make_unique<ViewerServer>(options_);
-    server_->onCommand([edits = edits_](const Command& command) { return edits->apply(command); });
-    server_->show([&](ShownScene& scene) {
+  if (impl_->server && !impl_->server->isOurs()) impl_->server.reset();
+  if (!impl_->server) {
+    impl_->server = std::make_unique<ViewerServer>(impl_->options);
+    impl_->server->onCommand([edits = impl_->edits](const Command& command) { return edits->apply(command); });
+    impl_->server->show([&](ShownScene& scene) {
       scene.content = content();
       return true;
     });
-    server_->setMessage(message());
-    if (!isHeadless()) announce(*server_);
-    openBrowser(server_->url());
+    impl_->server->setMessage(message());
+    if (!isHeadless()) announce(*impl_->server);
+    openBrowser(impl_->server->url());
   }
-  return *server_;
+  return *impl_->server;
 }
 
 void ConfigViewer::serveAt(const std::string& host, int port, const std::string& token) {
-  const bool is_same = options_.host == host && options_.port == port && options_.token == token;
-  if (server_ && server_->isOurs() && is_same) return;
+  const bool is_same = impl_->options.host == host && impl_->options.port == port && impl_->options.token == token;
+  if (impl_->server && impl_->server->isOurs() && is_same) return;
   if (!std::all_of(token.begin(), token.end(), [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; }))
     throw ValueError(cat("viewer: the token is '", token, "'; expected letters, digits, '-' and '_'"));
-  ViewerOptions options = options_;
+  ViewerOptions options = impl_->options;
   options.host = host;
   options.port = port;
   options.token = token;
-  const ViewerOptions before = std::exchange(options_, std::move(options));
-  server_.reset();
+  const ViewerOptions before = std::exchange(impl_->options, std::move(options));
+  impl_->server.reset();
   try {
     server();
   } catch (...) {
-    options_ = before;
+    impl_->options = before;
     throw;
   }
 }
 
 void ConfigViewer::setTitle(const std::string& text) {
-  options_.title = text;
-  if (server_) server_->setTitle(text);
+  impl_->options.title = text;
+  if (impl_->server) impl_->server->setTitle(text);
 }
 
 void ConfigViewer::remember(const std::string& text) {
-  const std::lock_guard lock(message_mutex_);
-  message_ = text;
+  const std::lock_guard lock(impl_->message_mutex);
+  impl_->message = text;
 }
 
 std::string ConfigViewer::message() const {
-  const std::lock_guard lock(message_mutex_);
-  return message_;
+  const std::lock_guard lock(impl_->message_mutex);
+  return impl_->message;
 }
 
 void ConfigViewer::setMessage(const std::string& text) {
@@ -93,41 +127,41 @@ void ConfigViewer::setMessage(const std::string& text) {
 
 void ConfigViewer::storeMessage(const std::string& text) {
   remember(text);
-  if (isOpen()) server_->setMessage(text);
+  if (isOpen()) impl_->server->setMessage(text);
 }
 
 std::string ConfigViewer::recording() {
-  server().setWarnings(edits_->warnings());
+  server().setWarnings(impl_->edits->warnings());
   return server().recording();
 }
 
 void ConfigViewer::contentChanged() {
-  if (isOpen()) server_->show([](ShownScene&) { return true; });
+  if (isOpen()) impl_->server->show([](ShownScene&) { return true; });
 }
 
 int ConfigViewer::takeKey() {
   poll();
-  return isOpen() ? server_->takeKey() : 0;
+  return isOpen() ? impl_->server->takeKey() : 0;
 }
 
 void ConfigViewer::close() {
-  server_.reset();
+  impl_->server.reset();
   remember("");
 }
 
 void ConfigViewer::update(const Config& config) {
   ViewerServer& to = server();
-  items_.read(config);
+  impl_->items.read(config);
   to.endMotion();
-  to.update(items_.items());
-  to.setJoints(items_.structure(), items_.joints(), config.getJointState());
-  edits_->setScene(config.scene()->snapshot(), items_.structure());
-  if (clients() == 0) edits_->forgetMargin();
-  const double margin = edits_->margin();
+  to.update(impl_->items.items());
+  to.setJoints(impl_->items.structure(), impl_->items.joints(), config.getJointState());
+  impl_->edits->setScene(config.scene()->snapshot(), impl_->items.structure());
+  if (clients() == 0) impl_->edits->forgetMargin();
+  const double margin = impl_->edits->margin();
   to.setNear(margin > 0. ? nearLines(config, margin) : std::vector<NearLine>{});
 }
 
-bool ConfigViewer::takeEdits(Config& config) { return items_.isOf(config) && edits_->takeInto(config); }
+bool ConfigViewer::takeEdits(Config& config) { return impl_->items.isOf(config) && impl_->edits->takeInto(config); }
 
 int ConfigViewer::view(Config& config, bool pause, const std::optional<std::string>& message,
                        const CancellationToken& cancellation) {

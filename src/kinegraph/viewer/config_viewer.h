@@ -1,22 +1,26 @@
 #pragma once
 
-#include <mutex>
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "kinegraph/common/cancellation.h"
-#include "kinegraph/scene/config.h"
 #include "kinegraph/viewer/programmable_viewer.h"
-#include "kinegraph/viewer/scene_edits.h"
-#include "kinegraph/viewer/scene_items.h"
 
 namespace kinegraph {
+
+class Config;
+class ViewerServer;
+struct ShownMotion;
+struct ViewerOptions;
 
 /// Shows a configuration in the browser. The server starts, and a browser opens, at the first call that shows
 /// something.
 class ConfigViewer : public ProgrammableViewer {
  public:
-  explicit ConfigViewer(ViewerOptions options = {}) : options_(std::move(options)) {}
+  ConfigViewer();
+  explicit ConfigViewer(ViewerOptions options);
+  ~ConfigViewer() override;
 
   /// Applies the changes that users made in browsers (see `takeEdits`), and shows the resulting configuration. Returns
   /// the key pressed since the last call, or 0. With `pause`, waits for a new key: in the browser, or Enter on the
@@ -36,10 +40,10 @@ class ConfigViewer : public ProgrammableViewer {
   bool takeEdits(Config& config);
 
   /// The structure number of the shown scene, as in SceneItems.
-  int structure() const { return items_.structure(); }
+  int structure() const;
 
   /// Returns whether users made changes that takeEdits has not applied yet.
-  bool hasEdits() const { return edits_->hasAny(); }
+  bool hasEdits() const;
 
   /// Shows a motion of the configuration, with a time slider. Waits until an automatically played motion has ended,
   /// then, with `pause`, for a key; a key ends both. Waits under the conditions of view. Returns the key, or 0.
@@ -51,16 +55,16 @@ class ConfigViewer : public ProgrammableViewer {
   /// Sets the text in the corner without starting the page; a page that starts later shows it.
   void storeMessage(const std::string& text);
   std::string message() const;
-  void setError(const std::string& text) { server().setError(text); }
+  void setError(const std::string& text);
   void setTitle(const std::string& text);
-  void select(int frame) { server().select(frame); }  ///< shows the card of a frame, with handles to move it
-  std::string recording();                            ///< returns a self-contained HTML page of everything shown
-  void setCamera(const PageCamera& camera) { server().setCamera(camera); }
-  std::optional<PageCamera> takeViewpoint() { return isOpen() ? server_->takeViewpoint() : std::nullopt; }
-  std::string url() { return server().url(); }
-  int clients() const { return isOpen() ? server_->clients() : 0; }
+  void select(int frame);   ///< shows the card of a frame, with handles to move it
+  std::string recording();  ///< returns a self-contained HTML page of everything shown
+  void setCamera(const PageCamera& camera);
+  std::optional<PageCamera> takeViewpoint();
+  std::string url();
+  int clients() const;
   int takeKey();  ///< also runs the callbacks that are due
-  bool isOpen() const { return server_ && server_->isOurs(); }
+  bool isOpen() const;
   void close();
 
   ViewerServer& server();
@@ -71,8 +75,8 @@ class ConfigViewer : public ProgrammableViewer {
   void serveAt(const std::string& host, int port, const std::string& token = "");
 
   /// With false, no call waits for users, as with KINEGRAPH_HEADLESS; pages are still shown.
-  void setWaits(bool waits) { waits_ = waits; }
-  bool waits() const { return waits_ && !isHeadless(); }
+  void setWaits(bool waits);
+  bool waits() const;
 
  protected:
   void contentChanged() override;
@@ -83,13 +87,8 @@ class ConfigViewer : public ProgrammableViewer {
   int waitKey(const std::string& prompt, const CancellationToken& cancellation);
   void remember(const std::string& text);
 
-  ViewerOptions options_;
-  mutable std::mutex message_mutex_;  ///< a picture may be rendered while another thread waits for a key
-  std::string message_;
-  bool waits_ = true;
-  std::unique_ptr<ViewerServer> server_;
-  SceneItems items_;
-  std::shared_ptr<SceneEdits> edits_ = std::make_shared<SceneEdits>();
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 /// Returns whether a user may still connect: at a terminal, or over ssh, where the port has to be forwarded first.

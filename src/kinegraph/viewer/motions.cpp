@@ -6,6 +6,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/kinematics/kinematic_model.h"
 #include "kinegraph/viewer/scene_items.h"
 
 namespace kinegraph {

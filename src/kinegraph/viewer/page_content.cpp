@@ -1,6 +1,7 @@
 #include "kinegraph/viewer/page_content.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "kinegraph/math/pose.h"
+#include "kinegraph/viewer/messages/appearance.h"
 #include "kinegraph/viewer/outgoing.h"
 
 namespace kinegraph {
@@ -51,12 +52,6 @@ struct PageDrawing {
   double focal_length = 0., aspect = 1.;
   int columns = 0, rows = 0;
   std::vector<std::uint8_t> rgb{};
-};
-
-/// A clicked point of the scene.
-struct Hit {
-  std::string frame;
-  Vector3d point = Vector3d::Zero(), normal = Vector3d::Zero();  ///< m, and of length 1, in the world
 };
 
 /// Content of the page beside the scene: controls, drawings, plots and notifications of a program. Threads may share

@@ -7,6 +7,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/viewer/page_content.h"
 
 namespace kinegraph {
 
@@ -121,6 +122,19 @@ void ViewerValue<T>::onChange(std::function<void(T)> callback) {
 template class ViewerValue<double>;
 template class ViewerValue<bool>;
 template class ViewerValue<std::string>;
+
+ProgrammableViewer::ProgrammableViewer() : content_(std::make_shared<PageContent>()) {}
+
+void ProgrammableViewer::onClick(std::function<void(const Hit&)> callback) { content_->onClick(std::move(callback)); }
+
+void ProgrammableViewer::poll() { content_->runCallbacks(); }
+
+template <class T>
+ViewerValue<T> ProgrammableViewer::valueOf(PageControl control) {
+  ViewerValue<T> value(content_, content_->add(std::move(control)));
+  contentChanged();
+  return value;
+}
 
 ViewerButton ProgrammableViewer::button(const std::string& label, const ControlOptions& options) {
   ViewerButton button(content_, content_->add(controlOf(Kind::button, label, options)));

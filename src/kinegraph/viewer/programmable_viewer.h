@@ -7,9 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/viewer/page_content.h"
+#include "kinegraph/viewer/messages/appearance.h"
 
 namespace kinegraph {
+
+class PageContent;
+struct PageControl;
+struct PageDrawing;
 
 /// Options of a control.
 struct ControlOptions {
@@ -77,6 +81,7 @@ struct PageImage {
 /// control.
 class ProgrammableViewer {
  public:
+  ProgrammableViewer();
   virtual ~ProgrammableViewer() = default;
 
   ViewerButton button(const std::string& label, const ControlOptions& options = {});
@@ -123,9 +128,9 @@ class ProgrammableViewer {
   }
 
   /// Sets the function that clicks on the scene call. An empty function ends it.
-  void onClick(std::function<void(const Hit&)> callback) { content_->onClick(std::move(callback)); }
+  void onClick(std::function<void(const Hit&)> callback);
   /// Runs the callbacks that are due.
-  void poll() { content_->runCallbacks(); }
+  void poll();
 
   const std::shared_ptr<PageContent>& content() const { return content_; }
 
@@ -135,14 +140,10 @@ class ProgrammableViewer {
 
  private:
   template <class T>
-  ViewerValue<T> valueOf(PageControl control) {
-    ViewerValue<T> value(content_, content_->add(std::move(control)));
-    contentChanged();
-    return value;
-  }
+  ViewerValue<T> valueOf(PageControl control);
   void draw(PageDrawing drawing, const DrawOptions& options);
 
-  std::shared_ptr<PageContent> content_ = std::make_shared<PageContent>();
+  std::shared_ptr<PageContent> content_;
 };
 
 }  // namespace kinegraph

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "kinegraph/kinematics/kinematic_model.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/viewer/motions.h"
 #include "kinegraph/viewer/scene_items.h"
 

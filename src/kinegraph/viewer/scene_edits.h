@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "kinegraph/scene/config.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/viewer/server.h"
 
 namespace kinegraph {

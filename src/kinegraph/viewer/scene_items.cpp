@@ -5,6 +5,9 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/exporters/scene_writer.h"
 #include "kinegraph/gfile/writer.h"
+#include "kinegraph/kinematics/kinematic_model.h"
+#include "kinegraph/kinematics/state.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

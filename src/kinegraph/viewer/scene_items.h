@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "kinegraph/scene/config.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/scene/tree/visual_meshes.h"
 #include "kinegraph/viewer/server.h"
 

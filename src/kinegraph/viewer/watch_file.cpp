@@ -6,6 +6,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/loading/scene_source.h"
 #include "kinegraph/viewer/file_changes.h"
+#include "kinegraph/viewer/server.h"
 #include "kinegraph/viewer/watch_keys.h"
 
 namespace kinegraph {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "kinegraph/scene/config.h"
 #include "kinegraph/viewer/config_viewer.h"
 
 namespace kinegraph {

@@ -5,8 +5,10 @@
 #include "kinegraph/exporters/mesh_export.h"
 #include "kinegraph/exporters/scene_writer.h"
 #include "kinegraph/exporters/urdf_writer.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/viewer/motions.h"
 #include "kinegraph/viewer/scene_items.h"
+#include "kinegraph/viewer/server.h"
 
 namespace kinegraph {
 

@@ -3,6 +3,8 @@
 #include <functional>
 #include <string>
 
+#include "kinegraph/common/random.h"
+#include "kinegraph/scene/config.h"
 #include "kinegraph/viewer/config_viewer.h"
 
 namespace kinegraph {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "kinegraph/scene/tree/scene_tree.h"
+
 using namespace kinegraph;
 
 namespace {

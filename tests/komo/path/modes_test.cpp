@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/common/errors.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 #include "tests/support/expect_error.h"
 
 using namespace kinegraph;

@@ -4,6 +4,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/komo/komo.h"
+#include "kinegraph/komo/path/path.h"
 
 using namespace kinegraph;
 

@@ -40,3 +40,16 @@ def test_types_and_functions_that_the_page_names_exist():
 def test_the_layers_and_their_table_hold():
     done = subprocess.run([sys.executable, str(ROOT / "tools" / "check_layers.py")], capture_output=True, text=True)
     assert done.returncode == 0, done.stdout
+
+
+MOST_PUBLIC_HEADERS = 150
+
+
+def test_the_number_of_public_headers_does_not_grow():
+    """A header becomes public if a public one includes it: declare its types, or hold them behind a pointer."""
+    command = [sys.executable, str(ROOT / "tools" / "public_headers.py"), str(ROOT / "src")]
+    headers = subprocess.run(command, capture_output=True, text=True, check=True).stdout.split()
+    assert "kinegraph/scene/config.h" in headers
+    assert len(headers) <= MOST_PUBLIC_HEADERS, f"{len(headers)} public headers"
+    for internal in ("scene/tree/scene_tree.h", "kinematics/state.h", "viewer/server.h", "komo/path/path.h"):
+        assert f"kinegraph/{internal}" not in headers

@@ -1,5 +1,7 @@
 #include "kinegraph/task_planning/lgp/lgp_abstraction.h"
 
+#include "kinegraph/komo/objective.h"
+#include "kinegraph/komo/objective_list.h"
 #include "tests/support/expect_error.h"
 #include "tests/task_planning/lgp/lgp_scenes.h"
 

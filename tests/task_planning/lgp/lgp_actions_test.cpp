@@ -1,6 +1,8 @@
 #include "kinegraph/task_planning/lgp/lgp_actions.h"
 
 #include "kinegraph/common/text.h"
+#include "kinegraph/komo/objective.h"
+#include "kinegraph/komo/objective_list.h"
 #include "kinegraph/solvers/nlp_solver.h"
 #include "tests/support/expect_error.h"
 #include "tests/task_planning/lgp/lgp_scenes.h"

@@ -1,5 +1,6 @@
 #include "kinegraph/task_planning/lgp/lgp_waypoints.h"
 
+#include "kinegraph/komo/path/path.h"
 #include "tests/task_planning/lgp/lgp_scenes.h"
 
 namespace kinegraph {

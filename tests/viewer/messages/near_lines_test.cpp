@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/viewer/scene_edits.h"
 
 namespace kinegraph {

@@ -1,5 +1,7 @@
 #include "kinegraph/komo/path/contacts.h"
 
+#include "kinegraph/komo/path/path.h"
+
 namespace kinegraph {
 
 std::vector<Interaction> Contacts::interactions(const Path& path) const {

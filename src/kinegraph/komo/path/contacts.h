@@ -5,17 +5,11 @@
 #include <vector>
 
 #include "kinegraph/features/forces.h"
-#include "kinegraph/komo/path/path.h"
+#include "kinegraph/komo/path/path_records.h"
 
 namespace kinegraph {
 
-/// A contact force in a slice.
-struct Interaction {
-  int slice;
-  std::string object, from;
-  Vector3d point;  ///< m, in the world
-  Vector3d force;  ///< N, on the object, in the world
-};
+class Path;
 
 /// The contact forces of a trajectory optimization problem in the order of addition, each with a point and dofs on its
 /// path.

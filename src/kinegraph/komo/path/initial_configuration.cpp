@@ -1,5 +1,7 @@
 #include "kinegraph/komo/path/initial_configuration.h"
 
+#include "kinegraph/scene/tree/scene_tree.h"
+
 namespace kinegraph {
 
 InitialConfiguration::InitialConfiguration(const Config& config)

@@ -4,7 +4,9 @@
 #include <set>
 #include <vector>
 
+#include "kinegraph/kinematics/kinematic_model.h"
 #include "kinegraph/scene/config.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

@@ -5,61 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/komo/path/switch_mode.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph {
-
-/// Kind of attachment or contact of an object after a mode switch. The numbers are those of the Python enum `ry.SY`.
-enum class SwitchMode : int {
-  touch = 0,
-  above = 1,
-  inside = 2,
-  oppose = 3,
-  restingOn = 4,
-  poseEq = 5,
-  positionEq = 6,
-  stableRelPose = 7,
-  stablePose = 8,
-  stable = 9,
-  stableOn = 10,
-  dynamic = 11,
-  dynamicOn = 12,
-  dynamicTrans = 13,
-  quasiStatic = 14,
-  quasiStaticOn = 15,
-  downUp = 16,
-  stableZero = 18,
-  contact = 19,
-  contactStick = 20,
-  contactComplementary = 21,
-  bounce = 22,
-  push = 23,
-  magic = 24,
-  magicTrans = 25,
-  pushAndPlace = 26,
-  topBoxGrasp = 27,
-  topBoxPlace = 28,
-  dampMotion = 29,
-  identical = 30,
-  alignByInt = 31,
-  makeFree = 32,
-  forceBalance = 33,
-  relPosY = 34,
-  touchBoxNormalX = 35,
-  touchBoxNormalY = 36,
-  touchBoxNormalZ = 37,
-  boxGraspX = 38,
-  boxGraspY = 39,
-  boxGraspZ = 40,
-  lift = 41,
-  stableYPhi = 42,
-  stableOnX = 43,
-  stableOnY = 44,
-  end = 46,
-};
-
-const std::vector<std::pair<std::string, SwitchMode>>& switchModeNames();
-std::string switchModeName(SwitchMode mode);
 
 /// A joint that a trajectory optimization problem adds to the scene.
 struct Attachment {
@@ -71,9 +20,6 @@ struct Attachment {
   VectorXd lower, upper;          ///< both empty for no limits
   std::optional<Pose> base;       ///< pose of the joint in the parent frame
 };
-
-/// Returns true for modes that attach an object to another frame. The other modes are constraints and contacts.
-bool isAttachment(SwitchMode mode);
 
 /// Returns the extent of a frame's shape along its own z axis, m; 0 without one.
 double height(const Frame& frame);

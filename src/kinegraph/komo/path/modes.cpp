@@ -2,6 +2,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kinegraph/komo/path/mode.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

@@ -7,6 +7,8 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/komo/path/path.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

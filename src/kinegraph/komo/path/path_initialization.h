@@ -3,9 +3,12 @@
 #include <vector>
 
 #include "kinegraph/common/random.h"
-#include "kinegraph/komo/path/path.h"
+#include "kinegraph/komo/path/path_records.h"
+#include "kinegraph/math/pose.h"
 
 namespace kinegraph {
+
+class Path;
 
 // Initial values of a path for a solver. All functions throw ValueError for numbers that do not fit the path.
 
@@ -13,13 +16,6 @@ void initializePath(Path& path, const MatrixXd& configurations);  ///< T x n
 void initializeConstant(Path& path, const VectorXd& q);           ///< n numbers, or T*n for a path
 void initializeFromStart(Path& path);                             ///< the initial configuration in all slices
 void initializeRandom(Path& path, Rng& rng);                      ///< samples as Config::setRandom does, slice by slice
-
-/// Interpolation of waypoints.
-struct WaypointOptions {
-  int per_phase = 1;
-  bool interpolate = false;  ///< cosine blend between waypoints; otherwise piecewise constant
-  double towards_home = 0.;  ///< 0..1: pulls the middle of the blend towards home
-};
 
 /// Writes waypoint i into the slice at phase time (i+1) / per_phase: either the initial configuration's dofs, or all
 /// dofs that the slice owns. Returns the slices.

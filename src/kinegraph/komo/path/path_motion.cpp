@@ -7,6 +7,7 @@
 #include "kinegraph/collision/displacement_bound.h"
 #include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

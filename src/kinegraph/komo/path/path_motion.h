@@ -9,6 +9,8 @@
 #include "kinegraph/collision/edge_check.h"
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/komo/path/path.h"
+#include "kinegraph/komo/path/path_records.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 
@@ -70,17 +72,6 @@ class MotionProbe {
 
   double tolerance_;
   std::unique_ptr<Scene> scene_;  ///< of the last motion
-};
-
-/// Two shapes that come too close in the motion between two slices.
-struct PathContact {
-  int slice = 0;         ///< number of the motion's last slice
-  double time = 0.;      ///< phase time at which they first come too close
-  std::string a, b;      ///< names of their frames
-  double distance = 0.;  ///< smallest distance until the slice, m; negative: penetration depth
-  double deepest = 0.;   ///< phase time of the smallest distance
-
-  std::string str() const;  ///< such as "'a' and 'b' overlap by 3.1 mm at phase time 0.52, between slices 7 and 8"
 };
 
 /// Returns the first pair of each motion that comes closer than `margin` (m). The check is continuous; pairs within

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kinegraph/collision/displacement_bound.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

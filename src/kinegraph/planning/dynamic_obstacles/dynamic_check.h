@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "kinegraph/collision/edge_check.h"
+#include "kinegraph/kinematics/state.h"
 #include "kinegraph/planning/dynamic_obstacles/dynamic_scene.h"
 #include "kinegraph/trajectories/scaling_grid.h"
 #include "kinegraph/trajectories/time_scaling.h"

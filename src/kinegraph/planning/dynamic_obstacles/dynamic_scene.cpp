@@ -5,6 +5,9 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/kinematics/kinematic_model.h"
+#include "kinegraph/kinematics/state.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

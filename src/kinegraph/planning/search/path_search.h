@@ -21,12 +21,6 @@ struct PathQuery {
   Steering* steering = nullptr;  ///< of the same constraints, for the calling thread; null: constructed here
 };
 
-/// Statistics of one tree search.
-struct SearchReport {
-  long samples = 0, evaluations = 0;
-  int start_nodes = 0, goal_nodes = 0;
-};
-
 /// The answer of searchPath. Tree searches count up to the first that succeeded.
 struct PathSearchResult {
   std::vector<VectorXd> points;  ///< of the path; empty: none was found. Edges are continuously collision-free

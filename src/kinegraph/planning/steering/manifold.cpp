@@ -7,6 +7,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/features/make_residual.h"
 
 namespace kinegraph {
 

@@ -3,21 +3,12 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/features/eval.h"
-#include "kinegraph/nlp/nlp.h"
+#include "kinegraph/features/residual.h"
 #include "kinegraph/planning/steering/constraint_bounds.h"
 #include "kinegraph/planning/steering/joint_space.h"
+#include "kinegraph/planning/steering/motion_constraint.h"
 
 namespace kinegraph {
-
-/// A constraint on configurations: scale * (feature - target) is zero (eq), or not positive (ineq).
-struct MotionConstraint {
-  FeatureSource feature;
-  std::vector<std::string> frames;
-  ObjectiveType type = ObjectiveType::eq;
-  Scale scale = {};
-  Target target = {};
-};
 
 /// The configurations at which constraints hold, every row to within a tolerance. Every thread has its own.
 class Manifold {

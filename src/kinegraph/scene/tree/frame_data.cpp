@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "kinegraph/geometry/distance/collision_body.h"
+
 namespace kinegraph {
 
 Joint::Joint(JointType joint_type, std::string joint_code)

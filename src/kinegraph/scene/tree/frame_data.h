@@ -8,7 +8,6 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/geometry/distance/collision_body.h"
 #include "kinegraph/geometry/shapes/geometry.h"
 #include "kinegraph/gfile/value.h"
 #include "kinegraph/kinematics/joint.h"
@@ -16,6 +15,7 @@
 
 namespace kinegraph {
 
+class CollisionBody;
 class SceneTree;
 struct FrameData;
 

@@ -8,6 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/solvers/interface/best_so_far.h"
 #include "kinegraph/solvers/sampling/interior_walk.h"
+#include "kinegraph/solvers/sampling/sampled_problem.h"
 
 namespace kinegraph {
 

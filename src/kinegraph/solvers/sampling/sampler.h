@@ -1,8 +1,12 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
-#include "kinegraph/solvers/sampling/sampled_problem.h"
+#include "kinegraph/common/random.h"
+#include "kinegraph/solvers/interface/evaluation_callback.h"
+#include "kinegraph/solvers/interface/result.h"
+#include "kinegraph/solvers/sampling/sampler_options.h"
 
 namespace kinegraph {
 

@@ -2,6 +2,7 @@
 
 #include "kinegraph/common/log.h"
 #include "kinegraph/common/ordered_parallel.h"
+#include "kinegraph/komo/path/path.h"
 #include "kinegraph/solvers/nlp_solver.h"
 
 namespace kinegraph {

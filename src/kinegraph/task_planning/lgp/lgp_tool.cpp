@@ -7,6 +7,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/komo/path/sub_problem.h"
 #include "kinegraph/komo/report.h"
+#include "kinegraph/task_planning/lgp/lgp_waypoints.h"
 
 namespace kinegraph {
 
@@ -62,10 +63,19 @@ std::string lgpStatusName(LgpStatus status) {
 }
 
 LgpTool::LgpTool(const Config& scene, std::shared_ptr<LgpAbstraction> abstraction, LgpOptions given)
-    : C(scene.scene()), tamp(std::move(abstraction)), options(std::move(given)), waypoints_(C, *tamp, options) {
+    : C(scene.scene()),
+      tamp(std::move(abstraction)),
+      options(std::move(given)),
+      waypoints_(std::make_unique<LgpWaypoints>(C, *tamp, options)) {
   if (options.threads < 1) throw ValueError(cat("LGP_Tool: threads is ", options.threads, "; expected 1 or more"));
   options.solver.validate();
 }
+
+LgpTool::~LgpTool() = default;
+
+int LgpTool::solves() const { return waypoints_->solves; }
+
+long LgpTool::evaluations() const { return waypoints_->evaluations; }
 
 bool LgpTool::solve(int verbose, int maxSolves) {
   const int most = solves() + maxSolves;
@@ -77,7 +87,7 @@ bool LgpTool::solve(int verbose, int maxSolves) {
     const std::optional<Plan> plan = tamp->getNewActionSequence();
     if (!plan) break;
     has_plans_ = true;
-    const std::optional<std::size_t> failing = waypoints_.failing(*plan);
+    const std::optional<std::size_t> failing = waypoints_->failing(*plan);
     if (report(*plan, !failing)) return found(*plan);
     failed_.push_back(*plan);
     tamp->forbidBeginning({plan->begin(), plan->begin() + std::ptrdiff_t(*failing)});
@@ -85,7 +95,7 @@ bool LgpTool::solve(int verbose, int maxSolves) {
   for (; solves() < most && round_ <= kRounds; ++round_, next_ = 0) {
     while (solves() < most && next_ < failed_.size()) {
       const Plan plan = failed_[next_];
-      if (report(plan, waypoints_.tryAgain(plan, round_))) {
+      if (report(plan, waypoints_->tryAgain(plan, round_))) {
         failed_.erase(failed_.begin() + std::ptrdiff_t(next_));
         return found(plan);
       }
@@ -99,8 +109,8 @@ bool LgpTool::solve(int verbose, int maxSolves) {
 
 bool LgpTool::found(const Plan& plan) {
   plan_ = plan;
-  komo_ = waypoints_.komo;
-  x_ = waypoints_.x;
+  komo_ = waypoints_->komo;
+  x_ = waypoints_->x;
   status = LgpStatus::solved;
   message.clear();
   return true;
@@ -110,7 +120,7 @@ void LgpTool::conclude(bool is_spent) {
   const bool is_proved = !is_spent && !has_plans_ && tamp->hasAllPlans();
   status = is_proved ? LgpStatus::infeasible : LgpStatus::no_plan_found;
   message.clear();
-  const auto causes = waypoints_.causes();
+  const auto causes = waypoints_->causes();
   for (std::size_t i = 0; i < std::min(causes.size(), kReportedCauses); ++i)
     message += cat(i > 0 ? "; " : "", causes[i].first, " (", causes[i].second, " plans)");
   if (!message.empty()) return;
@@ -162,7 +172,7 @@ LgpSolve LgpTool::solveFromFreeWaypoints(const std::shared_ptr<Komo>& problem) {
   for (int round = 0; round <= kRounds; ++round) {
     waypoints->path().setVariables(x_);
     if (round == 0 && isFree(*waypoints)) break;
-    if (!solveFrom(waypoints, waypoints_.starts(waypoints, round), options).is_solved) continue;
+    if (!solveFrom(waypoints, waypoints_->starts(waypoints, round), options).is_solved) continue;
     startAlong(*problem, *waypoints, waypoints->path().variables());
     const LgpSolve solved = solveFrom(problem, {problem->path().variables()}, options, coarse);
     if (solved.is_solved) return solved;

@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "kinegraph/task_planning/lgp/default_lgp_abstraction.h"
-#include "kinegraph/task_planning/lgp/lgp_waypoints.h"
+#include "kinegraph/task_planning/lgp/lgp_starts.h"
 
 namespace kinegraph {
+
+class LgpWaypoints;
 
 enum class LgpStatus {
   not_started,    ///< LgpTool::solve was not called yet
@@ -37,6 +39,7 @@ class LgpTool {
   LgpTool(const Config& C, std::shared_ptr<LgpAbstraction> tamp, LgpOptions options = {});
   LgpTool(const LgpTool&) = delete;
   LgpTool& operator=(const LgpTool&) = delete;
+  ~LgpTool();
 
   const Config C;                              ///< the scene
   const std::shared_ptr<LgpAbstraction> tamp;  ///< plans, and the constraints of their actions
@@ -45,8 +48,8 @@ class LgpTool {
   LgpStatus status = LgpStatus::not_started;
   std::string message;  ///< "" if solved, else the reason for which there is no plan
 
-  int solves() const { return waypoints_.solves; }             ///< of waypoint problems so far; each guess counts
-  long evaluations() const { return waypoints_.evaluations; }  ///< spent by them
+  int solves() const;        ///< of waypoint problems so far; each guess counts
+  long evaluations() const;  ///< spent by them
 
   /// Searches for a new plan with feasible waypoints, with at most `maxSolves` solves of waypoint problems.
   /// Repeated calls give further plans. With `verbose`, reports each plan that was tried in a line. Returns whether a
@@ -84,7 +87,7 @@ class LgpTool {
   LgpSolve solveFromFreeWaypoints(const std::shared_ptr<Komo>& problem);
   void conclude(bool is_spent);
 
-  LgpWaypoints waypoints_;
+  std::unique_ptr<LgpWaypoints> waypoints_;
   Plan plan_;                   ///< the last plan; empty: none
   std::shared_ptr<Komo> komo_;  ///< of it
   VectorXd x_;

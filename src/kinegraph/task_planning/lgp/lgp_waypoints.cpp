@@ -5,6 +5,7 @@
 
 #include "kinegraph/common/random.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/komo/path/path.h"
 #include "kinegraph/task_planning/violated_constraint.h"
 
 namespace kinegraph {

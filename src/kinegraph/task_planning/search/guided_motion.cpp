@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinegraph/scene/tree/scene_tree.h"
+
 namespace kinegraph {
 
 namespace {

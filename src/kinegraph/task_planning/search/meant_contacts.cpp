@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "kinegraph/geometry/distance/collision_body.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/shape_points.h"
 #include "kinegraph/task_planning/task_doors.h"

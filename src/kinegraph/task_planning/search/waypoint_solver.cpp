@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "kinegraph/common/text.h"
+#include "kinegraph/komo/path/path.h"
 #include "kinegraph/solvers/nlp_solver.h"
 #include "kinegraph/task_planning/violated_constraint.h"
 

@@ -49,4 +49,10 @@ struct Cursor {
   Vector3d point = Vector3d::Zero(), normal = Vector3d::Zero();  ///< of the surface, world
 };
 
+/// A clicked point of the scene.
+struct Hit {
+  std::string frame;
+  Vector3d point = Vector3d::Zero(), normal = Vector3d::Zero();  ///< m, and of length 1, in the world
+};
+
 }  // namespace kinegraph

@@ -2,6 +2,7 @@
 
 #include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 

@@ -4,9 +4,15 @@
 #include <vector>
 
 #include "kinegraph/math/pose.h"
-#include "kinegraph/viewer/messages/near_lines.h"
 
 namespace kinegraph {
+
+/// The shortest line between two shapes of a collision pair.
+struct NearLine {
+  Vector3d a, b;      ///< endpoints on the surfaces, world, m
+  double distance;    ///< m, negative: penetration depth
+  std::string names;  ///< of the frames
+};
 
 /// A motion that is sent completely and played in the browser.
 struct ShownMotion {

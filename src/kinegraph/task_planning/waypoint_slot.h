@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "kinegraph/task_planning/placements.h"
+#include "kinegraph/task_planning/task_waypoints.h"
+
+namespace kinegraph {
+
+enum class TaskWaypoints::SlotKind { grasp, place, lay, push };
+
+/// Variables of a waypoint problem that place an auxiliary frame.
+struct TaskWaypoints::Slot {
+  SlotKind kind;
+  int first;
+  std::string frame;
+  std::string face = {};                    ///< of `lay`
+  std::optional<Placement> placement = {};  ///< of `place`
+};
+
+}  // namespace kinegraph
