@@ -17,8 +17,10 @@ from pathlib import Path
 import command_line
 import cpp_reference
 import example_pages
+import features_page
 import pages
 import python_reference
+from language.pages import writePages as writeLanguagePages
 
 SITE = Path(__file__).resolve().parent
 REPOSITORY = SITE.parent
@@ -97,6 +99,7 @@ def indexPages(out: Path, examples: list[str]) -> None:
     explanation = [("How it works", [f"/{page}" for page in pages.EXPLANATION]), ("Results", results)]
     reference = [
         ("Names", ["python/index", "cpp/index", "/command_line"]),
+        ("Tables", ["feature_table", "scene_attributes", "urdf", "mjcf"]),
         ("", [f"/{page}" for page in pages.REFERENCE]),
     ]
     reference += [("", ["/security"])]
@@ -124,6 +127,8 @@ def main() -> None:
     doxygen = cpp_reference.runDoxygen(REPOSITORY, out / "doxygen")
     referencePages(source, doxygen)
     command_line.writePage(source / "command_line.md")
+    features_page.writePage(REPOSITORY / "docs" / "features.md", source / "reference" / "feature_table.md")
+    writeLanguagePages(source / "reference")
     scenes = source / "_extra" / "scenes"
     scenes.mkdir(parents=True)
     examples = example_pages.writePages(REPOSITORY / "examples", source / "examples", scenes, out / "cache")
@@ -131,6 +136,7 @@ def main() -> None:
     from kinegraph import __version__
 
     environment = {**os.environ, "KINEGRAPH_VERSION": __version__, "KINEGRAPH_DOXYGEN": str(doxygen)}
+    environment["KINEGRAPH_SITE"] = str(SITE)
     command = [sys.executable, "-m", "sphinx", "-b", "html", "-q", "-W", "--keep-going", str(source), str(out / "html")]
     subprocess.run(command, check=True, env=environment)
     print(f"{out / 'html' / 'index.html'}")

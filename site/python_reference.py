@@ -4,6 +4,7 @@ import re
 from pathlib import Path
 
 import griffe
+import option_tables
 
 SHORT = re.compile(r"(collections\.abc|typing|numpy\.typing|kinegraph\._core)\.")
 SPECIAL = ("__len__", "__getitem__", "__call__", "__iter__")
@@ -72,8 +73,34 @@ def withFences(text: str) -> list[str]:
     return lines + (["~~~"] if is_code else [])
 
 
+def optionNames(function: griffe.Function, described: list[str]) -> list[str]:
+    """The arguments with a default, and the described ones that a `**` argument takes; none if they are few."""
+    parameters = {parameter.name: parameter for parameter in function.parameters}
+    takes_more = any(p.kind and p.kind.value == "variadic keyword" for p in function.parameters)
+
+    def isOption(name: str) -> bool:
+        parameter = parameters.get(name)
+        if parameter is None:
+            return takes_more
+        return parameter.default is not None and "variadic" not in (parameter.kind.value if parameter.kind else "")
+
+    names = [name for name in described if isOption(name)]
+    return names if len(names) >= option_tables.SHORTEST else []
+
+
+def optionTable(function: griffe.Function, names: list[str], texts: dict[str, str]) -> list[str]:
+    options = []
+    parameters = {parameter.name: parameter for parameter in function.parameters}
+    for name in names:
+        parameter = parameters.get(name)
+        kind = annotation(parameter.annotation) if parameter and parameter.annotation else ""
+        options.append(option_tables.optionFrom(name, texts[name], kind, str(parameter.default) if parameter else ""))
+    option_tables.expectations(function.name, options)
+    return option_tables.table(options)
+
+
 def description(item: griffe.Object) -> list[str]:
-    """The docstring as MyST, with fields for arguments, results and errors."""
+    """The docstring as MyST, with fields for arguments, results and errors. Many options are a table."""
     if not item.docstring:
         return []
     docstring = item.docstring
@@ -84,7 +111,11 @@ def description(item: griffe.Object) -> list[str]:
         if kind == "text":
             lines += [*withFences(section.value), ""]
         elif kind in ("parameters", "other parameters"):
-            lines += [f":param {p.name}: {oneLine(p.description)}" for p in section.value]
+            texts = {p.name: oneLine(p.description) for p in section.value}
+            options = optionNames(item, list(texts)) if item.is_function else []
+            if options:
+                lines += optionTable(item, options, texts)
+            lines += [f":param {name}: {text}" for name, text in texts.items() if name not in options]
         elif kind == "attributes":
             lines += [f"- `{p.name}`: {oneLine(p.description)}" for p in section.value] + [""]
         elif kind in ("returns", "yields"):
@@ -120,14 +151,39 @@ def functionEntry(
     return directive(kind, heads[0], body, depth, ["staticmethod:"] if is_static else [])
 
 
+def classOptions(cls: griffe.Class) -> list[option_tables.Option]:
+    """The fields of a class of options: each says its default."""
+    if "dict" not in cls.members:
+        return []
+    fields = [m for name, m in cls.members.items() if m.is_attribute and not name.startswith("_")]
+    options = []
+    for field in fields:
+        text = oneLine(field.docstring.value) if field.docstring else ""
+        options.append(
+            option_tables.optionFrom(field.name, text, annotation(field.annotation) if field.annotation else "")
+        )
+    if not all(option.default for option in options):
+        return []
+    option_tables.expectations(cls.name, options)
+    return options
+
+
 def memberEntries(cls: griffe.Class, depth: int) -> list[str]:
     members: dict[str, list] = {name: [member] for name, member in cls.members.items()}
     for name, variants in getattr(cls, "overloads", {}).items():
         if variants:
             members[name] = list(variants)
     lines: list[str] = []
+    table = classOptions(cls)
+    if table:  # the fields have targets for links, and one table for all
+        for option in table:
+            lines += directive("py:attribute", option.name, [], depth, ["no-typesetting:"])
+        lines += option_tables.table(table)
+    in_table = {option.name for option in table}
     for name, variants in members.items():
         member = variants[-1]
+        if name in in_table:
+            continue
         if (name.startswith("_") and name not in SPECIAL) or member.is_alias:
             continue
         if member.is_function:
