@@ -18,8 +18,10 @@ import command_line
 import cpp_reference
 import example_pages
 import features_page
+import gallery_page
 import pages
 import python_reference
+import robot_gallery
 from language.pages import writePages as writeLanguagePages
 
 SITE = Path(__file__).resolve().parent
@@ -99,7 +101,7 @@ def indexPages(out: Path, examples: list[str]) -> None:
     explanation = [("How it works", [f"/{page}" for page in pages.EXPLANATION]), ("Results", results)]
     reference = [
         ("Names", ["python/index", "cpp/index", "/command_line"]),
-        ("Tables", ["feature_table", "scene_attributes", "urdf", "mjcf"]),
+        ("Tables", ["feature_table", "scene_attributes", "urdf", "mjcf", "/robot_gallery/index"]),
         ("", [f"/{page}" for page in pages.REFERENCE]),
     ]
     reference += [("", ["/security"])]
@@ -129,6 +131,8 @@ def main() -> None:
     command_line.writePage(source / "command_line.md")
     features_page.writePage(REPOSITORY / "docs" / "features.md", source / "reference" / "feature_table.md")
     writeLanguagePages(source / "reference")
+    print(f"{gallery_page.writePage(source / 'gallery', source / '_static', out / 'cache')} entries of the gallery")
+    robot_gallery.writePage(source / "robot_gallery", out / "cache")
     scenes = source / "_extra" / "scenes"
     scenes.mkdir(parents=True)
     examples = example_pages.writePages(REPOSITORY / "examples", source / "examples", scenes, out / "cache")
