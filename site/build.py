@@ -48,7 +48,7 @@ def copyPages(out: Path) -> None:
             target.parent.mkdir(parents=True, exist_ok=True)
             text = file.read_text()
             for source, page in (("../CHANGELOG.md", "changes.md"), ("../SECURITY.md", "security.md")):
-                text = text.replace(f"]({source}", f"]({page}")
+                text = text.replace(f"]({source}", f"]({page}").replace(f"](../{source}", f"](../{page}")
             target.write_text(text)
     for source, page in (("CHANGELOG.md", "changes.md"), ("SECURITY.md", "security.md")):
         text = (REPOSITORY / source).read_text().replace("](docs/", "](")

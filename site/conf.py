@@ -9,7 +9,7 @@ release = version = os.environ["KINEGRAPH_VERSION"]
 sys.path.append(os.environ["KINEGRAPH_SITE"])
 extensions = ["myst_parser", "breathe", "sphinx_design", "sphinx_copybutton", "mathml"]
 html_math_renderer = "mathml"
-myst_enable_extensions = ["colon_fence", "fieldlist", "deflist", "attrs_inline"]
+myst_enable_extensions = ["colon_fence", "fieldlist", "deflist", "attrs_inline", "dollarmath"]
 myst_heading_anchors = 4
 breathe_projects = {"kinegraph": os.environ["KINEGRAPH_DOXYGEN"]}
 breathe_default_project = "kinegraph"

@@ -25,7 +25,16 @@ HOW_TO = [
     ("Questions", ["troubleshooting", "faq"]),
 ]
 
-EXPLANATION = ["architecture", "speed", "limits"]
+EXPLANATION = [
+    "theory/komo",
+    "theory/verification",
+    "theory/infeasibility",
+    "theory/contacts",
+    "theory/determinism",
+    "architecture",
+    "speed",
+    "limits",
+]
 
 REFERENCE = ["conventions", "errors", "releases"]  # beside the generated pages
 
