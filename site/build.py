@@ -19,6 +19,7 @@ import cpp_reference
 import example_pages
 import features_page
 import gallery_page
+import notebook_pages
 import pages
 import python_reference
 import robot_gallery
@@ -91,9 +92,10 @@ def referencePages(out: Path, doxygen: Path) -> None:
     print(f"{len(exported)} names of Python, {len(written)} of C++")
 
 
-def indexPages(out: Path, examples: list[str]) -> None:
+def indexPages(out: Path, examples: list[str], notebooks: list[str]) -> None:
     tutorials = [
         ("Start here", [f"/{page}" for page in pages.TUTORIALS]),
+        ("Notebooks", [f"/notebook/{name}" for name in notebooks]),
         ("Examples", [f"/examples/{e}" for e in examples]),
     ]
     how_to = [(caption, [f"/{page}" for page in names]) for caption, names in pages.HOW_TO]
@@ -136,7 +138,10 @@ def main() -> None:
     scenes = source / "_extra" / "scenes"
     scenes.mkdir(parents=True)
     examples = example_pages.writePages(REPOSITORY / "examples", source / "examples", scenes, out / "cache")
-    indexPages(source, examples)
+    notebooks = notebook_pages.writePages(
+        REPOSITORY / "notebooks", source / "notebook", source / "_extra", out / "cache"
+    )
+    indexPages(source, examples, notebooks)
     from kinegraph import __version__
 
     environment = {**os.environ, "KINEGRAPH_VERSION": __version__, "KINEGRAPH_DOXYGEN": str(doxygen)}
