@@ -24,6 +24,7 @@ import pages
 import python_reference
 import robot_gallery
 from language.pages import writePages as writeLanguagePages
+from member_texts import MemberTexts
 
 SITE = Path(__file__).resolve().parent
 REPOSITORY = SITE.parent
@@ -78,7 +79,8 @@ def referencePages(out: Path, doxygen: Path) -> None:
         if other in cpp.kinds:
             twins[name] = other
     full = {name: f"kinegraph::{other}" for name, other in twins.items()}
-    python_reference.writePages(package, named, full, out / "reference" / "python")
+    texts = MemberTexts(doxygen, REPOSITORY / "docs", {**pages.CPP_NAMES, **pages.CPP_ENUMS})
+    python_reference.writePages(package, named, full, texts, out / "reference" / "python")
     entries: dict[str, tuple[str, list[tuple[str, str | None]]]] = {}
     written: set[str] = set()
     for page, (title, names) in named.items():

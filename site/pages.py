@@ -34,6 +34,7 @@ EXPLANATION = [
     "architecture",
     "speed",
     "limits",
+    "beside_other_sites",
 ]
 
 REFERENCE = ["conventions", "errors", "releases"]  # beside the generated pages
@@ -103,6 +104,8 @@ CPP_NAMES = {
     "raiPath": "modelPath",
     "robotPath": "robotPath",
 }
+
+CPP_ENUMS = {"JT": "JointType", "ST": "ShapeType", "SY": "SwitchMode", "OT": "ObjectiveType"}
 
 # Further names of C++ per page.
 CPP_ONLY = {

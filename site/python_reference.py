@@ -5,6 +5,7 @@ from pathlib import Path
 
 import griffe
 import option_tables
+from member_texts import MemberTexts
 
 SHORT = re.compile(r"(collections\.abc|typing|numpy\.typing|kinegraph\._core)\.")
 SPECIAL = ("__len__", "__getitem__", "__call__", "__iter__")
@@ -168,7 +169,7 @@ def classOptions(cls: griffe.Class) -> list[option_tables.Option]:
     return options
 
 
-def memberEntries(cls: griffe.Class, depth: int) -> list[str]:
+def memberEntries(cls: griffe.Class, depth: int, texts: MemberTexts) -> list[str]:
     members: dict[str, list] = {name: [member] for name, member in cls.members.items()}
     for name, variants in getattr(cls, "overloads", {}).items():
         if variants:
@@ -188,19 +189,21 @@ def memberEntries(cls: griffe.Class, depth: int) -> list[str]:
             continue
         if member.is_function:
             variants = list(member.overloads or variants) if len(variants) == 1 else variants
+            if not any(variant.docstring for variant in variants):
+                lines += directive("py:method", name + "()", [texts.find(cls.name, name)], depth)
+                continue
             lines += functionEntry(variants, name, depth, "py:method", is_method=True)
         elif member.is_attribute:
             is_property = "property" in member.labels
             options = [f"type: {annotation(member.annotation)}"] if member.annotation else []
             if member.value is not None and not is_property and len(str(member.value)) < 30:
                 options.append(f"value: {member.value}")
-            lines += directive(
-                "py:property" if is_property else "py:attribute", name, description(member), depth, options
-            )
+            text = description(member) or [texts.find(cls.name, name)]
+            lines += directive("py:property" if is_property else "py:attribute", name, text, depth, options)
     return lines
 
 
-def entry(package: griffe.Object, name: str, twin: str | None) -> list[str]:
+def entry(package: griffe.Object, name: str, twin: str | None, texts: MemberTexts) -> list[str]:
     """The section of a name, with a link to its counterpart in C++ if it has one."""
     item, variants = package[name], []
     if item.is_alias:
@@ -215,14 +218,19 @@ def entry(package: griffe.Object, name: str, twin: str | None) -> list[str]:
         is_written = init is not None and init.is_function
         head = name + (signature(init, True) if is_written else "")
         body = description(item) + (["", *description(init)] if is_written else [])
-        return lines + directive("py:class", head, [*body, "", *memberEntries(item, 2)], 1)
+        return lines + directive("py:class", head, [*body, "", *memberEntries(item, 2, texts)], 1)
     if item.is_function:
         return lines + functionEntry(variants or list(item.overloads or [item]), name, 1)
-    return lines + directive("py:data", name, description(item), 1)
+    other = f"Another name of `{item.value}`, in older scripts." if item.is_attribute and item.value else ""
+    return lines + directive("py:data", name, description(item) or [other], 1)
 
 
 def writePages(
-    package: griffe.Object, pages: dict[str, tuple[str, list[str]]], twins: dict[str, str], out: Path
+    package: griffe.Object,
+    pages: dict[str, tuple[str, list[str]]],
+    twins: dict[str, str],
+    texts: MemberTexts,
+    out: Path,
 ) -> None:
     out.mkdir(parents=True, exist_ok=True)
     for page, (title, names) in pages.items():
@@ -230,7 +238,7 @@ def writePages(
         if any(name in twins for name in names):
             lines += [f"The same in C++: [](../cpp/{page}.md).", ""]
         for name in names:
-            lines += entry(package, name, twins.get(name))
+            lines += entry(package, name, twins.get(name), texts)
         (out / f"{page}.md").write_text("\n".join(lines))
     index = ["# Python", "", "```{toctree}", ":maxdepth: 1", *pages, "```", ""]
     (out / "index.md").write_text("\n".join(index))

@@ -58,3 +58,36 @@ def test_a_table_of_options_has_what_the_code_expects(options):
             with pytest.raises(ry.ArgumentError):
                 options(**{row.name: -1.0})
             assert math.isclose(getattr(options(**{row.name: 0.01}), row.name), 0.01)
+
+
+def test_members_without_a_docstring_are_described():
+    from member_texts import rows
+
+    docs = ROOT / "docs"
+    described = {**rows(docs / "scenes.md"), **rows(docs / "motion.md")}
+    for enum in (ry.ST, ry.JT, ry.SY):
+        missing = {member.name for member in enum} - set(described) - {"none", "generic"}
+        assert not missing, enum
+
+
+def test_links_of_the_site_are_resolved(tmp_path):
+    import checks
+
+    (tmp_path / "a.html").write_text('<h1 id="top">A</h1><a href="b.html#part">b</a><a href="#top">top</a>')
+    (tmp_path / "b.html").write_text('<h1 id="part">B</h1><a href="c.html">c</a><a href="a.html#gone">a</a>')
+    assert checks.brokenLinks(tmp_path) == ["b.html: c.html does not exist", "b.html: a.html#gone has no such anchor"]
+
+
+def test_scenes_share_one_script(tmp_path):
+    from shared_client import shareClient
+
+    sizes = []
+    for i in range(10):
+        C = ry.Config()
+        C.addText(f"ball: {{ shape: sphere, size: [{0.1 + 0.01 * i}] }}")
+        C.viewer().saveHtml(tmp_path / "whole.html")
+        page = shareClient((tmp_path / "whole.html").read_text(), tmp_path / "viewer.js", "viewer.js")
+        assert '<script src="viewer.js"></script>' in page and "sha256-" not in page.split("base-uri")[0]
+        assert 'id="recording"' in page
+        sizes.append(len(page))
+    assert sum(sizes) + (tmp_path / "viewer.js").stat().st_size < 3_000_000
