@@ -9,7 +9,7 @@ class Entry:
 
     Beside C and a, the frame of that name, the expression knows np, ry, equal(x, y) (to 1e-6), after(seconds, target):
     a copy of the scene after a simulation whose motors go to the joint state `target` (None: stay), and
-    position(C, frame).
+    position(C, frame); warned(seconds): the warnings of a simulation; camera(frame).
     """
 
     names: str  # one or several, which mean the same

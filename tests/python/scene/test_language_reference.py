@@ -1,8 +1,10 @@
 """The reference of the scene formats names what the readers know, and the example of each row has the said effect."""
 
 import re
+import shutil
 import struct
 import sys
+import warnings
 import zlib
 from pathlib import Path
 
@@ -21,6 +23,7 @@ PARSERS = ROOT / "src" / "kinegraph"
 
 def write_files(folder):
     """Writes the files to which the examples refer."""
+    shutil.copy(ROOT / "tests" / "data" / "tetrahedron.h5", folder / "part.h5")
     (folder / "tetra.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n")
     (folder / "part.xml").write_text("<mujoco><worldbody><body name='p'><geom size='.1'/></body></worldbody></mujoco>")
     (folder / "ball.g").write_text("lo: [-1 -1 -1]\nup: [1 1 1]\nfield: <2 2 2> [1 1 1 1 -1 -1 -1 -1]\n")
@@ -43,6 +46,13 @@ def after(C, seconds, target=None):
     return scene
 
 
+def warned(C, seconds):
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always")
+        after(C, seconds)
+    return [str(warning.message) for warning in found]
+
+
 def names_of(C, name="a"):
     return {
         "C": C,
@@ -51,6 +61,7 @@ def names_of(C, name="a"):
         "ry": ry,
         "equal": lambda x, y: np.allclose(x, y, atol=1e-6),
         "after": lambda seconds, target=None: after(C, seconds, target),
+        "warned": lambda seconds: warned(C, seconds),
         "position": lambda scene, frame: scene.getFrame(frame).getPosition(),
         "camera": lambda frame: ry.CameraView(C).setCamera(frame),
     }
