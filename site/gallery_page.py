@@ -77,7 +77,9 @@ def kept(module: ModuleType, name: str, function: Any, cache: Path) -> Path:
 
 
 def helpers() -> list[Any]:
-    return [getattr(module, name) for module in CHAPTERS.values() for name in sorted(HELPERS) if name in vars(module)]
+    """The functions that entries share, each once."""
+    found = [getattr(module, name) for module in CHAPTERS.values() for name in sorted(HELPERS) if name in vars(module)]
+    return list(dict.fromkeys(found))
 
 
 def element(file: Path, text: str) -> str:
@@ -93,7 +95,7 @@ def writePage(out: Path, static: Path, cache: Path) -> int:
         folder.mkdir(parents=True, exist_ok=True)
     lines = ["# Gallery", "", "Pictures and loops, each with its code. The functions start from", "", "```python"]
     lines += ["import numpy as np", "import kinegraph as ry", "", *(code(f) + "\n" for f in helpers()), "```", ""]
-    lines += ["They return a scene, shown by `C.view()`; or a scene, a path and a duration, shown by", ""]
+    lines += ["They return a scene, shown by `C.view()`; or a scene, a path and a duration, shown by"]
     lines += ["`C.view_path(path, duration)`, or saved by `ry.saveFilm`.", ""]
     count = 0
     for chapter, module in CHAPTERS.items():
