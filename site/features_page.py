@@ -302,18 +302,19 @@ def writePage(features: Path, out: Path) -> None:
     """`features`: docs/features.md."""
     pictures = out.parent / "features"
     pictures.mkdir(parents=True, exist_ok=True)
-    head = "| feature | frames | dimension | order | value | column of the Jacobian |"
-    lines = [INTRODUCTION, head, "|" + "---|" * 6]
+    head = "| feature | frames | dimension | order | value, and column of the Jacobian |"
+    lines = [INTRODUCTION, head, "|" + "---|" * 5]
     for feature, roles, dimension, unit, order, value in tableRows(features.read_text()):
         name = re.findall(r"`(\w+)`", feature)[0]
         if name not in FORMULAS:  # obsolete names
-            lines.append(f"| {feature} | | | | {value} | |")
+            lines.append(f"| {feature} | | | | {value} |")
             continue
         (pictures / f"{name}.svg").write_text(picture(name))
         y, column = FORMULAS[name]
         image = f"![{name}](features/{name}.svg)"
         size = f"{dimension}, {unit}" if unit != "-" else dimension
         named = f"{feature} <br> {image}"
-        cells = [named, roles, size, order, f"{{math}}`{y}` <br> {value}", f"{{math}}`{column}`"]
+        formulas = f"{{math}}`y = {y}` <br> {value} <br> {{math}}`J_i = {column}`"
+        cells = [named, roles, size, order, formulas]
         lines.append(f"| {' | '.join(cells)} |")
     out.write_text("\n".join([*lines, ""]))

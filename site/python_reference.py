@@ -100,6 +100,12 @@ def optionTable(function: griffe.Function, names: list[str], texts: dict[str, st
     return option_tables.table(options)
 
 
+def returned(part: griffe.DocstringReturn | griffe.DocstringYield, docstring: str) -> str:
+    """The whole text of a result; griffe takes what is before a colon for its type."""
+    before = f"{part.annotation}: "
+    return (before if before in oneLine(docstring) else "") + oneLine(part.description)
+
+
 def description(item: griffe.Object) -> list[str]:
     """The docstring as MyST, with fields for arguments, results and errors. Many options are a table."""
     if not item.docstring:
@@ -120,7 +126,7 @@ def description(item: griffe.Object) -> list[str]:
         elif kind == "attributes":
             lines += [f"- `{p.name}`: {oneLine(p.description)}" for p in section.value] + [""]
         elif kind in ("returns", "yields"):
-            lines += [f":returns: {' '.join(oneLine(r.description) for r in section.value)}"]
+            lines += [f":returns: {' '.join(returned(r, docstring.value) for r in section.value)}"]
         elif kind == "raises":
             lines += [f":raises {annotation(r.annotation)}: {oneLine(r.description)}" for r in section.value]
         elif kind == "examples":
