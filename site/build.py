@@ -17,8 +17,14 @@ from pathlib import Path
 import command_line
 import cpp_reference
 import example_pages
+import features_page
+import gallery_page
+import notebook_pages
 import pages
 import python_reference
+import robot_gallery
+from language.pages import writePages as writeLanguagePages
+from member_texts import MemberTexts
 
 SITE = Path(__file__).resolve().parent
 REPOSITORY = SITE.parent
@@ -44,7 +50,7 @@ def copyPages(out: Path) -> None:
             target.parent.mkdir(parents=True, exist_ok=True)
             text = file.read_text()
             for source, page in (("../CHANGELOG.md", "changes.md"), ("../SECURITY.md", "security.md")):
-                text = text.replace(f"]({source}", f"]({page}")
+                text = text.replace(f"]({source}", f"]({page}").replace(f"](../{source}", f"](../{page}")
             target.write_text(text)
     for source, page in (("CHANGELOG.md", "changes.md"), ("SECURITY.md", "security.md")):
         text = (REPOSITORY / source).read_text().replace("](docs/", "](")
@@ -73,7 +79,8 @@ def referencePages(out: Path, doxygen: Path) -> None:
         if other in cpp.kinds:
             twins[name] = other
     full = {name: f"kinegraph::{other}" for name, other in twins.items()}
-    python_reference.writePages(package, named, full, out / "reference" / "python")
+    texts = MemberTexts(doxygen, REPOSITORY / "docs", {**pages.CPP_NAMES, **pages.CPP_ENUMS})
+    python_reference.writePages(package, named, full, texts, out / "reference" / "python")
     entries: dict[str, tuple[str, list[tuple[str, str | None]]]] = {}
     written: set[str] = set()
     for page, (title, names) in named.items():
@@ -87,9 +94,10 @@ def referencePages(out: Path, doxygen: Path) -> None:
     print(f"{len(exported)} names of Python, {len(written)} of C++")
 
 
-def indexPages(out: Path, examples: list[str]) -> None:
+def indexPages(out: Path, examples: list[str], notebooks: list[str]) -> None:
     tutorials = [
         ("Start here", [f"/{page}" for page in pages.TUTORIALS]),
+        ("Notebooks", [f"/notebook/{name}" for name in notebooks]),
         ("Examples", [f"/examples/{e}" for e in examples]),
     ]
     how_to = [(caption, [f"/{page}" for page in names]) for caption, names in pages.HOW_TO]
@@ -97,6 +105,7 @@ def indexPages(out: Path, examples: list[str]) -> None:
     explanation = [("How it works", [f"/{page}" for page in pages.EXPLANATION]), ("Results", results)]
     reference = [
         ("Names", ["python/index", "cpp/index", "/command_line"]),
+        ("Tables", ["feature_table", "scene_attributes", "urdf", "mjcf", "/robot_gallery/index"]),
         ("", [f"/{page}" for page in pages.REFERENCE]),
     ]
     reference += [("", ["/security"])]
@@ -124,13 +133,21 @@ def main() -> None:
     doxygen = cpp_reference.runDoxygen(REPOSITORY, out / "doxygen")
     referencePages(source, doxygen)
     command_line.writePage(source / "command_line.md")
+    features_page.writePage(REPOSITORY / "docs" / "features.md", source / "reference" / "feature_table.md")
+    writeLanguagePages(source / "reference")
+    print(f"{gallery_page.writePage(source / 'gallery', source / '_static', out / 'cache')} entries of the gallery")
+    robot_gallery.writePage(source / "robot_gallery", out / "cache")
     scenes = source / "_extra" / "scenes"
     scenes.mkdir(parents=True)
     examples = example_pages.writePages(REPOSITORY / "examples", source / "examples", scenes, out / "cache")
-    indexPages(source, examples)
+    notebooks = notebook_pages.writePages(
+        REPOSITORY / "notebooks", source / "notebook", source / "_extra", out / "cache"
+    )
+    indexPages(source, examples, notebooks)
     from kinegraph import __version__
 
     environment = {**os.environ, "KINEGRAPH_VERSION": __version__, "KINEGRAPH_DOXYGEN": str(doxygen)}
+    environment["KINEGRAPH_SITE"] = str(SITE)
     command = [sys.executable, "-m", "sphinx", "-b", "html", "-q", "-W", "--keep-going", str(source), str(out / "html")]
     subprocess.run(command, check=True, env=environment)
     print(f"{out / 'html' / 'index.html'}")

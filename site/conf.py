@@ -1,12 +1,15 @@
 """Settings of Sphinx. site/build.py collects the pages and calls it."""
 
 import os
+import sys
 
 project, author = "Kinegraph", "The Kinegraph authors"
 copyright = "2026, the Kinegraph authors"
 release = version = os.environ["KINEGRAPH_VERSION"]
-extensions = ["myst_parser", "breathe", "sphinx_design", "sphinx_copybutton"]
-myst_enable_extensions = ["colon_fence", "fieldlist", "deflist", "attrs_inline"]
+sys.path.append(os.environ["KINEGRAPH_SITE"])
+extensions = ["myst_parser", "breathe", "sphinx_design", "sphinx_copybutton", "mathml"]
+html_math_renderer = "mathml"
+myst_enable_extensions = ["colon_fence", "fieldlist", "deflist", "attrs_inline", "dollarmath"]
 myst_heading_anchors = 4
 breathe_projects = {"kinegraph": os.environ["KINEGRAPH_DOXYGEN"]}
 breathe_default_project = "kinegraph"

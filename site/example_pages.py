@@ -8,6 +8,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from shared_client import shareClient
+
 RUN = """
 import runpy, sys
 import kinegraph as ry
@@ -34,6 +36,7 @@ if viewers:
 """
 LONGEST_OUTPUT = 4000  # characters
 TIMEOUT = 300  # s
+CLIENT = "viewer.js"  # the script of all scenes
 
 
 def titleAndText(script: Path) -> tuple[str, str]:
@@ -72,7 +75,7 @@ def runExample(script: Path, page: Path, cache: Path) -> str:
         kept_text.write_text(done.stdout)
     if kept_page.exists():
         page.parent.mkdir(parents=True, exist_ok=True)
-        page.write_bytes(kept_page.read_bytes())
+        page.write_text(shareClient(kept_page.read_text(), page.parent / CLIENT, CLIENT))
     return kept_text.read_text()
 
 

@@ -25,7 +25,17 @@ HOW_TO = [
     ("Questions", ["troubleshooting", "faq"]),
 ]
 
-EXPLANATION = ["architecture", "speed", "limits"]
+EXPLANATION = [
+    "theory/komo",
+    "theory/verification",
+    "theory/infeasibility",
+    "theory/contacts",
+    "theory/determinism",
+    "architecture",
+    "speed",
+    "limits",
+    "beside_other_sites",
+]
 
 REFERENCE = ["conventions", "errors", "releases"]  # beside the generated pages
 
@@ -94,6 +104,8 @@ CPP_NAMES = {
     "raiPath": "modelPath",
     "robotPath": "robotPath",
 }
+
+CPP_ENUMS = {"JT": "JointType", "ST": "ShapeType", "SY": "SwitchMode", "OT": "ObjectiveType"}
 
 # Further names of C++ per page.
 CPP_ONLY = {

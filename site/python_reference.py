@@ -4,6 +4,8 @@ import re
 from pathlib import Path
 
 import griffe
+import option_tables
+from member_texts import MemberTexts
 
 SHORT = re.compile(r"(collections\.abc|typing|numpy\.typing|kinegraph\._core)\.")
 SPECIAL = ("__len__", "__getitem__", "__call__", "__iter__")
@@ -72,8 +74,40 @@ def withFences(text: str) -> list[str]:
     return lines + (["~~~"] if is_code else [])
 
 
+def optionNames(function: griffe.Function, described: list[str]) -> list[str]:
+    """The arguments with a default, and the described ones that a `**` argument takes; none if they are few."""
+    parameters = {parameter.name: parameter for parameter in function.parameters}
+    takes_more = any(p.kind and p.kind.value == "variadic keyword" for p in function.parameters)
+
+    def isOption(name: str) -> bool:
+        parameter = parameters.get(name)
+        if parameter is None:
+            return takes_more
+        return parameter.default is not None and "variadic" not in (parameter.kind.value if parameter.kind else "")
+
+    names = [name for name in described if isOption(name)]
+    return names if len(names) >= option_tables.SHORTEST else []
+
+
+def optionTable(function: griffe.Function, names: list[str], texts: dict[str, str]) -> list[str]:
+    options = []
+    parameters = {parameter.name: parameter for parameter in function.parameters}
+    for name in names:
+        parameter = parameters.get(name)
+        kind = annotation(parameter.annotation) if parameter and parameter.annotation else ""
+        options.append(option_tables.optionFrom(name, texts[name], kind, str(parameter.default) if parameter else ""))
+    option_tables.expectations(function.name, options)
+    return option_tables.table(options)
+
+
+def returned(part: griffe.DocstringReturn | griffe.DocstringYield, docstring: str) -> str:
+    """The whole text of a result; griffe takes what is before a colon for its type."""
+    before = f"{part.annotation}: "
+    return (before if before in oneLine(docstring) else "") + oneLine(part.description)
+
+
 def description(item: griffe.Object) -> list[str]:
-    """The docstring as MyST, with fields for arguments, results and errors."""
+    """The docstring as MyST, with fields for arguments, results and errors. Many options are a table."""
     if not item.docstring:
         return []
     docstring = item.docstring
@@ -84,11 +118,15 @@ def description(item: griffe.Object) -> list[str]:
         if kind == "text":
             lines += [*withFences(section.value), ""]
         elif kind in ("parameters", "other parameters"):
-            lines += [f":param {p.name}: {oneLine(p.description)}" for p in section.value]
+            texts = {p.name: oneLine(p.description) for p in section.value}
+            options = optionNames(item, list(texts)) if item.is_function else []
+            if options:
+                lines += optionTable(item, options, texts)
+            lines += [f":param {name}: {text}" for name, text in texts.items() if name not in options]
         elif kind == "attributes":
             lines += [f"- `{p.name}`: {oneLine(p.description)}" for p in section.value] + [""]
         elif kind in ("returns", "yields"):
-            lines += [f":returns: {' '.join(oneLine(r.description) for r in section.value)}"]
+            lines += [f":returns: {' '.join(returned(r, docstring.value) for r in section.value)}"]
         elif kind == "raises":
             lines += [f":raises {annotation(r.annotation)}: {oneLine(r.description)}" for r in section.value]
         elif kind == "examples":
@@ -120,31 +158,58 @@ def functionEntry(
     return directive(kind, heads[0], body, depth, ["staticmethod:"] if is_static else [])
 
 
-def memberEntries(cls: griffe.Class, depth: int) -> list[str]:
+def classOptions(cls: griffe.Class) -> list[option_tables.Option]:
+    """The fields of a class of options: each says its default."""
+    if "dict" not in cls.members:
+        return []
+    fields = [m for name, m in cls.members.items() if m.is_attribute and not name.startswith("_")]
+    options = []
+    for field in fields:
+        text = oneLine(field.docstring.value) if field.docstring else ""
+        options.append(
+            option_tables.optionFrom(field.name, text, annotation(field.annotation) if field.annotation else "")
+        )
+    if not all(option.default for option in options):
+        return []
+    option_tables.expectations(cls.name, options)
+    return options
+
+
+def memberEntries(cls: griffe.Class, depth: int, texts: MemberTexts) -> list[str]:
     members: dict[str, list] = {name: [member] for name, member in cls.members.items()}
     for name, variants in getattr(cls, "overloads", {}).items():
         if variants:
             members[name] = list(variants)
     lines: list[str] = []
+    table = classOptions(cls)
+    if table:  # the fields have targets for links, and one table for all
+        for option in table:
+            lines += directive("py:attribute", option.name, [], depth, ["no-typesetting:"])
+        lines += option_tables.table(table)
+    in_table = {option.name for option in table}
     for name, variants in members.items():
         member = variants[-1]
+        if name in in_table:
+            continue
         if (name.startswith("_") and name not in SPECIAL) or member.is_alias:
             continue
         if member.is_function:
             variants = list(member.overloads or variants) if len(variants) == 1 else variants
+            if not any(variant.docstring for variant in variants):
+                lines += directive("py:method", name + "()", [texts.find(cls.name, name)], depth)
+                continue
             lines += functionEntry(variants, name, depth, "py:method", is_method=True)
         elif member.is_attribute:
             is_property = "property" in member.labels
             options = [f"type: {annotation(member.annotation)}"] if member.annotation else []
             if member.value is not None and not is_property and len(str(member.value)) < 30:
                 options.append(f"value: {member.value}")
-            lines += directive(
-                "py:property" if is_property else "py:attribute", name, description(member), depth, options
-            )
+            text = description(member) or [texts.find(cls.name, name)]
+            lines += directive("py:property" if is_property else "py:attribute", name, text, depth, options)
     return lines
 
 
-def entry(package: griffe.Object, name: str, twin: str | None) -> list[str]:
+def entry(package: griffe.Object, name: str, twin: str | None, texts: MemberTexts) -> list[str]:
     """The section of a name, with a link to its counterpart in C++ if it has one."""
     item, variants = package[name], []
     if item.is_alias:
@@ -159,14 +224,19 @@ def entry(package: griffe.Object, name: str, twin: str | None) -> list[str]:
         is_written = init is not None and init.is_function
         head = name + (signature(init, True) if is_written else "")
         body = description(item) + (["", *description(init)] if is_written else [])
-        return lines + directive("py:class", head, [*body, "", *memberEntries(item, 2)], 1)
+        return lines + directive("py:class", head, [*body, "", *memberEntries(item, 2, texts)], 1)
     if item.is_function:
         return lines + functionEntry(variants or list(item.overloads or [item]), name, 1)
-    return lines + directive("py:data", name, description(item), 1)
+    other = f"Another name of `{item.value}`, in older scripts." if item.is_attribute and item.value else ""
+    return lines + directive("py:data", name, description(item) or [other], 1)
 
 
 def writePages(
-    package: griffe.Object, pages: dict[str, tuple[str, list[str]]], twins: dict[str, str], out: Path
+    package: griffe.Object,
+    pages: dict[str, tuple[str, list[str]]],
+    twins: dict[str, str],
+    texts: MemberTexts,
+    out: Path,
 ) -> None:
     out.mkdir(parents=True, exist_ok=True)
     for page, (title, names) in pages.items():
@@ -174,7 +244,7 @@ def writePages(
         if any(name in twins for name in names):
             lines += [f"The same in C++: [](../cpp/{page}.md).", ""]
         for name in names:
-            lines += entry(package, name, twins.get(name))
+            lines += entry(package, name, twins.get(name), texts)
         (out / f"{page}.md").write_text("\n".join(lines))
     index = ["# Python", "", "```{toctree}", ":maxdepth: 1", *pages, "```", ""]
     (out / "index.md").write_text("\n".join(index))

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds the site into build/site/html. Takes the wheel in build/wheel if there is one, else compiles the package.
+# Builds the site into build/site/html, and checks its links, sizes, names and spelling. Takes the wheel in build/wheel if
+# there is one, else compiles the package.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 export PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_QUIET=1 KINEGRAPH_HEADLESS=1
@@ -12,3 +13,5 @@ wheels=(build/wheel/*.whl)
 "$environment/bin/python" -m pip install --force-reinstall --no-deps "${wheels[0]}"
 "$environment/bin/python" -m pip install kinegraph
 "$environment/bin/python" site/build.py build/site
+"$environment/bin/python" site/checks.py build/site/html
+"$environment/bin/codespell" README.md CHANGELOG.md CONTRIBUTING.md docs site examples/*.py

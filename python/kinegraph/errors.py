@@ -36,13 +36,15 @@ class RobotFault(Error):
 class ParseError(Error, ValueError):
     """A text that does not follow its grammar, or an invalid scene.
 
-    Attributes:
-        file, line, column: The place; lines count from 1, 0 means unknown.
+    Its `file`, `line` and `column` are the place.
     """
 
     file: str = ""
+    """Name of the file or text."""
     line: int = 0
+    """From 1; 0: unknown."""
     column: int = 0
+    """From 1; 0: unknown."""
 
 
 class KinegraphWarning(UserWarning):

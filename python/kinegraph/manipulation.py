@@ -41,8 +41,11 @@ class KOMO_ManipulationHelper(ManipulationHelper):
         """
         super().__init__()
         self.info = info
+        """A name for messages."""
         self.ret = None
+        """The SolverReturn of the last solve; None before."""
         self.path = None
+        """The path of the last solve, (T, n); None if it is not feasible."""
 
     @property
     def feasible(self) -> bool:

@@ -82,6 +82,7 @@ class LeRobotWriter:
         self.folder, self.fps, self.codec, self.shard = Path(folder), int(fps), codec, int(shard)
         self.state, self.action = list(state), list(state if action is None else action)
         self.cameras = {name: (int(size[0]), int(size[1])) for name, size in (cameras or {}).items()}
+        """Height and width of the images of each camera, pixels."""
         for name, size in self.cameras.items():
             if min(size) < 2 or size[0] % 2 or size[1] % 2:
                 raise ArgumentError(
@@ -100,7 +101,8 @@ class LeRobotWriter:
         self._rows: list[dict[str, Any]] = []
         self._frames = 0
         self._closed = False
-        self.report: dict[str, Any] = {}  # of demonstrate, stored with the shard
+        self.report: dict[str, Any] = {}
+        """The report of demonstrate, which is stored with the shard."""
 
     def features(self) -> dict[str, Any]:
         """Returns the features of the data set, as in its info.json."""

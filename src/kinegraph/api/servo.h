@@ -29,7 +29,9 @@ struct ServoOptions {
 /// by hand in the browser. Throws ValueError for times that are not positive and for invalid poses, and FrameNotFound.
 void servo(DiffIk& ik, Config& config, const std::string& target, const TargetSource& source,
            const ServoOptions& options = {});
+/// The same with a gamepad, which moves the target.
 void servo(DiffIk& ik, Config& config, const std::string& target, Gamepad& gamepad, const ServoOptions& options = {});
+/// The same with a target that users drag in the browser.
 void servo(DiffIk& ik, Config& config, const std::string& target, const ServoOptions& options = {});
 
 }  // namespace kinegraph

@@ -27,7 +27,7 @@ class PlanSearch {
     found,
     exhausted,  ///< proved: there is no further plan
     limit,      ///< max_expansions is reached
-    cancelled,
+    cancelled,  ///< the cancellation token ended the search
   };
   struct Options {
     long max_expansions = 2000000;     ///< total number of expanded states

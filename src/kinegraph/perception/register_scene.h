@@ -34,6 +34,7 @@ struct SeenFrame {
   std::string str() const;
 };
 
+/// The result of registerScene: what was found of each frame.
 struct SeenScene {
   std::map<std::string, SeenFrame> frames;
   std::vector<std::string> warnings;

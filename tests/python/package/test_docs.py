@@ -13,7 +13,8 @@ import pytest
 import kinegraph as ry
 
 DOCS = Path(__file__).parent.parent.parent.parent / "docs"
-PAGES = [DOCS.parent / "README.md", *sorted(page for page in DOCS.glob("*.md") if "```python" in page.read_text())]
+WRITTEN = sorted([*DOCS.glob("*.md"), *DOCS.glob("theory/*.md")])
+PAGES = [DOCS.parent / "README.md", *(page for page in WRITTEN if "```python" in page.read_text())]
 
 # Output of the code of each page.
 FOUND = {
@@ -29,6 +30,7 @@ FOUND = {
     "coming_from_ompl": [r"^PlanStatus.solved", r"^True$"],
     "coming_from_pinocchio": [r"^DiffIkStatus.solved \[-?0\. +-?0\. +-?0\.\]"],
     "coming_from_robotic": [r"^True "],
+    "contacts": [r"^slip: 0\.0[0-4]\d mm$"],
     "conventions": [
         r"from above: <IkResult solved in 1 attempt",
         r"the palm is above the target by 0\.103 m",
@@ -36,6 +38,7 @@ FOUND = {
         r"collisions with the box: [1-9]",
     ],
     "lerobot": [r"^2 episodes; faults: \[\]"],
+    "determinism": [r"^\[True, True, True\]$"],
     "dynamics": [r"^True \d+\.\d+", r"^\[ *[-+\d.e ]* -9\.81"],
     "motion": [
         r"\[.* 1\.962\d*e\+01\]",
@@ -61,6 +64,12 @@ FOUND = {
         r"<SelfCollisionMatrix: \d+ pairs of frames in 2000 configurations: \d+ adjacent, \d+ always in collision, \d+ never",
         r"^\[\('\w+', '\w+', 'sometimes', 0\.\d+\)",
     ],
+    "infeasibility": [
+        r"^PlanStatus.infeasible$",
+        r"^there is no path: a ball of 150 mm inside of 'body' does not get past",
+    ],
+    "komo": [r"^\[1\. 1\.\]"],
+    "verification": [r"^samples: True$", r"^edge: \('\w+', '\w+'\) 0\.4"],
     "ik": [r"^True $", r"\[ ?-?0\. +-?0\. +-0\.2\]"],
     "solvers": [
         r"^True SolverStatus\.converged",
@@ -227,3 +236,16 @@ def test_the_page_on_features_names_all_features():
 def test_the_page_on_motions_names_all_types():
     text = (DOCS / "motion.md").read_text()
     assert {f"OT.{kind.name}" for kind in ry.OT} - {"OT.none"} <= set(re.findall(r"`(OT\.\w+)`", text))
+
+
+def test_the_figures_of_the_theory_are_as_their_program_makes_them(tmp_path):
+    program = DOCS / "theory" / "make_figures.py"
+    subprocess.run([sys.executable, "-W", "error", program, tmp_path], check=True, timeout=120)
+    made = sorted(file.name for file in tmp_path.iterdir())
+    assert made == sorted(file.name for file in (DOCS / "theory").glob("*.svg"))
+    for name in (
+        "band.svg",
+        "penalty.svg",
+        "cells.svg",
+    ):  # the others depend on distances and simulations to the last bit
+        assert (tmp_path / name).read_text() == (DOCS / "theory" / name).read_text(), name

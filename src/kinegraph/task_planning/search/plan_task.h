@@ -75,6 +75,7 @@ class TaskPlans {
   std::unique_ptr<TaskSearch> search_;
 };
 
+/// Starts a search for several plans to a goal; `next` returns them one by one.
 TaskPlans planTasks(const Config& C, const std::string& goal, const TaskOptions& options = {});
 
 }  // namespace kinegraph

@@ -1,0 +1,93 @@
+"""The generated pages of the site: gallery, robots, options."""
+
+import inspect
+import math
+import sys
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import kinegraph as ry
+
+ROOT = Path(__file__).parents[3]
+sys.path.insert(0, str(ROOT / "site"))
+
+import gallery_page  # noqa: E402
+import option_tables  # noqa: E402
+import robot_gallery  # noqa: E402
+
+GALLERY = {name: f for module in gallery_page.CHAPTERS.values() for name, f in gallery_page.entries(module).items()}
+
+
+def test_the_gallery_has_forty_entries_with_captions_and_short_code():
+    assert len(GALLERY) >= 40
+    for name, function in GALLERY.items():
+        assert (inspect.getdoc(function) or "").endswith("."), name
+        assert len(gallery_page.code(function).splitlines()) <= gallery_page.LONGEST_CODE, name
+
+
+@pytest.mark.parametrize("name", ["over_a_wall", "follow_a_circle", "friction_on_a_slope", "stack_two_boxes"])
+def test_an_entry_of_the_gallery_moves(name):
+    C, path, seconds = GALLERY[name]()
+    path = np.asarray(path)
+    assert len(path) > 5 and seconds > 0
+    assert path[0].shape in ((C.getJointDimension(),), (len(C), 7))
+    assert np.abs(path[-1] - path[0]).max() + np.abs(np.diff(path, axis=0)).max() > 0.01
+
+
+def test_the_page_of_robots_counts_what_the_scene_has():
+    files = robot_gallery.robotFiles(Path(ry.raiPath("")))
+    assert len(files) >= 12
+    facts = robot_gallery.facts(next(file for file in files if file.stem == "ur5e"))
+    assert facts["dofs"] == "6"
+    C = ry.Config()
+    C.addFile(ry.raiPath("ur5e/ur5e.g"))
+    assert facts["collision pairs"] == str(len(C.getCollidablePairs()) // 2)
+    assert "data sheet" in facts["source of its figures"]
+
+
+@pytest.mark.parametrize("options", [ry.IkOptions, ry.NLP_SolverOptions, ry.SimulationOptions])
+def test_a_table_of_options_has_what_the_code_expects(options):
+    fields = options().dict()
+    rows = [option_tables.optionFrom(name, getattr(options, name).__doc__) for name in fields]
+    option_tables.expectations(options.__name__, rows)
+    for row in rows:
+        assert row.meaning and row.expects and row.default == str(fields[row.name]), row
+        if row.expects == "a positive number":
+            with pytest.raises(ry.ArgumentError):
+                options(**{row.name: -1.0})
+            assert math.isclose(getattr(options(**{row.name: 0.01}), row.name), 0.01)
+
+
+def test_members_without_a_docstring_are_described():
+    from member_texts import rows
+
+    docs = ROOT / "docs"
+    described = {**rows(docs / "scenes.md"), **rows(docs / "motion.md")}
+    for enum in (ry.ST, ry.JT, ry.SY):
+        missing = {member.name for member in enum} - set(described) - {"none", "generic"}
+        assert not missing, enum
+
+
+def test_links_of_the_site_are_resolved(tmp_path):
+    import checks
+
+    (tmp_path / "a.html").write_text('<h1 id="top">A</h1><a href="b.html#part">b</a><a href="#top">top</a>')
+    (tmp_path / "b.html").write_text('<h1 id="part">B</h1><a href="c.html">c</a><a href="a.html#gone">a</a>')
+    assert checks.brokenLinks(tmp_path) == ["b.html: c.html does not exist", "b.html: a.html#gone has no such anchor"]
+
+
+def test_scenes_share_one_script(tmp_path):
+    from shared_client import shareClient
+
+    sizes = []
+    for i in range(10):
+        C = ry.Config()
+        C.addText(f"ball: {{ shape: sphere, size: [{0.1 + 0.01 * i}] }}")
+        C.viewer().saveHtml(tmp_path / "whole.html")
+        page = shareClient((tmp_path / "whole.html").read_text(), tmp_path / "viewer.js", "viewer.js")
+        assert '<script src="viewer.js"></script>' in page and "sha256-" not in page.split("base-uri")[0]
+        assert 'id="recording"' in page
+        sizes.append(len(page))
+    assert sum(sizes) + (tmp_path / "viewer.js").stat().st_size < 3_000_000
