@@ -35,6 +35,11 @@ FOUND = {
         r"from below: no solution .*'table' and 'l_panda_coll7' overlap",
         r"collisions with the box: [1-9]",
     ],
+    "mcap": [
+        r"^<Recording 'run.mcap', \d\.\d\d s, 9 joints, 8 topics> \d\d\d$",
+        r"^BotOp\.follow: .*velocity",
+    ],
+    "lerobot_robots": [r"^True \['shoulder_pan', ", r"^\[0\.22 0\.05 0\.05\] \[ *-?0\. +-?0\. +-1\.\]"],
     "lerobot": [r"^2 episodes; faults: \[\]"],
     "dynamics": [r"^True \d+\.\d+", r"^\[ *[-+\d.e ]* -9\.81"],
     "motion": [
