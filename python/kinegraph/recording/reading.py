@@ -33,7 +33,7 @@ class Recording:
         start: Unix time of time 0, s; 0 for a recording in control time that begins at 0.
         q, velocity: Shape (T, n), rad or m, and per s. Velocities that were not recorded are differences of q.
         effort: Shape (T, n), N m or N; shape (T, 0) if it was not recorded.
-        complete: False if the file was not closed, as after a crash; it was read up to its last complete part.
+        complete: False if the file was not closed, as after a crash, or is damaged; its complete parts were read.
     """
 
     path: Path
@@ -208,14 +208,21 @@ def readRecording(path: str | os.PathLike[str], topic: str = "/joint_states") ->
         recording.topics[at] = recording.topics.get(at, 0) + 1
         recording.types[at] = kind
         if at == topic and kind == messages.JOINT_STATE:
-            message = messages.decode(data, kind)
+            try:
+                message = messages.decode(data, kind)
+            except Exception as error:
+                raise FileError(f"readRecording: '{path}': a message of {at} is no {kind}: {error}") from None
             found.append((message.header.stamp.sec * 10**9 + message.header.stamp.nanosec, time, message))
-    recording.complete = state["complete"]
+    recording.complete = state.complete and not state.damaged
     others = [name for name, kind in recording.types.items() if kind == messages.JOINT_STATE and name != topic]
     if not found and others:
         raise NotFound(f"readRecording: '{path}' has no joint states on '{topic}'; it has them on {', '.join(others)}")
     _fill(recording, found)
-    if not recording.complete:
+    if state.damaged:
+        warnings.warn(
+            f"readRecording: '{path}' has {state.damaged} damaged parts, which are left out", KinegraphWarning, 2
+        )
+    if not state.complete:
         end = f"{recording.times[-1]:.2f} s" if len(recording.times) else "its first part"
         warnings.warn(
             f"readRecording: '{path}' was not closed, as after a crash; it is read up to {end}", KinegraphWarning, 2
@@ -270,10 +277,19 @@ def _natural(path: Path) -> list[Any]:
     return [int(part) if part.isdigit() else part for part in re.split(r"(\d+)", path.name)]
 
 
-def _read(path: Path) -> tuple[Iterator[Message], dict[str, bool]]:
-    """Returns the messages in their order, and a state whose "complete" is valid after the last one."""
-    state = {"complete": True}
+@dataclass
+class _FileState:
+    complete: bool = True
+    damaged: int = 0  # chunks
+
+
+def _read(path: Path) -> tuple[Iterator[Message], _FileState]:
+    """Returns the messages in their order, and a state that is valid after the last one."""
+    state = _FileState()
     files = [path]
+    metadata = path / "metadata.yaml"
+    if metadata.is_file() and re.search(r"compression_mode:\s*['\"]?(FILE|MESSAGE)", metadata.read_text(), re.I):
+        return _readCompressed(path), state
     if path.is_dir():
         files = sorted([*path.glob("*.mcap"), *path.glob("*.db3")], key=_natural)
         if not files:
@@ -288,31 +304,54 @@ def _read(path: Path) -> tuple[Iterator[Message], dict[str, bool]]:
     return read(), state
 
 
-def _readMcap(path: Path, state: dict[str, bool]) -> Iterator[Message]:
+def _readMcap(path: Path, state: _FileState) -> Iterator[Message]:
+    """Reads chunk by chunk. A damaged chunk is left out; damage between chunks ends the reading."""
     reading = messages.needed("mcap.stream_reader")
     records = messages.needed("mcap.records")
     errors = messages.needed("mcap.exceptions")
     schemas: dict[int, str] = {}
     channels: dict[int, tuple[str, str]] = {}
-    ended = False
+    ended = found = False
     with open(path, "rb") as file:
-        try:
-            for record in reading.StreamReader(file).records:
-                if isinstance(record, records.Schema):
-                    schemas[record.id] = record.name
-                elif isinstance(record, records.Channel):
-                    kind = schemas.get(record.schema_id, "") if record.message_encoding == "cdr" else ""
-                    channels[record.id] = (record.topic, kind or f"{record.message_encoding} message")
-                elif isinstance(record, records.Message):
-                    yield (*channels[record.channel_id], record.log_time, record.data)
-                elif isinstance(record, records.Footer):
-                    ended = True
-        except errors.InvalidMagic:
-            if not channels and not ended:
-                raise FileError(f"readRecording: '{path}' is not an MCAP file") from None
-        except (errors.McapError, EOFError, ValueError, KeyError, OSError):
-            pass
-    state["complete"] = state["complete"] and ended
+        stream = iter(reading.StreamReader(file, emit_chunks=True).records)
+        while True:
+            try:
+                record = next(stream, None)
+                found = found or record is not None
+            except errors.InvalidMagic:
+                if not found:
+                    raise FileError(f"readRecording: '{path}' is not an MCAP file") from None
+                break
+            except Exception:  # whatever the package raises on arbitrary bytes
+                break
+            if record is None or isinstance(record, records.Footer):
+                ended = record is not None
+                break
+            try:
+                parts = reading.breakup_chunk(record, True) if isinstance(record, records.Chunk) else [record]
+            except Exception:
+                state.damaged += 1
+                continue
+            for part in parts:
+                if isinstance(part, records.Schema):
+                    schemas[part.id] = part.name
+                elif isinstance(part, records.Channel):
+                    kind = schemas.get(part.schema_id, "") if part.message_encoding == "cdr" else ""
+                    channels[part.id] = (part.topic, kind or f"{part.message_encoding} message")
+                elif isinstance(part, records.Message) and part.channel_id in channels:
+                    yield (*channels[part.channel_id], part.log_time, part.data)
+    state.complete = state.complete and ended
+
+
+def _readCompressed(path: Path) -> Iterator[Message]:
+    """Reads a bag whose files or messages are compressed."""
+    rosbag2 = messages.needed("rosbags.rosbag2")
+    try:
+        with rosbag2.Reader(path) as reader:
+            for connection, time, data in reader.messages():
+                yield connection.topic, connection.msgtype, time, bytes(data)
+    except Exception as error:
+        raise FileError(f"readRecording: '{path}' is not a readable bag of rosbag2: {error}") from None
 
 
 def _readSqlite(path: Path) -> Iterator[Message]:

@@ -1,7 +1,6 @@
 """Recordings in MCAP files, read back by this package and by two independent readers."""
 
 import gc
-import os
 import subprocess
 import sys
 from pathlib import Path
@@ -14,32 +13,7 @@ from mcap_ros2.decoder import DecoderFactory
 from rosbags.highlevel import AnyReader
 
 import kinegraph as ry
-
-ARM = "scenarios/pandaSingle.g"
-
-
-def scene() -> ry.Config:
-    C = ry.Config()
-    C.addFile(ry.raiPath(ARM))
-    box = C.addFrame("box", "table").setRelativePosition([0.2, 0.25, 0.09])
-    box.setShape(ry.ST.ssBox, [0.04, 0.05, 0.08, 0.004]).setContact(1).setJoint(ry.JT.rigid).setMass(0.1)
-    return C
-
-
-def wave(bot: ry.BotOp, C: ry.Config) -> None:
-    """Moves the first joint and the fingers."""
-    bot.moveTo(np.add(bot.get_q(), [0.2, 0, 0, 0, 0, 0, 0]))
-    bot.gripperMove(0, 0.03)
-    bot.wait(C)
-
-
-def recorded(path: Path, **settings: Any) -> tuple[ry.Config, ry.BotOp]:
-    C = scene()
-    bot = ry.BotOp(C)
-    bot.recordTo(path, **settings)
-    wave(bot, C)
-    bot.recordTo("")
-    return C, bot
+from recorded_runs import ARM, recorded, scene, wave
 
 
 def messages(path: Path) -> dict[str, list[Any]]:
@@ -287,75 +261,6 @@ def test_a_recorded_driver_repeats_arm_and_hand(tmp_path: Path) -> None:
     replay.sync(C, recording.times[-1] + 0.1)
     np.testing.assert_allclose(replay.get_q(), recording.q[-1, :7])
     assert replay.getGripperPos(0) == pytest.approx(bot.getGripperPos(0), abs=1e-3)
-
-
-# --- bags of others ---------------------------------------------------------------------------------------------------
-
-
-def write_bag(folder: Path, storage: Any, states: list[tuple[str, int, list[str], list[float], list[float]]]) -> None:
-    """Writes joint states as rosbag2 does; rosbags is the writer."""
-    from rosbags.rosbag2 import Writer
-    from rosbags.typesys import Stores, get_typestore
-
-    store = get_typestore(Stores.ROS2_JAZZY)
-    types = store.types
-    with Writer(folder, version=9, storage_plugin=storage) as writer:
-        topics: dict[str, Any] = {}
-        for topic, time, names, q, velocity in states:
-            if topic not in topics:
-                topics[topic] = writer.add_connection(topic, "sensor_msgs/msg/JointState", typestore=store)
-            stamp = types["builtin_interfaces/msg/Time"](time // 10**9, time % 10**9)
-            message = types["sensor_msgs/msg/JointState"](
-                types["std_msgs/msg/Header"](stamp, ""), names, np.array(q), np.array(velocity), np.zeros(0)
-            )
-            writer.write(topics[topic], time + 500, store.serialize_cdr(message, "sensor_msgs/msg/JointState"))
-
-
-@pytest.mark.parametrize("storage", ["MCAP", "SQLITE3"])
-def test_bags_with_other_orders_and_several_publishers_are_merged_by_name(tmp_path: Path, storage: str) -> None:
-    from rosbags.rosbag2 import StoragePlugin
-
-    second = 10**9
-    states = []
-    for k in range(5):
-        at = 1_700_000_000 * second + k * second // 10
-        states.append(("/joint_states", at, ["b", "a"], [10.0 + k, float(k)], []))
-        states.append(("/joint_states", at + 1000, ["gripper"], [0.5], [0.0]))
-    write_bag(tmp_path / "bag", StoragePlugin[storage], states)
-    recording = ry.readRecording(tmp_path / "bag")
-    assert recording.joints == ["b", "a", "gripper"] and recording.complete
-    assert recording.start == pytest.approx(1.7e9, abs=1e-3)
-    np.testing.assert_array_equal(recording.q[-1], [14.0, 4.0, 0.5])
-    np.testing.assert_allclose(recording.q[0], [10.0, 0.0, 0.5])
-    arm = ry.Config()
-    arm.addFrame("base")
-    arm.addFrame("a", "base", "joint: hingeZ")
-    arm.addFrame("b", "a", "joint: hingeZ")
-    motion = recording.trajectory(arm)
-    np.testing.assert_allclose(motion.eval(motion.duration)[0], [4.0, 14.0])
-
-
-def test_a_topic_without_joint_states_is_named_with_the_others(tmp_path: Path) -> None:
-    from rosbags.rosbag2 import StoragePlugin
-
-    write_bag(tmp_path / "bag", StoragePlugin.MCAP, [("/arm/joint_states", 5, ["a"], [1.0], [])])
-    with pytest.raises(ry.NotFound, match="no joint states on '/joint_states'; it has them on /arm/joint_states"):
-        ry.readRecording(tmp_path / "bag")
-    assert ry.readRecording(tmp_path / "bag", "/arm/joint_states").q[0, 0] == 1.0
-
-
-def test_other_files_are_refused(tmp_path: Path) -> None:
-    (tmp_path / "noise.mcap").write_bytes(os.urandom(100))
-    (tmp_path / "noise.db3").write_bytes(b"x" * 100)
-    (tmp_path / "empty").mkdir()
-    for name, message in [
-        ("noise.mcap", "is not an MCAP file"),
-        ("noise.db3", "is not a bag of rosbag2"),
-        ("empty", "has no files .mcap or .db3"),
-        ("none.mcap", "there is no file"),
-    ]:
-        with pytest.raises(ry.FileError, match=message):
-            ry.readRecording(tmp_path / name)
 
 
 # --- simulations and plans --------------------------------------------------------------------------------------------
