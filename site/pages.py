@@ -8,7 +8,7 @@ HOW_TO = [
     ("Tasks", ["tasks"]),
     ("Cameras", ["perception"]),
     ("Robots that move", ["control", "operation", "mcap", "simulation", "dynamics"]),
-    ("Arms", ["franka", "trossen", "ur", "lerobot_robots"]),
+    ("Arms", ["ros2", "franka", "trossen", "ur", "lerobot_robots"]),
     ("Many problems", ["fleets", "lerobot", "sensitivities", "solvers"]),
     ("Programs", ["viewer", "cpp"]),
     (

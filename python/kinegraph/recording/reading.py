@@ -7,7 +7,7 @@ import re
 import sqlite3
 import warnings
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -20,7 +20,6 @@ from . import messages
 Message = tuple[str, str, int, bytes]  # topic, type, time (ns), CDR
 
 
-@dataclass
 class Recording:
     """A recorded motion.
 
@@ -36,16 +35,19 @@ class Recording:
         complete: False if the file was not closed, as after a crash, or is damaged; its complete parts were read.
     """
 
-    path: Path
-    topics: dict[str, int] = field(default_factory=dict)
-    types: dict[str, str] = field(default_factory=dict)
-    joints: list[str] = field(default_factory=list)
-    times: np.ndarray = field(default_factory=lambda: np.zeros(0))
-    start: float = 0.0
-    q: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
-    velocity: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
-    effort: np.ndarray = field(default_factory=lambda: np.zeros((0, 0)))
-    complete: bool = True
+    def __init__(self, path: Path):
+        """Creates an empty recording, which readRecording fills.
+
+        Args:
+            path: Path of the file or folder.
+        """
+        self.path = path
+        self.topics: dict[str, int] = {}
+        self.types: dict[str, str] = {}
+        self.joints: list[str] = []
+        self.times, self.start = np.zeros(0), 0.0
+        self.q, self.velocity, self.effort = np.zeros((0, 0)), np.zeros((0, 0)), np.zeros((0, 0))
+        self.complete = True
 
     def __repr__(self) -> str:
         length = self.times[-1] if len(self.times) else 0.0
@@ -101,6 +103,8 @@ class Recording:
             config: The scene.
             names: As in `trajectory`.
             grippers: Whether the driver has the grippers of the scene whose fingers were recorded.
+        Returns:
+            The driver; its info has the joints and limits of the scene.
         Raises:
             NotFound: A joint of the scene was not recorded.
             ArgumentError: There are no joint states.

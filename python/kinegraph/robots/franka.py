@@ -38,7 +38,7 @@ class FrankaDriver(RobotDriver):
         """
         super().__init__()
         info = RobotInfo.of(config, "FR3")
-        info.acceleration = np.array(ACCELERATION)
+        info.acceleration = 0.8 * np.array(ACCELERATION)  # the rest is for the polynomials between setpoints
         info.velocity = np.minimum(info.velocity, VELOCITY)
         if hand:
             info.grippers = [handInfo()]

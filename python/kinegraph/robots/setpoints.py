@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 Vector = list[float]
+
+STRETCHES, MARGIN = 14, 0.9  # tries of longer durations; share of acceleration and jerk that a polynomial may use
+SAMPLES = (0.0, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 1.0)
 
 
 @dataclass(frozen=True)
@@ -39,7 +41,7 @@ class Setpoints:
         self._braking = False
 
     def aim(self, q: Sequence[float], velocity: Sequence[float], acceleration: Sequence[float], period: float) -> None:
-        """Moves toward a setpoint.
+        """Moves toward a setpoint: in 1.5 periods, or longer if the limits demand it.
 
         Args:
             q, velocity, acceleration: State one period from now.
@@ -48,24 +50,22 @@ class Setpoints:
         if self.fault:
             return
         duration = 1.5 * period
-        for i, limit in enumerate(self._limits.acceleration):
-            apart = abs(q[i] + velocity[i] * (duration - period) - self.q[i] - self.velocity[i] * duration)
-            duration = max(
-                duration, math.sqrt(apart / (0.08 * limit)), (apart / (0.012 * self._limits.jerk[i])) ** (1 / 3)
-            )
-        ahead = duration - period
-        self._coefficients = [
-            _quintic(
-                (self.q[i], self.velocity[i], self.acceleration[i]),
-                (
-                    q[i] + ahead * velocity[i] + 0.5 * ahead**2 * acceleration[i],
-                    velocity[i] + ahead * acceleration[i],
-                    acceleration[i],
-                ),
-                duration,
-            )
-            for i in range(len(self.q))
-        ]
+        for _ in range(STRETCHES):
+            ahead = duration - period
+            a_end = acceleration if duration < 3.0 * period else [0.0] * len(q)  # not predicted for longer
+            ends = [
+                (x + ahead * v + 0.5 * ahead**2 * a, v + ahead * a, a)
+                for x, v, a in zip(q, velocity, a_end, strict=True)
+            ]
+            starts = zip(self.q, self.velocity, self.acceleration, strict=True)
+            self._coefficients = [_quintic(start, end, duration) for start, end in zip(starts, ends, strict=True)]
+            samples = ([_at(c, u * duration) for c in self._coefficients] for u in SAMPLES)
+            problem = next(filter(None, (self._excess(state, MARGIN) for state in samples)), "")
+            if not problem:
+                break
+            duration *= 1.3
+        else:
+            return self.brake(problem)
         self._time, self._duration, self._braking = 0.0, duration, False
 
     def brake(self, reason: str = "") -> None:
@@ -75,14 +75,24 @@ class Setpoints:
             reason: The cause; later setpoints are ignored if there is one.
         """
         self.fault = self.fault or reason
-        duration = 0.05
-        for v, a, limit, jerk in zip(
-            self.velocity, self.acceleration, self._limits.acceleration, self._limits.jerk, strict=True
-        ):
-            duration = max(duration, 2.0 * abs(v) / limit, 16.0 * abs(a) / jerk, math.sqrt(8.0 * abs(v) / jerk))
-        self._coefficients = [
-            _stopping(q, v, a, duration) for q, v, a in zip(self.q, self.velocity, self.acceleration, strict=True)
-        ]
+        duration, limits = 0.05, self._limits
+        for _ in range(STRETCHES):
+            starts = zip(self.q, self.velocity, self.acceleration, strict=True)
+            self._coefficients = [_stopping(q, v, a, duration) for q, v, a in starts]
+            peaks = [
+                max(abs(s[2]) / acceleration for s in samples)
+                if max(abs(s[3]) for s in samples) <= MARGIN * jerk
+                else 2.0
+                for samples, acceleration, jerk in zip(
+                    ([_at(c, u * duration) for u in SAMPLES] for c in self._coefficients),
+                    limits.acceleration,
+                    limits.jerk,
+                    strict=True,
+                )
+            ]
+            if max(peaks) <= 0.97:
+                break
+            duration *= 1.3
         self._time, self._duration, self._braking = 0.0, duration, True
 
     def advance(self, dt: float) -> Vector:
@@ -111,15 +121,15 @@ class Setpoints:
         self.velocity, self.acceleration = [s[1] for s in state], [s[2] for s in state]
         return self.q
 
-    def _excess(self, state: list[tuple[float, float, float, float]]) -> str:
+    def _excess(self, state: list[tuple[float, float, float, float]], share: float = 1.0) -> str:
         limits = self._limits
         for i, (_, v, a, j) in enumerate(state):
             for name, value, limit, unit in (
                 ("velocity", v, limits.velocity[i], "rad/s"),
-                ("acceleration", a, limits.acceleration[i], "rad/s^2"),
-                ("jerk", j, limits.jerk[i], "rad/s^3"),
+                ("acceleration", a, share * limits.acceleration[i], "rad/s^2"),
+                ("jerk", j, share * limits.jerk[i], "rad/s^3"),
             ):
-                if not abs(value) <= limit:  # NaN, too
+                if not abs(value) <= limit + 1e-9:  # NaN, too
                     return (
                         f"the setpoints ask for a {name} of {value:.3g} {unit} of joint {i + 1}; the limit is {limit:g}"
                     )

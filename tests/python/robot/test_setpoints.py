@@ -49,6 +49,20 @@ def test_a_smooth_reference_is_sent_within_a_tenth_of_a_milliradian() -> None:
     assert (velocity < VELOCITY).all() and (acceleration < ACCELERATION).all() and (jerk < JERK).all()
 
 
+def test_setpoints_at_irregular_times_cause_no_stop() -> None:
+    rng = np.random.default_rng(0)
+    setpoints = Setpoints([0.0] * 7, FR3)
+    rows, due = [], 0.0
+    for cycle in range(3000):
+        if cycle * DT >= due:
+            setpoints.aim(*[np.array(x, float).tolist() for x in swing(due + PERIOD)], PERIOD)
+            due = cycle * DT + rng.uniform(0.004, 0.016)
+        rows.append(list(setpoints.advance(DT)))
+    assert setpoints.fault == ""
+    velocity, acceleration, jerk = derivatives(np.array(rows))
+    assert (velocity < VELOCITY).all() and (acceleration < ACCELERATION).all() and (jerk < JERK).all()
+
+
 def test_a_step_is_approached_within_all_limits() -> None:
     setpoints = Setpoints([0.0] * 7, FR3)
     rows = sent(setpoints, lambda t: ([0.002] * 7, [0.0] * 7, [0.0] * 7), 0.5)
