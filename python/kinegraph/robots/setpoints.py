@@ -65,7 +65,8 @@ class Setpoints:
                 break
             duration *= 1.3
         else:
-            return self.brake(problem)
+            self.brake(problem)
+            return
         self._time, self._duration, self._braking = 0.0, duration, False
 
     def brake(self, reason: str = "") -> None:
