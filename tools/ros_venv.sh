@@ -19,7 +19,7 @@ here=$(realpath "$(dirname "$0")/..")
 # The wheels name the folders of the machine that built them.
 include=$("$folder/bin/python" -c "import sysconfig; print(sysconfig.get_path('include'))" | tail -n 1)
 numpy=$("$folder/bin/python" -c "import numpy; print(numpy.get_include())" | tail -n 1)
-grep -rl /opt/python --include=*.cmake "$folder" | xargs sed -i -E \
+grep -rl /opt/python --include=*.cmake "$folder" | xargs -r sed -i -E \
   "s#/opt/python/cp[0-9]+-cp[0-9]+/include/python3\.[0-9]+#$include#g
    s#/opt/python/cp[0-9]+-cp[0-9]+/lib/python3\.[0-9]+/site-packages/numpy/_core/include#$numpy#g"
 site=$("$folder/bin/python" -c "import sysconfig; print(sysconfig.get_path('purelib'))" | tail -n 1)
