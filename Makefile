@@ -2,6 +2,7 @@
 # make test           installs the requirements of the tests, and runs all tests
 # make docs           builds the site: build/site/html/index.html (make docs-serve: at http://localhost:8000)
 # make test-models    reads every robot of two large collections and compares with Pinocchio and MuJoCo (2 GB, minutes)
+# make test-ros       makes an environment with rclpy in build/ros, and tests the connection to ROS 2
 # make tidy           runs clang-tidy on the library; ARGS="src/kinegraph/komo" takes some rooms
 # make nightly        runs tests, Clang, sanitizers, fuzzers and benchmarks, and writes docs/results/VERSION.md (hours);
 #                     ARGS=--quick takes a small sample of each
@@ -10,7 +11,7 @@
 PYTHON ?= python3
 VENV := .venv
 
-.PHONY: demo install test docs docs-serve test-models tidy nightly clean
+.PHONY: demo install test docs docs-serve test-models test-ros tidy nightly clean
 
 demo: install
 	$(VENV)/bin/kinegraph demo $(ARGS)
@@ -29,6 +30,11 @@ docs-serve: docs
 
 test-models:
 	PYTHON="$(PYTHON)" bash tools/test_models.sh $(ARGS)
+
+test-ros:
+	PYTHON="$(PYTHON)" bash tools/ros_venv.sh build/ros
+	PYTHONPATH="$(CURDIR)/python" ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST KINEGRAPH_HEADLESS=1 \
+	  build/ros/bin/python -m pytest -q tests/ros
 
 tidy:
 	PYTHON="$(PYTHON)" bash tools/tidy.sh $(ARGS)

@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 
 import kinegraph as ry
+from kinegraph.png import writePng
 
 HERE = Path(__file__).parent
 sys.path.append(str(HERE.parent / "tests"))
@@ -179,6 +180,42 @@ def page(folder: Path) -> None:
         )
 
 
+def arms(folder: Path) -> None:
+    """The arms of the pages on their drivers."""
+    bent = [0.0, -1.2, 1.6, -2.0, -1.6, 0.0]
+    for name, file, home in (("trossen", "trossen/trossen.g", None), ("ur5e", "ur5e/ur5e.g", bent)):
+        C = ry.Config()
+        C.addFile(ry.raiPath(file))
+        if home is not None:
+            C.setJointState(home)
+        viewer = C.viewer()
+        C.view(offscreen=True)
+        viewer.visualsOnly()
+        viewer.setWindow(name, 640, 480)
+        reach = max(0.4, max(np.linalg.norm(frame.getPosition()) for frame in C.getFrames()))
+        at = np.mean([frame.getPosition() for frame in C.getFrames()], axis=0)
+        viewer.setCamera(at + reach * np.array([1.3, -2.0, 1.0]), at)
+        viewer.savePng(str(folder / f"{name}.png"))
+
+
+def recordedImage(folder: Path) -> None:
+    """An image out of a recording of a task plan."""
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    box = C.addFrame("box", "table").setRelativePosition([0.2, 0.25, 0.09])
+    box.setShape(ry.ST.ssBox, [0.04, 0.05, 0.08, 0.004]).setColor([0.9, 0.4, 0.1])
+    box.setContact(1).setJoint(ry.JT.rigid).setMass(0.1)
+    tray = C.addFrame("tray", "table").setRelativePosition([-0.25, 0.25, 0.055])
+    tray.setShape(ry.ST.ssBox, [0.14, 0.14, 0.01, 0.004]).setContact(1)
+    bot = ry.BotOp(C)
+    with tempfile.TemporaryDirectory() as temporary:
+        bot.recordTo(temporary + "/run.mcap", cameras=["cameraTop"])
+        ry.planTask(C, "(on tray box)").execute(bot)
+        bot.recordTo("")
+        _, images = ry.readRecording(temporary + "/run.mcap").images("cameraTop")
+    writePng(folder / "mcap.png", images[-1])
+
+
 def ownRobot(folder: Path) -> None:
     """The arm of the page on a robot of one's own, by the code of that page."""
     blocks = re.findall(r"```python\n(.*?)```", (HERE / "own_robot.md").read_text(), re.DOTALL)
@@ -190,7 +227,7 @@ def ownRobot(folder: Path) -> None:
         shutil.copy(Path(place) / "robot.png", folder / "own_robot.png")
 
 
-PICTURES = [gripperAxes, ownRobot, taskFilms, movingFilm, examplePictures, page]
+PICTURES = [gripperAxes, arms, recordedImage, ownRobot, taskFilms, movingFilm, examplePictures, page]
 
 if __name__ == "__main__":
     for make in PICTURES:

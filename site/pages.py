@@ -7,7 +7,8 @@ HOW_TO = [
     ("Motions", ["motion", "planning", "timing", "tool_paths"]),
     ("Tasks", ["tasks"]),
     ("Cameras", ["perception"]),
-    ("Robots that move", ["control", "operation", "simulation", "dynamics"]),
+    ("Robots that move", ["control", "operation", "mcap", "simulation", "dynamics"]),
+    ("Arms", ["ros2", "franka", "trossen", "ur", "lerobot_robots"]),
     ("Many problems", ["fleets", "lerobot", "sensitivities", "solvers"]),
     ("Programs", ["viewer", "cpp"]),
     (
@@ -82,6 +83,7 @@ NAMES = {
     ),
     "perception": ("Perception", "DepthView registerScene SeenScene SeenFrame SeenStatus"),
     "fleets": ("Many processes", "imap readResults"),
+    "mcap": ("Recordings", "Recording readRecording saveRecording serveFoxglove"),
     "lerobot": ("Data sets of LeRobot", "demonstrate LeRobotWriter Randomization checkDataset mergeShards"),
     "errors": (
         "Errors",

@@ -192,6 +192,7 @@ if _TYPE_CHECKING:
     from .problems import get_NLP_Problem_names, make_NLP_Problem
     from .quaternion import Quaternion
     from .reachable import reachability
+    from .recording import Recording, readRecording, saveRecording, serveFoxglove
     from .robot_files import robotNames, robotPath
 
 _LAZY = {  # module: names
@@ -215,6 +216,7 @@ _LAZY = {  # module: names
     "problems": ("get_NLP_Problem_names", "make_NLP_Problem"),
     "quaternion": ("Quaternion",),
     "reachable": ("reachability",),
+    "recording": ("Recording", "readRecording", "saveRecording", "serveFoxglove"),
     "robot_files": ("robotNames", "robotPath"),
 }
 _MODULE_OF = {name: module for module, names in _LAZY.items() for name in names}
@@ -332,6 +334,7 @@ __all__ = [
     "RRT_PathFinder",
     "Randomization",
     "RecordedDriver",
+    "Recording",
     "RetimeStatus",
     "Roadmap",
     "RoadmapPath",
@@ -412,6 +415,7 @@ __all__ = [
     "planToolPath",
     "raiPath",
     "reachability",
+    "readRecording",
     "readResults",
     "registerScene",
     "retime",
@@ -420,7 +424,9 @@ __all__ = [
     "robotNames",
     "robotPath",
     "saveFilm",
+    "saveRecording",
     "sceneFacts",
+    "serveFoxglove",
     "servo",
     "setRaiPath",
     "set_params",

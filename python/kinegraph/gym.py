@@ -6,6 +6,11 @@ any reward, and batches of environments.
     observation, info = env.reset(seed=0)
     observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
 
+Importing this module registers kinegraph/Reach-v0, kinegraph/Lift-v0 and kinegraph/Push-v0; gymnasium imports it by
+itself in
+
+    env = gymnasium.make("kinegraph.gym:kinegraph/Reach-v0")
+
 An action is a joint velocity, as a share of the largest; LiftEnv has one more entry, which opens (> 0) or closes the
 hand. A step takes 50 ms. All random numbers come from the seed of `reset`, so equal seeds give equal episodes.
 """
@@ -360,3 +365,7 @@ class BatchEnv(gymnasium.vector.VectorEnv[NDArray[np.float32], NDArray[np.float3
         self.done[began] = False
         rewards = np.where(np.isin(np.arange(self.num_envs), began), 0.0, -distance)
         return observations, rewards, self.done.copy(), np.zeros(self.num_envs, bool), {}
+
+
+for _name, _env, _steps in (("Reach", ReachEnv, 200), ("Lift", LiftEnv, 200), ("Push", PushEnv, None)):  # 10 s each
+    gymnasium.register(id=f"kinegraph/{_name}-v0", entry_point=f"{__name__}:{_env.__name__}", max_episode_steps=_steps)

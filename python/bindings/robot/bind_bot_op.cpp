@@ -222,19 +222,27 @@ void watch(PyBotOp& self, const nb::callable& function, double period) {
     self.watched.erase(number);
     return false;
   };
-  self->watch(period, call);
   self.watched.emplace(number, function);
+  try {
+    const nb::gil_scoped_release unlock;  // the robot's thread may hold the robot, and wait for the interpreter
+    self->watch(period, call);
+  } catch (...) {
+    self.watched.erase(number);
+    throw;
+  }
 }
 
 int traverseBot(PyObject* self, visitproc visit, void* arg) {
   Py_VISIT(Py_TYPE(self));
   if (!nb::inst_ready(self)) return 0;
+  Py_VISIT(nb::inst_ptr<PyBotOp>(self)->recorder.ptr());
   for (const auto& [number, function] : nb::inst_ptr<PyBotOp>(self)->watched) Py_VISIT(function.ptr());
   return 0;
 }
 
 int clearBot(PyObject* self) {
   nb::inst_ptr<PyBotOp>(self)->watched.clear();
+  nb::inst_ptr<PyBotOp>(self)->recorder.reset();
   return 0;
 }
 
@@ -384,11 +392,15 @@ void bindRecords(nb::module_& m, nb::class_<PyBotOp>& bot) {
           "log"_a, docs::robot::replay)
       .def(
           "recordTo",
-          [](PyBotOp& b, const PathText& path) {
-            const nb::gil_scoped_release unlock;
-            b->recordTo(path.text);
+          [](nb::handle self, const PathText& path, double rate, nb::handle cameras, double camera_rate, double start) {
+            nb::cast<PyBotOp&>(self).recordTo(self, path.text, rate, cameras, camera_rate, start);
           },
-          "path"_a, docs::robot::recordTo)
+          "path"_a, nb::kw_only(), "rate"_a = 100., "cameras"_a = nb::make_tuple(), "camera_rate"_a = 20.,
+          "start"_a = 0.,
+          nb::sig(
+              "def recordTo(self, path: str | os.PathLike[str], *, rate: float = 100.0, "
+              "cameras: collections.abc.Sequence[str] = (), camera_rate: float = 20.0, start: float = 0.0) -> None"),
+          docs::robot::recordTo)
       .def("close", &PyBotOp::close, "Disconnects the driver. Later calls raise an error.");
 }
 

@@ -379,13 +379,23 @@ Raises:
     ArgumentError: The robot has moved before, or the log has another period.
     FrameNotFound: The scene lacks a frame of the log.)";
 
-inline constexpr char recordTo[] =
-    R"(Writes a line per control period into a file from now on: time, q, velocity, and the references of both.
+inline constexpr char recordTo[] = R"(Records the robot into a file from now on, while calls wait.
+
+A name that ends in .mcap gets messages of ROS 2 for Foxglove, Rerun and rosbag2, with the extra `mcap`: joint states,
+references, poses, clock, images (docs/mcap.md). Any other file gets a line of numbers per control period: time, q,
+velocity, and the references of both.
 
 Args:
-    path: Path of the file; empty ends it.
+    path: Path of the file, which is replaced; empty ends the recording, as close() does.
+    rate: Samples per second, Hz. This and the following are for .mcap.
+    cameras: Camera frames whose images are recorded as JPEG.
+    camera_rate: Images per second, Hz.
+    start: Unix time of control time 0, s. All stamps are control times plus this.
 Raises:
-    FileError: The file cannot be written.)";
+    FileError: The file cannot be written.
+    ArgumentError: A rate or start is invalid.
+    FrameNotFound: There is no such camera.
+    NotFound: The packages of the extra `mcap` are not installed.)";
 
 inline constexpr char RobotDriver[] =
     R"(The interface of BotOp to a robot. Subclasses drive your own robots.

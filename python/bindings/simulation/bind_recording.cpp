@@ -2,6 +2,8 @@
 #include <nanobind/stl/shared_ptr.h>
 #include <nanobind/stl/string.h>
 
+#include <utility>
+
 #include "arguments.h"
 #include "bindings.h"
 #include "kinegraph/api/recorded_motion.h"
@@ -30,6 +32,19 @@ int viewRecording(PyRecording& recording, bool pause, const std::optional<std::s
   if (!openPage(*viewer)) return pause ? kEscape : 0;
   const nb::gil_scoped_release unlock;
   return viewer->showMotion(config, motion, pause, message, interrupted);
+}
+
+void recordSimulationTo(nb::handle self, const PathText& path, double rate, nb::handle cameras, double camera_rate,
+                        double start) {
+  PySimulation& simulation = nb::cast<PySimulation&>(self);
+  if (simulation.recorder.is_valid()) {
+    const nb::object ended = std::exchange(simulation.recorder, nb::object());
+    ended.attr("close")();
+  }
+  if (path.text.empty()) return;
+  simulation.recorder =
+      nb::module_::import_("kinegraph.recording")
+          .attr("recordSimulation")(self, simulation.config, path.text, rate, cameras, camera_rate, start);
 }
 
 }  // namespace
@@ -103,7 +118,13 @@ void bindRecording(nb::module_& m, nb::class_<PySimulation>& simulation) {
           "startRecording", [](S& s) { s.simulation.startRecording(); }, docs::simulation::startRecording)
       .def(
           "stopRecording", [](S& s) { return PyRecording{s.simulation.stopRecording()}; },
-          docs::simulation::stopRecording);
+          docs::simulation::stopRecording)
+      .def("recordTo", recordSimulationTo, "path"_a, nb::kw_only(), "rate"_a = 100., "cameras"_a = nb::make_tuple(),
+           "camera_rate"_a = 20., "start"_a = 0.,
+           nb::sig(
+               "def recordTo(self, path: str | os.PathLike[str], *, rate: float = 100.0, "
+               "cameras: collections.abc.Sequence[str] = (), camera_rate: float = 20.0, start: float = 0.0) -> None"),
+           docs::simulation::recordTo);
 }
 
 }  // namespace kinegraph::python

@@ -62,9 +62,14 @@ void stepSimulation(PySimulation& s, const Numbers& u, double tau, ControlMode m
   }
   s.simulation.publish();
   if (observer) observer->afterStep(s.simulation);
+  if (s.recorder.is_valid()) s.recorder.attr("step")(nb::find(s));
 }
 
 void multiStep(PySimulation& s, double tau_step, double tau_sim) {
+  if (s.recorder.is_valid() && tau_step > 0. && tau_sim > 0.) {
+    for (long i = std::lround(tau_step / tau_sim); i > 0; --i) stepSimulation(s, {}, tau_sim, ControlMode::spline);
+    return;
+  }
   s.simulation.update();
   CheckInterrupts check;
   const auto go = [&] { s.simulation.multi_step(tau_step, tau_sim, [&] { check(); }); };

@@ -415,4 +415,19 @@ Returns:
 Raises:
     ArgumentError: startRecording was not called.)";
 
+inline constexpr char recordTo[] =
+    R"(Records step and multi_step into a file .mcap from now on: joint states, poses, clock, images (docs/mcap.md).
+
+Args:
+    path: Path of the file, which is replaced; empty ends the recording.
+    rate: Samples per second, Hz; at most one per step.
+    cameras: Camera frames whose images are recorded as JPEG.
+    camera_rate: Images per second, Hz.
+    start: Unix time of simulated time 0, s.
+Raises:
+    FileError: The file cannot be written.
+    ArgumentError: The name does not end in .mcap, or a rate or start is invalid.
+    FrameNotFound: There is no such camera.
+    NotFound: The packages of the extra `mcap` are not installed.)";
+
 }  // namespace kinegraph::python::docs::simulation

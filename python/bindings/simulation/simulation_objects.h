@@ -11,6 +11,7 @@ namespace kinegraph::python {
 struct PySimulation {
   nb::object config;
   Simulation simulation;
+  nb::object recorder{};  ///< of `recordTo`, if any; it does not refer to the simulation
 };
 
 void bindSimulation(nb::module_& m);

@@ -4,7 +4,10 @@ The drivers are tested against stand-ins for the vendors' packages, and *not* on
 hand. They import the vendors' packages when they connect.
 """
 
+from .franka import FrankaDriver
+from .lerobot import LeRobotDriver
 from .panda import PandaDriver
+from .trossen import TrossenDriver
 from .ur import UrDriver
 
-__all__ = ["PandaDriver", "UrDriver"]
+__all__ = ["FrankaDriver", "LeRobotDriver", "PandaDriver", "TrossenDriver", "UrDriver"]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import queue
-import threading
 from typing import Any
 
 import numpy as np
@@ -11,67 +9,20 @@ import numpy as np
 from .._core import (
     Config,
     GripperCommand,
-    GripperInfo,
-    GripperState,
     RobotCommand,
     RobotDriver,
     RobotInfo,
     RobotState,
 )
+from .hand import Hand, handInfo
 
 STIFFNESS = np.array([600.0, 600.0, 600.0, 600.0, 250.0, 150.0, 50.0])  # N m/rad, defaults of panda-python
 DAMPING = np.array([50.0, 50.0, 50.0, 20.0, 20.0, 20.0, 10.0])  # N m s/rad
 ACCELERATION = np.array([15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0])  # rad/s^2, from Franka's manual
 
 
-class _Hand:
-    """The hand. Its calls block, so that a thread makes them."""
-
-    def __init__(self, hand: Any) -> None:
-        self._hand = hand
-        self._commands: queue.SimpleQueue[GripperCommand | None] = queue.SimpleQueue()
-        self._lock = threading.Lock()
-        self._open = 0  # number of unfinished commands
-        self._error = ""
-        self._width = float(hand.read_once().width)
-        self._thread = threading.Thread(target=self._run, daemon=True)
-        self._thread.start()
-
-    def _run(self) -> None:
-        while (command := self._commands.get()) is not None:
-            error = ""
-            try:
-                if command.grasp:
-                    self._hand.grasp(command.width, command.speed, command.force, 1.0, 1.0)
-                else:
-                    self._hand.move(command.width, command.speed)
-            except Exception as problem:
-                error = str(problem)
-            width = float(self._hand.read_once().width)
-            with self._lock:
-                self._open -= 1
-                self._width, self._error = width, error or self._error
-
-    def command(self, command: GripperCommand) -> None:
-        with self._lock:
-            self._open += 1
-        self._commands.put(command)
-
-    def state(self) -> tuple[GripperState, str]:
-        with self._lock:
-            return GripperState(self._width, self._open == 0), self._error
-
-    def clear(self) -> None:
-        with self._lock:
-            self._error = ""
-
-    def close(self) -> None:
-        self._commands.put(None)
-        self._thread.join(timeout=5.0)
-
-
 class PandaDriver(RobotDriver):
-    """A Panda with its hand. Untried on hardware. An FR3 has another protocol, which panda-python refuses.
+    """A Panda with its hand. Untried on hardware. An FR3 has another protocol; its driver is FrankaDriver.
 
     The loop of 1 kHz runs in panda-python's thread; this driver passes it setpoints. Its controller has one stiffness
     per joint, so that setCompliance uses the diagonal of the compliance only.
@@ -90,11 +41,11 @@ class PandaDriver(RobotDriver):
         info.compliant = True
         info.acceleration = ACCELERATION
         if hand:
-            info.grippers = [GripperInfo("hand", 0.0, 0.08, 0.1, 70.0)]
+            info.grippers = [handInfo()]
         self._info, self._host, self._has_hand = info, host, hand
         self._panda: Any = None
         self._controller: Any = None
-        self._hand: _Hand | None = None
+        self._hand: Hand | None = None
         self._share = np.ones(7)
 
     def info(self) -> RobotInfo:
@@ -108,7 +59,7 @@ class PandaDriver(RobotDriver):
 
         self._panda = panda_py.Panda(self._host)
         if self._has_hand:
-            self._hand = _Hand(libfranka.Gripper(self._host))
+            self._hand = Hand(libfranka.Gripper(self._host))
         self._start()
 
     def _start(self) -> None:

@@ -37,6 +37,12 @@ FOUND = {
         r"from below: no solution .*'table' and 'l_panda_coll7' overlap",
         r"collisions with the box: [1-9]",
     ],
+    "mcap": [
+        r"^<Recording 'run.mcap', \d\.\d\d s, 9 joints, 8 topics> \d\d\d$",
+        r"^BotOp\.follow: .*velocity",
+    ],
+    "ros2": [r"^\[0\.2 0\.1\] 1\.5$"],
+    "lerobot_robots": [r"^True \['shoulder_pan', ", r"^\[0\.22 0\.05 0\.05\] \[ *-?0\. +-?0\. +-1\.\]"],
     "lerobot": [r"^2 episodes; faults: \[\]"],
     "determinism": [r"^\[True, True, True\]$"],
     "dynamics": [r"^True \d+\.\d+", r"^\[ *[-+\d.e ]* -9\.81"],

@@ -370,3 +370,21 @@ def test_a_recorded_robot_returns_its_states_and_records_its_commands(panda: ry.
     assert len(tape.commands()) == 3 and tape.commands()[0].q == pytest.approx(q) and tape.commands()[0].isStiff()
     with pytest.raises(ry.ArgumentError, match="velocity has 3 numbers; expected 7"):
         ry.RobotInfo("odd", info.joints, velocity=[1.0, 2.0, 3.0])
+
+
+def test_a_function_can_be_watched_while_a_driver_in_python_runs_in_real_time(panda: ry.Config) -> None:
+    class Paced(OwnRobot):
+        """Is often in its calls, so that its thread and the script want the interpreter at the same time."""
+
+        def read(self) -> ry.RobotState:
+            time.sleep(0.005)
+            return super().read()
+
+    bot = ry.BotOp(panda, True, driver=Paced(panda))
+    calls: list[float] = []
+    for _ in range(20):
+        bot.watch(0.0, calls.append)  # took the lock of the robot's thread with the interpreter's: both waited forever
+        time.sleep(0.002)
+    bot.sync(panda, 0.1)
+    assert len(calls) >= 20
+    bot.close()

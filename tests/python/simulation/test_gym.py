@@ -17,6 +17,17 @@ def test_an_environment_passes_the_checks_of_gymnasium(make):
     check_env(make(), skip_render_check=True)
 
 
+@pytest.mark.parametrize("name, kind", [("Reach", ReachEnv), ("Lift", LiftEnv), ("Push", PushEnv)])
+def test_environments_are_made_by_their_names_and_end_after_10_s(name, kind):
+    env = gymnasium.make(f"kinegraph.gym:kinegraph/{name}-v0")
+    assert isinstance(env.unwrapped, kind)
+    env.reset(seed=1)
+    rest = np.zeros(env.action_space.shape, np.float32)
+    ends = [env.step(rest)[2:4] for _ in range(200)]
+    assert [any(end) for end in ends] == [False] * 199 + [True]
+    assert ends[-1] == (False, True)
+
+
 @pytest.mark.parametrize("make", [ReachEnv, LiftEnv, PushEnv])
 def test_the_same_seed_gives_the_same_run(make):
     runs = []

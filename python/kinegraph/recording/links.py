@@ -1,0 +1,101 @@
+"""The links of a scene, named as in its URDF, and their transforms."""
+
+from __future__ import annotations
+
+import warnings
+from xml.etree import ElementTree
+
+import numpy as np
+
+from .._core import JT, Config
+from ..errors import KinegraphWarning
+
+Transforms = list[tuple[str, str, np.ndarray]]
+ROOT = "world"
+
+
+def _relative(parents: np.ndarray, children: np.ndarray) -> np.ndarray:
+    """Returns the poses of children in their parents, (N, 7) each."""
+    inverse = parents[:, 3:] * [1.0, -1.0, -1.0, -1.0]
+    return np.hstack(
+        [_rotated(inverse, children[:, :3] - parents[:, :3]), _product(inverse, children[:, 3:])],
+    )
+
+
+def _product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    w = a[:, :1] * b[:, :1] - np.sum(a[:, 1:] * b[:, 1:], axis=1, keepdims=True)
+    return np.hstack([w, a[:, :1] * b[:, 1:] + b[:, :1] * a[:, 1:] + np.cross(a[:, 1:], b[:, 1:])])
+
+
+def _rotated(a: np.ndarray, v: np.ndarray) -> np.ndarray:
+    t = 2.0 * np.cross(a[:, 1:], v)
+    return np.asarray(v + a[:, :1] * t + np.cross(a[:, 1:], t))
+
+
+class Links:
+    """The tree of links of a scene: those of its URDF, and other frames as children of the world."""
+
+    def __init__(self, config: Config):
+        """Reads the scene.
+
+        Args:
+            config: The scene.
+        """
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", KinegraphWarning)  # about shapes that URDF cannot express
+            self.urdf = str(config.writeURDF())
+        tree = ElementTree.fromstring(self.urdf)
+        frames = config.getFrameNames()
+        self.count = len(frames)
+        self._index = {name: index for index, name in enumerate(frames)}
+        parent_of: dict[str, str] = {}
+        moving: set[str] = set()
+        urdf_joints = {joint.get("name") for joint in tree.iter("joint")}
+        self.joints: list[str] = []  # all joints with one value, fingers included
+        for joint in tree.iter("joint"):
+            parent, child = joint.find("parent"), joint.find("child")
+            if parent is None or child is None:
+                continue
+            parent_of[child.get("link", "")] = parent.get("link", "")
+            if joint.get("type") != "fixed":
+                moving.add(child.get("link", ""))
+                if joint.get("name") in self._index and joint.get("type") in ("revolute", "continuous", "prismatic"):
+                    self.joints.append(str(joint.get("name")))
+        links = [str(link.get("name")) for link in tree.iter("link")]
+        known = urdf_joints.union(links)
+        links += [f for f in frames if f not in known and f + "_link" not in known and self._isFree(config, f)]
+        self.names = [name for name in links if self._frame(name) is not None and name != ROOT]
+        self.parents = [parent_of.get(name, ROOT) for name in self.names]
+        self._children = np.array([self._frame(name) for name in self.names], int)
+        self._parents = np.array([-1 if self._frame(p) is None else self._frame(p) for p in self.parents], int)
+        self._moving = np.array([name in moving or self._isFree(config, name) for name in self.names], bool)
+        self._last: np.ndarray | None = None
+
+    def _frame(self, link: str) -> int | None:
+        return self._index.get(link, self._index.get(link.removesuffix("_link")))
+
+    def _isFree(self, config: Config, name: str) -> bool:
+        if name not in self._index:
+            return False
+        frame = config.getFrame(name)
+        return name != ROOT and (frame.getParent() is None or frame.getJointType() == JT.rigid)
+
+    def read(self, config: Config) -> tuple[Transforms, Transforms]:
+        """Returns the transforms of the links that move, and, in the first call, those of the others.
+
+        A link that changes its place counts as moving from then on.
+
+        Args:
+            config: The scene.
+        """
+        world = config.getFrameState()
+        origin = np.array([[0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0]])
+        world = np.vstack([world, origin])  # index -1: the world
+        poses = _relative(world[self._parents], world[self._children])
+        first = self._last is None
+        if self._last is not None:
+            self._moving |= np.abs(poses - self._last).max(axis=1) > 1e-6
+        self._last = poses
+        moving = [(self.parents[i], self.names[i], poses[i]) for i in np.flatnonzero(self._moving)]
+        resting = [(self.parents[i], self.names[i], poses[i]) for i in np.flatnonzero(~self._moving)] if first else []
+        return moving, resting
