@@ -21,8 +21,8 @@ KINEGRAPH_HIDDEN std::uint32_t arc4random() noexcept {
   return drawn;
 }
 
-/// glibc 2.30. Waits by the real-time clock until the same moment. If that clock is set meanwhile, the wait ends earlier
-/// or later; callers such as std::condition_variable::wait_until compare with their own clock and wait again.
+/// glibc 2.30. Waits by the real-time clock until the same moment. If that clock is set meanwhile, the wait ends early
+/// or late; callers such as std::condition_variable::wait_until compare with their own clock and wait again.
 KINEGRAPH_HIDDEN int pthread_cond_clockwait(pthread_cond_t* __restrict condition, pthread_mutex_t* __restrict mutex,
                                             clockid_t clock, const timespec* __restrict deadline) {
   constexpr std::int64_t kSecond = 1'000'000'000;
