@@ -6,12 +6,14 @@
 # make tidy           runs clang-tidy on the library; ARGS="src/kinegraph/komo" takes some rooms
 # make nightly        runs tests, Clang, sanitizers, fuzzers and benchmarks, and writes docs/results/VERSION.md (hours);
 #                     ARGS=--quick takes a small sample of each
+# make release        makes and checks sdist, wheels, the C++ package and checksums in dist/ (docs/releases.md);
+#                     ARGS="--python python3.12 --dirty" takes other interpreters, and an untagged commit
 # PYTHON=...          the Python to use (3.11 or newer)
 
 PYTHON ?= python3
 VENV := .venv
 
-.PHONY: demo install test docs docs-serve test-models test-ros tidy nightly clean
+.PHONY: demo install test docs docs-serve test-models test-ros tidy nightly release clean
 
 demo: install
 	$(VENV)/bin/kinegraph demo $(ARGS)
@@ -41,6 +43,9 @@ tidy:
 
 nightly:
 	PYTHON="$(PYTHON)" bash tools/nightly.sh $(ARGS)
+
+release:
+	PYTHON="$(PYTHON)" bash tools/release.sh $(ARGS)
 
 $(VENV)/bin/python:
 	bash tools/make_venv.sh "$(PYTHON)" $(VENV)

