@@ -48,7 +48,7 @@ std::string placeBelow(const Config& C, const std::string& obj, const Words& pla
   std::string below;
   for (const std::string& place : places) {
     if (place == obj || !(C.getFrame(place).getPosition().z() < height)) continue;
-    const double gap = std::abs(gapOf(C, obj, place));
+    const double gap = std::abs(standingGap(C, obj, place));
     if (gap < nearest || (gap == nearest && place < below)) nearest = gap, below = place;
   }
   return nearest <= kTouch ? below : "";

@@ -55,7 +55,6 @@ class TaskSearch {
   bool isLate() const { return std::chrono::steady_clock::now() > deadline_; }
   bool hasPlan() const;
 
-  std::string missingParts() const;
   TaskPlan noSequenceLeft();
   TaskPlan unsolved(const std::string& reason);
   TaskPlan answer(TaskStatus status, std::string message);
