@@ -80,6 +80,22 @@ void requireMovable(const std::string& obj, const Words& doors, const Config& wo
   }
 }
 
+/// Throws ValueError if joints of q move the fingers of a hand.
+void requireFingersOutsideQ(const std::string& hand, const Config& world) {
+  const Frame head = headOfLink(world.getFrame(hand));
+  Words fingers, others = world.getJointNames();
+  for (const Frame& frame : head.getSubtree()) {
+    const auto& joint = frame.data().joint;
+    if (!(frame == head) && joint && joint->active && joint->dofs() > 0) fingers.push_back(frame.getName());
+  }
+  if (fingers.empty()) return;
+  std::erase_if(others, [&](const std::string& name) { return std::ranges::find(fingers, name) != fingers.end(); });
+  throw ValueError(cat("execute: the fingers of '", hand, "' (", join(fingers),
+                       ") are joints of q, so that no gripper closes them; keep them out of q before planTask: "
+                       "C.selectJoints({",
+                       join(others), "}), or 'joint_active: false' in a file"));
+}
+
 }  // namespace
 
 void requireMovable(const TaskPlan& plan, const Config& world) {
@@ -104,9 +120,13 @@ std::map<std::string, int> grippersOf(const BotOp& bot, const Config& scene) {
   return numbers;
 }
 
-void requireGrippers(const TaskPlan& plan, const std::map<std::string, int>& grippers) {
+void requireGrippers(const TaskPlan& plan, const std::map<std::string, int>& grippers, const Config* simulated) {
   for (const TaskAction& action : plan.actions) {
     if (!(isPick(action) || isHold(action) || action[0] == "handover") || grippers.contains(action[3])) continue;
+    if (simulated) {
+      requireFingersOutsideQ(action[3], *simulated);
+      continue;
+    }
     Words names;
     for (const auto& [name, number] : grippers) names.push_back(name);
     throw ValueError(cat("execute: the plan closes '", action[3], "', and the robot's driver has ",

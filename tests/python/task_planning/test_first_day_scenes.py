@@ -203,3 +203,82 @@ def test_what_occupies_a_place_and_cannot_be_moved_is_named() -> None:
     assert not plan.feasible
     assert "while (on tray big)" in plan.message
     assert "'big' is wider than 'l_gripper' opens (0.080 m) along all of its axes" in plan.message
+
+
+def test_things_that_change_places_wait_where_there_is_room() -> None:
+    C = scene()
+    for k, x in enumerate((-0.3, 0.3)):
+        pad = C.addFrame(f"pad{k}", "table").setPosition([x, 0.3, TOP + 0.005])
+        pad.setShape(ry.ST.ssBox, [0.1, 0.1, 0.01, 0.004]).setContact(1)
+        box(C, f"box{k}", f"pad{k}", (x, 0.3, TOP + 0.01))
+    plan = ry.planTask(C, "(on pad1 box0) (on pad0 box1)")
+    assert len(plan.actions) == 6  # one waits on the table, and not on the edge of the other's pad
+    world = executed(C, plan)
+    for name, place in (("box0", "pad1"), ("box1", "pad0")):
+        assert stands(world, name, place, TOP + 0.01 + 0.035, 0.02)
+
+
+def test_a_place_without_room_for_both_takes_both_if_the_goal_says_so() -> None:
+    C = scene()
+    tray(C, (0.12, 0.06, 0.01))
+    box(C, "red", "table", (0.3, 0.3, TOP), (0.05, 0.05, 0.07))
+    box(C, "blue", "table", (0.1, 0.4, TOP), (0.065, 0.05, 0.07))
+    plan = ry.planTask(C, "(on tray red) (on tray blue)")
+    assert plan.feasible, plan
+
+
+HAND = """<robot name="arm">
+<link name="base"/>{links}
+<joint name="j1" type="revolute"><parent link="base"/><child link="l1"/><origin xyz="0 0 .15"/><axis xyz="0 0 1"/>
+  <limit lower="-2.8" upper="2.8" velocity="2" effort="100"/></joint>
+<joint name="j2" type="revolute"><parent link="l1"/><child link="l2"/><origin xyz="0 0 .15"/><axis xyz="0 1 0"/>
+  <limit lower="-2.8" upper="2.8" velocity="2" effort="100"/></joint>
+<joint name="j3" type="revolute"><parent link="l2"/><child link="l3"/><origin xyz="0 0 .35"/><axis xyz="0 1 0"/>
+  <limit lower="-2.8" upper="2.8" velocity="2" effort="100"/></joint>
+<joint name="j4" type="revolute"><parent link="l3"/><child link="l4"/><origin xyz="0 0 .3"/><axis xyz="0 1 0"/>
+  <limit lower="-2.8" upper="2.8" velocity="2" effort="100"/></joint>
+<joint name="j5" type="revolute"><parent link="l4"/><child link="hand"/><origin xyz="0 0 .1"/><axis xyz="0 0 1"/>
+  <limit lower="-2.8" upper="2.8" velocity="2" effort="100"/></joint>
+<joint name="left" type="prismatic"><parent link="hand"/><child link="finger1"/><origin xyz="0 0 .04"/><axis xyz="0 1 0"/>
+  <limit lower="0" upper=".05" velocity="2" effort="100"/></joint>
+<joint name="right" type="prismatic"><parent link="hand"/><child link="finger2"/><origin xyz="0 0 .04"/><axis xyz="0 -1 0"/>
+  <limit lower="0" upper=".05" velocity="2" effort="100"/><mimic joint="left"/></joint>
+<link name="gripper"/>
+<joint name="tool" type="fixed"><parent link="hand"/><child link="gripper"/><origin xyz="0 0 .09" rpy="3.14159265 0 0"/></joint>
+</robot>"""
+
+
+def link(name, size, center, mass=1.0) -> str:
+    inertia = '<inertia ixx=".01" iyy=".01" izz=".01" ixy="0" ixz="0" iyz="0"/>'
+    return (
+        f'<link name="{name}"><inertial><origin xyz="{center}"/><mass value="{mass}"/>{inertia}</inertial>'
+        f'<collision><origin xyz="{center}"/><geometry><box size="{size}"/></geometry></collision></link>'
+    )
+
+
+def armOfAUrdfFile(folder) -> ry.Config:
+    """An arm with a hand whose fingers are joints of q, as URDF files have them, and a mug and a tray."""
+    parts = [("l1", ".05 .05 .09", "0 0 .075"), ("l2", ".05 .05 .29", "0 0 .175"), ("l3", ".05 .05 .24", "0 0 .15")]
+    parts += [("l4", ".05 .05 .04", "0 0 .05"), ("hand", ".05 .14 .04", "0 0 .02")]
+    links = [link(*part) for part in parts]
+    links += [link(f"finger{k}", ".02 .01 .07", f"0 {y} .035", 0.05) for k, y in ((1, 0.005), (2, -0.005))]
+    (folder / "arm.urdf").write_text(HAND.format(links="".join(links)))
+    C = ry.Config()
+    C.addFile(str(folder / "arm.urdf"))
+    C.addFrame("table").setPosition([0, 0, -0.05]).setShape(ry.ST.ssBox, [1.6, 1.6, 0.1, 0.01]).setContact(1)
+    C.setJointState([0, 0.5, 1.2, 1.3, 0, 0])
+    box(C, "mug", "table", (0.4, 0.25, 0.0), (0.05, 0.05, 0.1))
+    frame = C.addFrame("tray", "table").setPosition([0.4, -0.25, 0.005])
+    frame.setShape(ry.ST.ssBox, [0.2, 0.2, 0.01, 0.004]).setContact(1)
+    return C
+
+
+def test_fingers_that_are_joints_of_q_are_no_gripper(tmp_path) -> None:
+    C = armOfAUrdfFile(tmp_path)
+    plan = ry.planTask(C, "(on tray mug)")
+    assert plan.feasible
+    with pytest.raises(ry.ArgumentError, match=r"fingers of 'gripper' \(left, right\) are joints of q.*selectJoints"):
+        plan.execute(ry.BotOp(C))
+    C.selectJoints(["j1", "j2", "j3", "j4", "j5"])
+    world = executed(C, ry.planTask(C, "(on tray mug)"))
+    assert stands(world, "mug", "tray", 0.01 + 0.05, 0.1)

@@ -9,6 +9,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/logic/fol_reader.h"
 #include "kinegraph/task_planning/open_hands.h"
+#include "kinegraph/task_planning/search/crowded_places.h"
 #include "kinegraph/task_planning/search/goal_flaw.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/search/step_tolerance.h"
@@ -23,6 +24,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kSeeds = 3;         ///< sets of waypoints that are tried for the first plan of a sequence
 constexpr int kBetterSeeds = 16;  ///< sets of waypoints that are tried for better plans
+constexpr int kWithRoom = 8;      ///< sequences without crowded placements that are tried before others
 constexpr long kCostly = 4000;  ///< evaluations of waypoints and motions; after more, no more robust ones are searched
 constexpr double kNoPlan = std::numeric_limits<double>::infinity();
 
@@ -135,6 +137,12 @@ std::optional<TaskPlan> TaskSearch::begin() {
   if (!options_.rules.contains("pick"))  // the proofs assume the default rules
     logic_.exclude(
         impossibleActions(C_, logic_.allActions(), options_.domain ? std::vector<Literal>() : logic_.start()));
+  if (!options_.domain && options_.rules.empty()) {
+    for (const ImpossibleAction& crowded : crowdedPlacements(C_, logic_.allActions(), logic_.goal())) {
+      logic_.forbid(crowded.action, crowded.facts);
+      has_room_ = true;
+    }
+  }
   return std::nullopt;
 }
 
@@ -177,9 +185,16 @@ std::optional<TaskPlan> TaskSearch::nextPlan() {
   return std::nullopt;
 }
 
-/// The next sequence in logic. If all fail, objects may also be put down to be grasped differently.
+/// The next sequence in logic. If those that leave room on places fail, all are tried; if all fail, objects may also be
+/// put down to be grasped differently.
 std::optional<TaskSearch::Actions> TaskSearch::nextActions() {
-  auto actions = logic_.next();
+  auto actions = has_room_ && tried_ == kWithRoom ? std::nullopt : logic_.next();
+  ++tried_;
+  if (!actions && !hasPlan() && has_room_) {
+    has_room_ = false;
+    logic_.startOver();
+    actions = logic_.next();
+  }
   if (actions || hasPlan() || !learner_.hasLearned() || !may_regrasp_ || logic_.isCutOff()) return actions;
   may_regrasp_ = false;
   logic_.allowRegrasps();
