@@ -10,7 +10,7 @@ namespace {
 
 Config shelfWithThings() {
   Config C;
-  C.addText(R"(
+  C.addText(R"g(
 world: {}
 table (world): { Q: [0 0 .5], shape: ssBox, size: [1 1 .1 .01], contact: 1 }
 pad (world): { Q: [.2 0 .56], shape: ssBox, size: [.1 .1 .02 .002], contact: 1 }
@@ -24,7 +24,7 @@ on_pad (world): { Q: [.2 0 .6], joint: rigid, shape: ssBox, size: [.05 .05 .06 .
 on_plate (table): { Q: [-.28 0 .085], joint: rigid, shape: ssBox, size: [.05 .05 .05 .004], contact: 1 }
 in_the_air (pad): { Q: [0 0 .3], joint: rigid, shape: ssBox, size: [.05 .05 .05 .004], contact: 1 }
 lying (world): { Q: "t(0 0 .58) d(90 1 0 0)", joint: rigid, shape: cylinder, size: [.1 .03], contact: 1 }
-)");
+)g");
   return C;
 }
 

@@ -8,6 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/task_planning/placements.h"
 #include "kinegraph/task_planning/shape_points.h"
+#include "kinegraph/task_planning/task_tools.h"
 
 namespace kinegraph {
 
@@ -16,6 +17,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kRoomAround = .004;  ///< m: between footprints, and in all at the edges
+constexpr double kBesides = .02;      ///< m: to an object that stands on a place already
 
 /// The sides of a footprint along the axes of a place, as it is or rotated by 90 degrees.
 std::vector<Vector2d> sidesOf(const Frame& obj) {
@@ -39,10 +41,24 @@ bool fitBoth(const Frame& a, const Frame& b, const Vector2d& place) {
   return false;
 }
 
+/// Whether an object fits on one of the four sides of another one that stands on a place.
+bool fitsBeside(const Frame& obj, const Frame& other, const Frame& place) {
+  const RigidTransform X = place.getPose().inverse().transform();
+  Eigen::AlignedBox2d around;
+  for (const Frame& part : shapesOf(other))
+    for (const Eigen::Vector3d& corner : boxCorners(part))
+      around.extend(Vector2d((X * (part.getPose().transform() * corner)).head<2>()));
+  const Vector2d sides = placeSides(place), apart = Vector2d::Constant(kBesides);
+  const Vector2d below = around.min() + .5 * sides - apart, above = .5 * sides - around.max() - apart;
+  for (const Vector2d& free : {below, above})
+    if (fits(obj, {free.x(), sides.y()}) || fits(obj, {sides.x(), free.y()})) return true;
+  return false;
+}
+
 }  // namespace
 
 std::vector<ImpossibleAction> crowdedPlacements(const Config& C, const std::vector<TaskAction>& actions,
-                                                const std::vector<Literal>& goal) {
+                                                const std::vector<Literal>& start, const std::vector<Literal>& goal) {
   std::map<std::string, std::set<std::string>> onto;
   for (const TaskAction& action : actions)
     if (action[0] == "place") onto[action[3]].insert(action[1]);
@@ -57,7 +73,9 @@ std::vector<ImpossibleAction> crowdedPlacements(const Config& C, const std::vect
       if (obj != name && fits(C.getFrame(obj), sides)) whole.push_back(obj);
     for (const std::string& a : whole)
       for (const std::string& b : whole) {
-        if (a == b || (isWanted(a) && isWanted(b)) || fitBoth(C.getFrame(a), C.getFrame(b), sides)) continue;
+        if (a == b || (isWanted(a) && isWanted(b))) continue;
+        const Frame one = C.getFrame(a), other = C.getFrame(b);
+        if (contains(start, {"on", {name, b}}) ? fitsBeside(one, other, place) : fitBoth(one, other, sides)) continue;
         for (const TaskAction& action : actions)
           if (action[0] == "place" && action[1] == a && action[3] == name)
             crowded.push_back({action, {Literal{"on", {name, b}}}, cat("'", name, "' has no room for both")});

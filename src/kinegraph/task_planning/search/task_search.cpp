@@ -138,7 +138,7 @@ std::optional<TaskPlan> TaskSearch::begin() {
     logic_.exclude(
         impossibleActions(C_, logic_.allActions(), options_.domain ? std::vector<Literal>() : logic_.start()));
   if (!options_.domain && options_.rules.empty()) {
-    for (const ImpossibleAction& crowded : crowdedPlacements(C_, logic_.allActions(), logic_.goal())) {
+    for (const ImpossibleAction& crowded : crowdedPlacements(C_, logic_.allActions(), logic_.start(), logic_.goal())) {
       logic_.forbid(crowded.action, crowded.facts);
       has_room_ = true;
     }
