@@ -27,6 +27,7 @@ const double kUpright = cosineOfDegrees(10.);    ///< objects that tilt more hav
 const double kNearTurned = cosineOfDegrees(4.);  ///< tolerance of the rotation of objects that come next
 constexpr double kTouch = 5e-3;                  ///< m: objects that are closer touch
 constexpr double kJointOff = .05;                ///< rad or m: tolerance of joints
+constexpr double kBeyond = 1e-3;                 ///< rad or m: joints that are not farther beyond a limit are at it
 
 /// Whether an object looks the same after any rotation about its axis.
 bool isRound(const Frame& frame) {
@@ -289,6 +290,10 @@ std::vector<std::string> ObservedWorld::missedGoals(const std::vector<Literal>& 
 
 Config ObservedWorld::scene() const {
   Config C = seen_;
+  const VectorXd q = C.getJointState();
+  const MatrixXd limits = C.getJointLimits();
+  const VectorXd inside = q.cwiseMax(limits.row(0).transpose()).cwiseMin(limits.row(1).transpose());
+  if ((inside - q).cwiseAbs().maxCoeff() < kBeyond) C.setJointState(inside);  // a servo ends a little beyond a limit
   Words objects = objects_;
   std::ranges::sort(objects);
   std::ranges::stable_sort(objects, {}, [&](const std::string& obj) { return C.getFrame(obj).getPosition().z(); });
