@@ -27,6 +27,7 @@ const double kUpright = cosineOfDegrees(10.);    ///< objects that tilt more hav
 const double kNearTurned = cosineOfDegrees(4.);  ///< tolerance of the rotation of objects that come next
 constexpr double kTouch = 5e-3;                  ///< m: objects that are closer touch
 constexpr double kJointOff = .05;                ///< rad or m: tolerance of joints
+constexpr double kBeyond = 1e-3;                 ///< rad or m: joints that are not farther beyond a limit are at it
 
 /// Whether an object looks the same after any rotation about its axis.
 bool isRound(const Frame& frame) {
@@ -48,7 +49,7 @@ std::string placeBelow(const Config& C, const std::string& obj, const Words& pla
   std::string below;
   for (const std::string& place : places) {
     if (place == obj || !(C.getFrame(place).getPosition().z() < height)) continue;
-    const double gap = std::abs(gapOf(C, obj, place));
+    const double gap = std::abs(standingGap(C, obj, place));
     if (gap < nearest || (gap == nearest && place < below)) nearest = gap, below = place;
   }
   return nearest <= kTouch ? below : "";
@@ -80,6 +81,22 @@ void requireMovable(const std::string& obj, const Words& doors, const Config& wo
   }
 }
 
+/// Throws ValueError if joints of q move the fingers of a hand.
+void requireFingersOutsideQ(const std::string& hand, const Config& world) {
+  const Frame head = headOfLink(world.getFrame(hand));
+  Words fingers, others = world.getJointNames();
+  for (const Frame& frame : head.getSubtree()) {
+    const auto& joint = frame.data().joint;
+    if (!(frame == head) && joint && joint->active && joint->dofs() > 0) fingers.push_back(frame.getName());
+  }
+  if (fingers.empty()) return;
+  std::erase_if(others, [&](const std::string& name) { return std::ranges::find(fingers, name) != fingers.end(); });
+  throw ValueError(cat("execute: the fingers of '", hand, "' (", join(fingers),
+                       ") are joints of q, so that no gripper closes them; keep them out of q before planTask: "
+                       "C.selectJoints({",
+                       join(others), "}), or 'joint_active: false' in a file"));
+}
+
 }  // namespace
 
 void requireMovable(const TaskPlan& plan, const Config& world) {
@@ -104,9 +121,13 @@ std::map<std::string, int> grippersOf(const BotOp& bot, const Config& scene) {
   return numbers;
 }
 
-void requireGrippers(const TaskPlan& plan, const std::map<std::string, int>& grippers) {
+void requireGrippers(const TaskPlan& plan, const std::map<std::string, int>& grippers, const Config* simulated) {
   for (const TaskAction& action : plan.actions) {
     if (!(isPick(action) || isHold(action) || action[0] == "handover") || grippers.contains(action[3])) continue;
+    if (simulated) {
+      requireFingersOutsideQ(action[3], *simulated);
+      continue;
+    }
     Words names;
     for (const auto& [name, number] : grippers) names.push_back(name);
     throw ValueError(cat("execute: the plan closes '", action[3], "', and the robot's driver has ",
@@ -269,6 +290,10 @@ std::vector<std::string> ObservedWorld::missedGoals(const std::vector<Literal>& 
 
 Config ObservedWorld::scene() const {
   Config C = seen_;
+  const VectorXd q = C.getJointState();
+  const MatrixXd limits = C.getJointLimits();
+  const VectorXd inside = q.cwiseMax(limits.row(0).transpose()).cwiseMin(limits.row(1).transpose());
+  if ((inside - q).cwiseAbs().maxCoeff() < kBeyond) C.setJointState(inside);  // a servo ends a little beyond a limit
   Words objects = objects_;
   std::ranges::sort(objects);
   std::ranges::stable_sort(objects, {}, [&](const std::string& obj) { return C.getFrame(obj).getPosition().z(); });

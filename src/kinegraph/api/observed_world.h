@@ -16,8 +16,9 @@ void requireMovable(const TaskPlan& plan, const Config& world);
 /// their own names if their numbers differ.
 std::map<std::string, int> grippersOf(const BotOp& bot, const Config& scene);
 
-/// Throws ValueError if a plan closes a hand that is none of these.
-void requireGrippers(const TaskPlan& plan, const std::map<std::string, int>& grippers);
+/// Throws ValueError if a plan closes a hand that is none of these. In a `simulated` world (else null) only hands whose
+/// fingers are joints of q are refused: nothing closes those, and hands without fingers hold objects by touch.
+void requireGrippers(const TaskPlan& plan, const std::map<std::string, int>& grippers, const Config* simulated);
 
 /// The world during an execution as it is observed, the objects in hands, and its deviations from a plan.
 class ObservedWorld {

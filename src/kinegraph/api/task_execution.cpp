@@ -77,7 +77,7 @@ class TaskRun::Impl {
     repairs_left_ = plan_.replanner ? options_.repairs : 0;
     if (world_.isSimulated()) requireMovable(plan_, seen);
     grippers_ = grippersOf(bot, seen);
-    if (!world_.isSimulated()) requireGrippers(plan_, grippers_);
+    requireGrippers(plan_, grippers_, world_.isSimulated() ? &seen : nullptr);
     world_.setPlan(plan_);
   }
 
@@ -216,7 +216,7 @@ class TaskRun::Impl {
   /// Moves to the beginning of the plan. Returns the failure, or "".
   std::string moveToStart() {
     if (plan_.actions.empty()) return "";
-    VectorXd start = plan_.path.row(0).transpose();
+    VectorXd start = plan_.path.row(0);
     const double off = world_.jointErrors(start).maxCoeff();
     if (off <= kThere) return "";
     Config C = world_.scene();

@@ -10,6 +10,8 @@
 #include "kinegraph/komo/mode_switches.h"
 #include "kinegraph/komo/path/sub_problem.h"
 #include "kinegraph/solvers/nlp_solver.h"
+#include "kinegraph/task_planning/shape_points.h"
+#include "kinegraph/task_planning/task_tools.h"
 
 namespace kinegraph {
 
@@ -35,6 +37,24 @@ F product(int a, int b) {
                                         {F::scalarProductYX, F::scalarProductYY, F::scalarProductYZ},
                                         {F::scalarProductZX, F::scalarProductZY, F::scalarProductZZ}};
   return kProducts[a][b];
+}
+
+/// The distance from the origin of an upright object down to its lowest point, m.
+double depthOf(const Frame& obj) {
+  constexpr double kRounding = 1e-6;  // m
+  const bool has_height = shapeKind(obj.getShapeType()).extent;
+  double depth = has_height ? .5 * height(obj) : 0.;
+  bool is_first = !has_height;
+  for (const Frame& part : shapesOf(obj)) {
+    if (!part.data().shape->contact && !(part == obj)) continue;
+    const RigidTransform X = part.getPose(obj).transform();
+    for (const Vector3d& point : shapePoints(part)) {
+      const double below = -Vector3d(X * point).z();
+      if (is_first || below > depth + kRounding) depth = below;
+      is_first = false;
+    }
+  }
+  return depth;
 }
 
 F axis(int which) { return std::array{F::vectorX, F::vectorY, F::vectorZ}[std::size_t(which)]; }
@@ -130,7 +150,7 @@ void ManipulationHelper::add_stable_frame(JointType jointType, const std::string
 
 void ManipulationHelper::add_place_frame(const std::string& parent, const std::string& obj, const std::string& name) {
   problem("add_place_frame");
-  const double above = .5 * (height(frame(parent)) + height(frame(obj)));
+  const double above = .5 * height(frame(parent)) + depthOf(frame(obj));
   const Pose X_WP = frame(parent).getPose() * Pose(Vector3d(0., 0., above), Quaterniond::Identity());
   addFrameDof(komo->path(), {.name = name,
                              .parent = parent,

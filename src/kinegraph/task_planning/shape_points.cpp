@@ -2,13 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/distance/collision_body.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 
 namespace kinegraph {
+
+namespace {
+
+bool isOf(const Frame& frame, ShapeKind::Body body) {
+  return frame.getShapeType() != ShapeType::none && shapeKind(frame.getShapeType()).body == body;
+}
+
+}  // namespace
 
 std::vector<Vector3d> shapePoints(const Frame& frame) {
   const auto& shape = frame.data().shape;
@@ -37,15 +47,20 @@ Eigen::AlignedBox3d boxAround(const Frame& frame) {
   return box;
 }
 
+bool hasTop(const Frame& frame) { return isOf(frame, ShapeKind::Body::box) || isOf(frame, ShapeKind::Body::cylinder); }
+
 Eigen::Vector2d placeSides(const Frame& place) {
+  if (!hasTop(place))
+    throw ValueError(
+        cat("planTask: nothing can stand on '", place.getName(), "'; expected a box or a cylinder as a place"));
   const std::vector<double> size = place.getSize();
-  if (size.size() < 2)
-    throw ValueError(cat("planTask: nothing can stand on '", place.getName(), "'; expected a box as a place"));
+  if (isOf(place, ShapeKind::Body::cylinder)) return Eigen::Vector2d::Constant(std::numbers::sqrt2 * size[1]);
   return {size[0], size[1]};
 }
 
 double diagonalOf(const Frame& frame, std::size_t count) {
-  const std::vector<double> size = frame.getSize();
+  std::vector<double> size = frame.getSize();
+  if (isOf(frame, ShapeKind::Body::cylinder)) size = {2. * size[1], 0., size[0]};
   double squares = 0.;
   for (std::size_t k = 0; k < std::min(count, size.size()); ++k) squares += size[k] * size[k];
   return std::sqrt(squares);

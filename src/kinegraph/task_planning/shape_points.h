@@ -16,11 +16,15 @@ std::vector<Vector3d> boxCorners(const Frame& frame);
 /// Returns the box around shapePoints along the axes of the frame; empty without points.
 Eigen::AlignedBox3d boxAround(const Frame& frame);
 
-/// Returns the sides of a place along x and y, m: its first two sizes. Throws ValueError for shapes with fewer sizes.
+/// Whether things can stand on a shape: a box or a cylinder.
+bool hasTop(const Frame& frame);
+
+/// Returns the sides of a place along x and y, m; of a cylinder, those of the largest square on its top. Throws
+/// ValueError for other shapes.
 Eigen::Vector2d placeSides(const Frame& place);
 
-/// Returns the diagonal of the first `count` sizes of a shape, m. Half of it is the distance of a corner of a box from
-/// its center.
+/// Returns the diagonal of the first `count` sides of a place, m: twice the distance of its farthest points from its
+/// center.
 double diagonalOf(const Frame& frame, std::size_t count);
 
 }  // namespace kinegraph

@@ -8,16 +8,13 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/logic/fol_reader.h"
-#include "kinegraph/task_planning/scene_facts.h"
-#include "kinegraph/task_planning/task_doors.h"
 
 namespace kinegraph {
 
 namespace {
 
-constexpr double kLevel = .999, kUp = .9;  ///< cosines of level axes, and of axes that point up
-constexpr double kLong = 1.5;              ///< minimum ratio of length and thickness of a bar
-constexpr double kLeastPlace = .05;        ///< m: narrower boxes are no places
+constexpr double kUp = .9;     ///< cosine of axes that point up
+constexpr double kLong = 1.5;  ///< minimum ratio of length and thickness of a bar
 
 constexpr char kDefaultFol[] = R"(
 is_gripper is_object is_place is_face is_pose is_carrier is_pushable is_hook is_handle is_guided partOf on busy up fresh posed
@@ -65,104 +62,6 @@ DecisionRule pose { Obj, Hand, Goal,
   { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_pose Goal) (pushes Obj ANY)! }
   { (posed Obj Goal) } }
 )";
-
-/// Whether a frame is a place: large, level, and static or in a drawer.
-bool isPlaceFrame(const Frame& frame, const std::set<std::string>& objects, const std::set<std::string>& drawers) {
-  if (objects.contains(frame.getName())) return true;
-  for (std::optional<Frame> up = frame; up; up = up->getParent()) {
-    const JointType type = up->getJointType();
-    if (type != JointType::none && type != JointType::rigid && !drawers.contains(up->getName())) return false;
-  }
-  const std::vector<double> size = frame.getSize();
-  return std::abs(frame.getRotationMatrix()(2, 2)) > kLevel && std::min(size[0], size[1]) >= kLeastPlace;
-}
-
-std::set<std::string> setOf(const std::vector<std::string>& words) { return {words.begin(), words.end()}; }
-
-/// Drops facts that are already known.
-std::vector<Literal> unique(const std::vector<Literal>& facts) {
-  std::vector<Literal> kept;
-  for (const Literal& fact : facts) {
-    if (!contains(kept, fact)) kept.push_back(fact);
-  }
-  return kept;
-}
-
-class StartFacts {
- public:
-  explicit StartFacts(const Config& C) : C_(C), said_(sceneFacts(C)) {}
-
-  std::vector<Literal> with(const std::vector<Literal>& goal) {
-    const std::vector<Frame> frames = C_.getFrames();
-    std::erase_if(said_, [&](const Literal& fact) {  // the base of a robot is no object
-      return fact.predicate == "is_object" && carriesJoints(C_.getFrame(fact.arguments[0]));
-    });
-    const bool names_grippers = has("is_gripper"), names_places = has("is_place");
-    if (!names_grippers) {
-      for (const Frame& f : frames)
-        if (f.getName().ends_with("gripper")) said_.push_back({"is_gripper", {f.getName()}});
-    }
-    const std::set<std::string> grippers = setOf(wordsOf(said_, "is_gripper")),
-                                objects = setOf(wordsOf(said_, "is_object")),
-                                drawers = setOf(wordsOf(said_, "is_drawer"));
-    if (!names_places) {
-      for (const Frame& f : frames)
-        if (isBox(f) && !grippers.contains(f.getName()) && isPlaceFrame(f, objects, drawers))
-          said_.push_back({"is_place", {f.getName()}});
-    }
-    addWhatIsOn(grippers, objects);
-    const VectorXd q = C_.getJointState();
-    for (const TaskDoor& door : doorsOf(C_)) {
-      said_.push_back({"is_guided", {door.name}});
-      said_.push_back({door.stateAt(q[door.dof]), {door.name}});
-    }
-    for (const std::string& hand : grippers)
-      if (holdsAnything(hand)) said_.push_back({"busy", {hand}});
-    for (const std::string& name : objects)
-      if (const std::string up = upOf(C_, name); !up.empty()) said_.push_back({"up", {up, name}});
-    std::vector<std::string> kinds = {"is_carrier", "is_pushable"};
-    if (has("is_hook")) kinds.emplace_back("is_object");  // any object may be pulled within reach
-    for (const std::string& kind : kinds)
-      for (const std::string& name : wordsOf(said_, kind)) said_.push_back({"fresh", {name}});
-    if (std::ranges::any_of(goal, [](const Literal& g) { return g.predicate == "up"; })) {
-      for (const std::string& face : otherFaces()) said_.push_back({"is_face", {face}});
-    }
-    return unique(said_);
-  }
-
- private:
-  static bool carriesJoints(const Frame& frame) {
-    return std::ranges::any_of(frame.getSubtree(), [](const Frame& below) {
-      const auto& joint = below.data().joint;
-      return joint && joint->active && joint->dofs() > 0;
-    });
-  }
-
-  bool has(const std::string& predicate) const {
-    return std::ranges::any_of(said_, [&](const Literal& fact) { return fact.predicate == predicate; });
-  }
-
-  bool holdsAnything(const std::string& hand) const {
-    return std::ranges::any_of(whatIsBelow(said_), [&](const auto& entry) { return entry.second == hand; });
-  }
-
-  /// Facts about objects that hang below unlabeled frames.
-  void addWhatIsOn(const std::set<std::string>& grippers, const std::set<std::string>& objects) {
-    const std::map<std::string, std::string> below = whatIsBelow(said_);
-    for (const std::string& name : objects) {
-      if (below.contains(name)) continue;
-      const std::optional<Frame> parent = C_.getFrame(name).getParent();
-      if (parent && contains(said_, {"is_place", {parent->getName()}})) {
-        said_.push_back({"on", {parent->getName(), name}});
-      } else if (const std::string hand = holderOf(C_, name, {grippers.begin(), grippers.end()}); !hand.empty()) {
-        said_.push_back({"on", {hand, name}});
-      }
-    }
-  }
-
-  const Config& C_;
-  std::vector<Literal> said_;
-};
 
 }  // namespace
 
@@ -219,8 +118,6 @@ const std::vector<std::string>& otherFaces() {
 }
 
 LogicDomain defaultDomain() { return readFol(kDefaultFol, "default domain"); }
-
-std::vector<Literal> taskFacts(const Config& C, const std::vector<Literal>& goal) { return StartFacts(C).with(goal); }
 
 std::string planText(const std::vector<TaskAction>& actions) {
   std::string text;

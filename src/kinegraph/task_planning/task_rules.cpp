@@ -267,6 +267,11 @@ Variants graspVariants(const Config& C, const std::string& obj, const std::strin
   return ways;
 }
 
+bool isTooWideAcross(const Config& C, const std::string& obj, const std::string& hand) {
+  const Variants ways = graspVariants(C, obj, hand);
+  return ways.size() == 1 && upOf(C, obj).starts_with(ways[0]);
+}
+
 std::vector<Variants> allVariants(const Config& C, const std::vector<TaskAction>& actions, const TaskRules& rules,
                                   std::size_t most) {
   std::vector<Variants> lists;

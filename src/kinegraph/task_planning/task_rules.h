@@ -53,6 +53,10 @@ Config withOpenings(const Config& C, const std::vector<std::string>& hands);
 /// the object is too wide. Throws ValueError for objects without a shape.
 std::vector<std::string> graspVariants(const Config& C, const std::string& obj, const std::string& hand);
 
+/// Whether the fingers of a hand fit an object, as it stands, along its upright axis only: from its side, with one of
+/// them below it.
+bool isTooWideAcross(const Config& C, const std::string& obj, const std::string& hand);
+
 /// Returns at most `most` combinations of the variants of a sequence of actions, the best first. Throws NameError for
 /// an action without a rule.
 std::vector<std::vector<std::string>> allVariants(const Config& C, const std::vector<TaskAction>& actions,

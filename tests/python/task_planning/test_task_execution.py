@@ -172,7 +172,7 @@ def test_limits_of_a_repair_replace_those_of_the_plan(tower) -> None:
     C = panda_tasks.scene()
     panda_tasks.pad(C, "pad", [0.3, 0.35], [0.09, 0.09])
     panda_tasks.box(C, "jug", "pad", [0.0, 0.0], [0.05, 0.05, 0.07])
-    panda_tasks.box(C, "cup", "table", [-0.3, 0.3], [0.05, 0.05, 0.07])
+    panda_tasks.box(C, "cup", "table", [-0.3, 0.3], [0.05, 0.1, 0.07])  # too long for it to stand whole
     plan = ry.planTask(C, "(on pad cup)")  # the jug has to make way, as the search finds out
     assert plan.feasible and len(plan.actions) == 4
     starved = plan.repair(C, max_evaluations=1)

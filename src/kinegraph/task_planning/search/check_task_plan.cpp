@@ -270,7 +270,7 @@ class PlanPlayer {
     const std::string with_face = face.empty() ? "" : cat(", with ", face, " up");
     if (axes.cwiseAbs().maxCoeff() < levelCosine() || (!face.empty() && shareOf(axes, face) < levelCosine()))
       report(text, cat("it does not stand level", with_face));
-    if (const double gap = gapOf(scene_, obj, to); std::abs(gap) > kOffPlace)
+    if (const double gap = standingGap(scene_, obj, to); std::abs(gap) > kOffPlace)
       report(text, cat("it is ", fixed(gap, 4), " m above its place"));
     const Vector3d relative = place.getRotationMatrix().transpose() * (thing.getPosition() - place.getPosition());
     const Eigen::Vector2d sides = placeSides(place);

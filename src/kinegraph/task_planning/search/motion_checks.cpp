@@ -7,6 +7,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/eval.h"
 #include "kinegraph/task_planning/task_actions.h"
+#include "kinegraph/task_planning/task_tools.h"
 
 namespace kinegraph {
 
@@ -23,6 +24,13 @@ double lengthOf(const Vector3d& v) { return std::sqrt(v.x() * v.x() + v.y() * v.
 
 double gapOf(const Config& scene, const std::string& a, const std::string& b) {
   return -eval(scene, FeatureSymbol::distance, {a, b}).y[0];
+}
+
+double standingGap(const Config& scene, const std::string& obj, const std::string& place) {
+  double gap = gapOf(scene, obj, place);
+  for (const Frame& part : shapesOf(scene.getFrame(obj)))
+    if (part.data().shape->contact) gap = std::min(gap, gapOf(scene, part.getName(), place));
+  return gap;
 }
 
 void hang(Config& scene, const std::string& obj, const std::string& parent) {

@@ -16,6 +16,9 @@ inline constexpr double kOverlap = 1e-3, kOffPlace = 1e-3;
 /// Returns the signed distance between the surfaces of two frames, m.
 double gapOf(const Config& scene, const std::string& a, const std::string& b);
 
+/// The same between an object, with all parts fixed to it, and what it stands on.
+double standingGap(const Config& scene, const std::string& obj, const std::string& place);
+
 /// Attaches an object to a frame in its current pose, as a held or standing object.
 void hang(Config& scene, const std::string& obj, const std::string& parent);
 

@@ -55,6 +55,11 @@ void TaskLogic::forbid(const TaskAction& action, const std::vector<Literal>& fac
 
 void TaskLogic::forbidPrefix(const Actions& actions) { search_->forbidBeginning(actionNumbers(problem(), actions)); }
 
+void TaskLogic::startOver() {
+  restart(start_);
+  exclude(std::move(proofs_));
+}
+
 void TaskLogic::allowRegrasps() {
   std::vector<Literal> start = start_;
   for (const std::string& obj : wordsOf(start_, "is_object")) start.push_back({"fresh", {obj}});

@@ -50,7 +50,10 @@ class TaskLogic {
   /// Whether an action can change a fact.
   bool isChangeable(const Literal& fact) const { return problem().factNumber(fact) >= 0; }
 
-  /// Objects may also be put down to be grasped differently. Starts over: only `exclude` stays in force.
+  /// Forgets all sequences and prohibitions: only `exclude` stays in force.
+  void startOver();
+
+  /// Objects may also be put down to be grasped differently. Starts over.
   void allowRegrasps();
 
   /// The reason for which proofs and logic leave no sequence at all.

@@ -135,6 +135,10 @@ class Proofs {
       if (isPick(action)) {
         provePick(action);
       } else if (action[0] == "place") {
+        const Frame thing = C_.getFrame(action[1]);
+        for (const Frame& part : thing.getSubtree())
+          if (part.getName() == action[3] && movingWith(part) == thing)
+            found_.push_back({action, {}, cat("'", action[1], "' cannot stand on its part '", action[3], "'")});
         const double half = .5 * diagonalOf(C_.getFrame(action[3]), 3);
         if (const auto travel = travelOf(action[3]))
           proveReach(action, action[2], action[3],
@@ -167,7 +171,10 @@ class Proofs {
     const double far = (C_.getFrame(obj).getPosition() - C_.getFrame(place).getPosition()).norm();
     const double room = 2. * radiusOf(C_, obj) + radiusOf(C_, hand);
     proveReach(action, hand, place, *travel + std::max(half, far) + room);
-    if (staysInPlace(obj, place)) proveReach(action, hand, obj, room, {Literal{"fresh", {obj}}});
+    if (staysInPlace(obj, place))
+      proveReach(action, hand, obj, room, {Literal{"fresh", {obj}}});
+    else if (isBeyondAll(obj, place))
+      proveReach(action, hand, obj, room);
   }
 
   /// The distance by which doors and drawers can move a frame, m; none for a frame that moves by other joints.
@@ -220,6 +227,13 @@ class Proofs {
     return "";
   }
 
+  /// The frame with the joint that moves a part.
+  static Frame movingWith(const Frame& part) {
+    Frame frame = part;
+    while (frame.getJointType() == JointType::none && frame.getParent()) frame = *frame.getParent();
+    return frame;
+  }
+
   static bool isStatic(const Frame& frame) {
     for (std::optional<Frame> up = frame; up; up = up->getParent())
       if (up->getJointType() != JointType::none) return false;
@@ -229,6 +243,20 @@ class Proofs {
   /// Whether an object stays at its initial place, on a static frame, as long as it is `fresh`.
   bool staysInPlace(const std::string& obj, const std::string& place) const {
     return contains(start_, {"fresh", {obj}}) && contains(start_, {"on", {place, obj}}) && isStatic(C_.getFrame(place));
+  }
+
+  /// Whether no hand reaches an object at its initial place, so that it stays there.
+  bool isBeyondAll(const std::string& obj, const std::string& place) {
+    if (!contains(start_, {"on", {place, obj}}) || !isStatic(C_.getFrame(place))) return false;
+    return std::ranges::all_of(wordsOf(start_, "is_gripper"), [&](const std::string& hand) {
+      return beyond(hand, obj) > 2. * radiusOf(C_, obj) + radiusOf(C_, hand);
+    });
+  }
+
+  /// The distance of a frame from the reach of a hand, m.
+  double beyond(const std::string& hand, const std::string& name) {
+    if (!reach_.contains(hand)) reach_[hand] = reachOf(C_, hand);
+    return reach_[hand].distance(C_.getFrame(name).getPosition());
   }
 
   /// An object that is too far away for the hook of a tool, however the hand holds the tool.
@@ -271,12 +299,11 @@ class Proofs {
   /// A place that is more than `room` (m) beyond the reach of a hand.
   void proveReach(const TaskAction& action, const std::string& hand, const std::string& place, double room,
                   const std::vector<Literal>& facts = {}, const std::string& with = {}) {
-    if (!reach_.contains(hand)) reach_[hand] = reachOf(C_, hand);
-    const double beyond = reach_[hand].distance(C_.getFrame(place).getPosition()) - room;
-    if (beyond > 0.)
+    const double missing = beyond(hand, place) - room;
+    if (missing > 0.)
       found_.push_back(
           {action, facts,
-           cat("'", place, "' is at least ", fixed(beyond, 2), " m beyond the reach of '", hand, "'", with)});
+           cat("'", place, "' is at least ", fixed(missing, 2), " m beyond the reach of '", hand, "'", with)});
   }
 
   void addTooWide(const TaskAction& action, const std::string& obj) {

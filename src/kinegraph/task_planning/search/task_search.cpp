@@ -9,6 +9,8 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/logic/fol_reader.h"
 #include "kinegraph/task_planning/open_hands.h"
+#include "kinegraph/task_planning/search/crowded_places.h"
+#include "kinegraph/task_planning/search/goal_flaw.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/search/step_tolerance.h"
 #include "kinegraph/task_planning/search/task_conflicts.h"
@@ -22,6 +24,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int kSeeds = 3;         ///< sets of waypoints that are tried for the first plan of a sequence
 constexpr int kBetterSeeds = 16;  ///< sets of waypoints that are tried for better plans
+constexpr int kWithRoom = 8;      ///< sequences without crowded placements that are tried before others
 constexpr long kCostly = 4000;  ///< evaluations of waypoints and motions; after more, no more robust ones are searched
 constexpr double kNoPlan = std::numeric_limits<double>::infinity();
 
@@ -128,12 +131,18 @@ std::optional<TaskPlan> TaskSearch::begin() {
   has_begun_ = true;
   if (!logic_.problem().unreachable.empty()) {
     has_ended_ = true;
-    const std::string missing = missingParts();
-    return answer(TaskStatus::infeasible, missing.empty() ? join(diagnostics(logic_.problem()), "; ") : missing);
+    return answer(TaskStatus::infeasible,
+                  options_.domain ? join(diagnostics(logic_.problem()), "; ") : goalFlaw(C_, logic_.problem()));
   }
   if (!options_.rules.contains("pick"))  // the proofs assume the default rules
     logic_.exclude(
         impossibleActions(C_, logic_.allActions(), options_.domain ? std::vector<Literal>() : logic_.start()));
+  if (!options_.domain && options_.rules.empty()) {
+    for (const ImpossibleAction& crowded : crowdedPlacements(C_, logic_.allActions(), logic_.start(), logic_.goal())) {
+      logic_.forbid(crowded.action, crowded.facts);
+      has_room_ = true;
+    }
+  }
   return std::nullopt;
 }
 
@@ -176,9 +185,16 @@ std::optional<TaskPlan> TaskSearch::nextPlan() {
   return std::nullopt;
 }
 
-/// The next sequence in logic. If all fail, objects may also be put down to be grasped differently.
+/// The next sequence in logic. If those that leave room on places fail, all are tried; if all fail, objects may also be
+/// put down to be grasped differently.
 std::optional<TaskSearch::Actions> TaskSearch::nextActions() {
-  auto actions = logic_.next();
+  auto actions = has_room_ && tried_ == kWithRoom ? std::nullopt : logic_.next();
+  ++tried_;
+  if (!actions && !hasPlan() && has_room_) {
+    has_room_ = false;
+    logic_.startOver();
+    actions = logic_.next();
+  }
   if (actions || hasPlan() || !learner_.hasLearned() || !may_regrasp_ || logic_.isCutOff()) return actions;
   may_regrasp_ = false;
   logic_.allowRegrasps();
@@ -280,7 +296,14 @@ TaskPlan TaskSearch::answer(TaskStatus status, std::string message) {
 /// An answer that proves nothing.
 TaskPlan TaskSearch::unsolved(const std::string& reason) {
   const TaskStatus status = isLate() ? TaskStatus::timeout : TaskStatus::no_plan_found;
-  return answer(status, cat(reason, "; ", log_.mainCause()));
+  const std::string cause = log_.mainCause();
+  std::vector<std::string> parts = {reason, cause};
+  for (const ImpossibleAction& proof : logic_.proofs()) {  // what is in the way, and cannot be moved
+    const bool is_in_way = cause.starts_with("while ") && isPick(proof.action) &&
+                           cause.substr(0, cause.find(':')).ends_with(cat(" ", objectOf(proof.action), ")"));
+    if (is_in_way && std::ranges::find(parts, proof.cause) == parts.end()) parts.push_back(proof.cause);
+  }
+  return answer(status, join(parts, "; "));
 }
 
 /// Adds the record of the search so far.
@@ -291,33 +314,6 @@ TaskPlan TaskSearch::completed(TaskPlan plan) {
   plan.expansions = logic_.expansions();
   plan.replanner = replannerTo(goal_text_, options_);
   return plan;
-}
-
-/// The label, joint or part that an object or door of the goal lacks; "" with a domain other than the default one.
-std::string TaskSearch::missingParts() const {
-  if (options_.domain) return "";
-  const std::vector<Literal>& start = logic_.start();
-  for (const Literal& literal : logic_.goal()) {
-    if (literal.predicate == "on" && literal.arguments.size() == 2) {
-      const std::string& name = literal.arguments[1];
-      if (const std::optional<Frame> frame = C_.findFrame(name); frame && !contains(start, {"is_object", {name}}))
-        return cat("'", name, "' is no object: it has no ",
-                   frame->getJointType() == JointType::rigid ? "shape; call setShape"
-                                                             : "rigid joint; call setJoint(JointType::rigid), or write "
-                                                               "'joint: rigid' in its file");
-    }
-    if ((literal.predicate != "opened" && literal.predicate != "closed") || literal.arguments.size() != 1) continue;
-    const std::string& name = literal.arguments[0];
-    if (!contains(start, {"is_guided", {name}}))
-      return cat("'", name, "' is no door or drawer; expected a frame labeled is_door or is_drawer, with an active ",
-                 "joint of one dof with limits");
-    const auto is_handle = [&](const Literal& fact) {
-      return fact.predicate == "partOf" && fact.arguments[0] == name &&
-             contains(start, {"is_handle", {fact.arguments[1]}});
-    };
-    if (std::ranges::none_of(start, is_handle)) return cat("'", name, "' has no part labeled is_handle");
-  }
-  return "";
 }
 
 TaskPlan TaskSearch::noSequenceLeft() {

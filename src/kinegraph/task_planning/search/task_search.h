@@ -55,7 +55,6 @@ class TaskSearch {
   bool isLate() const { return std::chrono::steady_clock::now() > deadline_; }
   bool hasPlan() const;
 
-  std::string missingParts() const;
   TaskPlan noSequenceLeft();
   TaskPlan unsolved(const std::string& reason);
   TaskPlan answer(TaskStatus status, std::string message);
@@ -72,6 +71,8 @@ class TaskSearch {
   const WaypointSolver::Settings settings_;
   bool has_begun_ = false, has_ended_ = false;
   bool may_regrasp_ = false;                   ///< regrasps are left to be tried
+  bool has_room_ = false;                      ///< placements that leave no room on a place are excluded
+  int tried_ = 0;                              ///< sequences
   bool needs_seeds_ = false;                   ///< a sequence with waypoints had no motion
   double best_;                                ///< duration of the last plan, s
   long evaluations_ = 0;                       ///< spent by outcomes

@@ -40,6 +40,25 @@ std::string violatedConstraintUnless(const std::shared_ptr<Komo>& komo, const Ca
   }
 }
 
+/// Describes a failed action by the constraint that its waypoint violates. If a pose would jump when a hand takes or
+/// releases an object, the hand misses it.
+std::string causeOf(const Config& C, const TaskAction& action, const std::string& violated) {
+  if (violated.empty()) return "the waypoints violate a constraint";
+  constexpr std::string_view kMissed = " is missed by ";
+  const bool takes = isPick(action) || action[0] == "handover";
+  std::string cause = violated;
+  const std::size_t by = violated.find(kMissed);
+  if (violated.starts_with("pose") && by != std::string::npos && (takes || isPlace(action))) {
+    const std::string amount = violated.substr(by + kMissed.size());
+    cause = takes ? cat("'", action[3], "' misses its grasp of '", action[1], "' by ", amount)
+                  : cat("'", action[1], "' misses its place on '", action[3], "' by ", amount);
+  }
+  if (isPick(action) && isTooWideAcross(C, action[1], action[3]))
+    cause = cat("'", action[1], "' is wider than '", action[3], "' opens (",
+                fixed(opening(C, action[3]).value_or(0.), 3), " m) along its level axes; ", cause);
+  return cause;
+}
+
 }  // namespace
 
 /// The result of the solver from one initial guess.
@@ -179,8 +198,9 @@ FutureFailure WaypointSolver::failureAt(VectorXd x) const {
     return std::make_shared<FutureFailure::element_type>(executor_.defer<TaskFailure>([text](const CancellationToken&) {
       return TaskFailure{cat(text, ": the hand cannot hold it"), nullptr};
     }));
+  const TaskAction& action = problem_->actions.back();
   return std::make_shared<FutureFailure::element_type>(
-      executor_.defer<TaskFailure>([text, choice = choices_[0], slice = int(problem_->actions.size()) - 1,
+      executor_.defer<TaskFailure>([text, action, choice = choices_[0], slice = int(problem_->actions.size()) - 1,
                                     x = std::move(x)](const CancellationToken& stopped) {
         const std::scoped_lock lock(choice->mutex);
         const std::shared_ptr<Komo>& komo = choice->waypoints->m->komo;
@@ -188,7 +208,7 @@ FutureFailure WaypointSolver::failureAt(VectorXd x) const {
         TaskFailure failure;
         failure.configuration = std::make_shared<const Config>(komo->configuration(slice));
         const std::string violated = violatedConstraintUnless(komo, stopped);
-        failure.cause = cat(text, ": ", violated.empty() ? "the waypoints violate a constraint" : violated);
+        failure.cause = cat(text, ": ", causeOf(choice->waypoints->C, action, violated));
         return failure;
       }));
 }

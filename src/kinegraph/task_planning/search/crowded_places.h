@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "kinegraph/scene/config.h"
+#include "kinegraph/task_planning/search/task_proofs.h"
+
+namespace kinegraph {
+
+/// Returns the placements that leave no room on a place: the object fits on it as a whole, and so does another one, but
+/// not both; or not beside the other one, as it stands there at the start. They are excluded while the other one is
+/// there, as long as other sequences exist. A goal that wants both there excludes none.
+std::vector<ImpossibleAction> crowdedPlacements(const Config& C, const std::vector<TaskAction>& actions,
+                                                const std::vector<Literal>& start, const std::vector<Literal>& goal);
+
+}  // namespace kinegraph

@@ -1,0 +1,284 @@
+"""Scenes as a person sets them up on the first day: planned from what stands where, or refused with the reason."""
+
+import numpy as np
+import pytest
+
+import kinegraph as ry
+
+TOP = 0.65  # m: height of the table
+
+
+def scene() -> ry.Config:
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    return C
+
+
+def box(C, name, parent, position, size=(0.05, 0.05, 0.07)) -> ry.Frame:
+    frame = C.addFrame(name, parent).setPosition([*position[:2], position[2] + 0.5 * size[2]])
+    return frame.setShape(ry.ST.ssBox, [*size, 0.004]).setContact(1).setMass(0.1).setJoint(ry.JT.rigid)
+
+
+def tray(C, size=(0.2, 0.2, 0.01)) -> ry.Frame:
+    frame = C.addFrame("tray", "table").setPosition([-0.3, 0.3, TOP + 0.5 * size[2]])
+    return frame.setShape(ry.ST.ssBox, [*size, 0.004]).setContact(1)
+
+
+def executed(C, plan) -> ry.Config:
+    """The simulated world 2 s after the execution of a plan."""
+    assert plan.feasible, plan
+    assert ry.checkTaskPlan(C, plan) == []
+    bot = ry.BotOp(C)
+    run = plan.execute(bot, repairs=0)
+    assert run.feasible, run
+    world = C.copy()
+    bot.sync(world, 2.0)
+    return world
+
+
+def stands(world, name, place, top, radius) -> bool:
+    """Whether an object rests on a place whose top has a height, within a radius around its center."""
+    at, center = world.getFrame(name).getPosition(), world.getFrame(place).getPosition()
+    upright = world.getFrame(name).getRotationMatrix()[2, 2] > 0.99
+    return bool(upright and abs(at[2] - top) < 4e-3 and np.linalg.norm((at - center)[:2]) < radius)
+
+
+def test_objects_hang_below_any_frame() -> None:
+    C = scene()
+    tray(C)
+    box(C, "red", "world", (0.3, 0.3, TOP))
+    plan = ry.planTask(C, "(on tray red)")
+    assert plan.actions[0] == ["pick", "red", "table", "l_gripper"]
+    assert stands(executed(C, plan), "red", "tray", TOP + 0.01 + 0.035, 0.1)
+
+
+def test_an_object_is_where_it_stands_and_not_where_it_hangs() -> None:
+    C = scene()
+    tray(C)
+    box(C, "red", "tray", (0.3, 0.3, TOP))  # below the tray in the tree, on the table in the world
+    plan = ry.planTask(C, "(on tray red)")
+    assert plan.actions[0] == ["pick", "red", "table", "l_gripper"]
+    assert stands(executed(C, plan), "red", "tray", TOP + 0.01 + 0.035, 0.1)
+    C = scene()
+    tray(C)
+    box(C, "red", "table", (-0.3, 0.3, TOP + 0.01))  # the reverse
+    plan = ry.planTask(C, "(on tray red)")
+    assert plan.feasible and plan.actions == [] and plan.warnings == ["the goal already holds"]
+
+
+def test_an_object_under_another_waits_whatever_both_hang_below() -> None:
+    C = scene()
+    tray(C)
+    box(C, "low", "table", (0.3, 0.3, TOP), (0.06, 0.06, 0.05))
+    box(C, "up", "table", (0.3, 0.3, TOP + 0.05), (0.05, 0.05, 0.05))
+    plan = ry.planTask(C, "(on tray low) (on low up)")
+    assert plan.actions[0] == ["pick", "up", "low", "l_gripper"]
+    world = executed(C, plan)
+    assert stands(world, "low", "tray", TOP + 0.01 + 0.025, 0.1)
+    assert stands(world, "up", "low", TOP + 0.06 + 0.025, 0.02)
+
+
+def test_round_things_are_places() -> None:
+    C = scene()
+    plate = C.addFrame("plate", "table").setPosition([-0.3, 0.3, TOP + 0.005])
+    plate.setShape(ry.ST.cylinder, [0.01, 0.1]).setContact(1)
+    can = C.addFrame("can", "table").setPosition([0.0, 0.4, TOP + 0.05]).setJoint(ry.JT.rigid)
+    can.setShape(ry.ST.cylinder, [0.1, 0.033]).setContact(1).setMass(0.2)
+    box(C, "red", "table", (0.3, 0.3, TOP), (0.04, 0.04, 0.07))
+    box(C, "blue", "table", (0.15, 0.2, TOP), (0.04, 0.04, 0.05))
+    world = executed(C, ry.planTask(C, "(on plate red) (on can blue)"))
+    assert stands(world, "red", "plate", TOP + 0.01 + 0.035, 0.08)
+    assert stands(world, "blue", "can", TOP + 0.1 + 0.025, 0.015)
+
+
+@pytest.mark.parametrize("low", [-0.04, 0.0, -0.02])
+def test_meshes_are_put_down_on_their_lowest_point(low) -> None:
+    C = scene()
+    tray(C)
+    corners = np.array([[x, y, z] for x in (-0.025, 0.025) for y in (-0.03, 0.03) for z in (low, low + 0.08)])
+    mug = C.addFrame("mug", "table").setPosition([0.3, 0.3, TOP - low]).setJoint(ry.JT.rigid)
+    mug.setConvexMesh(corners).setContact(1).setMass(0.1)
+    world = executed(C, ry.planTask(C, "(on tray mug)"))
+    assert stands(world, "mug", "tray", TOP + 0.01 - low, 0.1)
+
+
+def test_an_object_with_a_foot_stands_on_it() -> None:
+    C = scene()
+    tray(C)
+    box(C, "lamp", "table", (0.3, 0.3, TOP + 0.04), (0.04, 0.04, 0.07))
+    foot = C.addFrame("foot", "lamp").setRelativePosition([0, 0, -0.055])
+    foot.setShape(ry.ST.ssBox, [0.06, 0.06, 0.04, 0.004]).setContact(1).setMass(0.2)
+    world = executed(C, ry.planTask(C, "(on tray lamp)"))
+    assert stands(world, "lamp", "tray", TOP + 0.01 + 0.075, 0.1)
+
+
+def narrow(C) -> None:
+    C.getFrame("tray").setShape(ry.ST.ssBox, [0.03, 0.03, 0.01, 0.004])
+
+
+def tilted(C) -> None:
+    C.getFrame("tray").setQuaternion([0.9962, 0.0872, 0, 0])
+
+
+def without_shape(C) -> None:
+    C.delFrame("tray")
+    C.addFrame("tray", "table")
+    C.addFrame("floor", "tray").setShape(ry.ST.ssBox, [0.2, 0.2, 0.01, 0.004])
+
+
+def a_mesh(C) -> None:
+    C.getFrame("tray").setConvexMesh([[x, y, z] for x in (-0.1, 0.1) for y in (-0.1, 0.1) for z in (-0.01, 0.01)])
+
+
+def no_hand(C) -> None:
+    C.getFrame("l_gripper").setAttributes({"logical": {}})
+    C.getFrame("l_gripper").name = "l_tool"
+
+
+@pytest.mark.parametrize(
+    ("change", "goal", "reason"),
+    [
+        (narrow, "(on tray red)", "'tray' is no place: it is 0.030 m wide, and a place has 0.050 m or more"),
+        (tilted, "(on tray red)", "'tray' is no place: it is tilted"),
+        (without_shape, "(on tray red)", "'tray' is no place: it has no shape; places below it are floor"),
+        (a_mesh, "(on tray red)", "'tray' is no place: it is neither a box nor a cylinder"),
+        (None, "(on l_panda_joint7 red)", "'l_panda_joint7' is no place: it is neither a box nor a cylinder"),
+        (None, "(on red red)", "'red' cannot stand on itself"),
+        (None, "(on table tray)", "'tray' is no object: it has no rigid joint"),
+        (None, "(on red tray)", "'tray' is no object: it has no rigid joint"),
+        (None, "(held red)", "no action makes (held red) true; a goal is (on place object), (on hand object)"),
+        (None, "(opened tray)", "'tray' is no door or drawer"),
+        (None, "(posed red tray)", "'tray' is no pose; label it with"),
+        (
+            lambda C: C.getFrame("red").setPosition([0.3, 0.3, 0.9]).setParent(C.getFrame("world"), True),
+            "(on tray red)",
+            "'red' stands on no place (it hangs below 'world'); put it on a place",
+        ),
+        (
+            lambda C: C.getFrame("red").setPosition([1.1, 1.1, 0.685]),
+            "(on tray red)",
+            "beyond the reach of 'l_gripper'",
+        ),
+    ],
+)
+def test_the_reason_is_said_for_a_goal_that_nothing_reaches(change, goal, reason) -> None:
+    C = scene()
+    tray(C)
+    box(C, "red", "table", (0.3, 0.3, TOP))
+    if change:
+        change(C)
+    plan = ry.planTask(C, goal)
+    assert plan.status == ry.TaskStatus.infeasible
+    assert reason in plan.message and "can never fire" not in plan.message
+
+
+def test_a_scene_without_a_gripper_is_told_so() -> None:
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/panda_noGripper.g"))
+    C.addFrame("table").setPosition([0.5, 0, -0.05]).setShape(ry.ST.ssBox, [1.2, 1.2, 0.1, 0.01]).setContact(1)
+    box(C, "red", "table", (0.5, 0.25, 0.0))
+    plan = ry.planTask(C, "(on table red)")
+    assert plan.actions == [] and plan.feasible
+    box(C, "blue", "table", (0.5, -0.25, 0.0))
+    plan = ry.planTask(C, "(on blue red)")
+    assert plan.status == ry.TaskStatus.infeasible and plan.message.startswith("no frame is a gripper; give the point")
+
+
+@pytest.mark.parametrize("size", [(0.09, 0.09, 0.07), (0.2, 0.2, 0.02)])
+def test_a_slab_that_is_wider_than_the_hand_is_told_so(size) -> None:
+    C = scene()
+    tray(C, (0.3, 0.3, 0.01))
+    box(C, "slab", "table", (0.3, 0.3, TOP), size)
+    plan = ry.planTask(C, "(on tray slab)")
+    assert not plan.feasible
+    assert "'slab' is wider than 'l_gripper' opens (0.080 m) along its level axes" in plan.message
+
+
+def test_what_occupies_a_place_and_cannot_be_moved_is_named() -> None:
+    C = scene()
+    tray(C)
+    box(C, "red", "table", (0.3, 0.3, TOP))
+    box(C, "big", "tray", (-0.3, 0.3, TOP + 0.01), (0.2, 0.2, 0.2))
+    plan = ry.planTask(C, "(on tray red)", max_evaluations=20000)
+    assert not plan.feasible
+    assert "while (on tray big)" in plan.message
+    assert "'big' is wider than 'l_gripper' opens (0.080 m) along all of its axes" in plan.message
+
+
+def test_things_that_change_places_wait_where_there_is_room() -> None:
+    C = scene()
+    for k, x in enumerate((-0.3, 0.3)):
+        pad = C.addFrame(f"pad{k}", "table").setPosition([x, 0.3, TOP + 0.005])
+        pad.setShape(ry.ST.ssBox, [0.1, 0.1, 0.01, 0.004]).setContact(1)
+        box(C, f"box{k}", f"pad{k}", (x, 0.3, TOP + 0.01))
+    plan = ry.planTask(C, "(on pad1 box0) (on pad0 box1)")
+    assert len(plan.actions) == 6  # one waits on the table, and not on the edge of the other's pad
+    world = executed(C, plan)
+    for name, place in (("box0", "pad1"), ("box1", "pad0")):
+        assert stands(world, name, place, TOP + 0.01 + 0.035, 0.02)
+
+
+def test_a_place_without_room_for_both_takes_both_if_the_goal_says_so() -> None:
+    C = scene()
+    tray(C, (0.12, 0.06, 0.01))
+    box(C, "red", "table", (0.3, 0.3, TOP), (0.05, 0.05, 0.07))
+    box(C, "blue", "table", (0.1, 0.4, TOP), (0.065, 0.05, 0.07))
+    plan = ry.planTask(C, "(on tray red) (on tray blue)")
+    assert plan.feasible, plan
+
+
+HAND = """<robot name="arm">
+<link name="base"/>{links}
+<joint name="j1" type="revolute"><parent link="base"/><child link="l1"/><origin xyz="0 0 .15"/><axis xyz="0 0 1"/>
+  <limit lower="-2.8" upper="2.8" velocity="2" effort="100"/></joint>
+<joint name="j2" type="revolute"><parent link="l1"/><child link="l2"/><origin xyz="0 0 .15"/><axis xyz="0 1 0"/>
+  <limit lower="-2.8" upper="2.8" velocity="2" effort="100"/></joint>
+<joint name="j3" type="revolute"><parent link="l2"/><child link="l3"/><origin xyz="0 0 .35"/><axis xyz="0 1 0"/>
+  <limit lower="-2.8" upper="2.8" velocity="2" effort="100"/></joint>
+<joint name="j4" type="revolute"><parent link="l3"/><child link="l4"/><origin xyz="0 0 .3"/><axis xyz="0 1 0"/>
+  <limit lower="-2.8" upper="2.8" velocity="2" effort="100"/></joint>
+<joint name="j5" type="revolute"><parent link="l4"/><child link="hand"/><origin xyz="0 0 .1"/><axis xyz="0 0 1"/>
+  <limit lower="-2.8" upper="2.8" velocity="2" effort="100"/></joint>
+<joint name="left" type="prismatic"><parent link="hand"/><child link="finger1"/><origin xyz="0 0 .04"/><axis xyz="0 1 0"/>
+  <limit lower="0" upper=".05" velocity="2" effort="100"/></joint>
+<joint name="right" type="prismatic"><parent link="hand"/><child link="finger2"/><origin xyz="0 0 .04"/><axis xyz="0 -1 0"/>
+  <limit lower="0" upper=".05" velocity="2" effort="100"/><mimic joint="left"/></joint>
+<link name="gripper"/>
+<joint name="tool" type="fixed"><parent link="hand"/><child link="gripper"/><origin xyz="0 0 .09" rpy="3.14159265 0 0"/></joint>
+</robot>"""
+
+
+def link(name, size, center, mass=1.0) -> str:
+    inertia = '<inertia ixx=".01" iyy=".01" izz=".01" ixy="0" ixz="0" iyz="0"/>'
+    return (
+        f'<link name="{name}"><inertial><origin xyz="{center}"/><mass value="{mass}"/>{inertia}</inertial>'
+        f'<collision><origin xyz="{center}"/><geometry><box size="{size}"/></geometry></collision></link>'
+    )
+
+
+def armOfAUrdfFile(folder) -> ry.Config:
+    """An arm with a hand whose fingers are joints of q, as URDF files have them, and a mug and a tray."""
+    parts = [("l1", ".05 .05 .09", "0 0 .075"), ("l2", ".05 .05 .29", "0 0 .175"), ("l3", ".05 .05 .24", "0 0 .15")]
+    parts += [("l4", ".05 .05 .04", "0 0 .05"), ("hand", ".05 .14 .04", "0 0 .02")]
+    links = [link(*part) for part in parts]
+    links += [link(f"finger{k}", ".02 .01 .07", f"0 {y} .035", 0.05) for k, y in ((1, 0.005), (2, -0.005))]
+    (folder / "arm.urdf").write_text(HAND.format(links="".join(links)))
+    C = ry.Config()
+    C.addFile(str(folder / "arm.urdf"))
+    C.addFrame("table").setPosition([0, 0, -0.05]).setShape(ry.ST.ssBox, [1.6, 1.6, 0.1, 0.01]).setContact(1)
+    C.setJointState([0, 0.5, 1.2, 1.3, 0, 0])
+    box(C, "mug", "table", (0.4, 0.25, 0.0), (0.05, 0.05, 0.1))
+    frame = C.addFrame("tray", "table").setPosition([0.4, -0.25, 0.005])
+    frame.setShape(ry.ST.ssBox, [0.2, 0.2, 0.01, 0.004]).setContact(1)
+    return C
+
+
+def test_fingers_that_are_joints_of_q_are_no_gripper(tmp_path) -> None:
+    C = armOfAUrdfFile(tmp_path)
+    plan = ry.planTask(C, "(on tray mug)")
+    assert plan.feasible
+    with pytest.raises(ry.ArgumentError, match=r"fingers of 'gripper' \(left, right\) are joints of q.*selectJoints"):
+        plan.execute(ry.BotOp(C))
+    C.selectJoints(["j1", "j2", "j3", "j4", "j5"])
+    world = executed(C, ry.planTask(C, "(on tray mug)"))
+    assert stands(world, "mug", "tray", 0.01 + 0.05, 0.1)
