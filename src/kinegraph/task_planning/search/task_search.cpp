@@ -317,6 +317,10 @@ std::string TaskSearch::missingParts() const {
     };
     if (std::ranges::none_of(start, is_handle)) return cat("'", name, "' has no part labeled is_handle");
   }
+  if (std::ranges::none_of(start, [](const Literal& fact) { return fact.predicate == "is_gripper"; }))
+    return "no frame of the scene is a gripper; the name of the frame between the fingers ends with 'gripper', or it "
+           "has "
+           "'logical: { is_gripper }'";
   return "";
 }
 
