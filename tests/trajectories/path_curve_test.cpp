@@ -4,7 +4,9 @@
 
 #include <cmath>
 
+#include "kinegraph/common/errors.h"
 #include "kinegraph/common/random.h"
+#include "kinegraph/trajectories/retime.h"
 
 using namespace kinegraph;
 
@@ -28,6 +30,13 @@ double deviation(const MatrixXd& points) {
 }
 
 }  // namespace
+
+TEST(PathCurve, AnEmptyCurveHasNoPointsAndSaysSo) {
+  EXPECT_THROW(PathCurve().eval(0.), ValueError);
+  EXPECT_THROW(TimedPath().curve().eval(.5, 1), ValueError);
+  double out[1];
+  EXPECT_THROW(polyline(Eigen::Vector2d(0., 1.)).eval(1, .5, 0, out), ValueError);
+}
 
 TEST(PathCurve, ASplineStaysNearItsPointsForAnySpacing) {
   Rng rng(0);

@@ -8,6 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/eval.h"
 #include "kinegraph/features/make_residual.h"
+#include "scene/quaternion_order.h"
 
 namespace kinegraph::python {
 
@@ -297,7 +298,12 @@ class TargetReader {
     return target;
   }
 
-  void add(TargetRows entry) { targets_.push_back(std::move(entry)); }
+  void add(TargetRows entry) {
+    if (entry.rows.count == 0 &&
+        (entry.rows.width == 7 || (entry.rows.width == 4 && entry.target.kind == Kind::rotation)))
+      warnOfOrder(entry.rows.row(0).tail<4>());
+    targets_.push_back(std::move(entry));
+  }
 
   const Config& config_;
   std::vector<TargetRows> targets_;

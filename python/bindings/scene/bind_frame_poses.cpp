@@ -9,8 +9,21 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/loading/reader.h"
 #include "scene/frame_poses_docs.h"
+#include "scene/quaternion_order.h"
 
 namespace kinegraph::python {
+
+void warnOfOrder(const Vector4d& wxyz) {
+  const double norm = wxyz.norm();
+  if (wxyz == Vector4d(0., 0., 0., 1.))
+    emitWarning(
+        "the quaternion 0 0 0 1 is half a turn about z; did you mean no rotation, 1 0 0 0? The order is w x y z");
+  if (norm > 1e-10 && std::abs(norm - 1.) > .1) {
+    emitWarning(
+        "a quaternion far from unit length is normalized; expected the order w x y z, and x y z qw "
+        "qx qy qz for a pose");
+  }
+}
 
 namespace {
 
@@ -33,20 +46,6 @@ Vector3d position(const Frame& frame, const Numbers& numbers, const char* call) 
                          numbers.values.transpose(), "); expected 3 finite ones, x y z in m"));
   }
   return numbers.values;
-}
-
-/// Warns of a quaternion far from unit length, or one that is probably x y z w: it is often a misordered pose. The
-/// texts are constant, so that Python shows them once.
-void warnOfOrder(const Vector4d& wxyz) {
-  const double norm = wxyz.norm();
-  if (wxyz == Vector4d(0., 0., 0., 1.))
-    emitWarning(
-        "the quaternion 0 0 0 1 is half a turn about z; did you mean no rotation, 1 0 0 0? The order is w x y z");
-  if (norm > 1e-10 && std::abs(norm - 1.) > .1) {
-    emitWarning(
-        "a quaternion far from unit length is normalized; expected the order w x y z, and x y z qw "
-        "qx qy qz for a pose");
-  }
 }
 
 Pose poseFrom(const Frame& frame, const Numbers& numbers) {

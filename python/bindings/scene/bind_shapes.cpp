@@ -7,6 +7,7 @@
 
 #include "arguments.h"
 #include "bindings.h"
+#include "kinegraph/common/guessed_units.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
@@ -23,11 +24,10 @@ Frame& setShape(Frame& frame, ShapeType type, const Numbers& size) {
   std::string warning;
   checkedSize(type, size.list(), &warning);
   if (!warning.empty()) emitWarning(cat("setShape: frame '", frame.getName(), "': ", warning));
-  constexpr double kLarge = 20.;  // m
-  const bool may_be_large = type == ShapeType::quad || type == ShapeType::marker || size.values.size() == 0;
-  if (!may_be_large && size.values.minCoeff() >= kLarge)
-    emitWarning(cat("setShape: frame '", frame.getName(), "' is at least ", size.values.minCoeff(),
-                    " m thick; did you mean millimeters? Sizes are in m"));
+  const bool may_be_large = type == ShapeType::quad || type == ShapeType::plane || type == ShapeType::marker;
+  if (!may_be_large && mayBeMillimeters(size.list()))
+    emitWarning(cat("setShape: frame '", frame.getName(), "' is ", size.values.maxCoeff(), " m large; ",
+                    askForMeters(size.values.maxCoeff())));
   return frame;
 }
 

@@ -41,7 +41,8 @@ inline constexpr char selectJoints[] =
 
 Args:
     jointNames: Names of frames.
-    notThose: Activates all other joints instead.
+    notThose: Activates all other joints instead, except those with `joint_active: false` in their file, such as
+        fingers.
 Raises:
     FrameNotFound: A name is not in the scene.)";
 

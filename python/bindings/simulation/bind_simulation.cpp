@@ -358,9 +358,8 @@ void bindSimulation(nb::module_& m) {
   simulation
       .def("__init__", makeSimulation, "C"_a, "engine"_a = SimulationEngine::physx, "verbose"_a = nb::none(),
            "options"_a = nb::none(),
-           nb::sig(
-               "def __init__(self, C: Config, engine: SimulationEngine = SimulationEngine.physx, verbose: int | None = "
-               "None, options: SimulationOptions | dict | None = None) -> None"),
+           nb::sig("def __init__(self, C: Config, engine: SimulationEngine = ..., verbose: int | None = "
+                   "None, options: SimulationOptions | dict | None = None) -> None"),
            docs::simulation::make)
       .def("step", stepSimulation, "u_control"_a = nb::list(), "tau"_a = .01, "u_mode"_a = ControlMode::none,
            docs::simulation::step)

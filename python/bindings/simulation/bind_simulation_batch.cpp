@@ -70,8 +70,8 @@ void bindSimulationBatch(nb::module_& m) {
             new (self) Batch(nb::cast<PyConfig&>(config), n, threads, engine, optionsFrom(options));
           },
           "C"_a, "n"_a, "threads"_a = 1, "engine"_a = SimulationEngine::physx, "options"_a = nb::none(),
-          nb::sig("def __init__(self, C: Config, n: int, threads: int = 1, engine: SimulationEngine = "
-                  "SimulationEngine.physx, options: SimulationOptions | dict | None = None) -> None"),
+          nb::sig("def __init__(self, C: Config, n: int, threads: int = 1, engine: SimulationEngine = ..., "
+                  "options: SimulationOptions | dict | None = None) -> None"),
           docs::simulation_batch::make)
       .def("__len__", &Batch::size)
       .def("step", stepBatch, "u"_a = nb::list(), "tau"_a = .01, "u_mode"_a = ControlMode::none, "repeat"_a = 1,

@@ -2,14 +2,36 @@
 
 from __future__ import annotations
 
+import difflib
+import warnings
 from collections.abc import Mapping
 from pathlib import Path
 from types import NoneType
 from typing import Any
 
 from .._core import NLP_SolverOptions, parseText
-from ..errors import ArgumentError, FileError
+from ..errors import ArgumentError, FileError, KinegraphWarning
 
+# What calls read; those of other groups are the script's own.
+_KNOWN = (
+    "bot/blockRealRobot",
+    "botsim/engine",
+    "botsim/hyperSpeed",
+    "botsim/realtime",
+    "botsim/tau",
+    "disableGui",
+    "noInteractivity",
+    "physx/defaultFriction",
+    "problem/dim",
+    "Render/backgroundColor",
+    "Render/flatColors",
+    "Render/floorColor",
+    "Render/lights",
+    "Render/renderPolygonLines",
+    "Render/renderShadow",
+    "Render/renderText",
+)
+_GROUPS = {name.split("/")[0] for name in _KNOWN if "/" in name}
 _values: dict[str, Any] = {}
 solver_options: dict[str, Any] = {}  # fields of NLP_SolverOptions set by scripts; the defaults of solvers
 
@@ -17,7 +39,8 @@ solver_options: dict[str, Any] = {}  # fields of NLP_SolverOptions set by script
 def params_add(values: dict[str, Any] | None = None, **more: Any) -> None:
     """Sets parameters, from a dict or from keyword arguments.
 
-    Those named 'opt/<field>' are defaults of NLP_SolverOptions.
+    Those named 'opt/<field>' are defaults of NLP_SolverOptions. Scripts may keep parameters of their own. A name that
+    no call reads, but that is close to one or of its group ('botsim/...'), causes a KinegraphWarning.
 
     Args:
         values: A dict from names to values.
@@ -32,7 +55,19 @@ def params_add(values: dict[str, Any] | None = None, **more: Any) -> None:
             field = {name.removeprefix("opt/"): value}
             NLP_SolverOptions(**field)
             solver_options.update(field)
+        else:
+            _checkName(name)
         _values[name] = value
+
+
+def _checkName(name: str) -> None:
+    """Warns of a parameter that seems to be misspelled."""
+    lower = {known.lower(): known for known in _KNOWN}
+    near = difflib.get_close_matches(name.lower(), lower, cutoff=0.8)
+    if name in _KNOWN or not (near or name.split("/")[0] in _GROUPS):
+        return
+    hint = f"; similar names: {', '.join(lower[other] for other in near)}" if near else ""
+    warnings.warn(f"params_add: no call reads a parameter '{name}'{hint}", KinegraphWarning, stacklevel=3)
 
 
 def params_file(filename: str) -> None:

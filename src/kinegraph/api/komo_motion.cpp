@@ -74,6 +74,7 @@ ShownMotion motionOf(const Komo& komo) {
   ShownMotion motion;
   motion.prefix = komo.order();
   const int count = komo.slices() + komo.order();
+  if (count == 0) throw Error("KOMO: a view needs a configuration and a timing; call setConfig and setTiming first");
   motion.seconds = komo.tau() * count;
   const MatrixXd errors = measurePath(komo).per_slice;
   std::vector<VectorXd> states;

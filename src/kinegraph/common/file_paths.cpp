@@ -24,7 +24,7 @@ bool isThere(const std::string& path) {
   return ::stat(path.c_str(), &status) == 0;
 }
 
-/// Replaces $NAME by the environment variable; a name that is none remains.
+/// Replaces $NAME and ${NAME} by the environment variable; a name that is none remains.
 std::string expandEnvironment(const std::string& path) {
   std::string out;
   for (std::size_t i = 0; i < path.size();) {
@@ -32,9 +32,12 @@ std::string expandEnvironment(const std::string& path) {
       out += path[i++];
       continue;
     }
-    std::size_t end = i + 1;
+    const bool braced = path.compare(i, 2, "${") == 0;
+    const std::size_t begin = i + (braced ? 2 : 1);
+    std::size_t end = begin;
     while (end < path.size() && (std::isalnum(static_cast<unsigned char>(path[end])) || path[end] == '_')) ++end;
-    const char* const value = std::getenv(path.substr(i + 1, end - i - 1).c_str());
+    const char* const value = std::getenv(path.substr(begin, end - begin).c_str());
+    if (braced && end < path.size() && path[end] == '}') ++end;
     out += value ? std::string(value) : path.substr(i, end - i);
     i = end;
   }
@@ -158,9 +161,8 @@ LocatedFile locateFile(const std::string& path, const std::string& folder) {
   }
   if (const std::size_t end = path.find(')'); path.starts_with("$(find ") && end != std::string::npos)
     return inPackages(path.substr(7, end - 7) + path.substr(end + 1), folder);
-  const std::string file_scheme = "file://";
-  const std::vector<std::string> readings =
-      readingsOf(path.starts_with(file_scheme) ? path.substr(file_scheme.size()) : path);
+  const std::size_t scheme = path.starts_with("file://") ? 7 : path.starts_with("file:/") ? 5 : 0;
+  const std::vector<std::string> readings = readingsOf(path.substr(scheme));
   if (std::string found = existingIn(folder, readings); !found.empty()) return {std::move(found), ""};
   const fs::path expected = (fs::path(folder) / readings.back()).lexically_normal();
   if (const std::string model = inModels(expected.string()); model != expected) return {model, ""};

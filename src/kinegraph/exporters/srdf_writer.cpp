@@ -21,6 +21,7 @@ LinkPair ordered(const std::string& a, const std::string& b) { return a < b ? Li
 /// Pairs of links, by whether their shapes may collide.
 struct LinkPairs {
   std::set<LinkPair> collide, spare;  ///< a pair in both sets has shapes of either kind
+  std::set<LinkPair> by_rule;         ///< spare by the flags `contact`, without an entry of its own
   bool as_by_default = true;          ///< equal to the rule for URDF files without SRDF
 };
 
@@ -29,6 +30,7 @@ LinkPairs linkPairs(const Config& config, const UrdfNames& names) {
   const ContactRules rules = contactRules(*config.scene());
   ContactRules default_rules = rules;
   default_rules.excluded.clear();
+  const ContactRules flags = default_rules;
   for (ContactRules::Body& body : default_rules.bodies) body.flag = -2;
   for (std::size_t i = 0; i < rules.bodies.size(); ++i) {
     const auto a = names.link_of_shape.find(rules.bodies[i].frame);
@@ -37,6 +39,7 @@ LinkPairs linkPairs(const Config& config, const UrdfNames& names) {
       if (b == names.link_of_shape.end() || a->second == b->second) continue;
       const bool may = rules.allow(i, j);
       (may ? pairs.collide : pairs.spare).insert(ordered(a->second, b->second));
+      if (!may && !flags.allow(i, j)) pairs.by_rule.insert(ordered(a->second, b->second));
       if (may != default_rules.allow(i, j)) pairs.as_by_default = false;
     }
   }
@@ -56,7 +59,10 @@ std::string disabledPairs(const LinkPairs& pairs, const UrdfNames& names, std::v
       continue;
     }
     text += cat("  <disable_collisions link1=\"", xmlEscaped(a), "\" link2=\"", xmlEscaped(b), "\" reason=\"",
-                hangsOn(a, b) || hangsOn(b, a) ? "Adjacent" : "Never", "\"/>\n");
+                hangsOn(a, b) || hangsOn(b, a)   ? "Adjacent"
+                : pairs.by_rule.contains({a, b}) ? "User"
+                                                 : "Never",
+                "\"/>\n");
   }
   if (warnings && !mixed.empty())
     warnings->push_back(

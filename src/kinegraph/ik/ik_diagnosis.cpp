@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kinegraph/common/text.h"
+#include "kinegraph/ik/target_questions.h"
 
 namespace kinegraph {
 
@@ -26,6 +27,8 @@ std::vector<std::string> missedTargets(const IkProblem& problem, const IkJob& jo
       amounts.push_back(cat(goal.feature_error, task.unitOf(goal.worst_component)));
     if (amounts.empty()) continue;
     reasons.push_back(cat(task.name(), " misses its ", task.goal(), " by ", join(amounts, " and ")));
+    const std::string question = askAboutLength(goal.relative.p, goal.position_error);
+    if (!question.empty()) reasons.push_back(question);
   }
   return reasons;
 }

@@ -7,6 +7,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/ik/target_questions.h"
 #include "kinegraph/kinematics/chains.h"
 
 namespace kinegraph {
@@ -43,6 +44,7 @@ IkProblem::IkProblem(const Config& config, const std::vector<IkTarget>& targets,
   for (const IkTarget& target : targets) {
     tasks.emplace_back(state, target);
     rows += tasks.back().rows();
+    if (question.empty()) question = askAboutOrder(tasks.back(), state);
   }
   chooseVariables(state);
   for (const Task& task : tasks) requireAtRest(task);

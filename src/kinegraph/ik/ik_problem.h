@@ -44,6 +44,7 @@ struct IkProblem {
   std::optional<BodyPairs> bodies;         ///< the bodies of `pairs`
   std::string blocking;  ///< description of the pairs that collide for all values of the variables; "" if none do
   std::string slight;    ///< the same of those that overlap by max_start_penetration at most
+  std::string question;  ///< about a target that seems to be in the order x y z w; "" if none does
 
  private:
   void chooseVariables(const State& state);

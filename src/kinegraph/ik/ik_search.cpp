@@ -4,6 +4,7 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/ik/ik_diagnosis.h"
+#include "kinegraph/ik/target_questions.h"
 
 namespace kinegraph {
 
@@ -93,7 +94,9 @@ IkResult IkSearch::finish(IkJob& job, bool cancelled, const CancellationToken& c
                   : iterate_.targetsMet() ? IkStatus::in_collision
                                           : IkStatus::goal_unreachable;
   if (!job.feasible) result.message = describeFailure(*problem_, job, iterate_);
+  if (result.status == IkStatus::goal_unreachable) result.message += askAboutQuaternions(job);
   if (!problem_->slight.empty()) result.warnings.push_back(problem_->slight);
+  if (!problem_->question.empty()) result.warnings.push_back(problem_->question);
   if (problem_->blocking.empty() || result.status == IkStatus::cancelled) return result;
   if (job.feasible) result.status = IkStatus::in_collision;
   result.message = cat(result.message, result.message.empty() ? "" : "; ", problem_->blocking);
@@ -206,6 +209,31 @@ bool IkSearch::polish(const CancellationToken& cancellation) {
   iterate_.setX(best_);
   iterate_.evaluate();
   return false;
+}
+
+/// Asks whether missed rotations are in the order x y z w: so read, they are reached within a few attempts.
+std::string IkSearch::askAboutQuaternions(const IkJob& job) {
+  constexpr int kAttempts = 3;
+  constexpr double kOther = .1;                                                          // rad
+  if (std::ranges::any_of(job.blocked, [](int count) { return count > 0; })) return "";  // they are reached
+  IkJob read_otherwise = job;
+  bool changes = false;
+  for (std::size_t i = 0; i < job.goals.size(); ++i) {
+    if (!problem_->tasks[i].hasRotation()) continue;
+    IkGoal& goal = read_otherwise.goals[i];
+    const Quaterniond given(goal.relative.R), other = readAsXyzw(given);
+    changes |= given.angularDistance(other) > kOther;
+    goal.relative.R = goal.R = other.toRotationMatrix();
+  }
+  if (!changes) return "";
+  job_ = &read_otherwise;
+  iterate_.select(read_otherwise);
+  bool met = false;
+  for (int i = 0; i < kAttempts && !met; ++i) {
+    iterate_.setStartingPoint(i);
+    met = approach().met;
+  }
+  return met ? "; did you mean w x y z? Read as x y z w, the quaternion is reached" : "";
 }
 
 }  // namespace kinegraph

@@ -28,6 +28,7 @@ class FrameAttributes {
     const Vector7d x = pose.numbers();
     addNumbers("pose", {x.begin(), x.end()});
   }
+  bool empty() const { return graph_.nodes.empty(); }
   const Node* find(const char* key) const { return graph_.find(key); }
   /// Moves the attributes into a frame entry of a scene; `parent` is empty for a root.
   Node takeFrame(const std::string& name, const std::string& parent, const SourcePosition& where) {

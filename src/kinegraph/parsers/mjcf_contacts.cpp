@@ -41,6 +41,7 @@ class ContactCollector {
       for (const std::string& other : others) excluded_.insert(ordered(frame, other));
     }
     collectPairs();
+    warnOfParents();
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       for (std::size_t j = i + 1; j < bodies_.size(); ++j) addBodies(bodies_[i], bodies_[j]);
     }
@@ -106,6 +107,15 @@ class ContactCollector {
       }
       pairs_.insert(ordered(ends[0].second, ends[1].second));
       for (const auto& end : ends) paired_.insert(end.second);
+    }
+  }
+
+  /// `<flag filterparent="disable">`: neighbors collide in MuJoCo.
+  void warnOfParents() {
+    for (const XmlElement* flag : document_.inSections("option", "flag")) {
+      const XmlAttribute* filter = flag->attribute("filterparent");
+      if (filter && filter->value == "disable")
+        findings_.warn(filter->where, "filterparent=\"disable\": bodies that one joint connects do not collide here");
     }
   }
 

@@ -314,6 +314,8 @@ void MjcfDocument::readSettings() {
         if (!texture_folder_given) settings_.texture_folder = value;
       } else if (attribute.name == "balanceinertia") {
         settings_.balance_inertia = flag(attribute);
+      } else if (attribute.name == "fitaabb") {
+        settings_.fit_bounds = flag(attribute);
       } else if (attribute.name == "inertiagrouprange") {
         const auto range = numbersIn(value);
         if (!range || range->size() != 2) refuse("two numbers");

@@ -53,6 +53,7 @@ struct MjcfSettings {
   double total_mass = -1.;                        ///< kg; negative: as computed
   double bound_mass = 0., bound_inertia = 0.;     ///< least mass of a body, kg, and moment of inertia, kg m^2
   bool balance_inertia = false;                   ///< impossible moments of inertia become their mean
+  bool fit_bounds = false;                        ///< primitives fit the bounding box of a mesh, not its inertia
   std::string mesh_folder;                        ///< as written
   std::string texture_folder;                     ///< as written
 };

@@ -17,7 +17,7 @@ struct UniformMass {
 };
 
 /// A scene shape (box, sphere, capsule, cylinder, or an ellipsoid written as ssBoxElip) with these sizes; nullopt for
-/// other shapes. The shell of an ellipsoid is that of its triangles.
+/// other shapes.
 std::optional<UniformMass> uniformMass(const std::string& shape, const std::vector<double>& size, bool is_shell);
 
 /// MuJoCo's modes for the mass of a mesh: `legacy` adds the absolute volumes of the pyramids from a center to the
@@ -26,6 +26,15 @@ enum class MeshMassMode { legacy, exact, convex, shell };
 
 /// Nullopt for a mesh without volume.
 std::optional<UniformMass> uniformMass(const Mesh& mesh, MeshMassMode mode);
+
+/// A box about a mesh: MuJoCo fits primitive geoms to it.
+struct FittedBox {
+  Pose pose;
+  Vector3d half_sides;  ///< the axes by ascending side of the box of equal inertia
+};
+
+/// Returns the box with the inertia of a mesh, or with `to_bounds` the bounding box along the same axes.
+FittedBox fitBox(const Mesh& mesh, const UniformMass& solid, bool to_bounds);
 
 /// Mass and inertia of a part, in the axes of its frame.
 struct PartMass {

@@ -88,6 +88,7 @@ class MjcfReader {
       return body == bodies_of_joints_.end() ? frame : body->second;
     };
     addActuators(document_, frameOf, graph_);
+    values_.angleUnits().ask();
     return std::move(graph_);
   }
 
@@ -401,7 +402,9 @@ class MjcfReader {
                             cat(element.describe(), ": its lower limit ", range[0], " is not below its upper limit ",
                                 range[1], "; it is read as unlimited"));
     }
-    const auto internal = [&](double value) { return slides ? value : values_.radians(element, value); };
+    const bool degrees = !slides && document_.settingsAt(element.where()).degrees;
+    if (!slides) values_.angleUnits().addRange(element.attribute("range")->where, range, degrees);
+    const auto internal = [&](double value) { return degrees ? value / 180. * M_PI : value; };
     attributes.addNumbers("limits", {internal(range[0]), internal(range[1])});
   }
 

@@ -62,8 +62,10 @@ MjcfShapes::Placed MjcfShapes::geom(const MjcfElement& element, int contact, boo
   if (line) placed.pose = line->first;
   if (type == "hfield") {
     addHeightField(element, placed);
-  } else if (type == "mesh" || type == "sdf" || element.attribute("mesh")) {
+  } else if (type == "mesh" || type == "sdf") {
     addMesh(element, placed);
+  } else if (element.attribute("mesh")) {
+    addFitted(element, type, placed);
   } else {
     addPrimitive(element, type, line ? line->second : 0., placed);
   }
@@ -97,6 +99,11 @@ void MjcfShapes::addPrimitive(const MjcfElement& element, const std::string& typ
     return findings_.error(element.attribute("size")->where,
                            cat(element.describe(), ": a size of ", size[i], " m; expected a positive number"));
   }
+  addSized(type, size, placed);
+}
+
+/// Adds the shape with MuJoCo's sizes, which are half of ours.
+void MjcfShapes::addSized(const std::string& type, const std::vector<double>& size, Placed& placed) {
   const auto add = [&](const char* shape, std::vector<double> full) {
     placed.attributes.add("shape", std::string(shape));
     placed.attributes.addNumbers("size", std::move(full));
@@ -152,6 +159,32 @@ void MjcfShapes::addMesh(const MjcfElement& element, Placed& placed) {
     findings_.warn(file->where, cat("mesh '", file->value, "': ", found_file.assumption));
   placed.attributes.add("mesh", AngleText{path});
   if (scale != Vector3d::Ones()) placed.attributes.addNumbers("meshscale", {scale.begin(), scale.end()});
+}
+
+/// A primitive geom with a mesh: the primitive of the mesh's inertia, or of its bounding box (`fitaabb`).
+void MjcfShapes::addFitted(const MjcfElement& element, const std::string& type, Placed& placed) {
+  Placed whole{placed.pose, FrameAttributes(element.where())};
+  addMesh(element, whole);
+  const std::optional<Mesh> mesh = whole.attributes.empty() ? std::nullopt : meshOf(element, whole);
+  const auto solid = mesh ? uniformMass(*mesh, massMode(meshes_.at(element.attribute("mesh")->value))) : std::nullopt;
+  if (!solid) {  // without a mesh or a volume
+    placed = std::move(whole);
+    return;
+  }
+  const bool to_bounds = document_.settingsAt(element.where()).fit_bounds;
+  const FittedBox box = fitBox(*mesh, *solid, to_bounds);
+  const Vector3d h = values_.number(element, "fitscale", 1.) * box.half_sides;
+  const double radius = to_bounds ? std::max(h[0], h[1]) : .5 * (h[0] + h[1]);
+  placed.pose = whole.pose * box.pose;
+  if (type == "sphere") {
+    addSized(type, {to_bounds ? h.maxCoeff() : h.mean()}, placed);
+  } else if (type == "capsule") {
+    addSized(type, {radius, std::max(h[2] - (to_bounds ? radius : .5 * radius), 0.)}, placed);
+  } else if (type == "cylinder") {
+    addSized(type, {radius, h[2]}, placed);
+  } else {
+    addSized(type, {h[0], h[1], h[2]}, placed);
+  }
 }
 
 void MjcfShapes::addHeightField(const MjcfElement& element, Placed& placed) {
@@ -222,9 +255,14 @@ std::optional<Mesh> MjcfShapes::meshOf(const MjcfElement& element, const Placed&
   return mesh;
 }
 
+MeshMassMode MjcfShapes::massMode(const MjcfElement& mesh) {
+  static const std::vector<std::string> modes = {"legacy", "exact", "convex", "shell"};
+  const std::string word = values_.keyword(mesh, "inertia", modes, "legacy");
+  return MeshMassMode(std::find(modes.begin(), modes.end(), word) - modes.begin());
+}
+
 /// Volume or area of a geom, and its inertia per mass.
 std::optional<UniformMass> MjcfShapes::massOf(const MjcfElement& element, const Placed& placed) {
-  static const std::vector<std::string> modes = {"legacy", "exact", "convex", "shell"};
   const bool is_shell = values_.keyword(element, "shellinertia", {"true", "false"}, "false") == "true";
   const Node* shape = placed.attributes.find("shape");
   const Node* size = placed.attributes.find("size");
@@ -233,9 +271,7 @@ std::optional<UniformMass> MjcfShapes::massOf(const MjcfElement& element, const 
   const XmlAttribute* reference = element.attribute("mesh");
   const auto asset = reference ? meshes_.find(reference->value) : meshes_.end();
   if (asset == meshes_.end() || (!shape && !placed.attributes.find("mesh"))) return std::nullopt;
-  const std::string word = values_.keyword(asset->second, "inertia", modes, "legacy");
-  const auto mode =
-      is_shell ? MeshMassMode::shell : MeshMassMode(std::find(modes.begin(), modes.end(), word) - modes.begin());
+  const MeshMassMode mode = is_shell ? MeshMassMode::shell : massMode(asset->second);
   const std::optional<Mesh> mesh = meshOf(element, placed);
   return mesh ? uniformMass(*mesh, mode) : std::nullopt;
 }

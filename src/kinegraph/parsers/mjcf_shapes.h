@@ -32,6 +32,9 @@ class MjcfShapes {
   void addHeightField(const MjcfElement& element, Placed& placed);
   void addInlineMesh(const MjcfElement& mesh, const Vector3d& scale, Placed& placed);
   void addPrimitive(const MjcfElement& element, const std::string& type, double line_length, Placed& placed);
+  void addSized(const std::string& type, const std::vector<double>& size, Placed& placed);
+  void addFitted(const MjcfElement& element, const std::string& type, Placed& placed);
+  MeshMassMode massMode(const MjcfElement& mesh);
   std::optional<UniformMass> massOf(const MjcfElement& element, const Placed& placed);
   std::optional<Mesh> meshOf(const MjcfElement& element, const Placed& placed);
   void addMass(const MjcfElement& element, Placed& placed);

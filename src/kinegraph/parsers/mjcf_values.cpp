@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
+#include "kinegraph/common/guessed_units.h"
 #include "kinegraph/common/text.h"
 
 namespace kinegraph {
@@ -17,7 +19,40 @@ struct Rotation {
 };
 constexpr Rotation kRotations[] = {{"quat", 4}, {"axisangle", 4}, {"xyaxes", 6}, {"zaxis", 3}, {"euler", 3}};
 
+constexpr double kTurn = 2. * std::numbers::pi + .01;
+constexpr double kRounding = 2e-3;  // of 1.57 and 3.14
+
+/// Whether a number is a multiple of a quarter turn in radians, such as 1.57.
+bool isQuarterTurn(double angle) {
+  const double quarters = std::round(angle / (.5 * std::numbers::pi));
+  return quarters != 0. && std::abs(quarters) <= 4. && std::abs(angle - quarters * .5 * std::numbers::pi) < kRounding;
+}
+
 }  // namespace
+
+void MjcfAngleUnits::addRange(const SourcePosition& where, const std::vector<double>& range, bool degrees) {
+  if (!degrees) return;  // the reader of scenes asks about large angles in radians
+  const bool is_round = std::ranges::all_of(range, [](double v) { return mayBeDegrees(v, 0.); });
+  all_within_turn_ = all_within_turn_ && std::ranges::all_of(range, [](double v) { return std::abs(v) <= kTurn; });
+  if (is_round || !range_.empty()) return;
+  where_ = where;
+  range_ = cat(range[0], " ", range[1]);
+}
+
+void MjcfAngleUnits::addRotation(const SourcePosition& where, double angle, bool degrees) {
+  if (asked_ || !(degrees ? isQuarterTurn(angle) : mayBeDegrees(angle, kTurn))) return;
+  findings_.warn(where, degrees ? cat("a rotation by ", angle, " degrees; did you mean radians? <compiler angle> is ",
+                                      "\"degree\" unless the file says angle=\"radian\"")
+                                : cat("a rotation by ", angle, " rad; ", askForRadians(angle)));
+  asked_ = true;
+}
+
+void MjcfAngleUnits::ask() {
+  if (range_.empty() || !all_within_turn_) return;
+  findings_.warn(where_, cat("the range ", range_,
+                             " is in degrees; did you mean radians? <compiler angle> is "
+                             "\"degree\" unless the file says angle=\"radian\""));
+}
 
 Quaterniond rotationOfZTo(const Vector3d& v) {
   const Vector3d direction = v.normalized(), axis = Vector3d::UnitZ().cross(direction);
@@ -104,10 +139,17 @@ std::optional<Quaterniond> MjcfValues::rotation(const MjcfElement& element, cons
     if (!(q.norm() > kTiny)) return refuse("the quaternion is zero");
     return q.normalized();
   }
-  if (name == "euler") return mjcfEuler(*v, document_.settingsAt(attribute.where));
+  const MjcfSettings& settings = document_.settingsAt(attribute.where);
+  if (name == "euler") {
+    for (const double angle : *v) angle_units_.addRotation(attribute.where, angle, settings.degrees);
+    return mjcfEuler(*v, settings);
+  }
   const Vector3d first((*v)[0], (*v)[1], (*v)[2]);
   if (!(first.norm() > kTiny)) return refuse("the axis is zero");
-  if (name == "axisangle") return Quaterniond(Eigen::AngleAxisd(radians(element, (*v)[3]), first.normalized()));
+  if (name == "axisangle") {
+    angle_units_.addRotation(attribute.where, (*v)[3], settings.degrees);
+    return Quaterniond(Eigen::AngleAxisd(radians(element, (*v)[3]), first.normalized()));
+  }
   if (name == "zaxis") return rotationOfZTo(first);
   Matrix3d R;
   R.col(0) = first.normalized();

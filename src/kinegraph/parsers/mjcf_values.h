@@ -10,11 +10,33 @@
 
 namespace kinegraph {
 
+/// Guesses whether the angles of a model are in the other unit than `<compiler angle>` says, and asks once per kind.
+class MjcfAngleUnits {
+ public:
+  explicit MjcfAngleUnits(Findings& findings) : findings_(findings) {}
+
+  /// Checks the range of a hinge, in the unit of the model.
+  void addRange(const SourcePosition& where, const std::vector<double>& range, bool degrees);
+
+  /// Checks an Euler angle or the angle about an axis.
+  void addRotation(const SourcePosition& where, double angle, bool degrees);
+
+  /// Asks about the ranges, after all have been read: in a model in radians, all are within a turn of 6.28.
+  void ask();
+
+ private:
+  Findings& findings_;
+  SourcePosition where_;  ///< of the first range that is no round number
+  std::string range_;
+  bool all_within_turn_ = true, asked_ = false;
+};
+
 /// Reads the attributes of MJCF elements as numbers, keywords and poses. Invalid values are reported and replaced by
 /// the default.
 class MjcfValues {
  public:
-  MjcfValues(const MjcfDocument& document, Findings& findings) : document_(document), findings_(findings) {}
+  MjcfValues(const MjcfDocument& document, Findings& findings)
+      : document_(document), findings_(findings), angle_units_(findings) {}
 
   double number(const MjcfElement& element, const char* name, double fallback);
   Vector3d vector(const MjcfElement& element, const char* name, const Vector3d& fallback);
@@ -36,6 +58,9 @@ class MjcfValues {
   /// An angle of an element, in the units of its model.
   double radians(const MjcfElement& element, double angle) const;
 
+  /// Guesses of the units of all angles read.
+  MjcfAngleUnits& angleUnits() { return angle_units_; }
+
   /// Pose from `pos` and one of quat, axisangle, xyaxes, zaxis, euler.
   Pose pose(const MjcfElement& element);
 
@@ -49,6 +74,7 @@ class MjcfValues {
 
   const MjcfDocument& document_;
   Findings& findings_;
+  MjcfAngleUnits angle_units_;
 };
 
 /// The shortest rotation of the z axis to the direction of `v`.

@@ -4,7 +4,9 @@
 #include <cctype>
 #include <cmath>
 #include <map>
+#include <numbers>
 
+#include "kinegraph/common/guessed_units.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/parsers/xml.h"
 
@@ -99,11 +101,14 @@ class UrdfParser {
     return fallback.value_or(0.);
   }
 
-  /// A limit, 0 by default; "inf" becomes `unlimited`, "-inf" its negative.
+  /// A limit, 0 by default; "inf" and "Infinity" become `unlimited`, with a minus its negative.
   double limitOf(const XmlElement& limit, const char* name, double unlimited) {
     const XmlAttribute* attribute = limit.attribute(name);
-    if (attribute && (attribute->value == "inf" || attribute->value == "+inf")) return unlimited;
-    if (attribute && attribute->value == "-inf") return -unlimited;
+    std::string word = attribute ? attribute->value : "";
+    std::ranges::transform(word, word.begin(), [](unsigned char c) { return char(std::tolower(c)); });
+    const bool is_signed = word.starts_with('-') || word.starts_with('+'), is_negative = word.starts_with('-');
+    const std::string size = word.substr(is_signed ? 1 : 0);
+    if (size == "inf" || size == "infinity") return is_negative ? -unlimited : unlimited;
     return number(limit, name, 0.);
   }
 
@@ -114,12 +119,23 @@ class UrdfParser {
     return {v[0], v[1], v[2]};
   }
 
+  /// Roll, pitch and yaw. Round numbers beyond a turn are asked about, once per file.
+  Vector3d anglesOf(const XmlElement& origin) {
+    const Vector3d rpy = vector(origin, "rpy", Vector3d::Zero());
+    for (const double angle : rpy) {
+      if (asked_for_radians_ || !mayBeDegrees(angle, 2. * std::numbers::pi)) continue;
+      warn(origin.attribute("rpy")->where, cat(context_, "rpy has ", angle, " rad; ", askForRadians(angle)));
+      asked_for_radians_ = true;
+    }
+    return rpy;
+  }
+
   Pose origin(const XmlElement& element) {
     const XmlElement* origin = element.child("origin");
     if (!origin) return {};
     const Vector3d p = vector(*origin, "xyz", Vector3d::Zero());
     const XmlAttribute* const quaternion = origin->attribute("quat_xyzw");  // URDF 1.1
-    if (!quaternion) return {p, rollPitchYaw(vector(*origin, "rpy", Vector3d::Zero()))};
+    if (!quaternion) return {p, rollPitchYaw(anglesOf(*origin))};
     const std::vector<double> v = numbers(*quaternion, *origin, 4);
     const Quaterniond q(v[3], v[0], v[1], v[2]);
     if (!(q.norm() > 1e-10)) {
@@ -371,6 +387,7 @@ class UrdfParser {
   std::string context_;                  ///< "link 'x': ", for messages
   const char* optional_part_ = nullptr;  ///< element that an error leaves out, or null
   bool part_failed_ = false;
+  bool asked_for_radians_ = false;
 };
 
 }  // namespace

@@ -55,7 +55,9 @@ class GoalFinder {
     ik.margin = options_.margin + 2. * Clearance::kGuard;
     ik.max_start_penetration = options_.max_start_penetration;
     ik.seed = options_.seed;
-    const std::vector<int> dofs = IkProblem(scene, targets, ik).dofs;
+    const IkProblem problem(scene, targets, ik);
+    const std::vector<int>& dofs = problem.dofs;
+    found_.question = problem.question;
     Rng rng(options_.seed);
     std::string failure;
     for (int i = 0; i < kSamplesPerGoal * options_.max_goal_samples && !hasEnough(); ++i) {

@@ -13,6 +13,7 @@ struct GoalConfigurations {
   std::vector<Endpoint> ends;  ///< at least one, as passed or in the order of sampling; some may be in collision
   bool was_reached = true;     ///< false: the goal is out of reach; `message` says why
   std::string message;
+  std::string question;  ///< about a target that seems to be in the order x y z w
 };
 
 /// Checks the goal configurations, or samples them for targets and conditions. Throws ValueError for an invalid goal,

@@ -117,6 +117,7 @@ bool Planner::checkEndpoints(const MotionGoal& goal, const VectorXd& start) {
            cat(goals_.size(), " of ", configurations.ends.size(), " goal configurations are collision-free"));
   if (goals_.empty()) return fail(PlanStatus::invalid_goal, problem);
   if (plan_.warnings.size() > 3) plan_.warnings.resize(3);
+  if (!configurations.question.empty()) plan_.warnings.push_back(configurations.question);
   for (const std::string& name : steering.manifold().sampled())
     plan_.warnings.push_back(cat("the constraint ", name, " was checked at samples ", Steering::kSpacing, " apart"));
   warnings_of_endpoints_ = plan_.warnings.size();
@@ -199,6 +200,7 @@ bool Planner::failSearch(const PathSearchResult& found) {
   const SearchReport last = found.searches.empty() ? SearchReport() : found.searches.back();
   plan_.obstacles = obstaclesMet(*config_.model(), found.hits);
   const std::string met = describeObstacles(plan_.obstacles);
+  if (goals_.size() == 1) warnOfMargins(goals_.front());
   const std::string description =
       cat("no path found: ", found.evaluations, " evaluations, ", samples, " samples in ", found.searches.size(),
           " tree searches; the last trees have ", last.start_nodes, " nodes (start) and ", last.goal_nodes, " (goals)",
@@ -333,10 +335,9 @@ double Planner::verifiedMargin() const {
 }
 
 /// Warns of ends that keep less than the margin; warnings of ends in contact say more.
-void Planner::warnOfMargins() {
+void Planner::warnOfMargins(const SearchEndpoint& goal) {
   plan_.warnings.resize(warnings_of_endpoints_);
-  for (const auto& [endpoint, what] :
-       {std::pair(&start_, "start"), std::pair(&goals_[std::size_t(best_.found.goal)], "goal")}) {
+  for (const auto& [endpoint, what] : {std::pair(&std::as_const(start_), "start"), std::pair(&goal, "goal")}) {
     const std::string warning = marginWarning(*config_.model(), endpoint->end, options_.margin, what);
     if (!endpoint->retreats && !warning.empty()) plan_.warnings.push_back(warning);
   }
@@ -357,7 +358,7 @@ void Planner::finish() {
   plan_.raw_path = waypoints(best_.found.points, best_.found);
   plan_.goal = goal_numbers_[std::size_t(best_.found.goal)];
   plan_.verified_margin = verifiedMargin();
-  warnOfMargins();
+  warnOfMargins(goals_[std::size_t(best_.found.goal)]);
   plan_.length = pathLength(*plan_.space, plan_.path);
   endStage("verify", evaluations, is_free ? "" : "the raw path, since the shortened one is not collision-free");
   if (options_.timing) {

@@ -64,7 +64,7 @@ class Planner {
   Steering& withoutGuard();
   bool verify(const MatrixXd& path, const PathSearchResult& found, long& evaluations);
   double verifiedMargin() const;
-  void warnOfMargins();
+  void warnOfMargins(const SearchEndpoint& goal);
   void finish();
   void smooth();
 

@@ -37,6 +37,14 @@ Config& Config::operator=(const Config& other) {
 
 namespace {
 
+/// Whether the file of a frame leaves its joint out of q: fingers, and joints of a fixed variant.
+bool isInactiveByFile(const FrameData& frame) {
+  const Node* node = frame.attributes->find("joint_active");
+  const bool* word = node ? node->value.as<bool>() : nullptr;
+  const double* number = node ? node->value.as<double>() : nullptr;
+  return (word && !*word) || (number && *number == 0.);
+}
+
 /// Returns a warning that lists the names of `added` already present in `scene`, or "" if there are none.
 std::string duplicatesWarning(SceneTree& scene, const SceneTree& added, const std::string& prefix,
                               std::string_view file) {
@@ -364,7 +372,7 @@ void Config::selectJoints(const std::vector<std::string>& names, bool not_those)
   for (const auto& frame : scene_->frames()) {
     if (!frame->moves() || frame->joint->mimic) continue;
     const bool is_named = std::find(named.begin(), named.end(), frame.get()) != named.end();
-    frame->joint->active = is_named != not_those;
+    frame->joint->active = not_those ? !is_named && !isInactiveByFile(*frame) : is_named;
   }
   scene_->structureChanged();
 }

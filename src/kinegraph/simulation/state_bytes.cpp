@@ -145,9 +145,13 @@ WorldState stateFromBytes(std::string_view bytes, const World& world) {
   SpringBytes spring{};
   read(spring);
   if (!read.isDone()) StateReader::fail();
-  if (state.physics.size() != now.physics.size() || parts.dofs.size() != now.reference.dofs().size() ||
-      state.grippers.size() != now.grippers.size() || welds.size() != now.welds.size())
+  if (parts.dofs.size() != now.reference.dofs().size() || state.grippers.size() != now.grippers.size() ||
+      welds.size() != now.welds.size())
     throw ValueError("Simulation.setState: the state belongs to a scene with other joints or free frames");
+  if (state.physics.size() != now.physics.size())
+    throw ValueError(
+        "Simulation.setState: the state has another number of bodies: it belongs to another scene, or was taken before "
+        "addForceTorqueSensor; take states after the sensors are added");
   state.reference.setParts(parts);
   state.reference.spline = spline;
   const int bodies = int(world.scene().scene.bodies.size());

@@ -14,6 +14,8 @@ int PathCurve::pieceAt(double s) const {
 }
 
 void PathCurve::eval(int piece, double s, int order, double* out) const {
+  if (piece < 0 || piece >= pieces())
+    throw ValueError(cat("PathCurve: there is no piece ", piece, "; the curve has ", pieces(), " pieces"));
   const double x = s - begin_[piece];
   std::fill_n(out, dofs_, 0.);
   for (int power = is_line_[piece] ? 1 : degree_; power >= order; --power) {

@@ -440,3 +440,9 @@ def test_a_start_at_no_waypoints_is_a_mistake():
     C.addText("world: {}\nj (world): { joint: hingeX }")
     with pytest.raises(ry.ArgumentError, match="there are no waypoints"):
         ry.KOMO(C, 2, 1, 0, False).initWithWaypoints([])
+
+
+def test_an_empty_komo_has_no_picture_and_says_so():
+    for call in (lambda k: k._repr_html_(), lambda k: k.view_play()):
+        with pytest.raises(ry.Error, match="a view needs a configuration and a timing; call setConfig"):
+            call(ry.KOMO())

@@ -6,6 +6,7 @@ import pickle
 import re
 import subprocess
 import sys
+import warnings
 
 import pytest
 
@@ -73,6 +74,21 @@ def test_a_parameter_of_the_solver_changes_its_default():
     finally:
         ry.params_clear()
     assert ry.NLP_SolverOptions().dict()["stopEvals"] != 7
+
+
+def test_a_misspelled_parameter_is_a_warning_and_one_of_the_script_is_none():
+    try:
+        with pytest.warns(
+            ry.KinegraphWarning, match="no call reads a parameter 'botsim/hyperspeed'.*botsim/hyperSpeed"
+        ):
+            ry.params_add({"botsim/hyperspeed": 2.0})
+        with pytest.warns(ry.KinegraphWarning, match="'botsim/verbose'$"):
+            ry.params_add({"botsim/verbose": 1})
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            ry.params_add({"botsim/tau": 0.01, "noInteractivity": True, "experiment/seeds": 3, "KOMO/verbose": 2})
+    finally:
+        ry.params_clear()
 
 
 def test_a_misspelt_parameter_of_the_solver_is_an_error_that_names_the_nearest():

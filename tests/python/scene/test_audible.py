@@ -62,7 +62,7 @@ def test_sizes_that_are_mended_or_in_millimeters_are_warned_of() -> None:
     C = ry.Config()
     with pytest.warns(ry.KinegraphWarning, match="setShape: frame 'plate'"):
         C.addFrame("plate").setShape(ry.ST.ssBox, [0.3, 0.3, 0.01, 0.02])
-    with pytest.warns(ry.KinegraphWarning, match="did you mean millimeters"):
+    with pytest.warns(ry.KinegraphWarning, match="did you mean meters"):
         C.addFrame("can").setShape("cylinder", [120, 33])
     C.addFrame("floor").setShape(ry.ST.box, [50, 50, 0.1])
 

@@ -227,6 +227,50 @@ def test_mirrored_meshes_stay_outside_out(signs, tmp_path):
         assert volume(frame) == pytest.approx(1e-3 / 6)
 
 
+@pytest.mark.parametrize("signs", [(-1, 1, 1), (1, -1, 0.5), (-1, -1, -1)])
+def test_mirrored_meshes_are_seen_and_written_outside_out(signs, tmp_path):
+    (tmp_path / "m.obj").write_text(TETRAHEDRON)
+    C = ry.Config()
+    (tmp_path / "m.g").write_text(f"m: {{ mesh: <m.obj>, meshscale: [{' '.join(map(str, signs))}] }}")
+    C.addFile(tmp_path / "m.g")
+    frame = C.getFrame("m")
+    frame.setPosition([0, 0, 0.5])  # above the floor of pictures
+    points, inside = np.add(frame.getMeshPoints(), [0, 0, 0.5]), volume(frame)
+    assert inside > 0
+    # from outside, a depth camera sees the near faces, not the far ones through them
+    middle = points.mean(axis=0)
+    for direction in ([1, 0.3, 0.2], [-1, 0.3, 0.2], [0.2, -1, 0.4], [0.2, 1, -0.4]):
+        away = np.array(direction) / np.linalg.norm(direction)
+        camera = C.addFrame("camera")
+        camera.setPosition(middle + 0.4 * away)
+        x = np.cross([0, 0, 1], -away)
+        x /= np.linalg.norm(x)
+        camera.setRotationMatrix(np.stack([x, np.cross(-away, x), -away], axis=1))
+        camera.setAttributes({"focalLength": 1.0, "width": 41, "height": 41})
+        view = ry.CameraView(C)
+        view.setCamera(camera)
+        _, depth = view.computeImageAndDepth(C)
+        a, b, c = points[np.array(frame.getMeshTriangles())].transpose(1, 0, 2)
+        normals = np.cross(b - a, c - a)
+        entered = normals @ -away < 0  # a ray enters a convex body at the last of the planes that it enters
+        times = np.einsum("ij,ij->i", normals, a - middle - 0.4 * away)[entered] / (normals @ -away)[entered]
+        assert depth[20, 20] == pytest.approx(times.max(), abs=1e-4)
+        C.delFrame("camera")
+    for suffix, write in (("urdf", C.writeURDF), ("xml", C.writeMJCF), ("dae", C.writeCollada), ("ply", C.writeMesh)):
+        file = tmp_path / f"out.{suffix}"
+        write(str(file))
+        D = ry.Config()
+        if suffix in ("urdf", "xml"):
+            D.addFile(file)
+        else:
+            D.addFrame("m").setMeshFile(str(file))
+        written = [f for f in D.getFrames() if len(f.getMeshTriangles())]
+        assert [volume(f) for f in written] == [pytest.approx(inside, rel=1e-5)]
+    model = mujoco.MjModel.from_xml_path(str(tmp_path / "out.xml"))
+    corners = model.mesh_vert[model.mesh_face]
+    assert np.einsum("ij,ij->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) / 6 == pytest.approx(inside)
+
+
 def test_a_robot_without_a_colliding_shape_says_so():
     C = ry.Config()
     C.addFile(ry.raiPath("g1/g1.g"))

@@ -75,6 +75,15 @@ def test_odd_names_of_meshes_are_found(file: str, name: str, tmp_path: Path) -> 
     assert urdf(tmp_path, mesh(name)).getFrame("a_0").getShapeType() == ry.ST.mesh
 
 
+def test_names_of_meshes_with_variables_and_schemes_are_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "meshes").mkdir()
+    (tmp_path / "meshes" / "t.obj").write_text(TETRAHEDRON)
+    monkeypatch.setenv("ROBOT_MESHES", str(tmp_path / "meshes"))
+    absolute = tmp_path / "meshes" / "t.obj"
+    for name in ("$ROBOT_MESHES/t.obj", "${ROBOT_MESHES}/t.obj", f"file://{absolute}", f"file:{absolute}"):
+        assert urdf(tmp_path, mesh(name)).getFrame("a_0").getShapeType() == ry.ST.mesh
+
+
 def test_a_mesh_of_other_capitals_is_read_with_a_warning(tmp_path: Path) -> None:
     (tmp_path / "Base.OBJ").write_text(TETRAHEDRON)
     with pytest.warns(ry.KinegraphWarning, match="'Base.OBJ' is read instead"):
@@ -123,6 +132,7 @@ def test_a_strict_file_leaves_the_scene_as_it_was(tmp_path: Path) -> None:
     [
         ('<limit lower="1" upper="-1" effort="5" velocity="1"/>', None),  # of PyBullet's models: unlimited
         ('<limit lower="0.5" upper="0.5" effort="5" velocity="1"/>', [0.5, 0.5]),
+        ('<limit lower="1" upper="-Infinity" effort="5" velocity="1"/>', None),
         ('<limit effort="5" velocity="1"/>', [0, 0]),  # as in Pinocchio
     ],
 )
@@ -131,6 +141,13 @@ def test_limits_are_mended_as_others_do(joint: str, limits: list[float] | None, 
         C = urdf(tmp_path, "", joint, "revolute")
     found = C.getJointLimits()[:, 0]
     assert found[0] > found[1] or not np.isfinite(found).all() if limits is None else list(found) == limits
+
+
+def test_infinite_limits_are_read_in_any_spelling(tmp_path: Path) -> None:
+    for word in ("inf", "INF", "Infinity", "infinity"):
+        limit = f'<limit lower="-{word}" upper="+{word}" effort="5" velocity="1"/>'
+        C = urdf(tmp_path, "", limit, "revolute")
+        assert C.getJointLimits().ravel().tolist() == [-np.inf, np.inf] and C.fileWarnings() == []
 
 
 def test_files_in_utf16_are_read(tmp_path: Path) -> None:

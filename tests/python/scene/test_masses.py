@@ -37,6 +37,7 @@ CASES = {
     "shell ball": ("", '<geom size=".1" shellinertia="true" density="5"/>'),
     "shell cylinder": ("", '<geom type="cylinder" size=".1 .3" shellinertia="true" mass="2"/>'),
     "shell capsule": ("", '<geom type="capsule" size=".1 .3" shellinertia="true" density="5"/>'),
+    "shell ellipsoid": ("", '<geom type="ellipsoid" size=".1 .2 .3" shellinertia="true" density="5"/>'),
     "mesh": mesh(""),
     "mesh exact": mesh('inertia="exact"'),
     "mesh legacy": mesh('inertia="legacy"'),
@@ -49,6 +50,12 @@ CASES = {
     ),
     "mesh with a mass": (mesh('inertia="exact"')[0], '<geom type="mesh" mesh="m" mass="3"/>'),
 }
+for primitive in ("sphere", "box", "capsule", "cylinder", "ellipsoid"):
+    for bounds in ("true", "false"):
+        CASES[f"{primitive} fitted to a mesh, bounds {bounds}"] = (
+            f'<compiler fitaabb="{bounds}"/>' + mesh('scale="1 -1 2"')[0],
+            f'<geom type="{primitive}" mesh="m" pos=".1 .2 .3" euler="5 6 7" fitscale="1.1"/>',
+        )
 
 
 JOINTS = (
@@ -84,3 +91,31 @@ def test_a_stated_mass_counts_where_the_mesh_is_missing(tmp_path):
     with pytest.warns(ry.KinegraphWarning, match="none.stl"):
         C.addFile(str(tmp_path / "s.xml"))
     assert sum(frame.getMass() or 0 for frame in C.getFrames()) == 3
+
+
+def test_a_primitive_with_a_mesh_is_fitted_to_it_as_in_mujoco(tmp_path):
+    head, _ = mesh("")
+    for kind in ("sphere", "capsule", "cylinder", "box", "ellipsoid"):
+        text = (
+            f"""<mujoco>{head}<worldbody><geom name="g" type="{kind}" mesh="m" pos=".1 .2 .3"/></worldbody></mujoco>"""
+        )
+        model = mujoco.MjModel.from_xml_string(text)
+        data = mujoco.MjData(model)
+        mujoco.mj_forward(model, data)
+        (tmp_path / "s.xml").write_text(text)
+        C = ry.Config()
+        C.addFile(str(tmp_path / "s.xml"))
+        frame = C.getFrame("g")
+        np.testing.assert_allclose(frame.getPosition(), data.geom_xpos[0], atol=1e-7)
+        size = np.array(frame.getSize())
+        expected = model.geom_size[0]
+        if kind == "sphere":
+            np.testing.assert_allclose(size, expected[:1], rtol=1e-6)
+        elif kind in ("capsule", "cylinder"):
+            np.testing.assert_allclose(size, [2 * expected[1], expected[0]], rtol=1e-6)
+            axis = frame.getRotationMatrix()[:, 2] @ data.geom_xmat[0].reshape(3, 3)[:, 2]
+            assert abs(axis) == pytest.approx(1, abs=1e-6)
+        elif kind == "box":
+            np.testing.assert_allclose(size, 2 * expected, rtol=1e-6)
+        else:
+            np.testing.assert_allclose(size[3:6], expected, rtol=1e-6)

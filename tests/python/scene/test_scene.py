@@ -188,9 +188,22 @@ def test_joints_that_mimic_others_are_named_behind_those_of_q():
     C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
     arm = C.getJointNames()
     assert len(arm) == C.getJointDimension() == 7
-    C.selectJoints([], notThose=True)
+    C.selectJoints([*arm, "l_panda_finger_joint1"])
     assert C.getJointNames() == [*arm, "l_panda_finger_joint1", "l_panda_finger_joint2"]
     assert C.getJointDimension() == 8  # the second finger mimics the first
+
+
+def test_all_joints_but_some_do_not_include_the_fingers_that_a_file_leaves_out_of_q():
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    arm = C.getJointNames()
+    C.selectJoints(arm[6:], notThose=True)
+    assert C.getJointNames() == arm[:6]
+    C.selectJoints([], notThose=True)
+    assert C.getJointNames() == arm
+    C.addText("rail: {}\nslider (rail): { joint: transX, joint_active: 0 }")
+    C.selectJoints([], notThose=True)
+    assert C.getJointNames() == arm
 
 
 def test_a_root_gets_a_joint_once_it_has_a_parent_as_the_error_says():

@@ -79,6 +79,20 @@ def test_srdf_has_what_is_ignored(tmp_path: Path):
     assert 4 < len(told) < len(matrix)
 
 
+def test_pairs_left_out_by_the_rule_of_the_scene_are_not_told_to_collide_never():
+    C = ry.Config()
+    C.addText("""base: { shape: sphere, size: [.1], contact: 1 }
+a (base): { joint: hingeX, pre: [0 0 .3], shape: sphere, size: [.1], contact: -3 }
+b (a): { joint: hingeX, pre: [0 0 .3], shape: sphere, size: [.1], contact: -3 }
+c (b): { joint: hingeX, pre: [0 0 .3], shape: sphere, size: [.1], contact: -3 }
+d (c): { joint: hingeX, pre: [0 0 .3], shape: sphere, size: [.1], contact: -3 }""")
+    C.selfCollisionMatrix(root="base", samples=200, apply=True)
+    pairs = re.findall(r'link1="(\w+)" link2="(\w+)" reason="(\w+)"', C.asSRDF())
+    reasons = {(a, b): reason for a, b, reason in pairs}
+    assert reasons["b_link", "d_link"] == reasons["a_link", "c_link"] == "User"
+    assert reasons["a_link", "b_link"] == "Adjacent" and "Never" not in reasons.values()
+
+
 def test_the_command_prints_and_writes(tmp_path: Path, capsys):
     out = tmp_path / "panda.srdf"
     assert main(["selfcollisions", ry.raiPath("panda/panda.g"), "--samples", "200", "-o", str(out)]) == 0

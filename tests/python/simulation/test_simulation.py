@@ -567,3 +567,13 @@ def test_other_threads_run_during_many_steps(panda):
     stop.set()
     counter.join()
     assert len(counted) > 10
+
+
+def test_a_state_from_before_a_force_sensor_says_so():
+    C = panda()
+    S = ry.Simulation(C)
+    state = S.getState()
+    S.addForceTorqueSensor("l_gripper")
+    with pytest.raises(ry.ArgumentError, match="was taken before addForceTorqueSensor; take states after the sensors"):
+        S.setState(state)
+    S.setState(S.getState())

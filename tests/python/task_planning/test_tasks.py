@@ -194,3 +194,14 @@ def test_plans_are_made_with_keywords_alone() -> None:
     with pytest.raises(TypeError):
         ry.planTask(panda(), "(on tray cup)", ry.defaultDomain())
     assert str(ry.TaskStatus.no_plan_found) == "TaskStatus.no_plan_found"
+
+
+def test_a_robot_without_a_gripper_is_told_so_and_not_by_the_rules_that_never_fire():
+    C = ry.Config()
+    C.addFile(ry.raiPath("ur5e/ur5e.g"))
+    C.addText("""table: { X: [.6 0 .3], shape: ssBox, size: [.5 .5 .1 .01], contact: 1 }
+box (table): { joint: rigid, Q: [0 0 .08], shape: ssBox, size: [.05 .05 .05 .01], contact: 1 }
+tray (table): { joint: rigid, Q: [.1 .1 .06], shape: ssBox, size: [.2 .2 .02 .005], contact: 1 }""")
+    plan = ry.planTask(C, "(on box tray)")
+    assert plan.message.startswith("no frame is a gripper; give the point between the fingers a name")
+    assert len(plan.message) < 250

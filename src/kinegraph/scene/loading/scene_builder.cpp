@@ -7,6 +7,7 @@
 #include "kinegraph/common/file_paths.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/loading/robot_semantics.h"
+#include "kinegraph/scene/loading/unit_questions.h"
 
 namespace kinegraph {
 
@@ -64,6 +65,7 @@ void SceneBuilder::build(SceneSource& source) {
   for (int i = 0; i < count; ++i) resolveContactExclude(*frames_[i], source.frames[i]);
   for (int i = 0; i < count; ++i) resolveMimic(*frames_[i], source.frames[i]);
   for (const Node& node : source.joint_states) setJointState(node);
+  askAboutUnits(source, frames_, diagnostics_);
   for (const RobotSemantics& semantics : source.semantics) {
     if (count > 0) applySemantics(semantics, scene_, diagnostics_);
   }
