@@ -6,7 +6,7 @@ Each gets the scene as a URDF file without shapes, and the start configuration o
 one. A function takes a problem and its scene, and returns times and joint values, or None, and processor time in ms.
 
 tesseract-robotics 0.5.1 is not among them: its Descartes planner needs plugin files for the kinematics of each arm, and
-its time law cannot be called from Python.
+its time parameterization cannot be called from Python.
 """
 
 import tempfile
