@@ -18,8 +18,8 @@ struct RobotLimits {
 
 /// The fastest motion of a robot along a path in its dofs q, rows of `path` (K, n): see `retime`
 /// (trajectories/retime.h). With `torque`, the generalized forces of inverse dynamics hold at the ends of all
-/// intervals, and so do speeds of frames with `tool_speed`; `options.constraints` is not used then. Throws ValueError if
-/// the path has another number of dofs, or the model does not have the limits asked for; FrameNotFound.
+/// intervals, and so do speeds of frames with `tool_speed`; `options.constraints` is not used then. Throws ValueError
+/// if the path has another number of dofs, or the model does not have the limits asked for; FrameNotFound.
 TimedPath retime(const Config& config, const MatrixXd& path, const RobotLimits& limits,
                  const RetimeOptions& options = {});
 
