@@ -1,4 +1,4 @@
-"""Part 34: a seam on a part at a constant speed, with an approach, a retract, and the place where a clamp is in the way."""
+"""Part 34: a seam on a part at a constant speed, with approach and retract, and a clamp that is in the way."""
 
 import numpy as np
 
