@@ -3,7 +3,7 @@
     pip install roboplan==0.7.0 mplib==0.2.1
 
 Each gets the scene as a URDF file without shapes, and the start configuration of the certificate: none of them looks
-for one. A function takes a problem and its scene, and returns times and joint values, or None, and processor time in ms.
+for one. A function takes a problem and its scene, and returns times and joint values, or None, and the processor time.
 
 tesseract-robotics 0.5.1 is not among them: its Descartes planner needs plugin files for the kinematics of each arm, and
 its time parameterization cannot be called from Python.

@@ -283,8 +283,12 @@ class ToolPathPlanner {
     source.at = [&path, speed = speedOf(curve), n = path.dofs()](double s, int piece) {
       VectorXd slope(n);
       path.eval(piece, s, 1, slope.data());
-      const double little = 1e-6 * path.length();
-      const double share = slope[n - 1] / std::min(speed(s - little), speed(s + little));
+      // The speed is constant on a piece; at its ends, the neighbors count, too.
+      double least = speed(.5 * (path.begin(piece) + path.end(piece)));
+      if (s <= path.begin(piece) && piece > 0) least = std::min(least, speed(.5 * (path.begin(piece - 1) + s)));
+      if (s >= path.end(piece) && piece + 1 < path.pieces())
+        least = std::min(least, speed(.5 * (s + path.end(piece + 1))));
+      const double share = slope[n - 1] / least;
       return ScalingConstraints{VectorXd::Zero(1), VectorXd::Constant(1, share * share), VectorXd::Zero(1)};
     };
     return source;
