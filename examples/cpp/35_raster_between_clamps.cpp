@@ -36,7 +36,8 @@ int main() try {
   C.getFrame("pen").setContact(-2);
   C.addFrame("tool", "l_gripper").setRelativePosition({0., 0., -.08});
   C.addFrame("drum", "table").setShape(ShapeType::cylinder, {.3, kRadius - .01}).setContact(1);
-  C.getFrame("drum").setRelativePose("t(0 .45 .22) d(90 0 1 0)");
+  C.getFrame("drum").setRelativePose(
+      Pose(Vector3d(0., .45, .22), Quaterniond(Eigen::AngleAxisd(.5 * std::numbers::pi, Vector3d::UnitY()))));
   for (const double x : {-.05, .07}) {
     Frame clamp = C.addFrame(x < 0. ? "clamp 0" : "clamp 1", "table");
     clamp.setShape(ShapeType::ssBox, {.015, .06, .05, .002}).setRelativePosition({x, .345, .33}).setContact(1);
