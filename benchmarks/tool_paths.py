@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plans tool paths of seven families and judges them: deviation, limits, speed, places of failures, and processor time.
 
-    python benchmarks/tool_paths.py [--seeds 0 1] [--families abcdefg] [--robots panda ur10]
+    python benchmarks/tool_paths.py [--seeds 0 1] [--families abcdefg] [--robots panda ur10] [--peers]
 
 Robots: a Panda with a pen and a UR10 with a rod. tool_path_problems/families.py draws the families by a seed; lines,
 circles and rasters are dense rows of poses, .5 mm apart. The judge samples motions every ms. Its kinematics come from a
@@ -12,6 +12,9 @@ rad/s^3; along the path 2 m/s^2 and 40 m/s^3.
 Columns: distance from the rows and rotation, with the bound that the plan states; velocities, accelerations and jerks
 as shares of their limits; the largest speed of the tool as a share of the speed asked; the share of the way on which it
 is within 1 % of it, and the share that `plan.slow` lists; processor time of the call.
+
+--peers adds roboplan and MPlib (tool_path_problems/peers.py) on families a to d, judged alike, without collisions.
+A motion counts as solved if it gets to the end with a deviation below 10 mm.
 """
 
 import argparse
@@ -19,7 +22,7 @@ import statistics
 from time import process_time
 
 import numpy as np
-from tool_path_problems import families, judge
+from tool_path_problems import families, judge, peers
 
 import kinegraph as ry
 
@@ -113,6 +116,40 @@ def line(problem, C, plan, ms):
     ), right
 
 
+def peer_lines(problem, C, row):
+    """Judges the motions of other packages; adds them to the rows of the table."""
+    chain, (velocity, acceleration, jerk) = judge.chain(C), families.limits(C)
+    for name, plan_with in peers.PEERS.items():
+        motion, ms = plan_with(problem, C)
+        if motion is None and ms == 0.0:
+            continue
+        result = {"ms": ms}
+        if motion is not None:
+            t, q = peers.resampled(*motion)
+            result |= judge.judge(
+                C, problem["paths"][0], t, q, None, 0.0, problem["speed"], velocity, acceleration, jerk, links=chain
+            )
+        row(name, problem["family"], result)
+
+
+def own_result(C, problem, plan, ms):
+    return {"ms": ms} | (judged(C, problem, plan) if plan else {})
+
+
+def peer_table(results):
+    print("\n| family | package | solved | deviation, mm (median, worst) | a | j | speed | ms (median, worst) |")
+    print("|---|---|---|---|---|---|---|---|")
+    for (family, name), all_of in sorted(results.items()):
+        done = [r for r in all_of if "mm" in r and r["done"] > 0.99 and r["mm"] < 10]
+        ms = [r["ms"] for r in all_of]
+        worst = {k: max((r[k] for r in done), default=float("nan")) for k in ("mm", "a", "j", "fast")}
+        median = statistics.median(r["mm"] for r in done) if done else float("nan")
+        print(
+            f"| {family} | {name} | {len(done)} of {len(all_of)} | {median:.3f}, {worst['mm']:.3f} | {worst['a']:.2f} | "
+            f"{worst['j']:.1f} | {worst['fast']:.3f} | {statistics.median(ms):.1f}, {max(ms):.1f} |"
+        )
+
+
 def rows_length(rows):
     return np.linalg.norm(np.diff(rows[:, :3], axis=0), axis=1).sum()
 
@@ -122,8 +159,13 @@ def main():
     parser.add_argument("--seeds", type=int, nargs="+", default=[0, 1])
     parser.add_argument("--families", default="abcdefg", help="their letters")
     parser.add_argument("--robots", nargs="+", default=["panda", "ur10"], choices=["panda", "ur10"])
+    parser.add_argument("--peers", action="store_true", help="a table with roboplan and MPlib")
     options = parser.parse_args()
-    times, wrong = {}, []
+    times, wrong, results = {}, [], {}
+
+    def row(name, family, result):
+        results.setdefault((family, name), []).append(result)
+
     for problem in families.all_problems(options.seeds, options.families, options.robots):
         C, plan, ms = planned(problem)
         text, right = line(problem, C, plan, ms)
@@ -131,10 +173,15 @@ def main():
         times.setdefault(problem["family"], []).append(ms)
         if not right:
             wrong.append(problem["name"])
+        if options.peers and problem["family"] in "abcd":
+            row("kinegraph", problem["family"], own_result(C, problem, plan, ms))
+            peer_lines(problem, C, row)
     for family, all_ms in sorted(times.items()):
         print(
             f"{family}: {len(all_ms)} problems, median {statistics.median(all_ms):.1f} ms, worst {max(all_ms):.1f} ms"
         )
+    if results:
+        peer_table(results)
     print("wrong:", ", ".join(wrong) or "none")
     return 1 if wrong else 0
 

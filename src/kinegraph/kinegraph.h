@@ -78,6 +78,8 @@
 #include "kinegraph/task_planning/scene_facts.h"              // logical facts of a scene
 #include "kinegraph/task_planning/search/check_task_plan.h"   // checkTaskPlan
 #include "kinegraph/task_planning/search/plan_task.h"         // planTask, planTasks
+#include "kinegraph/tool_paths/free_curve.h"                  // firstContact
+#include "kinegraph/tool_paths/nearest_limit.h"               // nearestLimit
 #include "kinegraph/tool_paths/plan_tool_path.h"              // ToolPath, planToolPath
 #include "kinegraph/trajectories/b_spline.h"                  // BSpline
 #include "kinegraph/trajectories/retime.h"                    // retime: the fastest motion along a path

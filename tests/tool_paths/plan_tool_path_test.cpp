@@ -51,6 +51,89 @@ TEST(PlanToolPath, FollowsALineAtConstantSpeedWithinTheProvenDeviation) {
   }
 }
 
+/// The planar arm turns its last link about the free axis within a range; samples must keep it, too.
+TEST(PlanToolPath, TheFreeRotationKeepsItsRangeAndThePreferredAngle) {
+  Config C = planarArm();
+  const Pose start(Vector3d(.6, -.2, 0.), Quaterniond::Identity());
+  const auto plan = [&](std::optional<std::pair<double, double>> range, std::optional<double> prefer) {
+    return planToolPath(C, {ToolPath("tool").start(start).line(Vector3d(.6, .2, 0.)).free(2, range, prefer)});
+  };
+  const auto angles = [&](const ToolPathPlan& motion) {
+    double least = 10., most = -10.;
+    for (int k = 0; k <= 2000; ++k) {
+      const double angle = motion.eval(motion.duration() * k / 2000.).q.sum();
+      least = std::min(least, std::remainder(angle, 6.283185307179586)),
+      most = std::max(most, std::remainder(angle, 6.283185307179586));
+    }
+    return std::pair(least, most);
+  };
+  const ToolPathPlan in_range = plan(std::pair(.3, .5), {});
+  ASSERT_TRUE(in_range.feasible()) << in_range.message;
+  EXPECT_GE(angles(in_range).first, .3);
+  EXPECT_LE(angles(in_range).second, .5);
+  const ToolPathPlan preferred = plan({}, -.7);
+  ASSERT_TRUE(preferred.feasible()) << preferred.message;
+  EXPECT_NEAR(angles(preferred).first, -.7, 1e-2);
+  EXPECT_NEAR(angles(preferred).second, -.7, 1e-2);
+  EXPECT_THROW(ToolPath("tool").free(2, std::pair(.5, .3)), ValueError);
+  EXPECT_THROW(ToolPath("tool").free(2, std::pair(.3, .5), .6), ValueError);
+}
+
+TEST(PlanToolPath, PartsOfAPathHaveTheirOwnSpeed) {
+  Config C = planarArm();
+  const ToolPath path = ToolPath("tool")
+                            .start(Vector3d(.6, -.2, 0.))
+                            .speed(.05)
+                            .line(Vector3d(.6, 0., 0.))
+                            .speed(.2)
+                            .line(Vector3d(.6, .2, 0.));
+  const ToolPathPlan plan = planToolPath(C, {path}, {.acceleration = VectorXd{{6.}}, .jerk = VectorXd{{120.}}});
+  ASSERT_TRUE(plan.feasible()) << plan.message;
+  EXPECT_NEAR(plan.duration(), 4. + 1. + .1, .1);
+  for (int k = 0; k <= 4000; ++k) {
+    const double t = plan.duration() * k / 4000., place = plan.way(t).place, speed = plan.speed(t);
+    if (place < .2 - 1e-6) EXPECT_LE(speed, .05 * 1.001) << place;
+    EXPECT_LE(speed, .2 * 1.001);
+    if (place > .01 && place < .19) EXPECT_GT(speed, .0495) << place;
+    if (place > .24 && place < .36) EXPECT_GT(speed, .198) << place;
+  }
+}
+
+TEST(PlanToolPath, ApproachesOnTheSideOfTheArmForBothDirectionsOfTheAxis) {
+  for (const bool outwards : {true, false}) {
+    Config C;
+    C.addText(std::string(R"(
+base: {}
+x (base): { joint: transX, limits: [-1 1], ctrl_limits: [1 1 1] }
+y (x): { joint: transY, limits: [-1 1], ctrl_limits: [1 1 1] }
+quill (y): { joint: transZ, limits: [-1 1], ctrl_limits: [1 1 1] }
+)") + (outwards ? "tool (quill): { Q: \"t(0 0 -.2) d(180 1 0 0)\" }\n" : "tool (quill): { Q: [0 0 -.2] }\n"));
+    const ToolPathPlan plan = planToolPath(C, {ToolPath("tool").line(Vector3d(.2, 0., -.2))}, {.approach = .1});
+    ASSERT_TRUE(plan.feasible()) << plan.message;
+    C.setJointState(plan.eval(0.).q);
+    EXPECT_NEAR(C.getFrame("tool").getPosition()[2], -.1, 1e-4);  // from above, where the quill is
+  }
+}
+
+/// A clamp that is fixed to the part is no part of the part.
+TEST(PlanToolPath, FramesThatMayTouchDoNotIncludeWhatIsFixedToThem) {
+  Config C;
+  C.addText(R"(
+base: {}
+x (base): { joint: transX, limits: [-1 1], ctrl_limits: [1 1 1] }
+part (base): { shape: box, size: [2 1 .1], Q: [0 0 -.05], contact: 1 }
+clamp (part): { shape: box, size: [.1 1 .1], Q: [.4 0 .1], contact: 1 }
+tool (x): { shape: sphere, size: [.02], contact: 1 }
+)");
+  const ToolPath path = ToolPath("tool").line(Vector3d(.8, 0., 0.));
+  EXPECT_EQ(planToolPath(C, {path}).status, ToolPathStatus::in_collision);  // the sphere is in the part
+  const ToolPathPlan plan = planToolPath(C, {path}, {.touching = {"part"}});
+  EXPECT_EQ(plan.status, ToolPathStatus::in_collision);
+  EXPECT_NEAR(plan.where.place, .33, 1e-3);
+  EXPECT_EQ(plan.frames, (std::vector<std::string>{"clamp", "tool"}));
+  EXPECT_TRUE(planToolPath(C, {path}, {.touching = {"part", "clamp"}}).feasible());
+}
+
 /// The elbow of planarArm is at acos((d^2 - .5) / .5) for a wrist at a distance d from the base. On the line x = .6
 /// with a constant rotation, d^2 = .25 + y^2, and the angle has its extreme in the middle.
 TEST(PlanToolPath, JointLimitsHoldBetweenTheKnotsOfTheCurve) {

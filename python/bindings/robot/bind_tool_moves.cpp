@@ -4,6 +4,7 @@
 
 #include "arguments.h"
 #include "bindings.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/tool_paths/plan_tool_path.h"
 #include "python_names.h"
 #include "robot/robot_objects.h"
@@ -16,10 +17,16 @@ namespace {
 
 using MaybeLimit = std::optional<Numbers>;
 
+/// The docstring of a move from its first sentence and its own arguments.
+std::string docOf(const char* summary, const char* arguments) {
+  return cat(summary, docs::robot::moveAbout, arguments, docs::robot::moveRest);
+}
+
 /// Binds a method that moves a tool: arguments of its own, `names`, and then those that all of them have. `move` is
 /// called without the interpreter lock.
 template <class... Own, class Move, class... Names>
-void bindToolMove(nb::class_<PyBotOp>& bot, const char* name, const char* doc, Move move, const Names&... names) {
+void bindToolMove(nb::class_<PyBotOp>& bot, const char* name, const std::string& doc, Move move,
+                  const Names&... names) {
   bot.def(
       name,
       [name, move](PyBotOp& self, Own... own, double speed, double tolerance, double rotation_tolerance, double margin,
@@ -45,7 +52,7 @@ void bindToolMove(nb::class_<PyBotOp>& bot, const char* name, const char* doc, M
       "rotation_tolerance"_a = ToolPathOptions().rotation_tolerance, "margin"_a = 0.,
       "touching"_a = std::vector<std::string>(), "velocity"_a = nb::none(), "acceleration"_a = nb::none(),
       "jerk"_a = nb::none(), "tool_acceleration"_a = ToolPathOptions().tool_acceleration,
-      "tool_jerk"_a = ToolPathOptions().tool_jerk, "time_limit"_a = nb::none(), "overwrite"_a = false, doc);
+      "tool_jerk"_a = ToolPathOptions().tool_jerk, "time_limit"_a = nb::none(), "overwrite"_a = false, doc.c_str());
 }
 
 }  // namespace
@@ -54,20 +61,20 @@ void bindToolMoves(nb::class_<PyBotOp>& bot) {
   using Name = const std::string&;
   using Pose = const Numbers&;
   bindToolMove<Name, Pose>(
-      bot, "moveLinear", docs::robot::moveLinear,
+      bot, "moveLinear", docOf(docs::robot::moveLinear, docs::robot::moveLinearArgs),
       [](BotOp& b, Name frame, Pose target, const ToolPathOptions& options, bool overwrite) {
         return b.moveLinear(frame, waypointOf("moveLinear", target.values), options, overwrite);
       },
       "frame"_a, "target"_a);
   bindToolMove<Name, Pose, Pose>(
-      bot, "moveCircular", docs::robot::moveCircular,
+      bot, "moveCircular", docOf(docs::robot::moveCircular, docs::robot::moveCircularArgs),
       [](BotOp& b, Name frame, Pose via, Pose target, const ToolPathOptions& options, bool overwrite) {
         return b.moveCircular(frame, waypointOf("moveCircular", via.values).p,
                               waypointOf("moveCircular", target.values), options, overwrite);
       },
       "frame"_a, "via"_a, "target"_a);
   bindToolMove<Name, const std::vector<Numbers>&, double>(
-      bot, "moveSequence", docs::robot::moveSequence,
+      bot, "moveSequence", docOf(docs::robot::moveSequence, docs::robot::moveSequenceArgs),
       [](BotOp& b, Name frame, const std::vector<Numbers>& targets, double blend, const ToolPathOptions& options,
          bool overwrite) {
         std::vector<ToolWaypoint> waypoints;

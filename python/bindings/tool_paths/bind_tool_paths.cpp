@@ -1,16 +1,21 @@
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include "arguments.h"
 #include "bindings.h"
+#include "kinegraph/api/tool_path_view.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/tool_paths/plan_tool_path.h"
 #include "python_names.h"
 #include "tool_paths/tool_path_docs.h"
 #include "tool_paths/tool_waypoint.h"
+#include "trajectories/first_contact.h"
+#include "trajectories/retime_docs.h"
+#include "viewer/py_viewer.h"
 
 namespace kinegraph::python {
 
@@ -74,6 +79,11 @@ void bindToolPath(nb::module_& m) {
             return ToolPath::read(file.text, frame, relative_to.value_or(""));
           },
           "file"_a, nb::kw_only(), "frame"_a = "tool", "relativeTo"_a = nb::none(), doc::read)
+      .def_static(
+          "readGcode",
+          [](const PathText& file, const std::string& frame, const std::optional<std::string>& relative_to,
+             double blend) { return ToolPath::readGcode(file.text, frame, relative_to.value_or(""), blend); },
+          "file"_a, nb::kw_only(), "frame"_a = "tool", "relativeTo"_a = nb::none(), "blend"_a = 0., doc::readGcode)
       .def(
           "start",
           [](ToolPath& path, const Numbers& pose) -> ToolPath& { return path.start(waypoint("start", pose.values)); },
@@ -93,10 +103,12 @@ void bindToolPath(nb::module_& m) {
           "via"_a, "pose"_a, "blend"_a = 0., kChain, doc::arc)
       .def(
           "circle",
-          [](ToolPath& path, const Numbers& center, const Numbers& axis, double angle, double blend) -> ToolPath& {
-            return path.circle(vector3("circle", "center", center), vector3("circle", "axis", axis), angle, blend);
+          [](ToolPath& path, const Numbers& center, const Numbers& axis, double angle, double blend,
+             double advance) -> ToolPath& {
+            return path.circle(vector3("circle", "center", center), vector3("circle", "axis", axis), angle, blend,
+                               advance);
           },
-          "center"_a, "axis"_a, "angle"_a, "blend"_a = 0., kChain, doc::circle)
+          "center"_a, "axis"_a, "angle"_a, "blend"_a = 0., "advance"_a = 0., kChain, doc::circle)
       .def(
           "spline",
           [](ToolPath& path, const Numbers& poses) -> ToolPath& {
@@ -108,12 +120,19 @@ void bindToolPath(nb::module_& m) {
           },
           "poses"_a, kChain, doc::spline)
       .def(
-          "free", [](ToolPath& path, const std::string& about) -> ToolPath& { return path.free(axisNumber(about)); },
-          "about"_a = "z", kChain, doc::free)
+          "speed", [](ToolPath& path, double speed) -> ToolPath& { return path.speed(speed); }, "speed"_a, kChain,
+          doc::speedOfElements)
+      .def(
+          "free",
+          [](ToolPath& path, const std::string& about, const std::optional<std::pair<double, double>>& range,
+             const std::optional<double>& prefer) -> ToolPath& { return path.free(axisNumber(about), range, prefer); },
+          "about"_a = "z", "range"_a = nb::none(), "prefer"_a = nb::none(), kChain, doc::free)
       .def(
           "tilt", [](ToolPath& path, double angle) -> ToolPath& { return path.tilt(angle); }, "angle"_a, kChain,
           doc::tilt)
       .def_prop_ro("frame", &ToolPath::frame, "Name of the frame that moves.")
+      .def_prop_ro("warnings", &ToolPath::warnings,
+                   "Sentences with file:line:column about what was ignored in a file, such as spindle commands.")
       .def("__repr__", [](const ToolPath& path) { return cat("<ToolPath ", path.str(), ">"); });
 }
 
@@ -176,6 +195,15 @@ void setToolPlanState(ToolPathPlan& plan, const nb::tuple& t) {
   new (&plan) ToolPathPlan(std::move(p));
 }
 
+int viewToolPlan(const ToolPathPlan& plan, PyConfig& config, nb::handle paths, bool pause) {
+  const Config shown(config);
+  if (!config.viewer) config.viewer = std::make_shared<PyViewer>();
+  drawToolPaths(*config.viewer, shown, pathsFrom(paths), plan);
+  const ShownMotion motion = shownToolPath(plan, shown);
+  if (motion.poses.empty()) return viewOnPage(config, shown, pause, inPython(plan.message));
+  return playOnPage(config, shown, motion, pause, inPython(plan.str()));
+}
+
 void bindToolPathPlan(nb::module_& m) {
   nb::enum_<ToolPathStatus>(m, "ToolPathStatus", "Result of planToolPath.")
       .value("solved", ToolPathStatus::solved, "There is a motion.")
@@ -219,6 +247,8 @@ void bindToolPathPlan(nb::module_& m) {
           },
           "t"_a, doc::way)
       .def("speed", &ToolPathPlan::speed, "t"_a, doc::speed)
+      .def("firstContact", firstContactOf<ToolPathPlan>, "config"_a, "margin"_a = 0., docs::retime::firstContact)
+      .def("view", viewToolPlan, "config"_a, "paths"_a, "pause"_a = false, doc::view)
       .def("__getstate__", toolPlanState)
       .def("__setstate__", setToolPlanState)
       .def("__repr__", [](const ToolPathPlan& p) { return cat("<ToolPathPlan ", inPython(p.str()), ">"); });

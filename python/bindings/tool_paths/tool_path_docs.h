@@ -41,7 +41,8 @@ inline constexpr char read[] =
     R"(Reads a path from a text file with one row per line.
 
 Rows have 3 numbers (x y z, m), 6 (with a normal) or 7 (x y z qw qx qy qz), separated by commas, semicolons or spaces.
-Lines that begin with # and one line of column names are skipped.
+Lines that begin with # and one line of column names are skipped. Files with the extension .nc, .ngc, .gcode, .gc, .tap
+or .cnc are read by readGcode.
 
 Args:
     file: Path of the file.
@@ -52,6 +53,27 @@ Returns:
 Raises:
     FileError: The file cannot be read.
     ParseError: The file has other content; the message has line and column.)";
+
+inline constexpr char readGcode[] =
+    R"(Reads a path from a program of G-code.
+
+It knows G0 to G3 in the planes G17 to G19, with arcs and helices by I J K or R. Units are mm (G21, the default) or inch
+(G20), coordinates absolute (G90, the default) or relative (G91), and F is per minute. G64 P sets the radius of blends,
+and G61 ends them. Moves with G0, and those before the first F,
+have the speed of planToolPath. The path starts where the first moves that name all axes end; axes that are named later
+start at 0. Spindle, coolant, tool and dwell commands are ignored, each with a line in `warnings`.
+
+Args:
+    file: Path of the file.
+    frame: Name of the frame that moves along the path; it keeps its rotation.
+    relativeTo: Name of the frame at the program's zero point; None: the world.
+    blend: Radius (m) at corners until G64 P or G61 sets another one; 0: the tool stops.
+Returns:
+    A ToolPath.
+Raises:
+    FileError: The file cannot be read.
+    ParseError: The file has a word that is not known, or an impossible arc; the message has line and column.
+    ValueError: blend is negative.)";
 
 inline constexpr char start[] =
     R"(Sets the first pose. Without it, the path starts at the pose of the tool at the time of planning.
@@ -95,6 +117,7 @@ Args:
     axis: Direction of the axis, shape (3,).
     angle: rad, counterclockwise about the axis; may be negative, and larger than a full circle.
     blend: As for line.
+    advance: Way along the axis, m: a helix.
 Returns:
     The path itself.
 Raises:
@@ -110,15 +133,28 @@ Returns:
 Raises:
     ValueError: A pose has another number of entries, or they are not finite.)";
 
-inline constexpr char free[] =
-    R"(Frees the rotation about an axis of the tool.
+inline constexpr char speedOfElements[] =
+    R"(Sets the speed of the tool on the elements that are appended from now on.
 
 Args:
-    about: "x", "y" or "z".
+    speed: m/s; 0: that of planToolPath.
 Returns:
     The path itself.
 Raises:
-    ValueError: about is another text.)";
+    ValueError: speed is negative.)";
+
+inline constexpr char free[] =
+    R"(Frees the rotation about an axis of the tool. It is an angle from the poses of the path.
+
+Args:
+    about: "x", "y" or "z".
+    range: Least and largest angle, rad; None: a whole turn. The tool is never outside of it.
+    prefer: Angle (rad) that is kept all along if a motion can do so; else angles near it are preferred. None: all are
+        equal.
+Returns:
+    The path itself.
+Raises:
+    ValueError: about is another text, the range is empty, or prefer is outside of it.)";
 
 inline constexpr char tilt[] =
     R"(Allows the free axis to lean from its direction within a cone. Frees the rotation about z if no axis is free.
@@ -132,6 +168,23 @@ Raises:
 
 inline constexpr char ToolPathPlan[] =
     R"(The motion that planToolPath found, or the reason why there is none; a Trajectory. True if there is a motion.)";
+
+inline constexpr char view[] =
+    R"(Shows the paths and the motion on the page of the scene.
+
+The page has the curves that were asked (gray), and the way of the tool: green at its largest speed, yellow at half of
+it, red at rest. There are axes at both ends, cones of free axes, and the place of a failure with its cause. The page
+plays the motion, or the configurations up to the failure. Later calls replace the drawings.
+
+Args:
+    config: The scene of the call, with the same q.
+    paths: The paths of the call.
+    pause: True waits for a key.
+Returns:
+    Code of the key, or 0.
+Raises:
+    FrameNotFound: A frame of a path does not exist.
+    ValueError: The scene has other joints.)";
 
 inline constexpr char way[] =
     R"(Returns the place of the tool.
@@ -166,9 +219,10 @@ arguments give equal bits.
 Args:
     config: Scene; its q is tried first.
     paths: A ToolPath or a sequence of them.
-    speed: Speed of the tool along the path, m/s.
+    speed: Speed of the tool where the path has no speed of its own, m/s.
     order: "given", or "free": any order, each path from either end.
-    approach: Length (m) of a straight approach along the tool's free axis, or z, before each path. 0: none.
+    approach: Length (m) of a straight approach along the tool's free axis, or z, before each path. 0: none. It is on
+        the side of the tool's own link, whether the axis points into the work or out of it.
     retract: Length (m) of a straight retract after each path. 0: none.
     tolerance: Largest distance of the tool from the curve, m.
     rotation_tolerance: Largest rotation of the tool, or of its free axis, from the curve, rad. With a cone, the axis is

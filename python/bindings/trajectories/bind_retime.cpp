@@ -1,5 +1,7 @@
+#include <nanobind/stl/map.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/tuple.h>
 #include <nanobind/stl/vector.h>
 
 #include "arguments.h"
@@ -7,9 +9,11 @@
 #include "kinegraph/api/retime_robot.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/tool_paths/nearest_limit.h"
 #include "kinegraph/trajectories/path_curve.h"
 #include "kinegraph/trajectories/time_scaling.h"
 #include "python_names.h"
+#include "trajectories/first_contact.h"
 #include "trajectories/retime_docs.h"
 
 namespace kinegraph::python {
@@ -69,11 +73,13 @@ TimedPath ofPath(const Numbers& path, const Numbers& velocity, const Numbers& ac
 }
 
 TimedPath ofRobot(const PyConfig& config, const Numbers& path, const MaybeNumbers& velocity,
-                  const MaybeNumbers& acceleration, const MaybeNumbers& jerk, bool torque, const Request& request) {
+                  const MaybeNumbers& acceleration, const MaybeNumbers& jerk, bool torque,
+                  const std::map<std::string, double>& tool_speed, const Request& request) {
   const MatrixXd q = points(path);
   const RobotLimits limits{{perDof("velocity", velocity, q.cols()), perDof("acceleration", acceleration, q.cols()),
                             perDof("jerk", jerk, q.cols())},
-                           torque};
+                           torque,
+                           tool_speed};
   const RetimeOptions options = request.options();
   const Config scene(config);  // a copy, because the caller may change it
   const nb::gil_scoped_release unlock;
@@ -148,6 +154,18 @@ void bindTimedPath(nb::module_& m) {
       .def_prop_ro(
           "times", [](const TimedPath& t) { return toNumpy(t.times); },
           "Times of the points, or of the nearest points of their blends, shape (K,), s; empty without a motion.")
+      .def(
+          "nearestLimit",
+          [](const TimedPath& t, double time, const Numbers& velocity, const Numbers& acceleration,
+             const MaybeNumbers& jerk) {
+            const Eigen::Index n = t.dimension();
+            const NearestLimit nearest = nearestLimit(
+                t, time,
+                {perDof("velocity", velocity, n), perDof("acceleration", acceleration, n), perDof("jerk", jerk, n)});
+            return std::tuple(nearest.share, nearestLimitName(nearest.kind), nearest.dof);
+          },
+          "t"_a, "velocity"_a, "acceleration"_a, "jerk"_a = nb::none(), docs::retime::nearestLimit)
+      .def("firstContact", firstContactOf<TimedPath>, "config"_a, "margin"_a = 0., docs::retime::firstContact)
       .def("__bool__", &TimedPath::feasible)
       .def("__getstate__", timedState)
       .def("__setstate__", setTimedState)
@@ -163,16 +181,17 @@ void bindRetime(nb::module_& m) {
       [](const PyConfig& config, const Numbers& path, const MaybeNumbers& velocity, const MaybeNumbers& acceleration,
          const MaybeNumbers& jerk, bool torque, const std::string& corners, double tolerance,
          const std::optional<nb::callable>& is_free, const MaybeNumbers& start_velocity,
-         const MaybeNumbers& end_velocity, int intervals, const MaybeNumbers& start_acceleration) {
+         const MaybeNumbers& end_velocity, int intervals, const MaybeNumbers& start_acceleration,
+         const std::map<std::string, double>& tool_speed) {
         const Request request{corners,        tolerance,    is_free ? nb::object(*is_free) : nb::none(),
                               start_velocity, end_velocity, start_acceleration,
                               intervals};
-        return ofRobot(config, path, velocity, acceleration, jerk, torque, request);
+        return ofRobot(config, path, velocity, acceleration, jerk, torque, tool_speed, request);
       },
       "config"_a, "path"_a, "velocity"_a = nb::none(), "acceleration"_a = nb::none(), "jerk"_a = nb::none(),
       nb::kw_only(), "torque"_a = false, "corners"_a = "blend", "tolerance"_a = .01, "is_free"_a = nb::none(),
       "start_velocity"_a = nb::none(), "end_velocity"_a = nb::none(), "intervals"_a = 100,
-      "start_acceleration"_a = nb::none(), docs::retime::ofRobot);
+      "start_acceleration"_a = nb::none(), "tool_speed"_a = std::map<std::string, double>(), docs::retime::ofRobot);
   m.def(
       "retime",
       [](const Numbers& path, const Numbers& velocity, const Numbers& acceleration, const MaybeNumbers& jerk,

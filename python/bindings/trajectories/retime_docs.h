@@ -34,6 +34,30 @@ Raises:
     ArgumentError: The path has no points, numbers are not finite, limits are not positive, a moving dof has no limit,
         velocities do not point along the path, or corners is unknown.)";
 
+inline constexpr char nearestLimit[] =
+    R"(Returns the limit of which the motion uses the largest share at a time: why it is not faster there.
+
+Args:
+    t: Time, s, clamped to the duration.
+    velocity: Limit of |dq/dt| of the call, a number or one per dof.
+    acceleration: Limit of |d2q/dt2|, likewise.
+    jerk: Limit of |d3q/dt3|, likewise; None for none.
+Returns:
+    The share (1: the limit is reached), "velocity", "acceleration" or "jerk", and the index of the dof (-1 at rest).
+Raises:
+    ArgumentError: There is no motion, a limit is not positive or has another size, or t is NaN.)";
+
+inline constexpr char firstContact[] =
+    R"(Finds the first time at which the motion is not provably free: continuously, not only at samples.
+
+Args:
+    config: The scene.
+    margin: Distance that all pairs keep, m.
+Returns:
+    None if the whole motion is free; else the time (s), the names of both frames, and their distance (m).
+Raises:
+    ArgumentError: There is no motion, the scene has another number of dofs, or the margin is negative.)";
+
 inline constexpr char ofRobot[] =
     R"(Computes the fastest motion of a robot along a path; its limits may come from the model.
 
@@ -53,6 +77,7 @@ Args:
     start_acceleration: d2q/dt2 at the start, shape (n,), for motions with jerk limits: the acceleration that the
         curvature of the path requires at start_velocity, plus a multiple of start_velocity; None: a constant speed at
         the start.
+    tool_speed: Largest speeds of the origins of frames in the world: a dict from names to m/s.
 Returns:
     TimedPath. If the problem is infeasible, its feasible is False and its message gives the cause, such as a joint that
     cannot hold the arm's weight.

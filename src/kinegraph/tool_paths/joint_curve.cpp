@@ -38,6 +38,7 @@ const Eigen::Matrix<double, 5, 5>& bernsteinOfValues() {
 
 struct PieceBound {
   double position = 0., rotation = 0.;  ///< m; rad, or the lean beyond the cone
+  double twist = 0.;                    ///< beyond the range of the free rotation, rad
 };
 
 /// Bounds the deviation of the tool on pieces of a joint curve.
@@ -55,6 +56,7 @@ class DeviationProof {
     const VectorXd largest = c.col(0).cwiseAbs() + h * taylor.col(0);
     const ToolKinematics::Remainder rest = tool_.fifthCoefficient(taylor, largest);
     PieceBound bound;
+    rates_ = taylor.col(0);
     const CubicPieces& targets = curve_.pieces();
     double from = begin;
     for (int target = targets.pieceAt(begin + 1e-9 * h); from < end - 1e-9 * h; ++target) {
@@ -70,11 +72,13 @@ class DeviationProof {
            const ToolKinematics::Remainder& rest, PieceBound& bound) {
     const double width = to - from;
     Columns miss;
+    double twist = -1e9;
     for (int k = 0; k < 5; ++k) {
       const double s = from + .25 * k * width;
       const ToolTarget wanted(curve_.pieces().eval(target, s));
       const RigidTransform X = tool_.pose(joints.eval(piece, s));
       miss.col(k) << X.p - wanted.p, X.R.col(0) - wanted.x, X.R.col(2) - wanted.z;
+      if (tool_.hasRange()) twist = std::max(twist, tool_.beyondRange(tool_.twist(X, wanted)));
       if (tool_.freeAxis() == 1) miss.col(k).tail<3>() = X.R.col(1) - wanted.axis(1);
     }
     const Columns hull = miss * bernsteinOfValues();
@@ -91,10 +95,19 @@ class DeviationProof {
     }
     const double angle = 2. * std::asin(std::min(1., .5 * chord));
     bound.rotation = std::max(bound.rotation, tool_.cone() > 0. ? std::max(0., angle - tool_.cone()) : angle);
+    if (tool_.hasRange()) {
+      // The slopes of a cubic lie in the hull of three Bernstein coefficients.
+      const VectorXd first = curve_.pieces().eval(target, from, 1), last = curve_.pieces().eval(target, to, 1);
+      const VectorXd inner = 2. * curve_.pieces().eval(target, .5 * (from + to), 1) - .5 * (first + last);
+      double turn = 0.;
+      for (const VectorXd* slope : {&first, &inner, &last}) turn = std::max(turn, slope->tail<6>().norm());
+      bound.twist = std::max(bound.twist, twist + width / 8. * tool_.twistRate(rates_, turn, angle));
+    }
   }
 
   ToolKinematics& tool_;
   const ToolCurve& curve_;
+  VectorXd rates_;  ///< bound of |dq/ds| on the piece
 };
 
 /// A dof that leaves its limits by more than kLimitTolerance somewhere on a piece, or -1.
@@ -160,10 +173,11 @@ JointCurve jointCurveAlong(ToolKinematics& tool, const ToolCurve& curve, std::ve
       const int beyond = dofBeyondLimits(tool.model(), result.pieces, piece);
       if (beyond >= 0 && round >= kMaxLimitRounds)
         return fails(result.pieces.begin[std::size_t(piece)], beyond, "a joint leaves its limits");
-      if (bound.position <= position && bound.rotation <= cone_excess && beyond < 0) continue;
+      if (bound.position <= position && bound.rotation <= cone_excess && bound.twist <= 0. && beyond < 0) continue;
       const double middle = .5 * (result.pieces.begin[std::size_t(piece)] + result.pieces.end(piece));
       VectorXd there = result.pieces.eval(piece, middle);
-      const double share = bound.rotation > cone_excess && tool.cone() > 0. ? kConeShare * .97 : kConeShare;
+      const bool leaves = (bound.rotation > cone_excess && tool.cone() > 0.) || bound.twist > 0.;
+      const double share = leaves ? kConeShare * .97 : kConeShare;
       const ToolKinematics::Projection to =
           tool.project(there, curve.at(middle), tool.rows(), kProjectionSteps, {}, share);
       if (!to.met) return fails(middle, to.blocked, "no configuration continues the motion");

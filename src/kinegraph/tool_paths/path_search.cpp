@@ -46,6 +46,15 @@ class PathSearch {
     std::vector<int> stages = is_free ? std::vector<int>(std::begin(kStartsFree), std::end(kStartsFree))
                                       : std::vector<int>(std::begin(kStartsFixed), std::end(kStartsFixed));
     if (settings_.only_first) stages = {0};
+    if (tool_.preferred() && !settings_.only_first) {
+      tracker_.holdPreferred(true);
+      follow(stages[0], settings_.seed);
+      tryStrands();
+      tracker_.holdPreferred(false);
+      if (!result_.curves.empty()) return std::move(result_);
+      strands_.clear(), tried_.clear();
+      has_failure_ = false;
+    }
     for (std::size_t stage = 0; stage < stages.size(); ++stage) {
       follow(stages[stage], settings_.seed + stage);
       tryStrands();
@@ -249,6 +258,9 @@ class PathSearch {
       if (place < farthest || (place == farthest && !failure.reached.empty())) continue;
       farthest = place;
       failure.reached.assign(strand.q.begin(), strand.q.begin() + last + 1);
+      in_the_way_.clear();
+      if (strand.collides >= 0 && !checker_.isFree(strand.q[std::size_t(strand.collides)].data()) && checker_.lastHit())
+        in_the_way_ = {nameOf(checker_.lastHit()->a), nameOf(checker_.lastHit()->b)};
       blocked_ = strand.collides >= 0 ? -1 : strand.blocked;
       const bool goes_on = strand.collides < 0 && (strand.blocked < 0 || !tool_.isWide(strand.blocked));
       end_ = goes_on ? strand.q[std::size_t(last)] : VectorXd();
@@ -310,6 +322,12 @@ class PathSearch {
         failure.frames = {nameOf(hit.a), nameOf(hit.b)};
       }
       depth_ = -best;
+    } else if (!in_the_way_.empty()) {
+      failure.status = ToolPathStatus::in_collision;
+      failure.frames = in_the_way_;
+      failure.text = cat("'", in_the_way_[0], "' and '", in_the_way_[1],
+                         "' end the motion, and no other one continues without a jump");
+      return;
     } else {
       failure.status = ToolPathStatus::no_branch;
       if (blocked_ >= 0) failure.joint = dofNames(tool_.model())[std::size_t(blocked_)];
@@ -350,6 +368,7 @@ class PathSearch {
   int stuck_ = -1, blocked_ = -1;
   VectorXd end_;  ///< of the strand that gets farthest, if neither a collision nor a turn ends it
   double end_place_ = 0.;
+  std::vector<std::string> in_the_way_;  ///< the pair in collision that ends this strand, or none
   double depth_ = 0.;
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <memory>
 
 #include "kinegraph/collision/edge_check.h"
@@ -35,12 +36,34 @@ void requireNotNegative(const char* name, double value) {
     throw ValueError(cat(kPlanToolPath, ": ", name, " is ", value, "; expected a finite number >= 0"));
 }
 
+bool mayCollide(const Config& scene, const Frame& frame) {
+  const FrameData& data = *scene.scene()->frames()[std::size_t(frame.id())];
+  return data.shape && data.shape->contact != 0;
+}
+
+/// Puts a frame between a named frame with a shape and the shapes that are fixed to it, such as a clamp on a part. An
+/// exclusion of a frame also holds for shapes fixed to it, which are those of the link if it has none of its own.
+void separate(Config& scene, const std::string& name, const std::vector<std::string>& touching) {
+  const Frame owner = scene.getFrame(name);
+  if (!mayCollide(scene, owner)) return;
+  for (Frame child : owner.getChildren()) {
+    const bool is_named = std::find(touching.begin(), touching.end(), child.getName()) != touching.end();
+    if (child.getJointType() != JointType::none || !mayCollide(scene, child) || is_named) continue;
+    const Frame between = scene.addFrame(cat(name, " below ", child.getName()), owner);
+    child.setParent(between, true);
+  }
+}
+
 /// A copy of the scene in which the links of the tools may touch some frames.
 Config withTouching(const Config& config, const std::vector<ToolPath>& paths,
                     const std::vector<std::string>& touching) {
   Config scene(config);
   if (touching.empty()) return scene;
-  const std::shared_ptr<const KinematicModel> model = config.model();
+  for (const std::string& name : touching) {
+    frameId(*config.model(), name, "planToolPath: touching");
+    separate(scene, name, touching);
+  }
+  const std::shared_ptr<const KinematicModel> model = scene.model();
   SceneTree& tree = *scene.scene();
   for (const std::string& name : touching) {
     const int other = frameId(*model, name, "planToolPath: touching");
@@ -117,12 +140,13 @@ class ToolPathPlanner {
       tools_.push_back(std::make_unique<ToolKinematics>(touching_, paths_[k]));
       ToolKinematics& tool = *tools_.back();
       const VectorXd present = config_.getJointState();
-      curves_.emplace_back(paths_[k], Pose(tool.pose(present)), kFitShare * options_.tolerance, options_.approach,
-                           options_.retract);
+      curves_.emplace_back(paths_[k], Pose(tool.pose(present)), kFitShare * options_.tolerance,
+                           tool.side() * options_.approach, tool.side() * options_.retract);
+      for (const std::string& warning : paths_[k].warnings()) plan_.warnings.push_back(warning);
       for (const std::string& warning : curves_.back().warnings())
         plan_.warnings.push_back(cat("path ", k, ": ", warning));
       PathSearchSettings settings;
-      settings.limits = {limits_.velocity, limits_.acceleration, options_.speed};
+      settings.limits = {limits_.velocity, limits_.acceleration, curves_.back().largestSpeed(options_.speed)};
       settings.tolerance = {options_.tolerance, options_.rotation_tolerance};
       settings.seed = options_.seed;
       settings.wanted = several ? kSolutionsPerPath : 1;
@@ -206,7 +230,8 @@ class ToolPathPlanner {
     segment(ToolSegment::Kind::approach, 0., in);
     segment(ToolSegment::Kind::path, in, out);
     segment(ToolSegment::Kind::retract, out, timed.duration());
-    addSlowStretches(timed, path, curve.approachEnd(), curve.retractStart(), timingLimits(), tool.model(), plan_.slow);
+    addSlowStretches(timed, path, curve.approachEnd(), curve.retractStart(), timingLimits(curve), tool.model(),
+                     speedOf(curve), plan_.slow);
     plan_.position_deviation = std::max(plan_.position_deviation, joints.position_deviation);
     plan_.rotation_deviation = std::max(plan_.rotation_deviation, joints.rotation_deviation);
     last_ = joints.pieces.eval(joints.pieces.length);
@@ -227,17 +252,47 @@ class ToolPathPlanner {
   }
 
   /// The limits of the joints, and of the tool's way as one more dof.
-  MotionLimits timingLimits() const {
+  MotionLimits timingLimits(const ToolCurve& curve) const {
     const Eigen::Index n = limits_.velocity.size();
     MotionLimits limits = limits_;
     const auto append = [n](VectorXd& values, double last) {
       values.conservativeResize(n + 1);
       values[n] = last;
     };
-    append(limits.velocity, options_.speed);
+    append(limits.velocity, curve.largestSpeed(options_.speed));
     append(limits.acceleration, options_.tool_acceleration);
     if (limits.limitsJerk()) append(limits.jerk, options_.tool_jerk);
     return limits;
+  }
+
+  /// The speed asked at s.
+  std::function<double(double)> speedOf(const ToolCurve& curve) const {
+    return [&curve, otherwise = options_.speed](double s) {
+      const double speed = curve.speedAt(s);
+      return speed > 0. ? speed : otherwise;
+    };
+  }
+
+  /// Keeps the speeds that parts of a curve have: (dw/ds / speed)^2 s'^2 <= 1 for the tool's way w. Empty if it has one
+  /// speed.
+  ConstraintSource speedConstraints(const ToolCurve& curve, const PathCurve& path) const {
+    ConstraintSource source;
+    if (curve.speedChanges().empty()) return source;
+    source.low = VectorXd::Constant(1, -1.);  // any: the row is not negative
+    source.high = VectorXd::Ones(1);
+    source.names = {"speed of the tool"}, source.unit = "";
+    source.at = [&path, speed = speedOf(curve), n = path.dofs()](double s, int piece) {
+      VectorXd slope(n);
+      path.eval(piece, s, 1, slope.data());
+      // The speed is constant on a piece; at its ends, the neighbors count, too.
+      double least = speed(.5 * (path.begin(piece) + path.end(piece)));
+      if (s <= path.begin(piece) && piece > 0) least = std::min(least, speed(.5 * (path.begin(piece - 1) + s)));
+      if (s >= path.end(piece) && piece + 1 < path.pieces())
+        least = std::min(least, speed(.5 * (s + path.end(piece + 1))));
+      const double share = slope[n - 1] / least;
+      return ScalingConstraints{VectorXd::Zero(1), VectorXd::Constant(1, share * share), VectorXd::Zero(1)};
+    };
+    return source;
   }
 
   bool time(ToolKinematics& tool, const ToolCurve& curve, const JointCurve& joints, TimedPath& timed) {
@@ -247,11 +302,13 @@ class ToolPathPlanner {
     MatrixXd points(path.pieces() + 1, path.dofs());
     for (int k = 0; k <= path.pieces(); ++k)
       points.row(k) = path.eval(k < path.pieces() ? path.begin(k) : path.length()).transpose();
-    const MotionLimits limits = timingLimits();
+    const MotionLimits limits = timingLimits(curve);
+    options.constraints = speedConstraints(curve, path);
     // A coarse grid keeps the limits between its points by being slower everywhere; a finer one has to pay less.
     options.intervals = std::max(kLeastTimingIntervals, path.pieces());
     timed = retime(points, path, limits, options);
-    for (int trial = 1; trial < kTimingTrials && timed.feasible() && idleShare(timed, limits) > kIdle; ++trial) {
+    for (int trial = 1; trial < kTimingTrials && timed.feasible() && idleShare(timed, limits, speedOf(curve)) > kIdle;
+         ++trial) {
       options.intervals *= 2;
       TimedPath finer = retime(points, path, limits, options);
       if (finer.feasible() && finer.duration() < timed.duration()) timed = std::move(finer);

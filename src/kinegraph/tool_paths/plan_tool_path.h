@@ -17,10 +17,11 @@ namespace kinegraph {
 
 /// Settings of planToolPath.
 struct ToolPathOptions {
-  double speed = .1;                       ///< of the tool along the path, m/s
+  double speed = .1;                       ///< of the tool where the path has no speed of its own, m/s
   double tool_acceleration = 2.;           ///< along the path, m/s^2
   double tool_jerk = 40.;                  ///< along the path, m/s^3; counts if `jerk` is given
-  double approach = 0.;                    ///< length of a straight approach along the tool's axis before each path, m
+  double approach = 0.;                    ///< length of a straight approach along the tool's axis before each path, m,
+                                           ///< on the side of the tool's own link
   double retract = 0.;                     ///< length of a straight retract after each path, m
   double tolerance = 2e-5;                 ///< largest distance of the tool from the curve, m
   double rotation_tolerance = 8e-5;        ///< largest rotation of the tool (or of its axis) from the curve, rad
@@ -41,7 +42,7 @@ struct ToolPathOptions {
 enum class ToolPathStatus {
   solved,
   out_of_reach,  ///< no configuration reaches a place of a path
-  in_collision,  ///< configurations reach it, but pairs are closer than the margin
+  in_collision,  ///< configurations reach it, but pairs closer than the margin end every motion
   no_branch,     ///< no configuration continues the motion: joint limits or a singularity end it
   too_fast,      ///< there is no timing
   no_transfer,   ///< no motion leads to a path
@@ -100,6 +101,11 @@ class ToolPathPlan final : public Trajectory {
 
   /// Speed of the tool relative to its path at time t (s), m/s; 0 on a transfer.
   double speed(double t) const;
+
+  /// Shows the paths on the page of `config` (C.viewer()): the asked curves, the way of the tool colored by its
+  /// speed, axes, cones, and the place of a failure with its cause; then plays the motion, or the configurations up to
+  /// the failure. `paths` are those of the call. Waits for a key with `pause`. Returns the key, or 0.
+  int view(const Config& config, const std::vector<ToolPath>& paths, bool pause = false) const;
 
   std::string str() const;  ///< "solved: 3 paths in 12.3 s", or the status and the message
 

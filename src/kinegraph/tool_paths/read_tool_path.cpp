@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -32,6 +35,12 @@ std::optional<std::vector<double>> numbersOf(const std::string& line, std::size_
 }  // namespace
 
 ToolPath ToolPath::read(const std::string& file, std::string frame, std::string relative_to) {
+  static const std::array<const char*, 6> programs = {".nc", ".ngc", ".gcode", ".gc", ".tap", ".cnc"};
+  std::string extension = std::filesystem::path(file).extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
+  if (std::find(programs.begin(), programs.end(), extension) != programs.end())
+    return readGcode(file, std::move(frame), std::move(relative_to));
   std::ifstream in(file);
   if (!in) throw FileError(cat(file, ": cannot open the file"));
   std::vector<std::vector<double>> rows;

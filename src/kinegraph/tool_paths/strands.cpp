@@ -22,12 +22,24 @@ constexpr double kLargestAdvance = .5;    // rad or m per step
 constexpr int kDivisionsOfStep = 7;
 constexpr double kCenteringGain = .02;  // per place
 constexpr double kAtLimit = 1e-4;       // rad or m
+constexpr double kPreferringGain = .1;  // per place, of the angle from the preferred one
+constexpr double kPreferringCost = .5;  // of the duration, per rad from the preferred angle
+
+/// A target rotated about one of its axes.
+ToolTarget turnedAbout(ToolTarget target, int axis, double angle) {
+  const Eigen::AngleAxisd turn(angle, target.axis(axis));
+  target.x = turn * target.x, target.z = turn * target.z;
+  return target;
+}
 
 }  // namespace
 
 std::vector<double> searchPlaces(const ToolCurve& curve, double spacing) {
   std::vector<double> ends = {0.};
   for (const double corner : curve.corners()) ends.push_back(corner);
+  for (const double change : curve.speedChanges()) ends.push_back(change);
+  std::sort(ends.begin(), ends.end());
+  ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
   ends.push_back(curve.length());
   std::vector<double> places = {0.};
   const CubicPieces& pieces = curve.pieces();
@@ -64,8 +76,14 @@ StrandTracker::StrandTracker(ToolKinematics& tool, const ToolCurve& curve, std::
       limits_(std::move(limits)),
       rows_(tool.rows() == ToolRows::position ? ToolRows::axis : tool.rows()) {}
 
+void StrandTracker::holdPreferred(bool holds) {
+  held_ = holds ? tool_.preferred().value() : 0.;
+  rows_ = holds ? ToolRows::pose : ToolRows::axis;
+}
+
 ToolTarget StrandTracker::targetAt(double s, const Vector3d& tilt) const {
   ToolTarget target = curve_.at(s);
+  if (held_ != 0.) target = turnedAbout(target, tool_.freeAxis(), held_);
   if (tilt.isZero(0.)) return target;
   // The axis leans by |tilt| in a direction that is fixed in the target's coordinates.
   Matrix3d R;
@@ -97,7 +115,7 @@ std::vector<StrandTracker::Seed> StrandTracker::seeds(int index, const std::vect
         if (tool_.isWide(j)) low = -std::numbers::pi, high = std::numbers::pi;
         candidate.q[j] = low + (high - low) * sequence.at(number, j);
       }
-      if (tool_.cone() > 0. && number % 3 != 0) {
+      if (tool_.cone() > 0. && number % 3 != 0 && rows_ != ToolRows::pose) {
         const double angle = kTurnOfJoint * sequence.at(number, n),
                      lean = tool_.cone() * .9 * std::sqrt(sequence.at(number, n + 1));
         const int a = (tool_.freeAxis() + 1) % 3, b = (tool_.freeAxis() + 2) % 3;
@@ -108,10 +126,19 @@ std::vector<StrandTracker::Seed> StrandTracker::seeds(int index, const std::vect
     if (!tool_.project(candidate.q, target, rows_, kSeedSteps).met) continue;
     for (int j = 0; j < n; ++j)
       if (tool_.isWide(j) && number >= 0) candidate.q[j] -= kTurnOfJoint * std::round(candidate.q[j] / kTurnOfJoint);
-    bool known = false;
-    for (const Seed& other : found)
-      known = known || tool_.difference(other.q, candidate.q).cwiseAbs().maxCoeff() < kSamePosture;
-    if (!known) found.push_back(std::move(candidate));
+    const auto add = [&](const Seed& one) {
+      const bool known = std::any_of(found.begin(), found.end(), [&](const Seed& other) {
+        return tool_.difference(other.q, one.q).cwiseAbs().maxCoeff() < kSamePosture;
+      });
+      if (!known) found.push_back(one);
+    };
+    if (tool_.preferred() && starts > 0 &&
+        rows_ != ToolRows::pose) {  // the same branch at the preferred angle comes first
+      Seed preferred = candidate;
+      const ToolTarget there = turnedAbout(target, tool_.freeAxis(), *tool_.preferred());
+      if (tool_.project(preferred.q, there, ToolRows::pose, kSeedSteps).met) add(preferred);
+    }
+    add(candidate);
   }
   return found;
 }
@@ -134,7 +161,8 @@ bool StrandTracker::advance(VectorXd& q, VectorXd& slope, double from, double to
                             Strand& strand) {
   VectorXd next = q + (to - from) * slope;
   const VectorXd guess = next;
-  const VectorXd pull = tool_.centering(q, kCenteringGain);
+  VectorXd pull = tool_.centering(q, kCenteringGain);
+  if (tool_.preferred() && rows_ != ToolRows::pose) pull += tool_.preferring(q, targetAt(to, tilt), kPreferringGain);
   const ToolKinematics::Projection projection =
       tool_.project(next, targetAt(to, tilt), rows_, kFollowSteps, divisions == kDivisionsOfStep ? pull : VectorXd());
   const double surprise = (next - guess).cwiseAbs().maxCoeff();
@@ -180,8 +208,9 @@ Strand StrandTracker::follow(const Seed& seed, int first, int direction) {
   return strand;
 }
 
-void StrandTracker::estimate(Strand& strand) const {
+void StrandTracker::estimate(Strand& strand) {
   strand.cost = 0.;
+  double away = 0.;  // from the preferred angle, rad m
   VectorXd before;
   for (std::size_t k = 1; k < strand.q.size(); ++k) {
     const double h = places_[k] - places_[k - 1];
@@ -195,7 +224,12 @@ void StrandTracker::estimate(Strand& strand) const {
     }
     before = rate;
     strand.cost += h / std::max(speed, 1e-6);
+    if (tool_.preferred()) {
+      const double twist = tool_.twist(tool_.pose(strand.q[k]), curve_.at(places_[k]));
+      away += h * std::abs(std::remainder(twist - *tool_.preferred(), kTurnOfJoint));
+    }
   }
+  strand.cost *= 1. + kPreferringCost * away / places_.back();
 }
 
 void checkStrand(EdgeChecker& checker, Strand& strand) {

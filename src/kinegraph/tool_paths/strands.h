@@ -29,7 +29,8 @@ struct StrandLimits {
 };
 
 /// Places along a curve for a search. They are at most `spacing` m apart, and closer if the tool rotates by more than
-/// .15 rad in between. All corners and both ends are places, with at least four intervals between corners.
+/// .15 rad in between. All corners, changes of the speed and
+/// both ends are places, with at least four intervals between them.
 std::vector<double> searchPlaces(const ToolCurve& curve, double spacing);
 
 /// Follows the curve from configurations at its start.
@@ -51,6 +52,9 @@ class StrandTracker {
   /// Follows the curve from a solution at a place as far as possible, to later (1) or earlier (-1) places.
   Strand follow(const Seed& seed, int first = 0, int direction = 1);
 
+  /// Holds the preferred rotation about the free axis, or frees it again. Throws std::bad_optional_access without one.
+  void holdPreferred(bool holds);
+
   /// The target at s, with the axis leaning by a tilt.
   ToolTarget targetAt(double s, const Vector3d& tilt) const;
 
@@ -58,13 +62,14 @@ class StrandTracker {
   bool advance(VectorXd& q, VectorXd& slope, double from, double to, const Vector3d& tilt, int divisions,
                Strand& strand);
   bool withinTurns(const VectorXd& q, Strand& strand);
-  void estimate(Strand& strand) const;
+  void estimate(Strand& strand);
 
   ToolKinematics& tool_;
   const ToolCurve& curve_;
   std::vector<double> places_;
   StrandLimits limits_;
   ToolRows rows_;
+  double held_ = 0.;       ///< rotation about the free axis, if rows_ is `pose`
   VectorXd least_, most_;  ///< of the present strand
 };
 

@@ -28,8 +28,8 @@ class ToolCurve {
 
   /// `present` is the pose of the tool relative to the path's reference frame; the path starts there unless it has a
   /// start. Rows are fitted to within `tolerance` (m, and as much rad per kOnTheSpot). `approach` and `retract` (m) add
-  /// lines along the free axis, or z, of the tool to both ends. Throws ValueError for paths without length and arcs
-  /// without a center.
+  /// lines along the free axis, or z, of the tool to both ends; negative lengths are against the axis. Throws
+  /// ValueError for paths without length and arcs without a center.
   ToolCurve(const ToolPath& path, const Pose& present, double tolerance, double approach = 0., double retract = 0.);
 
   double length() const { return pieces_.length; }
@@ -44,6 +44,15 @@ class ToolCurve {
   /// Bound of the distance between the pieces and the curve they stand for, m. For rows, the curve is the polyline.
   double fitError() const { return fit_error_; }
 
+  /// The speed that the path has at s, m/s; 0 if it has none.
+  double speedAt(double s) const;
+
+  /// Places at which that speed changes, ascending.
+  std::vector<double> speedChanges() const;
+
+  /// The largest speed of the path, and `otherwise` where it has none, m/s.
+  double largestSpeed(double otherwise) const;
+
   /// Messages about blends that were made smaller.
   const std::vector<std::string>& warnings() const { return warnings_; }
 
@@ -56,6 +65,10 @@ class ToolCurve {
   CubicPieces pieces_;
   double fit_error_ = 0., approach_end_ = 0., retract_start_ = 0.;
   std::vector<std::string> warnings_;
+  struct SpeedSection {
+    double begin, speed;
+  };
+  std::vector<SpeedSection> speeds_;  ///< neighbors differ
 };
 
 }  // namespace kinegraph

@@ -21,6 +21,7 @@ constexpr double kLongestStep = .3;     // rad or m
 constexpr double kMet = 1e-10;          // m or rad: no further step
 constexpr double kGood = 1e-7;          // m or rad
 constexpr double kNearLimit = 1e-6;     // rad or m inside
+constexpr double kLargestPull = .05;    // rad
 constexpr double kConeTo = .97;         // of the allowed lean, to which a larger one is moved
 
 using Rows6 = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
@@ -56,10 +57,14 @@ ToolKinematics::ToolKinematics(const Config& config, const ToolPath& path)
       reference_(path.relativeTo().empty() ? -1 : frameId(state_.model(), path.relativeTo(), "ToolPath")),
       free_axis_(path.freeAxis()),
       cone_(path.cone()),
+      prefer_(path.preferred()),
       moving_(std::size_t(state_.dofs()), 0),
       wide_(std::size_t(state_.dofs()), 0),
       J_(6, state_.dofs()),
       J_reference_(6, state_.dofs()) {
+  if (path.range())
+    middle_ = .5 * (path.range()->first + path.range()->second),
+    half_range_ = .5 * (path.range()->second - path.range()->first);
   const KinematicModel& model = state_.model();
   int common = state_.link(tool_), other = reference_ < 0 ? 0 : state_.link(reference_);
   while (common != other) (common > other ? common : other) = model.links[std::size_t(std::max(common, other))].parent;
@@ -130,6 +135,31 @@ double ToolKinematics::lean(const VectorXd& q, const ToolTarget& target) {
   return std::atan2(a.cross(b).norm(), a.dot(b));
 }
 
+double ToolKinematics::twist(const RigidTransform& X, const ToolTarget& target) const {
+  const Vector3d a = X.R.col(free_axis_), b = target.axis(free_axis_);
+  const int side = (free_axis_ + 1) % 3;
+  const Vector3d u = Quaterniond::FromTwoVectors(b, a) * target.axis(side), w = X.R.col(side);
+  return std::atan2(a.dot(u.cross(w)), u.dot(w));
+}
+
+double ToolKinematics::beyondRange(double twist) const {
+  return std::abs(std::remainder(twist - middle_, kTurn)) - half_range_;
+}
+
+double ToolKinematics::twistRate(const VectorXd& rates, double target_rate, double lean) const {
+  // d twist = (w_tool - w_target) . (a + b) / (1 + a . b) for axes a and b; |a + b| / (1 + a . b) = 1 / cos(lean / 2).
+  double rate = target_rate;
+  for (const ChainStep& step : chain_)
+    if (step.rotates) rate += step.scale * rates[step.dof];
+  return rate / std::cos(.5 * lean);
+}
+
+double ToolKinematics::side() const {
+  if (state_.link(tool_) == 0) return 1.;
+  const RigidTransform X(state_.parameters().frame_offset[std::size_t(tool_)]);
+  return X.R.col(free_axis_ < 0 ? 2 : free_axis_).dot(X.p) > 1e-9 ? -1. : 1.;
+}
+
 VectorXd ToolKinematics::difference(const VectorXd& from, const VectorXd& to) const {
   VectorXd d = to - from;
   for (int j = 0; j < dofs(); ++j)
@@ -146,6 +176,24 @@ VectorXd ToolKinematics::centering(const VectorXd& q, double gain) const {
     pull[j] = -gain * half * u * u * u;
   }
   return pull;
+}
+
+VectorXd ToolKinematics::preferring(const VectorXd& q, const ToolTarget& target, double gain) {
+  VectorXd pull = VectorXd::Zero(dofs());
+  if (!prefer_) return pull;
+  const RigidTransform X = pose(q);
+  const Vector3d a = X.R.col(free_axis_), b = target.axis(free_axis_);
+  const Vector3d W_axis = (reference_ < 0 ? Matrix3d(Matrix3d::Identity()) : Matrix3d(state_.pose(reference_).R)) *
+                          ((a + b) / (1. + a.dot(b)));
+  state_.jacobian(tool_, state_.position(tool_), J_);
+  if (reference_ >= 0) {
+    state_.jacobian(reference_, state_.position(tool_), J_reference_);
+    J_ -= J_reference_;
+  }
+  const VectorXd slope = J_.bottomRows(3).transpose() * W_axis;
+  if (slope.squaredNorm() < 1e-6) return pull;
+  const double off = std::remainder(twist(X, target) - *prefer_, kTurn);
+  return -std::clamp(gain * off, -kLargestPull, kLargestPull) / slope.squaredNorm() * slope;
 }
 
 ToolKinematics::Projection ToolKinematics::project(VectorXd& q, const ToolTarget& target, ToolRows rows, int steps,
@@ -177,16 +225,24 @@ ToolKinematics::Projection ToolKinematics::project(VectorXd& q, const ToolTarget
       const Vector3d n_ab = b.cross(a);
       const double sine = n_ab.norm(), angle = std::atan2(sine, a.dot(b));
       if (rows == ToolRows::axis) {
+        count = 5;
         const Vector3d helper = std::abs(b[0]) < .7 ? Vector3d::UnitX() : Vector3d::UnitY();
         const Vector3d t1 = b.cross(helper).normalized(), t2 = b.cross(t1);
         const Vector3d w = sine > 1e-12 ? Vector3d(n_ab * (angle / sine)) : Vector3d::Zero();
         turned << t1.dot(w), t2.dot(w), 0.;
         to_rows.row(0) = t1.transpose(), to_rows.row(1) = t2.transpose();
-        count = 5;
       } else if (angle > share * cone_) {
         turned[0] = angle - share * kConeTo * cone_;
         to_rows.row(0) = (n_ab / std::max(sine, 1e-12)).transpose();
         count = 4;
+      }
+      if (hasRange()) {
+        const double off = std::remainder(twist(X, target) - middle_, kTurn);
+        if (std::abs(off) > share * half_range_) {
+          turned[count - 3] = off - std::copysign(share * kConeTo * half_range_, off);
+          to_rows.row(count - 3) = ((a + b) / (1. + a.dot(b))).transpose();
+          ++count;
+        }
       }
     }
     e.resize(count);

@@ -33,7 +33,9 @@ class ToolKinematics {
   int dofs() const { return state_.dofs(); }
   int freeAxis() const { return free_axis_; }
   double cone() const { return cone_; }
-  const std::vector<char>& moving() const { return moving_; }  ///< per dof: moves the tool
+  bool hasRange() const { return half_range_ > 0.; }                  ///< of the rotation about the free axis
+  const std::optional<double>& preferred() const { return prefer_; }  ///< rotation about the free axis, rad
+  const std::vector<char>& moving() const { return moving_; }         ///< per dof: moves the tool
   int movingDofs() const;
   const KinematicModel& model() const { return state_.model(); }
   const State& state() const { return state_; }
@@ -50,6 +52,20 @@ class ToolKinematics {
 
   /// Angle between the free axis and its target, rad.
   double lean(const VectorXd& q, const ToolTarget& target);
+
+  /// Rotation of the tool about its free axis from the target, after the least rotation that aligns the axes, rad.
+  double twist(const RigidTransform& X, const ToolTarget& target) const;
+
+  /// Distance of a twist from the middle of its range minus half of the range, rad: positive outside.
+  double beyondRange(double twist) const;
+
+  /// Bounds |d twist / ds| for dq/ds of at most `rates` (n,) and a target that rotates by at most `target_rate` (rad
+  /// per s), if the axis leans by at most `lean` rad.
+  double twistRate(const VectorXd& rates, double target_rate, double lean) const;
+
+  /// The side of the tool's origin on which its link lies, along the free axis or z: 1, or -1 against the axis. Axes
+  /// point into the work or out of it. 1 for tools that no joint moves.
+  double side() const;
 
   struct Projection {
     bool met = false;
@@ -69,6 +85,9 @@ class ToolKinematics {
 
   /// to - from, modulo turns of wide dofs.
   VectorXd difference(const VectorXd& from, const VectorXd& to) const;
+
+  /// A part of a pull towards the preferred rotation about the free axis; zero without one.
+  VectorXd preferring(const VectorXd& q, const ToolTarget& target, double gain);
 
   /// A part of a pull towards the middle of the limits that are no whole turn apart.
   VectorXd centering(const VectorXd& q, double gain) const;
@@ -93,6 +112,8 @@ class ToolKinematics {
   int tool_, reference_;  ///< frames; reference -1: the world
   int free_axis_;
   double cone_;
+  double middle_ = 0., half_range_ = 0.;  ///< of the rotation about the free axis; 0: the whole turn
+  std::optional<double> prefer_;
   std::vector<char> moving_, wide_;
   std::vector<ChainStep> chain_;  ///< of the reference first, then of the tool from its base
   double tool_offset_ = 0.;

@@ -61,6 +61,7 @@ ToolPath ToolPath::along(std::string frame, const MatrixXd& points, const Matrix
 }
 
 ToolPath& ToolPath::append(ToolPathElement element) {
+  element.speed = speed_;
   elements_.push_back(std::move(element));
   return *this;
 }
@@ -90,13 +91,16 @@ ToolPath& ToolPath::arc(const Vector3d& via, const ToolWaypoint& to, double blen
   return append(std::move(element));
 }
 
-ToolPath& ToolPath::circle(const Vector3d& center, const Vector3d& axis, double angle, double blend) {
+ToolPath& ToolPath::circle(const Vector3d& center, const Vector3d& axis, double angle, double blend, double advance) {
   if (!center.allFinite() || !axis.allFinite() || axis.norm() < 1e-9)
     throw ValueError("ToolPath.circle: expected a finite center and an axis with a direction");
   if (!std::isfinite(angle)) throw ValueError(cat("ToolPath.circle: angle is ", angle, "; expected a number in rad"));
+  if (!std::isfinite(advance))
+    throw ValueError(cat("ToolPath.circle: advance is ", advance, "; expected a number in m"));
   if (!(blend >= 0.)) throw ValueError(cat("ToolPath.circle: blend is ", blend, "; expected a radius >= 0 in m"));
   ToolPathElement element{ToolPathElement::Kind::circle};
   element.center = center, element.axis = axis.normalized(), element.angle = angle, element.blend = blend;
+  element.advance = advance;
   return append(std::move(element));
 }
 
@@ -106,10 +110,26 @@ ToolPath& ToolPath::spline(std::vector<ToolWaypoint> waypoints) {
   return append({ToolPathElement::Kind::spline, std::move(waypoints)});
 }
 
-ToolPath& ToolPath::free(int about) {
+ToolPath& ToolPath::speed(double speed) {
+  if (!(speed >= 0.) || !std::isfinite(speed))
+    throw ValueError(cat("ToolPath.speed: speed is ", speed, "; expected a number >= 0 in m/s"));
+  speed_ = speed;
+  return *this;
+}
+
+ToolPath& ToolPath::free(int about, std::optional<std::pair<double, double>> range, std::optional<double> prefer) {
   if (about < 0 || about > 2)
     throw ValueError(cat("ToolPath.free: about is ", about, "; expected 0 (x), 1 (y) or 2 (z)"));
+  if (range && !(range->first < range->second && std::isfinite(range->second - range->first)))
+    throw ValueError(cat("ToolPath.free: range is (", range->first, ", ", range->second,
+                         "); expected two angles in rad, the smaller one first"));
+  if (prefer && (!std::isfinite(*prefer) || (range && (*prefer < range->first || *prefer > range->second))))
+    throw ValueError(cat("ToolPath.free: prefer is ", *prefer, "; expected an angle in rad",
+                         range ? cat(" from ", range->first, " to ", range->second) : ""));
   free_axis_ = about;
+  const bool is_turn = range && range->second - range->first >= 2. * std::numbers::pi - 1e-9;
+  range_ = is_turn ? std::nullopt : range;
+  prefer_ = prefer;
   return *this;
 }
 
@@ -125,6 +145,7 @@ std::string ToolPath::str() const {
   return cat(elements_.size(), elements_.size() == 1 ? " element of '" : " elements of '", frame_, "'",
              relative_to_.empty() ? "" : cat(" relative to '", relative_to_, "'"),
              free_axis_ < 0 ? "" : cat(", free about ", "xyz"[free_axis_]),
+             range_ ? cat(" from ", range_->first, " to ", range_->second, " rad") : "",
              cone_ > 0. ? cat(", tilt ", cone_, " rad") : "");
 }
 

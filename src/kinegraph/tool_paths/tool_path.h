@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "kinegraph/math/pose.h"
@@ -23,7 +24,7 @@ struct ToolPathElement {
   enum class Kind {
     line,    ///< straight to waypoints[0]; the tool rotates at a constant rate
     arc,     ///< a circular arc through the position of waypoints[0] to waypoints[1]
-    circle,  ///< about an axis through a center by an angle; the tool keeps its rotation
+    circle,  ///< about an axis through a center by an angle, perhaps as a helix; the tool keeps its rotation
     spline,  ///< a cubic spline through all waypoints
     rows,    ///< dense samples of a smooth curve, to which a spline is fitted; the first row is its start
   };
@@ -31,7 +32,9 @@ struct ToolPathElement {
   std::vector<ToolWaypoint> waypoints = {};
   Vector3d center = Vector3d::Zero(), axis = Vector3d::UnitZ();  ///< of a circle
   double angle = 0.;                                             ///< of a circle, rad
+  double advance = 0.;                                           ///< of a circle along its axis, m: a helix
   double blend = 0.;  ///< radius (m) around the start of the element within which a smooth curve replaces the corner
+  double speed = 0.;  ///< of the tool, m/s; 0: that of planToolPath
 };
 
 /// A curve of poses that a frame, the tool, follows: lines, arcs, circles, splines, and dense rows of poses or points.
@@ -53,9 +56,19 @@ class ToolPath {
                         std::string relative_to = {});
 
   /// Reads rows of 3 (x y z), 6 (with a normal) or 7 numbers (x y z qw qx qy qz) from a file, separated by commas,
-  /// semicolons or spaces. Lines that begin with # and one line of column names are skipped. Throws FileError if it
-  /// cannot be read, and ParseError with line and column for other content.
+  /// semicolons or spaces. Lines that begin with # and one line of column names are skipped. Files with the extension
+  /// .nc, .ngc, .gcode, .gc, .tap or .cnc are read by `readGcode`. Throws FileError if it cannot be read, and
+  /// ParseError with line and column for other content.
   static ToolPath read(const std::string& file, std::string frame, std::string relative_to = {});
+
+  /// Reads a program of G-code: G0 to G3 with the planes G17 to G19, arcs and helices by I J K or R, G20 (inch) and G21
+  /// (mm, the default), G90 and G91, F (per minute), G61 and G64 P. The tool keeps its rotation. Moves with G0, and
+  /// those before the first F, have the speed of planToolPath. Corners have a blend with the radius `blend` (m) until
+  /// G64 P or G61 sets another one. The path starts where the first moves that name all axes end; axes that are named
+  /// later start at 0. Spindle, coolant, tool and dwell commands are ignored with a line in `warnings`. Throws
+  /// FileError if it cannot be read, and ParseError with line and column for words that it does not know.
+  static ToolPath readGcode(const std::string& file, std::string frame, std::string relative_to = {},
+                            double blend = 0.);
 
   /// Sets the first pose. Without it, the path starts at the pose of the tool at the time of planning.
   ToolPath& start(const ToolWaypoint& pose);
@@ -67,14 +80,21 @@ class ToolPath {
   /// Appends a circular arc through `via` to a pose. Throws ValueError when planned if the points are on a line.
   ToolPath& arc(const Vector3d& via, const ToolWaypoint& to, double blend = 0.);
 
-  /// Appends a circle, or a part of it by `angle` (rad), about an axis through `center`.
-  ToolPath& circle(const Vector3d& center, const Vector3d& axis, double angle, double blend = 0.);
+  /// Appends a circle, or a part of it by `angle` (rad), about an axis through `center`. With `advance` (m) along the
+  /// axis it is a helix.
+  ToolPath& circle(const Vector3d& center, const Vector3d& axis, double angle, double blend = 0., double advance = 0.);
 
   /// Appends a cubic spline through the present end and all of these waypoints.
   ToolPath& spline(std::vector<ToolWaypoint> waypoints);
 
-  /// Frees the rotation about an axis of the tool (0 x, 1 y, 2 z), at all places. Throws ValueError for other axes.
-  ToolPath& free(int about = 2);
+  /// Sets the speed of the tool on the elements that are appended from now on, m/s; 0 for that of planToolPath. Throws
+  /// ValueError for negative numbers.
+  ToolPath& speed(double speed);
+
+  /// Frees the rotation about an axis of the tool (0 x, 1 y, 2 z), at all places. It is an angle (rad) from the poses
+  /// of the path, within `range`, the whole turn without one. The angle `prefer` is kept all along if a motion can do
+  /// so; else it costs little. Throws ValueError for other axes, an empty range, and preferred angles outside of it.
+  ToolPath& free(int about = 2, std::optional<std::pair<double, double>> range = {}, std::optional<double> prefer = {});
 
   /// Allows the free axis to lean by at most `angle` (rad, below pi / 2) from its direction, in a cone. Calls `free` if
   /// no axis is free yet.
@@ -84,8 +104,11 @@ class ToolPath {
   const std::string& relativeTo() const { return relative_to_; }
   const std::optional<ToolWaypoint>& first() const { return first_; }
   const std::vector<ToolPathElement>& elements() const { return elements_; }
-  int freeAxis() const { return free_axis_; }  ///< -1: the rotation is given
-  double cone() const { return cone_; }        ///< rad
+  int freeAxis() const { return free_axis_; }                                       ///< -1: the rotation is given
+  double cone() const { return cone_; }                                             ///< rad
+  const std::optional<std::pair<double, double>>& range() const { return range_; }  ///< rad; none: a whole turn
+  const std::optional<double>& preferred() const { return prefer_; }                ///< rad
+  const std::vector<std::string>& warnings() const { return warnings_; }            ///< of the file that was read
 
   std::string str() const;  ///< "3 elements of 'pen' relative to 'part', free about z, tilt 0.26 rad"
 
@@ -96,7 +119,10 @@ class ToolPath {
   std::optional<ToolWaypoint> first_;
   std::vector<ToolPathElement> elements_;
   int free_axis_ = -1;
-  double cone_ = 0.;
+  double cone_ = 0., speed_ = 0.;
+  std::optional<std::pair<double, double>> range_;
+  std::optional<double> prefer_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace kinegraph

@@ -263,3 +263,121 @@ def test_invalid_arguments_are_explained(scene):
         ry.planToolPath(scene, ry.ToolPath("tol").line([0.3, 0.3, 1.0]))
     with pytest.raises(ValueError, match="order is 'any'"):
         ry.planToolPath(scene, path, order="any")
+
+
+def test_the_free_rotation_keeps_its_range_and_the_preferred_angle(scene):
+    start = scene.getFrame("tool").getPose()
+
+    def twists(plan):
+        """Angles about the tool's z axis from the start; the axis keeps its direction."""
+        x = poses(scene, samples(plan, 200.0)[1])[:, 3:]
+        w, v = start[3], start[4:]
+        turn = np.c_[w * x[:, 0] + x[:, 1:] @ v, w * x[:, 1:] - x[:, :1] * v - np.cross(v, x[:, 1:])]
+        angle = 2 * np.arctan2(turn[:, 3], turn[:, 0])
+        return (angle + np.pi) % (2 * np.pi) - np.pi
+
+    def plan(**how):
+        path = ry.ToolPath("tool").start(start).line(start[:3] + 0.15 * Y - 0.05 * Z).free("z", **how)
+        plan = ry.planToolPath(scene, path, speed=0.2, **LIMITS)
+        assert plan, plan.message
+        return plan
+
+    angles = twists(plan(range=(0.2, 0.6)))
+    assert angles.min() >= 0.2 and angles.max() <= 0.6
+    assert np.abs(twists(plan(prefer=-0.5)) + 0.5).max() < 1e-2
+    with pytest.raises(ry.errors.ArgumentError, match=r"range is \(0\.6, 0\.2\)"):
+        ry.ToolPath("tool").free(range=(0.6, 0.2))
+    with pytest.raises(ry.errors.ArgumentError, match="prefer is 1"):
+        ry.ToolPath("tool").free(range=(0, 0.5), prefer=1)
+
+
+def test_a_program_of_gcode_is_cut_at_its_feeds(scene, tmp_path):
+    C = scene
+    C.addFrame("work", "table").setRelativePosition([0, 0.35, 0.15])
+    file = tmp_path / "slot.nc"
+    file.write_text(
+        "(a slot) G21 G90\nG0 X-40 Y0 Z20\nG1 Z0 F1200\nG1 X40 F6000\nG3 X40 Y20 J10\nG1 X-40\nG3 Y0 J-10\nM5\nM30\n"
+    )
+    path = ry.ToolPath.read(file, relativeTo="work").free()
+    assert path.warnings == [f"{file}:8:1: M5 is ignored"]
+    plan = ry.planToolPath(C, path, speed=0.3, **LIMITS)
+    assert plan, plan.message
+    t, q = samples(plan)
+    p = poses(C, q)[:, :3] - C.getFrame("work").getPosition()
+    way = np.array([plan.way(time)[1] for time in t])
+    speed = np.linalg.norm(np.diff(p, axis=0), axis=1) / t[1]
+    plunge = way[1:] < 0.02 - 1e-4
+    assert speed[plunge].max() <= 0.02 * 1.001
+    assert speed.max() <= 0.1 * 1.001
+    on_slot = p[way > 0.0201]
+    straight = np.abs(on_slot[:, 0]) <= 0.04
+    assert np.minimum(np.abs(on_slot[straight, 1]), np.abs(on_slot[straight, 1] - 0.02)).max() < 2.1e-5
+    round = on_slot[~straight, :2] - np.c_[np.sign(on_slot[~straight, 0]) * 0.04, np.full(np.sum(~straight), 0.01)]
+    assert np.abs(np.linalg.norm(round, axis=1) - 0.01).max() < 2.1e-5
+    file.write_text("G0 X0 Y0 Z0\nG1 X5 Q3\nG83 Z1\n")
+    with pytest.raises(ry.errors.ParseError, match=r"slot\.nc:3:1: unknown code G83"):
+        ry.ToolPath.readGcode(file)
+
+
+def test_the_approach_is_on_the_side_of_the_arm_for_axes_that_point_into_the_work():
+    C = ry.Config()
+    C.addFile(ry.raiPath("ur10e/ur10e.g"))
+    C.addFrame("tip", "tool0").setRelativePosition([0, 0, 0.1])
+    path = ry.ToolPath("tip").start([0.6, 0.1, 0.3, 0, 1, 0, 0]).line([0.7, 0.1, 0.3])
+    plan = ry.planToolPath(C, path, approach=0.05, retract=0.05)
+    assert plan, plan.message
+    x = poses(C, plan.eval(np.array([0.0, plan.duration]))[0], "tip")
+    np.testing.assert_allclose(x[:, :3], [[0.6, 0.1, 0.35], [0.7, 0.1, 0.35]], atol=3e-5)
+
+
+def test_touching_a_part_does_not_include_its_clamps(scene):
+    C = scene
+    C.addFrame("part", "table").setShape(ry.ST.ssBox, [0.4, 0.2, 0.02, 0.002]).setRelativePosition([0, 0.35, 0.06])
+    C.getFrame("part").setContact(1)
+    C.addFrame("clamp", "part").setShape(ry.ST.ssBox, [0.02, 0.2, 0.1, 0.002]).setRelativePosition([0.05, 0, 0.06])
+    C.getFrame("clamp").setContact(1)
+    points = np.linspace([-0.1, 0.35, 0.72], [0.15, 0.35, 0.72], 100)
+    path = ry.ToolPath.along(points, np.tile(Z, (100, 1))).tilt(0.2)
+    plan = ry.planToolPath(C, path, touching=["part"], **LIMITS)
+    assert plan.status == ry.ToolPathStatus.in_collision, plan
+    assert "clamp" in plan.frames
+    assert 0.1 < plan.where[1] < 0.15
+
+
+def test_motions_name_their_first_contact_and_nearest_limit(scene):
+    C = scene
+    q = C.getJointState()
+    motion = ry.retime(C, [q, q + 0.5], acceleration=4.0, jerk=60.0, tool_speed={"tool": 0.15})
+    t, Q = motion.sample(1000)[:2]
+    speed = np.linalg.norm(np.diff(poses(C, Q)[:, :3], axis=0), axis=1) / t[1]
+    assert 0.149 < speed.max() <= 0.15 * 1.001
+    assert motion.firstContact(C) is None
+    faster = ry.retime(C, [q, q + 0.5], acceleration=4.0, jerk=60.0)
+    assert faster.duration < motion.duration
+    share, kind, dof = faster.nearestLimit(0.01, C.getVelocityLimits(), 4.0, 60.0)
+    assert kind == "jerk" and share == pytest.approx(1, abs=0.02) and 0 <= dof < 7
+
+    way = ry.planToolPath(C, ry.ToolPath("tool").line(C.getFrame("tool").getPosition() + 0.2 * Y), **LIMITS)
+    assert way.firstContact(C) is None
+    middle = poses(C, way.eval(0.5 * way.duration)[0][None])[0]
+    C.addFrame("post").setShape(ry.ST.sphere, [0.01]).setPosition(middle[:3]).setContact(1)
+    moment, a, b, distance = way.firstContact(C)
+    assert "post" in (a, b) and distance < 1e-3
+    free = C.isValid(way.eval(np.array([moment - 0.05, moment + 0.05]))[0])
+    assert free.tolist() == [True, False]
+
+
+def test_a_plan_shows_its_curve_and_the_place_of_its_failure(scene):
+    start = scene.getFrame("tool").getPose()
+    path = ry.ToolPath("tool").start(start).line(start[:3] + 0.1 * Y).tilt(0.2)
+    plan = ry.planToolPath(scene, path, **LIMITS)
+    assert plan.view(scene, path) == 0
+    v = scene.viewer()
+    for drawing in ("start", "end", "cone"):
+        v.remove(f"tool path 0, {drawing}")  # raises unless it is there
+    far = ry.ToolPath("tool").free().line(start[:3] + 1.5 * Y)
+    assert ry.planToolPath(scene, far).view(scene, [far]) == 0
+    v.remove("tool path, failure")
+    v.remove("tool path, cause")
+    with pytest.raises(ry.errors.ArgumentError, match="nothing is named 'tool path 0, speed'"):
+        v.remove("tool path 0, speed")  # of the first plan
