@@ -78,9 +78,15 @@ TEST(CellDistance, IsThatOfTheNearestCubeForAllConvexBodies) {
       }
       for (const double most : {0., .01, .05, .3}) {
         const double given = distanceToCells(*body, X_WB, *cells, X_WC, most);
-        if (expected < most && expected > -body->radius()) EXPECT_NEAR(given, expected, 1e-9);
-        if (expected >= most) EXPECT_GE(given, most);
-        if (expected < most) EXPECT_LT(given, most);
+        if (expected < most && expected > -body->radius()) {
+          EXPECT_NEAR(given, expected, 1e-9);
+        }
+        if (expected >= most) {
+          EXPECT_GE(given, most);
+        }
+        if (expected < most) {
+          EXPECT_LT(given, most);
+        }
       }
     }
   }
@@ -97,7 +103,9 @@ TEST(CellDistance, TheFieldIsALowerBoundWithinTheDiagonalOfACell) {
                  exact = proximity(*pointBody(), {Matrix3d::Identity(), point}, *cells, {}).distance;
     EXPECT_LE(least, std::max(exact, 0.) + 1e-12);
     const bool inside = (point.cwiseAbs() - field.half).maxCoeff() < 0.;
-    if (inside && least < (CellField::kReach - 1) * kCell) EXPECT_GE(least + std::sqrt(3.) * kCell, exact);
+    if (inside && least < (CellField::kReach - 1) * kCell) {
+      EXPECT_GE(least + std::sqrt(3.) * kCell, exact);
+    }
   }
 }
 
