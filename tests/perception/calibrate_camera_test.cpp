@@ -21,7 +21,10 @@ MatrixXd corners() {
 Config gantry() {
   Config C;
   C.addText(R"g(
-    hand: { joint: transXYPhi }
+    base: {}
+    x(base): { joint: transX }
+    y(x): { joint: transY }
+    hand(y): { joint: hingeZ }
     tilt(hand): { pre: "t(0 0 .5)", joint: hingeX }
     roll(tilt): { joint: hingeY }
     cam(roll): { Q: "t(.02 .01 .03) d(175 1 .02 .03)" }
@@ -58,7 +61,7 @@ MarkerImages drawImages(Config& C, int count, double spread, double noise) {
 
 TEST(CalibrateCamera, FindsBothPosesOfExactImagesFromAWrongStart) {
   Config C = gantry();
-  const Pose camera = C.getFrame("cam").getRelativePose(), marker = C.getFrame("marker").getRelativePose();
+  const Pose camera = C.getFrame("cam").getRelativePose(), marker = C.getFrame("marker").getPose();
   const MarkerImages images = drawImages(C, 8, .4, 0.);
   C.getFrame("cam").setRelativePose(Pose());
   const CameraCalibration result = calibrateCamera(C, "cam", "marker", images);
