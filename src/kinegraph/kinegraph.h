@@ -49,6 +49,8 @@
 #include "kinegraph/logic/plan_search.h"                      // PlanSearch
 #include "kinegraph/nlp/callback_nlp.h"                       // custom problems
 #include "kinegraph/nlp/test_problems.h"                      // named problems
+#include "kinegraph/perception/calibrate_camera.h"            // calibrateCamera: camera to hand or to base
+#include "kinegraph/perception/occupancy_map.h"               // OccupancyMap: free, occupied and unseen space
 #include "kinegraph/perception/register_scene.h"              // registerScene: poses from depth images
 #include "kinegraph/planning/path_finder.h"                   // paths between two configurations
 #include "kinegraph/planning/plan_motion.h"                   // planMotion
@@ -64,6 +66,7 @@
 #include "kinegraph/robot/simulated_driver.h"                 // robots in a simulated world
 #include "kinegraph/scene/config.h"                           // Config, Frame
 #include "kinegraph/scene/config_dynamics.h"                  // rigidBodyDynamics, centroidalMomentumMatrix
+#include "kinegraph/scene/frame_cells.h"                      // setCells: cubes as an obstacle
 #include "kinegraph/scene/ignored_contacts.h"                 // ignoreCollisionsNow
 #include "kinegraph/scene/motor_limits.h"                     // getVelocityLimits, getEffortLimits
 #include "kinegraph/scene/self_collisions.h"                  // selfCollisionMatrix

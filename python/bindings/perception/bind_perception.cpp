@@ -4,11 +4,17 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <cstring>
+
 #include "arguments.h"
 #include "bindings.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/perception/calibrate_camera.h"
+#include "kinegraph/perception/occupancy_map.h"
 #include "kinegraph/perception/register_scene.h"
+#include "kinegraph/scene/frame_cells.h"
+#include "perception/calibration_docs.h"
 #include "perception/perception_docs.h"
 #include "python_names.h"
 
@@ -61,16 +67,17 @@ void makeDepthView(DepthView* self, const ArrayArgument& depth, const Numbers& f
   new (self) DepthView(std::move(view));
 }
 
+/// Reads a DepthView, or a list of them.
+std::vector<DepthView> depthViews(nb::handle views) {
+  if (nb::isinstance<DepthView>(views)) return {nb::cast<DepthView>(views)};
+  return nb::cast<std::vector<DepthView>>(views);
+}
+
 Array seenPose(const Pose& pose) { return toNumpy(VectorXd(pose.numbers())); }
 
 SeenScene registerFrames(PyConfig& config, nb::handle views, const std::vector<std::string>& frames,
                          const std::optional<std::string>& support, double search_radius) {
-  std::vector<DepthView> given;
-  if (nb::isinstance<DepthView>(views)) {
-    given.push_back(nb::cast<DepthView>(views));
-  } else {
-    given = nb::cast<std::vector<DepthView>>(views);
-  }
+  const std::vector<DepthView> given = depthViews(views);
   RegisterOptions options;
   options.support = support.value_or("");
   options.search_radius = search_radius;
@@ -125,6 +132,163 @@ void bindSeenFrame(nb::module_& m) {
       .def("__repr__", [](const SeenFrame& f) { return cat("<SeenFrame ", f.str(), ">"); });
 }
 
+using Bytes = nb::ndarray<nb::numpy, std::uint8_t>;
+
+void makeMap(OccupancyMap* self, const PyConfig& config, const Numbers& region, double cell,
+             const std::vector<std::string>& free) {
+  if (region.values.size() != 6)
+    throw ValueError(
+        cat("OccupancyMap: region has ", region.values.size(), " numbers; expected two corners, shape (2, 3), in m"));
+  new (self) OccupancyMap(config, region.values.head(3), region.values.tail(3), cell, free);
+}
+
+std::vector<std::string> updateMap(OccupancyMap& map, const PyConfig& config, nb::handle views,
+                                   const std::optional<SeenScene>& known) {
+  const std::vector<DepthView> given = depthViews(views);
+  std::vector<std::string> warnings;
+  {
+    const nb::gil_scoped_release unlock;
+    warnings = map.update(config, given, known.value_or(SeenScene{}));
+  }
+  for (const std::string& warning : warnings) emitWarning(cat("OccupancyMap.update: ", inPython(warning)));
+  return warnings;
+}
+
+nb::object statesOf(const OccupancyMap& map) {
+  const std::vector<CellState>& states = map.states();
+  auto* copy = new std::uint8_t[states.size()];
+  std::memcpy(copy, states.data(), states.size());
+  const nb::capsule owner(copy, [](void* p) noexcept { delete[] static_cast<std::uint8_t*>(p); });
+  const auto& count = map.counts();
+  return nb::cast(Bytes(copy, {std::size_t(count[0]), std::size_t(count[1]), std::size_t(count[2])}, owner));
+}
+
+std::vector<CellState> stateAt(const OccupancyMap& map, const Numbers& points) {
+  if (points.values.size() % 3 != 0)
+    throw ValueError(
+        cat("OccupancyMap.state: ", points.values.size(), " numbers; expected points, shape (3,) or (n, 3)"));
+  std::vector<CellState> states;
+  for (Eigen::Index i = 0; i + 2 < points.values.size(); i += 3)
+    states.push_back(map.state(points.values.segment(i, 3)));
+  return states;
+}
+
+CameraCalibration calibrate(PyConfig& config, const std::string& camera, const std::string& marker,
+                            const Numbers& points, const Numbers& fxycxy, const Numbers& q,
+                            const std::vector<Numbers>& pixels, double pixel_noise, double joint_noise) {
+  if (fxycxy.values.size() != 4)
+    throw ValueError(cat("calibrateCamera: fxycxy has ", fxycxy.values.size(), " entries; expected 4: fx fy cx cy"));
+  MarkerImages images;
+  images.points = points.matrix();
+  images.fxycxy = fxycxy.values;
+  images.q = q.matrix();
+  for (const Numbers& image : pixels) images.pixels.push_back(image.matrix());
+  CameraCalibration result;
+  {
+    const nb::gil_scoped_release unlock;
+    result = calibrateCamera(config, camera, marker, images, {pixel_noise, joint_noise});
+  }
+  for (const std::string& warning : result.warnings) emitWarning(cat("calibrateCamera: ", inPython(warning)));
+  return result;
+}
+
+Frame& setCellsOf(Frame& frame, const ArrayArgument& data, const Numbers& size) {
+  const nb::object array = nb::module_::import_("numpy").attr("ascontiguousarray")(data, "dtype"_a = "float64");
+  const auto shape = nb::cast<std::vector<int>>(array.attr("shape"));
+  Numbers numbers;
+  if (shape.size() != 3 || !readNumbers(array, numbers) || size.values.size() != 3)
+    throw ValueError(cat("setCells: data has ", shape.size(), " dimensions and size ", size.values.size(),
+                         " numbers; expected a 3-D array of numbers, and 3 numbers"));
+  Grid grid;
+  grid.cells = {shape[0], shape[1], shape[2]};
+  grid.values.assign(numbers.values.begin(), numbers.values.end());
+  setCells(frame, std::move(grid), size.values);
+  return frame;
+}
+
+void bindOccupancyMap(nb::module_& m) {
+  nb::borrow<nb::class_<Frame>>(nb::type<Frame>())
+      .def("setCells", setCellsOf, "data"_a, "size"_a, kChain, docs::perception::setCells);
+  nb::enum_<CellState>(m, "CellState", nb::is_arithmetic(), "What an OccupancyMap knows of a cell.")
+      .value("unseen", CellState::unseen, "It was in no image.")
+      .value("hidden", CellState::hidden, "It was only ever behind something.")
+      .value("free", CellState::free, "A camera looked through it, or a known shape was there.")
+      .value("occupied", CellState::occupied, "Something unknown was measured in it.");
+  nb::class_<OccupancyMap>(m, "OccupancyMap", docs::perception::occupancyMap)
+      .def("__init__", makeMap, "config"_a, "region"_a, "cell"_a = .01, nb::kw_only(),
+           "free"_a = std::vector<std::string>(), docs::perception::makeMap)
+      .def("update", updateMap, "config"_a, "views"_a, nb::kw_only(), "known"_a = nb::none(),
+           nb::sig("def update(self, config: Config, views: DepthView | collections.abc.Sequence[DepthView], *, known: "
+                   "SeenScene | None = None) -> list[str]"),
+           docs::perception::updateMap)
+      .def(
+          "attach",
+          [](const OccupancyMap& map, PyConfig& config, const std::string& unseen, const std::string& name) {
+            map.attach(config, unseenFromName(unseen), name);
+          },
+          "config"_a, nb::kw_only(), "unseen"_a = "blocked", "name"_a = "map", docs::perception::attachMap)
+      .def(
+          "state",
+          [](const OccupancyMap& map, const Numbers& points) -> nb::object {
+            const std::vector<CellState> states = stateAt(map, points);
+            return points.values.size() == 3 ? nb::cast(states.front()) : nb::cast(states);
+          },
+          "points"_a,
+          "Returns the CellState at a point in the world, shape (3,), m, or a list of them for shape (n, 3). Space\n"
+          "outside of the region is free.")
+      .def_prop_ro("states", statesOf,
+                   "The CellState of all cells as numbers, shape (nx, ny, nz), uint8: a copy. Cell (i, j, k) has its\n"
+                   "middle at lower + cell (i + .5, j + .5, k + .5).")
+      .def_prop_ro(
+          "lower", [](const OccupancyMap& map) { return toNumpy(VectorXd(map.lower())); },
+          "The corner of the region with the smallest coordinates, shape (3,), m.")
+      .def_prop_ro("cell", &OccupancyMap::cell, "The side of a cell, m.")
+      .def("__repr__", [](const OccupancyMap& map) { return cat("<", map.str(), ">"); })
+      .def("__getstate__",
+           [](const OccupancyMap& map) {
+             const auto& c = map.counts();
+             const Vector3d upper = map.lower() + map.cell() * Vector3d(c[0], c[1], c[2]);
+             return nb::make_tuple(toNumpy(VectorXd(map.lower())), toNumpy(VectorXd(upper)), map.cell(),
+                                   nb::bytes(reinterpret_cast<const char*>(map.states().data()), map.states().size()));
+           })
+      .def("__setstate__", [](OccupancyMap& self, const nb::tuple& t) {
+        const Numbers lower = nb::cast<Numbers>(t[0]), upper = nb::cast<Numbers>(t[1]);
+        new (&self) OccupancyMap(Config(), lower.values, upper.values, nb::cast<double>(t[2]));
+        const nb::bytes bytes = nb::cast<nb::bytes>(t[3]);
+        std::vector<CellState> states(bytes.size());
+        for (std::size_t i = 0; i < states.size(); ++i) states[i] = CellState(bytes.c_str()[i]);
+        self.setStates(std::move(states));
+      });
+}
+
+void bindCalibration(nb::module_& m) {
+  nb::class_<CameraCalibration>(m, "CameraCalibration", "The poses that calibrateCamera found.")
+      .def_prop_ro(
+          "camera", [](const CameraCalibration& c) { return seenPose(c.camera); },
+          "Pose of the camera relative to its parent, shape (7,): x y z (m) qw qx qy qz.")
+      .def_prop_ro(
+          "marker", [](const CameraCalibration& c) { return seenPose(c.marker); },
+          "Pose of the marker relative to its parent, shape (7,).")
+      .def_prop_ro(
+          "covariance", [](const CameraCalibration& c) { return toNumpy(c.covariance); },
+          "Covariance of the camera's (x y z in m, rotation vector in rad), in the axes of its parent, shape (6, 6).")
+      .def_prop_ro(
+          "marker_covariance", [](const CameraCalibration& c) { return toNumpy(c.marker_covariance); },
+          "The same of the marker, shape (6, 6).")
+      .def_prop_ro(
+          "free_directions", [](const CameraCalibration& c) { return toNumpy(c.free_directions); },
+          "Unit displacements (camera, marker) that the images do not determine, shape (k, 12).")
+      .def_ro("pixel_error", &CameraCalibration::pixel_error,
+              "Root mean square of the distances between points and pixels in the images, pixels.")
+      .def_ro("warnings", &CameraCalibration::warnings,
+              "Sentences about directions that the images do not determine, and about points that fit badly.")
+      .def("__repr__", [](const CameraCalibration& c) { return cat("<CameraCalibration: ", inPython(c.str()), ">"); });
+  const CalibrateOptions defaults;
+  m.def("calibrateCamera", calibrate, "config"_a, "camera"_a, "marker"_a, "points"_a, "fxycxy"_a, "q"_a, "pixels"_a,
+        nb::kw_only(), "pixel_noise"_a = defaults.pixel_noise, "joint_noise"_a = defaults.joint_noise,
+        docs::calibration::calibrateCamera);
+}
+
 }  // namespace
 
 void bindPerception(nb::module_& m) {
@@ -161,6 +325,8 @@ void bindPerception(nb::module_& m) {
                 "collections.abc.Sequence[str], *, support: str | None = None, search_radius: float = 0.05) -> "
                 "SeenScene"),
         docs::perception::registerScene);
+  bindOccupancyMap(m);
+  bindCalibration(m);
 }
 
 }  // namespace kinegraph::python

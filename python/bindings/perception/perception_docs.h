@@ -41,4 +41,65 @@ Raises:
     FrameNotFound: A frame, a camera or the support is unknown.
     ArgumentError: There is no view, a view is invalid, a frame is listed twice or has no visible shape.)";
 
+inline constexpr char setCells[] = R"(Gives the frame the solid ones among equal cubes that fill a box, as an obstacle.
+
+Collision checks use the exact distance from the cubes, and lower bounds of it that are computed once per cell.
+
+Args:
+    data: Shape (nx, ny, nz), one value per cube: 0 is free, 1 occupied, 2 not seen by any camera. The last two are
+        solid, and have different colors in the viewer.
+    size: Extent of the box, shape (3,), m; the cells must be cubes.
+Returns:
+    The frame itself.
+Raises:
+    ArgumentError: data or size has another shape, data has other values, or the cells are not cubes.)";
+
+inline constexpr char occupancyMap[] = R"(A map of the space that depth images show: equal cubes in a box of the world.
+
+    map = ry.OccupancyMap(C, region=[[-0.5, -0.1, 0.65], [0.5, 0.8, 1.25]], cell=0.01)
+    map.update(C, views)
+    map.attach(C)  # now ry.planMotion(C, ...) avoids what was measured and what was not seen
+
+Points of the robot and of all shapes of the scene are left out: the shapes themselves are the obstacles. A cell is free
+if a camera looked through the whole of it, occupied if points were measured in it. The last such image counts: cells of
+a thing that moved away become free once a camera sees the background.)";
+
+inline constexpr char makeMap[] = R"(Creates a map of which nothing was seen.
+
+Args:
+    config: The scene. Cells that its shapes touch, and those within 2 cm of the robot, are free.
+    region: Two corners of the box in the world, shape (2, 3), m. It is enlarged to whole cells. Space outside of it is
+        free.
+    cell: The side of a cell, m.
+    free: Names of frames in whose shapes all cells are free at first.
+Raises:
+    FrameNotFound: A frame is unknown.
+    ArgumentError: The region is empty, has more than 50 million cells, or a free frame has no shape.)";
+
+inline constexpr char updateMap[] = R"(Adds depth images.
+
+Args:
+    config: The scene, with the joint angles and the poses of things at which the images were taken.
+    views: A DepthView, or a list of them.
+    known: The result of registerScene. Frames that were not seen count as unknown: their points occupy cells.
+Returns:
+    Warnings, which are also given as Python warnings: images without depth, images that show nothing of the region, and
+    doubtful poses of cameras.
+Raises:
+    FrameNotFound: A camera is unknown.
+    ArgumentError: A view is invalid; the map is then unchanged.)";
+
+inline constexpr char attachMap[] = R"(Makes the map an obstacle of the scene.
+
+The frame `name` gets the shape of the cells that block motions, with contact. It is added if it does not exist. The
+scene keeps these cells until the next call: call it again after an update.
+
+Args:
+    config: The scene.
+    unseen: "blocked": all cells that were not seen free block. "shadows": of the unseen cells, those behind something
+        that was measured block. "free": only occupied cells block.
+    name: The name of the frame.
+Raises:
+    ArgumentError: `unseen` is another word, or the frame exists with another shape.)";
+
 }  // namespace kinegraph::python::docs::perception

@@ -3,6 +3,9 @@
 #include <algorithm>
 
 #include "kinegraph/collision/edge_engine.h"
+#include "kinegraph/geometry/distance/cell_distance.h"
+#include "kinegraph/geometry/distance/cell_field.h"
+#include "kinegraph/geometry/distance/grid_field.h"
 
 namespace kinegraph {
 
@@ -36,9 +39,27 @@ const EdgeEngine::Candidate* EdgeEngine::findCandidates(double margin, double mo
 bool EdgeEngine::addPair(const LinkBodies::Pair& pair, int index, double most, double near) {
   const auto [least, top] = samples_.distanceBounds(pair.a, pair.b, most);
   Candidate candidate = {pair, index, least, least.head(samples_.count()).minCoeff()};
+  if (!pair.convex && candidate.least < most) boundCells(candidate);
   const bool is_near = top.head(samples_.count()).minCoeff(&candidate.touching) < near;
   if (is_near || candidate.least < most) candidates_.push_back(candidate);
   return is_near;
+}
+
+/// Raises the bounds of a convex body near solid cells by those of its bounding sphere in the field of the cells.
+void EdgeEngine::boundCells(Candidate& candidate) {
+  const LinkBodies::Pair& pair = candidate.pair;
+  const CollisionBody &a = *bodies_.bodies[std::size_t(pair.a)].shape, &b = *bodies_.bodies[std::size_t(pair.b)].shape;
+  candidate.cells = (a.convex() && hasCells(b)) || (b.convex() && hasCells(a));
+  if (!candidate.cells) return;
+  const bool second = hasCells(b);
+  const CollisionBody &convex = second ? a : b, &cells = second ? b : a;
+  for (int i = 0; i < samples_.count(); ++i) {
+    const RigidTransform X_A = samples_.pose(second ? pair.a : pair.b, i),
+                         X_B = samples_.pose(second ? pair.b : pair.a, i);
+    const double least = cells.grid().cells->leastDistance(X_B.inverse() * (X_A * convex.boundCenter()));
+    candidate.bounds[i] = std::max(candidate.bounds[i], least - convex.boundRadius());
+  }
+  candidate.least = candidate.bounds.head(samples_.count()).minCoeff();
 }
 
 /// For many static bodies: adds those close to moving groups.

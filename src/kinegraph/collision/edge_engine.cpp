@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinegraph/geometry/distance/cell_distance.h"
+
 namespace kinegraph {
 
 namespace {
@@ -83,8 +85,26 @@ double EdgeEngine::measure(const Candidate& candidate, Normal& normal, const Mom
   return near.distance;
 }
 
+/// The same for solid cells, but any number of at least `most` if the distance is that large. Keeps no normal then.
+double EdgeEngine::measureUpTo(double most, const Candidate& candidate, Normal& normal, const Moment& at) {
+  if (!candidate.cells) return measure(candidate, normal, at);
+  const LinkBodies::Pair& pair = candidate.pair;
+  const CollisionBody &a = *bodies_.bodies[std::size_t(pair.a)].shape, &b = *bodies_.bodies[std::size_t(pair.b)].shape;
+  return a.convex() ? distanceToCells(a, poseAt(pair.a, at), b, poseAt(pair.b, at), most)
+                    : distanceToCells(b, poseAt(pair.b, at), a, poseAt(pair.a, at), most);
+}
+
+/// Whether a convex body is closer to solid cells than a distance.
+bool EdgeEngine::isNearCells(const Candidate& candidate, const Moment& at, double distance) {
+  const LinkBodies::Pair& pair = candidate.pair;
+  const CollisionBody &a = *bodies_.bodies[std::size_t(pair.a)].shape, &b = *bodies_.bodies[std::size_t(pair.b)].shape;
+  return a.convex() ? kinegraph::isNearCells(a, poseAt(pair.a, at), b, poseAt(pair.b, at), distance)
+                    : kinegraph::isNearCells(b, poseAt(pair.b, at), a, poseAt(pair.a, at), distance);
+}
+
 /// Tries to decide whether the pair is at least `margin` apart. Keeps the separating direction if it is.
 EdgeEngine::Verdict EdgeEngine::separate(const Candidate& candidate, Normal& normal, const Moment& at, double margin) {
+  if (candidate.cells) return isNearCells(candidate, at, margin) ? Verdict::near : Verdict::apart;
   const LinkBodies::Pair& pair = candidate.pair;
   const CollisionBody &a = *bodies_.bodies[std::size_t(pair.a)].shape, &b = *bodies_.bodies[std::size_t(pair.b)].shape;
   if (!pair.convex || (hasClosedForm(a) && hasClosedForm(b))) return Verdict::unknown;
@@ -185,7 +205,7 @@ double EdgeEngine::clearance(const double* q, double most) {
   samples_.place(1);
   findCandidates(most);
   for (const Candidate& candidate : candidates_) {
-    if (candidate.least < most) most = std::min(most, measure(candidate, normalOf(candidate), sampleAt(0)));
+    if (candidate.least < most) most = std::min(most, measureUpTo(most, candidate, normalOf(candidate), sampleAt(0)));
   }
   return most;
 }
@@ -340,6 +360,16 @@ bool EdgeEngine::keeps(const Candidate& candidate, Normal& normal, const Displac
   const auto apart = [&] {
     return gap(candidate, normal, a) >= margin + bow && gap(candidate, normal, b) >= margin + bow;
   };
+  if (candidate.cells && depth < kDeepest) {
+    const double needed = margin + .5 * rates.speed * width;
+    if (!isNearCells(candidate, a, needed) && !isNearCells(candidate, b, needed)) return true;
+    if (needed > margin + tolerance_ && !isNearCells(candidate, a, margin + tolerance_) &&
+        !isNearCells(candidate, b, margin + tolerance_)) {
+      const Moment middle = between(a, b, depth);
+      return keeps(candidate, normal, rates, margin, a, middle, depth + 1) &&
+             keeps(candidate, normal, rates, margin, middle, b, depth + 1);
+    }
+  }
   const bool convex = candidate.pair.convex && bow < 1e9;
   if (convex && normal.stamp == stamp_ && apart()) return true;
   for (const Moment* end : {&a, &b}) {
@@ -387,7 +417,7 @@ void EdgeEngine::lower(const Candidate& candidate, Normal& normal, const Displac
   const double width = b.time - a.time, bow = .125 * rates.curvature * width * width;
   double sum = 0., along = -std::numeric_limits<double>::infinity();
   for (const Moment* end : {&a, &b}) {
-    const double distance = measure(candidate, normal, *end);
+    const double distance = measureUpTo(least + .5 * rates.speed * width, candidate, normal, *end);
     least = std::min(least, distance);
     sum += distance;
     if (candidate.pair.convex)

@@ -23,8 +23,9 @@ namespace kinegraph {
 ///
 /// because a twice differentiable function exceeds its chord by at most the second term. n is the contact normal at one
 /// of the ends; it is tried for the following intervals before another one is computed. For other bodies the bound is
-/// (d + d' - w max |dp / ds|) / 2. If the bound is too small, the interval is halved. Exact distances are computed only
-/// if a separation test (separation.h) does not decide.
+/// (d + d' - w max |dp / ds|) / 2; for solid cells, d and d' are measured only as far as this bound needs. If the bound
+/// is too small, the interval is halved. Exact distances are computed only if a separation test (separation.h) does not
+/// decide.
 class EdgeEngine {
  public:
   using Lane = PlacedSamples::Lane;
@@ -59,8 +60,9 @@ class EdgeEngine {
     LinkBodies::Pair pair;
     int index;  ///< of the pair, -1 if it is not listed
     Lane bounds;
-    double least;      ///< of the bounds
-    int touching = 0;  ///< the sample in which the inner balls are closest
+    double least;        ///< of the bounds
+    int touching = 0;    ///< the sample in which the inner balls are closest
+    bool cells = false;  ///< one of the bodies consists of solid cells, the other one is convex
   };
   /// A separating direction, and the support corners of both bodies along it.
   struct Normal {
@@ -108,6 +110,9 @@ class EdgeEngine {
   double gap(const Candidate& candidate, Normal& normal, const Moment& at);
   const Lane& gapsIn(SampleGaps& known, const Candidate& candidate, Normal& normal);
   double measure(const Candidate& candidate, Normal& normal, const Moment& at);
+  double measureUpTo(double most, const Candidate& candidate, Normal& normal, const Moment& at);
+  bool isNearCells(const Candidate& candidate, const Moment& at, double distance);
+  void boundCells(Candidate& candidate);
   enum class Verdict { apart, near, unknown };
   Verdict separate(const Candidate& candidate, Normal& normal, const Moment& at, double margin);
   bool isNear(const Candidate& candidate, Normal& normal, const Moment& at, double margin);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "kinegraph/geometry/distance/proximity.h"
+#include "kinegraph/geometry/shapes/cells.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 
 namespace kinegraph {
@@ -91,6 +92,20 @@ void findNearest(ObservedView& view) {
   sweep(-1);
 }
 
+DepthView everySecondPixel(const DepthView& view) {
+  DepthView half = view;
+  half.width = (view.width + kStride - 1) / kStride;
+  half.height = (view.height + kStride - 1) / kStride;
+  half.fxycxy /= kStride;
+  half.depth.resize(std::size_t(half.width) * std::size_t(half.height));
+  for (int row = 0; row < half.height; ++row) {
+    for (int column = 0; column < half.width; ++column)
+      half.depth[std::size_t(row) * std::size_t(half.width) + std::size_t(column)] =
+          view.depth[std::size_t(kStride * row) * std::size_t(view.width) + std::size_t(kStride * column)];
+  }
+  return half;
+}
+
 }  // namespace
 
 Vector3d ObservedView::point(int row, int column) const {
@@ -110,7 +125,9 @@ std::vector<KnownShape> knownShapes(const Config& config, const std::set<int>& l
   for (const Frame& frame : config.getFrames()) {
     const auto& shape = frame.data().shape;
     if (!shape || looked_for.count(frame.id()) || shapeKind(shape->geometry->type).is_symbol) continue;
-    if (shape->geometry->type == ShapeType::pointCloud || shape->geometry->type == ShapeType::none) continue;
+    if (shape->geometry->type == kCells || shape->geometry->type == ShapeType::pointCloud ||
+        shape->geometry->type == ShapeType::none)
+      continue;
     if (shape->contact == 0 && shape->color && (*shape->color)[3] < 1.) continue;
     known.push_back({shape->body(), frame.getPose().transform(), frame.id(), isMoved(frame)});
   }
@@ -120,17 +137,16 @@ std::vector<KnownShape> knownShapes(const Config& config, const std::set<int>& l
   return known;
 }
 
-ObservedView observe(const DepthView& given, const Pose& camera, const std::vector<KnownShape>& known,
-                     const double* support_height, const std::vector<SearchBall>& balls,
-                     std::vector<ObservedPoint>& points, int view_index) {
+ObservedView compareWithKnown(const DepthView& given, const Pose& camera, const std::vector<KnownShape>& known,
+                              const double* support_height) {
   ObservedView view;
   view.X_WC = camera.transform();
-  view.width = (given.width + kStride - 1) / kStride;
-  view.height = (given.height + kStride - 1) / kStride;
-  view.fx = given.fxycxy[0] / kStride;
-  view.fy = given.fxycxy[1] / kStride;
-  view.cx = given.fxycxy[2] / kStride;
-  view.cy = given.fxycxy[3] / kStride;
+  view.width = given.width;
+  view.height = given.height;
+  view.fx = given.fxycxy[0];
+  view.fy = given.fxycxy[1];
+  view.cx = given.fxycxy[2];
+  view.cy = given.fxycxy[3];
   view.noise = given.noise;
   view.bias = given.bias;
   const std::size_t count = std::size_t(view.width) * std::size_t(view.height);
@@ -140,8 +156,7 @@ ObservedView observe(const DepthView& given, const Pose& camera, const std::vect
   for (int row = 0; row < view.height; ++row) {
     for (int column = 0; column < view.width; ++column) {
       const std::size_t i = view.index(row, column);
-      const float d =
-          given.depth[std::size_t(kStride * row) * std::size_t(given.width) + std::size_t(kStride * column)];
+      const float d = given.depth[i];
       if (!std::isfinite(d) || d <= 0.f) continue;
       view.depth[i] = d;
       world[i] = view.point(row, column);
@@ -151,13 +166,21 @@ ObservedView observe(const DepthView& given, const Pose& camera, const std::vect
     }
   }
   markKnown(view, known, world);
+  return view;
+}
+
+ObservedView observe(const DepthView& given, const Pose& camera, const std::vector<KnownShape>& known,
+                     const double* support_height, const std::vector<SearchBall>& balls,
+                     std::vector<ObservedPoint>& points, int view_index) {
+  ObservedView view = compareWithKnown(everySecondPixel(given), camera, known, support_height);
   findNearest(view);
-  for (std::size_t i = 0; i < count; ++i) {
+  for (std::size_t i = 0; i < view.pixels.size(); ++i) {
     if (view.pixels[i] != Pixel::other) continue;
+    const Vector3d point = view.point(int(i) / view.width, int(i) % view.width);
     const bool wanted = std::any_of(balls.begin(), balls.end(), [&](const SearchBall& ball) {
-      return (world[i] - ball.center).squaredNorm() < ball.radius * ball.radius;
+      return (point - ball.center).squaredNorm() < ball.radius * ball.radius;
     });
-    if (wanted) points.push_back({world[i], view.noise * view.depth[i] * view.depth[i], view_index});
+    if (wanted) points.push_back({point, view.noise * view.depth[i] * view.depth[i], view_index});
   }
   return view;
 }

@@ -50,7 +50,12 @@ struct SearchBall {
   double radius;
 };
 
-/// Compares a depth image with the known shapes and a support at a height (m; null: none). Appends the unexplained
+/// Compares a depth image, given at half resolution, with the known shapes and a support at a height (m; null: none).
+/// Leaves out `nearest`.
+ObservedView compareWithKnown(const DepthView& half, const Pose& camera, const std::vector<KnownShape>& known,
+                              const double* support_height);
+
+/// Compares every second pixel of a depth image with the known shapes and a support. Appends the unexplained
 /// points in the balls.
 ObservedView observe(const DepthView& view, const Pose& camera, const std::vector<KnownShape>& known,
                      const double* support_height, const std::vector<SearchBall>& balls,

@@ -11,11 +11,13 @@
 #include "kinegraph/geometry/files/image_file.h"
 #include "kinegraph/geometry/files/mesh_cache.h"
 #include "kinegraph/geometry/files/mesh_file.h"
+#include "kinegraph/geometry/shapes/cells.h"
 #include "kinegraph/geometry/shapes/convex_hull.h"
 #include "kinegraph/geometry/shapes/isosurface.h"
 #include "kinegraph/geometry/shapes/scale_mesh.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/textured_surface.h"
+#include "kinegraph/scene/frame_cells.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
@@ -104,6 +106,11 @@ void setTensor(Frame& frame, Grid grid, const Vector3d& size) {
 }
 
 void setSdf(Frame& frame, Grid grid, const Vector3d& size) { setGrid(frame, ShapeType::sdf, std::move(grid), size); }
+
+void setCells(Frame& frame, Grid grid, const Vector3d& size) {
+  checkCells(grid, size);
+  setGrid(frame, kCells, std::move(grid), size);
+}
 
 void setImplicitSurface(Frame& frame, const Grid& grid, const Vector3d& size, int blur, double resample) {
   checkedSize(ShapeType::tensor, {size.begin(), size.end()}, nullptr);

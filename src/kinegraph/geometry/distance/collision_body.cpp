@@ -4,8 +4,10 @@
 #include <cmath>
 
 #include "kinegraph/geometry/distance/body_tree.h"
+#include "kinegraph/geometry/distance/cell_field.h"
 #include "kinegraph/geometry/distance/grid_field.h"
 #include "kinegraph/geometry/distance/hull.h"
+#include "kinegraph/geometry/shapes/cells.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 
 namespace kinegraph {
@@ -78,6 +80,12 @@ class BodyMaker {
     body_->core_ = CollisionBody::Core::grid;
     body_->grid_ = std::make_unique<GridField>(std::move(grid), size);
     bound(Vector3d::Zero(), .5 * size + Vector3d::Constant(body_->grid_->overhang));
+  }
+
+  void setCells(const Grid& grid, const Vector3d& size) {
+    body_->core_ = CollisionBody::Core::grid;
+    body_->grid_ = std::make_unique<GridField>(std::make_unique<CellField>(grid, size));
+    bound(Vector3d::Zero(), .5 * size);
   }
 
  private:
@@ -209,7 +217,11 @@ std::shared_ptr<const CollisionBody> makeCollisionBody(const Geometry& geometry)
       maker.setHalfSpace();
       break;
     case ShapeCore::Form::grid:
-      maker.setGrid(geometry.grid, {geometry.size[0], geometry.size[1], geometry.size[2]});
+      if (geometry.type == kCells) {
+        maker.setCells(*geometry.grid, {geometry.size[0], geometry.size[1], geometry.size[2]});
+      } else {
+        maker.setGrid(geometry.grid, {geometry.size[0], geometry.size[1], geometry.size[2]});
+      }
       break;
     default:
       setVertices(maker, core.form, geometry);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "kinegraph/geometry/distance/cell_distance.h"
 #include "kinegraph/geometry/distance/convex_distance.h"
 #include "kinegraph/geometry/distance/grid_field.h"
 
@@ -107,6 +108,7 @@ Vector3d nearestInCore(const CollisionBody& body, const Vector3d& point) {
 
 NearestPoints convexToGrid(const CollisionBody& core, const RigidTransform& X_WA, const CollisionBody& grid,
                            const RigidTransform& X_WB) {
+  if (hasCells(grid)) return convexToCells(core, X_WA, grid, X_WB);
   const Sample least = MinimumOnCore(core, X_WB.inverse() * X_WA, grid.grid()).find();
   NearestPoints near;
   near.distance = least.value;

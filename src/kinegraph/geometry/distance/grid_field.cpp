@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinegraph/geometry/distance/cell_field.h"
 #include "kinegraph/geometry/distance/collision_body.h"
 #include "kinegraph/geometry/shapes/isosurface.h"
 
@@ -74,6 +75,9 @@ GridField::GridField(std::shared_ptr<const Grid> given, const Vector3d& size)
   }
   surface = makeCollisionBody({ShapeType::pointCloud, {}, std::make_shared<Mesh>(std::move(mesh))});
 }
+
+GridField::GridField(std::unique_ptr<const CellField> field)
+    : cells(std::move(field)), half(cells->half), step(Vector3d::Constant(cells->cell)), surface(cells->corners) {}
 
 GridField::~GridField() = default;
 

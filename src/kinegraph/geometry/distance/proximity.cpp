@@ -4,10 +4,13 @@
 #include <cmath>
 
 #include "kinegraph/geometry/distance/box_box_distance.h"
+#include "kinegraph/geometry/distance/cell_distance.h"
+#include "kinegraph/geometry/distance/cell_field.h"
 #include "kinegraph/geometry/distance/compound_distance.h"
 #include "kinegraph/geometry/distance/convex_distance.h"
 #include "kinegraph/geometry/distance/cylinder_distance.h"
 #include "kinegraph/geometry/distance/grid_distance.h"
+#include "kinegraph/geometry/distance/grid_field.h"
 #include "kinegraph/geometry/distance/half_space_distance.h"
 
 namespace kinegraph {
@@ -147,6 +150,9 @@ double squaredPointToCore(const CollisionBody& body, const RigidTransform& X_WB,
     case Core::cylinder:
       return std::pow(std::max(p.head<2>().norm() - body.coreRadius(), 0.), 2) +
              std::pow(std::max(std::abs(p.z()) - body.halfLength(), 0.), 2);
+    case Core::grid:
+      if (hasCells(body)) return std::pow(body.grid().cells->leastDistance(p), 2);
+      [[fallthrough]];
     default:
       return ((p - body.boundCenter()).cwiseAbs() - body.boundHalf()).cwiseMax(0.).squaredNorm();
   }

@@ -4,6 +4,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/geometry/shapes/cells.h"
 #include "kinegraph/geometry/shapes/convex_hull.h"
 #include "kinegraph/geometry/shapes/isosurface.h"
 #include "kinegraph/geometry/shapes/swept_surfaces.h"
@@ -189,6 +190,11 @@ const ShapeKind kKinds[] = {
     {.type = ShapeType::plane, .name = "plane", .size_names = "x y",
      .core = [](const Geometry&) { return ShapeCore{.form = Form::half_space}; },
      .surface = rectangle},
+    {.type = kCells, .name = "cells", .size_names = "x y z", .data = Data::grid,
+     .core = [](const Geometry& g) {
+       return g.grid && !g.grid->values.empty() ? ShapeCore{.form = Form::grid} : boxCore(g);
+     },
+     .surface = [](const Geometry& g) { return g.grid ? cellsSurface(*g.grid, sides(g.size)) : boxSurface(g); }},
 };
 // clang-format on
 

@@ -1,0 +1,235 @@
+#include "kinegraph/perception/occupancy_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/geometry/distance/proximity.h"
+#include "kinegraph/geometry/shapes/cells.h"
+#include "kinegraph/perception/free_depth.h"
+#include "kinegraph/scene/frame_cells.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kMostCells = 5e7;
+constexpr double kRobotClearance = .02;  // m, space around the robot that is taken to be free
+constexpr double kHalfDiagonal = .8660254037844386;
+constexpr double kDoubtful = .05;  // share of points deep inside of known shapes
+
+/// Whether a point is within a distance (m) of a shape.
+bool isWithin(const KnownShape& shape, const Vector3d& point, double distance) {
+  const CollisionBody& body = *shape.body;
+  const double reach = std::max(body.radius() + distance, 0.), square = squaredPointToCore(body, shape.X_WB, point);
+  if (square > reach * reach) return false;
+  if (body.core() <= CollisionBody::Core::cylinder && square > 0.) return true;  // exact
+  return proximity(*pointBody(), {Matrix3d::Identity(), point}, body, shape.X_WB).distance <= distance;
+}
+
+/// Calls visit(index, middle) for the cells whose middles may be within a distance (m) of a shape.
+template <class Visit>
+void forCellsNear(const OccupancyMap& map, const KnownShape& shape, double distance, const Visit& visit) {
+  const CollisionBody& body = *shape.body;
+  const Vector3d center = shape.X_WB * body.boundCenter();
+  const Vector3d half = (shape.X_WB.R.cwiseAbs() * body.boundHalf()).array() + body.radius() + distance;
+  std::array<int, 3> from, to;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double last = map.counts()[std::size_t(axis)], low = (center[axis] - half[axis] - map.lower()[axis]),
+                 high = (center[axis] + half[axis] - map.lower()[axis]);
+    from[std::size_t(axis)] = int(std::clamp(std::floor(low / map.cell()), 0., last));
+    to[std::size_t(axis)] = int(std::clamp(std::ceil(high / map.cell()), 0., last));
+  }
+  for (int i = from[0]; i < to[0]; ++i) {
+    for (int j = from[1]; j < to[1]; ++j) {
+      const std::size_t row =
+          (std::size_t(i) * std::size_t(map.counts()[1]) + std::size_t(j)) * std::size_t(map.counts()[2]);
+      for (int k = from[2]; k < to[2]; ++k)
+        visit(row + std::size_t(k), Vector3d(map.lower() + map.cell() * Vector3d(i + .5, j + .5, k + .5)));
+    }
+  }
+}
+
+/// The share of some measured points that lie deep inside of shapes that do not move.
+double shareInside(const ObservedView& view, const std::vector<KnownShape>& known) {
+  int inside = 0, all = 0;
+  const double deep = -.015;
+  for (std::size_t i = 0; i < view.depth.size(); i += 97) {
+    if (view.depth[i] <= 0.f) continue;
+    ++all;
+    const Vector3d point = view.point(int(i) / view.width, int(i) % view.width);
+    inside += std::any_of(known.begin(), known.end(), [&](const KnownShape& shape) {
+      return !shape.moves && shape.body->convex() && isWithin(shape, point, deep);
+    });
+  }
+  return all > 0 ? double(inside) / all : 0.;
+}
+
+}  // namespace
+
+Unseen unseenFromName(const std::string& name) {
+  if (name == "blocked") return Unseen::blocked;
+  if (name == "shadows") return Unseen::shadows;
+  if (name == "free") return Unseen::free;
+  throw ValueError(cat("unseen is '", name, "'; expected 'blocked', 'shadows' or 'free'"));
+}
+
+OccupancyMap::OccupancyMap(const Config& config, const Vector3d& lower, const Vector3d& upper, double cell,
+                           const std::vector<std::string>& free)
+    : lower_(lower), cell_(cell) {
+  if (!lower.allFinite() || !upper.allFinite() ||
+      !(upper - lower).cwiseQuotient(Vector3d::Ones()).array().isFinite().all() || (upper - lower).minCoeff() <= 0.)
+    throw ValueError(cat("OccupancyMap: region from (", lower[0], ", ", lower[1], ", ", lower[2], ") to (", upper[0],
+                         ", ", upper[1], ", ", upper[2], ") m; expected finite corners, the second one larger"));
+  if (!(cell > 0.) || !std::isfinite(cell)) throw ValueError(cat("OccupancyMap: cell is ", cell, " m; expected > 0"));
+  const Vector3d counts = ((upper - lower) / cell).array() - 1e-6;
+  if (counts.cwiseMax(2.).prod() > kMostCells)
+    throw ValueError(cat("OccupancyMap: the region has ", counts.prod(), " cells of ", cell,
+                         " m; expected at most 50 million: make the region smaller or the cells larger"));
+  for (int axis = 0; axis < 3; ++axis) count_[std::size_t(axis)] = std::max(int(std::ceil(counts[axis])), 2);
+  states_.assign(std::size_t(count_[0]) * std::size_t(count_[1]) * std::size_t(count_[2]), CellState::unseen);
+  for (const std::string& name : free) {
+    const Frame frame = config.getFrame(name);
+    if (!frame.data().shape) throw ValueError(cat("OccupancyMap: the free frame '", name, "' has no shape"));
+    const KnownShape shape{frame.data().shape->body(), frame.getPose().transform(), frame.id(), false};
+    forCellsNear(*this, shape, 0., [&](std::size_t index, const Vector3d& middle) {
+      if (isWithin(shape, middle, 0.)) states_[index] = CellState::free;
+    });
+  }
+  clearKnown(knownShapes(config, {}));
+}
+
+Vector3d OccupancyMap::middle(std::size_t index) const {
+  const std::size_t z = index % std::size_t(count_[2]), rest = index / std::size_t(count_[2]);
+  return lower_ + cell_ * Vector3d(double(rest / std::size_t(count_[1])) + .5,
+                                   double(rest % std::size_t(count_[1])) + .5, double(z) + .5);
+}
+
+/// Cells that a known shape touches are free but for the shape itself. What was measured close to the robot stays.
+void OccupancyMap::clearKnown(const std::vector<KnownShape>& known) {
+  for (const KnownShape& shape : known) {
+    if (shape.body->core() == CollisionBody::Core::half_space) continue;
+    const double unseen = kHalfDiagonal * cell_ + (shape.moves ? kRobotClearance : 1e-6), occupied = .5 * cell_;
+    forCellsNear(*this, shape, unseen, [&](std::size_t index, const Vector3d& middle) {
+      CellState& state = states_[index];
+      if (state == CellState::free) return;
+      if (isWithin(shape, middle, state == CellState::occupied ? occupied : unseen)) state = CellState::free;
+    });
+  }
+}
+
+std::vector<std::string> OccupancyMap::update(const Config& config, std::span<const DepthView> views,
+                                              const SeenScene& known) {
+  std::vector<std::string> warnings;
+  std::set<int> lost;
+  for (const auto& [name, seen] : known.frames) {
+    if (seen.status == SeenStatus::seen) continue;
+    const int lost_id = config.getFrame(name).id();
+    for (const Frame& frame : config.getFrames()) {
+      for (std::optional<Frame> at = frame; at; at = at->getParent()) {
+        if (at->id() == lost_id) lost.insert(frame.id());
+      }
+    }
+  }
+  std::vector<Pose> cameras;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    views[i].validate(cat("OccupancyMap.update: view ", i));
+    cameras.push_back(views[i].cameraPose(config));
+  }
+  const std::vector<KnownShape> shapes = knownShapes(config, lost);
+  for (std::size_t i = 0; i < views.size(); ++i) addView(views[i], cameras[i], shapes, warnings, cat("view ", i));
+  clearKnown(shapes);
+  return warnings;
+}
+
+void OccupancyMap::addView(const DepthView& given, const Pose& camera, const std::vector<KnownShape>& known,
+                           std::vector<std::string>& warnings, const std::string& name) {
+  const ObservedView view = compareWithKnown(nearestOfFour(given, cell_), camera, known, nullptr);
+  if (std::none_of(view.depth.begin(), view.depth.end(), [](float d) { return d > 0.f; })) {
+    warnings.push_back(cat(name, " has no depth"));
+    return;
+  }
+  if (const double share = shareInside(view, known); share > kDoubtful)
+    warnings.push_back(cat(int(std::lround(100. * share)), " % of the points of ", name,
+                           " lie inside of known shapes; check the camera's pose"));
+  std::vector<std::uint8_t> hits(states_.size(), 0);
+  const Vector3d top = lower_ + cell_ * Vector3d(count_[0], count_[1], count_[2]);
+  for (int row = 0; row < view.height; ++row) {
+    for (int column = 0; column < view.width; ++column) {
+      if (view.pixels[view.index(row, column)] != ObservedView::Pixel::other) continue;
+      const Vector3d p = view.point(row, column), at = (p - lower_) / cell_;
+      if ((p - lower_).minCoeff() < 0. || (top - p).minCoeff() <= 0.) continue;
+      std::uint8_t& count =
+          hits[(std::size_t(at[0]) * std::size_t(count_[1]) + std::size_t(at[1])) * std::size_t(count_[2]) +
+               std::size_t(at[2])];
+      if (count < 255) ++count;
+    }
+  }
+  const FreeDepth depth(view, cell_);
+  const RigidTransform X_CW = view.X_WC.inverse();
+  const Vector3d step = cell_ * X_CW.R.col(2);
+  std::size_t index = 0, in_view = 0;
+  for (int i = 0; i < count_[0]; ++i) {
+    for (int j = 0; j < count_[1]; ++j) {
+      Vector3d p = X_CW * Vector3d(lower_ + cell_ * Vector3d(i + .5, j + .5, .5));
+      for (int k = 0; k < count_[2]; ++k, ++index, p += step) {
+        CellState& state = states_[index];
+        const FreeDepth::Answer answer = depth.ask(p);
+        in_view += answer != FreeDepth::Answer::outside;
+        if (hits[index] >= depth.neededHits(p.z())) {
+          if (hits[index] > 0) state = CellState::occupied;
+        } else if (answer == FreeDepth::Answer::free) {
+          state = CellState::free;
+        } else if (answer == FreeDepth::Answer::behind && state == CellState::unseen) {
+          state = CellState::hidden;
+        }
+      }
+    }
+  }
+  if (in_view == 0) warnings.push_back(cat(name, " shows nothing of the region"));
+}
+
+void OccupancyMap::attach(Config& config, Unseen unseen, const std::string& name) const {
+  Grid grid;
+  grid.cells = count_;
+  grid.values.resize(states_.size());
+  const float of_unseen = unseen == Unseen::blocked ? CellKind::unseen : CellKind::free,
+              of_hidden = unseen == Unseen::free ? CellKind::free : CellKind::unseen;
+  const std::array<float, 4> values = {of_unseen, of_hidden, CellKind::free, CellKind::occupied};
+  for (std::size_t i = 0; i < states_.size(); ++i) grid.values[i] = values[std::size_t(states_[i])];
+  const Vector3d size = cell_ * Vector3d(count_[0], count_[1], count_[2]);
+  const bool exists = config.findFrame(name).has_value();
+  Frame frame = exists ? config.getFrame(name) : config.addFrame(name);
+  if (exists && frame.data().shape && frame.getShapeType() != kCells)
+    throw ValueError(cat("OccupancyMap.attach: frame '", name, "' exists and has another shape; give another name"));
+  setCells(frame, std::move(grid), size);
+  if (!exists) {
+    frame.setPosition(lower_ + .5 * size);
+    frame.setContact(1);
+  }
+}
+
+CellState OccupancyMap::state(const Vector3d& point) const {
+  const Vector3d at = (point - lower_) / cell_;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!(at[axis] >= 0. && at[axis] < count_[std::size_t(axis)])) return CellState::free;
+  }
+  return states_[(std::size_t(at[0]) * std::size_t(count_[1]) + std::size_t(at[1])) * std::size_t(count_[2]) +
+                 std::size_t(at[2])];
+}
+
+void OccupancyMap::setStates(std::vector<CellState> states) {
+  if (states.size() != states_.size())
+    throw ValueError(cat("OccupancyMap: ", states.size(), " states; expected ", states_.size()));
+  states_ = std::move(states);
+}
+
+std::string OccupancyMap::str() const {
+  std::array<std::size_t, 4> counts{};
+  for (const CellState state : states_) ++counts[std::size_t(state)];
+  return cat("OccupancyMap of ", count_[0], " x ", count_[1], " x ", count_[2], " cells of ", cell_, " m: ", counts[2],
+             " free, ", counts[3], " occupied, ", counts[1], " hidden, ", counts[0], " unseen");
+}
+
+}  // namespace kinegraph
