@@ -39,6 +39,7 @@ bool isPatient() { return isatty(STDIN_FILENO) || isOverSsh(); }
 ViewerServer& ConfigViewer::server() {
   if (server_ && !server_->isOurs()) server_.reset();
   if (!server_) {
+    knows_items_ = false;
     server_ = std::make_unique<ViewerServer>(options_);
     server_->onCommand([edits = edits_](const Command& command) { return edits->apply(command); });
     server_->show([&](ShownScene& scene) {
@@ -96,9 +97,27 @@ void ConfigViewer::storeMessage(const std::string& text) {
   if (isOpen()) server_->setMessage(text);
 }
 
-std::string ConfigViewer::recording() {
+std::string ConfigViewer::recording(std::size_t largest) {
   server().setWarnings(edits_->warnings());
-  return server().recording();
+  return server().recording(largest);
+}
+
+ViewerRecording ConfigViewer::record(const std::string& path) {
+  server().startRecording(path);
+  return ViewerRecording(*this);
+}
+
+ViewerRecording::~ViewerRecording() {
+  try {
+    stop();
+  } catch (const Error& error) {
+    logMessage(LogLevel::notice, error.what());
+  }
+}
+
+void ViewerRecording::stop() {
+  if (ConfigViewer* viewer = std::exchange(viewer_, nullptr); viewer && viewer->isOpen())
+    viewer->server().stopRecording();
 }
 
 void ConfigViewer::contentChanged() {
@@ -111,6 +130,7 @@ int ConfigViewer::takeKey() {
 }
 
 void ConfigViewer::close() {
+  if (isOpen()) server_->stopRecording();
   server_.reset();
   remember("");
 }
@@ -119,7 +139,7 @@ void ConfigViewer::update(const Config& config) {
   ViewerServer& to = server();
   items_.read(config);
   to.endMotion();
-  to.update(items_.items());
+  std::exchange(knows_items_, true) ? to.update(items_.items(), items_.changed()) : to.update(items_.items());
   to.setJoints(items_.structure(), items_.joints(), config.getJointState());
   edits_->setScene(config.scene()->snapshot(), items_.structure());
   if (clients() == 0) edits_->forgetMargin();

@@ -3,6 +3,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/scene/config.h"
@@ -11,6 +12,8 @@
 #include "kinegraph/viewer/scene_items.h"
 
 namespace kinegraph {
+
+class ViewerRecording;
 
 /// Shows a configuration in the browser. The server starts, and a browser opens, at the first call that shows
 /// something.
@@ -54,7 +57,13 @@ class ConfigViewer : public ProgrammableViewer {
   void setError(const std::string& text) { server().setError(text); }
   void setTitle(const std::string& text);
   void select(int frame) { server().select(frame); }  ///< shows the card of a frame, with handles to move it
-  std::string recording();                            ///< returns a self-contained HTML page of everything shown
+  /// Returns a self-contained HTML page of everything shown. `largest`: see recordedPage.
+  std::string recording(std::size_t largest = 0);
+  /// Records whatever is shown and logged from now on, until the returned object is stopped or destroyed. The file then
+  /// plays on a page: `kinegraph view run.kgr`. Times are those of a shown simulation, else of the clock; a motion
+  /// takes its duration. Starts the page if necessary. Throws FileError if the file cannot be written, and ValueError
+  /// during another recording of this viewer.
+  [[nodiscard]] ViewerRecording record(const std::string& path);
   void setCamera(const PageCamera& camera) { server().setCamera(camera); }
   std::optional<PageCamera> takeViewpoint() { return isOpen() ? server_->takeViewpoint() : std::nullopt; }
   std::string url() { return server().url(); }
@@ -89,7 +98,23 @@ class ConfigViewer : public ProgrammableViewer {
   bool waits_ = true;
   std::unique_ptr<ViewerServer> server_;
   SceneItems items_;
+  bool knows_items_ = false;  ///< the page has those of the last update
   std::shared_ptr<SceneEdits> edits_ = std::make_shared<SceneEdits>();
+};
+
+/// A running recording of a viewer, which must outlive it. Closing the viewer ends it, too.
+class ViewerRecording {
+ public:
+  explicit ViewerRecording(ConfigViewer& viewer) : viewer_(&viewer) {}
+  ViewerRecording(ViewerRecording&& other) noexcept : viewer_(std::exchange(other.viewer_, nullptr)) {}
+  ViewerRecording& operator=(ViewerRecording&&) = delete;
+  ~ViewerRecording();  ///< stops; logs errors
+
+  /// Ends the recording and writes the file. Throws FileError if that fails. Does nothing at a second call.
+  void stop();
+
+ private:
+  ConfigViewer* viewer_;
 };
 
 /// Returns whether a user may still connect: at a terminal, or over ssh, where the port has to be forwarded first.
