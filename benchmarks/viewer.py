@@ -22,13 +22,16 @@ Figures are worse on a busy machine. Needs Chromium and the package `websockets`
 """
 
 import argparse
+import contextlib
 import gzip
 import os
+import socket
 import statistics
 import subprocess
 import sys
 import threading
 import time
+import urllib.parse
 import urllib.request
 from pathlib import Path
 
@@ -316,6 +319,50 @@ def frames(seconds: float, width: int, height: int) -> None:
     many(seconds, width, height)
 
 
+class CountingSocket(socket.socket):
+    """A connection that counts the received bytes."""
+
+    received = 0
+
+    def recv(self, *arguments: int) -> bytes:
+        data = super().recv(*arguments)
+        self.received += len(data)
+        return data
+
+
+def bytes_to_open(url: str) -> int:
+    """Returns the bytes that a browser receives until it shows the scene: the page and all messages, compressed."""
+    from websockets.sync.client import connect
+
+    page = urllib.request.urlopen(urllib.request.Request(url, headers={"Accept-Encoding": "gzip"})).read()
+    place = urllib.parse.urlsplit(url)
+    tcp = CountingSocket()
+    tcp.connect((place.hostname, place.port))
+    with connect(url.replace("http", "ws"), sock=tcp, max_size=None) as messages:
+        try:
+            while True:
+                messages.recv(2)
+        except TimeoutError:
+            pass
+    return len(page) + tcp.received
+
+
+def sizes() -> None:
+    scenes = {"scenarios/pandaSingle.g": kg.raiPath("scenarios/pandaSingle.g")}
+    with contextlib.suppress(kg.FileError, kg.ArgumentError):  # needs the extra `meshes`
+        scenes["Panda of example-robot-data"] = kg.robotPath("example-robot-data/panda")
+    for name, file in scenes.items():
+        C = kg.Config()
+        C.addFile(file)
+        C.view()
+        viewer = C.viewer()
+        print(
+            f"sizes, {name}: saved page {len(viewer.asHtml()) / 1e3:.0f} kB, in a notebook "
+            f"{len(viewer._repr_html_()) / 1e3:.0f} kB, opening the live page {bytes_to_open(viewer.url) / 1e3:.0f} kB"
+        )
+        C.view_close()
+
+
 def notebook() -> None:
     C = kg.Config()
     C.addFile(kg.raiPath("scenarios/pandaSingle.g"))
@@ -326,11 +373,7 @@ def notebook() -> None:
     for name, shown in {"Panda on its table": C, "Panda alone": meshes}.items():
         viewer = shown.viewer()
         whole, element = viewer.asHtml(), viewer._repr_html_()
-        scripts = element.count("id=&quot;client&quot;"), element.count("THREE.WebGLRenderer")
-        print(
-            f"notebook, {name}: {len(whole) / 1e3:.0f} kB as a page, {len(element) / 1e3:.0f} kB in a notebook; the page's script is in it "
-            f"{scripts[0]} times packed, {scripts[1]} times as it is"
-        )
+        print(f"notebook, {name}: {len(whole) / 1e3:.0f} kB as a page, {len(element) / 1e3:.0f} kB in a notebook")
     print(
         f"notebook, a motion of 90 slices of it: {len(komo._repr_html_()) / 1e3:.0f} kB; a Config: {len(C._repr_html_()) / 1e3:.0f} kB"
     )
@@ -387,7 +430,9 @@ def camera() -> None:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument(
-        "what", nargs="*", default=["bundle", "first", "client", "server", "frames", "notebook", "ik", "camera"]
+        "what",
+        nargs="*",
+        default=["bundle", "first", "client", "server", "frames", "sizes", "notebook", "ik", "camera"],
     )
     parser.add_argument("--seconds", type=float, default=8.0)
     parser.add_argument("--size", default="640x480")
@@ -400,6 +445,7 @@ def main() -> None:
         "client": lambda: client(options.seconds, width, height, not options.no_shadows),
         "server": server,
         "frames": lambda: frames(options.seconds, width, height),
+        "sizes": sizes,
         "notebook": notebook,
         "ik": lambda: dragging(options.seconds, width, height),
         "camera": camera,

@@ -31,6 +31,7 @@ from .errors import ArgumentError, Error, FileError
 from .film import saveFilm
 from .model_paths import raiPath, similarModels
 from .robot_files import robotNames, robotPath
+from .run_player import playRuns
 from .scene_overview import describeActuators, describeScene
 
 _MESHES = (".h5", ".ply", ".obj", ".stl", ".dae", ".glb")
@@ -71,7 +72,9 @@ def _parser() -> argparse.ArgumentParser:
     demo.add_argument("--no-view", action="store_true", help="compute only")
 
     view = commands.add_parser("view", help="show a scene or mesh file in the browser until a key is pressed")
-    view.add_argument("file")
+    view.add_argument("file", help="scene, mesh, or recorded run (.kgr)")
+    view.add_argument("other", nargs="?", help="another recorded run, played beside the first in step")
+    view.add_argument("--html", metavar="HTML", help="write a page of recorded runs instead of showing it")
     view.add_argument("--watch", action="store_true", help="reload the scene whenever the file changes")
 
     render = commands.add_parser("render", help="render a picture of a scene file, without a display")
@@ -432,7 +435,10 @@ def main(arguments: list[str] | None = None) -> int:
             seconds = float("inf") if options.forever else options.seconds
             return 0 if followTarget(seconds, options.rate, options.seed, not options.no_view).worst_error < 1e-3 else 1
         if options.command == "view":
-            _view(options.file, options.watch)
+            if Path(options.file).suffix == ".kgr":
+                playRuns([options.file, *([options.other] if options.other else [])], options.html)
+            else:
+                _view(options.file, options.watch)
         if options.command == "render":
             _render(options)
         if options.command == "info":

@@ -5,8 +5,6 @@ from __future__ import annotations
 import html
 import sys
 
-from .embedded_page import embeddedPage
-
 _HEIGHT = 480  # pixels
 
 
@@ -26,5 +24,5 @@ def showInline(url: str) -> None:
 
 
 def inlineFrame(page: str) -> str:
-    """Returns a page as an element of another one, below 1 MB if possible."""
-    return f'<iframe srcdoc="{html.escape(embeddedPage(page))}" width="100%" height="{_HEIGHT}" style="border: 0"></iframe>'
+    """Returns a page as an element of another one."""
+    return f'<iframe srcdoc="{html.escape(page)}" width="100%" height="{_HEIGHT}" style="border: 0"></iframe>'

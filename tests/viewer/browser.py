@@ -57,6 +57,9 @@ def reason(details: dict[str, Any]) -> str:
     return details.get("exception", {}).get("description", details["text"])
 
 
+HIDE_TOOLS = "for (const x of document.querySelectorAll('#gizmo, #toolbar')) x.style.visibility = '{}'"
+
+
 class Browser:
     """One page. Use as a context manager."""
 
@@ -195,6 +198,10 @@ class Browser:
         return np.frombuffer(base64.b64decode(pixels), np.uint8).reshape(height, -1, 4)[..., :3]
 
     def picture(self) -> np.ndarray:
-        """The page as people see it: rgb bytes, shape (HEIGHT, WIDTH, 3)."""
+        """The page as people see it, without the colored axes in the corner and the toolbar, since tests find shapes by
+        their colors: rgb bytes, shape (HEIGHT, WIDTH, 3)."""
         self.wait_for("kinegraph.idle()")
-        return self.decode(self.call("Page.captureScreenshot", format="png")["data"], HEIGHT)
+        self.evaluate(HIDE_TOOLS.format("hidden"))
+        png = self.call("Page.captureScreenshot", format="png")["data"]
+        self.evaluate(HIDE_TOOLS.format(""))
+        return self.decode(png, HEIGHT)

@@ -10,36 +10,59 @@ namespace {
 
 Outgoing message(const std::string& data, bool binary) { return {std::make_shared<std::string>(data), binary}; }
 
-/// Returns the content of the recording's script element.
+/// Returns the content of the recording's script element; the browser's tests read it.
 std::string recordingOf(const std::vector<Outgoing>& messages) {
   const std::string page = recordedPage(messages), start = "id=\"recording\">";
   const std::size_t first = page.find(start) + start.size();
   return page.substr(first, page.find("</script", first) - first);
 }
 
-}  // namespace
-
-TEST(RecordedPage, IsTheClientWithTheMessagesInside) {
-  EXPECT_EQ(recordingOf({message("{\"a\":1}", false)}), R"([{"text":"{\"a\":1}"}])");
-  const std::string page = recordedPage({});
-  EXPECT_TRUE(page.starts_with("<!doctype html>"));
-  EXPECT_GT(page.size(), clientPage().size());
+Mesh ball(int n) {
+  Mesh mesh;
+  for (int i = 0; i < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      const double a = M_PI * i / (n - 1), b = 2. * M_PI * j / n;
+      mesh.vertices.emplace_back(std::sin(a) * std::cos(b), std::sin(a) * std::sin(b), std::cos(a));
+    }
+  }
+  const auto at = [&](int i, int j) { return std::uint32_t(i * n + j % n); };
+  for (int i = 0; i + 1 < n; ++i) {
+    for (int j = 0; j < n; ++j) {
+      mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      mesh.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  return mesh;
 }
 
-TEST(RecordedPage, HasBytesInBase64) {
-  for (const auto& [bytes, text] :
-       std::vector<std::pair<std::string, std::string>>{{"", ""},
-                                                        {"f", "Zg=="},
-                                                        {"fo", "Zm8="},
-                                                        {"foo", "Zm9v"},
-                                                        {"foob", "Zm9vYg=="},
-                                                        {"fooba", "Zm9vYmE="},
-                                                        {"foobar", "Zm9vYmFy"},
-                                                        {std::string("\xff\0\xfe", 3), "/wD+"}}) {
-    EXPECT_EQ(recordingOf({message(bytes, true)}), "[{\"binary\":\"" + text + "\"}]");  // RFC 4648, section 10
+}  // namespace
+
+TEST(RecordedPage, IsTheClientPacked) {
+  const std::string page = recordedPage(std::vector<Outgoing>{});
+  EXPECT_TRUE(page.starts_with("<!doctype html>"));
+  EXPECT_LT(page.size(), clientPage().size() / 2);
+  EXPECT_EQ(page.find("WebGLRenderer"), std::string::npos);
+}
+
+TEST(RecordedPage, MessagesAreInBase64) {
+  EXPECT_TRUE(recordingOf({message("{\"a\":1}", false)}).starts_with("H4sI"));  // 1f 8b 08: gzip
+  for (std::size_t size = 0; size < 9; ++size) {
+    const std::string text = recordingOf({message(std::string(size, '\xff'), true)});
+    EXPECT_EQ(text.size() % 4, 0u);
+    EXPECT_EQ(text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/="),
+              std::string::npos);
   }
 }
 
-TEST(RecordedPage, NamesCannotEndTheScript) {
-  EXPECT_EQ(recordingOf({message("</script><b>", false)}), R"([{"text":"\u003c/script>\u003cb>"}])");
+TEST(RecordedPage, MeshesGetCoarserUntilThePageIsSmallEnough) {
+  Config config;
+  config.addFrame("ball").setMesh(ball(300));
+  const std::size_t empty = recordedPage(std::vector<Outgoing>{}).size(), whole = recordedScene(config).size();
+  ASSERT_GT(whole, empty + 100000);
+  const std::size_t largest = empty + 50000;
+  const std::string page = recordedScene(config, nullptr, "a ball", nullptr, largest);
+  EXPECT_LE(page.size(), largest);
+  EXPECT_GT(page.size(), empty + 5000);
+  EXPECT_EQ(recordedScene(config, nullptr, "a ball", nullptr, whole + 1000).size(),
+            recordedScene(config, nullptr, "a ball").size());
 }

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstring>
+
+#include "kinegraph/viewer/scene_items.h"
 
 using namespace kinegraph;
 
@@ -48,7 +51,7 @@ std::vector<std::string> kinds(const std::vector<Outgoing>& messages) {
   for (const Outgoing& message : messages) {
     if (message.binary) {
       const auto kind = valueAt<std::uint32_t>(message, 0), number = valueAt<std::uint32_t>(message, 4);
-      out.push_back((kind == 1 ? "poses " : kind == 2 ? "mesh " : "unknown ") + std::to_string(number));
+      out.push_back((kind == 1 ? "poses " : kind == 2 || kind == 9 ? "mesh " : "unknown ") + std::to_string(number));
     } else {
       const std::string start = R"({"kind":")";
       EXPECT_TRUE(message.data->starts_with(start)) << *message.data;
@@ -195,22 +198,30 @@ TEST(ShownScene, AMeshThatComesBackIsSentAgainUnderANewNumber) {
   EXPECT_NE(messages[1].data->find("\"mesh\":1}"), std::string::npos);
 }
 
-TEST(ShownScene, AMeshIsSentAsItsNumbersInABinaryMessage) {
-  auto colored = std::make_shared<Mesh>(*triangle(2.5)->mesh);
-  colored->colors.assign(3, {10, 20, 30, 255});
-  auto geometry = triangle(0.);
-  geometry->mesh = colored;
-  ShownScene scene;
-  scene.update(std::vector{item("rock", geometry)});
-  ShownScene::Seen seen;
-  const auto messages = scene.messagesSince(seen);
-  const Outgoing& mesh = messages[1];
-  ASSERT_EQ(mesh.data->size(), 28u + 3 * 12 + 12 + 12);
-  const std::uint32_t head[] = {2, 0, 3, 1, 3, 0, 0};  // kind, number, vertices, triangles, colors, no texture
-  for (int i = 0; i < 7; ++i) EXPECT_EQ(valueAt<std::uint32_t>(mesh, 4 * i), head[i]) << i;
-  EXPECT_EQ(valueAt<float>(mesh, 28), 2.5f);
-  EXPECT_EQ(valueAt<std::uint32_t>(mesh, 28 + 36 + 8), 2u);
-  EXPECT_EQ(valueAt<std::uint8_t>(mesh, 28 + 36 + 12 + 5), 20);
+TEST(ShownScene, PointsAreSentAsTheirNumbersAndTrianglesPacked) {
+  for (const bool is_surface : {false, true}) {
+    auto colored = std::make_shared<Mesh>(*triangle(2.5)->mesh);
+    colored->colors.assign(3, {10, 20, 30, 255});
+    if (!is_surface) colored->triangles.clear();
+    auto geometry = triangle(0.);
+    geometry->mesh = colored;
+    ShownScene scene;
+    scene.update(std::vector{item("rock", geometry)});
+    ShownScene::Seen seen;
+    const auto messages = scene.messagesSince(seen);
+    const Outgoing& mesh = messages[1];
+    // kind, number, vertices, triangles, colors; no texture or: symbols (three vertices, three edges), references
+    const std::vector<std::uint32_t> head =
+        is_surface ? std::vector<std::uint32_t>{9, 0, 3, 1, 3, 6, 0} : std::vector<std::uint32_t>{2, 0, 3, 0, 3, 0, 0};
+    for (std::size_t i = 0; i < 7; ++i) EXPECT_EQ(valueAt<std::uint32_t>(mesh, 4 * i), head[i]) << i;
+    if (is_surface) {
+      EXPECT_EQ(mesh.data->size(), 44u + 6 + 9 * 3 + 4 * 3);
+    } else {
+      ASSERT_EQ(mesh.data->size(), 28u + 3 * 12 + 12);
+      EXPECT_EQ(valueAt<float>(mesh, 28), 2.5f);
+      EXPECT_EQ(valueAt<std::uint8_t>(mesh, 28 + 36 + 5), 20);
+    }
+  }
 }
 
 TEST(ShownScene, TextsAndCameraAreSentWhenTheyChange) {
@@ -283,4 +294,56 @@ TEST(ShownScene, AMotionHasThePairsThatTouchInEachSlice) {
   const std::string expected = R"("touching":[{"points":[],"distances":[],"names":[]},)"
                                R"({"points":[1,2,3,4,5,6],"distances":[-5E-1],"names":["a - b"]}])";
   EXPECT_NE(messages.at(0).data->find(expected), std::string::npos) << *messages.at(0).data;
+}
+
+TEST(ShownScene, OnlyItemsNamedAsChangedAreReadAgain) {
+  ShownScene scene;
+  std::vector<ViewItem> items{item("world"), item("a"), item("b")};
+  scene.update(items, std::vector<int>{});  // the first update reads all
+  ShownScene::Seen seen;
+  scene.messagesSince(seen);
+  items[1].pose.p.x() = 1.;
+  items[2].pose.p.x() = 2.;
+  EXPECT_TRUE(scene.update(items, std::vector{2}));
+  const auto one = scene.messagesSince(seen);
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_EQ(one[0].data->size(), 8u + 32u);  // b alone
+  EXPECT_FALSE(scene.update(items, std::vector<int>{}));
+  EXPECT_TRUE(scene.update(items));
+  EXPECT_EQ(scene.messagesSince(seen).at(0).data->size(), 8u + 32u);  // a
+}
+
+TEST(ShownScene, AnEditThatTheProgramDoesNotTakeEndsWithTheNextUpdate) {
+  ShownScene scene;
+  const std::vector<ViewItem> items{item("world"), item("a")};
+  scene.update(items);
+  EditedScene edited{{Pose(), Pose()}, VectorXd(), {}};
+  edited.poses[1].p.x() = 1.;
+  scene.setEdited(edited);
+  EXPECT_TRUE(scene.update(items, std::vector<int>{}));
+  ShownScene::Seen seen;
+  const auto messages = scene.messagesSince(seen);
+  float x = 5.f;
+  std::memcpy(&x, messages.at(2).data->data() + 8 + 32 + 4, sizeof x);
+  EXPECT_EQ(x, 0.f);
+}
+
+TEST(SceneItems, OnlyChangesOfTheSceneAreListed) {
+  Config config;
+  config.addFrame("base");
+  Frame arm = config.addFrame("arm", "base");
+  arm.setJoint(JointType::hingeX);
+  config.addFrame("tip", "arm").setRelativePosition({0., 0., 1.});
+  SceneItems items;
+  items.read(config);
+  EXPECT_EQ(items.changed(), (std::vector{0, 1, 2}));
+  items.read(config);
+  EXPECT_TRUE(items.changed().empty());
+  config.setJointState(VectorXd::Constant(1, .5));
+  items.read(config);
+  EXPECT_EQ(items.changed(), (std::vector{1, 2}));
+  EXPECT_EQ(items.items()[2].pose.p, Pose(config.state().pose(2)).p);
+  config.getFrame(0).setName("foot");
+  items.read(config);
+  EXPECT_TRUE(std::count(items.changed().begin(), items.changed().end(), 0));
 }

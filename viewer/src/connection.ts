@@ -37,35 +37,30 @@ export class Connection {
   }
 }
 
-/** Decodes base64 bytes; packed ones are deflated differences of 32-bit words at a distance of `stride`. */
-type Recorded = { text: string } | { binary: string } | { packed: string; bytes: number; stride: number };
-
-const bytesOf = (base64: string): Uint8Array<ArrayBuffer> => Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0));
-
-async function unpack(base64: string, bytes: number, stride: number): Promise<ArrayBuffer> {
-  const stream = new Blob([bytesOf(base64)]).stream().pipeThrough(new DecompressionStream("deflate"));
-  const planes = new Uint8Array(await new Response(stream).arrayBuffer()); // all lowest bytes, then all second ones,
-                                                                           // ...
-  const count = planes.length / 4;
-  const values = new Int32Array(count);
-  for (let i = 0; i < count; ++i) {
-    const code = planes[i]! | (planes[count + i]! << 8) | (planes[2 * count + i]! << 16) | (planes[3 * count + i]! << 24);
-    values[i] = ((code >>> 1) ^ -(code & 1)) + (i < stride ? 0 : values[i - stride]!);
-  }
-  return values.buffer.slice(0, bytes);
+/** Returns the messages embedded in a saved page, which needs no program: compressed, in base64. */
+export function recordedMessages(): string | null {
+  return document.getElementById("recording")?.textContent ?? null;
 }
 
-/** Returns the messages embedded in a saved page, which needs no program. */
-export function recordedMessages(): Recorded[] | null {
-  const text = document.getElementById("recording")?.textContent;
-  return text ? (JSON.parse(text) as Recorded[]) : null;
+/** A message and when it was sent, in s since the start of the recording; a saved scene has only the time 0. */
+export interface Timed {
+  time: number;
+  content: ServerMessage | ArrayBuffer;
 }
 
-export async function replay(recorded: Recorded[], listener: Listener): Promise<void> {
-  listener.opened();
-  for (const entry of recorded) {
-    if ("text" in entry) listener.message(JSON.parse(entry.text) as ServerMessage);
-    else if ("binary" in entry) listener.binary(bytesOf(entry.binary).buffer);
-    else listener.binary(await unpack(entry.packed, entry.bytes, entry.stride));
+export async function readRecording(recording: string): Promise<Timed[]> {
+  const packed = Uint8Array.from(atob(recording), (letter) => letter.charCodeAt(0));
+  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
+  const data = await new Response(stream).arrayBuffer(), view = new DataView(data);
+  const messages: Timed[] = [];
+  let end = 0;
+  for (let at = 0; at < data.byteLength; at = Math.ceil(end / 4) * 4) {
+    end = at + 16 + view.getUint32(at + 12, true);
+    const bytes = data.slice(at + 16, end), isText = view.getUint32(at + 8, true) === 0;
+    messages.push({
+      time: view.getFloat64(at, true),
+      content: isText ? (JSON.parse(new TextDecoder().decode(bytes)) as ServerMessage) : bytes,
+    });
   }
+  return messages;
 }

@@ -1,5 +1,6 @@
 import * as THREE from "three";
 import { CSS2DObject } from "three/addons/renderers/CSS2DRenderer.js";
+import { Cloud, linearColors, spread } from "./clouds";
 import { label } from "./labels";
 import { WideLines } from "./lines";
 import type { DrawMessage } from "./messages";
@@ -40,17 +41,11 @@ function readData(data: ArrayBuffer): Data {
 const colorAt = (colors: Uint8Array, i: number): THREE.Color =>
   new THREE.Color().setRGB(colors[4 * i]! / 255, colors[4 * i + 1]! / 255, colors[4 * i + 2]! / 255, THREE.SRGBColorSpace);
 
-function linearColors({ colors }: Data): Float32Array<ArrayBuffer> {
-  const linear = new Float32Array((3 * colors.length) / 4);
-  for (let i = 0; 4 * i < colors.length; ++i) colorAt(colors, i).toArray(linear, 3 * i);
-  return linear;
-}
-
 /** A geometry with the points at these indices, and their colors if each point has one. */
 function geometryOf(data: Data, indices: number[]): THREE.BufferGeometry {
   const pick = (from: Float32Array): Float32Array<ArrayBuffer> => Float32Array.from(indices.flatMap((i) => [from[3 * i]!, from[3 * i + 1]!, from[3 * i + 2]!]));
   const geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.BufferAttribute(pick(data.points), 3));
-  if (data.colors.length > 4) geometry.setAttribute("color", new THREE.BufferAttribute(pick(linearColors(data)), 3));
+  if (data.colors.length > 4) geometry.setAttribute("color", new THREE.BufferAttribute(pick(linearColors(data.colors)), 3));
   return geometry;
 }
 
@@ -79,9 +74,9 @@ function arrowOf({ size }: DrawMessage, { points, colors }: Data): THREE.Object3
 function cloudOf(message: DrawMessage, data: Data, stage: Stage): THREE.Object3D {
   const geometry = new THREE.BufferGeometry().setAttribute("position", new THREE.BufferAttribute(data.points, 3));
   const own = data.colors.length > 4;
-  if (own) geometry.setAttribute("color", new THREE.BufferAttribute(linearColors(data), 3));
+  if (own) geometry.setAttribute("color", new THREE.BufferAttribute(linearColors(data.colors), 3));
   const material = new THREE.PointsMaterial({ color: own ? 0xffffff : colorAt(data.colors, 0), vertexColors: own, size: SQUARE, sizeAttenuation: false });
-  const cloud = new THREE.Points(geometry, material);
+  const cloud = new Cloud(spread(geometry), material);
   if (message.size === 0) return cloud;
   cloud.onBeforeRender = (renderer, _scene, camera) => {
     const zoom = camera.projectionMatrix.elements[5]!; // heights of half the picture per m (at 1 m)
@@ -131,6 +126,7 @@ export class Drawings {
   ) {
     stage.scene.add(this.group);
     stage.onDraw(() => this.follow());
+    stage.onDraw(() => this.group.traverse((object) => object instanceof Cloud && object.thin(stage.hurries)));
   }
 
   get names(): string[] {

@@ -16,8 +16,10 @@ const KEYS: [string, string][] = [
   ["Alt U, T, J, O", "program, frames, joints, view"],
   ["Alt P", "save a picture"],
   ["Alt R", "measure"],
+  ["Alt F, Alt Q", "everything in the picture; orthographic"],
   ["Ctrl Z, Ctrl Y", "undo, redo edits of joints and frames"],
   ["Alt G, Alt B", "move, rotate the selected frame"],
+  ["Alt E", "pull: drag any link, and the joints follow"],
   ["Space", "play or pause the motion, if there is one; else to the program"],
   ["Alt K", "play or pause the motion, or the simulation"],
   ["← →, Shift wheel", "slice by slice, in a motion"],
@@ -29,7 +31,7 @@ const FINGERS: [string, string][] = [
   ["two fingers", "shift; nearer and farther by spreading them"],
   ["tap", "select a frame"],
   ["two taps", "rotate about that point"],
-  ["≡", "frames, joints, view options, measuring, saving"],
+  ["≡", "frames, joints, view options, measuring, pulling, saving"],
 ];
 
 /** The list of mouse and key commands, or of gestures on machines without a mouse. */

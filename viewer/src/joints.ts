@@ -1,5 +1,6 @@
 import { find, make } from "./element";
-import { type JointMessage, randomJointsCommand, redoCommand, resetJointsCommand, setJointCommand, undoCommand } from "./messages";
+import type { JointEdits, JointState } from "./joint_edits";
+import type { JointMessage, JointsMessage, MovingMessage } from "./messages";
 
 const HALF_TURN = Math.PI; // rad: range to each side of dofs without limits
 const REACH = 1; // m, also for dofs without unit
@@ -9,46 +10,53 @@ interface Row {
   number: HTMLInputElement;
 }
 
-/** The dofs, each with a slider and a number. Changes go to the server, which updates all browsers. */
+/** The dofs, each with a slider and a number. */
 export class JointPanel {
   private structure = 0;
   private joints: JointMessage[] = [];
-  private q: Float64Array<ArrayBufferLike> = new Float64Array();
+  private moving: MovingMessage[] = [];
+  private q: ArrayLike<number> = [];
+  private shown: ArrayLike<number> = []; // at the present time of a motion, or q
   private rows: Row[] = [];
   private readonly list = make("div", { id: "joint-rows" });
   private readonly waiting = new Map<number, number>(); // dof -> value, sent with the next picture
 
-  constructor(private readonly send: (command: Uint8Array<ArrayBuffer>) => void) {
-    const button = (
-      text: string,
-      title: string,
-      command: (structure: number) => Uint8Array<ArrayBuffer>,
-    ): HTMLElement => make("button", { textContent: text, title, onclick: () => send(command(this.structure)) });
+  constructor(private readonly edits: () => JointEdits) {
+    const button = (text: string, title: string, act: (edits: JointEdits) => void): HTMLElement =>
+      make("button", { textContent: text, title, onclick: () => act(edits()) });
     find("tab-joints").append(
       make(
         "div",
         { className: "buttons" },
-        button("reset", "to where the joints are at home", resetJointsCommand),
-        button("random", "anywhere within the limits", randomJointsCommand),
-        button("undo", "the last edit of joints or frames (Ctrl Z)", undoCommand),
-        button("redo", "what was undone (Ctrl Y)", redoCommand),
+        button("reset", "to where the joints are at home", (to) => to.reset()),
+        button("random", "anywhere within the limits", (to) => to.random()),
+        button("undo", "the last edit of joints or frames (Ctrl Z)", (to) => to.undo()),
+        button("redo", "what was undone (Ctrl Y)", (to) => to.redo()),
       ),
       this.list,
     );
   }
 
-  get current(): { structure: number; joints: JointMessage[]; q: ArrayLike<number> } {
-    return { structure: this.structure, joints: this.joints, q: this.q };
+  /** The joint values of the program. */
+  get current(): JointState {
+    return { structure: this.structure, joints: this.joints, moving: this.moving, q: this.q };
+  }
+
+  /** The joint values of the picture, which may show a time of a motion. */
+  get pictured(): JointState {
+    return { ...this.current, q: this.shown };
   }
 
   /** Undoes the last edit of joints or frames, or does it again. */
   undo(again: boolean): void {
-    this.send((again ? redoCommand : undoCommand)(this.structure));
+    if (again) this.edits().redo();
+    else this.edits().undo();
   }
 
-  setJoints(structure: number, joints: JointMessage[]): void {
+  setJoints({ structure, joints, moving }: JointsMessage): void {
     this.structure = structure;
     this.joints = joints;
+    this.moving = moving;
     this.waiting.clear();
     this.rows = joints.map((joint, i) => this.makeRow(joint, i));
     if (joints.length === 0) this.list.replaceChildren("no joints");
@@ -57,6 +65,7 @@ export class JointPanel {
 
   /** Shows joint values of the program, or of one time of a motion. */
   showState(q: ArrayLike<number>): void {
+    this.shown = q;
     this.rows.forEach(({ slider, number }, i) => {
       const value = q[i] ?? 0;
       if (document.activeElement !== slider || !this.waiting.has(i)) slider.value = String(value);
@@ -65,7 +74,7 @@ export class JointPanel {
     });
   }
 
-  setState(q: Float64Array<ArrayBufferLike>): void {
+  setState(q: ArrayLike<number>): void {
     this.q = q;
     this.showState(q);
   }
@@ -120,14 +129,14 @@ export class JointPanel {
     return { slider, number };
   }
 
-  /** Sends at most one command per dof and picture. */
+  /** Makes at most one edit per picture. */
   private request(index: number, value: number): void {
     if (this.waiting.size === 0) requestAnimationFrame(() => this.flush());
     this.waiting.set(index, value);
   }
 
   private flush(): void {
-    for (const [index, value] of this.waiting) this.send(setJointCommand(this.structure, index, value));
+    this.edits().set(new Map(this.waiting));
     this.waiting.clear();
   }
 }

@@ -1,13 +1,16 @@
 import * as THREE from "three";
 import { Controls } from "./controls";
-import { Connection, type Listener, recordedMessages, replay } from "./connection";
+import { Connection, type Listener, readRecording, recordedMessages } from "./connection";
 import { Display, type Option } from "./display";
 import { find, make } from "./element";
 import { Drawings } from "./drawings";
 import { Exports } from "./exports";
+import { Gizmo } from "./gizmo";
 import { Help } from "./help";
 import { Hover } from "./hover";
+import { type JointEdits, OwnEdits, SentEdits } from "./joint_edits";
 import { JointPanel } from "./joints";
+import { Link } from "./link";
 import { keyCode, modifiersOf } from "./keys";
 import { lengthText } from "./lengths";
 import { Measure } from "./measure";
@@ -22,20 +25,25 @@ import {
   type ServerMessage,
   viewpointCommand,
 } from "./messages";
-import { Motion } from "./motion";
+import { Motion, readSlices } from "./motion";
 import { NearLines } from "./near";
 import { Notices } from "./notices";
 import { Warnings } from "./warnings";
 import { requireWebGL } from "./webgl";
 import { Panel } from "./panel";
+import { Companion } from "./companion";
+import { Player } from "./player";
 import { Plots } from "./plots";
+import { Pull } from "./pull";
 import { Quads } from "./quads";
 import { Quality } from "./quality";
 import { Run } from "./run";
+import { Section } from "./section";
 import { Selection } from "./selection";
 import { ShownScene } from "./shown";
 import { Stage } from "./stage";
 import { Timeline } from "./timeline";
+import { Toolbar } from "./toolbar";
 
 const PRESETS: Record<string, [number, number, number]> = {
   front: [1, 0, 0.001],
@@ -51,8 +59,17 @@ const send = (command: Uint8Array<ArrayBuffer>): void => connection?.send(comman
 
 const stage = new Stage(find<HTMLCanvasElement>("canvas"));
 const shown = new ShownScene(stage.frames, stage.scene, () => stage.redraw());
+stage.shapes.push(shown.shared);
 const display = new Display();
-const joints = new JointPanel(send);
+const joints = new JointPanel(() => edits);
+const own = recorded
+  ? new OwnEdits(shown.frames, () => joints.pictured, (q) => {
+      timeline.pause();
+      joints.setState(q);
+      moved();
+    })
+  : null;
+const edits: JointEdits = own ?? new SentEdits(shown.frames, () => joints.current, send);
 const help = new Help();
 const measure = new Measure(stage);
 const memory = new Memory(stage, display);
@@ -70,20 +87,25 @@ const notices = new Notices();
 let hasPlots = false;
 const panel = new Panel(display, shown.frames, switched, (id) => selection.select(id), () => plots.request());
 stage.onDraw(() => shown.prepare((at) => stage.pixelsPerMeter(at), stage.hurries));
-const selection = new Selection(stage, shown.frames, joints, recorded ? null : send, (id) => panel.select(id), (id) => warnings.about(id));
+const selection = new Selection(stage, shown.frames, joints, edits, recorded ? null : send, (id) => panel.select(id), (id) => warnings.about(id));
+new Gizmo(stage);
+new Section(stage);
+const toolbar = new Toolbar(stage);
 new Hover(stage, (id) => shown.frames.get(id)?.message.name ?? "");
 const timeline = new Timeline(stage, shown, joints, moved);
+const pull = new Pull(stage, shown.frames, () => edits, () => !run.isShown && (recorded !== null || timeline.current === null));
 const run = new Run(stage, shown.frames, recorded ? null : send);
 const exports = new Exports(stage, timeline, shown.frames, recorded !== null);
+const link = new Link(stage, timeline);
 let unplaced = false; // the poses of new frames have not arrived yet
 let digits = false; // digit keys toggle parts of the picture
+let cameras = 0; // number of received messages with a camera
 let poses = 0; // number of received messages with poses
 let announced: MotionMessage | null = null; // its slices have not arrived yet
 stage.onSquare((square) => (find("scale").textContent = `grid: ${lengthText(square)}, ${lengthText(square / 5)}`));
 find("presets").append(
   ...Object.keys(PRESETS).map((name) => make("button", { textContent: name, onclick: () => lookFrom(name) })),
 );
-find("tab-joints").classList.toggle("fixed", recorded !== null);
 
 function lookFrom(preset: string): void {
   stage.lookAlong(new THREE.Vector3(...PRESETS[preset]!));
@@ -131,6 +153,7 @@ function receive(message: ServerMessage): void {
   switch (message.kind) {
     case "scene":
       shown.readScene(message);
+      if (link.hasCamera) memory.setCameraGiven();
       if (memory.recall(Array.from(shown.frames.values(), (frame) => frame.message.name))) panel.refreshOptions();
       redisplay();
       unplaced = true;
@@ -155,7 +178,7 @@ function receive(message: ServerMessage): void {
       notices.show(message);
       break;
     case "joints":
-      joints.setJoints(message.structure, message.joints);
+      joints.setJoints(message);
       near.setStructure(message.structure);
       run.perturbation.structure = message.structure;
       warnings.setStructure(message.structure);
@@ -167,7 +190,7 @@ function receive(message: ServerMessage): void {
       break;
     case "camera":
       memory.setCameraGiven();
-      stage.setCamera(message);
+      if (cameras++ > 0 || !link.hasCamera) stage.setCamera(message);
       break;
     case "near":
       near.read(message);
@@ -200,7 +223,9 @@ function receive(message: ServerMessage): void {
 function receiveBinary(data: ArrayBuffer): void {
   const kind = new DataView(data).getUint32(0, true);
   if (kind === BinaryKind.joints) {
-    joints.setState(new Float64Array(data, 8));
+    const q = new Float64Array(data, 8);
+    own?.setHome(q);
+    joints.setState(q);
   } else if (kind === BinaryKind.quad) {
     quads.read(data);
   } else if (kind === BinaryKind.drawing) {
@@ -208,7 +233,8 @@ function receiveBinary(data: ArrayBuffer): void {
   } else if (kind === BinaryKind.samples) {
     plots.readSamples(data);
   } else if (kind === BinaryKind.motion && announced) {
-    timeline.start(new Motion(announced, data));
+    timeline.start(new Motion(announced, readSlices(data)));
+    link.seek();
     exports.refresh();
   } else if (shown.readBinary(data)) {
     if (kind === BinaryKind.poses) ++poses;
@@ -238,7 +264,27 @@ const listener: Listener = {
     find("ended").hidden = false;
   },
 };
-if (recorded) void replay(recorded, listener);
+async function replay(recording: string): Promise<void> {
+  const messages = await readRecording(recording);
+  listener.opened();
+  const seconds = messages.at(-1)?.time ?? 0;
+  if (seconds > 0) {
+    run.isPlayback = true;
+    const player = new Player(messages, {
+      deliver: (content) => (content instanceof ArrayBuffer ? receiveBinary(content) : receive(content)),
+      clearDrawings: () => drawings.clear(),
+    });
+    timeline.onTime((time) => player.apply(time));
+    plots.onSeek = (time) => timeline.showAt(player.timeOfSample(time) / timeline.pace);
+    timeline.start(player.motion);
+    link.seek();
+    exports.refresh();
+    new Companion(stage, timeline);
+  } else {
+    for (const { content } of messages) content instanceof ArrayBuffer ? receiveBinary(content) : receive(content);
+  }
+}
+if (recorded) void replay(recorded);
 else connection = new Connection(listener);
 
 stage.onMove(() => {
@@ -247,7 +293,7 @@ stage.onMove(() => {
 });
 
 stage.onClick((event) => {
-  if (selection.isHeld || input.blocks) return;
+  if (selection.isHeld || input.blocks || pull.isHolding) return;
   const hit = stage.pick(event);
   if (hit) send(clickCommand(hit.id, hit.point.toArray(), hit.normal.toArray()));
   if (measure.on) measure.click(hit);
@@ -272,6 +318,9 @@ function takeAlt(code: string): boolean {
   else if (code === "KeyP") exports.savePicture();
   else if (code === "KeyR") measure.toggle();
   else if (code === "KeyK") timeline.current ? timeline.toggle() : run.toggle();
+  else if (code === "KeyF") toolbar.fit();
+  else if (code === "KeyE") pull.toggle();
+  else if (code === "KeyQ") stage.setOrthographic(!stage.isOrthographic);
   else if (code === "KeyG") selection.toggleHandles("translate");
   else if (code === "KeyB") selection.toggleHandles("rotate");
   else return panel.takeKey(code);
@@ -357,12 +406,29 @@ Object.assign(window, {
     hurry: () => stage.drawHurriedly(),
     triangles: () => stage.renderer.info.render.triangles,
     position: (name: string) => stage.frames.getObjectByName(name)?.position.toArray() ?? null,
+    pose: (name: string) => {
+      const anchor = stage.frames.getObjectByName(name);
+      return anchor ? [...anchor.position.toArray(), anchor.quaternion.w, ...anchor.quaternion.toArray().slice(0, 3)] : null;
+    },
+    reach: (name: string, pose: number[]) => {
+      const [x, y, z, qw, qx, qy, qz] = pose as [number, number, number, number, number, number, number];
+      edits.reach({
+        frame: stage.frames.getObjectByName(name)!.userData.id as number,
+        point: new THREE.Vector3(),
+        target: new THREE.Vector3(x, y, z),
+        rotation: new THREE.Quaternion(qx, qy, qz, qw),
+      });
+      return Array.from(joints.pictured.q);
+    },
     message: () => find("message").textContent,
     error: () => find("error").textContent,
     ended: () => !find("ended").hidden,
     selected: () => (selection.selected === null ? null : shown.frames.get(selection.selected)!.message.name),
     asText: () => selection.asText(),
     joints: () => Array.from(joints.current.q),
+    link: () => link.text,
+    seconds: () => timeline.current?.message.seconds ?? null,
+    target: () => stage.viewpoint.target.toArray(),
     slice: () => (timeline.current ? timeline.slice : null),
     marks: () => timeline.markCount,
     playing: () => timeline.isPlaying,

@@ -1,32 +1,28 @@
 import * as THREE from "three";
+import { Outline } from "./outline";
 import type { Shown } from "./shown";
+import type { Stage } from "./stage";
 
 const COLOR = 0xe03131;
 
-/** Tints the frames of violated constraints red. */
+/** Outlines the frames of violated constraints red. */
 export class Marks {
-  private tinted: THREE.MeshStandardMaterial[] = [];
+  private readonly outline: Outline;
   private marked: readonly number[] = [];
 
-  constructor(private readonly frames: ReadonlyMap<number, Shown>) {}
+  constructor(stage: Stage, private readonly frames: ReadonlyMap<number, Shown>) {
+    this.outline = new Outline(stage, frames, COLOR, 2);
+  }
 
   get count(): number {
-    return this.tinted.length;
+    return this.outline.count;
   }
 
   /** Marks exactly these frames. */
   show(ids: readonly number[]): void {
     if (ids.length === this.marked.length && ids.every((id, i) => id === this.marked[i])) return;
     this.marked = ids;
-    for (const material of this.tinted) material.emissive.setHex(0);
-    this.tinted = [];
-    for (const id of new Set(ids.map((id) => this.visible(id)))) {
-      const object = this.frames.get(id)?.object;
-      if (!(object instanceof THREE.Mesh) || !(object.material instanceof THREE.MeshStandardMaterial)) continue;
-      object.material.emissive.setHex(COLOR);
-      object.material.emissiveIntensity = 0.55;
-      this.tinted.push(object.material);
-    }
+    this.outline.show(ids.map((id) => this.visible(id)));
   }
 
   /** Returns the nearest frame with a shape, from this one upwards. */

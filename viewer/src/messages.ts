@@ -13,6 +13,7 @@ export const BinaryKind = {
   image: 6,
   drawing: 7,
   samples: 8,
+  surface: 9,
 } as const;
 
 export interface ShapeMessage {
@@ -37,6 +38,14 @@ export interface JointMessage {
   unit: string;
   lower: number;
   upper: number;
+}
+
+export interface MovingMessage {
+  frame: number;
+  dof: number;
+  scale: number;
+  steps: string[];
+  axes: number[];
 }
 
 export interface LinesMessage {
@@ -88,6 +97,7 @@ export interface JointsMessage {
   kind: "joints";
   structure: number;
   joints: JointMessage[];
+  moving: MovingMessage[];
 }
 
 export interface TextMessage {

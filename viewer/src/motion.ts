@@ -1,11 +1,43 @@
 import * as THREE from "three";
 import { WideLines } from "./lines";
 import type { MotionMessage } from "./messages";
+import { readDifferences } from "./packed";
 import { materialsOf } from "./shapes";
 import type { Shown } from "./shown";
 
 const GHOSTS = 24; // largest number of slices drawn at once
 const GHOST_OPACITY = 0.28;
+const EARLY = 0x1c7ed6,
+  LATE = 0xf76707; // colors of the first and the last slice
+const TINT = 0.6; // share of them
+
+/** Returns a faint material, tinted by the time from 0 to 1. */
+function ghostOf(material: THREE.Material, part: number): THREE.Material {
+  const ghost = Object.assign(material.clone(), { transparent: true, opacity: GHOST_OPACITY * material.opacity, depthWrite: false });
+  if (ghost instanceof THREE.MeshStandardMaterial) ghost.color.lerp(new THREE.Color(EARLY).lerp(new THREE.Color(LATE), part), TINT);
+  return ghost;
+}
+
+/** Numbers of a motion, slice after slice. */
+export interface Slices {
+  slices: number;
+  frames: number;
+  dofs: number;
+  poses: Float32Array; // per frame x y z, w x y z
+  q: Float32Array;
+}
+
+/** Reads the slices of a message. */
+export function readSlices(data: ArrayBuffer): Slices {
+  const view = new DataView(data);
+  const [slices, frames, dofs] = [4, 8, 12].map((at) => view.getUint32(at, true)) as [number, number, number];
+  const poses = 7 * slices * frames;
+  return {
+    slices, frames, dofs,
+    poses: readDifferences(data, 16, poses, 7 * frames),
+    q: readDifferences(data, 16 + 4 * poses, slices * dofs, dofs),
+  };
+}
 
 /** The slices of a motion: poses of all frames and joint values. */
 export class Motion {
@@ -19,16 +51,9 @@ export class Motion {
 
   constructor(
     readonly message: MotionMessage,
-    data: ArrayBuffer,
+    { slices, frames, dofs, poses, q }: Slices,
   ) {
-    const view = new DataView(data);
-    [this.slices, this.frames, this.dofs] = [4, 8, 12].map((at) => view.getUint32(at, true)) as [
-      number,
-      number,
-      number,
-    ];
-    this.poses = new Float32Array(data, 16, 7 * this.slices * this.frames);
-    this.q = new Float32Array(data, 16 + this.poses.byteLength, this.slices * this.dofs);
+    [this.slices, this.frames, this.dofs, this.poses, this.q] = [slices, frames, dofs, poses, q];
   }
 
   /** Sets an object to a frame's pose at a time, which may lie between two slices. */
@@ -59,18 +84,18 @@ export class Motion {
     return Float32Array.from({ length: this.slices }, (_, t) => this.q[t * this.dofs + dof]!);
   }
 
-  /** Returns copies of the moving shapes in slices spread over the motion. They share the frames' geometries. */
+  /** Returns copies of the moving shapes in slices spread over the motion, from blue to orange. They share the frames'
+   * geometries. */
   ghosts(frames: ReadonlyMap<number, Shown>): THREE.Group {
     const group = new THREE.Group();
     const count = Math.min(this.slices, GHOSTS);
     for (const [id, { object }] of frames) {
       if (!(object instanceof THREE.Mesh) || object instanceof WideLines || !object.visible || !this.moves(id)) continue;
-      const faint = materialsOf(object).map((material) =>
-        Object.assign(material.clone(), { transparent: true, opacity: GHOST_OPACITY * material.opacity, depthWrite: false }));
-      const material = faint.length > 1 ? faint : faint[0]!;
       for (let i = 0; i < count; ++i) {
-        const ghost = new THREE.Mesh(object.geometry, material);
-        this.place(ghost, id, count === 1 ? 0 : (i * (this.slices - 1)) / (count - 1));
+        const part = count === 1 ? 0 : i / (count - 1);
+        const faint = materialsOf(object).map((material) => ghostOf(material, part));
+        const ghost = new THREE.Mesh(object.geometry, faint.length > 1 ? faint : faint[0]!);
+        this.place(ghost, id, part * (this.slices - 1));
         group.add(ghost);
       }
     }

@@ -83,6 +83,24 @@ const TOLERANCE = 1e-3; // of constraints: larger violations count
 
 export const isViolated = (violation: number | undefined): boolean => (violation ?? 0) > TOLERANCE;
 
+/** Shows the values of an objective per slice: darker where they are larger, on a logarithmic scale. Violated
+ * constraints are red. */
+export function drawLane(canvas: HTMLCanvasElement, values: readonly number[], isConstraint: boolean, part: number): void {
+  const context = prepare(canvas);
+  if (!context) return;
+  const { clientWidth: width, clientHeight: height } = canvas;
+  const step = width / Math.max(values.length, 1);
+  values.forEach((value, t) => {
+    if (!(value > SMALLEST)) return;
+    context.fillStyle = isConstraint && isViolated(value) ? "#e03131" : "#2f6fde";
+    context.globalAlpha = Math.max(0.08, Math.min(1, 1 + Math.log10(value) / 6));
+    context.fillRect(t * step, 0, Math.max(step, 1), height);
+  });
+  context.globalAlpha = 0.7;
+  context.fillStyle = getComputedStyle(canvas).color;
+  context.fillRect(part * (width - 1), 0, 1, height);
+}
+
 /** Shows constraint violations in red, with a strength that increases with the violation. */
 export function drawViolations(canvas: HTMLCanvasElement, violations: number[], slices: number): void {
   const context = prepare(canvas);

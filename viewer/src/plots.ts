@@ -24,6 +24,8 @@ export class Plots {
   private readonly plots = new Map<number, Plot>();
   private readonly root = make("div", { className: "logged" });
   private waiting = false;
+  /** Called with the time at which a user clicks, s. */
+  onSeek: (time: number) => void = () => {};
 
   constructor() {
     find("tab-program").append(this.root);
@@ -109,7 +111,7 @@ export class Plots {
   private make({ message, element }: Plot, width: number): uPlot {
     const ink = getComputedStyle(document.body).color;
     const axis = { stroke: ink, font: "10px system-ui", grid: { stroke: "rgba(128,128,128,.2)", width: 1 }, ticks: { show: false } };
-    return new uPlot(
+    const chart = new uPlot(
       {
         width,
         height: HEIGHT,
@@ -131,5 +133,9 @@ export class Plots {
       [[]] as unknown as uPlot.AlignedData,
       element,
     );
+    chart.over.addEventListener("click", () => {
+      if (chart.cursor.left !== undefined && chart.cursor.left >= 0) this.onSeek(chart.posToVal(chart.cursor.left, "x"));
+    });
+    return chart;
   }
 }

@@ -14,6 +14,7 @@ export class Run {
   readonly perturbation: PerturbationTool;
   private message: RunMessage | null = null;
   private motionIsShown = false;
+  isPlayback = false; // of a recording, which has a time slider of its own
   private readonly root = find("run");
   private readonly playButton = make("button", { className: "play", onclick: () => this.toggle() });
   private readonly perturbButton = make("button", {
@@ -92,8 +93,8 @@ export class Run {
 
   private draw(): void {
     const { message } = this;
-    this.root.hidden = !this.isShown;
-    document.body.classList.toggle("has-run", this.isShown);
+    this.root.hidden = !this.isShown || this.isPlayback;
+    document.body.classList.toggle("has-run", !this.root.hidden);
     if (!message || this.motionIsShown) {
       this.arrows.group.visible = false;
       this.perturbation.show([]);

@@ -1,14 +1,15 @@
 import * as THREE from "three";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
 import { find, make } from "./element";
+import type { JointEdits } from "./joint_edits";
 import type { JointPanel } from "./joints";
 import { moveFrameCommand } from "./messages";
-import { materialsOf } from "./shapes";
+import { Outline } from "./outline";
 import type { Shown } from "./shown";
 import type { Stage } from "./stage";
 
 const HIGHLIGHT = 0x2f6fde;
-type Handles = "translate" | "rotate" | null;
+type Handles = "translate" | "rotate" | "pull" | null;
 
 const numbers = (values: number[], digits: number): string =>
   values.map((x) => (Math.abs(x) < 0.5 * 10 ** -digits ? 0 : x).toFixed(digits)).join(" ");
@@ -31,13 +32,13 @@ interface Placement {
 
 const wxyz = (q: THREE.Quaternion): number[] => (q.w < 0 ? [-q.w, -q.x, -q.y, -q.z] : [q.w, q.x, q.y, q.z]);
 
-/** The selected frame: its card, a tint, and handles to move it. */
+/** The selected frame: its card, an outline, and handles to move it. */
 export class Selection {
   private id: number | null = null;
   private handles: Handles = null;
   private readonly card = find("card");
   private readonly axes = new THREE.AxesHelper(0.15);
-  private tinted: THREE.MeshStandardMaterial[] = [];
+  private readonly outline: Outline;
   private readonly grip = new THREE.Object3D();
   private readonly controls: TransformControls;
   private moved = false;
@@ -46,10 +47,12 @@ export class Selection {
     private readonly stage: Stage,
     private readonly frames: ReadonlyMap<number, Shown>,
     private readonly joints: JointPanel,
+    private readonly edits: JointEdits,
     private readonly send: ((command: Uint8Array<ArrayBuffer>) => void) | null,
     private readonly onSelect: (id: number | null) => void,
     private readonly warningOf: (id: number) => string,
   ) {
+    this.outline = new Outline(stage, frames, HIGHLIGHT, 1);
     this.controls = new TransformControls(stage.camera, stage.canvas);
     this.controls.size = 0.8;
     this.controls.addEventListener("change", () => stage.redraw());
@@ -90,7 +93,7 @@ export class Selection {
     this.highlight();
     if (this.handles) {
       this.controls.attach(this.grip);
-      this.controls.setMode(this.handles);
+      this.controls.setMode(this.handles === "pull" ? "translate" : this.handles);
     } else {
       this.controls.detach();
     }
@@ -142,24 +145,24 @@ export class Selection {
     };
   }
 
-  /** Tints the shape (a shape with handles keeps its color), and draws the frame's axes over everything. */
+  /** Outlines the shape, and draws the frame's axes over everything. */
   private highlight(): void {
-    for (const material of this.tinted) material.emissive.setHex(0);
-    this.tinted = [];
-    const shown = this.shown();
-    this.axes.visible = shown !== undefined;
-    if (this.handles || !(shown?.object instanceof THREE.Mesh)) return;
-    this.tinted = materialsOf(shown.object).filter((material) => material instanceof THREE.MeshStandardMaterial);
-    for (const material of this.tinted) {
-      material.emissive.setHex(HIGHLIGHT);
-      material.emissiveIntensity = 0.28;
-    }
+    this.axes.visible = this.id !== null;
+    this.outline.show(this.id === null ? [] : [this.id]);
+  }
+
+  /** The card is where the frame is not: on the other side, or at the other end of narrow pages. */
+  private avoid(shown: Shown): void {
+    const { x, y } = shown.anchor.position.clone().project(this.stage.camera);
+    const isNarrow = matchMedia("(max-width: 560px)").matches;
+    this.card.classList.toggle("aside", isNarrow ? y < 0 : x < 0);
   }
 
   private showCard(): void {
     const shown = this.shown();
     this.card.hidden = !shown;
     if (!shown) return;
+    this.avoid(shown);
     const { name, parent, details } = shown.message;
     const above = this.frames.get(parent)?.message.name;
     const row = (label: string, ...value: (Node | string)[]): Node[] => [
@@ -204,6 +207,7 @@ export class Selection {
         "div",
         { className: "buttons" },
         ...(this.send ? [handle("translate", "move"), handle("rotate", "turn")] : []),
+        ...(this.edits.movesFrame(shown.message.id) ? [handle("pull", "pull")] : []),
         copy,
       ),
     );
@@ -221,7 +225,8 @@ export class Selection {
   }
 
   toggleHandles(handles: Handles): void {
-    if (this.send) this.setHandles(this.handles === handles ? null : handles);
+    if (handles === "pull" ? this.id !== null && this.edits.movesFrame(this.id) : this.send)
+      this.setHandles(this.handles === handles ? null : handles);
   }
 
   private setHandles(handles: Handles): void {
@@ -239,10 +244,15 @@ export class Selection {
     setTimeout(() => (button.textContent = "copy as .g"), 1500);
   }
 
-  /** Sends at most one command per picture. */
+  /** Makes at most one edit per picture. With the handles to pull, the frame keeps its rotation if it can. */
   private sendMove(): void {
-    if (!this.moved || this.id === null || !this.send) return;
+    if (!this.moved || this.id === null) return;
     this.moved = false;
+    if (this.handles === "pull") {
+      const { position, quaternion } = this.grip;
+      return this.edits.reach({ frame: this.id, point: new THREE.Vector3(), target: position.clone(), rotation: quaternion.clone() });
+    }
+    if (!this.send) return;
     this.send(
       moveFrameCommand(this.joints.current.structure, this.id, [
         ...this.grip.position.toArray(),

@@ -1,5 +1,6 @@
 import * as THREE from "three";
 import { mergeGeometries } from "three/addons/utils/BufferGeometryUtils.js";
+import { Cloud, linearColors, spread } from "./clouds";
 import { creased } from "./creased";
 import { WideLines } from "./lines";
 import { LevelMesh, Levels } from "./meshes";
@@ -30,13 +31,7 @@ export function makeMeshData(positions: Float32Array, indices: Uint32Array, plac
   const vertices = positions.length / 3;
   const hasColors = vertices > 0 && colors.length === 4 * vertices;
   if (hasColors) {
-    const linear = new Float32Array(3 * vertices);
-    const color = new THREE.Color();
-    for (let i = 0; i < vertices; ++i) {
-      color.setRGB(colors[4 * i]! / 255, colors[4 * i + 1]! / 255, colors[4 * i + 2]! / 255, THREE.SRGBColorSpace);
-      color.toArray(linear, 3 * i);
-    }
-    geometry.setAttribute("color", new THREE.BufferAttribute(linear, 3));
+    geometry.setAttribute("color", new THREE.BufferAttribute(linearColors(colors), 3));
   }
   if (textured.length > 0) geometry.setAttribute("uv", new THREE.BufferAttribute(places, 2));
   const isPoints = indices.length === 0;
@@ -98,7 +93,7 @@ export function makeShape(shape: ShapeMessage, meshes: Map<number, MeshData>, pi
   const data = shape.mesh >= 0 ? meshes.get(shape.mesh) : undefined;
   if (data?.isPoints) {
     if (shape.type === "lines") return new WideLines(data.geometry, color, alpha);
-    return new THREE.Points(data.geometry, new THREE.PointsMaterial({ size: 4, sizeAttenuation: false, color: data.hasColors ? 0xffffff : color, vertexColors: data.hasColors }));
+    return new Cloud(spread(data.geometry), new THREE.PointsMaterial({ size: 4, sizeAttenuation: false, color: data.hasColors ? 0xffffff : color, vertexColors: data.hasColors }));
   }
   const transparent = alpha < 1;
   const material = new THREE.MeshStandardMaterial({

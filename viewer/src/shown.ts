@@ -1,7 +1,9 @@
 import * as THREE from "three";
 import { BinaryKind, type FrameMessage, type SceneMessage } from "./messages";
+import { Cloud } from "./clouds";
 import { Instances } from "./instances";
 import { deadline, LevelMesh } from "./meshes";
+import { readSurface } from "./packed";
 import { Pictures, type TexturedTriangles } from "./pictures";
 import { PrimitiveMesh, Primitives } from "./primitives";
 import { makeMeshData, makeShape, materialsOf, type MeshData, SURFACE } from "./shapes";
@@ -37,11 +39,13 @@ export class ShownScene {
   private readonly instances = new Instances(new THREE.MeshStandardMaterial(SURFACE));
 
   readonly pictures: Pictures;
+  readonly shared: THREE.Object3D; // shapes of several frames that are drawn together
 
   /** Frames are added to `parent`, and objects shared by several frames to `scene`. `changed` is called when images
    * that arrive later change the picture. */
   constructor(private readonly parent: THREE.Group, scene: THREE.Scene, changed: () => void) {
     scene.add(this.instances.group);
+    this.shared = this.instances.group;
     this.pictures = new Pictures(changed);
   }
 
@@ -77,6 +81,7 @@ export class ShownScene {
     const kind = view.getUint32(0, true);
     if (kind === BinaryKind.poses) this.readPoses(view);
     else if (kind === BinaryKind.mesh) this.readMesh(data, view);
+    else if (kind === BinaryKind.surface) this.readSurface(data);
     else if (kind === BinaryKind.image) this.pictures.read(data);
     else return false;
     return true;
@@ -92,6 +97,7 @@ export class ShownScene {
     const until = deadline();
     for (const { object } of this.shown.values()) {
       if (object instanceof PrimitiveMesh) object.refine(pixelsPerMeter);
+      else if (object instanceof Cloud) object.thin(quickly);
       else if (object instanceof LevelMesh) object.refine(pixelsPerMeter, quickly, until);
     }
     this.instances.update(this.primitiveMeshes());
@@ -123,6 +129,11 @@ export class ShownScene {
     const positions = floats(3 * vertices), indices = words(3 * triangles), uv = floats(2 * places), list = words(3 * textured);
     const shown = Array.from({ length: textured }, (_, i): TexturedTriangles => [list[3 * i]!, list[3 * i + 1]!, list[3 * i + 2]!]);
     this.meshes.set(index, makeMeshData(positions, indices, uv, shown, new Uint8Array(data, at, 4 * colors)));
+  }
+
+  private readSurface(data: ArrayBuffer): void {
+    const { number, positions, indices, colors } = readSurface(data);
+    this.meshes.set(number, makeMeshData(positions, indices, new Float32Array(), [], colors));
   }
 
   private place(id: number): void {

@@ -74,12 +74,16 @@ export class Stage {
   private picture = 0;
   private ball = new THREE.Sphere(new THREE.Vector3(), 1); // around everything visible
   private isPlaced = false; // the program or a user has set the camera
+  cut: THREE.Plane | null = null; // points behind it are not seen
+  /** Groups with the shapes of the scene. */
+  readonly shapes: THREE.Object3D[] = [this.frames];
   private square = 0; // m, size of the floor's squares
 
   constructor(readonly canvas: HTMLCanvasElement) {
     const software = drawsInSoftware();
     this.quality = new Quality(software);
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !software });
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !software, stencil: true });
+    this.renderer.localClippingEnabled = true;
     this.renderer.shadowMap.enabled = true;
     this.renderer.shadowMap.autoUpdate = false;
     this.renderer.shadowMap.type = THREE.PCFShadowMap;
@@ -99,7 +103,7 @@ export class Stage {
     this.scene.add(this.frames, this.floor.group);
     this.viewpoint.set(FIRST_VIEW);
     this.fitScene();
-    addEventListener("resize", () => this.resize());
+    new ResizeObserver(() => this.resize()).observe(canvas);
     matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => this.paper());
     canvas.addEventListener("dblclick", (event) => this.focus(event));
     this.onClick((event) => this.focus(event), RIGHT);
@@ -175,6 +179,11 @@ export class Stage {
     return corners.length > 0 ? corners : [new THREE.Vector3(-1, -1, 0), new THREE.Vector3(1, 1, 1)];
   }
 
+  /** Returns a box around everything visible. */
+  bounds(): THREE.Box3 {
+    return new THREE.Box3().setFromPoints(this.corners());
+  }
+
   /** Marks the camera as set: new frames do not move it. */
   keepCamera(): void {
     this.isPlaced = true;
@@ -211,6 +220,16 @@ export class Stage {
   /** Registers a listener of the floor's square size, in m. */
   onSquare(listener: (square: number) => void): void {
     this.squareListeners.push(listener);
+  }
+
+  get isOrthographic(): boolean {
+    return this.viewpoint.isOrthographic;
+  }
+
+  /** Switches between a perspective picture and one in which parallel lines stay parallel. */
+  setOrthographic(on: boolean): void {
+    this.viewpoint.setOrthographic(on);
+    this.redraw();
   }
 
   home(): void {
@@ -260,7 +279,7 @@ export class Stage {
     ray.setFromCamera(at, this.camera);
     const hit = ray
       .intersectObject(this.frames, true)
-      .find(({ object }) => object instanceof THREE.Mesh && isSeen(object));
+      .find(({ object, point }) => object instanceof THREE.Mesh && isSeen(object) && !(this.cut && this.cut.distanceToPoint(point) < 0));
     for (let object = hit?.object ?? null; object; object = object.parent) {
       if (typeof object.userData.id === "number")
         return {
@@ -286,6 +305,7 @@ export class Stage {
   private paper(): void {
     const color = this.ground ?? getComputedStyle(document.documentElement).getPropertyValue("--paper").trim();
     this.scene.background = new THREE.Color(color);
+    document.body.style.background = this.ground ? `#${this.ground.getHexString(THREE.SRGBColorSpace)}` : "";
     this.floor.setPaper(this.scene.background);
     this.scene.fog = new THREE.Fog(color, FOG_FROM, FOG_TO);
     this.redraw();
@@ -296,6 +316,7 @@ export class Stage {
     this.renderer.setSize(width, height, false);
     this.labels.setSize(width, height);
     this.viewpoint.fit(width / Math.max(height, 1));
+    if (!this.isPlaced) this.fitScene();
     this.redraw();
   }
 

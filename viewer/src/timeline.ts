@@ -1,16 +1,19 @@
 import * as THREE from "three";
 import { find, leaveRoomAbove, make } from "./element";
 import type { JointPanel } from "./joints";
+import { Lanes } from "./lanes";
 import { Marks } from "./marks";
 import type { LinesMessage } from "./messages";
 import { Motion } from "./motion";
 import { PairLines } from "./pairs";
 import { colorOf, type Curve, drawCurves, drawViolations, isViolated } from "./plot";
+import { scrub } from "./scrub";
 import { materialsOf } from "./shapes";
 import type { ShownScene } from "./shown";
 import type { Stage } from "./stage";
 
-type Plotted = "joints" | "errors" | null;
+type Plotted = "joints" | "errors" | "lanes" | null;
+const PLOTTED = ["joints", "errors", "lanes"] as const;
 const NOWHERE: LinesMessage = { points: [], distances: [], names: [] };
 const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
@@ -24,12 +27,13 @@ export class Timeline {
   private ghosts: THREE.Group | null = null;
   private plotted: Plotted = null;
   private curvesShown: Curve[] = [];
+  private readonly timeListeners: ((seconds: number) => void)[] = [];
   private readonly marked: Marks;
   private readonly touching: PairLines;
   private readonly root = find("motion");
   private readonly playButton = make("button", { className: "play", ariaLabel: "play", onclick: () => this.toggle() });
   private readonly slider = make("input", { type: "range", min: "0", step: "any", ariaLabel: "time" });
-  private readonly time = make("output");
+  private readonly clock = make("output");
   private readonly text = make("pre", { className: "slice-text" });
   private readonly marks = make("canvas", { className: "marks" });
   private readonly curves = make("canvas", { className: "curves" });
@@ -44,8 +48,15 @@ export class Timeline {
       type: "checkbox",
       onchange: () => this.setPlotted(this.plotBoxes.errors.checked ? "errors" : null),
     }),
+    lanes: make("input", {
+      type: "checkbox",
+      onchange: () => this.setPlotted(this.plotBoxes.lanes.checked ? "lanes" : null),
+    }),
   };
   private readonly errorsLabel = make("label", {}, this.plotBoxes.errors, "errors");
+  private readonly lanesLabel = make("label", {}, this.plotBoxes.lanes, "objectives");
+  private readonly readout = make("output", { className: "readout" });
+  private readonly lanes = new Lanes((part) => this.seek(part), (text) => this.say(text));
   private readonly ghostBox = make("input", {
     type: "checkbox",
     onchange: () => this.showGhosts(this.ghostBox.checked),
@@ -64,10 +75,11 @@ export class Timeline {
     );
     speed.addEventListener("change", () => (this.speed = Number(speed.value)));
     const loopBox = make("input", { type: "checkbox", onchange: () => (this.loop = loopBox.checked) });
-    this.marked = new Marks(shown.frames);
+    this.marked = new Marks(stage, shown.frames);
     this.touching = new PairLines(stage, true);
     this.slider.addEventListener("input", () => this.goTo(this.slider.valueAsNumber));
-    this.plot.append(this.curves, this.legend);
+    this.plot.append(this.lanes.root, this.curves, this.legend, this.readout);
+    scrub(this.curves, (part) => this.seek(part), (part) => this.say(part === null ? "" : this.valuesAt(part)));
     this.root.append(
       this.text,
       this.plot,
@@ -76,12 +88,13 @@ export class Timeline {
         { className: "transport" },
         this.playButton,
         make("div", { className: "track" }, this.marks, this.slider),
-        this.time,
+        this.clock,
         speed,
         make("label", {}, loopBox, "loop"),
         make("label", {}, this.ghostBox, "all slices"),
         make("label", {}, this.plotBoxes.joints, "curves"),
         this.errorsLabel,
+        this.lanesLabel,
       ),
     );
     stage.onTick((seconds) => this.advance(seconds));
@@ -128,8 +141,9 @@ export class Timeline {
     this.root.hidden = false;
     document.body.classList.add("has-motion");
     this.slider.max = String(motion.slices - 1);
-    this.errorsLabel.hidden = motion.message.traces.length === 0;
-    this.setPlotted(this.plotted === "errors" && this.errorsLabel.hidden ? null : this.plotted);
+    this.errorsLabel.hidden = this.lanesLabel.hidden = motion.message.traces.length === 0;
+    this.lanes.show(motion.message.traces);
+    this.setPlotted(this.plotted !== "joints" && this.errorsLabel.hidden ? null : this.plotted);
     const { start, first } = motion.message;
     this.showGhosts(start === "all");
     this.setPlaying(start === "play");
@@ -166,6 +180,21 @@ export class Timeline {
     this.setPlaying(!this.playing);
   }
 
+  pause(): void {
+    this.setPlaying(false);
+  }
+
+  /** Time of the picture since the motion's start, s. */
+  get time(): number {
+    if (!this.motion) return 0;
+    return (this.moment / Math.max(this.motion.slices - 1, 1)) * this.motion.message.seconds;
+  }
+
+  /** Seconds of the motion per second. */
+  get pace(): number {
+    return this.speed;
+  }
+
   /** Duration at the chosen speed, s. */
   get seconds(): number {
     return this.motion ? this.motion.message.seconds / this.speed : 0;
@@ -178,13 +207,38 @@ export class Timeline {
     this.goTo((seconds / Math.max(this.seconds, 1e-3)) * (this.motion.slices - 1));
   }
 
+  /** Registers a listener of times of the motion, s. It is called before frames move. */
+  onTime(listener: (seconds: number) => void): void {
+    this.timeListeners.push(listener);
+  }
+
   goTo(moment: number): void {
     if (!this.motion) return;
     this.moment = Math.max(0, Math.min(moment, this.motion.slices - 1));
+    for (const listener of this.timeListeners) listener(this.time);
     for (const [id, { anchor }] of this.shown.frames) this.motion.place(anchor, id, this.moment);
     if (this.motion.dofs > 0) this.joints.showState(this.motion.state(this.moment));
     this.draw();
     this.moved();
+  }
+
+  /** Goes to a part of the motion, 0 to 1. */
+  private seek(part: number): void {
+    if (!this.motion) return;
+    this.setPlaying(false);
+    this.goTo(part * (this.motion.slices - 1));
+  }
+
+  private say(text: string): void {
+    this.readout.textContent = text || "\u00a0";
+  }
+
+  private valuesAt(part: number): string {
+    if (!this.motion) return "";
+    const slice = Math.round(part * (this.motion.slices - 1)), { joints } = this.joints.current;
+    const unit = (i: number): string => (this.plotted === "joints" ? ` ${joints[i]?.unit ?? ""}` : "");
+    const values = this.curvesShown.map(({ name, values: all }, i) => `${name} ${Number((all[slice] ?? 0).toPrecision(3))}${unit(i)}`);
+    return `slice ${slice - this.motion.message.prefix}: ${values.join(", ")}`;
   }
 
   private step(by: number): void {
@@ -224,7 +278,10 @@ export class Timeline {
 
   private setPlotted(plotted: Plotted): void {
     this.plotted = plotted;
-    for (const kind of ["joints", "errors"] as const) this.plotBoxes[kind].checked = kind === plotted;
+    for (const kind of PLOTTED) this.plotBoxes[kind].checked = kind === plotted;
+    this.lanes.root.hidden = plotted !== "lanes";
+    this.curves.hidden = this.legend.hidden = plotted === "lanes";
+    this.say("");
     this.plot.hidden = plotted === null;
     this.curvesShown = this.motion ? this.curvesOf(this.motion) : [];
     this.legend.replaceChildren(
@@ -252,13 +309,14 @@ export class Timeline {
     const number = slice - message.prefix,
       highest = slices - 1 - message.prefix;
     this.slider.ariaValueText = `slice ${number} of ${highest}`;
-    this.time.textContent = `${number}/${highest}   ${((this.moment / last) * message.seconds).toFixed(2)} s`;
+    this.clock.textContent = `${number}/${highest}   ${((this.moment / last) * message.seconds).toFixed(2)} s`;
     const text = message.texts[slice] ?? "";
     this.text.textContent = text;
     this.text.hidden = text === "";
     this.text.classList.toggle("violated", isViolated(message.violations[slice]));
     drawViolations(this.marks, message.violations, slices);
-    if (!this.plot.hidden) drawCurves(this.curves, this.curvesShown, this.moment, this.plotted === "errors");
+    this.lanes.draw(this.moment / last);
+    if (!this.curves.hidden && !this.plot.hidden) drawCurves(this.curves, this.curvesShown, this.moment, this.plotted === "errors");
     this.marked.show(message.marked[slice] ?? []);
     this.touching.show(message.touching[slice] ?? NOWHERE);
   }

@@ -40,6 +40,7 @@ export class Viewpoint {
   private height = 0; // height of an orthographic picture, m; 0: perspective
   private aspect = 0; // width over height of the picture that must fit; 0: none
   private pageAspect = 1;
+  private wideness = 0; // aspect of the page when the camera was set: what was seen stays in the picture
   private reach = 0; // m
   private first: CameraMessage | null = null;
   private glideEnd: { from: Placement; to: Placement; part: number } | null = null;
@@ -87,6 +88,7 @@ export class Viewpoint {
     if (focal > 0) this.focal = focal;
     this.height = ortho;
     this.aspect = aspect;
+    this.wideness = this.pageAspect;
     this.use(ortho > 0 ? this.orthographic : this.perspective);
     this.orthographic.zoom = 1;
     const rotation = fromWxyz(pose.slice(3)).multiply(FLIP);
@@ -98,6 +100,28 @@ export class Viewpoint {
     this.rollTo(rotation);
     this.setRange(near, far);
     this.fit(this.pageAspect);
+  }
+
+  get isOrthographic(): boolean {
+    return this.height > 0;
+  }
+
+  /** Changes the kind of picture; things at the target keep their size. */
+  setOrthographic(on: boolean): void {
+    if (on === this.isOrthographic) return;
+    this.glideEnd = null;
+    const { position, quaternion } = this.camera, away = position.clone().sub(this.target);
+    const seen = on ? 2 * this.halfHeight() * away.length() : (this.height / this.orthographic.zoom) * this.spread();
+    this.height = on ? seen / this.spread() : 0;
+    this.orthographic.zoom = 1;
+    const next = on ? this.orthographic : this.perspective;
+    if (!on) away.setLength(seen / (2 * this.halfHeight()));
+    next.position.copy(this.target).add(away);
+    next.quaternion.copy(quaternion);
+    this.use(next);
+    this.fit(this.pageAspect);
+    this.controls.update();
+    this.moved();
   }
 
   /** Rotates about the target in the camera's own axes, without an upright direction. */
@@ -210,6 +234,8 @@ export class Viewpoint {
   }
 
   private aim(direction: THREE.Vector3, points: THREE.Vector3[]): void {
+    this.wideness = this.pageAspect;
+    this.fit(this.pageAspect);
     const back = direction.clone().normalize();
     const right = new THREE.Vector3(0, 0, 1).cross(back).normalize(), up = back.clone().cross(right);
     const axes = new THREE.Matrix4().makeBasis(right, up, back), toView = axes.clone().transpose();
@@ -296,7 +322,7 @@ export class Viewpoint {
 
   /** Returns the factor by which the visible height grows until the picture's width fits. */
   private spread(): number {
-    return Math.max(1, this.aspect / this.pageAspect);
+    return Math.max(1, (this.aspect || this.wideness) / this.pageAspect);
   }
 
   private use(camera: Camera): void {

@@ -163,7 +163,8 @@ void bindKomoReports(nb::class_<PyKomo>& komo) {
           "_repr_html_",
           [](const PyKomo& k) {
             const ShownMotion motion = motionOf(k);
-            const std::string page = recordedScene(k.configuration(-k.order()), &motion, "KOMO Viewer");
+            const std::string page =
+                recordedScene(k.configuration(-k.order()), &motion, "KOMO Viewer", nullptr, kLargestInNotebooks);
             return nb::cast<std::string>(nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(page));
           },
           "Returns a page for notebooks that plays the motion without a running program.")

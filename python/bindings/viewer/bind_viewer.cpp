@@ -49,11 +49,13 @@ bool waitForClient(PyViewer& viewer, double seconds) {
   }
 }
 
-/// Returns the self-contained HTML page, whether a server runs or not.
-std::string pageOf(PyViewer& viewer) {
-  if (viewer.isOpen() || !viewer.scene) return viewer.recording();
-  return recordedScene(Config(*viewer.scene), nullptr, "Kinegraph", viewer.content());
+/// Returns the self-contained HTML page, whether a server runs or not. `largest`: see recordedPage.
+std::string pageOf(PyViewer& viewer, std::size_t largest) {
+  if (viewer.isOpen() || !viewer.scene) return viewer.recording(largest);
+  return recordedScene(Config(*viewer.scene), nullptr, "Kinegraph", viewer.content(), largest);
 }
+
+std::string wholePage(PyViewer& viewer) { return pageOf(viewer, 0); }
 
 constexpr int kFirstPort = 7000;
 
@@ -117,6 +119,47 @@ void watch(PyConfig& config, const PathText& file) {
       interrupted);
 }
 
+/// A recording as a context manager. It keeps the viewer alive.
+class PyRecordingOfPage {
+ public:
+  PyRecordingOfPage(std::shared_ptr<PyViewer> viewer, std::string path)
+      : viewer_(std::move(viewer)), path_(std::move(path)) {}
+  PyRecordingOfPage& start() {
+    if (recording_) throw ValueError("record: this recording runs already");
+    recording_.emplace(viewer_->record(path_));
+    return *this;
+  }
+  void stop() {
+    if (recording_) recording_->stop();
+    recording_.reset();
+  }
+
+ private:
+  std::shared_ptr<PyViewer> viewer_;
+  std::string path_;
+  std::optional<ViewerRecording> recording_;
+};
+
+std::shared_ptr<PyRecordingOfPage> recordPage(std::shared_ptr<PyViewer> viewer, const PathText& path) {
+  if (viewer->scene && !viewer->isOpen()) viewer->update(Config(*viewer->scene));
+  return std::make_shared<PyRecordingOfPage>(std::move(viewer), path.text);
+}
+
+void bindRecording(nb::module_& m) {
+  nb::class_<PyRecordingOfPage>(m, "ViewerRecording", docs::viewer::ViewerRecording)
+      .def("__enter__", &PyRecordingOfPage::start, nb::rv_policy::reference, "Starts the recording.")
+      .def(
+          "__exit__", [](PyRecordingOfPage& r, nb::args) { r.stop(); }, "Ends the recording and writes the file.")
+      .def("start", &PyRecordingOfPage::start, nb::rv_policy::reference, docs::viewer::startRecording)
+      .def("stop", &PyRecordingOfPage::stop, docs::viewer::stopRecording);
+  m.def(
+      "runPage",
+      [](const nb::bytes& content) {
+        return runPage(std::string_view(static_cast<const char*>(content.data()), content.size()));
+      },
+      "content"_a, docs::viewer::runPage);
+}
+
 /// Binds the page in the browser.
 void bindPage(nb::class_<PyViewer>& viewer) {
   viewer.def_prop_ro("url", &PyViewer::url, "The page's address; starts the viewer if necessary.")
@@ -139,17 +182,20 @@ void bindPage(nb::class_<PyViewer>& viewer) {
       .def("takeKey", &PyViewer::takeKey, "The code of the key pressed since the last call, or 0.")
       .def("hasEdits", &PyViewer::hasEdits, docs::viewer::hasEdits)
       .def("select", select, "frame"_a, docs::viewer::select)
-      .def("asHtml", pageOf, "Returns a self-contained web page of the shown scene or motion.")
+      .def("asHtml", wholePage, "Returns a self-contained web page of the shown scene or motion.")
       .def(
           "saveHtml",
           [](PyViewer& v, const PathText& path) {
-            nb::module_::import_("pathlib").attr("Path")(path.text).attr("write_text")(pageOf(v),
+            nb::module_::import_("pathlib").attr("Path")(path.text).attr("write_text")(wholePage(v),
                                                                                        "encoding"_a = "utf-8");
           },
           "path"_a, docs::viewer::saveHtml)
+      .def("record", recordPage, "path"_a, docs::viewer::record)
       .def(
           "_repr_html_",
-          [](PyViewer& v) { return nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(pageOf(v)); },
+          [](PyViewer& v) {
+            return nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(pageOf(v, kLargestInNotebooks));
+          },
           "Shows the present scene in notebooks.")
       .def("close", &PyViewer::endPage, "Closes the viewer.");
 }
@@ -197,6 +243,7 @@ int playOnPage(PyConfig& config, const Config& shown, const ShownMotion& motion,
 void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
   nb::class_<PyViewer> viewer(m, "ConfigurationViewer",
                               "Shows a configuration in the browser, and renders pictures of it.");
+  bindRecording(m);
   bindPage(viewer);
   bindPictures(viewer);
   bindViewerInput(m, viewer);

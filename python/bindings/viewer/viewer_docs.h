@@ -42,6 +42,43 @@ Args:
 Raises:
     OSError: The file cannot be written.)";
 
+inline constexpr char record[] =
+    R"(Records what this viewer shows and logs: scenes, simulations, motions, drawings and plots.
+Times are those of a shown simulation, else of the clock; a motion takes its duration. The command
+`kinegraph view run.kgr` plays the file.
+
+    with C.viewer().record("run.kgr"):
+        loop()
+
+Args:
+    path: Path of the file, .kgr.
+Returns:
+    The recording, a context manager: it starts with `with`, or by start().)";
+
+inline constexpr char ViewerRecording[] = R"(A recording of what a viewer shows; see ConfigurationViewer.record.)";
+
+inline constexpr char startRecording[] = R"(Starts the recording.
+
+Returns:
+    The recording itself.
+Raises:
+    FileError: The file cannot be written.
+    ArgumentError: The viewer is recorded already.)";
+
+inline constexpr char stopRecording[] = R"(Ends the recording and writes the file. Does nothing if it does not run.
+
+Raises:
+    FileError: The file cannot be written.)";
+
+inline constexpr char runPage[] = R"(Returns a web page that plays a recorded run without a program.
+
+Args:
+    content: Content of a file written by ConfigurationViewer.record.
+Returns:
+    The page, HTML.
+Raises:
+    ArgumentError: The content is not a recorded run.)";
+
 inline constexpr char view[] =
     R"(Shows the scene in the browser, in a notebook below the cell. The first call logs the page's address, and opens
 a browser if there is a display. With KINEGRAPH_HEADLESS=1 it opens nothing, logs nothing and does not wait.

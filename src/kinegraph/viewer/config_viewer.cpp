@@ -47,6 +47,7 @@ struct ConfigViewer::Impl {
   bool waits = true;
   std::unique_ptr<ViewerServer> server{};
   SceneItems items{};
+  bool knows_items = false;  ///< the page has those of the last update
   std::shared_ptr<SceneEdits> edits = std::make_shared<SceneEdits>();
 };
 
@@ -73,6 +74,7 @@ bool isPatient() { return isatty(STDIN_FILENO) || isOverSsh(); }
 ViewerServer& ConfigViewer::server() {
   if (impl_->server && !impl_->server->isOurs()) impl_->server.reset();
   if (!impl_->server) {
+    impl_->knows_items = false;
     impl_->server = std::make_unique<ViewerServer>(impl_->options);
     impl_->server->onCommand([edits = impl_->edits](const Command& command) { return edits->apply(command); });
     impl_->server->show([&](ShownScene& scene) {
@@ -130,9 +132,27 @@ void ConfigViewer::storeMessage(const std::string& text) {
   if (isOpen()) impl_->server->setMessage(text);
 }
 
-std::string ConfigViewer::recording() {
+std::string ConfigViewer::recording(std::size_t largest) {
   server().setWarnings(impl_->edits->warnings());
-  return server().recording();
+  return server().recording(largest);
+}
+
+ViewerRecording ConfigViewer::record(const std::string& path) {
+  server().startRecording(path);
+  return ViewerRecording(*this);
+}
+
+ViewerRecording::~ViewerRecording() {
+  try {
+    stop();
+  } catch (const Error& error) {
+    logMessage(LogLevel::notice, error.what());
+  }
+}
+
+void ViewerRecording::stop() {
+  if (ConfigViewer* viewer = std::exchange(viewer_, nullptr); viewer && viewer->isOpen())
+    viewer->server().stopRecording();
 }
 
 void ConfigViewer::contentChanged() {
@@ -145,6 +165,7 @@ int ConfigViewer::takeKey() {
 }
 
 void ConfigViewer::close() {
+  if (isOpen()) impl_->server->stopRecording();
   impl_->server.reset();
   remember("");
 }
@@ -153,7 +174,8 @@ void ConfigViewer::update(const Config& config) {
   ViewerServer& to = server();
   impl_->items.read(config);
   to.endMotion();
-  to.update(impl_->items.items());
+  std::exchange(impl_->knows_items, true) ? to.update(impl_->items.items(), impl_->items.changed())
+                                          : to.update(impl_->items.items());
   to.setJoints(impl_->items.structure(), impl_->items.joints(), config.getJointState());
   impl_->edits->setScene(config.scene()->snapshot(), impl_->items.structure());
   if (clients() == 0) impl_->edits->forgetMargin();

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/viewer/programmable_viewer.h"
@@ -10,6 +11,7 @@
 namespace kinegraph {
 
 class Config;
+class ViewerRecording;
 class ViewerServer;
 struct ShownMotion;
 struct ViewerOptions;
@@ -57,8 +59,14 @@ class ConfigViewer : public ProgrammableViewer {
   std::string message() const;
   void setError(const std::string& text);
   void setTitle(const std::string& text);
-  void select(int frame);   ///< shows the card of a frame, with handles to move it
-  std::string recording();  ///< returns a self-contained HTML page of everything shown
+  void select(int frame);  ///< shows the card of a frame, with handles to move it
+  /// Returns a self-contained HTML page of everything shown. `largest`: see recordedPage.
+  std::string recording(std::size_t largest = 0);
+  /// Records whatever is shown and logged from now on, until the returned object is stopped or destroyed. The file then
+  /// plays on a page: `kinegraph view run.kgr`. Times are those of a shown simulation, else of the clock; a motion
+  /// takes its duration. Starts the page if necessary. Throws FileError if the file cannot be written, and ValueError
+  /// during another recording of this viewer.
+  [[nodiscard]] ViewerRecording record(const std::string& path);
   void setCamera(const PageCamera& camera);
   std::optional<PageCamera> takeViewpoint();
   std::string url();
@@ -89,6 +97,21 @@ class ConfigViewer : public ProgrammableViewer {
 
   struct Impl;
   std::unique_ptr<Impl> impl_;
+};
+
+/// A running recording of a viewer, which must outlive it. Closing the viewer ends it, too.
+class ViewerRecording {
+ public:
+  explicit ViewerRecording(ConfigViewer& viewer) : viewer_(&viewer) {}
+  ViewerRecording(ViewerRecording&& other) noexcept : viewer_(std::exchange(other.viewer_, nullptr)) {}
+  ViewerRecording& operator=(ViewerRecording&&) = delete;
+  ~ViewerRecording();  ///< stops; logs errors
+
+  /// Ends the recording and writes the file. Throws FileError if that fails. Does nothing at a second call.
+  void stop();
+
+ private:
+  ConfigViewer* viewer_;
 };
 
 /// Returns whether a user may still connect: at a terminal, or over ssh, where the port has to be forwarded first.

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "kinegraph/scene/config.h"
@@ -8,12 +9,34 @@
 
 namespace kinegraph {
 
-/// Returns the client's page with embedded messages, which it shows from a file without a program.
+/// Returns the client's page with embedded messages, which it shows from a file without a program. Script and messages
+/// are compressed.
 std::string recordedPage(const std::vector<Outgoing>& messages);
 
+/// Appends a message to a stream of recorded ones: its time (float64, s), 0 (text) or 1 (binary) and its number of
+/// bytes, as uint32, then the bytes, filled up to a multiple of 4.
+void appendMessage(std::string& stream, double time, const Outgoing& message);
+
+/// Appends the end of a recorded run.
+void appendEnd(std::string& stream, double time);
+
+/// Returns the content of a file with a recorded run, from a stream of messages.
+std::string runFile(const std::string& stream);
+
+/// Returns the page that plays the content of such a file. Throws ValueError for other content.
+std::string runPage(std::string_view file);
+
+/// The largest page in a notebook, bytes.
+constexpr std::size_t kLargestInNotebooks = 580000;
+
+/// Returns the page with the content of a scene. With `largest` > 0, merges close vertices of meshes until the page has
+/// at most so many bytes, if that is possible.
+std::string recordedPage(const ShownScene& scene, std::size_t largest = 0);
+
 /// Returns the page with an embedded configuration and, optionally, a motion of it and the content of a program. Needs
-/// no server.
+/// no server. `largest`: see recordedPage.
 std::string recordedScene(const Config& config, const ShownMotion* motion = nullptr,
-                          const std::string& title = "Kinegraph", std::shared_ptr<PageContent> content = nullptr);
+                          const std::string& title = "Kinegraph", std::shared_ptr<PageContent> content = nullptr,
+                          std::size_t largest = 0);
 
 }  // namespace kinegraph

@@ -26,14 +26,33 @@ std::vector<std::string> unitsOf(const Joint& joint) {
 /// Returns whether a frame's details depend on other frames.
 bool refersToOthers(const FrameData& frame) { return frame.joint || !frame.no_contact.empty(); }
 
-std::vector<ShownJoint> jointsOf(const Config& config) {
+/// Returns how a frame's dofs move it; without steps if they do not.
+MovingItem movingOf(const FrameData& frame, int dof) {
+  MovingItem moving{frame.id, dof, motionScale(frame), {}, {}};
+  for (const MotionStep& step : frame.joint->steps) {
+    const bool is_axial = step.rotates() || step.translates();
+    moving.steps.push_back(step.rotates()                              ? "turn"
+                           : step.translates()                         ? "shift"
+                           : step.kind == MotionStep::Kind::quaternion ? "quaternion"
+                           : step.kind == MotionStep::Kind::circle     ? "circle"
+                                                                       : "time");
+    const Vector3d axis = is_axial ? Vector3d(step.sign * step.direction(frame.joint->axis)) : Vector3d::Zero();
+    moving.axes.insert(moving.axes.end(), axis.begin(), axis.end());
+  }
+  return moving;
+}
+
+ShownJoints jointsOf(const Config& config) {
   const auto program = config.model();
   const std::vector<std::string> names = config.getJointNames();
   const MatrixXd limits = config.getJointLimits();
   std::vector<ShownJoint> joints(names.size());
+  std::vector<MovingItem> moving;
   for (const auto& frame : config.scene()->frames()) {
-    if (!frame->joint || frame->joint->mimic) continue;
+    if (!frame->joint) continue;
     const KinematicModel::DofRange dofs = program->frame_dofs[frame->id];
+    if (dofs.count > 0) moving.push_back(movingOf(*frame, dofs.first));
+    if (frame->joint->mimic) continue;
     const std::vector<std::string> units = unitsOf(*frame->joint);
     for (int i = 0; i < dofs.count; ++i) {
       const int dof = dofs.first + i;
@@ -41,7 +60,7 @@ std::vector<ShownJoint> jointsOf(const Config& config) {
       joints[dof] = {names[dof], frame->id, units[i], limited ? limits(0, dof) : 0., limited ? limits(1, dof) : -1.};
     }
   }
-  return joints;
+  return {std::move(joints), std::move(moving)};
 }
 
 }  // namespace
@@ -110,13 +129,22 @@ void SceneItems::read(const Config& config) {
     items_.resize(frames.size());
     sent_.resize(frames.size());
   }
+  poses_.resize(frames.size());
+  changed_.clear();
   for (std::size_t i = 0; i < frames.size(); ++i) {
     const FrameData& frame = *frames[i];
     ViewItem& item = items_[i];
-    if (item.name != frame.name) item.name = frame.name;
-    item.parent = frame.parent ? frame.parent->id : -1;
-    item.pose = Pose(state.pose(int(i)));
-    if (isUnchanged(frame, same)) continue;
+    const RigidTransform pose = state.pose(int(i));
+    const int parent = frame.parent ? frame.parent->id : -1;
+    const bool rests = same && pose.p == poses_[i].p && pose.R == poses_[i].R;
+    const bool unchanged = isUnchanged(frame, same);
+    if (rests && unchanged && item.parent == parent && item.name == frame.name) continue;
+    changed_.push_back(int(i));
+    item.name = frame.name;
+    item.parent = parent;
+    item.pose = Pose(pose);
+    poses_[i] = pose;
+    if (unchanged) continue;
     sent_[i].remember(frame);
     item.details = detailsOf(frame);
     item.geometry = nullptr;

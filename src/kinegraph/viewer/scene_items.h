@@ -18,7 +18,10 @@ class SceneItems {
   /// A counter that increases with changes of frames, joints or shapes, and with another scene.
   int structure() const { return structure_; }
   const std::vector<ViewItem>& items() const { return items_; }
-  const std::vector<ShownJoint>& joints() const { return joints_; }
+
+  /// Returns the indices of items that differ from the read before, ascending.
+  const std::vector<int>& changed() const { return changed_; }
+  const ShownJoints& joints() const { return joints_; }
 
   /// Returns whether `config` is the scene of the last read, with the same structure.
   bool isOf(const Config& config) const;
@@ -28,6 +31,8 @@ class SceneItems {
   std::uint64_t scene_structure_ = 0;
   int structure_ = 0;
   std::vector<ViewItem> items_;
+  std::vector<int> changed_;
+  std::vector<RigidTransform> poses_;  ///< of the items
   /// The data that determine a frame's details; with a joint or exclusions, the structure matters, too.
   struct SentFrame {
     bool refers_to_others = false;  ///< it had a joint or exclusions
@@ -43,7 +48,7 @@ class SceneItems {
   bool isUnchanged(const FrameData& frame, bool same_structure) const;
 
   std::vector<SentFrame> sent_;  ///< per frame, when its details were written
-  std::vector<ShownJoint> joints_;
+  ShownJoints joints_;
   VisualMeshes visual_meshes_;
 };
 

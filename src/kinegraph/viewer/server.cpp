@@ -27,6 +27,7 @@ class ViewerServer::Impl {
     {
       const std::lock_guard lock(state_->mutex);
       changed = change(state_->scene);
+      if (changed && state_->recorder) state_->recorder->add(state_->scene);
     }
     if (changed) web_.wake();
   }
@@ -96,7 +97,11 @@ void ViewerServer::update(std::span<const ViewItem> items) {
   impl_->changeScene([&](ShownScene& scene) { return scene.update(items); });
 }
 
-void ViewerServer::setJoints(int structure, const std::vector<ShownJoint>& joints, const VectorXd& q) {
+void ViewerServer::update(std::span<const ViewItem> items, std::span<const int> changed) {
+  impl_->changeScene([&](ShownScene& scene) { return scene.update(items, changed); });
+}
+
+void ViewerServer::setJoints(int structure, const ShownJoints& joints, const VectorXd& q) {
   impl_->changeScene([&](ShownScene& scene) { return scene.setJoints(structure, joints, q); });
 }
 
@@ -105,6 +110,8 @@ void ViewerServer::showMotion(const ShownMotion& motion) {
     scene.setMotion(motion);
     return true;
   });
+  const std::lock_guard lock(impl_->state_->mutex);
+  if (impl_->state_->recorder) impl_->state_->recorder->addMotion(impl_->state_->scene, motion.seconds);
 }
 
 void ViewerServer::endMotion() {
@@ -129,7 +136,19 @@ void ViewerServer::select(int item) {
   });
 }
 
-std::string ViewerServer::recording() const { return impl_->state_->recording(); }
+std::string ViewerServer::recording(std::size_t largest) const { return impl_->state_->recording(largest); }
+
+void ViewerServer::startRecording(const std::string& path) {
+  const std::lock_guard lock(impl_->state_->mutex);
+  if (impl_->state_->recorder) throw ValueError("record: a recording of this viewer runs already; end it first");
+  impl_->state_->recorder = std::make_unique<RunRecorder>(path, impl_->state_->scene);
+}
+
+void ViewerServer::stopRecording() {
+  const std::lock_guard lock(impl_->state_->mutex);
+  if (const std::unique_ptr<RunRecorder> recorder = std::move(impl_->state_->recorder))
+    recorder->write(impl_->state_->scene);
+}
 
 void ViewerServer::onCommand(std::function<std::optional<EditedScene>(const Command&)> answer) {
   const std::lock_guard lock(impl_->answer_mutex_);

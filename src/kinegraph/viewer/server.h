@@ -40,6 +40,25 @@ struct ShownJoint {
   bool operator==(const ShownJoint&) const = default;
 };
 
+/// An item that dofs move relative to its parent: by steps, each relative to where the previous one led. Pages compute
+/// poses from it.
+struct MovingItem {
+  int item = 0;
+  int dof = 0;        ///< first of its dofs
+  double scale = 1.;  ///< multiplies dofs of "turn" and "shift"
+  std::vector<std::string>
+      steps;                 ///< "turn", "shift" (1 dof), "quaternion" (4: w x y z), "circle" (2: cos, sin), "time"
+  std::vector<double> axes;  ///< three numbers per step
+  bool operator==(const MovingItem&) const = default;
+};
+
+/// The dofs of a scene.
+struct ShownJoints {
+  std::vector<ShownJoint> dofs;
+  std::vector<MovingItem> moving{};
+  bool operator==(const ShownJoints&) const = default;
+};
+
 /// The scene after a command of a browser.
 struct EditedScene {
   std::vector<Pose> poses;  ///< of all items, in the world
@@ -75,9 +94,10 @@ class ViewerServer {
 
   /// Sends the differences from the last call.
   void update(std::span<const ViewItem> items);
+  void update(std::span<const ViewItem> items, std::span<const int> changed);  ///< as ShownScene
 
   /// Sets the dofs and their values. Browsers send `structure`, the number of the scene, with their commands.
-  void setJoints(int structure, const std::vector<ShownJoint>& joints, const VectorXd& q);
+  void setJoints(int structure, const ShownJoints& joints, const VectorXd& q);
 
   /// Shows a motion of the present items, with a time slider, until `endMotion`.
   void showMotion(const ShownMotion& motion);
@@ -98,8 +118,13 @@ class ViewerServer {
   /// Shows the card of an item, with handles to move it.
   void select(int item);
 
-  /// Returns a self-contained HTML page of everything shown, which needs no server.
-  std::string recording() const;
+  /// Returns a self-contained HTML page of everything shown, which needs no server. `largest`: see recordedPage.
+  std::string recording(std::size_t largest = 0) const;
+
+  /// Records everything shown from now on, until stopRecording writes it to the file; runPage makes a page of it.
+  /// Throws FileError if the file cannot be written, and ValueError during a recording.
+  void startRecording(const std::string& path);
+  void stopRecording();  ///< does nothing without a recording; throws FileError if the file cannot be written
 
   /// Sets the handler of commands other than keys; it runs on the server's thread and returns nothing for commands that
   /// do not apply. All browsers see the result.

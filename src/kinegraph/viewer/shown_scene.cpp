@@ -1,5 +1,8 @@
 #include "kinegraph/viewer/shown_scene.h"
 
+#include <numeric>
+#include <utility>
+
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
@@ -64,6 +67,12 @@ RunMessage messageOf(const ShownRun& run) {
   return message;
 }
 
+/// Returns the triangles that stand for a shape on the page.
+std::shared_ptr<const Mesh> surfaceOf(const Geometry& geometry) {
+  const bool has_own = shapeKind(geometry.type).data == ShapeKind::Data::mesh && geometry.mesh;
+  return has_own ? geometry.mesh : std::make_shared<const Mesh>(tessellate(geometry));
+}
+
 template <class T>
 Outgoing textOf(const T& message) {
   return {std::make_shared<std::string>(jsonText(message)), false};
@@ -77,15 +86,14 @@ std::shared_ptr<const ShownScene::SentMesh> ShownScene::meshOf(const ViewItem& i
   if (kind.is_drawn_by_page) return nullptr;
   const auto [place, is_new] = meshes_.try_emplace(item.geometry);
   if (is_new) {
-    const bool has_own = kind.data == ShapeKind::Data::mesh && item.geometry->mesh;
-    const Mesh& mesh = has_own ? *item.geometry->mesh : tessellate(*item.geometry);
     SentMesh sent{next_mesh_++, nullptr};
+    const std::shared_ptr<const Mesh> mesh = surfaceOf(*item.geometry);
     std::vector<int> numbers;
-    for (const TexturedTriangles& textured : mesh.textures) {
+    for (const TexturedTriangles& textured : mesh->textures) {
       sent.images.push_back(sentImage(textured.image));
       numbers.push_back(sent.images.back()->number);
     }
-    sent.data = std::make_shared<std::string>(encodeMesh(sent.number, mesh, numbers));
+    sent.data = std::make_shared<std::string>(encodeMesh(sent.number, *mesh, numbers));
     place->second = std::make_shared<SentMesh>(std::move(sent));
   }
   return place->second;
@@ -104,33 +112,48 @@ std::shared_ptr<const ShownScene::SentImage> ShownScene::sentImage(const std::sh
   return place->second;
 }
 
+/// Takes an item over if it differs from the shown one.
+void ShownScene::take(std::size_t index, const ViewItem& item, std::uint64_t next, bool& changed,
+                      bool& looks_different) {
+  Shown& shown = frames_[index];
+  const bool same_appearance = shown.appearance_revision > 0 && shown.item.geometry == item.geometry &&
+                               shown.item.color == item.color && shown.item.collides == item.collides &&
+                               shown.item.parent == item.parent && shown.item.name == item.name &&
+                               shown.item.details == item.details;
+  if (!same_appearance) {
+    shown.mesh = meshOf(item);
+    shown.appearance_revision = next;
+    changed = looks_different = true;
+  }
+  if (!same_appearance || shown.item.pose.p != item.pose.p || shown.item.pose.q.coeffs() != item.pose.q.coeffs()) {
+    shown.pose_revision = next;
+    changed = true;
+    shown.item = item;
+  }
+}
+
 bool ShownScene::update(std::span<const ViewItem> items) {
+  std::vector<int> all(items.size());
+  std::iota(all.begin(), all.end(), 0);
+  return update(items, all);
+}
+
+bool ShownScene::update(std::span<const ViewItem> items, std::span<const int> changed_items) {
+  if (frames_.size() != items.size() && changed_items.size() != items.size()) return update(items);
   const std::uint64_t next = revision_ + 1;
-  bool changed = false, appearance_changed = false;
+  bool changed = false, looks_different = false;
   if (frames_.size() != items.size()) {
     frames_.resize(items.size());
     count_revision_ = next;
-    changed = appearance_changed = true;
+    changed = looks_different = true;
   }
-  for (std::size_t i = 0; i < items.size(); ++i) {
-    Shown& shown = frames_[i];
-    const ViewItem& item = items[i];
-    const bool same_appearance = shown.appearance_revision > 0 && shown.item.geometry == item.geometry &&
-                                 shown.item.color == item.color && shown.item.collides == item.collides &&
-                                 shown.item.parent == item.parent && shown.item.name == item.name &&
-                                 shown.item.details == item.details;
-    if (!same_appearance) {
-      shown.mesh = meshOf(item);
-      shown.appearance_revision = next;
-      changed = appearance_changed = true;
-    }
-    if (!same_appearance || shown.item.pose.p != item.pose.p || shown.item.pose.q.coeffs() != item.pose.q.coeffs()) {
-      shown.pose_revision = next;
-      changed = true;
-      shown.item = item;
+  const std::vector<int> edited = std::exchange(edited_, {});
+  for (const std::span<const int> indices : {changed_items, std::span<const int>(edited)}) {
+    for (const int i : indices) {
+      if (std::size_t(i) < items.size()) take(std::size_t(i), items[std::size_t(i)], next, changed, looks_different);
     }
   }
-  if (appearance_changed) {
+  if (looks_different) {
     std::erase_if(meshes_, [](const auto& entry) { return entry.second.use_count() == 1; });
     std::erase_if(images_, [](const auto& entry) { return entry.second.use_count() == 1; });
   }
@@ -138,7 +161,7 @@ bool ShownScene::update(std::span<const ViewItem> items) {
   return changed;
 }
 
-bool ShownScene::setJoints(int structure, const std::vector<ShownJoint>& joints, const VectorXd& q) {
+bool ShownScene::setJoints(int structure, const ShownJoints& joints, const VectorXd& q) {
   const std::uint64_t before = revision_;
   if (structure != structure_ || joints != joints_) {
     structure_ = structure;
@@ -162,6 +185,7 @@ void ShownScene::setEdited(const EditedScene& edited) {
     if (shown.item.pose.p == pose.p && shown.item.pose.q.coeffs() == pose.q.coeffs()) continue;
     shown.item.pose = pose;
     shown.pose_revision = revision_;
+    edited_.push_back(int(i));
   }
   setJoints(structure_, joints_, edited.q);
   setNear(edited.near);
@@ -271,8 +295,25 @@ FrameMessage ShownScene::frameMessage(std::size_t index) const {
   return frame;
 }
 
+/// Returns the message of a mesh; vertices of one without images are merged if `cell` > 0.
+std::shared_ptr<const std::string> ShownScene::meshData(const Shown& shown, double cell) const {
+  if (!(cell > 0.) || !shown.mesh->images.empty()) return shown.mesh->data;
+  return std::make_shared<std::string>(encodeMesh(shown.mesh->number, *surfaceOf(*shown.item.geometry), {}, cell));
+}
+
+double ShownScene::largestMesh() const {
+  double largest = 0.;
+  for (const Shown& shown : frames_) {
+    if (!shown.mesh) continue;
+    Eigen::AlignedBox3d box;
+    for (const Vector3d& p : surfaceOf(*shown.item.geometry)->vertices) box.extend(p);
+    if (!box.isEmpty()) largest = std::max(largest, box.diagonal().norm());
+  }
+  return largest;
+}
+
 /// Adds the meshes and images that the browser lacks, then frames, then poses.
-void ShownScene::addFrames(Seen& seen, std::vector<Outgoing>& out) const {
+void ShownScene::addFrames(Seen& seen, double cell, std::vector<Outgoing>& out) const {
   SceneMessage scene;
   scene.count = int(frames_.size());
   std::set<int> meshes, images;
@@ -286,7 +327,7 @@ void ShownScene::addFrames(Seen& seen, std::vector<Outgoing>& out) const {
         if (images.insert(image->number).second && !seen.images.contains(image->number))
           out.push_back({image->data, true});
       }
-      if (!seen.meshes.contains(shown.mesh->number)) out.push_back({shown.mesh->data, true});
+      if (!seen.meshes.contains(shown.mesh->number)) out.push_back({meshData(shown, cell), true});
     }
     if (shown.pose_revision > seen.revision) {
       appendBytes(poses, std::uint32_t(i));
@@ -305,8 +346,9 @@ void ShownScene::addFrames(Seen& seen, std::vector<Outgoing>& out) const {
 }
 
 JointsMessage ShownScene::jointsMessage() const {
-  JointsMessage message{structure_, {}};
-  for (const ShownJoint& j : joints_) message.joints.push_back({j.name, j.frame, j.unit, j.lower, j.upper});
+  JointsMessage message{structure_, {}, {}};
+  for (const ShownJoint& j : joints_.dofs) message.joints.push_back({j.name, j.frame, j.unit, j.lower, j.upper});
+  for (const MovingItem& m : joints_.moving) message.moving.push_back({m.item, m.dof, m.scale, m.steps, m.axes});
   return message;
 }
 
@@ -331,12 +373,17 @@ AppearanceMessage ShownScene::appearanceMessage() const {
   return appearance;
 }
 
-std::vector<Outgoing> ShownScene::messagesSince(Seen& seen) const {
+std::vector<Outgoing> ShownScene::messages(double cell) const {
+  Seen nothing;
+  return messagesSince(nothing, cell);
+}
+
+std::vector<Outgoing> ShownScene::messagesSince(Seen& seen, double cell) const {
   std::vector<Outgoing> out;
   const auto send = [&](const auto& message) { out.push_back(textOf(message)); };
   if (text_revision_ > seen.revision) send(TextMessage{title, message, error});
   if (camera_revision_ > seen.revision) send(messageOf(camera_));
-  addFrames(seen, out);
+  addFrames(seen, cell, out);
   if (joints_revision_ > seen.revision) send(jointsMessage());
   if (q_revision_ > seen.revision) out.push_back({std::make_shared<std::string>(encodeJoints(q_)), true});
   if (appearance_revision_ > seen.revision) send(appearanceMessage());

@@ -30,7 +30,11 @@ class ShownScene {
 
   /// Updates the items. Returns whether anything differs.
   bool update(std::span<const ViewItem> items);
-  bool setJoints(int structure, const std::vector<ShownJoint>& joints, const VectorXd& q);
+
+  /// Updates items of which only those with the indices `changed` may differ from the last call; far cheaper if most of
+  /// a large scene rests.
+  bool update(std::span<const ViewItem> items, std::span<const int> changed);
+  bool setJoints(int structure, const ShownJoints& joints, const VectorXd& q);
 
   /// Sets new poses of all items, and joint values.
   void setEdited(const EditedScene& edited);
@@ -52,6 +56,9 @@ class ShownScene {
   bool setText(std::string ShownScene::*field, const std::string& text);
   void setCamera(const PageCamera& camera);
 
+  /// Returns the time of the shown simulation, s; nothing without one.
+  std::optional<double> runTime() const { return run_ ? std::optional(run_->time) : std::nullopt; }
+
   /// Returns the name of an item, or "".
   std::string nameOf(int item) const;
 
@@ -59,7 +66,13 @@ class ShownScene {
   std::shared_ptr<PageContent> content;  ///< what the program adds to the page; null: nothing
 
   /// Returns the messages that update a browser from `seen` to the present, and updates `seen`.
-  std::vector<Outgoing> messagesSince(Seen& seen) const;
+  std::vector<Outgoing> messagesSince(Seen& seen) const { return messagesSince(seen, 0.); }
+
+  /// Returns the messages for a browser that has seen nothing. `cell`: as in packMesh.
+  std::vector<Outgoing> messages(double cell = 0.) const;
+
+  /// Returns the largest diameter of a mesh's box, m; 0 without meshes.
+  double largestMesh() const;
 
  private:
   /// An encoded image or mesh, with a number that is never reused.
@@ -84,19 +97,23 @@ class ShownScene {
   };
   std::shared_ptr<const SentMesh> meshOf(const ViewItem& item);
   std::shared_ptr<const SentImage> sentImage(const std::shared_ptr<const Image>& image);
+  std::shared_ptr<const std::string> meshData(const Shown& shown, double cell) const;
   FrameMessage frameMessage(std::size_t index) const;
   JointsMessage jointsMessage() const;
   AppearanceMessage appearanceMessage() const;
-  void addFrames(Seen& seen, std::vector<Outgoing>& out) const;
+  void take(std::size_t index, const ViewItem& item, std::uint64_t next, bool& changed, bool& looks_different);
+  std::vector<Outgoing> messagesSince(Seen& seen, double cell) const;
+  void addFrames(Seen& seen, double cell, std::vector<Outgoing>& out) const;
 
   std::uint64_t revision_ = 1, count_revision_ = 1, text_revision_ = 1, camera_revision_ = 0;
   std::vector<Shown> frames_;
+  std::vector<int> edited_;  ///< frames with other poses than in the last update
   std::map<std::shared_ptr<const Geometry>, std::shared_ptr<const SentMesh>> meshes_;  ///< meshes of the shown frames
   std::map<std::shared_ptr<const Image>, std::shared_ptr<const SentImage>, LessBytes>
       images_;  ///< images on these meshes
   int next_mesh_ = 0, next_image_ = 0;
   int structure_ = 0;
-  std::vector<ShownJoint> joints_;
+  ShownJoints joints_;
   VectorXd q_;
   std::uint64_t joints_revision_ = 0, q_revision_ = 0, motion_revision_ = 0, select_revision_ = 0;
   int selected_ = -1;

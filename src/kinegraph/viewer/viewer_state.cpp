@@ -89,9 +89,9 @@ std::vector<Outgoing> ViewerState::messagesSince(ShownScene::Seen& seen) const {
   return scene.messagesSince(seen);
 }
 
-std::string ViewerState::recording() const {
-  ShownScene::Seen nothing;
-  return recordedPage(messagesSince(nothing));
+std::string ViewerState::recording(std::size_t largest) const {
+  const std::lock_guard lock(mutex);
+  return recordedPage(scene, largest);
 }
 
 }  // namespace kinegraph

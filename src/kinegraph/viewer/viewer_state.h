@@ -1,12 +1,14 @@
 #pragma once
 
 #include <condition_variable>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 
 #include "kinegraph/viewer/messages/input_events.h"
 #include "kinegraph/viewer/messages/run_requests.h"
+#include "kinegraph/viewer/run_recorder.h"
 #include "kinegraph/viewer/shown_scene.h"
 
 namespace kinegraph {
@@ -25,6 +27,7 @@ struct ViewerState {
   std::optional<PageCamera> camera;  ///< camera of the pages: set by the program, or moved by a user
   bool camera_moved = false;         ///< by a user, since the program read it
   RunRequests run;
+  std::unique_ptr<RunRecorder> recorder;  ///< null: nothing is recorded
 
   void press(const KeyCommand& key);
   void addEvent(const EventCommand& event);
@@ -39,8 +42,8 @@ struct ViewerState {
   /// Returns the messages that update a browser to the present.
   std::vector<Outgoing> messagesSince(ShownScene::Seen& seen) const;
 
-  /// Returns a page with everything shown now.
-  std::string recording() const;
+  /// Returns a page with everything shown now. `largest`: see recordedPage.
+  std::string recording(std::size_t largest = 0) const;
 };
 
 }  // namespace kinegraph

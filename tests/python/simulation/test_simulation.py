@@ -1,5 +1,7 @@
 """Simulation in Python: grasps, replays, measurements and errors."""
 
+import base64
+import gzip
 import pickle
 import re
 import threading
@@ -514,7 +516,8 @@ def test_a_recording_is_shown_with_its_fingers_and_saved_as_a_page(tmp_path):
     recording.save(tmp_path / "run.bin")
     ry.SimulationRecording.load(tmp_path / "run.bin").saveHtml(tmp_path / "run.html")
     page = (tmp_path / "run.html").read_text()
-    slices, seconds = re.search(r'\\?"slices\\?":(\d+),\\?"seconds\\?":([\d.E+-]+)', page).groups()
+    messages = gzip.decompress(base64.b64decode(re.search(r'id="recording">([^<]*)<', page)[1]))
+    slices, seconds = re.search(rb'"slices":(\d+),"seconds":([\d.E+-]+)', messages).groups()
     assert int(slices) == 26 and float(seconds) == pytest.approx(0.5)
     assert recording.view() == 0  # nobody is there
     recording.view_close()

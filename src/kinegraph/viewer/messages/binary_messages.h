@@ -21,12 +21,14 @@ void appendBytes(std::string& data, const T& value) {
 /// Appends float32 position, then w x y z.
 void appendPose(std::string& data, const Pose& pose);
 
-/// Encodes kind, number, vertices, triangles, colors (0, 1 or one per vertex), texture coordinates (0 or one per
-/// vertex) and textured ranges of triangles; then float32 positions, uint32 indices, float32 texture coordinates, for
-/// each range uint32 first, count and image number, and rgba bytes. `images` are the numbers of the images.
-std::string encodeMesh(int number, const Mesh& mesh, const std::vector<int>& images);
+/// Encodes a surface without images as `packMesh` does, and other meshes as kind, number, vertices, triangles, colors
+/// (0, 1 or one per vertex), texture coordinates (0 or one per vertex) and textured ranges of triangles; then float32
+/// positions, uint32 indices, float32 texture coordinates, for each range uint32 first, count and image number, and
+/// rgba bytes. `images` are the numbers of the images.
+std::string encodeMesh(int number, const Mesh& mesh, const std::vector<int>& images, double cell = 0.);
 
-/// Encodes kind, slices, frames, dofs, then float32 poses and joint values, slice after slice.
+/// Encodes kind, slices, frames, dofs, then poses and joint values, slice after slice: the bits of float32 numbers, as
+/// differences from the previous slice in planes of bytes.
 std::string encodeMotion(const ShownMotion& motion);
 
 /// Encodes kind, id, columns, rows, then float32 x, y, height, zoom, then rgb bytes.

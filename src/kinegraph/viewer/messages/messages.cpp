@@ -37,6 +37,16 @@ static boost::json::value jsonOf(const JointMessage& m) {
   };
 }
 
+static boost::json::value jsonOf(const MovingMessage& m) {
+  return boost::json::object{
+      {"frame", jsonOf(m.frame)},
+      {"dof", jsonOf(m.dof)},
+      {"scale", jsonOf(m.scale)},
+      {"steps", jsonOf(m.steps)},
+      {"axes", jsonOf(m.axes)},
+  };
+}
+
 static boost::json::value jsonOf(const LinesMessage& m) {
   return boost::json::object{
       {"points", jsonOf(m.points)},
@@ -99,6 +109,7 @@ static boost::json::value jsonOf(const JointsMessage& m) {
       {"kind", "joints"},
       {"structure", jsonOf(m.structure)},
       {"joints", jsonOf(m.joints)},
+      {"moving", jsonOf(m.moving)},
   };
 }
 

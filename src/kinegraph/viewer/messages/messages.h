@@ -20,6 +20,7 @@ enum class BinaryKind : std::uint32_t {
   image = 6,
   drawing = 7,
   samples = 8,
+  surface = 9,
 };
 
 struct ShapeMessage {
@@ -44,6 +45,14 @@ struct JointMessage {
   std::string unit;
   double lower = 0;
   double upper = 0;
+};
+
+struct MovingMessage {
+  int frame = 0;
+  int dof = 0;
+  double scale = 0;
+  std::vector<std::string> steps;
+  std::vector<double> axes;
 };
 
 struct LinesMessage {
@@ -93,6 +102,7 @@ struct SceneMessage {
 struct JointsMessage {
   int structure = 0;
   std::vector<JointMessage> joints;
+  std::vector<MovingMessage> moving;
 };
 
 struct TextMessage {
