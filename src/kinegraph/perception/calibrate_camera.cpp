@@ -6,6 +6,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/kinematics/state.h"
 #include "kinegraph/perception/marker_poses.h"
 
 namespace kinegraph {

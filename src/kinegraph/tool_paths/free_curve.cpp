@@ -6,6 +6,8 @@
 #include "kinegraph/collision/displacement_bound.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/trajectories/path_curve.h"
+#include "kinegraph/trajectories/time_scaling.h"
 
 namespace kinegraph {
 

@@ -5,6 +5,8 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/trajectories/path_curve.h"
+#include "kinegraph/trajectories/time_scaling.h"
 
 namespace kinegraph {
 

@@ -6,6 +6,8 @@
 
 namespace kinegraph {
 
+struct ScalingState;
+
 /// The limit that is the nearest one at a time of a motion.
 struct NearestLimit {
   enum class Kind { velocity, acceleration, jerk };
