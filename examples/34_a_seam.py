@@ -17,8 +17,9 @@ points = np.stack([x, 0.06 * np.sin(12 * x), 0 * x + 0.052], axis=1)
 into = np.tile([0.0, 0.0, -1.0], (len(x), 1))
 seam = ry.ToolPath.along(points, into, frame="tip", relativeTo="part").tilt(np.radians(15))
 
-options = {"speed": 0.05, "approach": 0.05, "retract": 0.05, "acceleration": 8.0, "jerk": 150.0}
-plan = ry.planToolPath(C, seam, touching=["part"], **options)
+plan = ry.planToolPath(
+    C, seam, touching=["part"], speed=0.05, approach=0.05, retract=0.05, acceleration=8.0, jerk=150.0
+)
 print(plan)
 for kind, _, _, begin, end in plan.segments:
     print(f"  {kind}: {begin:.2f} to {end:.2f} s")
@@ -30,7 +31,9 @@ plan.view(C, seam)
 # A clamp on the seam: the plan says where and why, and has the motion up to there.
 C.addFrame("clamp", "part").setShape(ry.ST.ssBox, [0.04, 0.3, 0.06, 0.002]).setRelativePosition([0.12, 0, 0.09])
 C.getFrame("clamp").setContact(1)
-plan = ry.planToolPath(C, seam, touching=["part"], **options)
+plan = ry.planToolPath(
+    C, seam, touching=["part"], speed=0.05, approach=0.05, retract=0.05, acceleration=8.0, jerk=150.0
+)
 print(plan.message)
 assert plan.status == ry.ToolPathStatus.in_collision
 assert "clamp" in plan.frames

@@ -17,7 +17,7 @@ C.addFrame("paper", "table").setShape(ry.ST.box, [0.4, 0.2, 0.001]).setRelativeP
 up, down = 0.03, 0.002
 
 
-def stroke(*points):
+def stroke(*points: tuple[float, float]) -> ry.ToolPath:
     path = ry.ToolPath("tip", relativeTo="paper").free().start([*points[0], up]).speed(0.05).line([*points[0], down])
     path.speed(0.1)
     for k, point in enumerate(points[1:]):

@@ -414,6 +414,14 @@ SECTIONS_READ = [
         "len(C.getCollisions()) == 1",
     ),
     E(
+        "filterparent",
+        "enable, disable",
+        "enable",
+        "`<option><flag>`: bodies that one joint connects do not collide; a warning says so of `disable`.",
+        '<option><flag filterparent="disable"/></option><worldbody><body name="a"><joint/><geom name="g" size=".1"/><body name="b"><joint/><geom name="h" size=".1"/></body></body></worldbody>',
+        "len(C.getCollisions()) == 0",
+    ),
+    E(
         "qpos",
         "numbers",
         "0",
@@ -447,6 +455,14 @@ ASSETS = [
         "Scale and pose of a mesh asset.",
         '<asset><mesh name="m" file="tetra.obj" scale="2 2 2"/></asset><worldbody><geom name="g" type="mesh" mesh="m"/></worldbody>',
         "equal(np.ptp(C.getFrame('g').getMeshPoints()[:, 0]), 2)",
+    ),
+    E(
+        "fitscale fitaabb",
+        "number; flag of the compiler",
+        "1; false",
+        "A primitive geom with a `mesh` gets the size of the mesh's inertia, or of its bounding box, times `fitscale`.",
+        '<compiler fitaabb="true"/><asset><mesh name="m" vertex="0 0 0 1 0 0 0 2 0 1 2 0 0 0 3 1 0 3 0 2 3 1 2 3"/></asset><worldbody><geom name="g" type="box" mesh="m" fitscale="2"/></worldbody>',
+        "equal(sorted(C.getFrame('g').getSize()[:3]), [2, 4, 6])",
     ),
     E(
         "vertex face",

@@ -154,13 +154,13 @@ std::vector<std::string> updateMap(OccupancyMap& map, const PyConfig& config, nb
   return warnings;
 }
 
-nb::object statesOf(const OccupancyMap& map) {
+ByteArray statesOf(const OccupancyMap& map) {
   const std::vector<CellState>& states = map.states();
   auto* copy = new std::uint8_t[states.size()];
   std::memcpy(copy, states.data(), states.size());
   const nb::capsule owner(copy, [](void* p) noexcept { delete[] static_cast<std::uint8_t*>(p); });
   const auto& count = map.counts();
-  return nb::cast(Bytes(copy, {std::size_t(count[0]), std::size_t(count[1]), std::size_t(count[2])}, owner));
+  return ByteArray(nb::cast(Bytes(copy, {std::size_t(count[0]), std::size_t(count[1]), std::size_t(count[2])}, owner)));
 }
 
 std::vector<CellState> stateAt(const OccupancyMap& map, const Numbers& points) {
@@ -233,9 +233,8 @@ void bindOccupancyMap(nb::module_& m) {
             const std::vector<CellState> states = stateAt(map, points);
             return points.values.size() == 3 ? nb::cast(states.front()) : nb::cast(states);
           },
-          "points"_a,
-          "Returns the CellState at a point in the world, shape (3,), m, or a list of them for shape (n, 3). Space\n"
-          "outside of the region is free.")
+          "points"_a, docs::perception::stateAt,
+          nb::sig("def state(self, points: numpy.typing.ArrayLike) -> CellState | list[CellState]"))
       .def_prop_ro("states", statesOf,
                    "The CellState of all cells as numbers, shape (nx, ny, nz), uint8: a copy. Cell (i, j, k) has its\n"
                    "middle at lower + cell (i + .5, j + .5, k + .5).")

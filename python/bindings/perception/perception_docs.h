@@ -102,4 +102,13 @@ Args:
 Raises:
     ArgumentError: `unseen` is another word, or the frame exists with another shape.)";
 
+inline constexpr char stateAt[] = R"(Returns whether places are free, occupied, hidden or unseen.
+
+Args:
+    points: A point in the world, shape (3,), m, or several, shape (n, 3). Space outside of the region is free.
+Returns:
+    The CellState of the point, or a list of them.
+Raises:
+    ArgumentError: points has another shape.)";
+
 }  // namespace kinegraph::python::docs::perception

@@ -53,7 +53,9 @@ Times are those of a shown simulation, else of the clock; a motion takes its dur
 Args:
     path: Path of the file, .kgr.
 Returns:
-    The recording, a context manager: it starts with `with`, or by start().)";
+    The recording, a context manager: it starts with `with`, or by start().
+Raises:
+    ArgumentTypeError: The path is no path.)";
 
 inline constexpr char ViewerRecording[] = R"(A recording of what a viewer shows; see ConfigurationViewer.record.)";
 
