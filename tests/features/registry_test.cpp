@@ -8,6 +8,7 @@
 #include <set>
 #include <sstream>
 
+#include "kinegraph/features/feature.h"
 #include "tests/features/worked_scene.h"
 #include "tests/support/expect_error.h"
 

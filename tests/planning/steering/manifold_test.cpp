@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/common/random.h"
+#include "kinegraph/features/eval.h"
 #include "kinegraph/planning/plan_motion.h"
 
 namespace kinegraph {
