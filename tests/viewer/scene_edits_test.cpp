@@ -162,9 +162,9 @@ TEST(SceneItems, DescribeJointsAndOtherAttributes) {
   Config config = scene();
   SceneItems items;
   items.read(config);
-  ASSERT_EQ(items.joints().size(), 2u);
-  EXPECT_EQ(items.joints()[0], (ShownJoint{"one", config.getFrame("one").id(), "rad", -1., 2.}));
-  EXPECT_EQ(items.joints()[1].unit, "m");
+  ASSERT_EQ(items.joints().dofs.size(), 2u);
+  EXPECT_EQ(items.joints().dofs[0], (ShownJoint{"one", config.getFrame("one").id(), "rad", -1., 2.}));
+  EXPECT_EQ(items.joints().dofs[1].unit, "m");
   EXPECT_EQ(items.items()[0].details, "shape: box, size: [0.1 0.1 0.1]");
   config.getFrame("box").setColor({1., 0., 0.});
   items.read(config);

@@ -148,7 +148,8 @@ def test_a_message_is_shown_as_text_until_it_is_replaced(config: kg.Config, brow
     browser.open(config.viewer().url)
     browser.wait_for("kinegraph.message() == 'a <b>bold</b> claim\\nin two lines'")
     assert browser.is_visible("#message")
-    assert (browser.picture()[12:60, 12:200] < 100).any()  # ink
+    left, top = browser.evaluate("(({ x, y }) => [x, y])(document.querySelector('#message').getBoundingClientRect())")
+    assert (browser.picture()[round(top) : round(top) + 48, round(left) : round(left) + 188] < 100).any()  # ink
     config.view(False, "")
     browser.wait_for("kinegraph.message() == ''")
     assert not browser.is_visible("#message")

@@ -145,7 +145,7 @@ def test_page_and_meshes_are_sent_compressed(config: kg.Config) -> None:
     for compression in ("deflate", None):
         with connect(url.replace("http", "ws"), compression=compression, max_size=None) as socket:
             assert bool(socket.protocol.extensions) == (compression == "deflate")
-            while not isinstance(message := socket.recv(20), bytes) or message[:4] != b"\x02\0\0\0":
+            while not isinstance(message := socket.recv(20), bytes) or message[:4] != b"\x09\0\0\0":
                 pass
             meshes.append(message)
     assert meshes[0] == meshes[1]

@@ -234,7 +234,10 @@ def test_motions_and_shapes_are_saved(config: kg.Config, browser: Browser, tmp_p
       await new Promise((resolve, reject) => {{ video.onloadeddata = resolve; video.onerror = () => reject(new Error("no video")); }});
       return [video.videoWidth, video.videoHeight, video.duration];
     }})()""")
-    assert played[:2] == [640, 480]  # the picture on the page
+    canvas = browser.evaluate(
+        "(({ clientWidth: w, clientHeight: h }) => [w - (w % 2), h])(document.querySelector('canvas'))"
+    )
+    assert played[:2] == canvas  # the picture on the page, beside the panel
     assert played[2] == pytest.approx(config_seconds + 0.5, abs=0.1)  # the end stays for half a second
     browser.click_button("page")
     assert b"recording" in downloaded(tmp_path, "*.html")

@@ -92,7 +92,7 @@ def test_a_large_scene_is_a_small_element_that_looks_the_same(
         config.addFrame(f"ring{i}").setMesh(points * (1 + 0.1 * i), triangles).setPosition([0, 0, 0.4 + 0.3 * i])
     viewer = config.viewer()
     whole, element = viewer.asHtml(), viewer._repr_html_()
-    assert len(whole) > 1e6 and len(element) < 600_000
+    assert len(whole) > 700_000 and len(element) < 600_000
     (tmp_path / "whole.html").write_text(whole)
     browser.open((tmp_path / "whole.html").as_uri())
     before = browser.picture().astype(int)
