@@ -58,8 +58,8 @@ TEST(RecordedPage, MeshesGetCoarserUntilThePageIsSmallEnough) {
   Config config;
   config.addFrame("ball").setMesh(ball(300));
   const std::size_t empty = recordedPage(std::vector<Outgoing>{}).size(), whole = recordedScene(config).size();
-  ASSERT_GT(whole, empty + 100000);
-  const std::size_t largest = empty + 50000;
+  ASSERT_GT(whole, empty + 60000);
+  const std::size_t largest = empty + 40000;
   const std::string page = recordedScene(config, nullptr, "a ball", nullptr, largest);
   EXPECT_LE(page.size(), largest);
   EXPECT_GT(page.size(), empty + 5000);
