@@ -99,7 +99,7 @@ def forearm(config: kg.Config) -> np.ndarray:
 def pull_forearm(config: kg.Config, browser: Browser) -> tuple[float, float]:
     """Drags the forearm to the side; returns where the pointer lets it go."""
     start = browser.pixel(forearm(config))
-    end = (start[0] + 50, start[1] - 20)
+    end = (start[0] + 24, start[1] - 10)
     browser.press_alt("E")
     browser.drag(start, end)
     return end
