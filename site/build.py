@@ -127,7 +127,8 @@ def indexPages(out: Path, examples: list[str], notebooks: list[str]) -> None:
 def main() -> None:
     out = Path(sys.argv[1] if len(sys.argv) > 1 else REPOSITORY / "build" / "site").resolve()
     source = out / "source"
-    shutil.rmtree(source, ignore_errors=True)
+    for folder in (source, out / "html"):  # pages that are gone stay in neither
+        shutil.rmtree(folder, ignore_errors=True)
     source.mkdir(parents=True)
     copyPages(source)
     doxygen = cpp_reference.runDoxygen(REPOSITORY, out / "doxygen")

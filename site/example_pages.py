@@ -10,6 +10,8 @@ from pathlib import Path
 
 from shared_client import shareClient
 
+import kinegraph
+
 RUN = """
 import runpy, sys
 import kinegraph as ry
@@ -56,9 +58,10 @@ def indentedAsCode(text: str) -> str:
 def runExample(script: Path, page: Path, cache: Path) -> str:
     """Runs an example and returns what it prints; the scene that it shows last is saved as `page`, if there is one.
 
-    The results are kept in `cache` by the content of the script.
+    The results are kept in `cache` by the content of the script and of the library.
     """
-    key = hashlib.sha256(script.read_bytes()).hexdigest()[:16]
+    library = Path(kinegraph._core.__file__).read_bytes()
+    key = hashlib.sha256(script.read_bytes() + library).hexdigest()[:16]
     kept_text, kept_page = cache / f"{key}.txt", cache / f"{key}.html"
     if not kept_text.exists():
         cache.mkdir(parents=True, exist_ok=True)

@@ -94,6 +94,8 @@ NAMES = {
 
 # Names that differ in C++.
 CPP_NAMES = {
+    "Recording": "",  # of a robot; C++ has none
+    "SimulationRecording": "Recording",
     "KOMO": "Komo",
     "NLP": "Nlp",
     "NLP_Solver": "NlpSolver",

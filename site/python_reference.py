@@ -175,6 +175,12 @@ def classOptions(cls: griffe.Class) -> list[option_tables.Option]:
     return options
 
 
+def attributesOfText(cls: griffe.Class) -> list[str]:
+    """The attributes that the section "Attributes" of the docstring describes."""
+    _, _, section = (cls.docstring.value if cls.docstring else "").partition("\nAttributes:\n")
+    return [name for line in re.findall(r"(?m)^ {4}(\w[\w, ]*):", section) for name in line.split(", ")]
+
+
 def memberEntries(cls: griffe.Class, depth: int, texts: MemberTexts) -> list[str]:
     members: dict[str, list] = {name: [member] for name, member in cls.members.items()}
     for name, variants in getattr(cls, "overloads", {}).items():
@@ -187,6 +193,9 @@ def memberEntries(cls: griffe.Class, depth: int, texts: MemberTexts) -> list[str
             lines += directive("py:attribute", option.name, [], depth, ["no-typesetting:"])
         lines += option_tables.table(table)
     in_table = {option.name for option in table}
+    for name in attributesOfText(cls):  # described in the text of the class
+        lines += directive("py:attribute", name, [], depth, ["no-typesetting:"])
+        in_table.add(name)
     for name, variants in members.items():
         member = variants[-1]
         if name in in_table:

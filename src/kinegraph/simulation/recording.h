@@ -15,6 +15,7 @@ class Simulation;
 /// A recorded run of a simulation: the scene, the start state, all calls, and the poses after each step. With the same
 /// version of the library on the same kind of machine, `replay` repeats it bit for bit.
 struct Recording {
+  /// A call of the simulation, with its arguments as numbers and names.
   struct Call {
     enum class Kind : int {
       step,
