@@ -1,6 +1,7 @@
 """Ctrl-C while a call runs."""
 
 import _thread
+import gc
 import threading
 import time
 from collections.abc import Iterator
@@ -17,9 +18,11 @@ class Interrupt:
 def interrupt_after(seconds: float) -> Iterator[Interrupt]:
     """Interrupts the main thread as Ctrl-C does, after that time; never once the block has been left.
 
-    It strikes again every 5 seconds: Python discards a KeyboardInterrupt that comes within a callback of its garbage
-    collector, and packages of the tests register such callbacks.
+    Python discards a KeyboardInterrupt that comes within a callback of its garbage collector, and packages of the tests
+    register such callbacks: the collector rests meanwhile, and the interrupt comes again every 5 seconds.
     """
+    collects = gc.isenabled()
+    gc.disable()
     interrupt = Interrupt()
     over = threading.Event()
     striking = threading.Lock()
@@ -41,3 +44,5 @@ def interrupt_after(seconds: float) -> Iterator[Interrupt]:
         with striking:
             over.set()
         thread.join()
+        if collects:
+            gc.enable()
