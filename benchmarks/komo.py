@@ -2,6 +2,7 @@
 """Compares Kinegraph's motion problems (KOMO) with those of the package `robotic`, at equal accuracy.
 
     python benchmarks/komo.py --reference PATH_TO_REFERENCE_PYTHON [--rounds 5] [--ours PATH_TO_PYTHON] [--quick]
+                              [--family 5] [--seed 1]
 
 Each round starts one process per package, in turns, and both run the same script (`--worker` below) on one thread:
 
@@ -21,7 +22,9 @@ Each round starts one process per package, in turns, and both run the same scrip
 The last columns count answers within 1 mm of the target and without collisions deeper than 1 mm in any slice, and show
 the largest miss in mm. Times of `ik` and `kept` are wall times, the others processor times. Ratios are taken within a
 round, so that a busy machine disturbs both sides alike. The reference, if there is one, checks the paths of `reach` and
-`10 phases` outside of the time. The exit status is 0 if Kinegraph's answers are good wherever the reference's are.
+`10 phases` outside of the time. At the end both packages solve the random problems of `komo_family.py` with their
+defaults: `--family` of each kind, drawn by `--seed`. The exit status is 0 if Kinegraph's answers are good wherever the
+reference's are.
 """
 
 import argparse
@@ -34,6 +37,8 @@ import sys
 import tempfile
 from pathlib import Path
 from time import perf_counter, process_time
+
+import komo_family
 
 Q_HOME = [0.0, -0.5, 0.0, -2.0, 0.0, 2.0, -0.5]
 LENGTHS = [8, 16, 32, 64, 128, 256, 512]
@@ -53,6 +58,7 @@ def worker(options):
     report = {"version": getattr(ry, "__version__", None) or ry.version(), "module": os.path.dirname(ry.__file__)}
     report |= {"python": platform.python_version(), "numpy": np.__version__}
     roles = {"describe": lambda *_: {}, "problems": makeProblems, "measure": measure, "check": checkPaths}
+    roles |= {"draw": komo_family.drawFamily, "family": komo_family.solveFamily, "judge": komo_family.checkFamily}
     report |= roles[options.worker](ry, np, task)
     Path(options.out).write_text(json.dumps(report))
     sys.stdout.flush()
@@ -363,6 +369,33 @@ def printTable(reports, good):
     print("memory of `build`, evaluated once:", ", ".join(megabytes))
 
 
+def runFamily(run, pythons, options):
+    """Prints the table of random problems. Returns the kinds of which Kinegraph solves fewer than the reference."""
+    problems = run("kinegraph", "draw", {"seed": options.seed, "count": options.family})["problems"]
+    answers = {who: [] for who in pythons}
+    kinds = list(dict.fromkeys(p["kind"] for p in problems))
+    for kind in kinds:  # in turns
+        task = {"problems": [p for p in problems if p["kind"] == kind]}
+        for who in pythons:
+            answers[who] += run(who, "family", task)["answers"]
+    tasks = {who: {"problems": problems, "answers": answers[who]} for who in pythons}
+    solved = {who: run(next(iter(pythons)), "judge", task)["solved"] for who, task in tasks.items()}
+    print(f"\n{options.family} random problems of each kind, seed {options.seed}")
+    for who in pythons:
+        print(f"\n{who}:\n{komo_family.HEADER}")
+        for kind in kinds:
+            komo_family.printRow(kind, solved[who], answers[who])
+    if "reference" not in pythons:
+        return []
+    pairs = [side for who in ("kinegraph", "reference") for side in (solved[who], answers[who])]
+    komo_family.printComparison("kinegraph against reference:", *pairs)
+    count = {(who, p["kind"]): 0 for who in pythons for p in problems}
+    for who in pythons:
+        for problem, is_solved in zip(problems, solved[who]):
+            count[who, problem["kind"]] += is_solved
+    return [kind for kind in kinds if count["kinegraph", kind] < count["reference", kind]]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--reference", help="a Python with the reference package as `robotic`")
@@ -370,6 +403,8 @@ def main():
     parser.add_argument("--rounds", type=int, default=5)
     parser.add_argument("--targets", type=int, default=300, help="targets of the inverse kinematics per round")
     parser.add_argument("--quick", action="store_true", help="five problems, paths of at most 64 slices")
+    parser.add_argument("--family", type=int, default=5, help="random problems of each kind; 0: none")
+    parser.add_argument("--seed", type=int, default=1, help="of the random problems")
     for internal in ("--worker", "--out", "--task"):
         parser.add_argument(internal, help=argparse.SUPPRESS)
     options = parser.parse_args()
@@ -394,6 +429,7 @@ def main():
         for i in range(options.rounds):
             for who in list(pythons) if i % 2 == 0 else list(pythons)[::-1]:
                 reports[who].append(run(who, "measure", task))
+        family_worse = runFamily(run, pythons, options) if options.family else []
         good = {who: run(judge, "check", {"paths": runs[0]["paths"]})["good"] for who, runs in reports.items()}
 
     print("command: ", " ".join(["python", *sys.argv]))
@@ -403,7 +439,7 @@ def main():
     print(f"rounds:   {options.rounds}, {options.targets} targets each; paths judged by: {judge}\n")
     printTable(reports, good)
     reference, ours = good.get("reference", {}), good["kinegraph"]
-    worse = [row for row in ours if ours[row][0] < reference.get(row, [0])[0]]
+    worse = [row for row in ours if ours[row][0] < reference.get(row, [0])[0]] + family_worse
     print(
         "answers:", f"WORSE than the reference in {', '.join(worse)}" if worse else "as good as the reference or better"
     )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import enum
 import re
 from collections.abc import Mapping, Sequence
@@ -145,6 +144,8 @@ def fits(value: Any, type_text: str) -> bool:
 
 
 def _near(name: str, names: list[str]) -> str:
+    import difflib  # not at import: it takes milliseconds, and is rarely needed
+
     near = difflib.get_close_matches(name, names, 3, 0.5)
     if not near:
         lower = {each.lower(): each for each in names}

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import warnings
 from collections.abc import Mapping
 from pathlib import Path
@@ -63,6 +62,8 @@ def params_add(values: dict[str, Any] | None = None, **more: Any) -> None:
 def _checkName(name: str) -> None:
     """Warns of a parameter that seems to be misspelled."""
     lower = {known.lower(): known for known in _KNOWN}
+    import difflib  # not at import: it takes milliseconds, and is rarely needed
+
     near = difflib.get_close_matches(name.lower(), lower, cutoff=0.8)
     if name in _KNOWN or not (near or name.split("/")[0] in _GROUPS):
         return

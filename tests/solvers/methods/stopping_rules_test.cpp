@@ -57,6 +57,26 @@ TEST(StagnationTest, NeedsRefusedStepsAndCostsThatHardlyFall) {
   EXPECT_FALSE(stagnatesAfter(1., StagnationTest::kRefused, false));
 }
 
+TEST(RemainderTest, AddsUpDecreasesThatFallByAConstantFactor) {
+  SolverOptions options;
+  options.stopTolerance = 1e-2;
+  options.stopFTolerance = 1e-3;
+  constexpr double kCost = 5.;
+  const double most = RemainderTest::kShare * options.stopFTolerance * kCost;  // the lesser of both tolerances
+  const auto isSmall = [&](double before, double now) {
+    RemainderTest test(options);
+    EXPECT_FALSE(test.isSmall(now, kCost)) << "the first step has nothing to compare with";
+    test.addStep(before);
+    return test.isSmall(now, kCost);
+  };
+  EXPECT_TRUE(isSmall(.98 * most, .49 * most));
+  EXPECT_FALSE(isSmall(1.02 * most, .51 * most));
+  EXPECT_FALSE(isSmall(.101 * most, .1 * most)) << "hardly falls, so that many steps follow";
+  EXPECT_FALSE(isSmall(0., 0.));
+  options.stopFTolerance = 0.;
+  EXPECT_FALSE(isSmall(1e-3 * most, 1e-4 * most)) << "zero switches the test off";
+}
+
 TEST(ViolationTest, IsStuckAfterTwoBadRoundsUnderALargePenalty) {
   ViolationTest test;
   test.addRound(1.);

@@ -26,8 +26,9 @@ const OptionTable<SolverOptions, OptMethod>& solverOptionTable() {
        {"stopTolerance", &O::stopTolerance, "rad or m", "A step without larger entries counts as converged.",
         R::positive()},
        {"stopFTolerance", &O::stopFTolerance, "",
-        "If steps are refused repeatedly and the relative decrease of the cost per evaluation is smaller, the solve "
-        "stalls.",
+        "A path (more than 100 variables) converges if its constraints hold and the further relative decrease of the "
+        "cost is estimated as less than a third of this or of stopTolerance. If steps are refused repeatedly and the "
+        "relative decrease of the cost per evaluation is smaller, the solve stalls.",
         R::notNegative()},
        {"stopGTolerance", &O::stopGTolerance, "",
         "Largest accepted violation of a (scaled) constraint; < 0: stopTolerance, at most 1e-4."},

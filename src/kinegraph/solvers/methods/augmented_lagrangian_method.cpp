@@ -25,7 +25,8 @@ AugmentedLagrangian::AugmentedLagrangian(Nlp& nlp, Memory& memory, const VectorX
       damping_(options.damping, options.damping),
       radius_(options.stepMax),
       inner_(has_many_variables_),
-      stagnation_(options) {
+      stagnation_(options),
+      remainder_(options) {
   here_.x = start_ = x0.cwiseMax(lower_).cwiseMin(upper_);
   lambda_.setZero();
 }
@@ -113,7 +114,7 @@ void AugmentedLagrangian::iterate() {
       return stop(SolverStatus::stalled,
                   cat("the relative decrease of the costs per evaluation is below stopFTolerance", refusal_));
     if (step.is_tiny && triesLessDamping(step)) continue;
-    if (step.is_tiny && holds(step.error)) {
+    if (holds(step.error) && (step.is_tiny || (is_new_point && costsHaveConverged(step)))) {
       endAt(step);
       continue;
     }
@@ -166,6 +167,13 @@ void AugmentedLagrangian::findStep(const Problem& problem, Step& step) {
   step.size = model_.minimize(problem).lpNorm<Eigen::Infinity>();
   step.predicted = model_.decrease(problem);
   step.is_tiny = step.size <= tolerance || step.predicted <= std::max(tolerance * tolerance, kMinDecrease) * scale;
+}
+
+/// Whether this undamped step and all later ones hardly decrease the costs. Problems of few variables always continue
+/// to a tiny step: their evaluations are cheap.
+bool AugmentedLagrangian::costsHaveConverged(const Step& step) const {
+  return has_many_variables_ && !constraints_.empty() && !learns_curvature_ && refusal_.empty() &&
+         damping_.isSmall(step.curvature) && remainder_.isSmall(step.predicted, here_.cost);
 }
 
 /// Raises the penalty at once if even the step of the model leaves much of the violation and the next penalty leaves
@@ -269,10 +277,21 @@ void AugmentedLagrangian::endRound(const Step& step) {
                                    "  violation ", step.error, "  mu ", penalty_.value()));
   if (!holds(step.error) && meetsContradiction(step)) return;
   updateMultipliers(step.size);
-  if (!holds(step.error) && !violation_.fellEnough(step.error)) penalty_.grow();
+  if (needsLargerPenalty(step)) penalty_.grow();
   violation_.addRound(step.error);
   inner_.tighten(options_.stopTolerance, holds(step.error));
   activatesConstraints(false);
+}
+
+/// Whether the violation has not decreased enough because of the penalty. If the step of the model removes it to first
+/// order, as on paths with curved constraints, a larger penalty would only shorten the steps; it grows nevertheless if
+/// this happens again and again.
+bool AugmentedLagrangian::needsLargerPenalty(const Step& step) {
+  const bool is_insufficient = !holds(step.error) && !violation_.fellEnough(step.error);
+  const bool is_curved = has_many_variables_ && linearizedViolation() < Penalty::kCurved * step.violation;
+  const bool is_kept = is_insufficient && is_curved && penalties_kept_ < Penalty::kMostKept;
+  penalties_kept_ = is_kept ? penalties_kept_ + 1 : 0;
+  return is_insufficient && !is_kept;
 }
 
 /// Checks for contradicting constraints if the violation does not fall under a large penalty. True if the solve ends:
@@ -364,6 +383,7 @@ void AugmentedLagrangian::accept(const Step& step) {
   if (step.ratio > kGood && damping_.isSmall(step.curvature) && constraintError() <= kFastFall * step.error)
     updateMultipliers(step.size);
   inner_.addStep(step.before, step.after);
+  remainder_.addStep(step.predicted);
   learnCurvature(trial_);
   radius_.accept(step.size, step.ratio > kVeryGood);
   tried_less_damping_ = round_just_ended_ = false;

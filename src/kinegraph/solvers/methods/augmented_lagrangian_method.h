@@ -94,6 +94,7 @@ class AugmentedLagrangian {
   bool reachedLimit(int steps);
   Step startStep();
   Problem modelProblem();
+  bool costsHaveConverged(const Step& step) const;
   bool needsNoStep(const Step& step, const Problem& problem);
   void findStep(const Problem& problem, Step& step);
   void raisePenalty(Step& step);
@@ -105,6 +106,7 @@ class AugmentedLagrangian {
   void endRound(const Step& step);
   bool meetsContradiction(const Step& step);
   bool activatesConstraints(bool is_solution);
+  bool needsLargerPenalty(const Step& step);
   void updateMultipliers(double step_size);
   bool tryStep(Step& step);
   bool isSpoiltByPenalties();
@@ -158,10 +160,11 @@ class AugmentedLagrangian {
   StepRadius radius_;
   InnerTest inner_;
   StagnationTest stagnation_;
+  RemainderTest remainder_;
   ViolationTest violation_;
   CorrectionTest correction_;
   int rounds_ = 0,  ///< outer iterations
-      restorations_ = 0, times_lost_ = 0, activations_ = 0;
+      penalties_kept_ = 0, restorations_ = 0, times_lost_ = 0, activations_ = 0;
   std::vector<int> activated_;       ///< workspace
   bool model_is_stale_ = true;       ///< the point has changed since
   bool tried_less_damping_ = false;  ///< since the last accepted step

@@ -18,6 +18,9 @@ class Penalty {
   static constexpr double kSteering =
       .3;  ///< share of the violation that the first step of an outer iteration may leave,
   static constexpr double kWorthwhile = .7;  ///< and factor of that share which justifies a larger penalty
+  static constexpr double kCurved =
+      .1;  ///< share of the violation, to first order, after a step that needs no larger penalty,
+  static constexpr int kMostKept = 3;        ///< and number of outer iterations that keep the penalty for this reason
   static constexpr double kSteepness = .01;  ///< cost weight for a gradient of the costs of 1
 
   Penalty(const SolverOptions& options, double cost_weight)

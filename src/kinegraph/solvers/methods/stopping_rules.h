@@ -73,6 +73,31 @@ class StagnationTest {
   double cost_ = std::numeric_limits<double>::infinity();
 };
 
+/// Decides whether the costs of a path are close enough to their minimum. Near a solution the decreases of Gauss-Newton
+/// steps fall by a constant factor, so that the remaining ones are a geometric series.
+class RemainderTest {
+ public:
+  static constexpr double kShare = .3;      ///< remaining share of the costs, in units of the tolerances
+  static constexpr double kSlowest = .9;    ///< largest factor between decreases that counts as convergence
+  static constexpr double kMinCost = 1e-4;  ///< least magnitude of the cost for relative decreases
+
+  /// The tolerance is the lesser of stopTolerance and stopFTolerance.
+  explicit RemainderTest(const SolverOptions& options)
+      : most_(kShare * std::min(options.stopTolerance, options.stopFTolerance)) {}
+
+  /// Records the predicted decrease of an accepted step.
+  void addStep(double predicted) { last_ = predicted; }
+
+  /// Whether this step and all later ones hardly decrease the cost.
+  bool isSmall(double predicted, double cost) const {
+    const double rate = predicted / last_;
+    return rate <= kSlowest && predicted <= (1. - rate) * most_ * std::max(std::abs(cost), kMinCost);
+  }
+
+ private:
+  double most_, last_ = 0.;
+};
+
 /// Observes the decrease of the violation over outer iterations.
 class ViolationTest {
  public:
