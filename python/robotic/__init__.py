@@ -13,7 +13,6 @@ Both packages can be imported in one process; neither changes the other.
 
 from __future__ import annotations
 
-import difflib as _difflib
 import sys as _sys
 from importlib import import_module as _import_module
 from typing import TYPE_CHECKING
@@ -91,7 +90,9 @@ if not TYPE_CHECKING:  # otherwise type checkers accept any name
         elif name in kinegraph.__all__:
             value = getattr(kinegraph, name)
         else:
-            near = _difflib.get_close_matches(name, __all__, 3, 0.5)
+            import difflib  # not at import: it takes milliseconds, and is rarely needed
+
+            near = difflib.get_close_matches(name, __all__, 3, 0.5)
             hint = f"; similar names: {', '.join(near)}" if near else ""
             raise AttributeError(f"robotic has no '{name}'{hint}")
         globals()[name] = value
