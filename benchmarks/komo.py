@@ -339,7 +339,7 @@ def machine():
 
 def printTable(reports, good):
     print(
-        f"{'µs':18}{'reference':>12}{'kinegraph':>12}{'ratio':>8}{'over the rounds':>18}{'evaluations':>14}"
+        f"\n{'µs':18}{'reference':>12}{'kinegraph':>12}{'ratio':>8}{'over the rounds':>18}{'evaluations':>14}"
         f"{'within 1 mm':>18}{'largest miss':>18}"
     )
     for row in [*reports["kinegraph"][0]["times"]]:
@@ -429,14 +429,14 @@ def main():
         for i in range(options.rounds):
             for who in list(pythons) if i % 2 == 0 else list(pythons)[::-1]:
                 reports[who].append(run(who, "measure", task))
+        print("command: ", " ".join(["python", *sys.argv]))
+        print("machine: ", machine())
+        for who in pythons:
+            print(f"{who}: {about[who]['version']} (python {about[who]['python']}, numpy {about[who]['numpy']})")
+        print(f"rounds:   {options.rounds}, {options.targets} targets each; paths judged by: {judge}")
         family_worse = runFamily(run, pythons, options) if options.family else []
         good = {who: run(judge, "check", {"paths": runs[0]["paths"]})["good"] for who, runs in reports.items()}
 
-    print("command: ", " ".join(["python", *sys.argv]))
-    print("machine: ", machine())
-    for who in pythons:
-        print(f"{who}: {about[who]['version']} (python {about[who]['python']}, numpy {about[who]['numpy']})")
-    print(f"rounds:   {options.rounds}, {options.targets} targets each; paths judged by: {judge}\n")
     printTable(reports, good)
     reference, ours = good.get("reference", {}), good["kinegraph"]
     worse = [row for row in ours if ours[row][0] < reference.get(row, [0])[0]] + family_worse
