@@ -1,4 +1,4 @@
-// What PDDL of others needs: each case with the answer of Fast Downward 26.6 (A* with LM-cut or blind search).
+// The parts of PDDL in public files: each case with the answer of Fast Downward 26.6 (A* with LM-cut or blind search).
 #include <gtest/gtest.h>
 
 #include "kinegraph/common/text.h"
@@ -21,7 +21,7 @@ std::string firstPlan(const std::string& domain, const std::string& problem) {
     EXPECT_TRUE(oracle::validate(read, words));
     std::vector<std::string> actions;
     for (const auto& action : words) actions.push_back("(" + join(action, " ") + ")");
-    // What is written is read, with the same plan.
+    // The written text is read, with the same plan.
     const std::string written = writePddlDomain(read.domain), text = writePddlProblem(read);
     const LogicProblem again = readPddlProblem(text, readPddlDomain(written));
     EXPECT_EQ(writePddlDomain(again.domain), written);
@@ -204,7 +204,7 @@ TEST(PddlLanguage, AVariableOfAQuantifierHidesThatOfTheAction) {
 }
 
 TEST(PddlLanguage, DerivedPredicatesHoldExactlyWhileTheirRulesHold) {
-  // Only what nothing is above can be lifted, and `above` is transitive.
+  // Only clear blocks can be lifted, and `above` is transitive.
   const std::string domain =
       "(define (domain piles) (:types block) (:predicates (on ?a ?b - block) (loose ?a - block) (above ?a ?b - block) "
       "(clear ?a - block) (tidy)) (:derived (above ?a ?b - block) (or (on ?a ?b) (exists (?c - block) (and (on ?a ?c) "

@@ -1,4 +1,4 @@
-// Laws of PDDL on small random problems: plans are valid and cheapest, and what is written is read as the same.
+// Laws of PDDL on small random problems: plans are valid and cheapest, and written problems are read as the same.
 #include <gtest/gtest.h>
 
 #include <limits>

@@ -77,7 +77,7 @@ struct GroundProblem {
 
   /// Returns the state after an action and all rules. Throws ValueError if the rules never end.
   FactSet apply(int action, const FactSet& state) const;
-  void fireRules(FactSet& state) const;  ///< and derives the facts of derived predicates anew
+  void fireRules(FactSet& state) const;  ///< and derives the facts of derived predicates
 
   /// Returns the literals that hold in a state: first those that never change.
   std::vector<Literal> literals(const FactSet& state) const;
