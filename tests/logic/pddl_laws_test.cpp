@@ -208,6 +208,71 @@ TEST(PddlLaws, FurtherPlansAreValidDifferentAndNeverCheaper) {
   EXPECT_GT(plans, 50);
 }
 
+/// All cheapest plans of a problem, in order.
+std::vector<std::vector<int>> cheapestPlans(const LogicProblem& problem, PlanSearch::Options options) {
+  PlanSearch search(ground(problem), options);
+  std::vector<std::vector<int>> plans;
+  while (const auto plan = search.next()) {
+    if (search.problem().cost(*plan) > search.distance() || plans.size() > 200) break;
+    plans.push_back(*plan);
+  }
+  return plans;
+}
+
+/// Six blocks that a hand stacks in another random order.
+LogicProblem randomPiles(int seed) {
+  Rng rng(std::uint64_t(seed) + 1);
+  const auto piles = [&](std::vector<std::string> blocks) {
+    std::string text;
+    for (std::size_t i = blocks.size(); i > 0; --i) {
+      std::swap(blocks[i - 1], blocks[rng.bits() % i]);
+      const bool is_low = i == blocks.size() || rng.bits() % 3 == 0;
+      text += is_low ? cat("(on ", blocks[i - 1], " floor)") : cat("(on ", blocks[i - 1], " ", blocks[i], ")");
+    }
+    return text;
+  };
+  const std::vector<std::string> blocks = {"a", "b", "c", "d", "e", "f"};
+  const std::string start = piles(blocks), goal = piles(blocks);
+  std::string clear;
+  for (const std::string& block : blocks) {
+    if (start.find(" " + block + ")") == std::string::npos) clear += cat("(clear ", block, ")");
+  }
+  return readPddlProblem(
+      cat("(define (problem p) (:domain piles) (:objects a b c d e f) (:init (clear floor) ", start, clear,
+          ") (:goal (and ", goal, ")))"),
+      readPddlDomain(
+          "(define (domain piles) (:constants floor hand) (:predicates (on ?a ?b) (clear ?a)) (:action take "
+          ":parameters (?a ?b) :precondition (and (clear ?a) (on ?a ?b) (not (= ?b hand)) (forall (?c) (not "
+          "(on ?c hand)))) :effect (and (clear ?b) (on ?a hand) (not (clear ?a)) (not (on ?a ?b)))) (:action "
+          "put :parameters (?a ?b) :precondition (and (clear ?b) (on ?a hand)) :effect (and (on ?a ?b) "
+          "(clear ?a) (when (not (= ?b floor)) (not (clear ?b))) (not (on ?a hand)))))"));
+}
+
+TEST(PddlLaws, TheCheapestPlansAreTheSameIfTheirOrderIsGivenUp) {
+  const auto sorted = [](std::vector<std::vector<int>> plans) {
+    std::ranges::sort(plans);
+    return plans;
+  };
+  for (int seed = 0; seed < 100; ++seed) {
+    const LogicProblem problem = RandomProblem(seed, seed >= 50).read();
+    const auto ordered = cheapestPlans(problem, {});
+    if (ordered.size() > 200) continue;
+    EXPECT_EQ(sorted(cheapestPlans(problem, {.order_expansions = 0})), sorted(ordered)) << seed;
+  }
+  long saved = 0;
+  for (int seed = 0; seed < 10; ++seed) {
+    const LogicProblem piles = randomPiles(seed);
+    const auto ordered = cheapestPlans(piles, {});
+    if (ordered.size() > 200) continue;
+    EXPECT_EQ(ordered, sorted(ordered));
+    EXPECT_EQ(sorted(cheapestPlans(piles, {.order_expansions = 0})), ordered);
+    PlanSearch with(ground(piles), {}), without(ground(piles), {.order_expansions = 0});
+    EXPECT_EQ(with.next()->size(), without.next()->size());
+    saved += with.expansions() - without.expansions();
+  }
+  EXPECT_GT(saved, 0);
+}
+
 TEST(PddlLaws, LandmarksNeverExceedTheLeastCost) {
   for (int seed = 300; seed < 380; ++seed) {
     const LogicProblem problem = RandomProblem(seed, seed >= 340).read();
