@@ -49,11 +49,11 @@ from .not_yet import (
 )
 from .operation import BotOp
 from .path_finder import RRT_PathFinder
+from .path_finder import RRT_PathFinder as PathFinder  # until 0.2.3
 from .results import NLP_Solver, SolverReturn
 from .scenes import Config
 from .simulation import Simulation, SimulationState
 
-PathFinder = RRT_PathFinder  # until 0.2.3
 _acceptEarlierWords()
 
 __all__ = [

@@ -7,10 +7,22 @@ from typing import Any
 from numpy.typing import ArrayLike
 
 import kinegraph
+from kinegraph.compatibility.parameters import RRT_OPTIONS
 
 
 class RRT_PathFinder(kinegraph.RRT_PathFinder):
-    """Like kinegraph.RRT_PathFinder; setProblem takes the tolerance of collisions, too, as until 0.2.3."""
+    """Like kinegraph.RRT_PathFinder; the parameters `rrt/...` are its defaults, and setProblem takes the tolerance of
+    collisions, too, as until 0.2.3."""
+
+    def __init__(self) -> None:
+        """Creates a path finder without a problem, with the options that params_add set as `rrt/<option>`.
+
+        Raises:
+            ArgumentError: A parameter has an invalid value.
+        """
+        super().__init__()
+        parameters = kinegraph.params_get()
+        self.setOptions(**{name: parameters[f"rrt/{name}"] for name in RRT_OPTIONS if f"rrt/{name}" in parameters})
 
     def setProblem(
         self,
