@@ -105,7 +105,7 @@ class ManipulationHelper {
   /// object whose y axis is the line; it is added unless it exists, and returned. `scale` weighs the contact
   /// constraints.
   std::string straight_push(const std::vector<double>& times, const std::string& obj, const std::string& gripper,
-                     const std::string& table, double scale = 1e1, std::string helper = {});
+                            const std::string& table, double scale = 1e1, std::string helper = {});
 
   /// Presses on the object from above and slides it upright over the table, from times[0] to times[1], to the frame
   /// `_pull_end`. A switch attaches it to the gripper.
