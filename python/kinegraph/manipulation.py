@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from ._core import Config, ManipulationHelper, NLP_Solver, SolverReturn
+from ._core import Config, ManipulationHelper, NLP_Solver, RRT_PathFinder, SolverReturn
 from .errors import ArgumentError
 from .log_messages import emit
 
@@ -32,6 +32,7 @@ class KOMO_ManipulationHelper(ManipulationHelper):
     ret: SolverReturn | None
     path: np.ndarray | None
     _solver: type[NLP_Solver] = NLP_Solver  # robotic has its own
+    _finder: type[RRT_PathFinder] = RRT_PathFinder
 
     def __init__(self, info: str = "") -> None:
         """Makes a helper without a problem.
@@ -119,10 +120,8 @@ class KOMO_ManipulationHelper(ManipulationHelper):
         Raises:
             ArgumentError: The phase is out of range, or the problem is no sequence.
         """
-        import kinegraph
-
         C, q0, q1 = self._problem("sub_rrt").getSubProblem(phase)
-        finder = kinegraph.RRT_PathFinder()
+        finder = self._finder()
         finder.setProblem(C)
         finder.setStartGoal([q0], [q1])
         if explicitCollisionPairs:

@@ -1,11 +1,12 @@
 """Runs scripts written for the reference: `from robotic import ry` or `import robotic as ry`.
 
-A thin layer over kinegraph with the same classes and functions under the same names, and five differences:
+A thin layer over kinegraph with the same classes and functions under the same names, and these differences:
 
 - `feasible` of a solve follows the reference's rule; see `SolverReturn`.
 - A simulated `BotOp` moves beyond its limits and into obstacles, with a warning; `kinegraph.BotOp` is strict.
 - `Config.getFrame` returns None for an unknown frame, and a frame with an unknown parent has none, with a warning.
 - States of a `Simulation` unpack as (X, q, V, qDot), and solvers keep their trace.
+- Names and arguments of earlier versions (0.1.10, 0.2.3, 0.2.9) are there, too.
 - Names of the reference without an implementation here exist, and raise an explaining error when used.
 
 Both packages can be imported in one process; neither changes the other.
@@ -25,33 +26,50 @@ if TYPE_CHECKING:
     from kinegraph import *  # noqa: F403
     from kinegraph import ArgWord as ArgWord
     from kinegraph import test as test
-    from kinegraph.compatibility.lgp import default_Logic2KOMO_Translator, default_TAMP_Provider
+    from kinegraph.compatibility.lgp import (
+        Actions2KOMO_Translator,
+        Logic2KOMO_Translator,
+        TAMP_Provider,
+        default_Actions2KOMO_Translator,
+        default_Logic2KOMO_Translator,
+        default_TAMP_Provider,
+    )
 
     from . import DataGen, algo, calib, manipulation, nlp, render
     from .keywords import arg
     from .manipulation import KOMO_ManipulationHelper, LGP_Tool, ManipulationModelling
 
+from .earlier_words import acceptEarlierWords as _acceptEarlierWords
+from .exported_values import exportedValue as _exportedValue
 from .not_yet import (
     KOMO_Objective,
     MujocoLoader,
     SRRT_PathFinder,
 )
 from .operation import BotOp
+from .path_finder import RRT_PathFinder
+from .path_finder import RRT_PathFinder as PathFinder  # until 0.2.3
 from .results import NLP_Solver, SolverReturn
 from .scenes import Config
 from .simulation import Simulation, SimulationState
 
+_acceptEarlierWords()
+
 __all__ = [
     *kinegraph.__all__,
+    "Actions2KOMO_Translator",
     "DataGen",
     "KOMO_ManipulationHelper",
     "KOMO_Objective",
+    "Logic2KOMO_Translator",
     "ManipulationModelling",
     "MujocoLoader",
     "SRRT_PathFinder",
+    "TAMP_Provider",
     "algo",
     "arg",
     "calib",
+    "default_Actions2KOMO_Translator",
     "default_Logic2KOMO_Translator",
     "default_TAMP_Provider",
     "manipulation",
@@ -64,7 +82,14 @@ __all__ = [
 
 # Modules loaded at the first use of one of their names, as in kinegraph.
 _LAZY = {
-    "kinegraph.compatibility.lgp": ("default_Logic2KOMO_Translator", "default_TAMP_Provider"),
+    "kinegraph.compatibility.lgp": (
+        "Actions2KOMO_Translator",
+        "Logic2KOMO_Translator",
+        "TAMP_Provider",
+        "default_Actions2KOMO_Translator",
+        "default_Logic2KOMO_Translator",
+        "default_TAMP_Provider",
+    ),
     "robotic.manipulation": ("KOMO_ManipulationHelper", "LGP_Tool", "ManipulationModelling"),
     "robotic.keywords": ("arg",),
 }
@@ -89,6 +114,8 @@ if not TYPE_CHECKING:  # otherwise type checkers accept any name
             value = getattr(_import_module(_MODULE_OF[name]), name)
         elif name in kinegraph.__all__:
             value = getattr(kinegraph, name)
+        elif (exported := _exportedValue(name)) is not None:
+            value = exported
         else:
             import difflib  # not at import: it takes milliseconds, and is rarely needed
 

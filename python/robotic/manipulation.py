@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import kinegraph
 
+from .path_finder import RRT_PathFinder
 from .results import NLP_Solver, SolverReturn
 
 
@@ -17,6 +18,16 @@ class KOMO_ManipulationHelper(kinegraph.KOMO_ManipulationHelper):
     """
 
     _solver = NLP_Solver
+    _finder = RRT_PathFinder
+
+    def __init__(self, info: str = "") -> None:
+        """Makes a helper whose `komo` is empty; a setup replaces it, or scripts set it up.
+
+        Args:
+            info: Name of the problem in the output of solve.
+        """
+        super().__init__(info)
+        self.komo = kinegraph.KOMO()
 
     if not TYPE_CHECKING:  # otherwise type checkers accept any name
 

@@ -44,6 +44,7 @@ class Simulation(kinegraph.Simulation):
         super().__init__(C, *args, **kwargs)
         self._scene = C
         self._widths: dict[str, float] = {}  # of grippers, as commanded
+        self._holders: dict[str, str] = {}  # of attached frames
 
     def getState(self) -> SimulationState:
         """Returns the state, which is also a tuple (X, q, V, qDot).
@@ -102,6 +103,72 @@ class Simulation(kinegraph.Simulation):
                 raise
             self.addSensor(sensorName)
             super().selectSensor(sensorName)
+
+    def addSensor(
+        self,
+        sensorName: str,
+        frameAttached: str | int = "",
+        width: int | None = None,
+        height: int | float | None = None,
+        focalLength: float = -1.0,
+        orthoAbsHeight: float | ArrayLike = -1.0,
+        zRange: ArrayLike = (),
+    ) -> None:
+        """Adds a camera and selects it, as kinegraph.Simulation.addSensor; attributes of the camera may be given.
+
+        Versions 0.2.3 and 0.2.9 have no frameAttached: a number there is the width, and the others follow.
+
+        Args:
+            sensorName, frameAttached: As in kinegraph.Simulation.addSensor.
+            width, height: Of pictures, pixels.
+            focalLength: Image heights; negative: of the frame.
+            orthoAbsHeight: Height of a picture without perspective, m; negative: with perspective.
+            zRange: Least and largest distance of what is seen, (2,), m.
+        Raises:
+            FrameNotFound: There is no such frame.
+            ArgumentError: The camera attributes are invalid.
+        """
+        numbers: list[Any] = [width, height, focalLength, orthoAbsHeight, zRange]
+        if not isinstance(frameAttached, str):
+            numbers = [frameAttached, *(number for number in numbers if number is not None)]
+            numbers += [-1.0, -1.0, ()][len(numbers) - 2 :]
+            frameAttached = ""
+        names = ("width", "height", "focalLength", "orthoAbsHeight", "zRange")
+        given = {name: value for name, value in zip(names, numbers) if np.size(value) and value is not None}
+        attributes = {name: value for name, value in given.items() if np.min(value) >= 0.0}
+        if attributes:
+            self._scene[frameAttached or sensorName].setAttributes(attributes)
+        super().addSensor(sensorName, frameAttached)
+
+    def detach(self, frm: Any, to: Any = None) -> None:
+        """Ends an attachment, as kinegraph.Simulation.detach; until 0.2.9 the held object alone was given.
+
+        Args:
+            frm: Frame of the holding link; without `to`, the held frame of the last attach.
+            to: Frame of the held link.
+        Raises:
+            FrameNotFound: There is no such frame.
+            ArgumentError: They are not attached.
+        """
+        if to is None:
+            held = self._gripper(frm)
+            if held not in self._holders:
+                raise kinegraph.ArgumentError(f"Simulation.detach: '{held}' is not attached to a frame")
+            frm, to = self._holders[held], held
+        super().detach(frm, to)
+        self._holders.pop(self._gripper(to), None)
+
+    def attach(self, frm: Any, to: Any) -> None:
+        """Fixes a link to another, as kinegraph.Simulation.attach.
+
+        Args:
+            frm, to: As in kinegraph.Simulation.attach.
+        Raises:
+            FrameNotFound: There is no such frame.
+            ArgumentError: Both are the same link, or 32 links are attached already.
+        """
+        super().attach(frm, to)
+        self._holders[self._gripper(to)] = self._gripper(frm)
 
     def moveGripper(self, gripperFrameName: Any, width: float, speed: float = 0.3) -> None:
         """Moves fingers to a width, as kinegraph.Simulation.moveGripper.
@@ -170,4 +237,4 @@ class Simulation(kinegraph.Simulation):
         self.pushConfigToSim(frameVelocities, jointVelocities)
 
     def _gripper(self, frame: Any) -> str:
-        return frame if isinstance(frame, str) else self._scene.getFrame(frame).name
+        return str(frame if isinstance(frame, str) else getattr(frame, "name", None) or self._scene[frame].name)

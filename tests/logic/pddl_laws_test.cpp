@@ -1,8 +1,9 @@
-// Laws of PDDL on small random problems: plans are valid and cheapest, and what is written is read as the same.
+// Laws of PDDL on small random problems: plans are valid and cheapest, and written problems are read as the same.
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <set>
+#include <utility>
 
 #include "kinegraph/common/random.h"
 #include "kinegraph/common/text.h"
@@ -15,10 +16,11 @@
 namespace kinegraph {
 namespace {
 
-/// Writes random problems with two types, nested conditions, conditional effects and costs.
+/// Writes random problems with two types, nested conditions, conditional effects and costs. With `derives`, they have
+/// two derived predicates: d0 is recursive, and d1 may negate d0.
 class RandomPddl {
  public:
-  explicit RandomPddl(int seed) : rng_(std::uint64_t(seed)) {
+  explicit RandomPddl(int seed, bool derives = false) : rng_(std::uint64_t(seed)), derives_(derives) {
     const std::vector<int> counts = {1 + below(2), 1 + below(2)};
     for (int type = 0; type < 2; ++type) {
       for (int i = 0; i < counts[std::size_t(type)]; ++i) objects_.push_back({cat(kTypes[type], i), type});
@@ -28,7 +30,8 @@ class RandomPddl {
   std::string domain() {
     std::string text =
         "(define (domain d) (:types ta tb)\n(:predicates (p0) (p1 ?a - ta) (p2 ?b - tb) (p3 ?a - ta ?b - tb) (fixed ?a "
-        "- ta ?b - tb))\n(:functions (total-cost) - number (toll ?a - ta) - number)\n";
+        "- ta ?b - tb) (d0 ?a - ta) (d1 ?b - tb))\n(:functions (total-cost) - number (toll ?a - ta) - number)\n";
+    if (derives_) text += derived();
     for (int i = 0; i < 3 + below(3); ++i) text += action(i);
     return text + ")";
   }
@@ -36,7 +39,9 @@ class RandomPddl {
   std::string problem() {
     std::string text = "(define (problem p) (:domain d) (:objects", init, tolls;
     for (const Name& object : objects_) text += cat(" ", object.name, " - ", kTypes[object.type]);
+    const int derived = std::exchange(derived_, 0);  // not in :init
     for (int i = below(5); i > 0; --i) init += literal(objects_, false) + " ";
+    derived_ = derived;
     for (const Name& object : objects_) {
       if (object.type == 0) tolls += cat("(= (toll ", object.name, ") ", below(5), ")");
     }
@@ -57,9 +62,9 @@ class RandomPddl {
 
   std::string literal(const Scope& scope, bool is_effect) {
     static const std::vector<std::pair<std::string, std::vector<int>>> predicates = {
-        {"p0", {}}, {"p1", {0}}, {"p2", {1}}, {"p3", {0, 1}}, {"fixed", {0, 1}}};
+        {"p0", {}}, {"p1", {0}}, {"p2", {1}}, {"p3", {0, 1}}, {"fixed", {0, 1}}, {"d0", {0}}, {"d1", {1}}};
     for (int attempt = 0; attempt < 20; ++attempt) {
-      const auto& [name, types] = predicates[std::size_t(below(is_effect ? 4 : 5))];
+      const auto& [name, types] = predicates[std::size_t(below(is_effect ? 4 : 5 + derived_))];
       std::string text = "(" + name;
       bool fits = true;
       for (int type : types) {
@@ -112,6 +117,16 @@ class RandomPddl {
     return cat("(forall ", variable, " ", effect(inner, depth - 1), ")");
   }
 
+  std::string derived() {
+    const Scope a = {{"?a", 0}}, both = {{"?a", 0}, {"?x", 0}}, b = {{"?b", 1}};
+    std::string text = cat("(:derived (d0 ?a - ta) (or ", condition(a, 2), " (exists (?x - ta) (and (d0 ?x) ",
+                           signedLiteral(both, false), "))))\n");
+    derived_ = 1;
+    for (int i = 1 + below(2); i > 0; --i) text += cat("(:derived (d1 ?b - tb) ", condition(b, 2), ")\n");
+    derived_ = 2;
+    return text;
+  }
+
   std::string action(int number) {
     Scope scope;
     std::string text = cat("(:action a", number, " :parameters ("), cost = cat(below(4));
@@ -129,12 +144,13 @@ class RandomPddl {
 
   Rng rng_;
   Scope objects_;
-  int quantified_ = 0;
+  int quantified_ = 0, derived_ = 0;  ///< derived_: the derived predicates that conditions may have
+  bool derives_ = false;
 };
 
 struct RandomProblem {
-  explicit RandomProblem(int seed) {
-    RandomPddl random(seed);
+  explicit RandomProblem(int seed, bool derives = false) {
+    RandomPddl random(seed, derives);
     domain = random.domain();
     problem = random.problem();
   }
@@ -142,10 +158,12 @@ struct RandomProblem {
   std::string domain, problem;
 };
 
-TEST(PddlLaws, PlansAreValidAndOfTheCostThatBruteForceFinds) {
+class PlansOfRandomProblems : public testing::TestWithParam<bool> {};
+
+TEST_P(PlansOfRandomProblems, AreValidAndOfTheCostThatBruteForceFinds) {
   int solved = 0, unsolvable = 0;
   for (int seed = 0; seed < 150; ++seed) {
-    const RandomProblem random(seed);
+    const RandomProblem random(seed, GetParam());
     const LogicProblem problem = random.read();
     PlanSearch search(ground(problem));
     const auto plan = search.next();
@@ -166,6 +184,8 @@ TEST(PddlLaws, PlansAreValidAndOfTheCostThatBruteForceFinds) {
   EXPECT_GT(solved, 15);
   EXPECT_GT(unsolvable, 15);
 }
+
+INSTANTIATE_TEST_SUITE_P(PddlLaws, PlansOfRandomProblems, testing::Bool());
 
 TEST(PddlLaws, FurtherPlansAreValidDifferentAndNeverCheaper) {
   int plans = 0;
@@ -188,9 +208,74 @@ TEST(PddlLaws, FurtherPlansAreValidDifferentAndNeverCheaper) {
   EXPECT_GT(plans, 50);
 }
 
+/// All cheapest plans of a problem, in order.
+std::vector<std::vector<int>> cheapestPlans(const LogicProblem& problem, PlanSearch::Options options) {
+  PlanSearch search(ground(problem), options);
+  std::vector<std::vector<int>> plans;
+  while (const auto plan = search.next()) {
+    if (search.problem().cost(*plan) > search.distance() || plans.size() > 200) break;
+    plans.push_back(*plan);
+  }
+  return plans;
+}
+
+/// Six blocks that a hand stacks in another random order.
+LogicProblem randomPiles(int seed) {
+  Rng rng(std::uint64_t(seed) + 1);
+  const auto piles = [&](std::vector<std::string> blocks) {
+    std::string text;
+    for (std::size_t i = blocks.size(); i > 0; --i) {
+      std::swap(blocks[i - 1], blocks[rng.bits() % i]);
+      const bool is_low = i == blocks.size() || rng.bits() % 3 == 0;
+      text += is_low ? cat("(on ", blocks[i - 1], " floor)") : cat("(on ", blocks[i - 1], " ", blocks[i], ")");
+    }
+    return text;
+  };
+  const std::vector<std::string> blocks = {"a", "b", "c", "d", "e", "f"};
+  const std::string start = piles(blocks), goal = piles(blocks);
+  std::string clear;
+  for (const std::string& block : blocks) {
+    if (start.find(" " + block + ")") == std::string::npos) clear += cat("(clear ", block, ")");
+  }
+  return readPddlProblem(
+      cat("(define (problem p) (:domain piles) (:objects a b c d e f) (:init (clear floor) ", start, clear,
+          ") (:goal (and ", goal, ")))"),
+      readPddlDomain(
+          "(define (domain piles) (:constants floor hand) (:predicates (on ?a ?b) (clear ?a)) (:action take "
+          ":parameters (?a ?b) :precondition (and (clear ?a) (on ?a ?b) (not (= ?b hand)) (forall (?c) (not "
+          "(on ?c hand)))) :effect (and (clear ?b) (on ?a hand) (not (clear ?a)) (not (on ?a ?b)))) (:action "
+          "put :parameters (?a ?b) :precondition (and (clear ?b) (on ?a hand)) :effect (and (on ?a ?b) "
+          "(clear ?a) (when (not (= ?b floor)) (not (clear ?b))) (not (on ?a hand)))))"));
+}
+
+TEST(PddlLaws, TheCheapestPlansAreTheSameIfTheirOrderIsGivenUp) {
+  const auto sorted = [](std::vector<std::vector<int>> plans) {
+    std::ranges::sort(plans);
+    return plans;
+  };
+  for (int seed = 0; seed < 100; ++seed) {
+    const LogicProblem problem = RandomProblem(seed, seed >= 50).read();
+    const auto ordered = cheapestPlans(problem, {});
+    if (ordered.size() > 200) continue;
+    EXPECT_EQ(sorted(cheapestPlans(problem, {.order_expansions = 0})), sorted(ordered)) << seed;
+  }
+  long saved = 0;
+  for (int seed = 0; seed < 10; ++seed) {
+    const LogicProblem piles = randomPiles(seed);
+    const auto ordered = cheapestPlans(piles, {});
+    if (ordered.size() > 200) continue;
+    EXPECT_EQ(ordered, sorted(ordered));
+    EXPECT_EQ(sorted(cheapestPlans(piles, {.order_expansions = 0})), ordered);
+    PlanSearch with(ground(piles), {}), without(ground(piles), {.order_expansions = 0});
+    EXPECT_EQ(with.next()->size(), without.next()->size());
+    saved += with.expansions() - without.expansions();
+  }
+  EXPECT_GT(saved, 0);
+}
+
 TEST(PddlLaws, LandmarksNeverExceedTheLeastCost) {
-  for (int seed = 300; seed < 340; ++seed) {
-    const LogicProblem problem = RandomProblem(seed).read();
+  for (int seed = 300; seed < 380; ++seed) {
+    const LogicProblem problem = RandomProblem(seed, seed >= 340).read();
     const GroundProblem made = ground(problem);
     std::vector<LandmarkCut::Cost> costs;
     for (const GroundRule& action : made.actions) costs.push_back(action.cost);
@@ -205,8 +290,8 @@ TEST(PddlLaws, LandmarksNeverExceedTheLeastCost) {
 }
 
 TEST(PddlLaws, ProblemsThatAreWrittenAndReadAreTheSame) {
-  for (int seed = 0; seed < 60; ++seed) {
-    const LogicProblem problem = RandomProblem(seed).read();
+  for (int seed = 0; seed < 100; ++seed) {
+    const LogicProblem problem = RandomProblem(seed, seed >= 60).read();
     const std::string domain = writePddlDomain(problem.domain), text = writePddlProblem(problem);
     const LogicProblem again = readPddlProblem(text, readPddlDomain(domain));
     EXPECT_EQ(writePddlDomain(again.domain), domain) << seed;

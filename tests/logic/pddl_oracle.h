@@ -33,9 +33,13 @@ inline bool holdsLiteral(const Literal& literal, const State& state, const Value
   return (of(literal.arguments[0]) == of(literal.arguments[1])) != literal.negated;
 }
 
+inline bool isPossible(const LogicProblem& problem, const LogicRule& rule, const State& state, const Values& values);
+inline void derive(const LogicProblem& problem, State& state);
+
 inline State startOf(const LogicProblem& problem) {
   State state;
   for (const Literal& fact : problem.start) state.insert(fact.str());
+  derive(problem, state);
   return state;
 }
 
@@ -81,6 +85,29 @@ inline bool isPossible(const LogicProblem& problem, const LogicRule& rule, const
   return true;
 }
 
+/// Derived predicates in the order of their first rules: each one may negate those before it.
+inline void derive(const LogicProblem& problem, State& state) {
+  std::vector<std::string> predicates;
+  for (const LogicRule& rule : problem.domain.rules) {
+    if (!rule.is_derived) continue;
+    if (std::ranges::find(predicates, rule.name) == predicates.end()) predicates.push_back(rule.name);
+    std::erase_if(state, [&](const std::string& fact) {
+      return fact == "(" + rule.name + ")" || fact.starts_with("(" + rule.name + " ");
+    });
+  }
+  for (const std::string& predicate : predicates) {
+    for (std::size_t before = state.size() + 1; before != state.size();) {
+      before = state.size();
+      for (const LogicRule& rule : problem.domain.rules) {
+        if (!rule.is_derived || rule.name != predicate) continue;
+        forAll(problem, rule.variables, rule.types, {}, 0, [&](const Values& values) {
+          if (isPossible(problem, rule, state, values)) state.insert(instance(rule.eff[0], values));
+        });
+      }
+    }
+  }
+}
+
 inline State after(const LogicProblem& problem, const LogicRule& rule, const State& state, const Values& values) {
   State adds, deletes;
   for (const Literal& effect : rule.eff) (effect.negated ? deletes : adds).insert(instance(effect, values));
@@ -93,6 +120,7 @@ inline State after(const LogicProblem& problem, const LogicRule& rule, const Sta
   State next = state;
   for (const std::string& fact : deletes) next.erase(fact);
   next.insert(adds.begin(), adds.end());
+  derive(problem, next);
   return next;
 }
 
@@ -124,7 +152,7 @@ inline std::optional<double> validate(const LogicProblem& problem, const std::ve
   for (const std::vector<std::string>& action : plan) {
     bool found = false;
     for (const LogicRule& rule : problem.domain.rules) {
-      if (rule.name != action[0] || found) continue;
+      if (rule.name != action[0] || found || rule.is_derived) continue;
       Values values;
       for (std::size_t i = 0; i < rule.variables.size(); ++i) values[rule.variables[i]] = action[i + 1];
       if (!isPossible(problem, rule, state, values)) continue;
@@ -148,6 +176,7 @@ inline double leastCost(const LogicProblem& problem) {
     if (cost > costs.at(state)) continue;
     if (isGoal(problem, state)) return cost;
     for (const LogicRule& rule : problem.domain.rules) {
+      if (rule.is_derived) continue;
       forAll(problem, rule.variables, rule.types, {}, 0, [&](const Values& values) {
         if (!isPossible(problem, rule, state, values)) return;
         const State next = after(problem, rule, state, values);

@@ -79,7 +79,8 @@ bool keepGoing() {
 }
 
 void makeSearch(PyPlanSearch* self, const LogicProblem& problem, long most) {
-  new (self) PyPlanSearch{std::make_shared<PlanSearch>(ground(problem), PlanSearch::Options{most, keepGoing})};
+  new (self) PyPlanSearch{std::make_shared<PlanSearch>(
+      ground(problem), PlanSearch::Options{.max_expansions = most, .cancellation = keepGoing})};
 }
 
 void bindDomain(nb::module_& m) {

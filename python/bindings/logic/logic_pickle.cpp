@@ -66,7 +66,8 @@ nb::tuple ruleState(const LogicRule& rule) {
   for (const ConditionalEffect& effect : rule.conditional)
     conditional.append(nb::make_tuple(effect.variables, effect.types, state(effect.when), state(effect.eff)));
   return nb::make_tuple(rule.name, rule.variables, rule.types, state(rule.pre), state(rule.eff), rule.is_decision,
-                        state(rule.where), conditions, conditional, rule.cost, state(rule.cost_functions));
+                        state(rule.where), conditions, conditional, rule.cost, state(rule.cost_functions),
+                        rule.is_derived);
 }
 
 LogicRule ruleFrom(nb::handle t) {
@@ -78,6 +79,7 @@ LogicRule ruleFrom(nb::handle t) {
         {nb::cast<Words>(effect[0]), nb::cast<Words>(effect[1]), formulaFrom(effect[2]), literalsFrom(effect[3])});
   rule.cost = nb::cast<double>(t[9]);
   rule.cost_functions = literalsFrom(t[10]);
+  rule.is_derived = nb::cast<bool>(t[11]);
   return rule;
 }
 

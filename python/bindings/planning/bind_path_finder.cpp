@@ -28,7 +28,16 @@ const OptionClass<PathFinderOptions>& finderOptionClass() {
   return options;
 }
 
-PyPathFinder& setOptions(PyPathFinder& finder, nb::kwargs values) {
+/// Options by place are those of the reference, in the order of the table.
+PyPathFinder& setOptions(PyPathFinder& finder, nb::args by_place, nb::kwargs values) {
+  const auto& rows = pathFinderOptionTable().rows();
+  if (by_place.size() > rows.size())
+    throw ValueError(cat("setOptions: ", by_place.size(), " values; expected at most ", rows.size()));
+  for (std::size_t i = 0; i < by_place.size(); ++i) {
+    const std::string name = rows[i].name;
+    if (values.contains(name.c_str())) throw ValueError(cat("setOptions: ", name, " is given twice"));
+    values[name.c_str()] = by_place[i];
+  }
   PathFinderOptions options = finder.options();
   finderOptionClass().setFields(options, values);
   finder.setOptions(options);
@@ -80,6 +89,7 @@ PathResult solve(PyPathFinder& finder, int verbose) {
     static_cast<SolverResult&>(result) = finder.solve(seed, CheckInterrupts());
     result.rows = finder.path().rows();
   }
+  if (const std::string warning = finder.takeWarning(); !warning.empty()) emitWarning(warning);
   verbose = std::max(verbose, finder.options().verbose);
   if (verbose > 0)
     logMessage(LogLevel::info, cat("RRT_PathFinder: ",
@@ -121,7 +131,7 @@ void bindPathFinder(nb::module_& m) {
           "state"_a);
   nb::class_<Finder>(m, "RRT_PathFinder", docs::path_finder::type)
       .def(nb::init<>(), docs::path_finder::make)
-      .def("setOptions", setOptions, "options"_a, kChain, docs::path_finder::setOptions)
+      .def("setOptions", setOptions, "by_place"_a, "options"_a, kChain, docs::path_finder::setOptions)
       .def("setProblem", setProblem, "Configuration"_a, "q0"_a = nb::none(), "qT"_a = nb::none(), kChain,
            nb::sig("def setProblem(self, Configuration: Config, q0: numpy.typing.ArrayLike | None = None, qT: "
                    "numpy.typing.ArrayLike | None = None) -> RRT_PathFinder"),

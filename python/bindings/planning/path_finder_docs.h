@@ -14,15 +14,16 @@ planMotion does more: several goals, constraints, time parameterization.)";
 
 inline constexpr char make[] = R"(Creates a path finder without a problem.)";
 
-inline constexpr char setOptions[] = R"(Sets options by name.
+inline constexpr char setOptions[] = R"(Sets options by name, or by place in the order below.
 
 Args:
-    options: verbose, stepsize (rad or m, between configurations of the path), maxIters (budget), collisionTolerance
+    by_place: Values of verbose, stepsize, subsamples, maxIters, p_connect, collisionTolerance, useBroadCollisions.
+    options: verbose, stepsize (rad or m, between configurations of the path), maxIters (iterations), collisionTolerance
         (m, allowed penetration of pairs). subsamples, p_connect and useBroadCollisions have no effect.
 Returns:
     This path finder.
 Raises:
-    ArgumentError: There is no such option, or it cannot have this value.)";
+    ArgumentError: There is no such option, it is given twice, or it cannot have this value.)";
 
 inline constexpr char setProblem[] = R"(Sets the scene. solve reads it and does not change it.
 
@@ -63,9 +64,9 @@ Args:
 Returns:
     The outcome. x is the path, shape (K, n), start and goal included, configurations at most stepsize apart; feasible
     is True if there is one. Otherwise x is empty and message says why, as "the start collides: ...". evals is the
-    number of samples.
+    number of iterations. A sliding joint without limits is sampled around start and goal, with a KinegraphWarning.
 Raises:
-    ArgumentError: There is no problem, start and goal do not fit it, or a joint has no limits.)";
+    ArgumentError: There is no problem, or start and goal do not fit it.)";
 
 inline constexpr char getResampledPath[] = R"(Returns configurations of the path, evenly spaced in its index.
 

@@ -150,8 +150,8 @@ void bindProblemClass(nb::module_& m) {
       .def("eval_scalar", evalScalar, "x"_a, docs::nlp::eval_scalar)
       .def("getFHessian", costHessian, "x"_a, docs::nlp::getFHessian)
       .def(
-          "getInitializationSample", [](Nlp& nlp) { return toNumpy(nlp.initialPoint(defaults().random)); },
-          "Samples an initial point, shape (n,).")
+          "getInitializationSample", [](Nlp& nlp, nb::handle) { return toNumpy(nlp.initialPoint(defaults().random)); },
+          "previousOptima"_a = nb::none(), "Samples an initial point, shape (n,).")
       .def(
           "getUniformSample", [](Nlp& nlp) { return toNumpy(nlp.uniformPoint(defaults().random)); },
           "A random point, uniform within the bounds, shape (n,).")

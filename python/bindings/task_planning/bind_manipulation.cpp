@@ -17,21 +17,22 @@ namespace kinegraph::python {
 namespace {
 
 using M = PyManipulation;
-using Name = const std::string&;
+using Name = const FrameName&;
+using Text = const std::string&;
+using Palm = const std::optional<FrameName>&;
 
 /// Passes on what had no effect.
 void warn(M& m) {
   for (const std::string& warning : m.komo->takeWarnings()) emitWarning(warning);
 }
 
-/// A call of ManipulationHelper as a method that passes warnings on.
-template <class... Arguments>
-auto method(void (ManipulationHelper::*call)(Arguments...)) {
-  return [call](M& m, Arguments... arguments) {
-    (m.*call)(std::forward<Arguments>(arguments)...);
-    warn(m);
-  };
+std::vector<std::string> namesOf(const std::vector<FrameName>& frames) {
+  std::vector<std::string> names;
+  for (const FrameName& frame : frames) names.push_back(frame.name);
+  return names;
 }
+
+std::string nameOf(Palm palm) { return palm ? palm->name : std::string(); }
 
 Vector3d vector3(const Numbers& numbers, const char* what) {
   if (numbers.values.size() == 3) return numbers.values;
@@ -85,26 +86,58 @@ void bindSetups(nb::class_<M>& helper) {
 }
 
 void bindGrasps(nb::class_<M>& helper) {
-  using H = ManipulationHelper;
   helper
       .def(
           "add_stable_frame",
-          [](M& m, JointType type, Name parent, Name name, const std::optional<std::string>& init, double) {
-            m.add_stable_frame(type, parent, name, init.value_or(""));
+          [](M& m, JointType type, Name parent, Text name, const std::optional<FrameName>& init, double) {
+            m.add_stable_frame(type, parent, name, init ? init->name : "");
           },
           "jointType"_a, "parent"_a, "name"_a, "initFrame"_a = nb::none(), "markerSize"_a = -1.,
           docs::manipulation::add_stable_frame)
-      .def("add_place_frame", method(&H::add_place_frame), "parent"_a, "obj"_a, "name"_a,
-           docs::manipulation::add_place_frame)
-      .def("snap_switch", method(&H::snap_switch), "time"_a, "parent"_a, "obj"_a, docs::manipulation::snap_switch)
-      .def("grasp_top_box", method(&H::grasp_top_box), "time"_a, "gripper"_a, "obj"_a, "grasp_direction"_a = "xz",
-           docs::manipulation::grasp_top_box)
-      .def("grasp_box", method(&H::grasp_box), "time"_a, "gripper"_a, "obj"_a, "palm"_a, "grasp_direction"_a = "x",
-           "margin"_a = .02, docs::manipulation::grasp_box)
-      .def("grasp_cylinder", method(&H::grasp_cylinder), "time"_a, "gripper"_a, "obj"_a, "palm"_a, "margin"_a = .02,
-           docs::manipulation::grasp_cylinder)
-      .def("place_box", method(&H::place_box), "time"_a, "obj"_a, "table"_a, "palm"_a, "place_direction"_a = "z",
-           "margin"_a = .02, docs::manipulation::place_box);
+      .def(
+          "add_place_frame",
+          [](M& m, Name parent, Name obj, Text name) {
+            m.add_place_frame(parent, obj, name);
+            warn(m);
+          },
+          "parent"_a, "obj"_a, "name"_a, docs::manipulation::add_place_frame)
+      .def(
+          "snap_switch",
+          [](M& m, double time, Name parent, Name obj) {
+            m.snap_switch(time, parent, obj);
+            warn(m);
+          },
+          "time"_a, "parent"_a, "obj"_a, docs::manipulation::snap_switch)
+      .def(
+          "grasp_top_box",
+          [](M& m, double time, Name gripper, Name obj, Text direction) {
+            m.grasp_top_box(time, gripper, obj, direction);
+            warn(m);
+          },
+          "time"_a, "gripper"_a, "obj"_a, "grasp_direction"_a = "xz", docs::manipulation::grasp_top_box)
+      .def(
+          "grasp_box",
+          [](M& m, double time, Name gripper, Name obj, Palm palm, Text direction, double margin) {
+            m.grasp_box(time, gripper, obj, nameOf(palm), direction, margin);
+            warn(m);
+          },
+          "time"_a, "gripper"_a, "obj"_a, "palm"_a.none(), "grasp_direction"_a = "x", "margin"_a = .02,
+          docs::manipulation::grasp_box)
+      .def(
+          "grasp_cylinder",
+          [](M& m, double time, Name gripper, Name obj, Palm palm, double margin) {
+            m.grasp_cylinder(time, gripper, obj, nameOf(palm), margin);
+            warn(m);
+          },
+          "time"_a, "gripper"_a, "obj"_a, "palm"_a.none(), "margin"_a = .02, docs::manipulation::grasp_cylinder)
+      .def(
+          "place_box",
+          [](M& m, double time, Name obj, Name table, Palm palm, Text direction, double margin) {
+            m.place_box(time, obj, table, nameOf(palm), direction, margin);
+            warn(m);
+          },
+          "time"_a, "obj"_a, "table"_a, "palm"_a.none(), "place_direction"_a = "z", "margin"_a = .02,
+          docs::manipulation::place_box);
 }
 
 void bindMotions(nb::class_<M>& helper) {
@@ -125,9 +158,10 @@ void bindMotions(nb::class_<M>& helper) {
   helper
       .def(
           "straight_push",
-          [](M& m, const Numbers& times, Name obj, Name gripper, Name table, double scale, Name frame) {
-            m.straight_push(times.list(), obj, gripper, table, scale, frame);
+          [](M& m, const Numbers& times, Name obj, Name gripper, Name table, double scale, Text frame) {
+            const std::string helper = m.straight_push(times.list(), obj, gripper, table, scale, frame);
             warn(m);
+            return helper;
           },
           "time_interval"_a, "obj"_a, "gripper"_a, "table"_a, "scale"_a = 1e1, "helper"_a = "",
           docs::manipulation::straight_push)
@@ -144,15 +178,15 @@ void bindConditions(nb::class_<M>& helper) {
   helper
       .def(
           "no_collisions",
-          [](M& m, const Numbers& times, const std::vector<std::string>& pairs, double margin, double scale) {
-            m.no_collisions(times.list(), pairs, margin, scale);
+          [](M& m, const Numbers& times, const std::vector<FrameName>& pairs, double margin, double scale) {
+            m.no_collisions(times.list(), namesOf(pairs), margin, scale);
             warn(m);
           },
           "time_interval"_a, "objs"_a, "margin"_a = .001, "scale"_a = 1e1, docs::manipulation::no_collisions)
       .def(
           "freeze_joint",
-          [](M& m, const Numbers& times, const std::vector<std::string>& joints) {
-            m.freeze_joint(times.list(), joints);
+          [](M& m, const Numbers& times, const std::vector<FrameName>& joints) {
+            m.freeze_joint(times.list(), namesOf(joints));
             warn(m);
           },
           "time_interval"_a, "joints"_a, docs::manipulation::freeze_joint)
@@ -191,7 +225,8 @@ void bindConditions(nb::class_<M>& helper) {
 void bindManipulation(nb::module_& m) {
   nb::class_<M> helper(
       m, "ManipulationHelper", nb::dynamic_attr(),
-      "Builds manipulation problems in a few calls; KOMO_ManipulationHelper also solves and shows them.");
+      "Builds manipulation problems in a few calls; KOMO_ManipulationHelper also solves and shows them. Frames are "
+      "given by name or as a Frame.");
   helper.def(nb::init<>(), "Without a problem; call one of the setups.")
       .def_prop_rw(
           "komo", &M::pyKomo, [](M& self, std::shared_ptr<PyKomo> komo) { self.komo = std::move(komo); },

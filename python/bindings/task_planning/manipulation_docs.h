@@ -12,7 +12,7 @@ namespace kinegraph::python::docs::manipulation {
   "    time: In phases; axes are aligned from 0.2 before it on, and the palm does not collide from 0.3 " \
   "before it on.\n"                                                                                      \
   "    gripper: Name of the gripper frame.\n"
-#define KINEGRAPH_PALM "    palm: Name of the frame that does not touch the object; empty: none.\n"
+#define KINEGRAPH_PALM "    palm: Name of the frame that does not touch the object; empty or None: none.\n"
 #define KINEGRAPH_HAND                         \
   "    time_interval: [from, to] in phases.\n" \
   "    gripper: Name of the gripper frame.\n"
@@ -145,7 +145,7 @@ Args:
     time: In phases.
     obj: Name of the box; for cylinders and capsules, the box around them counts.
     table: Name of the box that it stands on.
-    palm: Name of the frame that does not touch the table; empty: none.
+    palm: Name of the frame that does not touch the table; empty or None: none.
     place_direction: x, y, z, xNeg, yNeg or zNeg: the axis of the object that points up.
     margin: Distance of the center of the object from the edges of the table, m.
 Raises:
@@ -160,10 +160,14 @@ Args:
     gripper: Name of the gripper frame.
     table: Name of the frame that it slides over.
     scale: Weight of the contact constraints.
-    helper: Name of the added frame whose y axis is the line; empty: a default name.
+    helper: Name of the frame whose y axis is the line; empty: a default name. It is added if it does not exist.
+Returns:
+    The name of that frame.
 )" KINEGRAPH_TIMES_RAISE;
 
-inline constexpr char pull[] = R"(Presses on an object from above and slides it over a table.
+inline constexpr char pull[] =
+    R"(Presses on an object from above and slides it upright over a table, to the added frame `_pull_end`.
+snap_switch attaches the object to the gripper.
 
 Args:
     times: [from, to] in phases.

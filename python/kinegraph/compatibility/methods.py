@@ -6,7 +6,7 @@ import inspect
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from .._core import KOMO, NLP, BotOp, CameraView, Config, Frame, NLP_Factory, NLP_Solver, Skeleton
+from .._core import KOMO, NLP, BotOp, CameraView, Config, Frame, NLP_Factory, NLP_Solver, NLP_SolverOptions, Skeleton
 from . import bot_op, problems, scenes, views
 
 METHODS: dict[type, Sequence[Callable[..., Any]]] = {
@@ -18,6 +18,7 @@ METHODS: dict[type, Sequence[Callable[..., Any]]] = {
     NLP: [problems.getFeatureTypes],
     NLP_Factory: [problems.setFeatureTypes],
     NLP_Solver: [problems.getTrace_costs, problems.getLog_x, problems.getLog_costs],
+    NLP_SolverOptions: [problems.set_maxStep, problems.set_maxLambda],
     Skeleton: [problems.enableAccumulatedCollisions],
 }
 

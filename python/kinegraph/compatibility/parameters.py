@@ -11,6 +11,15 @@ from typing import Any
 from .._core import NLP_SolverOptions, parseText
 from ..errors import ArgumentError, FileError, KinegraphWarning
 
+RRT_OPTIONS = (
+    "verbose",
+    "stepsize",
+    "subsamples",
+    "maxIters",
+    "p_connect",
+    "collisionTolerance",
+    "useBroadCollisions",
+)
 # What calls read; those of other groups are the script's own.
 _KNOWN = (
     "bot/blockRealRobot",
@@ -29,6 +38,7 @@ _KNOWN = (
     "Render/renderPolygonLines",
     "Render/renderShadow",
     "Render/renderText",
+    *(f"rrt/{option}" for option in RRT_OPTIONS),
 )
 _GROUPS = {name.split("/")[0] for name in _KNOWN if "/" in name}
 _values: dict[str, Any] = {}

@@ -8,7 +8,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from .._core import JT, KOMO, NLP, OT, Config, Frame, NLP_Factory, NLP_Solver, Skeleton
+from .._core import JT, KOMO, NLP, OT, Config, Frame, NLP_Factory, NLP_Solver, NLP_SolverOptions, Skeleton
 
 
 def setModel(self: KOMO, config: Config, enableCollisions: bool = False) -> None:
@@ -84,7 +84,7 @@ def addStableFrame(
     jointType: JT | str,
     stable: bool | str = True,
     initName: str | Frame | None = None,
-    initFrame: Frame | None = None,
+    initFrame: str | Frame | None = None,
 ) -> Frame:
     """Adds a frame with a joint to all slices, like addFrameDof.
 
@@ -101,9 +101,11 @@ def addStableFrame(
         if isinstance(stable, str):
             stable, initName = True, stable
         name, jointType = str(jointType), name
-    if isinstance(initName, Frame):
-        initName, initFrame = None, initName
-    return self.addFrameDof(str(name), parent, cast(JT, jointType), bool(stable), initName, initFrame)
+    if isinstance(initName, Frame) or isinstance(initFrame, str):
+        initName, initFrame = initFrame, initName
+    return self.addFrameDof(
+        str(name), parent, cast(JT, jointType), bool(stable), cast(str, initName), cast(Frame, initFrame)
+    )
 
 
 def reportProblem(self: KOMO) -> None:
@@ -122,6 +124,61 @@ def enableAccumulatedCollisions(self: Skeleton, enable: bool = True) -> None:
     self.useBroadCollisions(enable)
 
 
+def set_maxStep(self: NLP_SolverOptions, value: float) -> NLP_SolverOptions:
+    """Sets the longest step, like set_stepMax.
+
+    Args:
+        value: See stepMax.
+    Returns:
+        The options.
+    Raises:
+        ArgumentError: The value is out of range.
+    """
+    return self.set_stepMax(value)
+
+
+def set_maxLambda(self: NLP_SolverOptions, value: float) -> NLP_SolverOptions:
+    """Sets the largest multiplier, like set_lambdaMax.
+
+    Args:
+        value: See lambdaMax.
+    Returns:
+        The options.
+    Raises:
+        ArgumentError: The value is out of range.
+    """
+    return self.set_lambdaMax(value)
+
+
+_view_play = KOMO.view_play
+
+
+def view_play(
+    self: KOMO,
+    pause: bool = False,
+    txt: str | float | None = None,
+    delay: float = 0.1,
+    saveVideoPath: str | None = None,
+) -> int:
+    """Shows the path slice by slice on the page, as C.view_path.
+
+    Args:
+        pause: Wait for a key.
+        txt: Text to show below the time; a number is the delay, as in 0.1.10, and a text behind it the path.
+        delay: Time per slice, s.
+        saveVideoPath: Prefix of files with a picture of each slice.
+    Returns:
+        The key, or 0.
+    Raises:
+        ArgumentError: A slice has no such frame, or a file cannot be written.
+    """
+    if isinstance(txt, (int, float)):
+        if isinstance(delay, str):
+            saveVideoPath = delay
+        txt, delay = None, float(txt)
+    return _view_play(self, pause, txt, delay, saveVideoPath)
+
+
 def getLog_x(self: NLP_Solver) -> NDArray[np.float64]:
     """Returns the variables of each evaluation, shape (evaluations, n), like getTrace_x; setTracing(True) first."""
     return self.getTrace_x()
@@ -133,4 +190,4 @@ def getLog_costs(self: NLP_Solver) -> NDArray[np.float64]:
     return self.getTrace_errs()
 
 
-KOMO_METHODS = [setModel, add_qControlObjective, getPath_qOrg, getReport, addStableFrame, reportProblem]
+KOMO_METHODS = [setModel, add_qControlObjective, getPath_qOrg, getReport, addStableFrame, reportProblem, view_play]

@@ -11,17 +11,18 @@ from .._core import KOMO, ST, Config, Frame
 from ..errors import ArgumentError
 
 
-def frame(self: Config, frameID: str | int) -> Frame:
+def frame(self: Config, frameID: str | int, warnIfNotExist: bool = True) -> Frame:
     """Returns a frame, like getFrame.
 
     Args:
         frameID: Its name or id.
+        warnIfNotExist: As in getFrame, for names.
     Returns:
         The frame.
     Raises:
         FrameNotFound: There is no such frame.
     """
-    return self[frameID]
+    return self.getFrame(frameID, warnIfNotExist) if isinstance(frameID, str) else self[frameID]
 
 
 def frames(self: Config) -> list[Frame]:
@@ -222,16 +223,22 @@ def getType(self: Frame) -> ST:
     return self.getShapeType()
 
 
-def setDensity(self: Frame, density: float) -> Frame:
+def setDensity(self: Frame, density: float, size: ArrayLike | None = None) -> Frame:
     """Sets mass and inertia of the frame's shape, filled with a density.
 
     Args:
         density: kg/m^3.
+        size: Of a grid of densities for pictures, as in 0.1.10 and 0.2.3, which cannot be drawn: it is refused.
     Returns:
         The frame.
     Raises:
-        ArgumentError: The frame has no shape with a volume, or the density is not positive.
+        ArgumentError: The frame has no shape with a volume, or the density is not positive; or it is a grid.
     """
+    if size is not None or np.size(density) != 1:
+        raise ArgumentError(
+            "Frame.setDensity: a grid of densities cannot be drawn; instead: frame.setImplicitSurface(data, size) draws "
+            "the surface at which a grid changes its sign"
+        )
     if not density > 0.0:
         raise ArgumentError(f"Frame.setDensity: the density is {density}; expected a number above 0")
     a, b, c = np.moveaxis(self.getMeshPoints()[self.getMeshTriangles()], 1, 0)
@@ -241,16 +248,37 @@ def setDensity(self: Frame, density: float) -> Frame:
     return self.setMass(density * volume)
 
 
+_computeCompoundInertia = Frame.computeCompoundInertia
+
+
+def computeCompoundInertia(self: Frame, clearChildInertias: bool = True) -> Frame:
+    """Gathers the inertias of the frame and of all frames fixed below it in the frame; the others lose theirs.
+
+    Args:
+        clearChildInertias: False, as until 0.2.9, is refused: the masses would count twice.
+    Returns:
+        The frame itself.
+    Raises:
+        ArgumentError: clearChildInertias is False.
+    """
+    if not clearChildInertias:
+        raise ArgumentError(
+            "Frame.computeCompoundInertia: clearChildInertias is False, and masses would count twice; instead: call it "
+            "on a copy of the scene, C.copy()"
+        )
+    return _computeCompoundInertia(self)
+
+
 def simplify(
-    self: Config, pruneNamed: bool = False, pruneNonContact: bool = False, pruneTransparent: bool = False
+    self: Config, pruneNamed: bool = False, pruneNonContactNonMarker: bool = False, pruneTransparent: bool = False
 ) -> None:
     """Removes frames without which the links move alike, like processStructure(True, True, ...).
 
     Args:
         pruneNamed: Not used; frames with names are removed, too, if they only structure the tree.
-        pruneNonContact, pruneTransparent: Also removes leaves that never collide, or with an alpha below 1.
+        pruneNonContactNonMarker, pruneTransparent: Also removes leaves that never collide, or with an alpha below 1.
     """
-    self.processStructure(True, True, pruneNonContact, pruneTransparent)
+    self.processStructure(True, True, pruneNonContactNonMarker, pruneTransparent)
 
 
 CONFIG_METHODS = [
@@ -269,4 +297,4 @@ CONFIG_METHODS = [
     addObject,
     simplify,
 ]
-FRAME_METHODS = [info, addAttributes, addAttribute, getType, setDensity]
+FRAME_METHODS = [info, addAttributes, addAttribute, getType, setDensity, computeCompoundInertia]

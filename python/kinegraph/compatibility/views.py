@@ -11,8 +11,14 @@ from .._core import CameraView, Config, ConfigurationViewer, Frame
 from ..errors import ArgumentError
 
 
-def get_viewer(self: Config) -> ConfigurationViewer:
-    """Returns the viewer of this scene, like viewer."""
+def get_viewer(self: Config, window_title: str = "", offscreen: bool = False) -> ConfigurationViewer:
+    """Returns the viewer of this scene, like viewer.
+
+    Args:
+        window_title, offscreen: Not used: the viewer is a page, and renders pictures without it, too.
+    Returns:
+        The viewer.
+    """
     return self.viewer()
 
 

@@ -57,7 +57,8 @@ struct ConditionalEffect {
   bool operator==(const ConditionalEffect&) const = default;
 };
 
-/// An action (a decision), or a rule that fires automatically. If the precondition holds, the effects apply in order.
+/// An action (a decision), a rule that fires automatically, or the definition of a derived predicate. If the
+/// precondition holds, the effects apply in order.
 struct LogicRule {
   std::string name;
   std::vector<std::string> variables;
@@ -66,6 +67,7 @@ struct LogicRule {
   bool is_decision = true;
   SourcePosition where = {};
   // PDDL only
+  bool is_derived = false;  ///< no decision: `eff`, one fact, holds exactly while a rule for it holds (:derived)
   std::vector<Formula> conditions = {};             ///< they hold in addition to `pre`
   std::vector<ConditionalEffect> conditional = {};  ///< simultaneous with `eff`; an added fact is not deleted
   double cost = 0;                                  ///< the constant part

@@ -278,6 +278,8 @@ std::string writeFol(const LogicDomain& domain) {
   for (const Literal& literal : domain.start) text += "  " + literal.str() + "\n";
   text += "}\n";
   for (const LogicRule& rule : domain.rules) {
+    if (rule.is_derived)
+      throw ValueError(cat("writeFol: '", rule.name, "' is a derived predicate; .fol files have none"));
     if (!rule.conditions.empty() || !rule.conditional.empty()) {
       throw ValueError(cat("writeFol: action '", rule.name,
                            "' has conditions with or, forall or exists, or effects with when; .fol files have none"));

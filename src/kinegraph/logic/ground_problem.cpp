@@ -3,6 +3,7 @@
 #include <set>
 
 #include "kinegraph/common/text.h"
+#include "kinegraph/logic/derived_facts.h"
 #include "kinegraph/logic/grounding.h"
 
 namespace kinegraph {
@@ -78,6 +79,7 @@ bool GroundProblem::isGoal(const FactSet& state) const {
 }
 
 void GroundProblem::fireRules(FactSet& state) const {
+  deriveFacts(*this, state);
   for (std::size_t round = 0; !rules.empty(); ++round) {
     const FactSet before = state;
     for (const GroundRule& rule : rules) {
@@ -122,6 +124,9 @@ void addUnfired(const GroundProblem& ground, std::vector<std::string>& told) {
   std::set<int> fires;
   for (const auto* list : {&ground.actions, &ground.rules}) {
     for (const GroundRule& rule : *list) fires.insert(rule.rule);
+  }
+  for (const auto& layer : ground.derived) {
+    for (const GroundRule& rule : layer) fires.insert(rule.rule);
   }
   const std::vector<LogicRule>& rules = ground.problem.domain.rules;
   for (std::size_t r = 0; r < rules.size(); ++r) {

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "kinegraph/common/text.h"
+#include "kinegraph/logic/derived_facts.h"
 #include "kinegraph/logic/ground_conditions.h"
 #include "kinegraph/logic/ground_costs.h"
 
@@ -61,6 +62,7 @@ class Grounder {
     reach();
     numberFacts();
     for (std::size_t r = 0; r < rules().size(); ++r) makeRules(int(r));
+    setDerivedRules(out_, std::move(derived_));
     if (out_.problem.minimize_cost) setActionCosts(out_);
     makeGoal();
     for (const Literal& fact : out_.problem.start) {
@@ -352,7 +354,8 @@ class Grounder {
     if (!conditions_.add(rule.condition, binding, made)) return;
     for (const IndexedEffect& effect : rule.effects) addEffect(effect, binding, made.adds, made.deletes, true);
     for (const IndexedConditional& conditional : rule.conditional) addConditional(conditional, binding, made);
-    auto& list = rules()[std::size_t(number)].is_decision ? out_.actions : out_.rules;
+    const LogicRule& of = rules()[std::size_t(number)];
+    auto& list = of.is_decision ? out_.actions : of.is_derived ? derived_ : out_.rules;
     if (list.size() >= most_) throw ValueError(cat("ground: more than ", most_, " actions; the problem is too large"));
     list.push_back(std::move(made));
   }
@@ -407,6 +410,7 @@ class Grounder {
   std::size_t most_, tries_ = 0;
   int everything_ = 0;  ///< the predicate that all constants have
   std::vector<IndexedRule> indexed_;
+  std::vector<GroundRule> derived_;
   std::vector<IndexedFormula> goal_;
 };
 

@@ -51,9 +51,10 @@ struct GroundRule : GroundCondition {
 /// A ground problem: the facts that can hold and change, and the rules that change them.
 struct GroundProblem {
   LogicProblem problem;
-  std::vector<Literal> facts;                              ///< by index
-  std::vector<GroundRule> actions;                         ///< in the order of the rules, then of the constants
-  std::vector<GroundRule> rules;                           ///< that fire automatically
+  std::vector<Literal> facts;                    ///< by index
+  std::vector<GroundRule> actions;               ///< in the order of the rules, then of the constants
+  std::vector<GroundRule> rules;                 ///< that fire automatically
+  std::vector<std::vector<GroundRule>> derived;  ///< by layer; facts that a layer negates are of layers before
   std::vector<std::vector<GroundCondition>> disjunctions;  ///< alternatives
   FactSet start;                                           ///< after the rules have fired
   std::vector<int> goal, goal_not, goal_any;
@@ -76,7 +77,7 @@ struct GroundProblem {
 
   /// Returns the state after an action and all rules. Throws ValueError if the rules never end.
   FactSet apply(int action, const FactSet& state) const;
-  void fireRules(FactSet& state) const;
+  void fireRules(FactSet& state) const;  ///< and derives the facts of derived predicates
 
   /// Returns the literals that hold in a state: first those that never change.
   std::vector<Literal> literals(const FactSet& state) const;

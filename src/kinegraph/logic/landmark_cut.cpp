@@ -23,6 +23,7 @@ LandmarkCut::LandmarkCut(const GroundProblem& ground, const std::vector<Cost>& c
   nodes_ = int(ground.facts.size() + ground.disjunctions.size());
   always_ = nodes_++;
   goal_ = nodes_++;
+  is_derived_.assign(ground.facts.size(), 0);
   for (Cost cost : costs) small_ &= cost <= kLargestBucket;
   const GroundCondition end{ground.goal, ground.goal_not, ground.goal_any};
   for (const auto* list : {&ground.actions, &ground.rules}) {
@@ -31,12 +32,21 @@ LandmarkCut::LandmarkCut(const GroundProblem& ground, const std::vector<Cost>& c
       for (const GroundEffect& effect : rule.when) prepareNegations(effect.when);
     }
   }
+  for (const auto& layer : ground.derived) {
+    for (const GroundRule& rule : layer) {
+      prepareNegations(rule);
+      is_derived_[std::size_t(rule.adds.front())] = 1;
+    }
+  }
   for (const auto& alternatives : ground.disjunctions) {
     for (const GroundCondition& one : alternatives) prepareNegations(one);
   }
   prepareNegations(end);
   for (std::size_t a = 0; a < ground.actions.size(); ++a) addOperators(ground.actions[a], int(a));
   for (const GroundRule& rule : ground.rules) addOperators(rule, -1);
+  for (const auto& layer : ground.derived) {
+    for (const GroundRule& rule : layer) addOperators(rule, -1);
+  }
   for (std::size_t d = 0; d < ground.disjunctions.size(); ++d) {
     for (const GroundCondition& one : ground.disjunctions[d]) addOperator({&one}, {disjunctionNode(int(d))}, {}, -1);
   }
@@ -237,11 +247,8 @@ LandmarkCut::Cost LandmarkCut::operator()(const FactSet& state) {
   if (!linked_) link();
   std::vector<int> begin = {always_}, changed;
   for (std::size_t fact = 0; fact < negation_.size(); ++fact) {
-    if (state.has(int(fact))) {
-      begin.push_back(int(fact));
-    } else if (negation_[fact] >= 0) {
-      begin.push_back(negation_[fact]);
-    }
+    if (state.has(int(fact))) begin.push_back(int(fact));
+    if (negation_[fact] >= 0 && (is_derived_[fact] || !state.has(int(fact)))) begin.push_back(negation_[fact]);
   }
   cost_ = costs_;
   explore(begin);

@@ -56,7 +56,8 @@ class LandmarkCut {
 
   const GroundProblem& ground_;
   std::vector<Cost> costs_;
-  std::vector<int> negation_;  ///< per fact: the node of its negation, or -1
+  std::vector<int> negation_;     ///< per fact: the node of its negation, or -1
+  std::vector<char> is_derived_;  ///< facts that may cease to hold by themselves: their negations are free
   int nodes_ = 0, goal_ = 0, always_ = 0;
   bool linked_ = false;
   bool small_ = true;  ///< small costs: a queue of buckets

@@ -20,7 +20,7 @@ PddlExpression definitionOf(std::string_view text, const std::string& file, cons
 
 [[noreturn]] void refusePart(const PddlExpression& part, const char* of, const std::vector<std::string>& known) {
   if (!part.isList()) refusePddl(part, cat("a list, as (", known.back(), " ...)"));
-  static const std::vector<std::string> beyond = {":derived", ":durative-action", ":constraints", ":process", ":event"};
+  static const std::vector<std::string> beyond = {":durative-action", ":constraints", ":process", ":event"};
   const std::string head = part.head();
   if (std::ranges::find(beyond, head) != beyond.end())
     throw ParseError(part.where, cat("'", head, "' is not supported; expected one of ", join(known)));
@@ -43,13 +43,19 @@ Signature signatureOf(const PddlExpression& at, PddlNames& names) {
   return made;
 }
 
+bool isDerived(const LogicDomain& domain, const Literal& literal) {
+  return std::ranges::any_of(domain.rules, [&](const LogicRule& rule) {
+    return rule.is_derived && rule.name == literal.predicate && rule.variables.size() == literal.arguments.size();
+  });
+}
+
 class DomainReader {
  public:
   DomainReader() : names_(domain_), conditions_(names_) { domain_.distinct_variables = false; }
 
   LogicDomain read(const PddlExpression& all) {
-    const std::vector<std::string> known = {"domain",      ":requirements", ":types", ":constants",
-                                            ":predicates", ":functions",    ":action"};
+    const std::vector<std::string> known = {"domain",      ":requirements", ":types",   ":constants",
+                                            ":predicates", ":functions",    ":derived", ":action"};
     for (std::size_t i = 1; i < all.list.size(); ++i) {
       const std::string head = all.list[i].head();
       if (std::ranges::find(known, head) == known.end()) refusePart(all.list[i], "domain", known);
@@ -66,6 +72,7 @@ class DomainReader {
       }
     }
     names_.addSupertypes(domain_.start);
+    requireDerivedWithoutEffects();
     return std::move(domain_);
   }
 
@@ -81,6 +88,8 @@ class DomainReader {
       for (std::size_t i = 1; i < part.list.size(); ++i) addSignature(part.list[i], domain_.predicates, false);
     } else if (head == ":functions") {
       for (std::size_t i = 1; i < part.list.size(); ++i) readFunction(part, i);
+    } else if (head == ":derived") {
+      readDerived(part);
     } else if (head == ":action") {
       readAction(part);
     }
@@ -133,7 +142,8 @@ class DomainReader {
       if (i + 1 >= part.list.size()) throw ParseError(part.list[i].where, cat("expected a list behind ", key));
       const PddlExpression& value = part.list[i + 1];
       if (key == ":parameters") {
-        readParameters(rule, value);
+        if (!value.isList()) refusePddl(value, "a list of parameters");
+        readParameters(rule, value, 0);
       } else if (key == ":precondition") {
         pre = &value;
       } else if (key == ":effect") {
@@ -148,9 +158,42 @@ class DomainReader {
     domain_.rules.push_back(std::move(rule));
   }
 
-  void readParameters(LogicRule& rule, const PddlExpression& list) {
-    if (!list.isList()) refusePddl(list, "a list of parameters");
-    readPddlVariables(list, 0, names_, rule.variables, rule.types);
+  /// `(:derived (above ?a ?b) (or (on ?a ?b) ...))`
+  void readDerived(const PddlExpression& part) {
+    if (part.list.size() != 3 || !part.list[1].isList() || part.list[1].list.empty())
+      refusePddl(part, "(:derived (above ?a ?b) (on ?a ?b))");
+    const PddlExpression& head = part.list[1];
+    LogicRule rule;
+    rule.is_decision = false;
+    rule.is_derived = true;
+    rule.where = part.where;
+    rule.name = names_.spell(pddlWord(head.list[0], "the predicate's name"));
+    readParameters(rule, head, 1);
+    PddlExpression fact = head;  // without types
+    fact.list.resize(1);
+    for (const std::string& variable : rule.variables) fact.list.push_back({variable, {}, head.where});
+    rule.eff = {names_.literalOf(fact, rule.variables)};
+    PddlConditions::split(conditions_.read(part.list[2], rule.variables), rule.pre, rule.conditions);
+    domain_.rules.push_back(std::move(rule));
+  }
+
+  void requireDerivedWithoutEffects() const {
+    const auto require = [&](const std::vector<Literal>& effects) {
+      for (const Literal& effect : effects) {
+        if (isDerived(domain_, effect))
+          throw ParseError(effect.where, cat("'", effect.predicate, "' is derived and cannot be an effect"));
+      }
+    };
+    for (const LogicRule& rule : domain_.rules) {
+      if (rule.is_derived) continue;
+      require(rule.eff);
+      for (const ConditionalEffect& conditional : rule.conditional) require(conditional.eff);
+    }
+  }
+
+  /// Reads the variables of a list from an index on.
+  void readParameters(LogicRule& rule, const PddlExpression& list, std::size_t from) {
+    readPddlVariables(list, from, names_, rule.variables, rule.types);
     for (std::size_t i = 0; i < rule.variables.size(); ++i) {
       if (!rule.types[i].empty()) rule.pre.push_back({rule.types[i], {rule.variables[i]}, false, list.where});
     }
@@ -227,6 +270,8 @@ class ProblemReader {
       problem_.values.push_back({function, PddlConditions::numberOf(at.list[2])});
     } else {
       problem_.start.push_back(names_.literalOf(at, {}));
+      if (isDerived(problem_.domain, problem_.start.back()))
+        throw ParseError(at.where, cat("'", problem_.start.back().predicate, "' is derived and cannot be in :init"));
       requireConsistent(problem_.start.back(), at);
     }
   }

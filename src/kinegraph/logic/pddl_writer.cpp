@@ -94,6 +94,17 @@ class PddlWords {
     return literal.negated ? "(not " + text + ")" : text;
   }
 
+  /// The name of a predicate.
+  const std::string& nameOf(const Literal& literal) const {
+    const auto found = names_.find({literal.predicate, literal.arguments.size()});
+    if (found != names_.end()) return found->second;
+    if (isType(literal) && literal.predicate.starts_with(kTypePrefix)) {
+      throw ValueError(cat("writePddl: the type '", writtenType(literal.predicate),
+                           "' has the name of a predicate and cannot be a condition"));
+    }
+    return literal.predicate;
+  }
+
   std::string formula(const Formula& formula, const Names& variables) const {
     if (formula.kind == Formula::Kind::literal) return literal(formula.literal, variables, false);
     Names all = variables;
@@ -120,16 +131,6 @@ class PddlWords {
     for (std::size_t i = literal.arguments.size(); taken_.contains(lowerCase(name)); ++i) name = cat(base, "-", i);
     taken_.insert(lowerCase(name));
     names_[shape] = name;
-  }
-
-  const std::string& nameOf(const Literal& literal) const {
-    const auto found = names_.find({literal.predicate, literal.arguments.size()});
-    if (found != names_.end()) return found->second;
-    if (isType(literal) && literal.predicate.starts_with(kTypePrefix)) {
-      throw ValueError(cat("writePddl: the type '", writtenType(literal.predicate),
-                           "' has the name of a predicate and cannot be a condition"));
-    }
-    return literal.predicate;
   }
 
   /// PDDL has one case: names that differ in it alone would become one.
@@ -199,11 +200,9 @@ std::string writeConditional(const ConditionalEffect& effect, const LogicRule& r
   return "\n      " + text;
 }
 
-std::string writeAction(const LogicDomain& domain, const LogicRule& rule, const PddlWords& words) {
-  if (!rule.is_decision)
-    throw ValueError(cat("writePddl: rule '", rule.name, "' fires automatically; PDDL has actions only"));
-  std::string text = cat("  (:action ", rule.name, "\n    :parameters (", typedList(rule.variables, rule.types),
-                         ")\n    :precondition (and");
+/// The precondition of an action, the condition of a derived predicate.
+std::string writeCondition(const LogicDomain& domain, const LogicRule& rule, const PddlWords& words) {
+  std::string text = "(and";
   for (const Literal& literal : rule.pre) {
     if (!impliedByType(rule, literal)) text += " " + words.literal(literal, rule.variables, false);
   }
@@ -212,7 +211,21 @@ std::string writeAction(const LogicDomain& domain, const LogicRule& rule, const 
     for (std::size_t k = 0; k < i; ++k)
       text += cat(" (not (= ", named(rule.variables[k]), " ", named(rule.variables[i]), "))");
   }
-  text += ")\n    :effect (and";
+  return text + ")";
+}
+
+std::string writeDerived(const LogicDomain& domain, const LogicRule& rule, const PddlWords& words) {
+  const std::string list = typedList(rule.variables, rule.types);
+  return cat("  (:derived (", words.nameOf(rule.eff.front()), list.empty() ? "" : " ", list, ")\n    ",
+             writeCondition(domain, rule, words), ")\n");
+}
+
+std::string writeAction(const LogicDomain& domain, const LogicRule& rule, const PddlWords& words) {
+  if (rule.is_derived) return writeDerived(domain, rule, words);
+  if (!rule.is_decision)
+    throw ValueError(cat("writePddl: rule '", rule.name, "' fires automatically; PDDL has actions only"));
+  std::string text = cat("  (:action ", rule.name, "\n    :parameters (", typedList(rule.variables, rule.types),
+                         ")\n    :precondition ", writeCondition(domain, rule, words), "\n    :effect (and");
   for (std::size_t i = 0; i < rule.eff.size(); ++i) {
     if (!isUndone(rule, i)) text += " " + words.literal(rule.eff[i], rule.variables, true);
   }
@@ -306,6 +319,7 @@ std::string writePddlDomain(const LogicDomain& domain) {
   std::string requirements = ":strips :typing :negative-preconditions :equality";
   std::string actions;
   for (const LogicRule& rule : domain.rules) actions += writeAction(domain, rule, words);
+  if (actions.find("(:derived ") != std::string::npos) requirements += " :derived-predicates";
   if (actions.find("(or ") != std::string::npos) requirements += " :disjunctive-preconditions";
   if (actions.find("(exists ") != std::string::npos) requirements += " :existential-preconditions";
   if (actions.find("(forall ") != std::string::npos) requirements += " :universal-preconditions";

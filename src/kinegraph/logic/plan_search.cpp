@@ -92,6 +92,7 @@ const std::vector<PlanSearch::Edge>& PlanSearch::edges(int state) {
       status_ = Status::cancelled;
       throw Stopped();
     }
+    if (most_to_order_ > 0 && expansions_ > most_to_order_) throw Unresolved();
     std::vector<Edge> list;
     const FactSet facts = states_[std::size_t(state)].facts;
     candidates_ = unneeding_;
@@ -235,10 +236,50 @@ bool PlanSearch::advance() {
   return false;
 }
 
+/// The plan along states whose distances are exact, as after exactDistance(0).
+std::vector<int> PlanSearch::planOfDistances() {
+  std::vector<int> plan;
+  for (int state = 0; !states_[std::size_t(state)].is_goal;) {
+    const Cost rest = states_[std::size_t(state)].bound;
+    const std::vector<Edge>& list = edges(state);
+    const auto next = std::ranges::find_if(list, [&](const Edge& edge) {
+      const StateInfo& to = states_[std::size_t(edge.to)];
+      return to.exact && costs_[std::size_t(edge.action)] + to.bound == rest &&
+             !isForbidden(edge.action, states_[std::size_t(state)].facts);
+    });
+    if (next == list.end()) return {};
+    plan.push_back(next->action);
+    state = next->to;
+  }
+  return plan;
+}
+
+/// Advances to the first plan in the order of actions. If that would cost more than the plan itself, `actions_` becomes
+/// the plan that A* found, and the enumeration begins again behind it.
+bool PlanSearch::advanceToFirst() {
+  std::vector<int> plan = beginnings_.empty() ? planOfDistances() : std::vector<int>();
+  most_to_order_ =
+      plan.empty() || returned_.contains(plan) ? 0 : expansions_ + std::max(options_.order_expansions, expansions_ / 4);
+  try {
+    const bool found = advance();
+    most_to_order_ = 0;
+    return found;
+  } catch (Unresolved) {
+    most_to_order_ = 0;
+    for (StateInfo& info : states_) info.on_path = false;
+    path_.clear();
+    used_ = 0;
+    actions_ = std::move(plan);
+    returned_.insert(actions_);
+    return true;
+  }
+}
+
 std::optional<std::vector<int>> PlanSearch::next() {
   status_ = Status::found;
   try {
     if (path_.empty()) {
+      actions_.clear();
       length_ = next_length_ = exactDistance(0);
     } else if (advance()) {
       return actions_;
@@ -249,7 +290,7 @@ std::optional<std::vector<int>> PlanSearch::next() {
       path_ = {{0, 0}};
       states_[0].on_path = true;
       if (states_[0].is_goal && returned_.insert(actions_).second) return actions_;
-      if (advance()) return actions_;
+      if (advanceToFirst()) return actions_;
     }
     status_ = Status::exhausted;
   } catch (Stopped) {

@@ -17,7 +17,8 @@ class LandmarkCut;
 
 /// Enumerates the plans of a problem: all sequences of actions that end in the first state with the goal and visit no
 /// state twice. The shortest come first; if the problem has a metric, the cheapest come first, and of equal cost the
-/// shortest. The order depends only on the problem and on the forbidden actions.
+/// shortest. Plans of one cost come in the order of their actions; in large problems, the one that A* found comes
+/// before them. The order depends only on the problem and on the forbidden actions.
 ///
 /// Distances to the goal are exact, by A* with a closed list and landmarks. Bounds of other states are reused (Koenig,
 /// Likhachev, Adaptive A*, 2005). The enumeration has no dead ends.
@@ -31,6 +32,7 @@ class PlanSearch {
   };
   struct Options {
     long max_expansions = 2000000;     ///< total number of expanded states
+    long order_expansions = 2000;      ///< a quarter of those so far, and at least this many, may order the first plans
     CancellationToken cancellation{};  ///< ends `next` with `cancelled`
   };
 
@@ -73,7 +75,8 @@ class PlanSearch {
     int state;
     std::size_t next;
   };
-  struct Stopped {};  ///< thrown at the limit
+  struct Stopped {};     ///< thrown at the limit
+  struct Unresolved {};  ///< thrown if the order of plans would cost more than the first plan
 
   int stateOf(const FactSet& facts);
   Cost bound(int state);
@@ -81,6 +84,8 @@ class PlanSearch {
   bool isForbidden(int action, const FactSet& facts) const;
   Cost exactDistance(int state);
   bool advance();
+  bool advanceToFirst();
+  std::vector<int> planOfDistances();
   void restart();
   void leave();
   bool beginsForbidden() const;
@@ -101,7 +106,7 @@ class PlanSearch {
   std::vector<Step> path_;
   std::vector<int> actions_;
   Cost used_ = 0, length_ = 0, next_length_ = 0;
-  long expansions_ = 0;
+  long expansions_ = 0, most_to_order_ = 0;  ///< most_to_order_: then Unresolved is thrown; 0: never
   Status status_ = Status::found;
 };
 

@@ -16,9 +16,19 @@ namespace kinegraph {
 namespace {
 
 constexpr const char* kPathFinder = "PathFinder";
-constexpr long kEvaluationsPerIteration = 40;
+constexpr double kAroundEnds = 1.;  ///< m: samples of a dof without limits lie at least this far around its ends
 
 double processorTime() { return double(std::clock()) / CLOCKS_PER_SEC; }
+
+/// Gives dofs without limits a range for samples, around both ends. Returns a warning, empty without such dofs.
+std::string sampleAroundEnds(JointSpace& space, const VectorXd& start, const VectorXd& goal) {
+  const std::vector<std::string> dofs = space.dofsWithoutRange();
+  if (dofs.empty()) return {};
+  const VectorXd around = (goal - start).cwiseAbs().array() + kAroundEnds;
+  space.sampleUnlimitedWithin(start.cwiseMin(goal) - around, start.cwiseMax(goal) + around);
+  return cat(kPathFinder, ": no limits are known for ", join(dofs), "; samples lie around start and goal, up to ",
+             kAroundEnds, " m and their distance beyond them; set limits, as in {limits: [-1, 1]}");
+}
 
 }  // namespace
 
@@ -31,7 +41,8 @@ const OptionTable<PathFinderOptions>& pathFinderOptionTable() {
        {"stepsize", &O::stepsize, "rad or m", "Longest step between configurations of the path.", Range::positive()},
        {"subsamples", &O::subsamples, "", "Without effect, for older scripts: edges are checked continuously.",
         Range::notNegative()},
-       {"maxIters", &O::maxIters, "", "Budget, in units of 40 evaluations.", Range::atLeastOne()},
+       {"maxIters", &O::maxIters, "", "Maximum number of iterations: samples towards which a tree grows.",
+        Range::atLeastOne()},
        {"p_connect",
         &O::p_connect,
         "",
@@ -80,6 +91,7 @@ PathFinder& PathFinder::setExplicitCollisionPairs(std::vector<std::pair<std::str
 
 SolverResult PathFinder::solve(std::uint64_t seed, const CancellationToken& cancellation) {
   if (!config_) throw ValueError("PathFinder.solve: there is no scene; call setProblem first");
+  warning_.clear();
   if (start_.size() == 0) throw ValueError("PathFinder.solve: there are no start and goal; call setStartGoal first");
   const double began = processorTime();
   const State scene =
@@ -98,8 +110,7 @@ SolverResult PathFinder::solve(std::uint64_t seed, const CancellationToken& canc
 /// Returns no rows if there is no path; the result then says why.
 MatrixXd PathFinder::search(const State& scene, std::uint64_t seed, const CancellationToken& cancellation,
                             SolverResult& result) {
-  const JointSpace space(scene.model());
-  space.requireRanges(kPathFinder);
+  JointSpace space(scene.model());
   const double margin = -options_.collisionTolerance;
   PathQuery query{.constraints = {&scene, &space, {.margin = margin}}, .starts = {}, .goals = {}};
   Steering steering(query.constraints);
@@ -111,12 +122,13 @@ MatrixXd PathFinder::search(const State& scene, std::uint64_t seed, const Cancel
     result.message = ends.back().problem;
     return {};
   }
+  warning_ = sampleAroundEnds(space, ends[0].q, ends[1].q);
   query.constraints.clearance = clearanceAround(margin, {&ends[0], &ends[1]});
   query.constraints.clearance.guard = Clearance::kGuard;
   query.starts = {ends[0].q};
   query.goals = {ends[1].q};
   query.seed = seed;
-  query.max_evaluations = kEvaluationsPerIteration * options_.maxIters;
+  query.max_samples = options_.maxIters;
   query.cancellation = cancellation;
   const PathSearchResult found = searchPath(query);
   for (const SearchReport& search : found.searches) result.evals += int(search.samples);

@@ -37,7 +37,8 @@ const OptionTable<PathFinderOptions>& pathFinderOptionTable();
 ///     SolverResult result = finder.solve();   // x: the path, K x n, row by row
 ///
 /// `solve` checks start and goal first; if one is in collision or beyond limits, the result is not feasible and its
-/// message says so. The Config must outlive the finder; `solve` reads it and does not change it.
+/// message says so. A sliding joint without limits is sampled around start and goal, with a warning. The Config must
+/// outlive the finder; `solve` reads it and does not change it.
 class PathFinder {
  public:
   PathFinder& setOptions(const PathFinderOptions& options);  ///< throws ValueError
@@ -55,8 +56,12 @@ class PathFinder {
   PathFinder& setExplicitCollisionPairs(std::vector<std::pair<std::string, std::string>> pairs);
 
   /// Searches a path. x has its configurations, at most stepsize apart, start and goal included; it is empty if there
-  /// is no path. evals is the number of samples. Equal seeds give equal paths. Throws ValueError for invalid arguments.
+  /// is no path. evals is the number of iterations. Equal seeds give equal paths. Throws ValueError for invalid
+  /// arguments.
   SolverResult solve(std::uint64_t seed = 0, const CancellationToken& cancellation = {});
+
+  /// Returns the warning of the last `solve`, and clears it.
+  std::string takeWarning() { return std::exchange(warning_, {}); }
 
   /// The last path, K x n; no rows if there is none.
   const MatrixXd& path() const { return path_; }
@@ -77,6 +82,7 @@ class PathFinder {
   VectorXd start_, goal_;
   std::vector<std::pair<std::string, std::string>> pairs_;
   MatrixXd path_;
+  std::string warning_;
 };
 
 /// Resamples a path at steps of at most `step` in joint space.

@@ -81,6 +81,15 @@ Frame ManipulationHelper::frame(const std::string& name) const {
                                       : komo->path().mode(-komo->order()).config.getFrame(name);
 }
 
+bool ManipulationHelper::hasFrame(const std::string& name) const {
+  try {
+    frame(name);
+    return true;
+  } catch (const FrameNotFound&) {
+    return false;
+  }
+}
+
 VectorXd ManipulationHelper::boxSize(const std::string& name, const char* call) const {
   const std::vector<double> size = frame(name).getSize();
   using Body = ShapeKind::Body;

@@ -95,18 +95,20 @@ class ManipulationHelper {
                       double margin = .02);
 
   /// Places a box on the table with its axis `place_direction` (x y z xNeg yNeg zNeg) up and its center `margin` m
-  /// inside the edges. The palm may be empty; else it does not collide.
+  /// inside the edges. Cylinders are placed likewise. The palm may be empty; else it does not collide.
   void place_box(double time, const std::string& obj, const std::string& table, const std::string& palm,
                  const std::string& place_direction = "z", double margin = .02);
 
   // --- pushes ------------------------------------------------------------------------------------------------------
 
   /// Pushes the object over the table along a line from times[0] to times[1]. `helper` is the name of the frame on the
-  /// object whose y axis is the line; `scale` weighs the contact constraints.
-  void straight_push(const std::vector<double>& times, const std::string& obj, const std::string& gripper,
-                     const std::string& table, double scale = 1e1, std::string helper = {});
+  /// object whose y axis is the line; it is added unless it exists, and returned. `scale` weighs the contact
+  /// constraints.
+  std::string straight_push(const std::vector<double>& times, const std::string& obj, const std::string& gripper,
+                            const std::string& table, double scale = 1e1, std::string helper = {});
 
-  /// Presses on the object from above and slides it over the table, from times[0] to times[1].
+  /// Presses on the object from above and slides it upright over the table, from times[0] to times[1], to the frame
+  /// `_pull_end`. A switch attaches it to the gripper.
   void pull(const std::vector<double>& times, const std::string& obj, const std::string& gripper,
             const std::string& table);
 
@@ -151,6 +153,7 @@ class ManipulationHelper {
  private:
   Komo& problem(const char* call) const;
   Frame frame(const std::string& name) const;
+  bool hasFrame(const std::string& name) const;
   VectorXd boxSize(const std::string& name, const char* call) const;
   void setup(const Config& C, double phases, int slices, int order);
   void addDefaults(const ManipulationDefaults& with);

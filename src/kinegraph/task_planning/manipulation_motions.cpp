@@ -27,14 +27,14 @@ MatrixXd row(double x, double y, double z) { return Eigen::RowVector3d(x, y, z);
 
 }  // namespace
 
-void ManipulationHelper::straight_push(const std::vector<double>& times, const std::string& obj,
-                                       const std::string& gripper, const std::string& table, double scale,
-                                       std::string helper) {
+std::string ManipulationHelper::straight_push(const std::vector<double>& times, const std::string& obj,
+                                              const std::string& gripper, const std::string& table, double scale,
+                                              std::string helper) {
   Komo& k = problem("straight_push");
   const auto [from, to] = fromTo(times, "straight_push");
   if (helper.empty()) helper = cat("_straight_pushStart_", gripper, "_", obj, "_", number(from));
   if (!table.empty()) frame(table);  // throws if it does not exist
-  add_stable_frame(JointType::hingeZ, obj, helper);
+  if (!hasFrame(helper)) add_stable_frame(JointType::hingeZ, obj, helper);
   k.addObjective({to}, F::AlignYWithDiff, {helper, obj}, O::eq, 1., {}, 1);
   k.addObjective({from}, F::distance, {gripper, obj}, O::eq, scale, -kDepth);
   MatrixXd beside(2, 3);
@@ -45,21 +45,24 @@ void ManipulationHelper::straight_push(const std::vector<double>& times, const s
   k.addObjective({from}, F::scalarProductYZ, {gripper, helper}, O::ineq, -1., .2);
   k.addObjective({from}, F::vectorXDiff, {gripper, helper}, O::eq, 1.);
   k.addObjective({to}, F::poseRel, {gripper, obj}, O::eq, 1e1, {}, 1);
+  return helper;
 }
 
 void ManipulationHelper::pull(const std::vector<double>& times, const std::string& obj, const std::string& gripper,
                               const std::string& table) {
   Komo& k = problem("pull");
   const auto [from, to] = fromTo(times, "pull");
-  const std::string end = cat("_pullEnd_", gripper, "_", obj, "_", number(to));
+  std::string end = "_pull_end";
+  if (hasFrame(end)) end = cat(end, "_", gripper, "_", obj, "_", number(to));
   add_stable_frame(JointType::transXYPhi, table, end, obj);
   MatrixXd above(2, 3);
   above << row(1e1, 0., 0.), row(0., 1e1, 0.);
-  for (double time : {from, to}) k.addObjective({time}, F::vectorZ, {gripper}, O::eq, 1e1, {0., 0., 1.});
-  k.addObjective({from}, F::positionRel, {gripper, obj}, O::eq, above);
+  for (const std::string& upright : {gripper, obj}) {
+    for (double time : {from, to}) k.addObjective({time}, F::vectorZ, {upright}, O::eq, 1e1, {0., 0., 1.});
+  }
+  k.addObjective({to}, F::positionDiff, {obj, end}, O::eq, 1e1);
+  k.addObjective({from}, F::positionRel, {gripper, obj}, O::eq, above, {0., 0., 0.});
   k.addObjective({from}, F::distance, {gripper, obj}, O::eq, 1e1, -.005);
-  k.addObjective({to}, F::poseRel, {gripper, obj}, O::eq, 1e1, {}, 1);
-  k.addObjective({to}, F::poseDiff, {obj, end}, O::eq, 1e1);
 }
 
 /// Adds a static frame at the pose of the gripper in the path at a time.

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import kinegraph as ry
+import robotic
 
 BAR_AROUND_BAR = """
 world: {}
@@ -111,12 +112,60 @@ def test_a_path_that_is_not_there_is_told_with_what_is_in_the_way() -> None:
     assert "most edges collided with 'stick' (100 %, by 'bar')" in ret.message
 
 
-def test_a_joint_without_limits_is_named() -> None:
+def test_joints_that_slide_without_limits_are_sampled_around_the_ends_with_a_warning() -> None:
     C = ry.Config()
-    C.addFrame("rail")
-    C.addFrame("slider", "rail").setJoint(ry.JT.transX)
-    with pytest.raises(ry.ArgumentError, match="no limits are known for slider"):
-        ry.RRT_PathFinder().setProblem(C).setStartGoal([0.0], [1.0]).solve(0)
+    C.addFrame("floor")
+    C.addFrame("cart", "floor").setJoint(ry.JT.transXY).setShape(ry.ST.sphere, [0.1]).setContact(1)
+    C.addFrame("wall", "floor").setShape(ry.ST.box, [0.1, 1.0, 0.2]).setContact(1)
+    finder = ry.RRT_PathFinder().setProblem(C).setStartGoal([-1.0, 0.0], [1.0, 0.0])
+    with pytest.warns(ry.KinegraphWarning, match="no limits are known for cart:0, cart:1; samples lie around start"):
+        ret = finder.solve(0)
+    assert ret.feasible and abs(ret.x).max() < 4.0
+    np.testing.assert_allclose(ret.x[[0, -1]], [[-1.0, 0.0], [1.0, 0.0]])
+    for q in ret.x:  # beside the wall
+        C.setJointState(q)
+        assert C.coll_totalViolation() < 1e-4
+    far = finder.setStartGoal([-1.0, 1e4], [1.0, 1e4])  # the range moves along
+    with pytest.warns(ry.KinegraphWarning, match="no limits are known"):
+        assert far.solve(0).feasible
+
+
+def test_iterations_are_counted_up_to_their_maximum() -> None:
+    C = barAroundBar()
+    C.getFrame("stick").setShape(ry.ST.box, [0.05, 4.0, 0.1])
+    for most in (7, 100, 3000):
+        ret = finder(C).setOptions(maxIters=most).solve(0)
+        assert not ret.feasible and ret.evals == most and f"after {most} samples" in ret.message
+    needed = finder(barAroundBar()).solve(0).evals
+    assert finder(barAroundBar()).setOptions(maxIters=needed).solve(0).feasible
+    assert not finder(barAroundBar()).setOptions(maxIters=needed - 1).solve(0).feasible
+
+
+def test_options_are_given_by_place() -> None:
+    coarse, fine = (finder(barAroundBar()).setOptions(0, step, 4, 5000).solve(0) for step in (0.2, 0.02))
+    np.testing.assert_array_equal(fine.x, finder(barAroundBar()).setOptions(stepsize=0.02).solve(0).x)
+    assert len(fine.x) > 5 * len(coarse.x)
+    with pytest.raises(ry.ArgumentError, match="stepsize is given twice"):
+        ry.RRT_PathFinder().setOptions(0, 0.1, stepsize=0.2)
+    with pytest.raises(ry.ArgumentError, match="8 values; expected at most 7"):
+        ry.RRT_PathFinder().setOptions(0, 0.1, 4, 5000, 0.5, 1e-4, True, 1)
+    with pytest.raises(ry.ArgumentError, match="stepsize"):
+        ry.RRT_PathFinder().setOptions(0, -0.1)
+
+
+def test_parameters_are_the_defaults_of_scripts_for_robotic() -> None:
+    C = barAroundBar()
+    ry.params_clear()
+    ry.params_add({"rrt/stepsize": 0.02, "rrt/maxIters": 3})
+    try:
+        finder = robotic.RRT_PathFinder()
+        finder.setProblem(C).setStartGoal(START, GOAL)
+        assert finder.solve(0).evals <= 3
+        assert robotic.RRT_PathFinder().setOptions(maxIters=5000) is not None
+        with pytest.warns(ry.KinegraphWarning, match="'rrt/stepsiz'.*similar names: rrt/stepsize"):
+            ry.params_add({"rrt/stepsiz": 0.1})
+    finally:
+        ry.params_clear()
 
 
 def test_what_makes_no_sense_is_an_error() -> None:

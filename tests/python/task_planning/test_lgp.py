@@ -399,6 +399,95 @@ def test_lines_are_logged(caplog):
     assert said[1].startswith(f"-- ({' '.join(lgp.getSolvedPlan()[0])}): ") and said[-1].startswith("-- full motion: ")
 
 
+TABLE = """world {}
+base (world) { Q: [0 0 .6], shape: marker, size: [.05] }
+table (base) { Q: [0 0 -.05], shape: ssBox, size: [2. 2. .1 .02], contact: 1, logical: { is_box, is_place } }
+hand (base) { joint: trans3, limits: [-.9 -.9 0 .9 .9 1], Q: [0 0 .5], shape: marker, size: [.03], logical: { is_gripper } }
+"""
+RULES = """is_gripper is_object is_place is_box on busy
+START_STATE {}
+DecisionRule pick_touch {
+  Obj, From, Hand
+  { (is_gripper Hand) (is_object Obj) (on From Obj) (is_place From) (busy Hand)! }
+  { (on From Obj)! (on Hand Obj) (busy Hand) }
+}
+DecisionRule place_straightOn {
+  Obj, Hand, To
+  { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_place To) }
+  { (busy Hand)! (on Hand Obj)! (on To Obj) }
+}
+"""
+
+
+def box(name, parent, position, size, logical="is_object, is_box, is_place"):
+    return (
+        f"{name} ({parent}) {{ Q: [{position}], joint: rigid, shape: ssBox, size: [{size} .004], contact: 1, "
+        f"logical: {{ {logical} }} }}\n"
+    )
+
+
+def pad(name, position, size):
+    return (
+        f"{name} (base) {{ Q: [{position}], shape: ssBox, size: [{size} .01 .004], contact: 0, "
+        "logical: { is_box, is_place } }\n"
+    )
+
+
+def boxes(folder, scene, goal, coll=""):
+    (folder / "p.g").write_text(TABLE + scene)
+    (folder / "p.fol").write_text(RULES)
+    (folder / "p.lgp").write_text(f'fol: <p.fol>\nterminal: "{goal}"\n' + (f"coll: [{coll}]\n" if coll else ""))
+    C = ry.Config()
+    C.addFile(folder / "p.g")
+    return C, ry.LGP_Tool(C, ry.default_LGP_TAMP_Abstraction(C, str(folder / "p.lgp")))
+
+
+@pytest.mark.parametrize(
+    ("goal", "actions"),
+    [
+        ("(on w1 w0)", 6),  # w2 on w1 on w0; the logic alone would put w0 on w1 at once, on top of itself
+        ("(on w2 w1) (on w1 w0)", 8),
+        ("(on w1 w0) (on w0 w2)", 6),
+    ],
+)
+def test_towers_are_stacked_anew(tmp_path, goal, actions):
+    tower = box("w0", "table", "0 0 .1", ".1 .1 .1") + box("w1", "w0", "0 0 .1", ".1 .1 .1")
+    tower += box("w2", "w1", "0 0 .1", ".1 .1 .1")
+    C, lgp = boxes(tmp_path, tower, goal, "w0 w1 w1 w2 w0 w2")
+    assert lgp.solve(verbose=0)
+    plan, komo = lgp.getSolvedPlan(), lgp.getSolvedKOMO()
+    assert len(plan) <= actions
+    C.setFrameState(komo.getFrameState(len(plan) - 1)[: C.getFrameDimension()])
+    for literal in goal.replace(") (", ")|(").split("|"):
+        below, above = (C.getFrame(name).getPosition() for name in literal.strip("()").split()[1:])
+        assert above[2] - below[2] == pytest.approx(0.1, abs=5e-3)
+        assert abs(above - below)[:2].max() < 0.06
+    assert not [c for c in C.getCollisions() if c[2] < -2e-3]
+
+
+def test_waypoints_in_which_a_third_object_overlaps_are_not_solved(tmp_path):
+    can = box("can", "goal", "0 0 .055", ".06 .06 .1", "is_object")
+    obj = box("obj", "table", "-.3 -.3 .1", ".08 .08 .1", "is_object")
+    small, large = pad("goal", ".4 .3 .005", ".1 .1"), pad("goal", ".4 .3 .005", ".3 .1")
+    C, lgp = boxes(tmp_path, small + can + obj, "(on goal obj)")  # without room for both
+    assert lgp.solve(verbose=0)
+    assert [action[1] for action in lgp.getSolvedPlan()] == ["can", "can", "obj", "obj"]
+    C, lgp = boxes(tmp_path, large + can + obj, "(on goal obj)")
+    assert lgp.solve(verbose=0)
+    plan, komo = lgp.getSolvedPlan(), lgp.getSolvedKOMO()
+    assert [action[1] for action in plan] == ["obj", "obj"]
+    C.setFrameState(komo.getFrameState(1)[: C.getFrameDimension()])
+    assert C.eval(ry.FS.negDistance, ["obj", "can"])[0][0] < 0  # beside each other
+
+
+def test_a_wall_in_the_way_of_an_object_is_told(tmp_path):
+    wall = "wall (base) { Q: [.4 .3 .2], shape: ssBox, size: [.3 .3 .4 .01], contact: 1 }\n"
+    obj = box("obj", "table", "-.3 -.3 .1", ".08 .08 .1", "is_object")
+    _, lgp = boxes(tmp_path, pad("goal", ".4 .3 .005", ".1 .1") + wall + obj, "(on goal obj)")
+    assert not lgp.solve(verbose=0, maxSolves=60)
+    assert "overlap by" in lgp.message and "wall" in lgp.message and "obj" in lgp.message
+
+
 def test_mistakes_in_files_are_told_with_their_place(tmp_path):
     C = ry.Config()
     C.addFile(str(DATA / "lgp" / "unblock.g"))

@@ -31,6 +31,24 @@ def scene(kind="box"):
     return C
 
 
+def gantry():
+    C = ry.Config()
+    C.addFrame("world")
+    table = C.addFrame("table", "world").setPosition([0.0, 0.0, 0.6])
+    table.setShape(ry.ST.ssBox, [2.0, 2.0, 0.1, 0.02]).setContact(1)
+    slide = C.addFrame("slide", "world").setPosition([0.0, 0.0, 1.2])
+    slide.setJoint(ry.JT.trans3, [-1.0, -1.0, -0.6, 1.0, 1.0, 0.4])
+    wrist = C.addFrame("wrist", "slide").setJoint(ry.JT.hingeZ, [-3.0, 3.0])
+    wrist.setShape(ry.ST.ssBox, [0.08, 0.08, 0.1, 0.01]).setContact(1)
+    hand = C.addFrame(GRIPPER, "wrist").setRelativePosition([0.0, 0.0, -0.12])
+    hand.setShape(ry.ST.sphere, [0.02]).setContact(0)
+    obj = C.addFrame("obj", "table").setRelativePosition([0.2, 0.25, 0.1])
+    obj.setShape(ry.ST.ssBox, [0.12, 0.1, 0.1, 0.005]).setJoint(ry.JT.rigid).setContact(1)
+    goal = C.addFrame("goal", "table").setRelativePosition([0.3, -0.3, 0.055])
+    goal.setShape(ry.ST.ssBox, [0.2, 0.2, 0.01, 0.004]).setContact(0)
+    return C
+
+
 def helper():
     return robotic.KOMO_ManipulationHelper()
 
@@ -104,6 +122,38 @@ def motion_two(C, m):
     m.no_collisions([0.5, 2.0], ["obj", "obst"])
 
 
+def push_gantry(C, m):
+    m.setup_sequence(C, 2, 1e-2, 1e-1, False)
+    m.add_stable_frame(ry.JT.free, GRIPPER, "hold", initFrame="obj")
+    m.snap_switch(1.0, "hold", "obj")
+    assert m.straight_push([1.0, 2.0], "obj", GRIPPER, "table") == "_straight_pushStart_l_gripper_obj_1.0"
+    m.target_relative_xy_position(2.0, "obj", "goal", [0.05, 0.1])
+
+
+def motion_carry(C, m):
+    C.attach(GRIPPER, "obj")
+    m.setup_motion(C, 1, 12, 1e-2, 1e-1, False)
+    m.place_box(1.0, "obj", "goal", None, "z")
+    m.no_collisions([0.3, 0.7], ["obj", "obst"], 0.02)
+    m.freeze_relativePose([0.9, 1.0], "obj", "table")
+    m.bias(0.5, np.array([0.0, -0.5, 0.0, -2.0, 0.0, 2.0, -0.5]), 0.1)
+
+
+def pull_up(C, m):
+    C.getFrame("obj").setRelativePosition([-0.2, 0.25, 0.08])
+    m.setup_sequence(C, 2, 1e-2, 1e-1, False)
+    m.add_stable_frame(ry.JT.free, GRIPPER, "hold", initFrame="obj")
+    m.snap_switch(1.0, "hold", "obj")
+    m.pull([1.0, 2.0], "obj", GRIPPER, "table")
+    m.target_relative_xy_position(2.0, "obj", "table", [-0.1, 0.35])
+
+
+def place_cylinder_down(C, m):
+    m.setup_pick_and_place_waypoints(C, GRIPPER, "obj", 1e-2, 1e-1, False)
+    m.grasp_cylinder(1.0, GRIPPER, "obj", PALM)
+    m.place_box(2.0, "obj", "goal", None, "zNeg")
+
+
 PROBLEMS = {
     f.__name__: f
     for f in (
@@ -117,13 +167,24 @@ PROBLEMS = {
         push,
         motion_retract,
         motion_two,
+        push_gantry,
+        motion_carry,
+        pull_up,
+        place_cylinder_down,
     )
 }
-KINDS = {"ik_grasp_y_nocoll": "flat", "ik_cylinder": "cylinder", "pnp_xneg": "flat", "push": "flat"}
+KINDS = {
+    "ik_grasp_y_nocoll": "flat",
+    "ik_cylinder": "cylinder",
+    "pnp_xneg": "flat",
+    "push": "flat",
+    "pull_up": "flat",
+    "place_cylinder_down": "cylinder",
+}
 
 
 def build(name):
-    C, m = scene(KINDS.get(name, "box")), helper()
+    C, m = gantry() if name == "push_gantry" else scene(KINDS.get(name, "box")), helper()
     PROBLEMS[name](C, m)
     return C, m
 
@@ -175,8 +236,9 @@ def test_values_and_derivatives_are_those_of_the_reference(name):
     loose = np.array([t.startswith("F_AlignWith") for t in tags])
     compared = ~np.array([t.startswith(OVERLAPS) for t in tags])
     error, error_v = abs(phi - sign * expected), abs(Jv - sign * np.array(recorded["Jv"]))
-    assert error[compared & ~loose].max() < 2e-6 and error_v[compared & ~loose].max() < 1e-5
-    assert not loose.any() or (error[loose].max() < 2e-3 and error_v[loose].max() < 0.1)
+    sizes, sizes_v = 1.0 + 2.0 * abs(expected), 1.0 + abs(np.array(recorded["Jv"]))  # x and v have 8 digits
+    assert (error / sizes)[compared & ~loose].max() < 2e-6 and (error_v / sizes_v)[compared & ~loose].max() < 1e-5
+    assert not loose.any() or (error[loose].max() < 5e-3 and (error_v / sizes_v)[loose].max() < 0.03)
 
 
 def test_a_box_is_picked_and_placed_and_moved_between() -> None:
@@ -237,6 +299,63 @@ def test_waypoints_of_a_pull_slide_an_object_over_the_table() -> None:
     there = m.komo.getFrame("obj", 2.0)
     np.testing.assert_allclose(there.getPosition()[2], C.getFrame("obj").getPosition()[2], atol=2e-3)
     np.testing.assert_allclose(there.getRotationMatrix()[:, 2], [0, 0, 1], atol=1e-2)
+
+
+def test_frames_are_given_by_name_or_as_frames() -> None:
+    C, by_name, by_frame = scene(), helper(), helper()
+    pick_and_place(C, by_name, "z")
+    gripper, obj, palm, goal = (C.getFrame(name) for name in (GRIPPER, "obj", PALM, "goal"))
+    by_frame.setup_pick_and_place_waypoints(C, gripper, obj, 1e-2, 1e-1, False)
+    by_frame.grasp_box(1.0, gripper, obj, palm, "x")
+    by_frame.place_box(2.0, obj, goal, palm, "z")
+    for m, pair in ((by_name, ["obj", "obst"]), (by_frame, [obj, C.getFrame("obst")])):
+        m.no_collisions([1.0, 2.0], pair)
+        m.freeze_joint([2.0], ["l_panda_joint7"] if m is by_name else [C.getFrame("l_panda_joint7")])
+        m.target_relative_xy_position(2.0, pair[0], "goal" if m is by_name else goal, [0.02, 0.0])
+    assert objectives(by_name.komo) == objectives(by_frame.komo)
+    x = by_name.x
+    values = [m.komo.nlp().evaluate(x)[0] for m in (by_name, by_frame)]
+    np.testing.assert_allclose(*values, atol=1e-12)
+    with pytest.raises(TypeError, match="obj is 3"):
+        by_name.grasp_box(1.0, GRIPPER, 3, PALM)
+
+
+@pytest.mark.parametrize("direction", ["z", "zNeg", "x"])
+def test_a_cylinder_is_placed_without_a_palm(direction: str) -> None:
+    C, m = scene("cylinder"), helper()
+    held = C.addFrame("held", "table").setShape(ry.ST.ssCylinder, [0.12, 0.025, 0.005])
+    held.setJoint(ry.JT.free).setRelativeQuaternion(
+        [0.2, 0.9, 0.3, 0.1] if direction == "zNeg" else [0.8, 0.5, 0.2, 0.1]
+    )
+    m.setup_inverse_kinematics(C, accumulated_collisions=False)
+    m.place_box(1.0, "held", "goal", None, direction)
+    assert m.solve(verbose=0).feasible
+    C.setJointState(m.path[0])
+    R, height = C.getFrame("held").getRotationMatrix(), C.eval(ry.FS.positionDiff, ["held", "goal"])[0][2]
+    up = R[2, "xyz".index(direction[0])]
+    assert up == pytest.approx(-1.0 if "Neg" in direction else 1.0, abs=5e-3)
+    assert height == pytest.approx(0.005 + (0.025 if direction == "x" else 0.06), abs=2e-3)
+
+
+def test_a_second_push_from_the_same_time_shares_the_line() -> None:
+    C, m = gantry(), helper()
+    m.setup_sequence(C, 2, accumulated_collisions=False)
+    lines = [m.straight_push([1.0, 2.0], "obj", GRIPPER, "table") for _ in range(2)]
+    assert lines[0] == lines[1] and m.komo.getConfig().getFrame(lines[0]).getParent().name == "obj"
+    m.pull([1.0, 2.0], "obj", GRIPPER, "table")
+    m.pull([1.0, 2.0], "obj", GRIPPER, "table")
+    names = m.komo.getConfig().getFrameNames()
+    assert "_pull_end" in names and "_pull_end_l_gripper_obj_2.0" in names
+
+
+def test_the_problem_of_a_helper_can_be_set_up_by_hand() -> None:
+    C, m = scene(), robotic.KOMO_ManipulationHelper(info="by hand")
+    assert m.info == "by hand"
+    m.komo.setConfig(C, False)
+    m.komo.setTiming(1.0, 1, 1.0, 0)
+    m.komo.addControlObjective([], 0, 1e-1)
+    m.grasp_top_box(1.0, GRIPPER, "obj", "xz")
+    assert m.solve(verbose=0).feasible and m.path.shape == (1, 7)
 
 
 def test_mistakes_are_reported() -> None:

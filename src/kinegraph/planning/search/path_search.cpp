@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <numeric>
 #include <optional>
 
@@ -12,15 +13,24 @@ namespace kinegraph {
 
 namespace {
 
-constexpr long kFirstBudget = 100000;  // evaluations of the first tree search
-constexpr double kGrowth = 1.5;        // of the budget, from one search to the next
+constexpr long kFirstEvaluations = 100000;  // of the first tree search
+constexpr long kFirstSamples = 2500;        // likewise, if samples count
+constexpr double kGrowth = 1.5;             // of the budget, from one search to the next
 
-/// Budgets of the searches, which add up to `all`.
-std::vector<long> searchBudgets(long all) {
-  std::vector<long> budgets;
-  for (double next = double(kFirstBudget); all > 0; next *= kGrowth) {
-    budgets.push_back(std::min(all, long(next)));
-    all -= budgets.back();
+/// The budget of one tree search.
+struct SearchBudget {
+  long evaluations = std::numeric_limits<long>::max(), samples = std::numeric_limits<long>::max();
+};
+
+/// Budgets of the searches, which add up to that of the query.
+std::vector<SearchBudget> searchBudgets(const PathQuery& query, long spent) {
+  const bool by_samples = query.max_samples > 0;
+  std::vector<SearchBudget> budgets;
+  long all = by_samples ? query.max_samples : query.max_evaluations - spent;
+  for (double next = double(by_samples ? kFirstSamples : kFirstEvaluations); all > 0; next *= kGrowth) {
+    const long budget = std::min(all, long(next));
+    (by_samples ? budgets.emplace_back().samples : budgets.emplace_back().evaluations) = budget;
+    all -= budget;
   }
   return budgets;
 }
@@ -32,7 +42,7 @@ std::uint64_t seedOfSearch(std::uint64_t seed, int search) {
 /// Runs the tree searches on all threads until the first one that succeeds.
 class RestartedSearch {
  public:
-  RestartedSearch(const PathQuery& query, std::vector<long> budgets)
+  RestartedSearch(const PathQuery& query, std::vector<SearchBudget> budgets)
       : query_(query), budgets_(std::move(budgets)), results_(budgets_.size()), first_(int(budgets_.size())) {}
 
   PathSearchResult run() {
@@ -61,7 +71,8 @@ class RestartedSearch {
     RrtConnectOptions options;
     options.range = query_.range;
     options.seed = seedOfSearch(query_.seed, i);
-    options.max_evaluations = budgets_[std::size_t(i)];
+    options.max_evaluations = budgets_[std::size_t(i)].evaluations;
+    options.max_samples = budgets_[std::size_t(i)].samples;
     RrtConnect trees(steering, query_.starts, query_.goals, options);
     const bool found = trees.run([&] { return (on_calling_thread && isCancelled()) || stopped_ || first_ < i; });
     PathSearchResult& result = results_[std::size_t(i)];
@@ -100,7 +111,7 @@ class RestartedSearch {
   }
 
   const PathQuery& query_;
-  const std::vector<long> budgets_;
+  const std::vector<SearchBudget> budgets_;
   std::vector<PathSearchResult> results_;
   std::atomic<int> first_;
   std::atomic<bool> stopped_ = false;
@@ -144,7 +155,7 @@ PathSearchResult searchPath(const PathQuery& query) {
       return std::move(*line);
     }
   }
-  PathSearchResult result = RestartedSearch(query, searchBudgets(query.max_evaluations - spent)).run();
+  PathSearchResult result = RestartedSearch(query, searchBudgets(query, spent)).run();
   result.evaluations += spent;
   return result;
 }

@@ -15,6 +15,7 @@ struct PathQuery {
   double range = 1.;                    ///< longest edge by which trees are extended, in joint space
   std::uint64_t seed = 0;
   long max_evaluations = 1000000;  ///< samples and evaluations of Steering, in all tree searches together
+  long max_samples = 0;            ///< if positive, counts instead: iterations, in all tree searches together
   int threads = 1;
   bool tries_line = true;  ///< first checks the straight edge from each start to each goal
   CancellationToken cancellation = {};

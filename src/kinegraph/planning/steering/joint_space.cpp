@@ -119,6 +119,15 @@ double JointSpace::squaredDistanceOfKinds(const double* a, const double* b) cons
   return square;
 }
 
+void JointSpace::sampleUnlimitedWithin(const VectorXd& lower, const VectorXd& upper) {
+  for (Eigen::Index dof = 0; dof < lower_.size(); ++dof) {
+    if (kinds_[std::size_t(dof)] != Kind::ranged) continue;
+    if (!std::isfinite(lower_[dof])) sample_lower_[dof] = lower[dof];
+    if (!std::isfinite(upper_[dof])) sample_upper_[dof] = upper[dof];
+  }
+  without_range_.clear();
+}
+
 void JointSpace::sampleWithin(const VectorXd& lower, const VectorXd& upper) {
   sample_lower_ = lower_.cwiseMax(lower);
   sample_upper_ = upper_.cwiseMin(upper);

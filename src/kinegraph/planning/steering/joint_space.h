@@ -41,6 +41,9 @@ class JointSpace {
     return square;
   }
 
+  /// Samples dofs without range within these bounds (per dof); their limits stay open.
+  void sampleUnlimitedWithin(const VectorXd& lower, const VectorXd& upper);
+
   /// Restricts the samples of dofs with a range to these bounds (per dof), within their limits.
   void sampleWithin(const VectorXd& lower, const VectorXd& upper);
 

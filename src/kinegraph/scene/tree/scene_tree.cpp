@@ -7,6 +7,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/scene/tree/frame_cycle.h"
 
 namespace kinegraph {
 
@@ -109,7 +110,7 @@ std::vector<std::string> SceneTree::names() const {
 void SceneTree::link(FrameData& frame, FrameData& parent) {
   for (const FrameData* above = &parent; above; above = above->parent) {
     if (above == &frame) {
-      throw ValueError(cat("frame '", frame.name, "' cannot be attached to '", parent.name, "', which is ",
+      throw FrameCycle(cat("frame '", frame.name, "' cannot be attached to '", parent.name, "', which is ",
                            &frame == &parent ? "the same frame" : "one of its descendants"));
     }
   }

@@ -6,6 +6,8 @@
 #include "kinegraph/common/random.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/komo/path/path.h"
+#include "kinegraph/scene/tree/frame_cycle.h"
+#include "kinegraph/task_planning/lgp/lgp_overlaps.h"
 #include "kinegraph/task_planning/violated_constraint.h"
 
 namespace kinegraph {
@@ -13,6 +15,8 @@ namespace kinegraph {
 namespace {
 
 constexpr int kStarts = 4;                    ///< guesses of a waypoint problem before another plan is tried
+constexpr int kAttemptsApart = 3;             ///< to keep objects apart that overlap in waypoints
+constexpr double kApart = .002;               ///< m: distance of these objects
 constexpr double kNoise = .3;                 ///< increase of the standard deviation per further guess
 constexpr std::uint64_t kSeedStep = 1000003;  ///< between problems, so that their guesses differ
 
@@ -31,26 +35,68 @@ bool LgpWaypoints::isFeasible(const Plan& plan) {
   return known_[plan] = solve(plan, 0);
 }
 
-bool LgpWaypoints::solve(const Plan& plan, int round) {
+std::shared_ptr<Komo> LgpWaypoints::problemOf(const Plan& plan) const {
   const std::shared_ptr<Komo> problem = tamp_.setup_sequence(C_, int(plan.size()));
   tamp_.add_all(problem, plan, false);
-  const LgpSolve solved = solveFrom(problem, starts(problem, round), options_);
+  return problem;
+}
+
+LgpSolve LgpWaypoints::count(LgpSolve solved) {
   solves += solved.solves;
   evaluations += solved.evaluations;
-  if (solved.is_solved) {
-    komo = problem;
-    x = solved.result.x;
-  } else if (round == 0) {
-    const std::string missed = violatedConstraint(problem, options_.cancellation);
-    const std::string cause =
-        cat(planText({plan.back()}), ": ", missed.empty() ? options_.describe(solved.result) : missed);
-    const auto known = std::find_if(causes_.begin(), causes_.end(), [&](const auto& c) { return c.first == cause; });
-    if (known == causes_.end())
-      causes_.emplace_back(cause, 1);
-    else
-      ++known->second;
+  return solved;
+}
+
+void LgpWaypoints::addCause(const Plan& plan, const std::string& why) {
+  const std::string cause = cat(planText({plan.back()}), ": ", why);
+  const auto known = std::find_if(causes_.begin(), causes_.end(), [&](const auto& c) { return c.first == cause; });
+  if (known == causes_.end())
+    causes_.emplace_back(cause, 1);
+  else
+    ++known->second;
+}
+
+/// Solves the problem again if objects overlap that no action brings together, with constraints for these pairs. Sets
+/// the path to the result. Returns the overlap that remains, or an empty text.
+std::string LgpWaypoints::avoidOthers(const Plan& plan, const std::shared_ptr<Komo>& problem, int round) {
+  std::vector<WaypointOverlap> overlaps = overlapsWithOthers(C_, *problem, plan);
+  if (overlaps.empty()) return {};
+  const std::shared_ptr<Komo> apart = problemOf(plan);
+  for (int attempt = 0; attempt < kAttemptsApart && !overlaps.empty(); ++attempt) {
+    for (const WaypointOverlap& overlap : overlaps) {
+      apart->addObjective({overlap.slice + 1.}, FeatureSymbol::distance, {overlap.a, overlap.b}, ObjectiveType::ineq,
+                          1e1, -kApart);
+    }
+    std::vector<VectorXd> guesses = starts(apart, round);
+    guesses.insert(guesses.begin(), problem->path().variables());
+    if (!count(solveFrom(apart, guesses, options_)).is_solved) break;
+    overlaps = overlapsWithOthers(C_, *apart, plan);
   }
-  return solved.is_solved;
+  if (!overlaps.empty()) return overlaps.front().str();
+  problem->path().setVariables(apart->path().variables());
+  return {};
+}
+
+bool LgpWaypoints::solve(const Plan& plan, int round) {
+  std::shared_ptr<Komo> problem;
+  try {
+    problem = problemOf(plan);
+  } catch (const FrameCycle& error) {  // an object on top of itself
+    if (round == 0) addCause(plan, error.what());
+    return false;
+  }
+  const LgpSolve solved = count(solveFrom(problem, starts(problem, round), options_));
+  const std::string overlap = solved.is_solved ? avoidOthers(plan, problem, round) : std::string();
+  if (solved.is_solved && overlap.empty()) {
+    komo = problem;
+    x = problem->path().variables();
+    return true;
+  }
+  if (round == 0) {
+    const std::string missed = solved.is_solved ? overlap : violatedConstraint(problem, options_.cancellation);
+    addCause(plan, missed.empty() ? options_.describe(solved.result) : missed);
+  }
+  return false;
 }
 
 /// The first guess is the current path. The others sample the dofs shared by all slices, grasps and placements; in

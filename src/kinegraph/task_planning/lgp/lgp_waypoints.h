@@ -41,6 +41,11 @@ class LgpWaypoints {
  private:
   bool isFeasible(const Plan& plan);
   bool solve(const Plan& plan, int round);
+  std::shared_ptr<Komo> problemOf(const Plan& plan) const;
+  LgpSolve count(LgpSolve solved);
+  std::string avoidOthers(const Plan& plan, const std::shared_ptr<Komo>& problem, int round);
+  void addCause(const Plan& plan, const std::string& why);
+
   const Config& C_;
   LgpAbstraction& tamp_;
   const LgpOptions& options_;

@@ -1,0 +1,13 @@
+#pragma once
+
+#include "kinegraph/common/errors.h"
+
+namespace kinegraph {
+
+/// A frame would be attached below itself.
+class FrameCycle : public ValueError {
+ public:
+  using ValueError::ValueError;
+};
+
+}  // namespace kinegraph
