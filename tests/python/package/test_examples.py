@@ -13,6 +13,11 @@ EXAMPLES = sorted((Path(__file__).parent.parent.parent.parent / "examples").glob
 
 # Expected output.
 FOUND = {
+    "00_first_motion": [
+        r"<MotionPlan solved: ",
+        r"least distance: 0\.01 m",
+        r"the gripper is at \[0\.35 +0\.3 +0\.9 *\]",
+    ],
     "01_frames": [r"door opened by 1 rad", r"joints: \['hinge'\]"],
     "02_box": [r"made in Python: .*'size': \[0.5, 0.5, 0.5, 0.05\]", r"from box.g: .*'size': \[0.5, 0.5, 0.5, 0.05\]"],
     "03_relative_positions": [
