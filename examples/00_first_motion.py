@@ -15,9 +15,9 @@ C.setJointState(first.q)
 plan = ry.planMotion(C, goal, margin=0.01)  # 1 cm from everything, also between the samples
 print(plan)  # or the reason for which there is none
 print("least distance:", round(plan.clearance(), 3), "m")
-C.view_path(plan.path, plan.duration)  # plays it on a page in the browser
 
 bot = ry.BotOp(C)  # a simulated robot in a copy of the scene
 bot.follow(plan)
 bot.wait(C)
 print("the gripper is at", C.getFrame("l_gripper").getPosition().round(3))
+C.view_path(plan.path, plan.duration)  # plays the motion on a page in the browser

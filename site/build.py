@@ -48,7 +48,7 @@ def copyPages(out: Path) -> None:
         if file.suffix in PICTURES:
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(file, target)
-        elif file.suffix == ".md":
+        elif file.suffix == ".md" and file.name != "README.md":  # a list for readers of the repository
             target.parent.mkdir(parents=True, exist_ok=True)
             text = file.read_text()
             for source, page in (("../CHANGELOG.md", "changes.md"), ("../SECURITY.md", "security.md")):

@@ -155,11 +155,13 @@ def extraCard(folder: Path, names: list[str], pictures: Path, cache: Path) -> li
         if may_draw:
             standOnGround(C)
             picture(C, drawn)
-        kept.write_text(json.dumps({"name": f"`{name}`", **counts(C)}))
+        kept.write_text(json.dumps({"name": name, **counts(C)}))
     rows = json.loads(kept.read_text())
-    shown = [f"`{name}`" for name in names if f"`{name}`" != rows["name"]]
-    rows |= {"others": ", ".join(shown)} if shown else {}
-    rows |= {"source": f"[{origin.split('/')[2]}]({origin})" if "//" in origin else origin, "license": license}
+    others = [f"`{name.removeprefix(f'{EXTRA}/')}`" for name in names if name != rows["name"]]
+    rows["name"] = f"`{rows['name'].removeprefix(f'{EXTRA}/')}`"
+    rows |= {"others": ", ".join(others)} if others else {}
+    link = f"[{origin.split('/')[2]}]({origin})" if origin.startswith("http") else origin
+    rows |= {"source": link, "license": license}
     if may_draw:
         (pictures / f"{folder.name}.png").write_bytes(drawn.read_bytes())
     return card(

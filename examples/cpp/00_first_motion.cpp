@@ -25,10 +25,10 @@ int main() {
   const MotionPlan plan = planMotion(C, MotionGoal(above(.35, .3, .9)), {.margin = .01});
   std::cout << plan.str() << "\n";  // or the reason for which there is none
   std::cout << "least distance: " << plan.clearance() << " m\n";
-  C.viewPath(plan.path, plan.duration());  // plays it on a page in the browser
 
   BotOp bot(C);  // a simulated robot in a copy of the scene
   bot.follow(plan);
   bot.wait(C);
   std::cout << "the gripper is at " << C.getFrame("l_gripper").getPosition().transpose() << "\n";
+  C.viewPath(plan.path, plan.duration());  // plays the motion on a page in the browser
 }

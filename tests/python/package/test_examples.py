@@ -35,7 +35,12 @@ FOUND = {
         r"7\d\d of 1000 reached",
     ],
     "09_custom_features": [r"gripper at height 1\.1000 m, 0\.1500 m from the post", r"the straight way there is free"],
-    "12_control": [r"within 0\.\d+ mm on average", r"restricted by:\n +.*table", r"overlap: 0\.0000 m"],
+    "12_control": [
+        r"a step takes \d+ of 1000 us",
+        r"within 0\.\d+ mm on average",
+        r"restricted by:\n +.*table",
+        r"overlap: 0\.0000 m",
+    ],
     "13_timing": [
         r"stop: 1\.\d+ s",
         r"blend: \d\.\d+ s, with jerk limits \d\.\d+ s",
