@@ -38,7 +38,7 @@ FOUND = {
     "12_control": [
         r"a step takes \d+ of 1000 us",
         r"within 0\.\d+ mm on average",
-        r"restricted by:\n +.*table",
+        r"restricted by:(\n +.*)*table",
         r"overlap: 0\.0000 m",
     ],
     "13_timing": [
