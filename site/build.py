@@ -24,6 +24,7 @@ import pages
 import project_pages
 import python_reference
 import reference_pages
+import result_plots
 import robot_gallery
 from language.pages import writePages as writeLanguagePages
 from member_texts import MemberTexts
@@ -129,6 +130,8 @@ def main() -> None:
     source.mkdir(parents=True)
     copyPages(source)
     project_pages.writePages(REPOSITORY, source)
+    for page in sorted((source / "results").glob("*.md")):
+        result_plots.withPlots(page)
     doxygen = cpp_reference.runDoxygen(REPOSITORY, out / "doxygen")
     referencePages(source, doxygen)
     command_line.writePage(source / "command_line.md")

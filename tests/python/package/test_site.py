@@ -2,6 +2,7 @@
 
 import inspect
 import math
+import re
 import sys
 from pathlib import Path
 
@@ -17,6 +18,7 @@ import gallery_page  # noqa: E402
 import option_calls  # noqa: E402
 import option_tables  # noqa: E402
 import project_pages  # noqa: E402
+import result_plots  # noqa: E402
 import robot_gallery  # noqa: E402
 
 GALLERY = {name: f for module in gallery_page.CHAPTERS.values() for name, f in gallery_page.entries(module).items()}
@@ -105,6 +107,23 @@ def test_a_robot_whose_base_is_its_middle_is_raised_to_the_ground():
     robot_gallery.standOnGround(C)
     assert C.getFrame("foot").getPosition()[2] == pytest.approx(0.05)
     assert C.getFrame("body").getPosition()[2] == pytest.approx(0.55)
+
+
+def test_a_comment_behind_a_table_becomes_a_bar_per_row_and_column(tmp_path):
+    page = tmp_path / "times.md"
+    rows = ["| what | how | `a` | b |", "|---|---|---|---|", "| 2 arms | slow | 2 ms | 500 µs |", "| | fast | 1 ms | |"]
+    page.write_text("\n".join(["# Times", "", *rows, "", "<!-- plot: `a` | b -->", ""]))
+    shown = result_plots.bars(rows, ["`a`", "b"])
+    assert [(bar.label, bar.text) for bar in shown] == [
+        ("2 arms, slow", "2 ms"),
+        ("", "500 µs"),
+        ("2 arms, fast", "1 ms"),
+    ]
+    assert [bar.value for bar in shown] == pytest.approx([2e-3, 5e-4, 1e-3])
+    result_plots.withPlots(page)
+    assert "](plots/times_1.svg)" in page.read_text() and "<!--" not in page.read_text()
+    widths = re.findall(r'<rect [^>]*width="([\d.]+)"', (tmp_path / "plots" / "times_1.svg").read_text())
+    assert [float(width) for width in widths] == pytest.approx([330, 82.5, 165])
 
 
 def test_members_without_a_docstring_are_described():
