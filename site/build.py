@@ -146,6 +146,8 @@ def main() -> None:
     first = REPOSITORY / "examples" / f"{example_pages.FIRST}.py"
     shown = example_pages.content(first, source, scenes, out / "cache", top="")
     install.write_text(install.read_text().replace("FIRST_MOTION", "\n".join(shown)))
+    for name, (show, before) in pages.SCENES.items():
+        example_pages.addScene(source / f"{name}.md", show, before, scenes, out / "cache")
     notebooks = notebook_pages.writePages(
         REPOSITORY / "notebooks", source / "notebook", source / "_extra", out / "cache"
     )

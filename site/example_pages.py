@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 from shared_client import shareClient
@@ -81,6 +82,29 @@ def runExample(script: Path, page: Path, cache: Path) -> str:
         page.parent.mkdir(parents=True, exist_ok=True)
         page.write_text(shareClient(kept_page.read_text(), page.parent / CLIENT, CLIENT))
     return kept_text.read_text()
+
+
+def frame(address: str, title: str) -> str:
+    return f'<iframe class="scene" loading="lazy" src="{address}" title="{title}"></iframe>'
+
+
+def addScene(page: Path, show: str, before: str, scenes: Path, cache: Path) -> None:
+    """Runs the code of a page at the top of the site, and adds the scene that `show` shows then.
+
+    Args:
+        show: Code after that of the page.
+        before: The beginning of the line before which the scene is to be.
+    """
+    text = page.read_text()
+    blocks = re.findall(r"(?ms)^```python\n(.*?)^```", text)
+    scene = scenes / f"{page.stem}.html"
+    with tempfile.TemporaryDirectory() as folder:
+        script = Path(folder) / f"{page.stem}.py"
+        script.write_text("\n".join([*blocks, show]))
+        runExample(script, scene, cache)
+    head, line, rest = text.partition(f"\n{before}")
+    assert line and scene.exists(), page
+    page.write_text(f"{head}\n{frame(f'scenes/{scene.name}', page.stem)}\n{line}{rest}")
 
 
 def content(script: Path, out: Path, scenes: Path, cache: Path, top: str = "../") -> list[str]:

@@ -2,6 +2,12 @@
 
 TUTORIALS = ["own_robot", "first_pick_and_place"]  # the examples follow
 
+# Scenes of these pages: the code that shows them after that of the page, and the line before which they are.
+SCENES = {
+    "own_robot": ("C.view()\ntask.view(C)\n", "If there is no plan, `task.message` has the reason."),
+    "first_pick_and_place": ("C.view()\nplan.view(C)\n", "The last lines that it prints"),
+}
+
 EXAMPLES = [  # captions, and the numbers of the examples below
     ("Scenes, features and inverse kinematics", "01 02 03 04 05 06 07 08 09"),
     ("A motion that is free, timed and followed", "11 13 28 29"),
