@@ -48,6 +48,38 @@ def reaching() -> ry.Config:
     return C
 
 
+def plannedMotion(folder: Path) -> None:
+    """A Panda at the start of a plan, white, at its goal, blue, and in between: around a column."""
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    column = C.addFrame("column", "table").setShape(ry.ST.ssBox, [0.1, 0.1, 0.8, 0.02])
+    column.setRelativePosition([0, 0.38, 0.4]).setContact(1).setColor([0.95, 0.55, 0.15])
+    targets = [{"l_gripper": {"position": [x, 0.32, 0.8], "z": [0, 0, 1]}} for x in (-0.45, 0.45)]
+    C.setJointState(ry.solveIk(C, targets[0]).q)
+    plan = ry.planMotion(C, targets[1], margin=0.01)
+    assert plan.feasible and plan.clearance() > 0.0099
+    shown = ry.Config()
+    times = np.linspace(0, plan.duration, 8)
+    for i, at in enumerate(times):
+        copy = C.copy()
+        copy.setJointState(plan.eval(at)[0])
+        for frame in copy.getFrames():
+            is_thing = frame.name in ("table", "column")
+            if frame.getShapeType() == ry.ST.none or (is_thing and i == 0):
+                continue
+            if frame.getShapeType() == ry.ST.marker:
+                frame.setShape(ry.ST.sphere, [0.001])
+            hidden = is_thing or frame.getAttributes().get("contact", 0) != 0  # shapes for collisions
+            alpha = 0.0 if hidden else 1.0 if i in (0, len(times) - 1) else 0.3
+            frame.setColor([0.9, 0.9, 0.9, alpha] if i == 0 else [0.15, 0.45, 0.95, alpha])
+        shown.addConfigurationCopy(copy, f"{i}_")
+    shown.view(offscreen=True)
+    viewer = shown.viewer()
+    viewer.setWindow("plan", 960, 480)
+    viewer.setCamera([0.85, 1.85, 2.0], [0, 0.15, 1.0])
+    viewer.savePng(str(folder / "planned_motion.png"))
+
+
 def gripperAxes(folder: Path) -> None:
     """The Panda's hand without its arm, and the axes of the frame `gripper`: x red, y green, z blue."""
     C = ry.Config()
@@ -227,7 +259,7 @@ def ownRobot(folder: Path) -> None:
         shutil.copy(Path(place) / "robot.png", folder / "own_robot.png")
 
 
-PICTURES = [gripperAxes, arms, recordedImage, ownRobot, taskFilms, movingFilm, examplePictures, page]
+PICTURES = [plannedMotion, gripperAxes, arms, recordedImage, ownRobot, taskFilms, movingFilm, examplePictures, page]
 
 if __name__ == "__main__":
     for make in PICTURES:

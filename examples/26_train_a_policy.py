@@ -95,6 +95,7 @@ for generation in range(GENERATIONS):
     rewards.append(float(gained.mean()))
     print(f"generation {generation + 1}: mean reward {rewards[-1]:.3f}")
 after = success(mean, seed=1001)
+C.view(False, "the finger and the box")
 print(f"within 5 cm of the center, from 100 new starts: before {before:.0f} %, after {after:.0f} %")
 if len(sys.argv) > 1:
     curve(rewards, sys.argv[1])

@@ -47,3 +47,6 @@ print(
     f"elbow bent by {abs(elbow):.3f} rad, at first "
     f"{abs(ry.solveIk(C, {'tool': points[0]}, home_weight=1.0).q[3] - C.getJointState()[3]):.3f}"
 )
+tool.setShape(ry.ST.sphere, [0.02])
+C.setJointState(answer.q)
+C.view(False, "the tool where it was found, and the elbow least bent")

@@ -57,4 +57,5 @@ for event in run:
         bot.setFramePose(other, pose)
         moved = True
 print(run.result)
+bot.getWorld().view(False, "both cubes on the tray")
 assert run.result.feasible

@@ -21,7 +21,10 @@ import features_page
 import gallery_page
 import notebook_pages
 import pages
+import project_pages
 import python_reference
+import reference_pages
+import result_plots
 import robot_gallery
 from language.pages import writePages as writeLanguagePages
 from member_texts import MemberTexts
@@ -46,7 +49,7 @@ def copyPages(out: Path) -> None:
         if file.suffix in PICTURES:
             target.parent.mkdir(parents=True, exist_ok=True)
             shutil.copy(file, target)
-        elif file.suffix == ".md":
+        elif file.suffix == ".md" and file.name != "README.md":  # a list for readers of the repository
             target.parent.mkdir(parents=True, exist_ok=True)
             text = file.read_text()
             for source, page in (("../CHANGELOG.md", "changes.md"), ("../SECURITY.md", "security.md")):
@@ -78,42 +81,37 @@ def referencePages(out: Path, doxygen: Path) -> None:
         other = pages.CPP_NAMES.get(name, name)
         if other in cpp.kinds:
             twins[name] = other
-    full = {name: f"kinegraph::{other}" for name, other in twins.items()}
     texts = MemberTexts(doxygen, REPOSITORY / "docs", {**pages.CPP_NAMES, **pages.CPP_ENUMS})
-    python_reference.writePages(package, named, full, texts, out / "reference" / "python")
-    entries: dict[str, tuple[str, list[tuple[str, str | None]]]] = {}
-    written: set[str] = set()
-    for page, (title, names) in named.items():
-        listed: list[tuple[str, str | None]] = [(twins[name], name) for name in names if name in twins]
-        listed += [(name, None) for name in pages.CPP_ONLY.get(page, "").split() if name in cpp.kinds]
-        fresh = [(name, twin) for name, twin in dict(listed).items() if name not in written]
-        written.update(name for name, _ in fresh)
-        if fresh:
-            entries[page] = (title, fresh)
-    cpp_reference.writePages(cpp, entries, out / "reference" / "cpp")
-    print(f"{len(exported)} names of Python, {len(written)} of C++")
+    cpp_only = {page: names.split() for page, names in pages.CPP_ONLY.items()}
+    count = reference_pages.writePages(package, cpp, named, twins, cpp_only, texts, out / "reference")
+    print(f"{len(exported)} names of Python, {count} of C++")
 
 
 def indexPages(out: Path, examples: list[str], notebooks: list[str]) -> None:
+    chosen = [name for _, names in pages.EXAMPLES for name in names.split()]
+    numbers = {example[:2]: f"/examples/{example}" for example in examples}
+    if missing := {*numbers} ^ {*chosen}:
+        raise SystemExit(f"site/pages.py: EXAMPLES and the folder differ in {', '.join(sorted(missing))}")
     tutorials = [
         ("Start here", [f"/{page}" for page in pages.TUTORIALS]),
         ("Notebooks", [f"/notebook/{name}" for name in notebooks]),
-        ("Examples", [f"/examples/{e}" for e in examples]),
+        *((caption, [numbers[number] for number in names.split()]) for caption, names in pages.EXAMPLES),
     ]
     how_to = [(caption, [f"/{page}" for page in names]) for caption, names in pages.HOW_TO]
     results = [f"/results/{file.stem}" for file in sorted((out / "results").glob("*.md"))]
     explanation = [("How it works", [f"/{page}" for page in pages.EXPLANATION]), ("Results", results)]
     reference = [
-        ("Names", ["python/index", "cpp/index", "/command_line"]),
+        ("Names", [*pages.NAMES, "more", "/command_line"]),
         ("Tables", ["feature_table", "scene_attributes", "urdf", "mjcf", "/robot_gallery/index"]),
         ("", [f"/{page}" for page in pages.REFERENCE]),
     ]
-    reference += [("", ["/security"])]
+    reference += [("Project", ["/glossary", "/citation", "/releases", "/security"])]
     for folder, title, text, groups in (
         (
             "tutorials",
             "Tutorials",
-            "Each example runs as it stands. The pages show what it prints, and the scene it ends with.",
+            "[Install, and a first motion](../install.md) comes first. Each example runs as it stands. The pages show what it "
+            "prints, and the scene it ends with.",
             tutorials,
         ),
         ("how_to", "How-to guides", "Each page begins with the lines that most people need.", how_to),
@@ -131,16 +129,25 @@ def main() -> None:
         shutil.rmtree(folder, ignore_errors=True)
     source.mkdir(parents=True)
     copyPages(source)
+    project_pages.writePages(REPOSITORY, source)
+    for page in sorted((source / "results").glob("*.md")):
+        result_plots.withPlots(page)
     doxygen = cpp_reference.runDoxygen(REPOSITORY, out / "doxygen")
     referencePages(source, doxygen)
     command_line.writePage(source / "command_line.md")
     features_page.writePage(REPOSITORY / "docs" / "features.md", source / "reference" / "feature_table.md")
     writeLanguagePages(source / "reference")
     print(f"{gallery_page.writePage(source / 'gallery', source / '_static', out / 'cache')} entries of the gallery")
-    robot_gallery.writePage(source / "robot_gallery", out / "cache")
+    print(f"{robot_gallery.writePage(source / 'robot_gallery', out / 'cache')} robots")
     scenes = source / "_extra" / "scenes"
     scenes.mkdir(parents=True)
     examples = example_pages.writePages(REPOSITORY / "examples", source / "examples", scenes, out / "cache")
+    install = source / "install.md"
+    first = REPOSITORY / "examples" / f"{example_pages.FIRST}.py"
+    shown = example_pages.content(first, source, scenes, out / "cache", top="")
+    install.write_text(install.read_text().replace("FIRST_MOTION", "\n".join(shown)))
+    for name, (show, before) in pages.SCENES.items():
+        example_pages.addScene(source / f"{name}.md", show, before, scenes, out / "cache")
     notebooks = notebook_pages.writePages(
         REPOSITORY / "notebooks", source / "notebook", source / "_extra", out / "cache"
     )

@@ -84,13 +84,12 @@ def largePages(html: Path) -> list[str]:
 def undescribedNames(html: Path) -> list[str]:
     """Names of the reference without a sentence behind their signature."""
     found = []
-    for language in ("python", "cpp"):
-        for file in sorted((html / "reference" / language).glob("*.html")):
-            text = file.read_text()
-            entry = r'<dl class="(?:py|cpp) (\w+)">\s*<dt class="sig[^"]*" id="([^"]+)">.*?</dt>\s*<dd>(.*?)</dd>'
-            for kind, name, body in re.findall(entry, text, re.DOTALL):
-                if kind != "enumerator" and not re.search(r"\w", re.sub(r"<[^>]+>", "", body)):
-                    found.append(f"{file.relative_to(html)}: {name} has no description")
+    for file in sorted((html / "reference").glob("*.html")):
+        text = file.read_text()
+        entry = r'<dl class="(?:py|cpp) (\w+)">\s*<dt class="sig[^"]*" id="([^"]+)">.*?</dt>\s*<dd>(.*?)</dd>'
+        for kind, name, body in re.findall(entry, text, re.DOTALL):
+            if kind != "enumerator" and not re.search(r"\w", re.sub(r"<[^>]+>", "", body)):
+                found.append(f"{file.relative_to(html)}: {name} has no description")
     return found
 
 

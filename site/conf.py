@@ -19,7 +19,13 @@ html_title = "Kinegraph"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
 html_extra_path = ["_extra"]
-html_theme_options = {"show_toc_level": 2, "navigation_with_keys": True, "navbar_align": "left", "show_prev_next": True}
+html_theme_options = {
+    "header_links_before_dropdown": 7,
+    "show_toc_level": 2,
+    "navigation_with_keys": True,
+    "navbar_align": "left",
+    "show_prev_next": True,
+}
 html_show_sourcelink = False
 python_use_unqualified_type_names = True
 add_module_names = False

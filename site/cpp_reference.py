@@ -1,4 +1,4 @@
-"""Writes the pages of C++ names, from the comments of the public headers by Doxygen."""
+"""The names of C++, from the comments of the public headers by Doxygen."""
 
 import re
 import subprocess
@@ -63,25 +63,14 @@ class CppNames:
                 types = ["".join(type.itertext()) for type in parameters if type is not None]
                 self.overloads.setdefault(name, []).append(f"({', '.join(types)})")
 
-    def entry(self, name: str, twin: str | None) -> list[str]:
-        """The section of a name, with a link to its counterpart in Python if it has one."""
+    def entry(self, name: str) -> list[str]:
+        """The declarations of a name, with their comments."""
         kind, full = self.kinds[name], f"kinegraph::{name}"
-        lines = [f"## {name}", ""] + ([f"In Python: {{py:obj}}`kinegraph.{twin}`", ""] if twin else [])
         heads = [full]
         if kind == "function" and len(self.overloads[name]) > 1:
             heads = [full + arguments for arguments in dict.fromkeys(self.overloads[name])]
         options = [":members:"] if kind in ("class", "struct") else []
+        lines: list[str] = []
         for head in heads:
             lines += [f"```{{{DIRECTIVES[kind]}}} {head}", *options, "```", ""]
         return lines
-
-
-def writePages(names: CppNames, pages: dict[str, tuple[str, list[tuple[str, str | None]]]], out: Path) -> None:
-    """`pages`: title, and names with their counterparts in Python."""
-    out.mkdir(parents=True, exist_ok=True)
-    for page, (title, entries) in pages.items():
-        lines = [f"# {title} in C++", "", f"The same in Python: [](../python/{page}.md).", ""]
-        for name, twin in entries:
-            lines += names.entry(name, twin)
-        (out / f"{page}.md").write_text("\n".join(lines))
-    (out / "index.md").write_text("\n".join(["# C++", "", "```{toctree}", ":maxdepth: 1", *pages, "```", ""]))

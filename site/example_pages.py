@@ -6,6 +6,7 @@ import os
 import re
 import subprocess
 import sys
+import tempfile
 from pathlib import Path
 
 from shared_client import shareClient
@@ -39,6 +40,7 @@ if viewers:
 LONGEST_OUTPUT = 4000  # characters
 TIMEOUT = 300  # s
 CLIENT = "viewer.js"  # the script of all scenes
+FIRST = "00_first_motion"  # it is on the page of the installation
 
 
 def titleAndText(script: Path) -> tuple[str, str]:
@@ -82,13 +84,43 @@ def runExample(script: Path, page: Path, cache: Path) -> str:
     return kept_text.read_text()
 
 
-def examplePage(script: Path, out: Path, scenes: Path, cache: Path) -> None:
-    title, text = titleAndText(script)
-    lines = [f"# {title}", "", indentedAsCode(text), ""]
+def frame(address: str, title: str) -> str:
+    return f'<iframe class="scene" loading="lazy" src="{address}" title="{title}"></iframe>'
+
+
+def addScene(page: Path, show: str, before: str, scenes: Path, cache: Path) -> None:
+    """Runs the code of a page at the top of the site, and adds the scene that `show` shows then.
+
+    Args:
+        show: Code after that of the page.
+        before: The beginning of the line before which the scene is to be.
+    """
+    text = page.read_text()
+    blocks = re.findall(r"(?ms)^```python\n(.*?)^```", text)
+    scene = scenes / f"{page.stem}.html"
+    with tempfile.TemporaryDirectory() as folder:
+        script = Path(folder) / f"{page.stem}.py"
+        script.write_text("\n".join([*blocks, show]))
+        runExample(script, scene, cache)
+    head, line, rest = text.partition(f"\n{before}")
+    assert line and scene.exists(), page
+    page.write_text(f"{head}\n{frame(f'scenes/{scene.name}', page.stem)}\n{line}{rest}")
+
+
+def content(script: Path, out: Path, scenes: Path, cache: Path, top: str = "../") -> list[str]:
+    """The scene, the code in both languages, and what it prints, for a page in the folder `out`.
+
+    `top` is the top of the site, relative to that folder.
+    """
     page = scenes / f"{script.stem}.html"
     printed = runExample(script, page, cache)
+    lines: list[str] = []
     if page.exists():
-        lines += [f'<iframe class="scene" loading="lazy" src="../scenes/{page.name}" title="{title}"></iframe>', ""]
+        source = f"{top}scenes/{page.name}"
+        lines += [
+            f'<iframe class="scene" loading="lazy" src="{source}" title="{titleAndText(script)[0]}"></iframe>',
+            "",
+        ]
     lines += ["::::{tab-set}", ":sync-group: language", "", ":::{tab-item} Python", ":sync: python", ""]
     lines += [f"```{{literalinclude}} {os.path.relpath(script, out)}", ":language: python", "```", ":::"]
     twin = script.parent / "cpp" / f"{script.stem}.cpp"
@@ -98,13 +130,19 @@ def examplePage(script: Path, out: Path, scenes: Path, cache: Path) -> None:
     lines += ["::::", ""]
     if printed.strip():
         lines += ["It prints:", "", "```text", printed[:LONGEST_OUTPUT].rstrip(), "```", ""]
+    return lines
+
+
+def examplePage(script: Path, out: Path, scenes: Path, cache: Path) -> None:
+    title, text = titleAndText(script)
+    lines = [f"# {title}", "", indentedAsCode(text), "", *content(script, out, scenes, cache)]
     (out / f"{script.stem}.md").write_text("\n".join(lines))
 
 
 def writePages(examples: Path, out: Path, scenes: Path, cache: Path) -> list[str]:
     """Returns the names of the pages, in their order."""
     out.mkdir(parents=True, exist_ok=True)
-    scripts = sorted(examples.glob("[0-9]*.py"))
+    scripts = [script for script in sorted(examples.glob("[0-9]*.py")) if script.stem != FIRST]
     for script in scripts:
         examplePage(script, out, scenes, cache)
     return [script.stem for script in scripts]

@@ -33,6 +33,11 @@ def _frameFormulas() -> dict[str, tuple[str, str]]:
             rf"R_a {e} - R_b {e}",
             rf"\omega_a \times R_a {e} - \omega_b \times R_b {e}",
         )
+        if axis != "Z":
+            rows[f"Align{axis}WithDiff"] = (
+                rf"\frac{{d}}{{\sqrt{{\lVert d \rVert^2 + 10^{{-8}}}}}} - R_a {e},\ d = p_{{b,t}} - p_{{b,t-1}}",
+                rf"\text{{of }} d \text{{, and }} -\omega_a \times R_a {e}",
+            )
         rows[f"vector{axis}Rel"] = (
             rf"R_b^\top R_a {e}",
             rf"R_b^\top ((\omega_a - \omega_b) \times R_a {e})",
@@ -72,14 +77,6 @@ FORMULAS: dict[str, tuple[str, str]] = {
     "linangVel": (
         r"(\tfrac1\tau (p_t - p_{t-1}),\ \tfrac{2}{\tau} \operatorname{vec}(q_t\, q_{t-1}^{-1}))",
         r"\approx \tfrac1\tau (v_a, \omega_a)",
-    ),
-    "AlignXWithDiff": (
-        r"\frac{d}{\sqrt{\lVert d \rVert^2 + 10^{-8}}} - R_a e_x,\ d = p_{b,t} - p_{b,t-1}",
-        r"\text{of } d \text{, and } -\omega_a \times R_a e_x",
-    ),
-    "AlignYWithDiff": (
-        r"\frac{d}{\sqrt{\lVert d \rVert^2 + 10^{-8}}} - R_a e_y,\ d = p_{b,t} - p_{b,t-1}",
-        r"\text{of } d \text{, and } -\omega_a \times R_a e_y",
     ),
     "energy": (
         r"\sum_i m_i (\tfrac12 \lVert \dot c_i \rVert^2 + g z_i)",

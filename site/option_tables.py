@@ -6,8 +6,11 @@ The column "expects" has the words of the message that refuses another value, so
 import contextlib
 import math
 import re
-from collections.abc import Callable, Mapping
+import warnings
+from collections.abc import Callable
 from dataclasses import dataclass
+
+from option_calls import calls
 
 import kinegraph as ry
 
@@ -42,35 +45,25 @@ def expectation(call: Callable[..., object], name: str) -> str:
     """The valid values of an option, from the message that refuses an invalid one; "" if any value is valid."""
     words = ""
     for wrong in WRONG_VALUES:
-        if isinstance(wrong, str) and words != "a text":
+        if isinstance(wrong, str) and words not in ("", "a text"):
             continue
-        with contextlib.suppress(TypeError):
+        with contextlib.suppress(TypeError, ry.NotFound):
             try:
                 call(**{name: wrong})
             except ry.ArgumentError as error:
                 message = str(error)
                 if (name in message or not words) and (found := EXPECTED.search(message)):
                     words = found["words"]
-    return words
-
-
-def planCall() -> Callable[..., object]:
-    C = ry.Config()
-    C.addText("base: {} j(base): { joint: hingeX, limits: [-1 1], q: 0 }")
-    return lambda **options: ry.planMotion(C, [0.1], **options)
+    return re.sub(r"^1 finite ones$", "a finite number per dof", words)
 
 
 def expectations(name: str, options: list[Option]) -> None:
-    """Fills in the column "expects" of the names whose options are a table in the code."""
-    makers: Mapping[str, Callable[..., object]] = {
-        "planMotion": planCall(),
-        "IkOptions": ry.IkOptions,
-        "NLP_SolverOptions": ry.NLP_SolverOptions,
-        "SimulationOptions": ry.SimulationOptions,
-    }
-    if name in makers:
-        for option in options:
-            option.expects = expectation(makers[name], option.name)
+    """Fills in the column "expects" of the names that option_calls can call."""
+    call = calls().get(name)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # those of valid values
+        for option in options if call else []:
+            option.expects = expectation(call, option.name)
 
 
 def cell(text: str, as_code: bool = False) -> str:

@@ -1,6 +1,24 @@
 """The structure of the site: which page is in which section, and which names are on which page of the reference."""
 
-TUTORIALS = ["own_robot", "first_pick_and_place"]  # pages of docs/; the examples follow
+TUTORIALS = ["own_robot", "first_pick_and_place"]  # the examples follow
+
+# Scenes of these pages: the code that shows them after that of the page, and the line before which they are.
+SCENES = {
+    "own_robot": ("C.view()\ntask.view(C)\n", "If there is no plan, `task.message` has the reason."),
+    "first_pick_and_place": ("C.view()\nplan.view(C)\n", "The last lines that it prints"),
+}
+
+EXAMPLES = [  # captions, and the numbers of the examples below
+    ("Scenes, features and inverse kinematics", "01 02 03 04 05 06 07 08 09"),
+    ("A motion that is free, timed and followed", "11 13 28 29"),
+    ("Tools along paths", "34 35 36 37"),
+    ("Control loops", "12 14"),
+    ("A simulation that holds", "15 16 20"),
+    ("Tasks", "17 18 21 19 23 24 25 30 31"),
+    ("A camera in the loop", "33"),
+    ("Calibration by gradients", "27"),
+    ("Many problems, data sets and a policy", "10 22 32 26"),
+]
 
 HOW_TO = [
     ("Scenes and robots", ["scenes", "robots", "ik", "features"]),
@@ -38,7 +56,7 @@ EXPLANATION = [
     "beside_other_sites",
 ]
 
-REFERENCE = ["conventions", "errors", "releases"]  # beside the generated pages
+REFERENCE = ["conventions", "errors"]  # beside the generated pages
 
 # Page of the reference: title and names. Python's names; a name without a page goes to the last one.
 NAMES = {

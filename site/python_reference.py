@@ -238,22 +238,3 @@ def entry(package: griffe.Object, name: str, twin: str | None, texts: MemberText
         return lines + functionEntry(variants or list(item.overloads or [item]), name, 1)
     other = f"Another name of `{item.value}`, in older scripts." if item.is_attribute and item.value else ""
     return lines + directive("py:data", name, description(item) or [other], 1)
-
-
-def writePages(
-    package: griffe.Object,
-    pages: dict[str, tuple[str, list[str]]],
-    twins: dict[str, str],
-    texts: MemberTexts,
-    out: Path,
-) -> None:
-    out.mkdir(parents=True, exist_ok=True)
-    for page, (title, names) in pages.items():
-        lines = [f"# {title}", "", "```{py:currentmodule} kinegraph\n```", ""]
-        if any(name in twins for name in names):
-            lines += [f"The same in C++: [](../cpp/{page}.md).", ""]
-        for name in names:
-            lines += entry(package, name, twins.get(name), texts)
-        (out / f"{page}.md").write_text("\n".join(lines))
-    index = ["# Python", "", "```{toctree}", ":maxdepth: 1", *pages, "```", ""]
-    (out / "index.md").write_text("\n".join(index))

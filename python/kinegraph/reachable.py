@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
+from numbers import Integral, Real
 from pathlib import Path
 from typing import Any
 
@@ -120,8 +121,11 @@ def reachability(
     """
     from .fleets import map
 
-    if not 0 < spacing < float("inf") or directions < 0:
-        raise ArgumentError(f"reachability: spacing is {spacing} and directions is {directions}; expected > 0 and >= 0")
+    if not isinstance(spacing, Real) or not 0 < spacing < float("inf"):
+        raise ArgumentError(f"reachability: spacing is {spacing!r}; expected a number > 0, in m")
+    for name, number in (("directions", directions), ("seed", seed)):
+        if not isinstance(number, Integral) or number < 0:
+            raise ArgumentError(f"reachability: {name} is {number!r}; expected a whole number >= 0")
     frame = frame if frame is not None else _lastFrame(config)
     points = _grid(config, frame, spacing, seed)
     axes = _spread(directions)

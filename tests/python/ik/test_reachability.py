@@ -63,6 +63,10 @@ def test_the_command_writes_cells_and_a_picture(tmp_path: Path, capsys: pytest.C
 def test_mistakes_are_reported(arm: ry.Config, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     with pytest.raises(ry.ArgumentError, match="spacing is 0"):
         ry.reachability(arm, spacing=0)
+    with pytest.raises(ry.ArgumentError, match="directions is nan; expected a whole number >= 0"):
+        ry.reachability(arm, directions=float("nan"))  # type: ignore[arg-type]
+    with pytest.raises(ry.ArgumentError, match="seed is -1; expected a whole number >= 0"):
+        ry.reachability(arm, seed=-1)
     with pytest.raises(ry.ArgumentError, match="no joint moves frame 'base'"):
         ry.reachability(arm, "base")
     with pytest.raises(ry.FrameNotFound, match="similar names: tip"):

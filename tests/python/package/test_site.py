@@ -2,6 +2,7 @@
 
 import inspect
 import math
+import re
 import sys
 from pathlib import Path
 
@@ -14,7 +15,10 @@ ROOT = Path(__file__).parents[3]
 sys.path.insert(0, str(ROOT / "site"))
 
 import gallery_page  # noqa: E402
+import option_calls  # noqa: E402
 import option_tables  # noqa: E402
+import project_pages  # noqa: E402
+import result_plots  # noqa: E402
 import robot_gallery  # noqa: E402
 
 GALLERY = {name: f for module in gallery_page.CHAPTERS.values() for name, f in gallery_page.entries(module).items()}
@@ -58,6 +62,68 @@ def test_a_table_of_options_has_what_the_code_expects(options):
             with pytest.raises(ry.ArgumentError):
                 options(**{row.name: -1.0})
             assert math.isclose(getattr(options(**{row.name: 0.01}), row.name), 0.01)
+
+
+@pytest.mark.parametrize(
+    ("call", "option", "words", "refused"),
+    [
+        ("planMotions", "margin", "a number >= 0", -1.0),
+        ("replan", "optimize", "one of time, length, clearance", "speed"),
+        ("retime", "corners", "one of blend, stop, spline", "round"),
+        ("planToolPath", "order", "'given' or 'free'", "any"),
+        ("DiffIk", "damping", "a number > 0", 0.0),
+        ("reachability", "directions", "a whole number >= 0", -1),
+        ("planTask", "margin", "a number >= 0", -1.0),
+    ],
+)
+def test_an_option_of_a_call_expects_what_it_does_not_refuse(call, option, words, refused):
+    function = option_calls.calls()[call]
+    assert option_tables.expectation(function, option) == words
+    with pytest.raises(ry.ArgumentError, match=option):
+        function(**{option: refused})
+    function()
+
+
+def test_the_glossary_has_terms_and_meanings_only():
+    page = project_pages.glossary((ROOT / "CONTRIBUTING.md").read_text())
+    rows = [line for line in page.splitlines() if line.startswith("|")]
+    assert rows[0] == "| term | meaning |" and len(rows) > 40
+    assert "| path | a sequence of configurations, geometric, without time |" in rows
+
+
+def test_the_citation_has_the_fields_of_its_file():
+    page = project_pages.citation((ROOT / "CITATION.cff").read_text())
+    assert "@software{kinegraph," in page and f"version = {{{ry.__version__}}}" in page
+
+
+def test_a_robot_of_the_extra_has_the_license_beside_it(tmp_path):
+    (tmp_path / "README.md").write_text("# Arm\n\nupstream: https://example.org/arm\nLicense: BSD-3-Clause\n")
+    assert robot_gallery.description(tmp_path) == ("Arm", "https://example.org/arm", "BSD-3-Clause")
+
+
+def test_a_robot_whose_base_is_its_middle_is_raised_to_the_ground():
+    C = ry.Config()
+    C.addText("body: {} foot (body): { Q: [0 0 -.5] }")
+    robot_gallery.standOnGround(C)
+    assert C.getFrame("foot").getPosition()[2] == pytest.approx(0.05)
+    assert C.getFrame("body").getPosition()[2] == pytest.approx(0.55)
+
+
+def test_a_comment_behind_a_table_becomes_a_bar_per_row_and_column(tmp_path):
+    page = tmp_path / "times.md"
+    rows = ["| what | how | `a` | b |", "|---|---|---|---|", "| 2 arms | slow | 2 ms | 500 µs |", "| | fast | 1 ms | |"]
+    page.write_text("\n".join(["# Times", "", *rows, "", "<!-- plot: `a` | b -->", ""]))
+    shown = result_plots.bars(rows, ["`a`", "b"])
+    assert [(bar.label, bar.text) for bar in shown] == [
+        ("2 arms, slow", "2 ms"),
+        ("", "500 µs"),
+        ("2 arms, fast", "1 ms"),
+    ]
+    assert [bar.value for bar in shown] == pytest.approx([2e-3, 5e-4, 1e-3])
+    result_plots.withPlots(page)
+    assert "](plots/times_1.svg)" in page.read_text() and "<!--" not in page.read_text()
+    widths = re.findall(r'<rect [^>]*width="([\d.]+)"', (tmp_path / "plots" / "times_1.svg").read_text())
+    assert [float(width) for width in widths] == pytest.approx([330, 82.5, 165])
 
 
 def test_members_without_a_docstring_are_described():
