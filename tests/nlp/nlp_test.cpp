@@ -279,3 +279,38 @@ TEST(Violation, IsThatOfConstraintsOnly) {
   EXPECT_EQ(violation(sos, .5), 0.);
   EXPECT_EQ(violation(f, .5), 0.);
 }
+
+TEST(CallbackNlp, TellsTheHessianOfItsCostTerms) {
+  // Rosenbrock's function as one term f, whose Hessian is known.
+  const auto residuals = [](const VectorXd& x, VectorXd& phi, MatrixXd& J) {
+    const double a = 1. - x[0], b = x[1] - x[0] * x[0];
+    phi << a * a + 100. * b * b;
+    J << -2. * a - 400. * x[0] * b, 200. * b;
+  };
+  const auto hessian = [](const VectorXd& x, MatrixXd& H) {
+    H << 2. - 400. * (x[1] - 3. * x[0] * x[0]), -400. * x[0], -400. * x[0], 200.;
+  };
+  CallbackNlp without(2, {f}, {}, {}, residuals), with(2, {f}, {}, {}, residuals, hessian);
+  const VectorXd x{{-.4, .7}};
+  MatrixXd H = MatrixXd::Identity(2, 2), difference(2, 2);
+  EXPECT_FALSE(without.addCostHessian(x, H));
+  ASSERT_TRUE(with.addCostHessian(x, H));
+  VectorXd phi;
+  Jacobian high = with.makeJacobian(), low = with.makeJacobian();
+  for (int i = 0; i < 2; ++i) {
+    const VectorXd step = 1e-5 * VectorXd::Unit(2, i);
+    with.evaluate(x + step, phi, &high);
+    with.evaluate(x - step, phi, &low);
+    for (int k = 0; k < 2; ++k) difference(k, i) = (high.values[std::size_t(k)] - low.values[std::size_t(k)]) / 2e-5;
+  }
+  EXPECT_NEAR((H - MatrixXd::Identity(2, 2) - difference).norm(), 0., 1e-6);
+
+  CallbackNlp wrong(2, {f}, {}, {}, residuals, [](const VectorXd&, MatrixXd& other) { other.setZero(3, 3); });
+  expectError<ValueError>([&] { wrong.addCostHessian(x, H); }, {"Hessian has shape 3 x 3; expected 2 x 2"});
+}
+
+TEST(CallbackNlp, ACancelledEvaluationIsAStandardException) {
+  CallbackNlp nlp(1, {f}, {}, {}, [](const VectorXd&, VectorXd&, MatrixXd&) { throw EvaluationCancelled(); });
+  VectorXd phi;
+  EXPECT_THROW(nlp.evaluate(VectorXd::Zero(1), phi, nullptr), std::exception);
+}

@@ -9,8 +9,8 @@
 namespace kinegraph {
 
 CallbackNlp::CallbackNlp(int dimension, std::vector<ObjectiveType> types, VectorXd lower, VectorXd upper,
-                         Function function)
-    : function_(std::move(function)) {
+                         Function function, CostHessian hessian)
+    : function_(std::move(function)), hessian_(std::move(hessian)) {
   if (dimension < 0) throw ValueError(cat("NLP: the dimension is ", dimension, "; expected a number >= 0"));
   const double inf = std::numeric_limits<double>::infinity();
   if (lower.size() == 0) lower = VectorXd::Constant(dimension, -inf);
@@ -37,6 +37,19 @@ void CallbackNlp::evaluate(const VectorXd& x, VectorXd& phi, Jacobian* J) {
   for (int row = 0; row < rows; ++row) {
     for (int i = 0; i < dimension(); ++i) J->values[std::size_t(row) * dimension() + i] = dense_(row, i);
   }
+}
+
+bool CallbackNlp::addCostHessian(const VectorXd& x, MatrixXd& H) {
+  if (!hessian_) return false;
+  const int n = dimension();
+  hessian_values_.setZero(n, n);
+  hessian_(x, hessian_values_);
+  if (hessian_values_.rows() != n || hessian_values_.cols() != n) {
+    throw ValueError(cat("the problem's Hessian has shape ", hessian_values_.rows(), " x ", hessian_values_.cols(),
+                         "; expected ", n, " x ", n));
+  }
+  H += hessian_values_;
+  return true;
 }
 
 }  // namespace kinegraph

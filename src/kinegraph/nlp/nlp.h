@@ -1,5 +1,6 @@
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <span>
 #include <string>
@@ -60,7 +61,9 @@ struct Jacobian {
 
 /// Thrown by an evaluation without a result, for example after Ctrl-C in a function of the user. It ends the solver,
 /// which returns the best point before.
-struct EvaluationCancelled {};
+struct EvaluationCancelled : std::exception {
+  const char* what() const noexcept override { return "the evaluation of a nonlinear program was cancelled"; }
+};
 
 /// The outcome of a search for violated lazy constraints.
 enum class Refinement {
