@@ -24,7 +24,7 @@ bool isBetter(const SolverResult& a, const SolverResult& b) {
 
 const SolverResult& SolveManyResult::best() const {
   if (chosen < 0 || std::size_t(chosen) >= results.size())
-    throw ValueError(cat("SolveManyResult.best: none of ", results.size(), " results is chosen"));
+    throw ValueError(cat("none of ", results.size(), " results is chosen"));
   return results[std::size_t(chosen)];
 }
 

@@ -92,6 +92,7 @@ def assertSame(one: ry.Config, other: ry.Config) -> None:
     np.testing.assert_allclose(other.getFrameState(), one.getFrameState(), rtol=1e-12, atol=1e-7)
 
 
+@pytest.mark.filterwarnings("ignore:.*did you mean")
 @settings(max_examples=150, deadline=None, derandomize=True)
 @given(scenes())
 def test_dict_yaml_and_text_read_back_as_the_same_scene(config: ry.Config) -> None:
