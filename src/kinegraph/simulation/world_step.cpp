@@ -178,8 +178,8 @@ void World::correctContacts(double h) {
 }
 
 /// Lets shapes with a restitution e bounce: a contact that closes within the step gets another distance r. MuJoCo's
-/// implicit step is v+ = (v - h k r) / (1 + b h + k h^2) for the approach velocity v, where k is the stiffness times the
-/// impedance. The distance r yields v+ = -e v.
+/// implicit step is v+ = (v - h k r) / (1 + b h + k h^2) for the approach velocity v, where k is the stiffness times
+/// the impedance. The distance r yields v+ = -e v.
 void World::addBounces(double h) {
   const mjModel& m = *physics_;
   mjData& d = *data_;
