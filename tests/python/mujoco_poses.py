@@ -1,5 +1,7 @@
 """Compares the scene of an MJCF file with MuJoCo's model."""
 
+import itertools
+
 import mujoco
 import numpy as np
 
@@ -72,3 +74,52 @@ def largestDifference(file: str, config: ry.Config, seed: int, samples: int) -> 
     """The largest difference of the poses of bodies and sites at random states, in m or rad."""
     comparison = Comparison(file, config, seed)
     return max(comparison.difference() for _ in range(samples))
+
+
+def collidingBodies(model: mujoco.MjModel) -> set[frozenset[str]]:
+    """The pairs of bodies that MuJoCo's rules let collide: bits, welded bodies, parents, exclusions, listed pairs."""
+    weld, excluded = model.body_weldid, set(model.exclude_signature.tolist())
+    filters_parents = not model.opt.disableflags & int(mujoco.mjtDisableBit.mjDSBL_FILTERPARENT)
+
+    def geoms(body: int) -> range:
+        return range(model.body_geomadr[body], model.body_geomadr[body] + model.body_geomnum[body])
+
+    def touch(a: int, b: int) -> bool:
+        wa, wb = weld[a], weld[b]
+        parents = weld[model.body_parentid[wa]], weld[model.body_parentid[wb]]
+        related = filters_parents and wa and wb and (wa == parents[1] or wb == parents[0])
+        if wa == wb or related or (a << 16) + b in excluded:
+            return False
+        types, affinities = model.geom_contype, model.geom_conaffinity
+        return any(types[x] & affinities[y] or types[y] & affinities[x] for x in geoms(a) for y in geoms(b))
+
+    bodies = itertools.combinations(range(model.nbody), 2)
+    listed = [
+        (model.geom_bodyid[model.pair_geom1[k]], model.geom_bodyid[model.pair_geom2[k]]) for k in range(model.npair)
+    ]
+    pairs = [pair for pair in bodies if touch(*pair)] + listed
+    return {frozenset(model.body(int(body)).name for body in pair) for pair in pairs}
+
+
+def assertSameNumbers(file: str, config: ry.Config) -> None:
+    """The total mass, the limits of joints, and the pairs of bodies that collide are MuJoCo's."""
+    model = mujoco.MjModel.from_xml_path(file)
+    mass = float(model.body_mass.sum())
+    assert abs(sum(frame.getMass() for frame in config) - mass) <= 1e-5 * max(1, mass)
+    names, limits = set(config.getFrameNames()), config.getJointLimits()
+    for j in range(model.njnt):
+        name = model.joint(j).name
+        if model.jnt_type[j] < int(mujoco.mjtJoint.mjJNT_SLIDE) or name not in names:
+            continue
+        given = model.jnt_range[j] if model.jnt_limited[j] else (-np.inf, np.inf)
+        np.testing.assert_allclose(limits[:, config.getFrame(name).getJointQIndex()], given, atol=1e-6)
+    bodies = {model.body(b).name for b in range(1, model.nbody)}
+
+    def bodyOf(name: str) -> str:
+        frame = config.getFrame(name)
+        while frame is not None and frame.name not in bodies:
+            frame = frame.getParent()
+        return frame.name if frame is not None else "world"
+
+    pairs = {frozenset(map(bodyOf, pair)) for pair in zip(*[iter(config.getCollidablePairs())] * 2, strict=True)}
+    assert pairs == collidingBodies(model)

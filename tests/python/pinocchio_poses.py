@@ -99,3 +99,17 @@ def largestDifference(urdf: str, config: ry.Config, seed: int, samples: int) -> 
     comparison = Comparison(urdf, config, seed)
     assert len(comparison.joints) + len(comparison.frames) >= config.getJointDimension()
     return max(comparison.difference() for _ in range(samples))
+
+
+def assertSameNumbers(urdf: str, config: ry.Config) -> None:
+    """The total mass, and the limits of joints that do not mimic others, are Pinocchio's; beyond 1e15 there is none."""
+    model = pin.buildModelFromUrdf(urdf)
+    mass = sum(inertia.mass for inertia in model.inertias)
+    assert abs(sum(frame.getMass() for frame in config) - mass) <= 1e-6 * max(1, mass)
+    mimics, limits = mimicRules(urdf), config.getJointLimits()
+    for name, joint in zip(list(model.names)[1:], model.joints[1:], strict=True):
+        if joint.nq != 1 or name in mimics:
+            continue
+        given = np.array([model.lowerPositionLimit[joint.idx_q], model.upperPositionLimit[joint.idx_q]])
+        given[np.abs(given) > 1e15] *= np.inf
+        np.testing.assert_allclose(limits[:, config.getFrame(jointFrame(config, name)).getJointQIndex()], given)

@@ -9,8 +9,6 @@ import kinegraph as kg
 
 from .browser import Browser
 
-pytestmark = pytest.mark.filterwarnings("ignore:setShape.*did you mean meters")  # scenes are as large as a town
-
 SCALE = "document.querySelector('#scale').textContent"
 
 

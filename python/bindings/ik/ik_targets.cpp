@@ -8,7 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/eval.h"
 #include "kinegraph/features/make_residual.h"
-#include "scene/quaternion_order.h"
+#include "scene/pose_warnings.h"
 
 namespace kinegraph::python {
 
@@ -301,7 +301,7 @@ class TargetReader {
   void add(TargetRows entry) {
     if (entry.rows.count == 0 &&
         (entry.rows.width == 7 || (entry.rows.width == 4 && entry.target.kind == Kind::rotation)))
-      warnOfOrder(entry.rows.row(0).tail<4>());
+      warnOfOrder(entry.rows.row(0));
     targets_.push_back(std::move(entry));
   }
 

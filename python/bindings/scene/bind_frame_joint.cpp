@@ -10,6 +10,7 @@
 #include "kinegraph/scene/tree/joint_limits.h"
 #include "kinegraph/scene/tree/tree_edits.h"
 #include "scene/frame_joint_docs.h"
+#include "scene/pose_warnings.h"
 
 namespace kinegraph::python {
 
@@ -55,10 +56,12 @@ void bindFrameJoint(nb::class_<Frame>& frame) {
           [](Frame& f, JointType type, const std::optional<Numbers>& limits, const std::optional<Numbers>& axis,
              double scale, const std::optional<Frame>& mimic) -> Frame& {
             const std::vector<double> none;
+            const Pose before = f.getRelativePose();
             f.setJoint(type, limits ? limits->list() : none, axis ? axis->list() : none, scale, mimic);
             std::string warning;
             if (limits && limitsInTurn(limits->list(), warning))
               emitWarning(cat("Frame.setJoint: frame '", f.getName(), "': ", warning));
+            if (!mimic) warnOfLostPose(f, f.getRelativePose(), before, "setJoint");
             return f;
           },
           "jointType"_a, "limits"_a = nb::none(), "axis"_a = nb::none(), "scale"_a = 1., "mimic"_a = nb::none(), kChain,

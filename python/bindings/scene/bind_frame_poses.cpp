@@ -9,20 +9,39 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/loading/reader.h"
 #include "scene/frame_poses_docs.h"
-#include "scene/quaternion_order.h"
+#include "scene/pose_warnings.h"
 
 namespace kinegraph::python {
 
-void warnOfOrder(const Vector4d& wxyz) {
-  const double norm = wxyz.norm();
-  if (wxyz == Vector4d(0., 0., 0., 1.))
+namespace {
+
+constexpr double kUnitError = 1e-3, kFarFromUnit = .1;
+constexpr double kLargeNorm = 10.;  // solvers pass quaternions of any norm near 1
+
+}  // namespace
+
+void warnOfOrder(const VectorXd& numbers) {
+  const Vector4d last = numbers.tail<4>();
+  if (last == Vector4d(0., 0., 0., 1.))
     emitWarning(
         "the quaternion 0 0 0 1 is half a turn about z; did you mean no rotation, 1 0 0 0? The order is w x y z");
-  if (norm > 1e-10 && std::abs(norm - 1.) > .1) {
-    emitWarning(
-        "a quaternion far from unit length is normalized; expected the order w x y z, and x y z qw "
-        "qx qy qz for a pose");
-  }
+  const auto isUnit = [](const Vector4d& v) { return std::abs(v.norm() - 1.) < kUnitError; };
+  if (numbers.size() == 7 && isUnit(numbers.head<4>()) && std::abs(last.norm() - 1.) > kFarFromUnit)
+    emitWarning("the first four numbers of a pose are a unit quaternion; did you mean x y z qw qx qy qz?");
+  if (last.norm() > kLargeNorm)
+    emitWarning("a quaternion with a norm above 10 is normalized; did you mean an angle? The order is w x y z");
+}
+
+void warnOfLostPose(const Frame& frame, const Pose& pose, const Pose& wanted, const char* call) {
+  constexpr double kSame = 1e-6;  // m, rad
+  if (!frame.data().moves()) return;
+  const double apart = (pose.p - wanted.p).norm(), rotated = pose.q.angularDistance(wanted.q);
+  if (apart <= kSame && rotated <= kSame) return;
+  emitWarning(
+      cat(call, ": the joint of frame '", frame.getName(), "', ", jointTypeName(frame.getJointType()),
+          ", does not allow this pose: ",
+          apart > kSame ? cat("the frame is ", numberText(apart, 3), " m") : cat(numberText(rotated, 3), " rad"),
+          " away from it. Put a constant offset into a frame between it and its parent (`pre` in a file)"));
 }
 
 namespace {
@@ -51,7 +70,7 @@ Vector3d position(const Frame& frame, const Numbers& numbers, const char* call) 
 Pose poseFrom(const Frame& frame, const Numbers& numbers) {
   const VectorXd& v = numbers.values;
   if (v.size() == 4 || v.size() == 7) {
-    warnOfOrder(v.tail<4>());
+    warnOfOrder(v);
     unitQuaternion(v.tail<4>(), cat("quaternion of frame '", frame.getName(), "'").c_str());
   }
   return Pose::fromNumbers(v);
@@ -97,6 +116,42 @@ Array angularJacobian(const Frame& frame) {
   return toNumpy(J);
 }
 
+Pose with(Pose pose, const Vector3d& p) {
+  pose.p = p;
+  return pose;
+}
+
+Pose with(Pose pose, const Quaterniond& q) {
+  pose.q = q;
+  return pose;
+}
+
+Frame& setPose(Frame& frame, const Pose& pose, const char* call) {
+  frame.setPose(pose);
+  warnOfLostPose(frame, frame.getPose(), pose, call);
+  return frame;
+}
+
+Frame& setRelativePose(Frame& frame, const Pose& pose, const char* call) {
+  frame.setRelativePose(pose);
+  warnOfLostPose(frame, frame.getRelativePose(), pose, call);
+  return frame;
+}
+
+Frame& setQuaternion(Frame& frame, const Quaterniond& q, const char* call) {
+  const Pose wanted = with(frame.getPose(), q);
+  frame.setQuaternion(q);
+  warnOfLostPose(frame, frame.getPose(), wanted, call);
+  return frame;
+}
+
+Frame& setRelativeQuaternion(Frame& frame, const Quaterniond& q, const char* call) {
+  const Pose wanted = with(frame.getRelativePose(), q);
+  frame.setRelativeQuaternion(q);
+  warnOfLostPose(frame, frame.getRelativePose(), wanted, call);
+  return frame;
+}
+
 void bindReading(nb::class_<Frame>& frame) {
   frame
 
@@ -133,56 +188,76 @@ void bindSetting(nb::class_<Frame>& frame) {
   frame
 
       .def(
-          "setPose", [](Frame& f, const Numbers& pose) -> Frame& { return f.setPose(poseFrom(f, pose)); }, "pose"_a,
-          kChain, docs::frame_poses::setPose)
+          "setPose", [](Frame& f, const Numbers& pose) -> Frame& { return setPose(f, poseFrom(f, pose), "setPose"); },
+          "pose"_a, kChain, docs::frame_poses::setPose)
       .def(
-          "setPose", [](Frame& f, const std::string& text) -> Frame& { return f.setPose(parsePose(text)); }, "pose"_a,
-          kChain, docs::frame_poses::setPoseFromText)
+          "setPose", [](Frame& f, const std::string& text) -> Frame& { return setPose(f, parsePose(text), "setPose"); },
+          "pose"_a, kChain, docs::frame_poses::setPoseFromText)
       .def(
-          "setPoseByText", [](Frame& f, const std::string& text) -> Frame& { return f.setPose(parsePose(text)); },
+          "setPoseByText",
+          [](Frame& f, const std::string& text) -> Frame& { return setPose(f, parsePose(text), "setPoseByText"); },
           "pose"_a, kChain, docs::frame_poses::setPoseByText)
       .def(
           "setPosition",
-          [](Frame& f, const Numbers& p) -> Frame& { return f.setPosition(position(f, p, "setPosition")); },
+          [](Frame& f, const Numbers& p) -> Frame& {
+            const Pose wanted = with(f.getPose(), position(f, p, "setPosition"));
+            f.setPosition(wanted.p);
+            warnOfLostPose(f, f.getPose(), wanted, "setPosition");
+            return f;
+          },
           "position"_a, kChain, docs::frame_poses::setPosition)
       .def(
           "setQuaternion",
-          [](Frame& f, const Numbers& q) -> Frame& { return f.setQuaternion(rotation(f, q, "setQuaternion")); },
+          [](Frame& f, const Numbers& q) -> Frame& {
+            return setQuaternion(f, rotation(f, q, "setQuaternion"), "setQuaternion");
+          },
           "quaternion"_a, kChain, docs::frame_poses::setQuaternion)
       .def(
           "setRotationMatrix",
-          [](Frame& f, const Numbers& R) -> Frame& { return f.setQuaternion(rotationFromMatrix(f, R)); }, "matrix"_a,
-          kChain, docs::frame_poses::setRotationMatrix);
+          [](Frame& f, const Numbers& R) -> Frame& {
+            return setQuaternion(f, rotationFromMatrix(f, R), "setRotationMatrix");
+          },
+          "matrix"_a, kChain, docs::frame_poses::setRotationMatrix);
 }
 
 void bindSettingInParent(nb::class_<Frame>& frame) {
   frame
       .def(
           "setRelativePose",
-          [](Frame& f, const Numbers& pose) -> Frame& { return f.setRelativePose(poseFrom(f, pose)); }, "pose"_a,
-          kChain, docs::frame_poses::setRelativePose)
+          [](Frame& f, const Numbers& pose) -> Frame& {
+            return setRelativePose(f, poseFrom(f, pose), "setRelativePose");
+          },
+          "pose"_a, kChain, docs::frame_poses::setRelativePose)
       .def(
-          "setRelativePose", [](Frame& f, const std::string& t) -> Frame& { return f.setRelativePose(parsePose(t)); },
+          "setRelativePose",
+          [](Frame& f, const std::string& t) -> Frame& { return setRelativePose(f, parsePose(t), "setRelativePose"); },
           "pose"_a, kChain, docs::frame_poses::setRelativePoseFromText)
       .def(
           "setRelativePoseByText",
-          [](Frame& f, const std::string& t) -> Frame& { return f.setRelativePose(parsePose(t)); }, "pose"_a, kChain,
-          docs::frame_poses::setRelativePoseByText)
+          [](Frame& f, const std::string& t) -> Frame& {
+            return setRelativePose(f, parsePose(t), "setRelativePoseByText");
+          },
+          "pose"_a, kChain, docs::frame_poses::setRelativePoseByText)
       .def(
           "setRelativePosition",
           [](Frame& f, const Numbers& p) -> Frame& {
-            return f.setRelativePosition(position(f, p, "setRelativePosition"));
+            const Pose wanted = with(f.getRelativePose(), position(f, p, "setRelativePosition"));
+            f.setRelativePosition(wanted.p);
+            warnOfLostPose(f, f.getRelativePose(), wanted, "setRelativePosition");
+            return f;
           },
           "position"_a, kChain, docs::frame_poses::setRelativePosition)
       .def(
           "setRelativeQuaternion",
           [](Frame& f, const Numbers& q) -> Frame& {
-            return f.setRelativeQuaternion(rotation(f, q, "setRelativeQuaternion"));
+            return setRelativeQuaternion(f, rotation(f, q, "setRelativeQuaternion"), "setRelativeQuaternion");
           },
           "quaternion"_a, kChain, docs::frame_poses::setRelativeQuaternion)
       .def(
           "setRelativeRotationMatrix",
-          [](Frame& f, const Numbers& R) -> Frame& { return f.setRelativeQuaternion(rotationFromMatrix(f, R)); },
+          [](Frame& f, const Numbers& R) -> Frame& {
+            return setRelativeQuaternion(f, rotationFromMatrix(f, R), "setRelativeRotationMatrix");
+          },
           "matrix"_a, kChain, docs::frame_poses::setRelativeRotationMatrix);
 }
 

@@ -7,11 +7,11 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "kinegraph/common/guessed_units.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 #include "kinegraph/scene/frame_shapes.h"
+#include "kinegraph/scene/loading/unit_questions.h"
 #include "scene/shapes_docs.h"
 
 namespace kinegraph::python {
@@ -24,10 +24,7 @@ Frame& setShape(Frame& frame, ShapeType type, const Numbers& size) {
   std::string warning;
   checkedSize(type, size.list(), &warning);
   if (!warning.empty()) emitWarning(cat("setShape: frame '", frame.getName(), "': ", warning));
-  const bool may_be_large = type == ShapeType::quad || type == ShapeType::plane || type == ShapeType::marker;
-  if (!may_be_large && mayBeMillimeters(size.list()))
-    emitWarning(cat("setShape: frame '", frame.getName(), "' is ", size.values.maxCoeff(), " m large; ",
-                    askForMeters(size.values.maxCoeff())));
+  if (const std::string question = askAboutSize(frame.data()); !question.empty()) emitWarning("setShape: " + question);
   return frame;
 }
 

@@ -3,11 +3,12 @@
 /// Docstrings for bind_formats.cpp.
 namespace kinegraph::python::docs::formats {
 
-inline constexpr char writeMesh[] = R"(Writes all surfaces to one PLY file, in world coordinates, m.
+inline constexpr char writeMesh[] = R"(Writes all surfaces to one mesh file, in world coordinates, m.
 
 Args:
-    filename: Path of the file.
+    filename: Path of the file; the suffix is .ply or .obj, with colors, or .stl.
 Raises:
+    ArgumentError: Another suffix, or a scene without surfaces.
     FileError: The file cannot be written.)";
 
 inline constexpr char writeMeshes[] = R"(Writes every mesh once as a PLY file, in the coordinates of its frame, m.

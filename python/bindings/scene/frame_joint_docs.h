@@ -32,7 +32,10 @@ inline constexpr char getInertia[] =
     R"(Returns mass (kg), center of mass (3,) in m and inertia about it (3, 3) in kg m^2, in the frame's coordinates.
 Without a mass returns (0, [], []).)";
 
-inline constexpr char setJoint[] = R"(Gives the frame a joint to its parent.
+inline constexpr char setJoint[] =
+    R"(Gives the frame a joint to its parent, whose dofs are those nearest to the present relative pose.
+
+A warning says what the joint does not express of it: a hinge has no offset. Give the offset to a frame in between.
 
 Args:
     jointType: A JT; JT.none removes the joint.

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "kinegraph/common/errors.h"
+#include "kinegraph/common/file_paths.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/exporters/stl_writer.h"
 #include "kinegraph/geometry/shapes/convex_hull.h"
@@ -112,10 +113,37 @@ void writePly(const Mesh& mesh, const std::string& path) {
   if (!stream) throw FileError(cat("mesh file '", path, "' cannot be written"));
 }
 
+void writeObj(const Mesh& mesh, const std::string& path) {
+  const bool one_color = mesh.colors.size() == 1, colored = one_color || mesh.colors.size() == mesh.vertices.size();
+  std::string data;
+  for (std::size_t v = 0; v < mesh.vertices.size(); ++v) {
+    data += "v";
+    for (double x : mesh.vertices[v]) data += " " + numberText(x, 9);
+    for (std::size_t i = 0; colored && i < 3; ++i)
+      data += " " + numberText(mesh.colors[one_color ? 0 : v][i] / 255., 4);
+    data += "\n";
+  }
+  for (const auto& [a, b, c] : mesh.triangles) data += cat("f ", a + 1, " ", b + 1, " ", c + 1, "\n");
+  std::ofstream stream(path, std::ios::binary);
+  stream << data;
+  stream.flush();
+  if (!stream) throw FileError(cat("mesh file '", path, "' cannot be written"));
+}
+
 void saveWorldMesh(const Config& config, const std::string& path) {
+  const std::map<std::string, void (*)(const Mesh&, const std::string&)> writers = {
+      {".ply", writePly}, {".obj", writeObj}, {".stl", writeStl}};
+  const std::string extension = lowerExtension(path);
+  const auto writer = writers.find(extension);
+  if (writer == writers.end())
+    throw ValueError(cat("writeMesh: the suffix of '", path, "' is ",
+                         extension.empty() ? "missing" : cat("'", extension, "'"), "; expected .ply, .obj or .stl",
+                         extension == ".dae"                           ? "; writeCollada writes COLLADA"
+                         : extension == ".glb" || extension == ".gltf" ? "; writeGltf writes glTF"
+                                                                       : ""));
   const Mesh mesh = worldMesh(config);
   if (mesh.triangles.empty()) throw ValueError("writeMesh: no shape of the configuration has a surface");
-  writePly(mesh, path);
+  writer->second(mesh, path);
 }
 
 std::vector<std::string> saveMeshes(const Config& config, const std::string& prefix, bool enumerate) {

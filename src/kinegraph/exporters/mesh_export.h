@@ -14,8 +14,11 @@ Mesh worldMesh(const Config& config);
 /// Writes a mesh as a binary PLY file with vertex colors. Throws FileError.
 void writePly(const Mesh& mesh, const std::string& path);
 
-/// Writes all surfaces of a scene to one PLY file, in world coordinates. Throws FileError, and ValueError for a scene
-/// without surfaces.
+/// Writes a mesh as a text file of Wavefront OBJ, with vertex colors behind the coordinates. Throws FileError.
+void writeObj(const Mesh& mesh, const std::string& path);
+
+/// Writes all surfaces of a scene to one file, in world coordinates. The suffix is .ply, .obj, or .stl (no colors).
+/// Throws FileError, and ValueError for other suffixes and for a scene without surfaces.
 void saveWorldMesh(const Config& config, const std::string& path);
 
 /// Writes every mesh of a scene once, in its frame's coordinates, as `<prefix><frame>.ply`, or as

@@ -94,7 +94,7 @@ IkResult IkSearch::finish(IkJob& job, bool cancelled, const CancellationToken& c
                   : iterate_.targetsMet() ? IkStatus::in_collision
                                           : IkStatus::goal_unreachable;
   if (!job.feasible) result.message = describeFailure(*problem_, job, iterate_);
-  if (result.status == IkStatus::goal_unreachable) result.message += askAboutQuaternions(job);
+  if (result.status == IkStatus::goal_unreachable) result.message += askAboutQuaternions(job, cancellation);
   if (!problem_->slight.empty()) result.warnings.push_back(problem_->slight);
   if (!problem_->question.empty()) result.warnings.push_back(problem_->question);
   if (problem_->blocking.empty() || result.status == IkStatus::cancelled) return result;
@@ -211,9 +211,10 @@ bool IkSearch::polish(const CancellationToken& cancellation) {
   return false;
 }
 
-/// Asks whether missed rotations are in the order x y z w: so read, they are reached within a few attempts.
-std::string IkSearch::askAboutQuaternions(const IkJob& job) {
-  constexpr int kAttempts = 3;
+/// Asks whether missed rotations are in the order x y z w: so read, they are reached within a few attempts, at most as
+/// many as were made before.
+std::string IkSearch::askAboutQuaternions(const IkJob& job, const CancellationToken& cancellation) {
+  const int most_attempts = std::min(3, job.attempts);
   constexpr double kOther = .1;                                                          // rad
   if (std::ranges::any_of(job.blocked, [](int count) { return count > 0; })) return "";  // they are reached
   IkJob read_otherwise = job;
@@ -229,7 +230,7 @@ std::string IkSearch::askAboutQuaternions(const IkJob& job) {
   job_ = &read_otherwise;
   iterate_.select(read_otherwise);
   bool met = false;
-  for (int i = 0; i < kAttempts && !met; ++i) {
+  for (int i = 0; i < most_attempts && !met && !cancellation(); ++i) {
     iterate_.setStartingPoint(i);
     met = approach().met;
   }

@@ -37,7 +37,7 @@ class IkSearch {
   Outcome approachPreferred(const CancellationToken& cancellation);
   double costOf(const VectorXd& x) const { return (x - problem_->preferred).squaredNorm(); }
   bool polish(const CancellationToken& cancellation);
-  std::string askAboutQuaternions(const IkJob& job);
+  std::string askAboutQuaternions(const IkJob& job, const CancellationToken& cancellation);
 
   std::shared_ptr<const IkProblem> problem_;
   IkIterate iterate_;

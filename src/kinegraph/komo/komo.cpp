@@ -51,7 +51,10 @@ const Contacts& Komo::contacts() const { return motion_->contacts; }
 int Komo::slices() const { return path().grid().slices(); }
 int Komo::order() const { return path().grid().order(); }
 double Komo::tau() const { return path().grid().tau(); }
-int Komo::dofs() const { return path().dofs(); }
+int Komo::dofs() const {
+  if (!path().initial().model) throw ValueError("KOMO: there is no configuration yet; call setConfig first");
+  return path().dofs();
+}
 
 void Komo::clearObjectives() { motion_->objectives.clear(); }
 std::vector<Interaction> Komo::interactions() const { return motion_->contacts.interactions(motion_->path); }

@@ -26,6 +26,11 @@ void applyEffects(const GroundProblem& ground, const GroundRule& rule, const Fac
 
 }  // namespace
 
+void FactSet::growTo(int fact) {
+  if (fact < 0) throw ValueError(cat("fact ", fact, " does not exist; the indices of facts start with 0"));
+  words_.resize(std::size_t(fact) / 64 + 1, 0);
+}
+
 std::uint64_t FactSet::hash() const {
   std::uint64_t h = 0x9e3779b97f4a7c15ull;
   for (std::uint64_t word : words_) {
@@ -36,8 +41,14 @@ std::uint64_t FactSet::hash() const {
   return h;
 }
 
+const GroundRule& GroundProblem::actionAt(int number) const {
+  if (number < 0 || std::size_t(number) >= actions.size())
+    throw ValueError(cat("action ", number, " does not exist; the problem has ", actions.size(), " actions"));
+  return actions[std::size_t(number)];
+}
+
 std::vector<std::string> GroundProblem::action(int number) const {
-  const GroundRule& rule = actions.at(std::size_t(number));
+  const GroundRule& rule = actionAt(number);
   std::vector<std::string> words = {problem.domain.rules[std::size_t(rule.rule)].name};
   words.insert(words.end(), rule.arguments.begin(), rule.arguments.end());
   return words;
@@ -56,7 +67,7 @@ int GroundProblem::factNumber(const Literal& literal) const {
 
 double GroundProblem::cost(const std::vector<int>& plan) const {
   std::int64_t sum = 0;
-  for (int action : plan) sum += actions.at(std::size_t(action)).cost;
+  for (int action : plan) sum += actionAt(action).cost;
   return double(sum) * cost_unit;
 }
 
@@ -92,7 +103,7 @@ void GroundProblem::fireRules(FactSet& state) const {
 }
 
 FactSet GroundProblem::apply(int action, const FactSet& state) const {
-  const GroundRule& rule = actions[std::size_t(action)];
+  const GroundRule& rule = actionAt(action);
   FactSet next = state;
   applyEffects(*this, rule, state, next);
   fireRules(next);

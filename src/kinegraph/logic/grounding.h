@@ -14,13 +14,21 @@ class FactSet {
  public:
   FactSet() = default;
   explicit FactSet(std::size_t facts) : words_((facts + 63) / 64, 0) {}
-  bool has(int fact) const { return words_[std::size_t(fact) / 64] >> (fact % 64) & 1; }
-  void insert(int fact) { words_[std::size_t(fact) / 64] |= std::uint64_t(1) << (fact % 64); }
-  void erase(int fact) { words_[std::size_t(fact) / 64] &= ~(std::uint64_t(1) << (fact % 64)); }
+  bool has(int fact) const { return isInside(fact) && words_[std::size_t(fact) / 64] >> (fact % 64) & 1; }
+  void insert(int fact) {
+    if (!isInside(fact)) growTo(fact);
+    words_[std::size_t(fact) / 64] |= std::uint64_t(1) << (fact % 64);
+  }
+  void erase(int fact) {
+    if (isInside(fact)) words_[std::size_t(fact) / 64] &= ~(std::uint64_t(1) << (fact % 64));
+  }
   std::uint64_t hash() const;
   bool operator==(const FactSet&) const = default;
 
  private:
+  void growTo(int fact);
+  bool isInside(int fact) const { return std::size_t(fact) / 64 < words_.size(); }
+
   std::vector<std::uint64_t> words_;
 };
 
@@ -61,6 +69,9 @@ struct GroundProblem {
   std::vector<Literal> unreachable;  ///< literals of the goal that no rule can make true
   std::vector<Formula> impossible;   ///< conditions of the goal that can never hold
   double cost_unit = 1;
+
+  /// Returns an action. Throws ValueError for a number that is none.
+  const GroundRule& actionAt(int number) const;
 
   /// Returns the words of an action, name and arguments: (pick cup table hand).
   std::vector<std::string> action(int number) const;

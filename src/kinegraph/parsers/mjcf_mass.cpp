@@ -114,7 +114,7 @@ std::optional<UniformMass> uniformMass(const Mesh& mesh, MeshMassMode mode) {
   const Vector3d com = apex + outer.first / outer.volume;
   const Pyramids inner(solid, com, is_signed);
   const Matrix3d second = inner.second / inner.volume;
-  return UniformMass{outer.volume, com, second.trace() * Matrix3d::Identity() - second};
+  return UniformMass{inner.volume, com, second.trace() * Matrix3d::Identity() - second};
 }
 
 FittedBox fitBox(const Mesh& mesh, const UniformMass& solid, bool to_bounds) {

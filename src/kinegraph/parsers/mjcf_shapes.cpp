@@ -139,10 +139,10 @@ void MjcfShapes::addMesh(const MjcfElement& element, Placed& placed) {
   Quaterniond back = Quaterniond::Identity();
   if (!rotated.empty()) back = Quaterniond(rotated[0], rotated[1], rotated[2], rotated[3]).normalized().conjugate();
   if (!back.coeffs().allFinite()) back = Quaterniond::Identity();
-  if (!rotated.empty() && scale != Vector3d::Constant(scale[0]))
-    findings_.warn(mesh.where(), cat(mesh.describe(), ": 'refquat' together with an uneven 'scale' is read wrongly"));
-  placed.pose = placed.pose * Pose(back * Vector3d(-scale.cwiseProduct(moved)), back);
-  if (!file) return addInlineMesh(mesh, scale, placed);
+  const bool is_sheared = !rotated.empty() && scale != Vector3d::Constant(scale[0]);
+  const VertexMap map{is_sheared ? back : Quaterniond::Identity(), is_sheared ? moved : Vector3d::Zero(), scale};
+  if (!is_sheared) placed.pose = placed.pose * Pose(back * Vector3d(-scale.cwiseProduct(moved)), back);
+  if (!file) return addInlineMesh(mesh, map, placed);
   const LocatedFile found_file = document_.locateAsset(*file, document_.settingsAt(file->where).mesh_folder);
   const std::string& path = found_file.path;
   std::error_code ignored;
@@ -150,13 +150,20 @@ void MjcfShapes::addMesh(const MjcfElement& element, Placed& placed) {
     return findings_.warn(file->where,
                           cat("mesh '", file->value, "' does not exist (", path, ")", similarFilesHint(path)));
   }
+  std::shared_ptr<const Mesh> content;
   try {
-    sharedMeshFile(path);
+    content = sharedMeshFile(path);
   } catch (const FileError& e) {
     return findings_.warn(file->where, cat(e.what(), "; its geoms have no shape"));
   }
   if (!found_file.assumption.empty())
     findings_.warn(file->where, cat("mesh '", file->value, "': ", found_file.assumption));
+  if (is_sheared) {
+    std::vector<double> points, corners;
+    for (const Vector3d& vertex : content->vertices) points.insert(points.end(), vertex.begin(), vertex.end());
+    for (const auto& triangle : content->triangles) corners.insert(corners.end(), triangle.begin(), triangle.end());
+    return addVertices(std::move(points), std::move(corners), map, placed);
+  }
   placed.attributes.add("mesh", AngleText{path});
   if (scale != Vector3d::Ones()) placed.attributes.addNumbers("meshscale", {scale.begin(), scale.end()});
 }
@@ -203,8 +210,24 @@ void MjcfShapes::addHeightField(const MjcfElement& element, Placed& placed) {
   placed.attributes.addNumbers("mesh_parts", std::move(mesh->parts));
 }
 
-/// Reads a mesh with inline numbers: with faces, or the hull of its vertices.
-void MjcfShapes::addInlineMesh(const MjcfElement& mesh, const Vector3d& scale, Placed& placed) {
+/// Adds the vertices and triangles of a mesh, or the hull of its vertices if it has no triangles.
+void MjcfShapes::addVertices(std::vector<double> points, std::vector<double> corners, const VertexMap& map,
+                             Placed& placed) {
+  for (std::size_t i = 0; i + 2 < points.size(); i += 3) {
+    Eigen::Map<Vector3d> vertex(&points[i]);
+    vertex = map.scale.cwiseProduct(map.rotation * (vertex - map.origin)).eval();
+  }
+  if (map.scale.prod() < 0.) {  // stays outside out
+    for (std::size_t i = 0; i + 2 < corners.size(); i += 3) std::swap(corners[i + 1], corners[i + 2]);
+  }
+  placed.attributes.add("shape", std::string(corners.empty() ? "ssCvx" : "mesh"));
+  placed.attributes.addNumbers(corners.empty() ? "core" : "vertices", std::move(points));
+  if (corners.empty()) placed.attributes.addNumbers("size", {0.});
+  if (!corners.empty()) placed.attributes.addNumbers("triangles", std::move(corners));
+}
+
+/// Reads a mesh with inline numbers.
+void MjcfShapes::addInlineMesh(const MjcfElement& mesh, const VertexMap& map, Placed& placed) {
   const auto list = [&](const char* name) {
     const XmlAttribute* attribute = mesh.own(name);
     const auto numbers = attribute ? numbersIn(attribute->value) : std::vector<double>();
@@ -214,14 +237,7 @@ void MjcfShapes::addInlineMesh(const MjcfElement& mesh, const Vector3d& scale, P
   };
   std::vector<double> points = list("vertex"), faces = list("face");
   if (points.empty()) return findings_.warn(mesh.where(), cat(mesh.describe(), " has neither 'file' nor 'vertex'"));
-  for (std::size_t i = 0; i < points.size(); ++i) points[i] *= scale[i % 3];
-  if (scale.prod() < 0.) {  // stays outside out
-    for (std::size_t i = 0; i + 2 < faces.size(); i += 3) std::swap(faces[i + 1], faces[i + 2]);
-  }
-  placed.attributes.add("shape", std::string(faces.empty() ? "ssCvx" : "mesh"));
-  placed.attributes.addNumbers(faces.empty() ? "core" : "vertices", std::move(points));
-  if (faces.empty()) placed.attributes.addNumbers("size", {0.});
-  if (!faces.empty()) placed.attributes.addNumbers("triangles", std::move(faces));
+  addVertices(std::move(points), std::move(faces), map, placed);
 }
 
 /// The mesh of a geom as the frame will have it; nullopt if it cannot be read.

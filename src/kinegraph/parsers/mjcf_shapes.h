@@ -28,9 +28,16 @@ class MjcfShapes {
   Placed camera(const MjcfElement& element);
 
  private:
+  /// Maps a vertex to scale * rotation * (vertex - origin).
+  struct VertexMap {
+    Quaterniond rotation;
+    Vector3d origin, scale;
+  };
+
   void addMesh(const MjcfElement& element, Placed& placed);
   void addHeightField(const MjcfElement& element, Placed& placed);
-  void addInlineMesh(const MjcfElement& mesh, const Vector3d& scale, Placed& placed);
+  void addInlineMesh(const MjcfElement& mesh, const VertexMap& map, Placed& placed);
+  void addVertices(std::vector<double> points, std::vector<double> corners, const VertexMap& map, Placed& placed);
   void addPrimitive(const MjcfElement& element, const std::string& type, double line_length, Placed& placed);
   void addSized(const std::string& type, const std::vector<double>& size, Placed& placed);
   void addFitted(const MjcfElement& element, const std::string& type, Placed& placed);

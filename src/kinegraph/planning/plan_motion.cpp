@@ -3,6 +3,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "kinegraph/common/errors.h"
 #include "kinegraph/planning/plan_among_obstacles.h"
 #include "kinegraph/planning/plan_from_velocity.h"
 #include "kinegraph/planning/plan_timing.h"
@@ -80,6 +81,8 @@ KnownCurves knownCurves(const TimedPath& running, double time, double s, double 
 
 MotionPlan planMotion(const Config& config, const MotionGoal& goal, const PlanOptions& options,
                       const std::optional<VectorXd>& start, const CancellationToken& cancellation) {
+  if (config.getJointDimension() == 0)
+    throw ValueError("planMotion: the configuration has no active joints; expected a robot");
   options.validateFor(config.getJointDimension());
   return planFromState(config, goal, options, start.value_or(config.getJointState()), cancellation, {});
 }

@@ -28,10 +28,12 @@ class ModelIndex {
     }
     model_.geom_frame.assign(std::size_t(m.ngeom), -1);
     model_.geom_takes_largest.assign(std::size_t(m.ngeom), false);
+    model_.geom_restitution.assign(std::size_t(m.ngeom), 0.);
     for (const ModelShapes::Geom& geom : geoms_) {
       const auto id = std::size_t(mj_.mjs_getId(geom.spec->element));
       model_.geom_frame[id] = geom.frame;
       model_.geom_takes_largest[id] = geom.largest;
+      model_.geom_restitution[id] = geom.restitution;
     }
     indexFree(m);
     indexJoints(m);

@@ -77,7 +77,7 @@ void ModelShapes::addGround() {
   setContactNumbers(geom, friction);
   geom->contype = kNonRobot;
   geom->conaffinity = -1;
-  geoms.push_back({geom, "ground", "ground", -1, kGroundBody, -1, false, friction, false, false});
+  geoms.push_back({geom, "ground", "ground", -1, kGroundBody, -1, false, friction, false, false, 0.});
 }
 
 mjsGeom* ModelShapes::addGeom(mjsBody* body, const FrameData& frame, const Pose& X_BF, int robot) {
@@ -94,11 +94,14 @@ mjsGeom* ModelShapes::addGeom(mjsBody* body, const FrameData& frame, const Pose&
     if (x < 0.)
       throw ValueError(cat("Simulation: frame '", frame.name, "' has friction ", x, "; expected a number >= 0"));
   }
+  const double restitution = attributeNumber(frame, "restitution", 0.);
+  if (!(restitution >= 0. && restitution <= 1.))
+    throw ValueError(cat("Simulation: frame '", frame.name, "' has restitution ", restitution, "; expected 0 to 1"));
   setContactNumbers(geom, friction);
   geom->contype = contactBit(robot);
   geom->conaffinity = robot < 0 ? -1 : ~contactBit(robot);
   geoms.push_back({geom, name, body_name, frame.id, body_number, robot, body_moves, friction, takesLargest(frame),
-                   frame.attributes->find("friction") != nullptr});
+                   frame.attributes->find("friction") != nullptr, restitution});
   return geom;
 }
 

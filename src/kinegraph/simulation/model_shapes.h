@@ -45,6 +45,7 @@ class ModelShapes {
     std::array<double, 3> friction;  ///< sliding, and torsional and rolling, m
     bool largest;                    ///< of two such geoms the larger friction counts, else the mean
     bool has_friction;               ///< the frame has the attribute
+    double restitution;
   };
   std::vector<Geom> geoms;
   int body_number = 0;  ///< of the body that receives the geoms

@@ -156,7 +156,6 @@ class ModelMaker {
       shapes_.body_name = placed.body == 0 ? fixedName(frame->id) : bodyName(placed.body);
       shapes_.body_moves = moves(placed.body);
       shapes_.add(*frame, body, X_BF, placed.robot);
-      warnOfRestitution(*frame);
     }
   }
 
@@ -174,13 +173,6 @@ class ModelMaker {
     while (body > 0 && model_.scene.bodies[std::size_t(body)].kind == SceneBody::Kind::fixed)
       body = model_.scene.bodies[std::size_t(body)].parent;
     return body > 0;
-  }
-
-  void warnOfRestitution(const FrameData& frame) {
-    const double restitution = attributeNumber(frame, "restitution", 0.);
-    if (restitution > .2)
-      model_.scene.warnings.push_back(cat("Simulation: frame '", frame.name, "' has restitution ", restitution,
-                                          "; the simulation reproduces at most .1 to .2"));
   }
 
   /// Excludes links of robots that overlap parts of their tree, or the ground, in the scene's present state.

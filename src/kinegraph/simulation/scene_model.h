@@ -69,6 +69,7 @@ struct SceneModel {
   std::vector<int> body_of_id;           ///< the inverse map
   std::vector<int> geom_frame;           ///< per geom, the frame's id; -1 for the ground
   std::vector<bool> geom_takes_largest;  ///< per geom: of two such geoms the larger friction counts
+  std::vector<double> geom_restitution;  ///< per geom; in contacts the larger one counts
   std::vector<ModelJoint> joints;
   std::vector<int> free_frames;  ///< ids of the frames of free bodies
   std::vector<int> free_qpos, free_dof;

@@ -134,6 +134,7 @@ class World {
   void weld(int body_a, int body_b, const Pose& X_AB);
   void innerStep(double h);
   void correctContacts(double h);
+  void addBounces(double h);
   void driveMotors(double h);
   double inertiaAt(const Vector3d& point, int body);
   void addPerturbation();

@@ -11,6 +11,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double kStill = 1e-3;       ///< m/s: slower fingers count as stopped
+constexpr double kSlowBounce = .05;   ///< m/s: slower impacts do not bounce
 constexpr double kLongestStep = 1e4;  ///< s, of one call
 
 bool hasSurfaceVelocity(const mjModel& m, int geom) {
@@ -116,6 +117,7 @@ void World::innerStep(double h) {
   if (d->ncon > 0) {
     mj.mj_comVel(m, d);
     correctContacts(h);
+    addBounces(h);
   }
   mj.mj_sensorPos(m, d);
   mj.mj_fwdVelocity(m, d);
@@ -172,6 +174,35 @@ void World::correctContacts(double h) {
     const double k = 1. / (dmax * dmax * contact.solref[0] * contact.solref[0] * contact.solref[1] * contact.solref[1]);
     const double shift = (1. + .5 * h * b) / (k * impedance(contact)) + .5 * h * h;
     d.efc_pos[contact.efc_address] += Vector(contact.frame).dot(missing) * shift;
+  }
+}
+
+/// Lets shapes with a restitution e bounce: a contact that closes within the step gets another distance r. MuJoCo's
+/// implicit step is v+ = (v - h k r) / (1 + b h + k h^2) for the approach velocity v, where k is the stiffness times
+/// the impedance. The distance r yields v+ = -e v.
+void World::addBounces(double h) {
+  const mjModel& m = *physics_;
+  mjData& d = *data_;
+  using Vector = Eigen::Map<const Vector3d>;
+  const auto velocity = [&](int geom, const Vector3d& point) -> Vector3d {
+    const int b = m.geom_bodyid[geom];
+    const mjtNum* V = d.cvel + 6 * b;
+    return Vector(V + 3) + Vector(V).cross(point - Vector(d.subtree_com + 3 * m.body_rootid[b]));
+  };
+  for (int i = 0; i < d.ncon; ++i) {
+    const mjContact& contact = d.contact[i];
+    const double restitution = std::max(model_->geom_restitution[std::size_t(contact.geom[0])],
+                                        model_->geom_restitution[std::size_t(contact.geom[1])]);
+    if (restitution == 0. || contact.efc_address < 0) continue;
+    const Vector point(contact.pos);
+    const double approach =
+        Vector(contact.frame).dot(velocity(contact.geom[1], point) - velocity(contact.geom[0], point));
+    mjtNum& distance = d.efc_pos[contact.efc_address];
+    const double margin = d.efc_margin[contact.efc_address];
+    if (approach > -kSlowBounce || distance - margin + h * approach > 0.) continue;
+    const double dmax = contact.solimp[1], time_constant = contact.solref[0], b = 2. / (dmax * time_constant);
+    const double k = 1. / (dmax * time_constant * time_constant * contact.solref[1] * contact.solref[1]);
+    distance = margin + approach * (1. + restitution * (1. + b * h + k * h * h)) / (h * k);
   }
 }
 

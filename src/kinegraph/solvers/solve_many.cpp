@@ -22,6 +22,12 @@ bool isBetter(const SolverResult& a, const SolverResult& b) {
 
 }  // namespace
 
+const SolverResult& SolveManyResult::best() const {
+  if (chosen < 0 || std::size_t(chosen) >= results.size())
+    throw ValueError(cat("none of ", results.size(), " results is chosen"));
+  return results[std::size_t(chosen)];
+}
+
 SolveManyResult solveMany(int count, const SolveManyOptions& options, const SolveOne& solve,
                           const ProgressCallback& progress, const CancellationToken& cancellation) {
   if (options.threads < 1)

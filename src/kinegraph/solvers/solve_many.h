@@ -18,7 +18,8 @@ struct SolveManyResult {
   std::vector<SolverResult> results;  ///< per problem; not `done` if an earlier one sufficed
   int chosen = -1;  ///< the best: feasible before infeasible, then the least cost, or the least violation
 
-  const SolverResult& best() const { return results[std::size_t(chosen)]; }
+  /// The chosen result. Throws ValueError if there are none.
+  const SolverResult& best() const;
 };
 
 /// Solves several problems: calls solve(worker, i, callback) for i = 0 .. count-1 and collects the results.

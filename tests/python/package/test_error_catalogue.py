@@ -86,11 +86,6 @@ def in_the_air(C):
     ry.Simulation(C)
 
 
-def restitution(C):
-    C.getFrame("table").setAttributes({"restitution": 0.9})
-    ry.Simulation(C)
-
-
 class Broken(ry.RobotDriver):
     def __init__(self, config):
         super().__init__()
@@ -191,8 +186,13 @@ CASES = {
     "Warnings": [
         (ry.KinegraphWarning, lambda C: C.setJointState([0, -30, 0, -120, 0, 90, 0])),
         (ry.KinegraphWarning, lambda C: C.addFrame("a").setQuaternion([0, 0, 0, 1])),
-        (ry.KinegraphWarning, lambda C: C.addFrame("a").setQuaternion([2, 0, 0, 0])),
-        (ry.KinegraphWarning, lambda C: C.addFrame("a").setShape(ry.ST.box, [100, 100, 100])),
+        (ry.KinegraphWarning, lambda C: C.addFrame("a").setPose([1, 0, 0, 0, 0.4, 0.2, 0.5])),
+        (ry.KinegraphWarning, lambda C: C.addFrame("a").setQuaternion([90, 0, 0, 1])),
+        (ry.KinegraphWarning, lambda C: C.addFrame("hand", "l_gripper").setShape(ry.ST.box, [120, 30, 20])),
+        (
+            ry.KinegraphWarning,
+            lambda C: C.addFrame("b", "table").setRelativePosition([0, 0, 0.5]).setJoint(ry.JT.hingeX),
+        ),
         (ry.KinegraphWarning, near),
         (ry.KinegraphWarning, lambda C: file("ur.g", f"Include: <{ry.raiPath('ur10/ur10.g')}>")(C).getCollisions()),
         (ry.KinegraphWarning, lambda C: C.addFrame("table")),
@@ -222,7 +222,6 @@ CASES = {
         ),
         (ry.KinegraphWarning, attached),
         (ry.KinegraphWarning, in_the_air),
-        (ry.KinegraphWarning, restitution),
     ],
 }
 

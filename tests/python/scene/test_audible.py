@@ -62,8 +62,9 @@ def test_sizes_that_are_mended_or_in_millimeters_are_warned_of() -> None:
     C = ry.Config()
     with pytest.warns(ry.KinegraphWarning, match="setShape: frame 'plate'"):
         C.addFrame("plate").setShape(ry.ST.ssBox, [0.3, 0.3, 0.01, 0.02])
-    with pytest.warns(ry.KinegraphWarning, match="did you mean meters"):
-        C.addFrame("can").setShape("cylinder", [120, 33])
+    can = C.addFrame("can", "plate").setJoint(ry.JT.rigid).setMass(0.3)
+    with pytest.warns(ry.KinegraphWarning, match="frame 'can': its cylinder is 120 m large; did you mean meters"):
+        can.setShape("cylinder", [120, 33])
     C.addFrame("floor").setShape(ry.ST.box, [50, 50, 0.1])
 
 
@@ -75,3 +76,27 @@ def test_degrees_and_another_order_of_quaternions_are_asked_about(lever: ry.Conf
         lever.getFrame("base").setQuaternion([0, 0, 0, 1])
     plan = ry.planMotion(lever, [45.0, 0.0], start=[0.0, 0.0])
     assert not plan.feasible and "did you mean radians" in plan.message
+
+
+def test_what_a_joint_does_not_express_of_a_pose_is_warned_of() -> None:
+    C = ry.Config()
+    C.addFrame("a").setPosition([1, 0, 0])
+    frame = C.addFrame("b", "a").setRelativePosition([0, 0, 0.5])
+    lost = "setJoint: the joint of frame 'b', hingeX, does not allow this pose: the frame is 0.5 m away"
+    with pytest.warns(ry.KinegraphWarning, match=lost):
+        frame.setJoint(ry.JT.hingeX)
+    for name, call, value in (
+        ("setRelativePosition", frame.setRelativePosition, [0, 0.1, 0]),
+        ("setPosition", frame.setPosition, [0, 0, 0.1]),
+        ("setQuaternion", frame.setQuaternion, [0.6, 0, 0.8, 0]),
+        ("setRotationMatrix", frame.setRotationMatrix, [0, 0, 1, 1, 0, 0, 0, 1, 0]),
+        ("setPose", frame.setPose, "t(0 0 1)"),
+        ("setRelativePose", frame.setRelativePose, [0, 0, 0, 0.6, 0, 0.8, 0]),
+    ):
+        with pytest.warns(ry.KinegraphWarning, match=f"{name}: the joint of frame 'b', hingeX, does not allow"):
+            call(value)
+    frame.setRelativePose([0, 0, 0, 0.6, 0.8, 0, 0])  # a rotation about x
+    C.addFrame("c", "a").setRelativePosition([0, 0, 0.5]).setJoint(ry.JT.rigid).setJoint(ry.JT.free)
+    C.getFrame("c").setPose([1, 2, 3, 0.6, 0, 0.8, 0])
+    C.addFrame("slider", "a").setRelativePosition([0.5, 0, 0]).setJoint(ry.JT.transX).setPosition([3, 0, 0])
+    assert C.getJointState()[-1] == pytest.approx(2)

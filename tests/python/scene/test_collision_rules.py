@@ -203,6 +203,9 @@ def test_lines_and_points_of_mesh_files_are_no_solids(extra, tmp_path):
     assert len(C.getFrame("a_0").getMeshPoints()) == 4
 
 
+TETRAHEDRON_NUMBERS = 'vertex="0 0 0 .1 0 0 0 .1 0 0 0 .1" face="0 2 1 0 1 3 0 3 2 1 2 3"'
+
+
 def volume(frame):
     points, triangles = np.array(frame.getMeshPoints()), np.array(frame.getMeshTriangles())
     a, b, c = (points[triangles[:, i]] for i in range(3))
@@ -225,6 +228,32 @@ def test_mirrored_meshes_stay_outside_out(signs, tmp_path):
     )
     for frame in (urdf.getFrame("a_0"), mjcf.getFrame("a_0"), mjcf.getFrame("a_1")):
         assert volume(frame) == pytest.approx(1e-3 / 6)
+
+
+@pytest.mark.parametrize("scale", [(1, 1, 1), (2, 2, 2), (1, 2, 0.5), (-1, 1, 1), (1, -3, -1), (-1, -1, -2)])
+@pytest.mark.parametrize("source", ["file", "inline"])
+def test_reference_poses_of_meshes_with_a_scale_are_those_of_mujoco(scale, source, tmp_path):
+    (tmp_path / "m.obj").write_text(TETRAHEDRON)
+    mesh = 'file="m.obj"' if source == "file" else TETRAHEDRON_NUMBERS
+    file = tmp_path / "scene.xml"
+    file.write_text(
+        f'<mujoco><asset><mesh name="m" {mesh} scale="{" ".join(map(str, scale))}" refpos=".1 .2 -.3" '
+        'refquat=".5 .1 -.7 .4"/></asset><worldbody><body name="a" pos="1 2 3" euler="10 20 30">'
+        '<geom type="mesh" mesh="m" pos=".1 .2 .3" euler="40 50 60"/></body></worldbody></mujoco>'
+    )
+    C = ry.Config()
+    C.addFile(file)
+    assert C.fileWarnings() == []
+    frame = C.getFrame("a_0")
+    points = frame.getMeshPoints() @ frame.getRotationMatrix().T + frame.getPosition()
+    model = mujoco.MjModel.from_xml_path(str(file))
+    data = mujoco.MjData(model)
+    mujoco.mj_forward(model, data)
+    expected = model.mesh_vert @ data.geom_xmat[0].reshape(3, 3).T + data.geom_xpos[0]
+    distances = np.linalg.norm(points[:, None] - expected[None], axis=2)
+    assert distances.min(axis=0).max() < 1e-6 and distances.min(axis=1).max() < 1e-6
+    assert volume(frame) == pytest.approx(abs(np.prod(scale)) * 1e-3 / 6, rel=1e-6)
+    assert sum(f.getMass() for f in C) == pytest.approx(model.body_mass[1], rel=1e-6)
 
 
 @pytest.mark.parametrize("signs", [(-1, 1, 1), (1, -1, 0.5), (-1, -1, -1)])

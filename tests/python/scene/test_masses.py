@@ -20,6 +20,11 @@ def mesh(mode):
     )
 
 
+# a box whose upper face is pulled in: pyramids around its center of mass overlap
+DENTED = (
+    '<asset><mesh name="m" vertex="-1 -1 -1 1 -1 -1 1 1 -1 -1 1 -1 -1 -1 1 1 -1 1 1 1 1 -1 1 1 .3 .2 -.8" scale=".1 .1 .1" '
+    'face="0 2 1 0 3 2 0 1 5 0 5 4 1 2 6 1 6 5 2 3 7 2 7 6 3 0 4 3 4 7 4 5 8 5 6 8 6 7 8 7 4 8"/></asset>'
+)
 CASES = {
     "plain": ("", TWO),
     "group range": ('<compiler inertiagrouprange="0 0"/>', TWO),
@@ -43,6 +48,8 @@ CASES = {
     "mesh legacy": mesh('inertia="legacy"'),
     "mesh convex": mesh('inertia="convex"'),
     "mesh shell": mesh('inertia="shell"'),
+    "dented mesh": (DENTED, '<geom type="mesh" mesh="m"/>'),
+    "dented mesh exact": (DENTED.replace("/><", ' inertia="exact"/><'), '<geom type="mesh" mesh="m"/>'),
     "mesh mirrored": mesh('scale="-1 2 1" inertia="exact"'),
     "mesh of points": (
         '<asset><mesh name="m" vertex="0 0 0 .2 0 0 0 .2 0 0 0 .2"/></asset>',

@@ -113,9 +113,10 @@ MODELS = [file for file in collection() if file.stem not in REFUSED] or [
 @pytest.mark.models
 @pytest.mark.parametrize("file", MODELS, ids=lambda file: f"{file.parent.name}/{file.stem}" if file else "none")
 def test_every_model_of_robosuite_agrees_with_mujoco(file: Path) -> None:
-    from mujoco_poses import largestDifference
+    from mujoco_poses import assertSameNumbers, largestDifference
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ry.KinegraphWarning)  # actuators and sensors are not read
         config = load(file)
     assert largestDifference(str(file), config, seed=0, samples=20) < 1e-9
+    assertSameNumbers(str(file), config)

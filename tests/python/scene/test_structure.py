@@ -286,6 +286,19 @@ def test_meshes_are_written_and_read_back(tmp_path):
     hull = ry.Config().addFrame("x").setMeshFile(stl, scale=2.0).getMeshPoints()
     assert np.allclose(hull.max(axis=0), [2, 4, 6])
     C.writeMesh(tmp_path / "all.ply")
+    for suffix in ("obj", "STL"):
+        C.writeMesh(tmp_path / f"all.{suffix}")
+        D = ry.Config()
+        points = {}
+        for name in ("all.ply", f"all.{suffix}"):
+            points[name] = np.asarray(D.addFrame(name).setMeshFile(str(tmp_path / name)).getMeshPoints())
+        ply, other = points.values()
+        assert other.min(axis=0) == pytest.approx(ply.min(axis=0), abs=1e-6)
+        assert other.max(axis=0) == pytest.approx(ply.max(axis=0), abs=1e-6)
+        assert len(D.getFrame("all.ply").getMeshTriangles()) == len(D.getFrame(f"all.{suffix}").getMeshTriangles())
+    for name, hint in (("all.dae", "writeCollada"), ("all", "suffix of .* is missing; expected .ply, .obj or .stl")):
+        with pytest.raises(ry.ArgumentError, match=hint):
+            C.writeMesh(tmp_path / name)
     C.writeCollada(tmp_path / "all.dae")
     for name in ("all.ply", "all.dae"):
         points = ry.Config().addFrame("x").setMeshFile(tmp_path / name).getMeshPoints()
@@ -303,9 +316,9 @@ def test_what_a_config_has_not_is_said(panda):
         panda.setJointStateSlice(q=[0] * 7, t=1)
 
 
-def test_a_quaternion_far_from_unit_length_warns_with_the_order_of_its_numbers():
+def test_a_quaternion_that_may_be_an_angle_warns_with_the_order_of_its_numbers():
     f = ry.Config().addFrame("f")
-    for call in (lambda: f.setQuaternion([2, 0, 0, 0]), lambda: f.setPose([0, 0, 0, 0, 0, 0, 5])):
+    for call in (lambda: f.setQuaternion([20, 0, 0, 0]), lambda: f.setPose([0, 0, 0, 0, 0, 0, 50])):
         with pytest.warns(ry.KinegraphWarning, match="w x y z"):
             call()
         assert np.linalg.norm(f.getQuaternion()) == pytest.approx(1.0)

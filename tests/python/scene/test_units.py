@@ -28,11 +28,25 @@ def asked(text: str, tmp_path: Path, name: str) -> list[str]:
     return questions(file)
 
 
-def urdf(joint: str = "", shape: str = "", limits: str = "-1 1") -> str:
+def urdf(joint: str = "", shape: str = "", limits: str = "-1 1", second: str = "") -> str:
     lower, upper = limits.split()
-    return f"""<robot name="r"><link name="a">{shape}</link><link name="b"/>
+    return f"""<robot name="r"><link name="a">{shape}</link><link name="b">{second}</link>
 <joint name="j" type="revolute"><parent link="a"/><child link="b"/>{joint}<axis xyz="0 0 1"/>
 <limit lower="{lower}" upper="{upper}" effort="9" velocity="2"/></joint></robot>"""
+
+
+ARM_IN_MILLIMETERS = urdf('<origin xyz="0 0 333"/>').replace(
+    "</robot>",
+    """<link name="c"/><joint name="k" type="continuous"><origin xyz="316 0 0"/><parent link="b"/><child link="c"/></joint>
+</robot>""",
+)
+
+
+@pytest.fixture
+def panda() -> ry.Config:
+    C = ry.Config()
+    C.addFile(ry.raiPath("panda/panda.g"))
+    return C
 
 
 @pytest.mark.parametrize(
@@ -44,12 +58,15 @@ def urdf(joint: str = "", shape: str = "", limits: str = "-1 1") -> str:
         ),
         (urdf('<origin xyz="0 0 1" rpy="90 0 0"/>'), r":2:\d+: joint 'j': rpy has 90 rad; did you mean radians"),
         (
-            urdf('<origin xyz="0 0 333"/>'),
-            r"a coordinate of its position is 333 m; did you mean meters\? 333 mm are 0.333",
+            ARM_IN_MILLIMETERS,
+            r"'j': a coordinate of its position is 333 m; did you mean meters\? 333 mm are 0.333 m; so for 1 more",
         ),
         (
-            urdf(shape='<collision><geometry><box size="400 300 20"/></geometry></collision>'),
-            r"frame 'a_0': its box is 400 m large; did you mean meters",
+            urdf(
+                '<origin xyz="0 0 .333"/>',
+                second='<collision><geometry><box size="400 300 20"/></geometry></collision>',
+            ),
+            r"frame 'b_0': its box is 400 m large; did you mean meters",
         ),
     ],
 )
@@ -64,9 +81,12 @@ def test_urdf_files_in_other_units_are_asked_about(text: str, question: str, tmp
     [
         ("a: {}\nb (a): { joint: hingeZ, limits: [-170 170] }", "'b': a limit is -170 rad"),
         ("a: {}\nb (a): { joint: hingeZ, q: 90 }", "'b': q is 90 rad; did you mean radians"),
-        ("a: { shape: ssBox, size: [400 300 20 5] }", "'a': its ssBox is 400 m large"),
-        ("a: { shape: sphere, size: [40] }", "'a': its sphere is 40 m large"),
-        ("a: { X: [500 0 300] }", "a coordinate of its position is 500 m"),
+        ("a: {}\nb (a): { joint: hingeZ, shape: ssBox, size: [400 300 20 5] }", "'b': its ssBox is 400 m large"),
+        ("a: {}\nb (a): { joint: rigid, shape: sphere, size: [40], mass: .2 }", "'b': its sphere is 40 m large"),
+        (
+            "a: {}\nb (a): { joint: hingeZ, pre: [0 0 500] }\nc (b): { Q: [300 0 0] }",
+            "'b': a coordinate of its position is 500 m",
+        ),
         ("a: { X: 't(0 0 1) r(90 1 0 0)' }", r"r\(...\) turns by 90 rad"),
         ("a: {}\nb (a): { Q: 'E(0 0 180)' }", r"E\(...\) turns by 180 rad"),
     ],
@@ -106,7 +126,17 @@ def test_mjcf_files_with_the_other_angles_are_asked_about(text: str, question: s
         mjcf('range="-2 2"'),
         mjcf(body='euler="90 0 45"'),
         mjcf('range="-3.14 3.14"', 'euler="1.57 0 0"', '<compiler angle="radian"/>'),
-        "hall: { shape: box, size: [30 20 .3] }\nsky: { X: [0 0 50] }\nfloor: { shape: quad, size: [100 100] }",
+        urdf('<origin xyz="0 0 333"/>'),
+        urdf(shape='<collision><geometry><box size="400 300 20"/></geometry></collision>'),
+        "hall: { shape: box, size: [30 20 8] }\nsky: { X: [0 0 500] }\nfloor: { shape: quad, size: [100 100] }",
+        "town: { shape: ssBox, size: [900 700 90 5], X: [4000 5000 0], mass: 1 }\ndome: { shape: sphere, size: [40] }",
+        "tower: { shape: cylinder, size: [120 4] }\nyaw (tower): { joint: hingeZ, pre: [0 0 120] }\n"
+        "hub (yaw): { joint: hingeX, pre: [4 0 2] }\nblade (hub): { shape: box, Q: [0 0 35], size: [2 3 70] }",
+        "base: {}\nmast (base): { joint: hingeZ }\nboom (mast): { joint: hingeY, pre: [120 0 0] }",
+        "base: {}\ncrane (base): { joint: hingeZ, shape: box, size: [60 3 2.5] }",
+        "sea: {}\nship (sea): { joint: transXYPhi, shape: box, size: [120 20 15], mass: 2e7 }",
+        "ground: {}\nstone (ground): { joint: rigid, shape: sphere, size: [16], mass: 4e7 }",
+        "base: { X: [500 500 0] }\nb (base): { joint: hingeZ, X: [500 500 .3] }\nc (b): { joint: hingeY, X: [500.4 500 .3] }",
         "a: {}\nb (a): { joint: hingeZ, limits: [-1.5 1.5] }\nwheel (a): { joint: hingeX, limits: [-20 20] }",
         "a: { X: 't(0 0 1) d(90 1 0 0) r(1.5 1 0 0)' }\nb (a): { joint: transX, limits: [0 20], q: 15 }",
     ],
@@ -128,21 +158,33 @@ def test_no_model_of_the_package_is_asked_about() -> None:
     assert {name: lines for name, lines in found.items() if lines} == {}
 
 
-def test_large_shapes_of_programs_are_asked_about() -> None:
+def test_links_of_programs_in_millimeters_are_asked_about(panda: ry.Config) -> None:
+    hand = panda.addFrame("tool", "gripper")
+    with pytest.warns(ry.KinegraphWarning, match="'tool': its box is 120 m large; did you mean meters.* are 0.12 m"):
+        hand.setShape(ry.ST.box, [120, 30, 20])
+
+
+def test_scenery_of_any_size_is_not_asked_about(panda: ry.Config) -> None:
+    hall = panda.addFrame("hall").setMass(1.0)
+    for size in ([16, 16, 8], [30, 20, 10], [400, 300, 60], [50, 30, 0.2]):
+        hall.setShape(ry.ST.box, size)
+    panda.addFrame("floor").setShape(ry.ST.quad, [500, 300])
+    heights = 30 * np.random.default_rng(0).random((20, 20))
+    x, y = np.meshgrid(np.linspace(0, 900, 20), np.linspace(0, 900, 20))
+    points = np.stack([x, y, heights], axis=-1).reshape(-1, 3)
+    corners = np.arange(380).reshape(19, 20)[:, :-1].reshape(-1, 1)
+    panda.addFrame("terrain").setMesh(points, np.vstack([np.add(corners, [0, 1, 20]), np.add(corners, [1, 21, 20])]))
+
+
+def test_only_poses_in_another_order_and_angles_are_asked_about_for_their_norm() -> None:
     frame = ry.Config().addFrame("a")
-    with pytest.warns(ry.KinegraphWarning, match="'a' is 50 m large; did you mean meters.* 50 mm are 0.05 m"):
-        frame.setShape(ry.ST.box, [50, 30, 20])
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        frame.setShape(ry.ST.box, [50, 30, 0.2])
-        frame.setShape(ry.ST.quad, [50, 30])
-
-
-@pytest.fixture
-def panda() -> ry.Config:
-    C = ry.Config()
-    C.addFile(ry.raiPath("panda/panda.g"))
-    return C
+    for norm in (0.2, 1.0, 2.0, 5.0):
+        frame.setQuaternion(np.multiply(norm, [0.5, 0.5, 0.5, 0.5]))
+        frame.setPose([1.0, 2.0, 3.0, *np.multiply(norm, [0.8, 0.6, 0.0, 0.0])])
+    with pytest.warns(ry.KinegraphWarning, match="did you mean x y z qw qx qy qz"):
+        frame.setPose([0.8, 0.6, 0.0, 0.0, 1.0, 2.0, 3.0])
+    with pytest.warns(ry.KinegraphWarning, match="did you mean an angle"):
+        frame.setQuaternion([90, 0, 0, 1])
 
 
 def test_targets_in_millimeters_are_asked_about(panda: ry.Config) -> None:

@@ -219,7 +219,7 @@ ROBOTS = [file for file in collection() if file.stem != EMPTY] or [
 @pytest.mark.robots
 @pytest.mark.parametrize("file", ROBOTS, ids=lambda file: file.stem if file else "none")
 def test_every_robot_of_the_collection_agrees_with_pinocchio(file: Path, tmp_path: Path) -> None:
-    from pinocchio_poses import largestDifference
+    from pinocchio_poses import assertSameNumbers, largestDifference
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", ry.KinegraphWarning)  # meshes that the collection itself lacks
@@ -227,3 +227,4 @@ def test_every_robot_of_the_collection_agrees_with_pinocchio(file: Path, tmp_pat
         config.writeURDF(tmp_path / "again.urdf")
     assert largestDifference(str(file), config, seed=0, samples=20) < 1e-9
     assert largestDifference(str(tmp_path / "again.urdf"), config, seed=1, samples=5) < 1e-9
+    assertSameNumbers(str(file), config)

@@ -305,3 +305,47 @@ def test_a_plane_is_endless_and_replaces_the_ground(tmp_path):
     C = load(tmp_path, text)
     simulate(C, 2.0)
     assert C.getFrame("ball").getPosition()[2] == pytest.approx(-0.9, abs=0.005)
+
+
+def rebound(attributes: str, ground: str = "", height: float = 0.5, shape: str = "shape: sphere, size: [.05]") -> float:
+    """The share of the velocity after the first impact of a body that falls on a plate."""
+    C = ry.Config()
+    C.addText(
+        f"plate: {{ X: [0 0 .1], shape: box, size: [2 2 .2] {ground} }}\n"
+        f"ball: {{ X: [0 0 {0.25 + height}], {shape}, mass: .3, contact: 1 {attributes} }}"
+    )
+    S, ball, heights = ry.Simulation(C), C.getFrame("ball"), []
+    for _ in range(500):
+        S.step()
+        heights.append(ball.getPosition()[2])
+    first = next(i for i in range(1, 499) if heights[i] < heights[i - 1] and heights[i] <= heights[i + 1])
+    return float(np.sqrt(max(max(heights[first:]) - 0.25, 0) / height))
+
+
+@pytest.mark.parametrize("restitution", [0.3, 0.5, 0.7, 0.9, 1.0])
+@pytest.mark.parametrize("height", [0.1, 0.5, 1.0])
+def test_balls_bounce_as_high_as_their_restitution_says(restitution: float, height: float) -> None:
+    assert rebound(f", restitution: {restitution}", height=height) == pytest.approx(restitution, abs=0.03)
+
+
+def test_of_two_restitutions_the_larger_one_counts() -> None:
+    for ball, plate in (("", 0.8), (0.8, ""), (0.8, 0.4), (0.4, 0.8), (0.8, 0.8)):
+        got = rebound(*(f", restitution: {x}" if x else "" for x in (ball, plate)))
+        assert got == pytest.approx(0.8, abs=0.03), (ball, plate)
+    assert rebound("") < 0.25
+    assert rebound(", restitution: .1") < 0.25
+    with pytest.raises(ry.ArgumentError, match="'ball' has restitution 1.5; expected 0 to 1"):
+        rebound(", restitution: 1.5")
+
+
+def test_what_bounces_comes_to_rest() -> None:
+    C = ry.Config()
+    C.addText(
+        "stack: { X: [0 0 .3], shape: box, size: [.2 .2 .2], mass: 1, contact: 1, restitution: .6 }\n"
+        "above: { X: [0 0 .8], shape: box, size: [.2 .2 .2], mass: 2, contact: 1, restitution: .3, friction: .5 }"
+    )
+    S = ry.Simulation(C)
+    for _ in range(500):
+        S.step()
+    assert C.getFrame("stack").getPosition() == pytest.approx([0, 0, 0.1], abs=2e-3)
+    assert C.getFrame("above").getPosition() == pytest.approx([0, 0, 0.3], abs=4e-3)

@@ -52,7 +52,6 @@ def test_through_inverse_kinematics(panda):
     assert reach(positions).shape == (3, 7)
 
 
-@pytest.mark.filterwarnings("ignore:a quaternion far from unit length is normalized")
 def test_through_inverse_kinematics_of_poses_of_any_norm(panda):
     pose = panda.getFrame("l_gripper").getPose() + np.array([0.03, 0.04, 0.05, 0, 0, 0, 0])
     poses = pose[None] * [1, 1, 1, 2, 2, 2, 2]

@@ -2,6 +2,7 @@
 #include <limits>
 #include <set>
 
+#include "kinegraph/common/errors.h"
 #include "kinegraph/geometry/distance/hull.h"
 #include "kinegraph/geometry/shapes/convex_hull.h"
 
@@ -27,6 +28,7 @@ double depthIn(const Mesh& hull, const Vector3d& point) {
 }  // namespace
 
 int Hull::farthest(const Vector3d& direction) const {
+  if (points.empty()) throw ValueError("the hull has no points");
   int best = 0;
   double height = direction.dot(points[0]);
   if (first_neighbor.empty()) {

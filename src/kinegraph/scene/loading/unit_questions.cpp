@@ -17,15 +17,17 @@ namespace kinegraph {
 namespace {
 
 constexpr double kTwoTurns = 4. * std::numbers::pi;
+constexpr double kLeastReach = 2., kTimesLarger = 50.;  // m; a link is at most as many times larger than the offsets
+constexpr double kLeastDensity = .01;                   // kg/m^3; air has 1.2
 
-/// Collects one kind of question, and asks it once for all of its places.
+/// Collects one kind of question, and asks it once for all of its places, if they are `least` or more.
 class Question {
  public:
   void add(const SourcePosition& where, const std::string& text) {
     if (count_++ == 0) where_ = where, text_ = text;
   }
-  void ask(SceneDiagnostics& diagnostics) const {
-    if (count_ == 0) return;
+  void ask(SceneDiagnostics& diagnostics, int least = 1) const {
+    if (count_ < least) return;
     const int more = count_ - 1;
     diagnostics.warning(where_, cat(text_, more == 0 ? "" : cat("; so for ", more, more == 1 ? " more" : " others")));
   }
@@ -40,6 +42,7 @@ struct Questions {
   Question values, rotations, sizes, positions;
   std::map<std::string, Question> limits;  ///< by file
   std::set<std::string> radians;           ///< files with limits within a turn, or that are no round numbers
+  std::set<const FrameData*> far;          ///< links far from their parents
 };
 
 const Node* findAny(const Graph& attributes, std::initializer_list<const char*> keys) {
@@ -112,22 +115,35 @@ void checkPose(const FrameData& frame, const Graph& attributes, Questions& quest
     if (!node) continue;
     if (const std::string* text = node->value.as<std::string>()) checkPoseText(*text, frame, *node, questions);
     if (const AngleText* text = node->value.as<AngleText>()) checkPoseText(text->text, frame, *node, questions);
-    const NumberArray* array = node->value.as<NumberArray>();
-    if (!array || (array->numbers.size() != 3 && array->numbers.size() != 7)) continue;
-    const std::vector<double>& p = array->numbers;
-    if (!isMillimeterPosition(p[0], p[1], p[2])) continue;
-    const double most =
-        *std::max_element(p.begin(), p.begin() + 3, [](double a, double b) { return std::abs(a) < std::abs(b); });
-    questions.positions.add(node->where, cat("frame '", frame.name, "': a coordinate of its position is ", most, " m; ",
-                                             askForMeters(most)));
   }
 }
 
-void checkSize(const FrameData& frame, const Graph& attributes, Questions& questions) {
-  const Geometry& geometry = *frame.shape->geometry;
-  const Node* node = findAny(attributes, {"size", "mesh", "vertices"});
+/// Whether a joint of the frame or of an ancestor only rotates: the frame is a link of an arm.
+bool isOnArm(const FrameData& frame) {
+  const auto rotates = [](const MotionStep& step) { return step.rotates(); };
+  for (const FrameData* link = &frame; link; link = link->parent) {
+    if (link->moves() && std::ranges::all_of(link->joint->steps, rotates)) return true;
+  }
+  return false;
+}
+
+/// Where the links of arms are in their parents. The root does not count: it is placed in a scene of any size.
+void checkPosition(const FrameData& frame, const Node& node, Questions& questions) {
+  if (!frame.parent || !isOnArm(frame)) return;
+  const bool has_origin = frame.parent->name == frame.name + "_origin";
+  const FrameData& placed = has_origin ? *frame.parent : frame;
+  const Vector3d p = placed.relativePose().p;
+  if (!isMillimeterPosition(p[0], p[1], p[2]) || !questions.far.insert(&placed).second) return;
+  Eigen::Index most = 0;
+  p.cwiseAbs().maxCoeff(&most);
+  questions.positions.add(node.where, cat("frame '", frame.name, "': a coordinate of its position is ", p[most], " m; ",
+                                          askForMeters(p[most])));
+}
+
+/// The sides of a shape, or of the box around its mesh, m. Empty for floors and symbols.
+std::vector<double> sidesOf(const Geometry& geometry) {
   const bool is_thin = geometry.type == ShapeType::quad || geometry.type == ShapeType::plane;
-  if (!node || is_thin || shapeKind(geometry.type).is_symbol) return;
+  if (is_thin || shapeKind(geometry.type).is_symbol) return {};
   std::vector<double> sides = geometry.size;
   if (geometry.mesh && !geometry.mesh->vertices.empty()) {
     Eigen::AlignedBox3d box;
@@ -136,24 +152,47 @@ void checkSize(const FrameData& frame, const Graph& attributes, Questions& quest
     sides = {extent[0], extent[1], extent[2]};
   }
   while (!sides.empty() && sides.back() == 0.) sides.pop_back();  // sharp corners
-  if (!mayBeMillimeters(sides)) return;
-  const double most = *std::ranges::max_element(sides);
-  questions.sizes.add(
-      node->where, cat("frame '", frame.name, "': its ", geometry.mesh ? "mesh" : shapeTypeName(geometry.type), " is ",
-                       most, " m large; ", askForMeters(most)));
+  return sides;
+}
+
+/// Whether a movable frame is lighter than what it displaces by far. Fixed scenery often has an arbitrary mass.
+bool isLighterThanAir(const FrameData& frame, const std::vector<double>& sides) {
+  const double shortest = std::ranges::min(sides), longest = std::ranges::max(sides);
+  for (const FrameData* link = &frame; link; link = link->parent) {
+    if (link->inertia && link->inertia->mass > kLeastDensity * shortest * shortest * longest) return false;
+    if (link->joint) return link->inertia && link->inertia->mass > 0.;
+  }
+  return false;
 }
 
 }  // namespace
+
+std::string askAboutSize(const FrameData& frame) {
+  if (!frame.shape) return "";
+  const Geometry& geometry = *frame.shape->geometry;
+  const std::vector<double> sides = sidesOf(geometry);
+  if (!mayBeMillimeters(sides)) return "";
+  double reach = kLeastReach;
+  for (const FrameData* link = &frame; link->parent; link = link->parent)
+    reach = std::max(reach, link->relativePose().p.norm());
+  const double most = std::ranges::max(sides);
+  const bool is_large_link = isOnArm(frame) && most >= kTimesLarger * reach;
+  if (!is_large_link && !isLighterThanAir(frame, sides)) return "";
+  return cat("frame '", frame.name, "': its ", geometry.mesh ? "mesh" : shapeTypeName(geometry.type), " is ", most,
+             " m large; ", askForMeters(most));
+}
 
 void askAboutUnits(const SceneSource& source, const std::vector<FrameData*>& frames, SceneDiagnostics& diagnostics) {
   Questions questions;
   for (std::size_t i = 0; i < std::min(frames.size(), source.frames.size()); ++i) {
     const FrameData& frame = *frames[i];
-    const Graph& attributes = *source.frames[i].node.value.as<Graph>();
+    const Node& node = source.frames[i].node;
+    const Graph& attributes = *node.value.as<Graph>();
     const FrameData* const joint = frame.joint ? &frame : frame.parent;
     if (joint && joint->joint && attributes.find("joint")) checkJoint(*joint, attributes, questions);
-    if (frame.shape) checkSize(frame, attributes, questions);
+    if (const std::string question = askAboutSize(frame); !question.empty()) questions.sizes.add(node.where, question);
     checkPose(frame, attributes, questions);
+    checkPosition(frame, node, questions);
   }
   for (const auto& [file, question] : questions.limits) {
     if (!questions.radians.contains(file)) question.ask(diagnostics);
@@ -161,7 +200,7 @@ void askAboutUnits(const SceneSource& source, const std::vector<FrameData*>& fra
   questions.values.ask(diagnostics);
   questions.rotations.ask(diagnostics);
   questions.sizes.ask(diagnostics);
-  questions.positions.ask(diagnostics);
+  questions.positions.ask(diagnostics, 2);  // a single one is a high tower's joint
 }
 
 }  // namespace kinegraph

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "kinegraph/scene/loading/scene_source.h"
@@ -7,8 +8,13 @@
 
 namespace kinegraph {
 
+/// Asks whether the shape of a frame is in mm; "" without a strong reason. Large shapes alone are none: floors, halls
+/// and terrains are large. Reasons: it is a link of an arm, but many times larger than the offsets between the joints;
+/// or it can move, but is lighter than air.
+std::string askAboutSize(const FrameData& frame);
+
 /// Warns of numbers in a file that seem to be in other units: joint limits, joint values and rotations in degrees,
-/// sizes, meshes and positions in millimeters. `frames` are those that the entries of `source` made.
+/// sizes, meshes and positions of links in millimeters. `frames` are those that the entries of `source` made.
 void askAboutUnits(const SceneSource& source, const std::vector<FrameData*>& frames, SceneDiagnostics& diagnostics);
 
 }  // namespace kinegraph
