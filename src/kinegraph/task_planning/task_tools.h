@@ -23,7 +23,8 @@ bool isSupported(const Frame& obj, const Frame& place);
 bool isBall(const Frame& obj);
 
 /// Returns the distance of the center of mass of a standing object from the edges of that area, m: the error of its
-/// position up to which it does not tip. Negative if it falls over. Of a ball, the distance from the edges of the place.
+/// position up to which it does not tip. Negative if it falls over. Of a ball, the distance from the edges of the
+/// place.
 double supportOf(const Frame& obj, const Frame& place);
 
 /// Returns the pairs of frames, one of a held object and one of the robot, that overlap by more than `depth` (m). Such

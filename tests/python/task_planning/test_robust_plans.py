@@ -147,7 +147,7 @@ def test_a_drawer_is_opened_with_room_for_errors_of_pose(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", [1, 6, 9, 11, 14])
 def test_a_hand_takes_a_handle_without_reaching_into_the_door(seed: int) -> None:
-    C, plan = planned(panda_tasks.door(seed))
+    _, plan = planned(panda_tasks.door(seed))
     assert min(error for error, _ in plan.tolerances) >= 3e-3, plan.explain()
 
 

@@ -19,10 +19,10 @@ struct NearBodies {
 };
 
 /// The bodies around a motion of an action. Some contacts are meant: of the hand with the object that it takes or has
-/// put down, of the object with what it stands on, of a pusher, of a door with its case. All other pairs keep a margin,
-/// and while the hand is more than 8 cm away from both ends of the motion, all pairs do. Contacts of a push, of a guided
-/// door, and of the initial configuration are meant during the whole motion, and so are those of pairs that are equally
-/// near at both ends, such as a base and its floor.
+/// put down, of the object with what it stands on, of a pusher, of a door with its case. All other pairs keep a margin.
+/// While the hand is more than 8 cm away from both ends of the motion, all pairs keep it. Contacts of a push, of a
+/// guided door, and of the initial configuration are meant during the whole motion. Pairs that are equally near at both
+/// ends, such as a base and its floor, keep no margin.
 class Surroundings {
  public:
   /// `C`: the scene of the motion, with held objects attached; it must outlive the surroundings. The motion leads from

@@ -12,8 +12,8 @@ namespace kinegraph {
 /// collide. `margin`: of motions, m.
 Config withoutGivenContacts(const Config& C, double margin);
 
-/// Returns the overlaps at the start of robots with hands, as "the start collides: 'a' and 'b' overlap by 3.0 mm"; "" if
-/// there are none. No motion begins there.
+/// Returns the overlaps at the start of robots with hands, as "the start collides: 'a' and 'b' overlap by 3.0 mm"; ""
+/// if there are none. No motion begins there.
 std::string startContact(const Config& C, const std::vector<std::string>& hands);
 
 }  // namespace kinegraph
