@@ -18,6 +18,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double kMaxRotation = 1.6;  ///< rad: maximum rotation of sampled placements
+constexpr double kResolved = .03;     ///< m: depth of overlaps at a guess that the solver resolves
 
 Vector4d rotationAbout(const Vector3d& axis, double angle) {
   Vector4d q;
@@ -107,7 +108,8 @@ double roomAt(const Config& C, const VectorXd& q, const std::string& hand, const
 }
 
 /// Solves IK for a hand that takes an object, from above if it has `room` there, m; else rotated about the vertical by
-/// other right angles, else level. `first`: the number of right angles of the first guess.
+/// other right angles, else level. A negative room is a depth of overlaps. `first`: the number of right angles of the
+/// first guess.
 VectorXd takes(const Config& C, const std::string& hand, const std::string& obj, const Vector3d& target,
                const VectorXd& q, int first, double room) {
   constexpr double kBetter = 1e-3;  // m
@@ -131,6 +133,9 @@ VectorXd takes(const Config& C, const std::string& hand, const std::string& obj,
     }
   return best;
 }
+
+/// Samples a rotation other than none, in right angles: half of the time, the other way round.
+int rightAngles(Rng& rng) { return rng.uniform() < .5 ? 2 : rng.uniform() < .5 ? 1 : 3; }
 
 /// Samples joints within their limits, from which another solution at a handle may be found. Doors are fixed.
 VectorXd elsewhere(const Config& C, const VectorXd& q, Rng& rng) {
@@ -197,7 +202,7 @@ VectorXd TaskWaypoints::start(Rng* rng, bool grasps) const {
   for (std::size_t i = 0; i < actions.size(); ++i) {
     if (isHold(actions[i]) && rng && grasps) q = elsewhere(C, q, *rng);
     const bool is_turned = rng && !grasps && (isPick(actions[i]) || isHold(actions[i]));
-    const VectorXd usual = startOf(i, q, at, offsets, is_turned ? int(rng->uniform(0., 4.)) : 0);
+    const VectorXd usual = startOf(i, q, at, offsets, is_turned ? rightAngles(*rng) : 0);
     q = pulls ? pulls->after(i, q, x).value_or(usual) : usual;
     x.segment(slot_dofs_ + Eigen::Index(i) * n, n) = q;
   }
@@ -210,7 +215,7 @@ VectorXd TaskWaypoints::startOf(std::size_t i, const VectorXd& before, std::map<
                                 const std::map<std::string, Vector3d>& offsets, int angles) const {
   const TaskAction& action = actions[i];
   if (isPick(action) && at.contains(action[1]))
-    return takes(C, action[3], action[1], at.at(action[1]), before, angles, margin);
+    return takes(C, action[3], action[1], at.at(action[1]), before, angles, angles > 0 ? margin : -kResolved);
   if (isPlace(action)) {
     const auto offset = offsets.find(cat("place_", action[3], "_", action[1], "_", i + 1));
     Vector3d target = at.at(action[3]);
@@ -224,7 +229,8 @@ VectorXd TaskWaypoints::startOf(std::size_t i, const VectorXd& before, std::map<
     at[action[1]] = at.at(action[3]);
     return nearWithTool(C, action, at.at(action[3]), before);
   }
-  if (isHold(action)) return takes(C, action[3], action[2], at.at(action[2]), before, angles, margin);
+  if (isHold(action))
+    return takes(C, action[3], action[2], at.at(action[2]), before, angles, angles > 0 ? margin : -kResolved);
   const auto door = isGuided(action) ? std::ranges::find(doors_, action[1], &TaskDoor::name) : doors_.end();
   if (door == doors_.end()) return before;
   VectorXd q = before;

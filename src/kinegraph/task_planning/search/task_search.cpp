@@ -27,7 +27,7 @@ constexpr int kSeeds = 3;           ///< sets of waypoints that are tried for th
 constexpr int kRobustSeeds = 10;    ///< the same if it has a plan that is not robust
 constexpr int kBetterSeeds = 16;    ///< sets of waypoints that are tried for better plans
 constexpr int kWithRoom = 8;        ///< sequences without crowded placements that are tried before others
-constexpr long kForRobust = 40000;  ///< evaluations; after more, no plan is searched that is more robust
+constexpr long kForRobust = 60000;  ///< evaluations; after more, no plan is searched that is more robust
 constexpr double kNoPlan = std::numeric_limits<double>::infinity();
 
 Clock::time_point deadlineAfter(double seconds) {
