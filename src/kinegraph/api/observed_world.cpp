@@ -7,6 +7,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/logic/domain.h"
 #include "kinegraph/robot/scene_grippers.h"
 #include "kinegraph/simulation/scene_bodies.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
@@ -274,8 +275,12 @@ std::vector<std::string> ObservedWorld::missedGoals(const std::vector<Literal>& 
   Words missed;
   for (const Literal& literal : goal) {
     if (literal.predicate != "on" || literal.arguments.size() != 2) continue;
-    const std::optional<Frame> parent = C.getFrame(literal.arguments[1]).getParent();
-    if ((parent && parent->getName() == literal.arguments[0]) == literal.negated) missed.push_back(literal.str());
+    const std::string &place = literal.arguments[0], &obj = literal.arguments[1];
+    const bool holds = std::ranges::any_of(obj == kAny ? objects_ : Words{obj}, [&](const std::string& name) {
+      const std::optional<Frame> parent = C.getFrame(name).getParent();
+      return parent && (place == kAny || parent->getName() == place);
+    });
+    if (holds == literal.negated) missed.push_back(literal.str());
   }
   const VectorXd q = seen_.getJointState();
   const std::vector<TaskDoor> doors = doorsOf(seen_);

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "kinegraph/geometry/shapes/mass.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/task_planning/polygon.h"
 #include "kinegraph/task_planning/shape_points.h"
@@ -126,7 +127,12 @@ double supportOf(const Frame& obj, const Frame& place) {
   for (const Vector3d& point : points)
     if (side * point.z() < lowest + kFine) sole.push_back(point.head<2>());
   const Vector3d center = X * (obj.getPose().transform() * centerOfBody(obj));
+  if (isBall(obj)) return (.5 * placeSides(place) - center.head<2>().cwiseAbs()).minCoeff();
   return depthIn(center.head<2>(), clipped(hullOf(std::move(sole)), .5 * placeSides(place)));
+}
+
+bool isBall(const Frame& obj) {
+  return obj.getShapeType() != ShapeType::none && shapeKind(obj.getShapeType()).body == ShapeKind::Body::ball;
 }
 
 bool isSupported(const Frame& obj, const Frame& place) { return supportOf(obj, place) >= -kFine; }

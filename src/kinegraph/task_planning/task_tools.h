@@ -19,8 +19,12 @@ bool isCentered(const Vector3d& center);
 /// in the current scene. The place is a level box.
 bool isSupported(const Frame& obj, const Frame& place);
 
+/// Whether the shape of an object is a ball.
+bool isBall(const Frame& obj);
+
 /// Returns the distance of the center of mass of a standing object from the edges of that area, m: the error of its
-/// position up to which it does not tip. Negative if it falls over.
+/// position up to which it does not tip. Negative if it falls over. Of a ball, the distance from the edges of the
+/// place.
 double supportOf(const Frame& obj, const Frame& place);
 
 /// Returns the pairs of frames, one of a held object and one of the robot, that overlap by more than `depth` (m). Such

@@ -71,7 +71,7 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
   void addSlot(SlotKind kind, const std::string& frame, int dofs, const std::string& face = {});
   void keepDoors();
   VectorXd startOf(std::size_t action, const VectorXd& before, std::map<std::string, Vector3d>& at,
-                   const std::map<std::string, Vector3d>& offsets) const;
+                   const std::map<std::string, Vector3d>& offsets, int angles) const;
   void switchTo(double time, const std::string& frame, const std::string& obj);
   Vector3d startSlot(const Slot& slot, const Nlp& nlp, VectorXd& x, Rng* rng, bool grasps) const;
 

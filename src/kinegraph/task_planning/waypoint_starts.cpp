@@ -2,6 +2,7 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
+#include <set>
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/ik/solve_ik.h"
@@ -17,6 +18,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double kMaxRotation = 1.6;  ///< rad: maximum rotation of sampled placements
+constexpr double kResolved = .03;     ///< m: depth of overlaps at a guess that the solver resolves
 
 Vector4d rotationAbout(const Vector3d& axis, double angle) {
   Vector4d q;
@@ -43,26 +45,97 @@ Vector4d faceUp(const std::string& face, double about) {
   return product;
 }
 
-/// Solves IK for a hand at a target, upright if possible. Returns q if there is no solution. Doors are fixed.
-VectorXd near(const Config& C, const std::string& hand, const Vector3d& target, const VectorXd& q) {
+/// An orientation of a hand: the direction of its z axis, and a rotation about it.
+struct HandGuess {
+  Vector3d up = Vector3d::UnitZ();
+  double angle = 0.;  ///< rad
+};
+
+/// Solves IK for a hand at a target, oriented like the guess if possible. Returns q if there is no solution. Doors are
+/// fixed.
+VectorXd near(const Config& C, const std::string& hand, const Vector3d& target, const VectorXd& q,
+              const HandGuess& guess = {}) {
   Config all = C;
   all.setJointState(q);
   const std::vector<TaskDoor> doors = doorsOf(all);
-  const StillDoors still = withStillDoors(all, doors);
+  StillDoors still = withStillDoors(all, doors);
   IkOptions options;
   options.collisions = false;
   options.attempts = 10;
   const IkTarget there = IkTarget::toPosition(hand, target);
-  const IkTarget up = IkTarget::toDirection(hand, Vector3d::UnitZ(), Vector3d::UnitZ());
+  const IkTarget up = IkTarget::toDirection(hand, Vector3d::UnitZ(), guess.up);
   for (const std::vector<IkTarget>& wanted : {std::vector{there, up}, std::vector{there}}) {
-    const IkResult result = solveIk(still.scene, wanted, options);
+    IkResult result = solveIk(still.scene, wanted, options);
     if (!result.feasible()) continue;
+    if (guess.angle != 0.) {
+      still.scene.setJointState(result.q);
+      const Matrix3d R = still.scene.getFrame(hand).getRotationMatrix();
+      const Vector3d x = Eigen::AngleAxisd(guess.angle, R.col(2)).matrix() * R.col(0);
+      const IkTarget rotated = IkTarget::toDirection(hand, Vector3d::UnitX(), x);
+      if (const IkResult other = solveIk(still.scene, {there, up, rotated}, options); other.feasible()) result = other;
+    }
     VectorXd found = q;
     found(still.dofs) = result.q;
     return found;
   }
   return q;
 }
+
+/// Returns the least distance between the arm of a hand and all else at q, an object that is taken excluded; at most
+/// `most`, m.
+double roomAt(const Config& C, const VectorXd& q, const std::string& hand, const std::string& obj, double most) {
+  Config scene = C;
+  scene.setJointState(q);
+  std::set<std::string> joints;
+  for (std::optional<Frame> frame = scene.getFrame(hand); frame; frame = frame->getParent())
+    if (frame->data().moves() && frame->data().joint->active) joints.insert(frame->getName());
+  const auto isOnArm = [&](std::optional<Frame> frame) {
+    for (; frame; frame = frame->getParent())
+      if (joints.contains(frame->getName())) return true;
+    return false;
+  };
+  const auto isTaken = [&](std::optional<Frame> frame) {
+    for (; frame; frame = frame->getParent())
+      if (frame->getName() == obj) return true;
+    return false;
+  };
+  double least = most;
+  for (const Config::NearPair& pair : scene.getCollisions(most)) {
+    const Frame a = scene.getFrame(pair.a), b = scene.getFrame(pair.b);
+    if (isOnArm(a) != isOnArm(b) && !isTaken(a) && !isTaken(b)) least = std::min(least, pair.distance);
+  }
+  return least;
+}
+
+/// Solves IK for a hand that takes an object, from above if it has `room` there, m; else rotated about the vertical by
+/// other right angles, else level. A negative room is a depth of overlaps. `first`: the number of right angles of the
+/// first guess.
+VectorXd takes(const Config& C, const std::string& hand, const std::string& obj, const Vector3d& target,
+               const VectorXd& q, int first, double room) {
+  constexpr double kBetter = 1e-3;  // m
+  Config before = C;
+  before.setJointState(q);
+  Vector3d back = before.getFrame(hand).getPosition() - target;
+  back.z() = 0.;
+  std::vector<Vector3d> directions = {Vector3d::UnitZ()};
+  if (back.norm() > kBetter) directions.push_back(back.normalized());
+  VectorXd best;
+  double most = 0.;
+  for (const Vector3d& up : directions)
+    for (const int angles : {0, 2, 1, 3}) {
+      const VectorXd found = near(C, hand, target, q, {up, .5 * std::numbers::pi * ((first + angles) % 4)});
+      const double there = roomAt(C, found, hand, obj, room);
+      if (best.size() == 0 || there > most + kBetter) {
+        best = found;
+        most = there;
+      }
+      if (most >= room) return best;
+    }
+  return best;
+}
+
+/// Samples a rotation other than none, in right angles: half of the time, the other way round.
+int rightAngles(Rng& rng) { return rng.uniform() < .5 ? 2 : rng.uniform() < .5 ? 1 : 3; }
 
 /// Samples joints within their limits, from which another solution at a handle may be found. Doors are fixed.
 VectorXd elsewhere(const Config& C, const VectorXd& q, Rng& rng) {
@@ -128,7 +201,8 @@ VectorXd TaskWaypoints::start(Rng* rng, bool grasps) const {
   for (const Frame& frame : C.getFrames()) at.emplace(frame.getName(), frame.getPosition());
   for (std::size_t i = 0; i < actions.size(); ++i) {
     if (isHold(actions[i]) && rng && grasps) q = elsewhere(C, q, *rng);
-    const VectorXd usual = startOf(i, q, at, offsets);
+    const bool is_turned = rng && !grasps && (isPick(actions[i]) || isHold(actions[i]));
+    const VectorXd usual = startOf(i, q, at, offsets, is_turned ? rightAngles(*rng) : 0);
     q = pulls ? pulls->after(i, q, x).value_or(usual) : usual;
     x.segment(slot_dofs_ + Eigen::Index(i) * n, n) = q;
   }
@@ -136,10 +210,12 @@ VectorXd TaskWaypoints::start(Rng* rng, bool grasps) const {
 }
 
 /// Guesses the joints after an action from those before it, and moves the positions `at` of the objects that it moves.
+/// `angles`: the rotation of a hand that takes something, about the vertical, in right angles.
 VectorXd TaskWaypoints::startOf(std::size_t i, const VectorXd& before, std::map<std::string, Vector3d>& at,
-                                const std::map<std::string, Vector3d>& offsets) const {
+                                const std::map<std::string, Vector3d>& offsets, int angles) const {
   const TaskAction& action = actions[i];
-  if (isPick(action) && at.contains(action[1])) return near(C, action[3], at.at(action[1]), before);
+  if (isPick(action) && at.contains(action[1]))
+    return takes(C, action[3], action[1], at.at(action[1]), before, angles, angles > 0 ? margin : -kResolved);
   if (isPlace(action)) {
     const auto offset = offsets.find(cat("place_", action[3], "_", action[1], "_", i + 1));
     Vector3d target = at.at(action[3]);
@@ -153,7 +229,8 @@ VectorXd TaskWaypoints::startOf(std::size_t i, const VectorXd& before, std::map<
     at[action[1]] = at.at(action[3]);
     return nearWithTool(C, action, at.at(action[3]), before);
   }
-  if (isHold(action)) return near(C, action[3], at.at(action[2]), before);
+  if (isHold(action))
+    return takes(C, action[3], action[2], at.at(action[2]), before, angles, angles > 0 ? margin : -kResolved);
   const auto door = isGuided(action) ? std::ranges::find(doors_, action[1], &TaskDoor::name) : doors_.end();
   if (door == doors_.end()) return before;
   VectorXd q = before;

@@ -47,6 +47,7 @@ MotionStates Trajectory::sample(double rate) const {
   const auto steps = Eigen::Index(std::ceil(duration() * rate - 1e-9));
   VectorXd times(steps + 1);
   for (Eigen::Index k = 0; k <= steps; ++k) times[k] = steps > 0 ? duration() * double(k) / double(steps) : 0.;
+  if (steps > 0) times[steps] = duration();  // to the bit
   return eval(times);
 }
 

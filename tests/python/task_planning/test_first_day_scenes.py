@@ -205,6 +205,31 @@ def test_what_occupies_a_place_and_cannot_be_moved_is_named() -> None:
     assert "'big' is wider than 'l_gripper' opens (0.080 m) along all of its axes" in plan.message
 
 
+def test_robots_that_overlap_at_the_start_are_told_so_at_once() -> None:
+    C = ry.Config()
+    for name, x, turn in (("a_", -0.5, 0.0), ("b_", 0.5, np.pi)):  # their hands meet
+        C.addFile(ry.raiPath("panda/panda.g"), name)
+        base = C.getFrame(f"{name}panda_base").setPosition([x, 0, 0])
+        base.setQuaternion([np.cos(turn / 2), 0, 0, np.sin(turn / 2)])
+    C.addFrame("floor").setPosition([0, 0, -0.051]).setShape(ry.ST.ssBox, [3, 3, 0.1, 0.01]).setContact(1)
+    box(C, "red", "floor", (-0.3, 0.45, -0.001))
+    C.addFrame("tray", "floor").setPosition([-0.6, 0.5, 0.004]).setShape(ry.ST.ssBox, [0.15, 0.15, 0.01, 0.004])
+    plan = ry.planTask(C, "(on tray red)")
+    assert plan.status == ry.TaskStatus.infeasible and plan.evaluations == 0
+    assert plan.message.startswith("the start collides: ") and "'a_palm' and 'b_palm' overlap by" in plan.message
+
+
+def test_a_place_is_cleared_of_whatever_stands_there() -> None:
+    C = scene()
+    tray(C)
+    for name, x in (("red", -0.33), ("blue", -0.25)):
+        box(C, name, "tray", (x, 0.3, TOP + 0.01))
+    plan = ry.planTask(C, "(on tray ANY)!")
+    world = executed(C, plan)  # the last one is in the hand
+    first = plan.actions[0][1]
+    assert first in ("red", "blue") and not stands(world, first, "tray", TOP + 0.01 + 0.035, 0.14)
+
+
 def test_things_that_change_places_wait_where_there_is_room() -> None:
     C = scene()
     for k, x in enumerate((-0.3, 0.3)):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import kinegraph as ry
+from task_scenes import panda_tasks, planned
 
 TABLE_TOP = 0.05  # above the table's frame, m
 
@@ -135,3 +136,60 @@ def test_the_width_of_a_hand_is_its_opening_in_meters(scene: str, open_width: fl
     bot.gripperClose(0)
     bot.sync(D, 3.0)
     assert bot.getGripperPos(0) < 0.005
+
+
+@pytest.mark.parametrize("seed", [0, 3, 7])
+def test_a_drawer_is_opened_with_room_for_errors_of_pose(seed: int) -> None:
+    C, plan = planned(panda_tasks.stow(seed))  # from above, the camera of the hand passes the roof at 2 mm
+    assert min(error for error, _ in plan.tolerances) >= 3e-3, plan.explain()
+    assert ry.checkTaskPlan(C, plan) == []
+
+
+@pytest.mark.parametrize("seed", [1, 6, 9, 11, 14])
+def test_a_hand_takes_a_handle_without_reaching_into_the_door(seed: int) -> None:
+    _, plan = planned(panda_tasks.door(seed))
+    assert min(error for error, _ in plan.tolerances) >= 3e-3, plan.explain()
+
+
+@pytest.mark.parametrize("seed", [2, 14])
+def test_a_tool_keeps_the_margin_to_its_object_until_it_is_behind_it(seed: int) -> None:
+    problem = panda_tasks.hook(seed)
+    plan = ry.planTask(problem.C, problem.goal, seed=seed)
+    assert [action[0] for action in plan.actions[:2]] == ["pick", "hook_start"]
+    scene, least = plan.scenes[1], 1.0
+    rows = plan.path[plan.segments[1]]
+    scene.setJointState(rows[-1])
+    end = scene.getFrame("l_gripper").getPosition()
+    for q in rows[::2]:
+        scene.setJointState(q)
+        if np.linalg.norm(scene.getFrame("l_gripper").getPosition() - end) > 0.08:
+            gaps = [d for a, b, d in scene.getCollisions(0.01) if {a, b} in ({"stick", "cup"}, {"bar", "cup"})]
+            least = min([least, *gaps])
+    assert least > 0.0045
+
+
+@pytest.mark.filterwarnings("ignore:.*overlap at a constant relative pose")
+def test_a_base_on_the_floor_costs_no_margin() -> None:
+    C = ry.Config()
+    C.addFile(ry.raiPath("panda/panda.g"))  # its shoulder is 3 mm above the floor, wherever the arm is
+    C.addFrame("floor").setShape(ry.ST.ssBox, [3.0, 3.0, 0.1, 0.01]).setPosition([0, 0, -0.05]).setContact(1)
+    red = C.addFrame("red", "floor").setShape(ry.ST.ssBox, [0.05, 0.05, 0.08, 0.004]).setPosition([0.5, 0.2, 0.04])
+    red.setJoint(ry.JT.rigid).setContact(1).setMass(0.1)
+    tray = C.addFrame("tray", "floor").setShape(ry.ST.ssBox, [0.2, 0.2, 0.02, 0.004])
+    tray.setPosition([0.5, -0.2, 0.01]).setContact(1)
+    plan = ry.planTask(C, "(on tray red)")
+    assert plan.margin == pytest.approx(0.005) and plan.warnings == []
+    assert min(error for error, _ in plan.tolerances) > 5e-3
+    assert ry.checkTaskPlan(C, plan, margin=0.005) == []
+
+
+def test_a_ball_falls_over_nowhere() -> None:
+    C = panda()
+    plate(C, "bowl", [-0.3, 0.3], 0.16)
+    for k, (x, y) in enumerate(((1, 0), (-1, 0), (0, 1), (0, -1))):
+        rim = C.addFrame(f"rim{k}", "bowl").setRelativePosition([0.08 * x, 0.08 * y, 0.015])
+        rim.setShape(ry.ST.ssBox, [0.01 if x else 0.17, 0.01 if y else 0.17, 0.04, 0.004]).setContact(1)
+    ball = C.addFrame("ball", "table").setShape(ry.ST.sphere, [0.03]).setRelativePosition([0.3, 0.3, TABLE_TOP + 0.03])
+    ball.setJoint(ry.JT.rigid).setContact(1).setMass(0.05)
+    plan = ry.planTask(C, "(on bowl ball)")
+    assert min(error for error, _ in plan.tolerances) > 3e-3, plan.explain()

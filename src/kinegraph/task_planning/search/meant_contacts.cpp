@@ -1,6 +1,8 @@
 #include "kinegraph/task_planning/search/meant_contacts.h"
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -16,7 +18,10 @@ namespace {
 using Names = std::set<std::string>;
 
 constexpr double kNearAtRest = .012;  ///< m: closer bodies at the ends of a motion may belong to each other
-constexpr double kBelow = 3e-3;       ///< m: what ends less than this above the lowest point of an object is below it
+constexpr double kConstant =
+    1e-5;                        ///< m: pairs whose distance changes less, such as a base and its floor, do not count
+constexpr double kBelow = 3e-3;  ///< m: what ends less than this above the lowest point of an object is below it
+constexpr double kCloseToEnd = .08;  ///< m: contacts are meant up to this distance of a hand from an end
 
 /// The nearest frame with an active joint, from a frame upwards; null for static frames. It identifies a link.
 const FrameData* headOf(const Frame& frame) {
@@ -82,6 +87,21 @@ class MeantPairs {
     for (const Config::NearPair& pair : scene_.getCollisions(kNearAtRest)) add(nameOf(pair.a), nameOf(pair.b));
   }
 
+  /// The pairs that are near at q0 and as near at q1, such as a base and its floor.
+  void addConstant(const VectorXd& q0, const VectorXd& q1) {
+    std::map<std::pair<int, int>, double> first;
+    scene_.setJointState(q0);
+    for (const Config::NearPair& pair : scene_.getCollisions(kNearAtRest))
+      first[std::minmax(pair.a, pair.b)] = pair.distance;
+    if (first.empty()) return;
+    scene_.setJointState(q1);
+    for (const Config::NearPair& pair : scene_.getCollisions(kNearAtRest)) {
+      const auto before = first.find(std::minmax(pair.a, pair.b));
+      if (before != first.end() && std::abs(pair.distance - before->second) < kConstant)
+        add(nameOf(pair.a), nameOf(pair.b));
+    }
+  }
+
   /// What is near an object at q, with `only_below` only what it stands on.
   void addNearObject(const VectorXd& q, const std::string& obj, bool only_below) {
     if (!scene_.findFrame(obj)) return;
@@ -119,17 +139,31 @@ class MeantPairs {
   std::set<std::pair<std::string, std::string>> pairs_;
 };
 
+bool isSliding(const TaskAction& action) { return startsSliding(action) || endsSliding(action) || isGuided(action); }
+
+/// The pairs whose contact is meant at the ends of a motion. With `throughout`, only those during the whole motion.
 FramePairs meantPairs(Config& C, const VectorXd& q0, const VectorXd& q1, const TaskAction& action,
-                      const TaskAction& before, const std::vector<std::string>& hands) {
+                      const TaskAction& before, const std::vector<std::string>& hands, bool throughout) {
   MeantPairs meant(C, hands);
-  meant.addAction(before);
-  meant.addAction(action);
-  const auto isSliding = [](const TaskAction& a) { return startsSliding(a) || endsSliding(a) || isGuided(a); };
-  if (before.empty() || isSliding(before) || isSliding(action)) meant.addNear(q0);
-  if (isSliding(action) || (!action.empty() && action[0] == "pose")) meant.addNear(q1);
-  if (isPick(before) || before.empty()) meant.addNearObject(q0, before.empty() ? "" : objectOf(before), false);
-  if (isPlace(action)) meant.addNearObject(q1, objectOf(action), true);
+  const bool slides = endsSliding(action) || isGuided(action);
+  meant.addConstant(q0, q1);
+  if (before.empty() || slides || (isSliding(before) && !throughout) || (isSliding(action) && !throughout))
+    meant.addNear(q0);
+  if (slides || (!throughout && (isSliding(action) || (!action.empty() && action[0] == "pose")))) meant.addNear(q1);
+  if (slides || !throughout) {
+    meant.addAction(before);
+    meant.addAction(action);
+    if (isPick(before)) meant.addNearObject(q0, objectOf(before), false);
+    if (isPlace(action)) meant.addNearObject(q1, objectOf(action), true);
+  }
   return meant.pairs();
+}
+
+/// The hand of an action; "" if there is none.
+std::string handOf(const TaskAction& action, const std::vector<std::string>& hands) {
+  for (std::size_t i = action.size(); i-- > 1;)
+    if (std::ranges::find(hands, action[i]) != hands.end()) return action[i];
+  return "";
 }
 
 }  // namespace
@@ -137,18 +171,52 @@ FramePairs meantPairs(Config& C, const VectorXd& q0, const VectorXd& q1, const T
 Surroundings::Surroundings(const Config& C, const VectorXd& q0, const VectorXd& q1, const TaskAction& action,
                            const TaskAction& before, const std::vector<std::string>& hands)
     : all_(C), unmeant_(C) {
-  ignorePairs(unmeant_, meantPairs(unmeant_, q0, q1, action, before, hands));
+  const auto addEnd = [&](const std::string& hand, const VectorXd& q) {
+    unmeant_.setJointState(q);
+    ends_.push_back({hand, unmeant_.getFrame(hand).getPosition()});
+  };
+  if (const std::string hand = handOf(action, hands); !hand.empty()) {  // else all of the motion is close to its ends
+    addEnd(hand, q1);
+    if (const std::string first = handOf(before, hands); !first.empty()) addEnd(first, q0);
+  }
+  if (const FramePairs pairs = meantPairs(unmeant_, q0, q1, action, before, hands, true); !pairs.empty()) {
+    middle_ = C;
+    ignorePairs(*middle_, pairs);
+  }
+  ignorePairs(unmeant_, meantPairs(unmeant_, q0, q1, action, before, hands, false));
+}
+
+std::vector<bool> Surroundings::closeToEnds(const MatrixXd& path) const {
+  std::vector<bool> close(std::size_t(path.rows()), ends_.empty());
+  Config scene = all_;
+  for (Eigen::Index row = 0; row < path.rows() && !ends_.empty(); ++row) {
+    scene.setJointState(path.row(row));
+    for (const End& end : ends_)
+      if ((scene.getFrame(end.hand).getPosition() - end.at).norm() < kCloseToEnd) close[std::size_t(row)] = true;
+  }
+  return close;
 }
 
 std::string Surroundings::violation(const MatrixXd& path, double margin) const {
   std::string found = firstContact(all_, path);
-  return found.empty() && margin > 0. ? firstContact(unmeant_, path, margin) : found;
+  if (!found.empty() || !(margin > 0.)) return found;
+  const std::vector<bool> close = closeToEnds(path);
+  const auto isClose = [&](Eigen::Index edge) { return close[std::size_t(edge)] || close[std::size_t(edge) + 1]; };
+  if (path.rows() == 1) return firstContact(close[0] ? unmeant_ : middle_.value_or(all_), path, margin);
+  for (Eigen::Index first = 0, last = 0; first + 1 < path.rows() && found.empty(); first = last) {
+    for (last = first + 1; last + 1 < path.rows() && isClose(last) == isClose(first);) ++last;
+    const MatrixXd part = path.middleRows(first, last - first + 1);
+    found = firstContact(isClose(first) ? unmeant_ : middle_ ? *middle_ : all_, part, margin);
+  }
+  return found;
 }
 
 NearBodies Surroundings::nearest(const MatrixXd& path, double limit, bool of_world) const {
   NearBodies nearest{"", "", limit};
-  Config scene = unmeant_;
+  const std::vector<bool> close = closeToEnds(path);
+  Config near_ends = unmeant_, middle = middle_ ? *middle_ : all_;
   for (Eigen::Index row = 0; row < path.rows(); ++row) {
+    Config& scene = close[std::size_t(row)] ? near_ends : middle;
     scene.setJointState(path.row(row));
     for (const Config::NearPair& pair : scene.getCollisions(nearest.distance)) {
       const Frame a = scene.getFrame(pair.a), b = scene.getFrame(pair.b);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,9 @@ struct NearBodies {
 
 /// The bodies around a motion of an action. Some contacts are meant: of the hand with the object that it takes or has
 /// put down, of the object with what it stands on, of a pusher, of a door with its case. All other pairs keep a margin.
+/// While the hand is more than 8 cm away from both ends of the motion, all pairs keep it. Contacts of a push, of a
+/// guided door, and of the initial configuration are meant during the whole motion. Pairs that are equally near at both
+/// ends, such as a base and its floor, keep no margin.
 class Surroundings {
  public:
   /// `C`: the scene of the motion, with held objects attached; it must outlive the surroundings. The motion leads from
@@ -36,8 +40,19 @@ class Surroundings {
   NearBodies nearest(const MatrixXd& path, double limit, bool of_world = false) const;
 
  private:
+  /// The position of a hand at an end of the motion.
+  struct End {
+    std::string hand;
+    Vector3d at;
+  };
+
+  /// For each row of a path, whether a hand is close to an end.
+  std::vector<bool> closeToEnds(const MatrixXd& path) const;
+
   const Config& all_;
-  Config unmeant_;
+  Config unmeant_;                ///< without the pairs whose contact is meant
+  std::optional<Config> middle_;  ///< without those whose contact is meant during the whole motion; none: all_
+  std::vector<End> ends_;
 };
 
 }  // namespace kinegraph

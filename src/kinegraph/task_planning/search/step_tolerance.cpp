@@ -4,6 +4,7 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
+#include "kinegraph/task_planning/task_tools.h"
 
 namespace kinegraph {
 
@@ -63,8 +64,9 @@ StepTolerance toleranceOf(const Config& C, const Surroundings& around, const Mat
           lower(tolerance, std::max(gapOf(end, finger, part.getName()), 0.),
                 cat("'", finger, "' meets '", part.getName(), "'"));
   } else if (action[0] == "place" && end.findFrame(action[3])) {
-    lower(tolerance, std::max(supportOf(end.getFrame(action[1]), end.getFrame(action[3])), 0.),
-          cat("'", action[1], "' falls over"));
+    const Frame obj = end.getFrame(action[1]);
+    lower(tolerance, std::max(supportOf(obj, end.getFrame(action[3])), 0.),
+          cat("'", action[1], isBall(obj) ? "' rolls off" : "' falls over"));
   }
   return tolerance;
 }

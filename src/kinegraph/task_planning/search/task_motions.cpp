@@ -276,10 +276,10 @@ MotionPlan TaskMotions::findPath(const Config& C, const VectorXd& start, const V
   return found;
 }
 
-/// The margins with which a path is searched for: more than the margin, the margin, and none where there is no room.
+/// The margins with which a path is searched for: more than the margin, the margin, less, and none if there is no room.
 std::vector<double> TaskMotions::margins() const {
   if (!(margin_ > 0.)) return {0.};
-  return {kEasyMargin * margin_, margin_, 0.};
+  return {kEasyMargin * margin_, margin_, kMarginShares[1] * margin_, 0.};
 }
 
 /// The same ahead of time, if a thread is free.

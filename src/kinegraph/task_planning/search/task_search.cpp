@@ -12,6 +12,7 @@
 #include "kinegraph/task_planning/search/crowded_places.h"
 #include "kinegraph/task_planning/search/goal_flaw.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
+#include "kinegraph/task_planning/search/start_contacts.h"
 #include "kinegraph/task_planning/search/step_tolerance.h"
 #include "kinegraph/task_planning/search/task_conflicts.h"
 #include "kinegraph/task_planning/task_tools.h"
@@ -22,10 +23,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kSeeds = 3;         ///< sets of waypoints that are tried for the first plan of a sequence
-constexpr int kBetterSeeds = 16;  ///< sets of waypoints that are tried for better plans
-constexpr int kWithRoom = 8;      ///< sequences without crowded placements that are tried before others
-constexpr long kCostly = 4000;  ///< evaluations of waypoints and motions; after more, no more robust ones are searched
+constexpr int kSeeds = 3;           ///< sets of waypoints that are tried for the first plan of a sequence
+constexpr int kRobustSeeds = 10;    ///< the same if it has a plan that is not robust
+constexpr int kBetterSeeds = 16;    ///< sets of waypoints that are tried for better plans
+constexpr int kWithRoom = 8;        ///< sequences without crowded placements that are tried before others
+constexpr long kForRobust = 60000;  ///< evaluations; after more, no plan is searched that is more robust
 constexpr double kNoPlan = std::numeric_limits<double>::infinity();
 
 Clock::time_point deadlineAfter(double seconds) {
@@ -42,15 +44,6 @@ TaskRules rulesWith(const TaskRules& own, bool upright) {
   TaskRules rules = own;
   rules.merge(defaultTaskRules(upright));
   return rules;
-}
-
-/// A scene in which held objects may overlap the robot as they do now, until they are put down.
-Config withoutWedges(const Config& C) {
-  const std::vector<Literal> facts = taskFacts(C);
-  const FramePairs pairs = wedgedPairs(C, wordsOf(facts, "is_gripper"), wordsOf(facts, "is_object"), kOverlap);
-  Config scene = C;
-  ignorePairs(scene, pairs);
-  return scene;
 }
 
 double requireMargin(double margin) {
@@ -75,7 +68,7 @@ int requireThreads(int threads) {
 
 TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptions& options)
     : original_(std::make_shared<const Config>(withOpenings(withOpenHands(C), wordsOf(taskFacts(C), "is_gripper")))),
-      C_(withoutWedges(*original_)),
+      C_(withoutGivenContacts(*original_, requireMargin(options.margin))),
       doors_(doorsOf(C)),
       options_(options),
       goal_text_(goal),
@@ -133,6 +126,10 @@ std::optional<TaskPlan> TaskSearch::begin() {
     has_ended_ = true;
     return answer(TaskStatus::infeasible,
                   options_.domain ? join(diagnostics(logic_.problem()), "; ") : goalFlaw(C_, logic_.problem()));
+  }
+  if (std::string contact = startContact(C_, wordsOf(logic_.start(), "is_gripper")); !contact.empty()) {
+    has_ended_ = true;
+    return answer(TaskStatus::infeasible, std::move(contact));
   }
   if (!options_.rules.contains("pick"))  // the proofs assume the default rules
     logic_.exclude(
@@ -226,7 +223,7 @@ Speculative<TaskSearch::Outcome> TaskSearch::outcomeOf(const Trial& trial, int s
 /// The plan of the next seed that has one; none if no seed is left.
 std::optional<TaskPlan> TaskSearch::nextOf(Trial& trial) {
   auto& outcomes = trial.outcomes;
-  const auto seeds = [&] { return trial.has_plan ? kBetterSeeds : kSeeds; };
+  const auto seeds = [&] { return trial.has_plan ? kBetterSeeds : trial.best ? kRobustSeeds : kSeeds; };
   while (trial.seed < seeds()) {
     const int seed = trial.seed++;
     if (seed == 0 && waypoints_.isKnownToFail(trial.actions)) break;
@@ -239,6 +236,7 @@ std::optional<TaskPlan> TaskSearch::nextOf(Trial& trial) {
     }
     Outcome& outcome = outcomes[seed].get();
     evaluations_ += outcome.evaluations;
+    trial.evaluations += outcome.evaluations;
     if (outcome.waypoint_failure) {
       if (trial.best) continue;
       trial.feasible_actions = outcome.feasible_actions;
@@ -249,14 +247,13 @@ std::optional<TaskPlan> TaskSearch::nextOf(Trial& trial) {
     }
     if (outcome.plan) {
       const double robustness = robustnessOf(*outcome.plan, options_.margin);
-      if (trial.has_plan || robustness >= kRobust || outcome.evaluations > kCostly)
-        return planned(trial, std::move(*outcome.plan));
+      if (trial.has_plan || robustness >= kRobust) return planned(trial, std::move(*outcome.plan));
       if (!trial.best || robustness > trial.robustness) {  // other waypoints may be better
         trial.best = std::move(outcome.plan);
         trial.robustness = robustness;
       }
-      continue;
     }
+    if (trial.best && trial.evaluations > kForRobust) break;
     if (trial.best) continue;
     needs_seeds_ = true;
     trial.motion_failure = outcome.motion_failure;

@@ -34,6 +34,7 @@ class TaskSearch {
     bool has_plan = false;
     std::optional<TaskPlan> best = {};                  ///< the most robust plan so far that is not robust
     double robustness = 0.;                             ///< of `best`, m
+    long evaluations = 0;                               ///< spent so far
     std::size_t feasible_actions = 0;                   ///< at the beginning, known from pieces
     FutureFailure waypoint_failure = nullptr;           ///< of the next one
     std::optional<TaskFailure> motion_failure = {};     ///< of the last seed that failed
