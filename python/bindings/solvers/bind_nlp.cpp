@@ -151,7 +151,9 @@ void bindProblemClass(nb::module_& m) {
       .def("getFHessian", costHessian, "x"_a, docs::nlp::getFHessian)
       .def(
           "getInitializationSample", [](Nlp& nlp, nb::handle) { return toNumpy(nlp.initialPoint(defaults().random)); },
-          "previousOptima"_a = nb::none(), "Samples an initial point, shape (n,).")
+          "previousOptima"_a = nb::none(),
+          "Samples an initial point.\n\nArgs:\n    previousOptima: Not used; scripts of earlier versions pass "
+          "it.\nReturns:\n    The point, shape (n,).")
       .def(
           "getUniformSample", [](Nlp& nlp) { return toNumpy(nlp.uniformPoint(defaults().random)); },
           "A random point, uniform within the bounds, shape (n,).")
