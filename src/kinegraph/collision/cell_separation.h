@@ -30,7 +30,7 @@ struct CellVerdict {
 /// Checks a motion. `margin` plus the radius of the body must be positive, m.
 ///
 /// Ever smaller cubes of cells are excluded in two ways: by their distances from the body at both ends, less the
-/// travel, or by a direction along which the body is ahead of them at both ends by the margin and the bow. These are the
+/// travel, or by a direction along which the body is ahead of them at both ends by the margin and the bow. They are
 /// normals between the body and the cells that were measured before; one of them excludes most of a surface.
 CellVerdict separateFromCells(const MotionAmongCells& motion, double margin);
 
