@@ -9,13 +9,14 @@
 #include "kinegraph/geometry/distance/grid_field.h"
 #include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/geometry/shapes/cells.h"
+#include "kinegraph/kinematics/state.h"
 #include "kinegraph/scene/frame_cells.h"
 
 namespace kinegraph {
 
 namespace {
 
-constexpr int kSamples = 100;  // of the motion
+constexpr int kUnseenSamples = 100;  // of the motion
 
 bool hasUnseen(const Frame& frame) {
   if (frame.getShapeType() != kCells || frame.data().shape->contact == 0) return false;
@@ -146,7 +147,7 @@ std::optional<UnseenPlace> findUnseenPlace(const Config& config, double margin,
   const MotionPlan plan = plan_in(seen);
   if (!plan.feasible()) return std::nullopt;
   EnteredCells entered(config, maps, margin);
-  for (int i = 0; i <= kSamples; ++i) entered.visit(plan.eval(plan.duration() * i / kSamples).q);
+  for (int i = 0; i <= kUnseenSamples; ++i) entered.visit(plan.eval(plan.duration() * i / kUnseenSamples).q);
   return entered.take();
 }
 
