@@ -62,6 +62,7 @@ from ._core import (
     MotionPlans,
     Mpc,
     MpcResult,
+    NextView,
     NLP_Factory,
     NLP_Sampler,
     NLP_Solver,
@@ -116,6 +117,7 @@ from ._core import (
     ToolPathPlan,
     ToolPathStatus,
     Trajectory,
+    UnseenPlace,
     ViewerButton,
     ViewerCheck,
     ViewerFolder,
@@ -128,6 +130,7 @@ from ._core import (
     defaultDomain,
     depthImage2PointCloud,
     doorStates,
+    nextView,
     planMotion,
     planMotions,
     planTask,
@@ -199,19 +202,13 @@ if _TYPE_CHECKING:
     from .recording import Recording, readRecording, saveRecording, serveFoxglove
     from .robot_files import robotNames, robotPath
 
+_SKELETON_PROBLEMS = (
+    "ArgWord", "OptBench_Skeleton_Handover", "OptBench_Skeleton_Pick", "OptBench_Skeleton_StackAndBalance",
+    "OptBenchmark_InvKin_Endeff", "_left", "_path", "_right", "_sequence",
+)  # fmt: skip
 _LAZY = {  # module: names
     "aruco": ("getArucoImage",),
-    "compatibility.skeleton_problems": (
-        "ArgWord",
-        "OptBench_Skeleton_Handover",
-        "OptBench_Skeleton_Pick",
-        "OptBench_Skeleton_StackAndBalance",
-        "OptBenchmark_InvKin_Endeff",
-        "_left",
-        "_path",
-        "_right",
-        "_sequence",
-    ),
+    "compatibility.skeleton_problems": _SKELETON_PROBLEMS,
     "film": ("saveFilm",),
     "fleets": ("imap", "readResults", "map"),
     "interactive": ("interactiveIk",),
@@ -323,6 +320,7 @@ __all__ = [
     "NLP_Solver",
     "NLP_SolverID",
     "NLP_SolverOptions",
+    "NextView",
     "NotFound",
     "OccupancyMap",
     "OptBench_Skeleton_Handover",
@@ -384,6 +382,7 @@ __all__ = [
     "ToolPathPlan",
     "ToolPathStatus",
     "Trajectory",
+    "UnseenPlace",
     "ViewerButton",
     "ViewerCheck",
     "ViewerFolder",
@@ -411,6 +410,7 @@ __all__ = [
     "interactiveIk",
     "make_NLP_Problem",
     "mergeShards",
+    "nextView",
     "params_add",
     "params_clear",
     "params_file",

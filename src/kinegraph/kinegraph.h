@@ -19,6 +19,7 @@
 #include "kinegraph/api/custom_feature.h"       // functions of frames as features
 #include "kinegraph/api/model_path.h"           // modelPath
 #include "kinegraph/api/names.h"                // FS, OT, ST, KOMO, NLP_Solver, ...
+#include "kinegraph/api/next_view.h"            // nextView: where to hold a camera
 #include "kinegraph/api/recorded_motion.h"      // recordedMotion: a simulated run for the page
 #include "kinegraph/api/retime_robot.h"         // retime: a path within the limits of a robot
 #include "kinegraph/api/servo.h"                // servo: DiffIk along a TargetFile, a Gamepad, or a dragged target

@@ -8,6 +8,7 @@
 
 #include "arguments.h"
 #include "bindings.h"
+#include "kinegraph/api/next_view.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/perception/calibrate_camera.h"
@@ -16,6 +17,7 @@
 #include "kinegraph/scene/frame_cells.h"
 #include "perception/calibration_docs.h"
 #include "perception/perception_docs.h"
+#include "planning/plan_objects.h"
 #include "python_names.h"
 
 namespace kinegraph::python {
@@ -192,6 +194,20 @@ CameraCalibration calibrate(PyConfig& config, const std::string& camera, const s
   return result;
 }
 
+/// A NextView with the scene of its plan.
+struct PyNextView : NextView {
+  std::shared_ptr<const Config> config;
+};
+
+PyNextView findView(const PyConfig& config, const OccupancyMap& map, const std::string& camera,
+                    const PyMotionPlan& plan, double nearest, double farthest, double margin) {
+  PyNextView view;
+  view.config = std::make_shared<const Config>(config);
+  const nb::gil_scoped_release unlock;
+  static_cast<NextView&>(view) = nextView(*view.config, map, camera, plan, {nearest, farthest, margin});
+  return view;
+}
+
 Frame& setCellsOf(Frame& frame, const ArrayArgument& data, const Numbers& size) {
   const nb::object array = nb::module_::import_("numpy").attr("ascontiguousarray")(data, "dtype"_a = "float64");
   const auto shape = nb::cast<std::vector<int>>(array.attr("shape"));
@@ -288,6 +304,29 @@ void bindCalibration(nb::module_& m) {
         docs::calibration::calibrateCamera);
 }
 
+void bindNextView(nb::module_& m) {
+  nb::class_<PyNextView>(m, "NextView", "A configuration that holds a camera, and the motion to get there.")
+      .def_prop_ro("feasible", &NextView::feasible, "True if there is such a configuration.")
+      .def_prop_ro(
+          "q", [](const PyNextView& v) { return toNumpy(v.q); },
+          "The configuration, collision-free and within limits, shape (n,); empty if there is none.")
+      .def_prop_ro(
+          "pose", [](const PyNextView& v) { return toNumpy(VectorXd(v.pose.numbers())); },
+          "Pose of the camera there, shape (7,).")
+      .def_ro("visible", &NextView::visible, "Number of cells in question that the camera should see from there.")
+      .def_ro("cells", &NextView::cells, "Number of cells in question.")
+      .def_prop_ro(
+          "plan", [](const PyNextView& v) { return PyMotionPlan(v.plan, v.config); },
+          "The MotionPlan to `q` from the configuration of the scene.")
+      .def_prop_ro(
+          "message", [](const PyNextView& v) { return inPython(v.message); },
+          "\"\" if there is a view, else why there is none.")
+      .def("__repr__", [](const PyNextView& v) { return cat("<NextView: ", inPython(v.str()), ">"); });
+  const NextViewOptions defaults;
+  m.def("nextView", findView, "config"_a, "map"_a, "camera"_a, "plan"_a, nb::kw_only(), "nearest"_a = defaults.nearest,
+        "farthest"_a = defaults.farthest, "margin"_a = defaults.margin, docs::calibration::nextView);
+}
+
 }  // namespace
 
 void bindPerception(nb::module_& m) {
@@ -326,6 +365,7 @@ void bindPerception(nb::module_& m) {
         docs::perception::registerScene);
   bindOccupancyMap(m);
   bindCalibration(m);
+  bindNextView(m);
 }
 
 }  // namespace kinegraph::python

@@ -1,6 +1,6 @@
 #pragma once
 
-/// Docstrings for calibrateCamera in bind_perception.cpp.
+/// Docstrings for the calibration and the next view in bind_perception.cpp.
 namespace kinegraph::python::docs::calibration {
 
 inline constexpr char calibrateCamera[] =
@@ -28,5 +28,26 @@ Raises:
     FrameNotFound: A frame is unknown.
     ArgumentError: An array has a wrong size, lengths look like millimeters, or no joint moves the camera relative to
         the marker; the scene is then unchanged.)";
+
+inline constexpr char nextView[] = R"(Finds a view that answers the question of a plan.
+
+The question is whether the unseen cells that prevent the motion (plan.blockedByUnseen) are free. Eyes are tried in
+directions and at distances around these cells, in the order of the number of cells that neither occupied cells nor
+shapes of the scene hide. The first ones with a configuration and a
+collision-free motion to it are compared, with the image of the camera and the robot itself in the way. Deterministic.
+
+Args:
+    config: The scene, with the map attached, so that the motion leads through free space only.
+    map: The OccupancyMap.
+    camera: The frame of a camera on the robot, with the attributes focalLength, width and height.
+    plan: A MotionPlan that is blocked by unseen cells.
+    nearest: Smallest distance of the camera from the middle of the cells, m.
+    farthest: Largest one, m.
+    margin: Distance that the configuration and the motion keep, m.
+Returns:
+    A NextView. If there is none, `feasible` is False and `message` says why.
+Raises:
+    FrameNotFound: The camera is unknown.
+    ArgumentError: The plan is not blocked by unseen cells, no joint moves the camera, or a number is invalid.)";
 
 }  // namespace kinegraph::python::docs::calibration

@@ -187,7 +187,30 @@ nb::class_<MotionConstraint> bindConstraint(nb::module_& m) {
       });
 }
 
+void bindUnseenPlace(nb::module_& m) {
+  nb::class_<UnseenPlace>(m, "UnseenPlace",
+                          "The first place on the way to a goal that is blocked only because no camera has seen it.")
+      .def_prop_ro(
+          "position", [](const UnseenPlace& p) { return toNumpy(VectorXd(p.position)); },
+          "Middle of the first unseen cell in the way, shape (3,), m.")
+      .def_ro("frame", &UnseenPlace::frame, "The name of the shape that would enter it.")
+      .def_prop_ro(
+          "q", [](const UnseenPlace& p) { return toNumpy(p.q); },
+          "Configuration of the motion that would be possible if unseen cells were free, shape (n,).")
+      .def_ro("depth", &UnseenPlace::depth, "Depth of the deepest of these cells in unseen space, to within a cell, m.")
+      .def_prop_ro(
+          "cells",
+          [](const UnseenPlace& p) {
+            MatrixXd cells(Eigen::Index(p.cells.size()), 3);
+            for (Eigen::Index i = 0; i < cells.rows(); ++i) cells.row(i) = p.cells[std::size_t(i)].transpose();
+            return toNumpy(cells);
+          },
+          "Middles of all unseen cells that it enters, shape (k, 3), m; the first ones first.")
+      .def("__repr__", [](const UnseenPlace& p) { return cat("<UnseenPlace: ", p.str(), ">"); });
+}
+
 MotionPlanClass bindMotionPlan(nb::module_& m) {
+  bindUnseenPlace(m);
   nb::enum_<PlanStatus> status(m, "PlanStatus", "The outcome of planMotion.");
   for (int i = 0; i <= int(PlanStatus::cancelled); ++i) {
     static std::vector<std::string> names(std::size_t(PlanStatus::cancelled) + 1);
@@ -205,6 +228,10 @@ MotionPlanClass bindMotionPlan(nb::module_& m) {
           "\"\" if there is a motion, else why there is none.")
       .def_ro("warnings", &MotionPlan::warnings,
               "Caveats of the motion, such as a start in contact: a list of sentences.")
+      .def_ro(
+          "blockedByUnseen", &MotionPlan::blockedByUnseen,
+          "What an OccupancyMap has not seen and what alone prevents the motion, an UnseenPlace. None if there is a\n"
+          "motion, or if there is none either with all unseen cells free.")
       .def_prop_ro(
           "path", [](const PyMotionPlan& p) { return toNumpy(p.path); },
           "The configurations of the path from start to goal, shape (K, n), rad or m.")

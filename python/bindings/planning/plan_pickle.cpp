@@ -78,6 +78,22 @@ SearchTree treeFrom(nb::handle state, const JointSpace& space) {
   return tree;
 }
 
+nb::object placeState(const std::optional<UnseenPlace>& place) {
+  if (!place) return nb::none();
+  MatrixXd points(Eigen::Index(place->cells.size()) + 1, 3);
+  points.row(0) = place->position.transpose();
+  for (Eigen::Index i = 1; i < points.rows(); ++i) points.row(i) = place->cells[std::size_t(i - 1)].transpose();
+  return nb::make_tuple(toNumpy(points), place->frame, toNumpy(MatrixXd(place->q.transpose())), place->depth);
+}
+
+UnseenPlace placeFrom(const nb::tuple& t) {
+  const MatrixXd points = matrixFrom(t[0]);
+  UnseenPlace place{points.row(0).transpose(), nb::cast<std::string>(t[1]), matrixFrom(t[2]).row(0).transpose(),
+                    nb::cast<double>(t[3])};
+  for (Eigen::Index i = 1; i < points.rows(); ++i) place.cells.push_back(points.row(i).transpose());
+  return place;
+}
+
 nb::tuple planState(const PyMotionPlan& p) {
   nb::list stages, searches, trees, obstacles;
   for (const PlanStage& s : p.stages) stages.append(nb::make_tuple(s.name, s.seconds, s.evaluations, s.note));
@@ -88,7 +104,7 @@ nb::tuple planState(const PyMotionPlan& p) {
   const nb::object timed = p.timed_path.scaling().phases().empty() ? nb::none() : nb::cast(p.timed_path);
   return nb::make_tuple(PyConfig{Config(*p.config), nullptr}, optionFields(p.options), int(p.status), p.message,
                         p.warnings, toNumpy(p.path), toNumpy(p.raw_path), timed, p.length, p.goal, stages, searches,
-                        trees, obstacles, p.margin, p.verified_margin);
+                        trees, obstacles, p.margin, p.verified_margin, placeState(p.blockedByUnseen));
 }
 
 /// Sets the static scene and the joint space.
@@ -127,6 +143,7 @@ PyMotionPlan planFrom(const nb::tuple& t) {
                               nb::cast<std::vector<std::string>>(o[3])});
   plan.margin = nb::cast<double>(t[14]);
   plan.verified_margin = nb::cast<double>(t[15]);
+  if (!nb::handle(t[16]).is_none()) plan.blockedByUnseen = placeFrom(nb::cast<nb::tuple>(t[16]));
   return plan;
 }
 

@@ -161,8 +161,10 @@ void ObservedWorld::setPlan(const TaskPlan& plan) {
     if (!hand.empty() && !is_on_another) take(obj, hand);
   }
   if (!observe_ && is_simulated_) return;
-  for (const std::string& obj : objects_)
-    if (!believed_.contains(obj)) believed_[obj] = seen_.getFrame(obj).getPose();
+  for (const std::string& obj : objects_) {
+    if (believed_.contains(obj)) continue;
+    believed_[obj] = held_.contains(obj) ? grips_.at(obj) : seen_.getFrame(obj).getPose();
+  }
 }
 
 void ObservedWorld::advance(double seconds) {

@@ -94,17 +94,34 @@ double EdgeEngine::measureUpTo(double most, const Candidate& candidate, Normal& 
                     : distanceToCells(b, poseAt(pair.b, at), a, poseAt(pair.a, at), most);
 }
 
-/// Whether a convex body is closer to solid cells than a distance.
-bool EdgeEngine::isNearCells(const Candidate& candidate, const Moment& at, double distance) {
+/// Whether separateCells may be asked: not for overlaps.
+bool EdgeEngine::usesSeparation(const Candidate& candidate, double margin) const {
+  if (!candidate.cells) return false;
+  const CollisionBody &a = *bodies_.bodies[std::size_t(candidate.pair.a)].shape,
+                      &b = *bodies_.bodies[std::size_t(candidate.pair.b)].shape;
+  return margin + (a.convex() ? a : b).radius() > 0.;
+}
+
+/// Whether a convex body keeps the margin from solid cells between two times, or at one time if they are equal.
+CellVerdict EdgeEngine::separateCells(const Candidate& candidate, const Moment& a, const Moment& b, double margin,
+                                      const DisplacementBound::Rates& rates) {
   const LinkBodies::Pair& pair = candidate.pair;
-  const CollisionBody &a = *bodies_.bodies[std::size_t(pair.a)].shape, &b = *bodies_.bodies[std::size_t(pair.b)].shape;
-  return a.convex() ? kinegraph::isNearCells(a, poseAt(pair.a, at), b, poseAt(pair.b, at), distance)
-                    : kinegraph::isNearCells(b, poseAt(pair.b, at), a, poseAt(pair.a, at), distance);
+  const bool first = bodies_.bodies[std::size_t(pair.a)].shape->convex();
+  const int convex = first ? pair.a : pair.b, cells = first ? pair.b : pair.a;
+  const RigidTransform to_cells = poseAt(cells, a).inverse(), begin = to_cells * poseAt(convex, a);
+  const CollisionBody &body = *bodies_.bodies[std::size_t(convex)].shape,
+                      &grid = *bodies_.bodies[std::size_t(cells)].shape;
+  if (a.time == b.time) return separateFromCells({body, grid, begin, begin}, margin);
+  const double width = b.time - a.time, bow = .125 * rates.curvature * width * width;
+  const bool fixed = bodies_.link(cells) == pair.ancestor;  // else directions in it are not fixed in the ancestor
+  const RigidTransform end = (fixed ? to_cells : poseAt(cells, b).inverse()) * poseAt(convex, b);
+  return separateFromCells({body, grid, begin, end, rates.speed * width, fixed && bow < 1e9 ? bow : kFar}, margin);
 }
 
 /// Tries to decide whether the pair is at least `margin` apart. Keeps the separating direction if it is.
 EdgeEngine::Verdict EdgeEngine::separate(const Candidate& candidate, Normal& normal, const Moment& at, double margin) {
-  if (candidate.cells) return isNearCells(candidate, at, margin) ? Verdict::near : Verdict::apart;
+  if (usesSeparation(candidate, margin))
+    return separateCells(candidate, at, at, margin, {}).kind == CellVerdict::apart ? Verdict::apart : Verdict::near;
   const LinkBodies::Pair& pair = candidate.pair;
   const CollisionBody &a = *bodies_.bodies[std::size_t(pair.a)].shape, &b = *bodies_.bodies[std::size_t(pair.b)].shape;
   if (!pair.convex || (hasClosedForm(a) && hasClosedForm(b))) return Verdict::unknown;
@@ -360,15 +377,15 @@ bool EdgeEngine::keeps(const Candidate& candidate, Normal& normal, const Displac
   const auto apart = [&] {
     return gap(candidate, normal, a) >= margin + bow && gap(candidate, normal, b) >= margin + bow;
   };
-  if (candidate.cells && depth < kDeepest) {
-    const double needed = margin + .5 * rates.speed * width;
-    if (!isNearCells(candidate, a, needed) && !isNearCells(candidate, b, needed)) return true;
-    if (needed > margin + tolerance_ && !isNearCells(candidate, a, margin + tolerance_) &&
-        !isNearCells(candidate, b, margin + tolerance_)) {
-      const Moment middle = between(a, b, depth);
-      return keeps(candidate, normal, rates, margin, a, middle, depth + 1) &&
-             keeps(candidate, normal, rates, margin, middle, b, depth + 1);
-    }
+  if (usesSeparation(candidate, margin)) {
+    const CellVerdict verdict = separateCells(candidate, a, b, margin, rates);
+    if (verdict.kind == CellVerdict::apart) return true;
+    const Moment& near = verdict.kind == CellVerdict::near_end ? b : a;
+    if (verdict.kind != CellVerdict::unknown || verdict.distance < margin + tolerance_ || depth == kDeepest)
+      return hit(candidate, near.time, jointsAt(near.time));
+    const Moment middle = between(a, b, depth);
+    return keeps(candidate, normal, rates, margin, a, middle, depth + 1) &&
+           keeps(candidate, normal, rates, margin, middle, b, depth + 1);
   }
   const bool convex = candidate.pair.convex && bow < 1e9;
   if (convex && normal.stamp == stamp_ && apart()) return true;

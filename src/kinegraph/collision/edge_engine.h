@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "kinegraph/collision/cell_separation.h"
 #include "kinegraph/collision/displacement_bound.h"
 #include "kinegraph/collision/motion_check.h"
 #include "kinegraph/collision/placed_samples.h"
@@ -23,8 +24,8 @@ namespace kinegraph {
 ///
 /// because a twice differentiable function exceeds its chord by at most the second term. n is the contact normal at one
 /// of the ends; it is tried for the following intervals before another one is computed. For other bodies the bound is
-/// (d + d' - w max |dp / ds|) / 2; for solid cells, d and d' are measured only as far as this bound needs. If the bound
-/// is too small, the interval is halved. Exact distances are computed only if a separation test (separation.h) does not
+/// (d + d' - w max |dp / ds|) / 2; for solid cells, each cell is a convex body (cell_separation.h). If the bound is too
+/// small, the interval is halved. Exact distances are computed only if a separation test (separation.h) does not
 /// decide.
 class EdgeEngine {
  public:
@@ -111,7 +112,9 @@ class EdgeEngine {
   const Lane& gapsIn(SampleGaps& known, const Candidate& candidate, Normal& normal);
   double measure(const Candidate& candidate, Normal& normal, const Moment& at);
   double measureUpTo(double most, const Candidate& candidate, Normal& normal, const Moment& at);
-  bool isNearCells(const Candidate& candidate, const Moment& at, double distance);
+  bool usesSeparation(const Candidate& candidate, double margin) const;
+  CellVerdict separateCells(const Candidate& candidate, const Moment& a, const Moment& b, double margin,
+                            const DisplacementBound::Rates& rates);
   void boundCells(Candidate& candidate);
   enum class Verdict { apart, near, unknown };
   Verdict separate(const Candidate& candidate, Normal& normal, const Moment& at, double margin);

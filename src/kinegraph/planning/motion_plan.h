@@ -47,6 +47,17 @@ struct MetObstacle {
   std::vector<std::string> by;  ///< frames that collided with it
 };
 
+/// The first place on the way to a goal that is blocked only because no camera has seen it.
+struct UnseenPlace {
+  Vector3d position = Vector3d::Zero();  ///< middle of the first unseen cell in the way, m
+  std::string frame;                     ///< the shape that would enter it
+  VectorXd q;                            ///< of the motion that would be possible if unseen cells were free
+  double depth = 0.;                     ///< of the deepest of these cells in unseen space, to within a cell, m
+  std::vector<Vector3d> cells = {};      ///< middles of all unseen cells that it enters, the first ones first, m
+
+  std::string str() const;
+};
+
 /// The motion that planMotion found, or the reason why there is none. Without a motion, eval throws ValueError.
 class MotionPlan : public Trajectory {
  public:
@@ -64,6 +75,10 @@ class MotionPlan : public Trajectory {
   std::vector<MetObstacle> obstacles;  ///< if no path was found: the most frequent obstacles, the first most often
   double margin = 0.;                  ///< m, kept everywhere but around endpoints that keep less
   double verified_margin = 0.;         ///< m, verified along the whole motion
+
+  /// What an occupancy map has not seen and what alone prevents the motion; none if there is a motion, or if there is
+  /// none either with all unseen cells free.
+  std::optional<UnseenPlace> blockedByUnseen;
 
   bool feasible() const { return status == PlanStatus::solved; }
 

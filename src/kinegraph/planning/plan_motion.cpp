@@ -7,6 +7,7 @@
 #include "kinegraph/planning/plan_among_obstacles.h"
 #include "kinegraph/planning/plan_from_velocity.h"
 #include "kinegraph/planning/plan_timing.h"
+#include "kinegraph/planning/unseen_place.h"
 #include "kinegraph/trajectories/curve_part.h"
 
 namespace kinegraph {
@@ -84,7 +85,14 @@ MotionPlan planMotion(const Config& config, const MotionGoal& goal, const PlanOp
   if (config.getJointDimension() == 0)
     throw ValueError("planMotion: the configuration has no active joints; expected a robot");
   options.validateFor(config.getJointDimension());
-  return planFromState(config, goal, options, start.value_or(config.getJointState()), cancellation, {});
+  const VectorXd from = start.value_or(config.getJointState());
+  const auto plan_in = [&](const Config& scene) { return planFromState(scene, goal, options, from, cancellation, {}); };
+  MotionPlan plan = plan_in(config);
+  if (plan.feasible() || plan.status == PlanStatus::timeout || plan.status == PlanStatus::cancelled) return plan;
+  plan.blockedByUnseen = findUnseenPlace(config, options.margin, plan_in);
+  if (plan.blockedByUnseen)
+    plan.message += cat("; without unseen space there is a motion: ", plan.blockedByUnseen->str());
+  return plan;
 }
 
 MotionPlan MotionPlan::replan(const Config& config, double time, const std::optional<MotionGoal>& goal,

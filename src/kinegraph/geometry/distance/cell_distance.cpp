@@ -28,10 +28,10 @@ class NearestCell {
     best_.distance = most;
   }
 
-  /// False if no cell is closer than `most`. Stops at the first cell that is closer than `enough`.
-  bool find(double enough = 0.) {
-    enough_ = enough;
+  /// False if no cell is closer than `most`.
+  bool find() {
     if (field_.empty) return false;
+    boundByCenter();
     const int top = int(field_.levels.size()) - 1;
     visit(top, {0, 0, 0}, bound(top, {0, 0, 0}));
     return found_;
@@ -40,18 +40,27 @@ class NearestCell {
   const NearestPoints& best() const { return best_; }
 
  private:
+  double sizeOf(int level) const { return field_.cell * double(1 << level); }
+
   Vector3d middle(int level, const std::array<int, 3>& at) const {
-    const double size = std::ldexp(field_.cell, level);
-    return size * Vector3d(at[0] + .5, at[1] + .5, at[2] + .5) - field_.half;
+    return sizeOf(level) * Vector3d(at[0] + .5, at[1] + .5, at[2] + .5) - field_.half;
+  }
+
+  /// Lowers the largest distance of interest to that of the middle of the core.
+  void boundByCenter() {
+    if (core_.core() > Core::cylinder && core_.innerRadius() == 0.) return;  // it may be outside
+    const Vector3d center = X_ * core_.boundCenter();
+    const double least = field_.leastDistance(center);
+    if ((center.cwiseAbs() - field_.half).maxCoeff() > 0. || least >= CellField::kReach * field_.cell) return;
+    best_.distance = std::min(best_.distance, least + 1.001 * kDiagonal * field_.cell);
   }
 
   double bound(int level, const std::array<int, 3>& at) const {
-    return std::sqrt(squaredPointToCore(core_, X_, middle(level, at))) -
-           .5 * kDiagonal * std::ldexp(field_.cell, level);
+    return std::sqrt(squaredPointToCore(core_, X_, middle(level, at))) - .5 * kDiagonal * sizeOf(level);
   }
 
   void visit(int level, const std::array<int, 3>& at, double low) {
-    if (low >= best_.distance || (found_ && best_.distance <= enough_)) return;
+    if (low >= best_.distance || (found_ && best_.distance <= 0.)) return;
     if (level == 0) return measure(at);
     const CellField::Level& fine = field_.levels[std::size_t(level - 1)];
     struct Child {
@@ -102,7 +111,6 @@ class NearestCell {
   const RigidTransform X_;
   const CellField& field_;
   NearestPoints best_;
-  double enough_ = 0.;
   bool found_ = false;
 };
 
@@ -179,17 +187,6 @@ double distanceToCells(const CollisionBody& convex, const RigidTransform& X_WA, 
   NearestPoints near = search.best();
   if (near.distance <= 0.) deepen(convex, X, field, near);
   return near.distance - convex.radius();
-}
-
-bool isNearCells(const CollisionBody& convex, const RigidTransform& X_WA, const CollisionBody& cells,
-                 const RigidTransform& X_WB, double distance) {
-  const CellField& field = *cells.grid().cells;
-  const RigidTransform X = X_WB.inverse() * X_WA;
-  const double needed = distance + convex.radius();
-  const FieldTest test(field, X, needed);
-  if (needed <= 0.) return distanceToCells(convex, X_WA, cells, X_WB, distance) < distance;
-  if (test.ask(convex.boundCenter(), convex.boundHalf())) return false;
-  return NearestCell(convex, X, field, needed).find(needed);
 }
 
 }  // namespace kinegraph

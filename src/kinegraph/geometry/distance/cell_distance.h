@@ -19,8 +19,4 @@ NearestPoints convexToCells(const CollisionBody& core, const RigidTransform& X_W
 double distanceToCells(const CollisionBody& convex, const RigidTransform& X_WA, const CollisionBody& cells,
                        const RigidTransform& X_WB, double most);
 
-/// Whether a convex body is closer to the solid cells than a distance (m). Faster than distanceToCells.
-bool isNearCells(const CollisionBody& convex, const RigidTransform& X_WA, const CollisionBody& cells,
-                 const RigidTransform& X_WB, double distance);
-
 }  // namespace kinegraph

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <functional>
+
+#include "kinegraph/planning/motion_plan.h"
+#include "kinegraph/scene/config.h"
+
+namespace kinegraph {
+
+/// Finds what an occupancy map has not seen and what alone prevents a motion. `plan_in` plans the same motion in a copy
+/// of the scene whose unseen cells are free. None without such cells or such a motion.
+std::optional<UnseenPlace> findUnseenPlace(const Config& config, double margin,
+                                           const std::function<MotionPlan(const Config&)>& plan_in);
+
+}  // namespace kinegraph
