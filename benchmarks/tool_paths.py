@@ -13,8 +13,8 @@ Columns: distance from the rows and rotation, with the bound that the plan state
 as shares of their limits; the largest speed of the tool as a share of the speed asked; the share of the way on which it
 is within 1 % of it, and the share that `plan.slow` lists; processor time of the call.
 
---peers adds roboplan and MPlib (tool_path_problems/peers.py) on families a to d, judged alike, without collisions.
-A motion counts as solved if it gets to the end with a deviation below 10 mm.
+--peers adds roboplan, MPlib and Descartes of tesseract-robotics (tool_path_problems/peers.py) on families a to d,
+judged alike, without collisions. A motion counts as solved if it gets to the end with a deviation below 10 mm.
 """
 
 import argparse
@@ -129,6 +129,8 @@ def peer_lines(problem, C, row):
             result |= judge.judge(
                 C, problem["paths"][0], t, q, None, 0.0, problem["speed"], velocity, acceleration, jerk, links=chain
             )
+            if name in peers.UNTIMED:
+                result |= dict.fromkeys(("v", "a", "j", "fast"), float("nan"))
         row(name, problem["family"], result)
 
 
@@ -159,7 +161,7 @@ def main():
     parser.add_argument("--seeds", type=int, nargs="+", default=[0, 1])
     parser.add_argument("--families", default="abcdefg", help="their letters")
     parser.add_argument("--robots", nargs="+", default=["panda", "ur10"], choices=["panda", "ur10"])
-    parser.add_argument("--peers", action="store_true", help="a table with roboplan and MPlib")
+    parser.add_argument("--peers", action="store_true", help="a table with roboplan, MPlib and Descartes")
     options = parser.parse_args()
     times, wrong, results = {}, [], {}
 

@@ -23,12 +23,14 @@ def keep(cls, name):
     method = getattr(cls, name)
     def shows(self, *arguments, **options):
         result = method(self, *arguments, **options)
-        if hasattr(self, "viewer"):
-            viewers[:] = [self.viewer()]
+        shown = arguments[0] if isinstance(self, ry.ToolPathPlan) else self
+        if hasattr(shown, "viewer"):
+            viewers[:] = [shown.viewer()]
         return result
     setattr(cls, name, shows)
 
-for cls, names in ((ry.Config, ("view", "view_path")), (ry.KOMO, ("view", "view_play"))):
+views = ((ry.Config, ("view", "view_path")), (ry.KOMO, ("view", "view_play")), (ry.ToolPathPlan, ("view",)))
+for cls, names in views:
     for name in names:
         keep(cls, name)
 script, page = sys.argv[1:3]

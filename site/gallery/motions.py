@@ -29,6 +29,8 @@ VIEW = dict.fromkeys(
     PANDA,
 )
 VIEW["both_arms"] = TWO_ARMS
+VIEW |= dict.fromkeys(["raster_between_clamps", "write_a_word", "part_in_the_hand"], ([0.8, 1.3, 1.4], [0, 0.25, 0.85]))
+VIEW["seam_on_a_part"] = ([1.9, 1.3, 1.1], [0.45, 0, 0.3])
 VIEW["all_solutions"] = ([1.5, 1.2, 0.9], [0.2, 0, 0.4])
 
 
@@ -200,6 +202,88 @@ def tool_over_a_wavy_surface() -> Loop:
     C.addFrame("seam").setLines(np.repeat(points, 2, axis=0)[1:-1]).setColor([0.9, 0.2, 0.1])
     path = ry.ToolPath.along(points, normals, frame="tip").tilt(np.radians(15))
     plan = ry.planToolPath(C, path, speed=0.1, approach=0.03, retract=0.03)
+    return C, plan.sample(12)[1], plan.duration
+
+
+def seam_on_a_part() -> Loop:
+    """planToolPath: a torch along a wave on a part, with approach and retract, leaning by at most 15 degrees."""
+    C = ry.Config()
+    C.addFile(ry.raiPath("ur10e/ur10e.g"))
+    C.addFrame("torch", "tool0").setShape(ry.ST.capsule, [0.14, 0.012]).setRelativePosition([0, 0, 0.09])
+    C.addFrame("tip", "tool0").setRelativePosition([0, 0, 0.18])
+    C.addFrame("part").setShape(ry.ST.ssBox, [0.5, 0.3, 0.1, 0.005]).setPosition([0.75, 0, 0.2]).setContact(1)
+    x = np.linspace(-0.2, 0.2, 401)
+    points = np.stack([x, 0.06 * np.sin(12 * x), 0 * x + 0.052], axis=1)
+    C.addFrame("seam", "part").setLines(np.repeat(points, 2, axis=0)[1:-1]).setColor([0.9, 0.2, 0.1])
+    into = np.tile([0.0, 0.0, -1.0], (401, 1))
+    seam = ry.ToolPath.along(points, into, frame="tip", relativeTo="part").tilt(np.radians(15))
+    plan = ry.planToolPath(C, seam, touching=["part"], speed=0.1, approach=0.05, retract=0.05)
+    return C, plan.sample(12)[1], plan.duration
+
+
+def raster_between_clamps() -> Loop:
+    """planToolPath: lines along a cylinder between two clamps; the pen leans within a cone of 20 degrees."""
+    C = panda()
+    C.addFrame("pen", "l_gripper").setShape(ry.ST.capsule, [0.06, 0.008]).setRelativePosition([0, 0, -0.032])
+    C.addFrame("tip", "l_gripper").setRelativePosition([0, 0, -0.08])
+    drum = C.addFrame("drum", "table").setShape(ry.ST.cylinder, [0.3, 0.11]).setContact(1)
+    drum.setRelativePose("t(0 .45 .22) d(90 0 1 0)").setColor([0.8, 0.8, 0.75])
+    for k, x in enumerate((-0.05, 0.07)):
+        clamp = C.addFrame(f"clamp {k}", "table").setShape(ry.ST.ssBox, [0.015, 0.06, 0.05, 0.002]).setContact(1)
+        clamp.setRelativePosition([x, 0.345, 0.33]).setColor([0.2, 0.4, 0.7])
+    lines, turn = [], np.linspace(0, np.pi, 30)[1:-1]
+    for k, angle in enumerate(np.linspace(-0.5, 0.3, 7)):
+        x = np.linspace(-0.1, 0.1, 101) * (-1) ** k
+        lines.append(np.stack([x, np.full(101, angle)], axis=1))
+        bend = [x[-1] + np.sign(x[-1]) * 0.008 * np.sin(turn), angle + (1 - np.cos(turn)) / 15]
+        lines += [np.stack(bend, axis=1)] if k < 6 else []
+    x, angle = np.vstack(lines).T
+    normals = np.stack([0 * x, np.sin(angle), np.cos(angle)], axis=1)
+    points = drum.getPosition() + 0.12 * normals + x[:, None] * [1, 0, 0]
+    C.addFrame("raster").setLines(np.repeat(points, 2, axis=0)[1:-1]).setColor([0.9, 0.2, 0.1])
+    path = ry.ToolPath.along(points, normals, frame="tip").tilt(np.radians(20))
+    plan = ry.planToolPath(C, path, speed=0.2, margin=0.002, approach=0.03, retract=0.03)
+    return C, plan.sample(12)[1], plan.duration
+
+
+def write_a_word() -> Loop:
+    """planToolPath: strokes on paper, each with approach and retract, connected by transfers."""
+    C = panda()
+    C.addFrame("pen", "l_gripper").setShape(ry.ST.capsule, [0.06, 0.008]).setRelativePosition([0, 0, -0.032])
+    C.addFrame("tip", "l_gripper").setRelativePosition([0, 0, -0.08])
+    C.addFrame("paper", "table").setShape(ry.ST.box, [0.4, 0.2, 0.001]).setRelativePosition([0, 0.35, 0.051])
+    strokes = [
+        [(-0.12, 0.08), (-0.12, 0.0)],
+        [(-0.12, 0.05), (-0.09, 0.08), (-0.06, 0.08)],
+        [(0.0, 0.08), (0.04, 0.0)],
+        [(0.08, 0.08), (0.04, 0.0), (0.02, -0.04)],
+    ]
+    word = []
+    for k, stroke in enumerate(strokes):
+        on_paper = [[*point, 0.002] for point in stroke]
+        C.addFrame(f"stroke {k}", "paper").setLines(np.repeat(on_paper, 2, axis=0)[1:-1]).setColor([0.9, 0.2, 0.1])
+        path = ry.ToolPath("tip", relativeTo="paper").free().start([*stroke[0], 0.03]).line(on_paper[0])
+        for point in on_paper[1:]:
+            path.line(point, blend=0.01 if point is not on_paper[1] else 0)
+        word.append(path.line([*stroke[-1], 0.03]))
+    plan = ry.planToolPath(C, word, speed=0.2, transfer_from=C.getJointState())
+    return C, plan.sample(12)[1], plan.duration
+
+
+def part_in_the_hand() -> Loop:
+    """planToolPath: a plate in the gripper along a fixed nozzle, whose path is relative to the plate."""
+    C = panda()
+    plate = C.addFrame("plate", "l_gripper").setShape(ry.ST.ssBox, [0.16, 0.1, 0.01, 0.002])
+    plate.setRelativePosition([0, 0, -0.05]).setContact(-2).setColor([0.8, 0.8, 0.75])
+    C.addFrame("nozzle", "table").setShape(ry.ST.capsule, [0.1, 0.01]).setRelativePosition([0.1, 0.35, 0.1])
+    C.addFrame("jet", "nozzle").setRelativePosition([0, 0, 0.08])
+    corners = np.array([[-0.06, -0.03, -0.01], [0.06, -0.03, -0.01], [0.06, 0.03, -0.01], [-0.06, 0.03, -0.01]])
+    around = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1).reshape(-1, 3)
+    C.addFrame("bead", "plate").setLines(around).setColor([0.9, 0.2, 0.1])
+    bead = ry.ToolPath("jet", relativeTo="plate").start(np.r_[corners[0], 1, 0, 0, 0]).free()
+    for corner in np.roll(corners, -1, axis=0):
+        bead.line(corner, blend=0.01)
+    plan = ry.planToolPath(C, bead, speed=0.1)
     return C, plan.sample(12)[1], plan.duration
 
 

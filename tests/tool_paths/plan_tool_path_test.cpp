@@ -94,8 +94,8 @@ TEST(PlanToolPath, PartsOfAPathHaveTheirOwnSpeed) {
     const double t = plan.duration() * k / 4000., place = plan.way(t).place, speed = plan.speed(t);
     if (place < .2 - 1e-6) EXPECT_LE(speed, .05 * 1.001) << place;
     EXPECT_LE(speed, .2 * 1.001);
-    if (place > .01 && place < .19) EXPECT_GT(speed, .0495) << place;
-    if (place > .24 && place < .36) EXPECT_GT(speed, .198) << place;
+    if (place > .01 && place < .19) EXPECT_GT(speed, .04975) << place;
+    if (place > .24 && place < .36) EXPECT_GT(speed, .199) << place;
   }
 }
 

@@ -293,4 +293,24 @@ PathCurve withToolWay(ToolKinematics& tool, const ToolCurve& curve, const CubicP
   return PathCurve::fromParts(way.parts);
 }
 
+PathCurve withSpeedShare(const PathCurve& path, const std::function<double(double)>& speed_of) {
+  PathCurve::Parts parts = path.parts();
+  const int n = path.dofs();
+  parts.dofs = n + 1;
+  parts.coefficients.clear();
+  double reached = 0.;
+  for (int piece = 0; piece < path.pieces(); ++piece) {
+    const double h = path.end(piece) - path.begin(piece);
+    const double speed = speed_of(path.begin(piece) + .5 * h), start = reached;
+    double power_of_h = 1.;
+    for (int power = 0; power <= path.degree(); ++power, power_of_h *= h) {
+      const double* c = path.coefficient(piece, power);
+      parts.coefficients.insert(parts.coefficients.end(), c, c + n);
+      parts.coefficients.push_back(power == 0 ? start : c[n - 1] / speed);
+      if (power > 0) reached += power_of_h * c[n - 1] / speed;
+    }
+  }
+  return PathCurve::fromParts(parts);
+}
+
 }  // namespace kinegraph

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -40,5 +41,9 @@ JointCurve jointCurveAlong(ToolKinematics& tool, const ToolCurve& curve, std::ve
 /// The curve as input of `retime`: n dofs, and one more for the length of the tool's way (m), whose rate is the tool's
 /// speed relative to the path's reference frame.
 PathCurve withToolWay(ToolKinematics& tool, const ToolCurve& curve, const CubicPieces& joints);
+
+/// The same with one more dof: the integral of the last one's slope divided by speed_of(s) (m/s), which is constant on
+/// each piece. A limit of 1 for its velocity keeps these speeds.
+PathCurve withSpeedShare(const PathCurve& path, const std::function<double(double)>& speed_of);
 
 }  // namespace kinegraph

@@ -1,8 +1,10 @@
 #include "kinegraph/tool_paths/plan_tool_path.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <memory>
 
 #include "kinegraph/collision/edge_check.h"
@@ -22,9 +24,10 @@ namespace {
 
 constexpr double kFitShare = .25;  // of the tolerance, for fitting rows
 constexpr int kLeastTimingIntervals = 100;
-constexpr int kTimingTrials = 4;      // with more and more intervals
-constexpr double kIdle = .02;         // share of the duration without a limit that is reached
-constexpr int kSolutionsPerPath = 3;  // for transfers and orders
+constexpr int kMostTimingIntervals = 500, kFinest = 2;  // the latter per piece of the joint curve
+constexpr double kIdle = .02, kMuchIdle = .03;          // share of the duration without a limit that is reached
+constexpr int kSolutionsPerPath = 3;                    // for transfers and orders
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr const char* kPlanToolPath = "planToolPath";
 
 void requirePositive(const char* name, double value) {
@@ -76,6 +79,15 @@ Config withTouching(const Config& config, const std::vector<ToolPath>& paths,
   }
   tree.structureChanged();
   return scene;
+}
+
+/// Appends the limits of one more dof: velocity, acceleration, and jerk if jerks are limited.
+void appendTo(MotionLimits& limits, const std::array<double, 3>& more) {
+  const std::array<VectorXd*, 3> all = {&limits.velocity, &limits.acceleration, &limits.jerk};
+  for (std::size_t k = 0; k < std::size_t(limits.limitsJerk() ? 3 : 2); ++k) {
+    all[k]->conservativeResize(all[k]->size() + 1);
+    (*all[k])[all[k]->size() - 1] = more[k];
+  }
 }
 
 /// The joint curve in the other direction.
@@ -253,15 +265,8 @@ class ToolPathPlanner {
 
   /// The limits of the joints, and of the tool's way as one more dof.
   MotionLimits timingLimits(const ToolCurve& curve) const {
-    const Eigen::Index n = limits_.velocity.size();
     MotionLimits limits = limits_;
-    const auto append = [n](VectorXd& values, double last) {
-      values.conservativeResize(n + 1);
-      values[n] = last;
-    };
-    append(limits.velocity, curve.largestSpeed(options_.speed));
-    append(limits.acceleration, options_.tool_acceleration);
-    if (limits.limitsJerk()) append(limits.jerk, options_.tool_jerk);
+    appendTo(limits, {curve.largestSpeed(options_.speed), options_.tool_acceleration, options_.tool_jerk});
     return limits;
   }
 
@@ -273,45 +278,36 @@ class ToolPathPlanner {
     };
   }
 
-  /// Keeps the speeds that parts of a curve have: (dw/ds / speed)^2 s'^2 <= 1 for the tool's way w. Empty if it has one
-  /// speed.
-  ConstraintSource speedConstraints(const ToolCurve& curve, const PathCurve& path) const {
-    ConstraintSource source;
-    if (curve.speedChanges().empty()) return source;
-    source.low = VectorXd::Constant(1, -1.);  // any: the row is not negative
-    source.high = VectorXd::Ones(1);
-    source.names = {"speed of the tool"}, source.unit = "";
-    source.at = [&path, speed = speedOf(curve), n = path.dofs()](double s, int piece) {
-      VectorXd slope(n);
-      path.eval(piece, s, 1, slope.data());
-      // The speed is constant on a piece; at its ends, the neighbors count, too.
-      double least = speed(.5 * (path.begin(piece) + path.end(piece)));
-      if (s <= path.begin(piece) && piece > 0) least = std::min(least, speed(.5 * (path.begin(piece - 1) + s)));
-      if (s >= path.end(piece) && piece + 1 < path.pieces())
-        least = std::min(least, speed(.5 * (s + path.end(piece + 1))));
-      const double share = slope[n - 1] / least;
-      return ScalingConstraints{VectorXd::Zero(1), VectorXd::Constant(1, share * share), VectorXd::Zero(1)};
-    };
-    return source;
-  }
-
   bool time(ToolKinematics& tool, const ToolCurve& curve, const JointCurve& joints, TimedPath& timed) {
-    RetimeOptions options;
-    options.cancellation = cancellation_;
-    const PathCurve path = withToolWay(tool, curve, joints.pieces);
-    MatrixXd points(path.pieces() + 1, path.dofs());
-    for (int k = 0; k <= path.pieces(); ++k)
-      points.row(k) = path.eval(k < path.pieces() ? path.begin(k) : path.length()).transpose();
+    const PathCurve way = withToolWay(tool, curve, joints.pieces);
+    MatrixXd points(way.pieces() + 1, way.dofs());
+    for (int k = 0; k <= way.pieces(); ++k)
+      points.row(k) = way.eval(k < way.pieces() ? way.begin(k) : way.length()).transpose();
     const MotionLimits limits = timingLimits(curve);
-    options.constraints = speedConstraints(curve, path);
-    // A coarse grid keeps the limits between its points by being slower everywhere; a finer one has to pay less.
-    options.intervals = std::max(kLeastTimingIntervals, path.pieces());
-    timed = retime(points, path, limits, options);
-    for (int trial = 1; trial < kTimingTrials && timed.feasible() && idleShare(timed, limits, speedOf(curve)) > kIdle;
-         ++trial) {
-      options.intervals *= 2;
-      TimedPath finer = retime(points, path, limits, options);
-      if (finer.feasible() && finer.duration() < timed.duration()) timed = std::move(finer);
+    // Several speeds are the velocity limit of one more dof, for the time of this call.
+    const bool several = !curve.speedChanges().empty();
+    const PathCurve path = several ? withSpeedShare(way, speedOf(curve)) : way;
+    MotionLimits all = limits;
+    if (several) appendTo(all, {1., kUnlimited, kUnlimited});
+    const auto timedOn = [&](int intervals) {
+      RetimeOptions options;
+      options.cancellation = cancellation_;
+      options.intervals = intervals;
+      TimedPath result = retimeTightly(points, path, all, options);
+      if (!several || !result.feasible()) return result;
+      return TimedPath::fromParts(result.status, result.message, points, result.times, way, result.scaling());
+    };
+    // A coarse grid leaves limits unused between its points: a finer one, by the share of the time that is lost.
+    int intervals = std::max(kLeastTimingIntervals, path.pieces());
+    const int most = std::max(kMostTimingIntervals, kFinest * path.pieces());
+    timed = timedOn(intervals);
+    while (timed.feasible() && intervals < most) {
+      const double idle = idleShare(timed, limits, speedOf(curve));
+      if (idle <= kIdle) break;
+      intervals = std::min(most, intervals * (idle > kMuchIdle ? 4 : 2));
+      TimedPath finer = timedOn(intervals);
+      if (!finer.feasible() || finer.duration() >= timed.duration()) break;
+      timed = std::move(finer);
     }
     return timed.feasible();
   }

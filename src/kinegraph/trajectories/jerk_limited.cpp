@@ -16,10 +16,12 @@ constexpr double kViolation = 2e-4, kNoViolation = 1e-7;  // relative violation 
 constexpr double kRoughGap = .01;                         // at which limits between gridpoints are checked first
 constexpr double kFirstGap = .3, kNextGap = .01;
 constexpr int kMaxNewtonSteps = 80;
-constexpr double kStartShare = .9;     // of the speeds without jerk limits
-constexpr int kSmoothings = 10;        // of the initial speeds
-constexpr double kTightenMore = 2e-6;  // in addition to the violation
-constexpr int kTightenMost = 12;       // rounds, if speeds at the ends are fixed
+constexpr double kStartShare = .9;         // of the speeds without jerk limits
+constexpr int kSmoothings = 10;            // of the initial speeds
+constexpr double kTightenMore = 2e-6;      // in addition to the violation
+constexpr int kTightenMost = 12;           // rounds, if speeds at the ends are fixed
+constexpr int kTightenSome = 3;            // rounds, if they are not
+constexpr double kSmallSlowDown = 1.0005;  // factor, half of the gap
 constexpr int kFewestIntervals = 12;
 constexpr int kMaxPlaces = 20000, kSafePlaces = 500;  // of a motion: rounding affects more, and never fewer
 constexpr int kBlendParts = 6;                        // of a blend, at least
@@ -182,6 +184,11 @@ Shares sharesOf(const JerkLimitedProgram& model, const ScalingProof& proof, cons
   return shares;
 }
 
+/// The factor by which a time scaling has to be slower to keep the limits.
+double slowDownOf(const Shares& shares) {
+  return std::max({1., shares.most[0], std::sqrt(shares.most[1]), std::cbrt(shares.most[2])});
+}
+
 void addProgram(TimeScaling& scaling, const JerkLimitedProgram& model, const ScalingGrid& places,
                 const ScalingBudget& budget) {
   const auto restTime = [](double width, double b) { return 3. * width / std::sqrt(b); };
@@ -251,8 +258,18 @@ TimeScaling curvedScalingOnce(const ScalingGrid& grid, const Section& section, c
   }
   if (!may_slow_down && !shares.hold()) return scaling;
   addProgram(scaling, model, places, budget);
-  const double factor = std::max({1., shares.most[0], std::sqrt(shares.most[1]), std::cbrt(shares.most[2])});
-  if (factor > 1.) scaling.slowDown(factor);
+  scaling.slowDown(slowDownOf(shares));
+  // A slow-down is one of the whole section. Where a few intervals demand much of it, their limits are tightened.
+  for (int round = 0; budget.tight && round < kTightenSome && slowDownOf(shares) > kSmallSlowDown; ++round) {
+    tighten(model, shares, budget);
+    if (!model.improve(kGap, violation, kMaxNewtonSteps)) break;
+    shares = sharesOf(model, proof, budget);
+    TimeScaling next;
+    addProgram(next, model, places, budget);
+    next.slowDown(slowDownOf(shares));
+    if (!(next.duration() < scaling.duration())) break;
+    scaling = std::move(next);
+  }
   return scaling;
 }
 
@@ -261,7 +278,7 @@ TimeScaling curvedScalingOnce(const ScalingGrid& grid, const Section& section, c
 TimeScaling curvedScaling(const ScalingGrid& grid, const Section& section, const TimeScaling& first,
                           const MotionLimits& limits, const ConstraintSource& rows, const ScalingBudget& budget) {
   if (budget.intervals <= kSafePlaces) return curvedScalingOnce(grid, section, first, limits, rows, budget);
-  ScalingBudget fewer{kSafePlaces, budget.cancellation};
+  ScalingBudget fewer{kSafePlaces, budget.cancellation, budget.tight};
   TimeScaling safe = curvedScalingOnce(grid, section, first, limits, rows, fewer);
   for (fewer.intervals = std::min(budget.intervals, kMaxPlaces); fewer.intervals > kSafePlaces; fewer.intervals /= 2) {
     TimeScaling scaling = curvedScalingOnce(grid, section, first, limits, rows, fewer);

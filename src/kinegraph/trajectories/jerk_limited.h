@@ -22,11 +22,11 @@ struct JerkLimitedScaling {
 ///
 /// is convex if the right side is replaced by its tangent, which lies below it. A primal-dual interior-point method
 /// updates the tangent in each step; its matrices have five diagonals. Limits that the solution violates between
-/// gridpoints are tightened there, and the motion is slowed down by the remaining violation. Then all limits hold at
-/// all times, by bounds on the Bernstein coefficients of q'^2 b, (q' b'/2 + q'' b) and b (...)^2. A line between two
-/// stops has the S-curve profile. Source: Verscheure, Demeulenaere, Swevers, De Schutter, Diehl, Time-optimal path
-/// tracking for robots: a convex optimization approach, 2009; Lipp, Boyd, Variations and extension of the
-/// convex-concave procedure, 2016.
+/// gridpoints are tightened there, several times if `budget.tight`, and the motion is slowed down by the remaining
+/// violation. Then all limits hold at all times, by bounds on the Bernstein coefficients of q'^2 b, (q' b'/2 + q'' b)
+/// and b (...)^2. A line between two stops has the S-curve profile. Source: Verscheure, Demeulenaere, Swevers, De
+/// Schutter, Diehl, Time-optimal path tracking for robots: a convex optimization approach, 2009; Lipp, Boyd, Variations
+/// and extension of the convex-concave procedure, 2016.
 JerkLimitedScaling jerkLimitedScaling(const ScalingGrid& grid, const SquaredSpeeds& first, double start_acceleration,
                                       const MotionLimits& limits, const ConstraintSource& rows,
                                       const ScalingBudget& budget);

@@ -302,44 +302,52 @@ bool needsFinerGrid(const Timing& timing) {
   return timing.speeds.failure == ScalingFailure::cannot_move && timing.speeds.row < 0;
 }
 
-}  // namespace
-
-TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimits& limits,
-                 const RetimeOptions& options) {
+TimedPath timedAlong(const MatrixXd& path, const PathCurve& curve, const MotionLimits& limits,
+                     const RetimeOptions& options, bool tight) {
   options.validate();
   limits.validate(curve.dofs());
-  TimedPath timed;
-  timed.path = path;
-  const auto motion = std::make_shared<TimedPath::Motion>(TimedPath::Motion{curve, {}});
-  timed.motion_ = motion;
+  TimeScaling scaling;
   EndSpeeds ends{};
   ends.start = speedOf("start_velocity", options.start_velocity, curve, 0.);
   ends.end = speedOf("end_velocity", options.end_velocity, curve, curve.length());
   ends.start_acceleration = startAcceleration(options, curve, limits, ends.start);
   if (curve.length() == 0.) {
-    motion->scaling.add({}, 0.);
-    timed.times = VectorXd::Zero(path.rows());
-    return timed;
+    scaling.add({}, 0.);
+    return TimedPath::fromParts(RetimeStatus::timed, "", path, VectorXd::Zero(path.rows()), curve, std::move(scaling));
   }
-  ScalingBudget budget{options.intervals, options.cancellation};
+  ScalingBudget budget{options.intervals, options.cancellation, tight};
   Timing timing;
   for (int trial = 0; trial == 0 || (needsFinerGrid(timing) && trial < kMaxTrials); ++trial) {
     if (trial > 0) budget.intervals = std::max(budget.intervals, std::min(2 * budget.intervals, kMaxIntervals));
-    const ScalingGrid grid(motion->curve, limits, budget, bool(options.constraints));
+    const ScalingGrid grid(curve, limits, budget, bool(options.constraints));
     checkLimited(grid, limits, budget);
     timing = options.constraints ? timingWithConstraints(grid, limits, options.constraints, ends, budget)
                                  : timingOf(grid, limits, {}, ends, budget);
   }
-  timed.status = statusOf(timing.speeds.failure);
-  timed.message = failureText(timing.speeds, motion->curve, options.constraints);
-  if (!timed.feasible()) return timed;
-  motion->scaling = std::move(timing.scaling);
-  timed.times.resize(Eigen::Index(curve.marks().size()));
-  for (Eigen::Index i = 0; i < timed.times.size(); ++i) {
-    budget.poll(int(i));
-    timed.times[i] = motion->scaling.timeOf(curve.marks()[std::size_t(i)]);
+  const RetimeStatus status = statusOf(timing.speeds.failure);
+  std::string message = failureText(timing.speeds, curve, options.constraints);
+  VectorXd times;
+  if (status == RetimeStatus::timed) {
+    scaling = std::move(timing.scaling);
+    times.resize(Eigen::Index(curve.marks().size()));
+    for (Eigen::Index i = 0; i < times.size(); ++i) {
+      budget.poll(int(i));
+      times[i] = scaling.timeOf(curve.marks()[std::size_t(i)]);
+    }
   }
-  return timed;
+  return TimedPath::fromParts(status, std::move(message), path, std::move(times), curve, std::move(scaling));
+}
+
+}  // namespace
+
+TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimits& limits,
+                 const RetimeOptions& options) {
+  return timedAlong(path, curve, limits, options, false);
+}
+
+TimedPath retimeTightly(const MatrixXd& path, const PathCurve& curve, const MotionLimits& limits,
+                        const RetimeOptions& options) {
+  return timedAlong(path, curve, limits, options, true);
 }
 
 void motionAt(const PathCurve& curve, const TimeScaling& scaling, double t, double* q, double* velocity,

@@ -74,8 +74,6 @@ class TimedPath final : public Trajectory {
   std::string str() const;  ///< "12 points in 2.31 s", or the status and the message
 
  private:
-  friend TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimits& limits,
-                          const RetimeOptions& options);
   struct Motion;
   const Motion& motion() const;
   std::shared_ptr<const Motion> motion_;  ///< null: empty
@@ -100,5 +98,11 @@ TimedPath retime(const MatrixXd& path, const MotionLimits& limits, const RetimeO
 /// The same along a given curve through the points of `path`.
 TimedPath retime(const MatrixXd& path, const PathCurve& curve, const MotionLimits& limits,
                  const RetimeOptions& options = {});
+
+/// The same, but shorter with jerk limits: limits that are exceeded between gridpoints are tightened there until they
+/// demand a slow-down of the whole motion by less than .05 %. Such a motion is near its limits on all of its way, and
+/// may leave no room for a change of plans in its midst (MotionPlan::replan).
+TimedPath retimeTightly(const MatrixXd& path, const PathCurve& curve, const MotionLimits& limits,
+                        const RetimeOptions& options = {});
 
 }  // namespace kinegraph

@@ -13,6 +13,7 @@ namespace kinegraph {
 struct ScalingBudget {
   int intervals = 100;
   CancellationToken cancellation;
+  bool tight = false;  ///< tightens limits again, for less slow-down (retimeTightly)
 
   /// Checks for cancellation in every 64th step i of a loop.
   void poll(int i) const {

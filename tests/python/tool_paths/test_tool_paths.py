@@ -319,6 +319,26 @@ def test_a_program_of_gcode_is_cut_at_its_feeds(scene, tmp_path):
         ry.ToolPath.readGcode(file)
 
 
+def test_each_of_several_speeds_is_kept_within_half_a_percent(scene):
+    at = scene.getFrame("tool").getPose() - np.r_[0.2 * X, 0, 0, 0, 0]
+    path = ry.ToolPath("tool").start(at)
+    for k, speed in enumerate((0.05, 0.2, 0.08)):
+        path.speed(speed).line(at[:3] + 0.15 * (k + 1) * X)
+    plan = ry.planToolPath(scene, path, speed=1.0, **LIMITS)
+    assert plan, plan.message
+    t, q = samples(plan)
+    way = np.array([plan.way(time)[1] for time in t])
+    speed = np.linalg.norm(np.diff(poses(scene, q)[:, :3], axis=0), axis=1) / t[1]
+    asked = np.select([way[1:] < 0.15, way[1:] < 0.3], [0.05, 0.2], 0.08)
+    at_a_change = np.abs(way[1:, None] - [0.15, 0.3]).min(axis=1) < 2e-4
+    assert (speed[~at_a_change] <= 1.001 * asked[~at_a_change]).all()
+    # The ramp from .05 to .2 m/s takes 16 mm at 2 m/s^2 and 40 m/s^3. It begins a little before the change.
+    ramps = [(-1, 0.003), (0.147, 0.168), (0.285, 0.305), (0.445, 1)]
+    steady = ~np.any([(way[1:] > begin) & (way[1:] < end) for begin, end in ramps], axis=0)
+    assert np.sum(steady) > 0.9 * len(steady)
+    assert np.abs(speed / asked - 1)[steady].max() < 5e-3
+
+
 def test_the_approach_is_on_the_side_of_the_arm_for_axes_that_point_into_the_work():
     C = ry.Config()
     C.addFile(ry.raiPath("ur10e/ur10e.g"))
