@@ -161,6 +161,41 @@ TEST(SolveIk, AnswersAreTheSameBitsAtAnyNumberOfThreadsAndAlone) {
   for (std::size_t i = 0; i < problems.size(); i += 10) EXPECT_EQ(solveIk(config, problems[i]).q, one[i].q);
 }
 
+TEST(SolveIk, EachProblemOfABatchMayHaveItsOwnStart) {
+  Config config = panda();
+  const auto model = config.model();
+  Rng rng(3);
+  std::vector<std::vector<IkTarget>> problems;
+  std::vector<VectorXd> starts;
+  for (int k = 0; k < 30; ++k) {
+    VectorXd q(model->dofs);
+    for (int i = 0; i < q.size(); ++i) q[i] = rng.uniform(model->lower[i], model->upper[i]);
+    config.setJointState(q);
+    problems.push_back({IkTarget::toPose("l_gripper", config.getFrame("l_gripper").getPose())});
+    starts.push_back((q.array() + 1e-3).matrix().cwiseMax(model->lower).cwiseMin(model->upper));
+  }
+  IkOptions options = withoutCollisions();
+  options.attempts = 1;
+  const std::vector<IkResult> batch = solveIkBatch(config, problems, options, 1, {}, {}, starts);
+  const std::vector<IkResult> threads = solveIkBatch(config, problems, options, 3, {}, {}, starts);
+  IkOptions best = withoutCollisions();
+  best.best = true, best.attempts = 5;
+  const std::vector<IkResult> nearest = solveIkBatch(config, problems, best, 1, {}, {}, starts);
+  for (std::size_t i = 0; i < problems.size(); ++i) {
+    ASSERT_TRUE(batch[i].feasible()) << batch[i].message;
+    EXPECT_LT((batch[i].q - starts[i]).cwiseAbs().maxCoeff(), .02);  // the branch of its start
+    EXPECT_EQ(threads[i].q, batch[i].q);
+    config.setJointState(starts[i]);  // the present q is the start of a single problem
+    EXPECT_EQ(solveIk(config, problems[i], options).q, batch[i].q);
+    EXPECT_EQ(solveIk(config, problems[i], best).q, nearest[i].q);
+  }
+  expectError<ValueError>([&] { solveIkBatch(config, problems, options, 1, {}, {}, {starts[0]}); },
+                          {"there are 1 starts and 30 problems"});
+  starts[4].resize(3);
+  expectError<ValueError>([&] { solveIkBatch(config, problems, options, 1, {}, {}, starts); },
+                          {"start 4 has 3 entries; expected 7 finite ones"});
+}
+
 TEST(SolveIk, TheBestAnswerIsNotFartherFromTheStartThanTheFirst) {
   const Config config = panda();
   IkOptions best;

@@ -8,6 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/komo/path/path.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
+#include "tests/support/expect_error.h"
 
 using namespace kinegraph;
 
@@ -212,4 +213,25 @@ TEST(Komo, UpdateRootObjectsFollowsEveryEditThatKeepsTheStructure) {
     }
     EXPECT_EQ(before.getJointState(), config.getJointState());
   }
+}
+
+TEST(Komo, AnObjectiveMayHaveATargetPerSlice) {
+  Config config = panda();
+  const Vector3d begin = config.getFrame("l_gripper").getPose().p;
+  MatrixXd points(10, 3);
+  for (int k = 0; k < 10; ++k) points.row(k) = (begin + k / 9. * Vector3d(.1, .2, -.1)).transpose();
+  Komo komo(config, 2., 10, 2);
+  komo.addControlObjective({}, 2, 1e-1);
+  komo.addObjectivePerSlice({1.1, 2.}, FeatureSymbol::position, {"l_gripper"}, ObjectiveType::eq, points, 10.);
+  ASSERT_TRUE(komo.solve().feasible());
+  const MatrixXd path = komo.getPath();
+  for (int k = 0; k < 10; ++k) {
+    config.setJointState(path.row(10 + k).transpose());
+    EXPECT_LT((config.getFrame("l_gripper").getPose().p - points.row(k).transpose()).norm(), 1e-3);
+  }
+  expectError<ValueError>(
+      [&] {
+        komo.addObjectivePerSlice({.1, .5}, FeatureSymbol::position, {"l_gripper"}, ObjectiveType::eq, points);
+      },
+      {"targets have 10 rows; expected 5, one per slice"});
 }

@@ -6,8 +6,9 @@ namespace kinegraph::python::docs::ik {
 inline constexpr char solveIk[] =
     R"(Finds joint values within their limits that bring frames to their targets without collisions.
 
-The first attempt starts at the present q, the others at points spread within the limits. The scene does not change,
-unless apply is True and there is a solution. The same arguments give the same answer, with any number of threads.
+The first attempt starts at the present q or at `start`, the others at points spread within the limits. The scene does
+not change, unless apply is True and there is a solution. The same arguments give the same answer, with any number of
+threads.
 
 Args:
     config: The scene.
@@ -26,6 +27,8 @@ Args:
         of a frame that six hinges move has a closed form if the arm has a spherical wrist, or parallel axes as UR arms
         have. With seven hinges, one of them steps over its range in 32 steps. Other targets have the solutions found
         from `attempts` starting points. The general method checks each one.
+    start: Configuration of the first attempt, shape (n,), or (N, n): one per problem. Joints that move no target keep
+        the values of the scene. The options best and start_weight measure the distance from it. None: the present q.
     fields: Any field of IkOptions by name, such as best=True, collisions=False, margin=.02, attempts=20; tolerance
         sets position_tolerance (m) and rotation_tolerance (rad).
 Returns:

@@ -41,6 +41,15 @@ void addObjective(PyKomo& komo, Optional times, const FeatureArgument& feature, 
   warn(komo);
 }
 
+void addObjectivePerSlice(PyKomo& komo, Optional times, const FeatureArgument& feature, const FrameNames& frames,
+                          ObjectiveType type, const Numbers& targets, Optional scale, int order) {
+  if (targets.rank != 2)
+    throw ValueError(cat("addObjectivePerSlice: targets have rank ", targets.rank, "; expected shape (K, d)"));
+  komo.addObjectivePerSlice(toTimes(times), feature.source(), toNames(frames), type, targets.matrix(), toScale(scale),
+                            order);
+  warn(komo);
+}
+
 void addControl(PyKomo& komo, Optional times, int order, double scale, Optional target, int from, int to) {
   komo.addControlObjective(toTimes(times), order, scale, toTarget(target), from, to);
   warn(komo);
@@ -115,6 +124,8 @@ void bindObjectives(nb::class_<PyKomo>& komo) {
                    "type: OT, scale: numpy.typing.ArrayLike | None = None, target: numpy.typing.ArrayLike | None = "
                    "None, order: int = -1, margin: float = 0.0) -> None"),
            docs::komo::addObjectiveByTimes)
+      .def("addObjectivePerSlice", addObjectivePerSlice, "times"_a, "feature"_a, "frames"_a, "type"_a, "targets"_a,
+           "scale"_a = nb::none(), "order"_a = -1, docs::komo::addObjectivePerSlice)
       .def(
           "addFreeMotion",
           [](PyKomo& k, Optional times, double margin, double scale) {

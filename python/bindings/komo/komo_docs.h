@@ -35,6 +35,23 @@ inline constexpr char addObjectiveByName[] = KINEGRAPH_OBJECTIVE_BY_NAME("time")
 inline constexpr char addObjectiveByTimes[] = KINEGRAPH_OBJECTIVE_BY_NAME("times");
 #undef KINEGRAPH_OBJECTIVE_BY_NAME
 
+inline constexpr char addObjectivePerSlice[] =
+    R"(Adds scale * (feature - target) with a target of its own in each slice.
+
+    komo.addObjectivePerSlice([0, 1], ry.FS.position, ["tool"], ry.OT.eq, points)  # (K, 3)
+
+Args:
+    times: Phase times: [] for all slices, [from, to] inclusive.
+    feature: A symbol of FS, or a custom function as for Config.eval.
+    frames: Name of a frame, or a list of names.
+    type: OT.sos, OT.eq, OT.ineq, ...
+    targets: Shape (K, d): one row per selected slice, in the feature's units.
+    scale: A number, one per component of the feature, or a matrix.
+    order: Order of the time derivative; -1 for the feature's own.
+Raises:
+    FrameNotFound: A frame is not in the scene.
+    ArgumentError: The number of rows is not that of the slices, or a size is wrong.)";
+
 inline constexpr char addFreeMotion[] =
     R"(Keeps all shapes that may collide apart, in slices and continuously between them.
 

@@ -35,7 +35,7 @@ class IkIterate {
   const VectorXd& x() const { return x_; }
   const VectorXd& q() const { return q_; }  ///< the whole joint vector, which contains x
   void setX(const VectorXd& x) { x_ = x; }
-  void setStartingPoint(int number) { problem_.startingPoint(number, x_.data()); }
+  void setStartingPoint(int number, const VectorXd& first) { problem_.startingPoint(number, x_.data(), first); }
 
   /// Computes the errors of the targets at x, and their Jacobian if requested.
   void evaluateTargets(bool with_jacobian);

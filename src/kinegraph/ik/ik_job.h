@@ -35,7 +35,8 @@ struct IkApproach {
 /// A problem that is being solved.
 struct IkJob {
   std::vector<IkGoal> goals;
-  int attempts = 0;  ///< number of completed attempts
+  VectorXd start, preferred;  ///< per variable: starting point 0 and the preferred x of this job
+  int attempts = 0;           ///< number of completed attempts
   int evals = 0;
   bool feasible = false, cancelled = false;
   VectorXd best;                 ///< the best answer so far, or the failure with the least error

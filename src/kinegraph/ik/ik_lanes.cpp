@@ -19,9 +19,10 @@ IkLanes::IkLanes(std::shared_ptr<const IkProblem> problem, int width)
       lanes_(kernel_.lanes),
       start_(problem_->variables()) {}
 
-void IkLanes::solve(const std::vector<IkTarget>* problems, int count, IkResult* results, std::atomic<int>& done,
-                    const CancellationToken& cancellation) {
+void IkLanes::solve(const std::vector<IkTarget>* problems, const VectorXd* starts, int count, IkResult* results,
+                    std::atomic<int>& done, const CancellationToken& cancellation) {
   problems_ = problems;
+  starts_ = starts;
   results_ = results;
   done_ = &done;
   cancellation_ = &cancellation;
@@ -29,7 +30,7 @@ void IkLanes::solve(const std::vector<IkTarget>* problems, int count, IkResult* 
   next_ = 0;
   cancelled_ = false;
   if (!model_.supported()) {
-    for (int i = 0; i < count; ++i, ++done) results[i] = search_.solve(problems[i], cancellation);
+    for (int i = 0; i < count; ++i, ++done) results[i] = search_.solve(problems[i], cancellation, startOf(i));
     return;
   }
   // All lanes step together. Finished attempts are replaced between the steps.
@@ -48,7 +49,7 @@ void IkLanes::solve(const std::vector<IkTarget>* problems, int count, IkResult* 
   }
   for (; next_ < count_; ++next_) {  // cancelled before their first attempt
     IkJob job;
-    search_.open(job, problems_[next_]);
+    search_.open(job, problems_[next_], startOf(next_));
     results_[next_] = search_.finish(job, true, cancellation);
   }
 }
@@ -70,7 +71,7 @@ bool IkLanes::fill(int lane) {
     open.problem = next_++;
     open.next_attempt = 0;
     open.ended.clear();
-    search_.open(open.job, problems_[open.problem]);
+    search_.open(open.job, problems_[open.problem], startOf(open.problem));
   }
   if (chosen >= 0) start(lane, chosen);
   return chosen >= 0;
@@ -78,7 +79,7 @@ bool IkLanes::fill(int lane) {
 
 void IkLanes::start(int lane, int open) {
   lanes_[lane] = {open, open_[open].next_attempt++, 0, 1e300};
-  problem_->startingPoint(lanes_[lane].attempt, start_.data());
+  problem_->startingPoint(lanes_[lane].attempt, start_.data(), open_[open].job.start);
   for (int v = 0; v < view_.variables(); ++v) at(memory_.x, v, lane) = start_[v];
   const std::vector<IkGoal>& goals = open_[open].job.goals;
   for (int t = 0; t < view_.tasks; ++t) {

@@ -49,9 +49,10 @@ class IkLanes {
   /// `width`: number of lanes, one of laneWidths(); 0 selects the largest.
   explicit IkLanes(std::shared_ptr<const IkProblem> problem, int width = 0);
 
-  /// Writes the result of problems[i] to results[i]; `done` counts solved problems.
-  void solve(const std::vector<IkTarget>* problems, int count, IkResult* results, std::atomic<int>& done,
-             const CancellationToken& cancellation);
+  /// Writes the result of problems[i] to results[i]; `done` counts solved problems. `starts` are the configurations
+  /// (n,) of first attempts, one per problem; null: the Config's.
+  void solve(const std::vector<IkTarget>* problems, const VectorXd* starts, int count, IkResult* results,
+             std::atomic<int>& done, const CancellationToken& cancellation);
 
  private:
   /// An attempt that has ended and waits until all earlier ones are assessed.
@@ -92,7 +93,10 @@ class IkLanes {
   std::vector<Lane> lanes_;
   VectorXd start_;
 
+  const VectorXd* startOf(int problem) const { return starts_ ? starts_ + problem : nullptr; }
+
   const std::vector<IkTarget>* problems_ = nullptr;
+  const VectorXd* starts_ = nullptr;
   IkResult* results_ = nullptr;
   std::atomic<int>* done_ = nullptr;
   const CancellationToken* cancellation_ = nullptr;

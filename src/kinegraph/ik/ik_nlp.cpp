@@ -33,11 +33,19 @@ Matrix3d logarithmJacobian(const Vector3d& r) {
   return Matrix3d::Identity() - .5 * S + k * S * S;
 }
 
+/// The x from which the cost of an answer was measured.
+VectorXd preferredOf(const IkResult& result) {
+  const IkRequest& request = *result.request;
+  if (request.starts.empty()) return request.problem->preferred;
+  return request.problem->preferredFor(request.problem->variablesOf(request.starts[std::size_t(result.number)]));
+}
+
 class IkNlp final : public Nlp {
  public:
   explicit IkNlp(const IkResult& result)
       : problem_(result.request->problem),
         targets_(result.request->problems[std::size_t(result.number)]),
+        preferred_(preferredOf(result)),
         state_(problem_->model, problem_->parameters) {
     const IkProblem& problem = *problem_;
     lower_ = upper_ = result.q;
@@ -101,7 +109,7 @@ class IkNlp final : public Nlp {
     }
     evaluatePairs(row, phi);
     for (int v = 0; first_cost_ + v < phi.size(); ++v)
-      phi[first_cost_ + v] = q[problem_->dofs[std::size_t(v)]] - problem_->preferred[v];
+      phi[first_cost_ + v] = q[problem_->dofs[std::size_t(v)]] - preferred_[v];
   }
 
   std::string rowName(int row) const override {
@@ -212,6 +220,7 @@ class IkNlp final : public Nlp {
 
   std::shared_ptr<const IkProblem> problem_;
   std::vector<IkTarget> targets_;
+  VectorXd preferred_;                 ///< per variable
   std::vector<RigidTransform> goals_;  ///< per target; p holds a direction or the point of a gaze
   std::vector<Residual> residuals_;    ///< of the feature tasks
   std::vector<int> task_of_;           ///< per row of the targets

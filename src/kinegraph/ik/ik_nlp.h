@@ -13,6 +13,7 @@ namespace kinegraph {
 struct IkRequest {
   std::shared_ptr<const IkProblem> problem;
   std::vector<std::vector<IkTarget>> problems;
+  std::vector<VectorXd> starts{};  ///< of the first attempts, (n,); empty: the q of the Config
 };
 
 /// Returns the optimization problem that an answer of solveIk solves, in the neighborhood of that answer. Targets are

@@ -50,12 +50,7 @@ IkProblem::IkProblem(const Config& config, const std::vector<IkTarget>& targets,
   for (const Task& task : tasks) requireAtRest(task);
   const double weight = options.start_weight + options.home_weight;
   has_preference = weight > 0.;
-  preferred.resize(variables());
-  for (int v = 0; v < variables(); ++v) {
-    const double home = model->home[dofs[v]], start = q[dofs[v]];
-    preferred[v] = has_preference ? (options.start_weight * start + options.home_weight * home) / weight : start;
-  }
-  preferred = preferred.cwiseMax(lower).cwiseMin(upper);
+  preferred = preferredFor(variablesOf(q));
   if (options.collisions) choosePairs();
   bodies.emplace(*model, pairs);
 }
@@ -165,9 +160,24 @@ void IkProblem::describeUnmoved(const std::vector<std::pair<int, int>>& unmoved)
                  "(ignoreCollisionsNow)");
 }
 
-void IkProblem::startingPoint(int i, double* x) const {
+VectorXd IkProblem::variablesOf(const VectorXd& from) const {
+  VectorXd x(variables());
+  for (int v = 0; v < variables(); ++v) x[v] = from[dofs[v]];
+  return x.cwiseMax(lower).cwiseMin(upper);
+}
+
+VectorXd IkProblem::preferredFor(const VectorXd& start) const {
+  VectorXd x = start;
+  const double weight = options.start_weight + options.home_weight;
+  for (int v = 0; v < variables() && has_preference; ++v)
+    x[v] = (options.start_weight * start[v] + options.home_weight * model->home[dofs[v]]) / weight;
+  return x.cwiseMax(lower).cwiseMin(upper);
+}
+
+void IkProblem::startingPoint(int i, double* x, const VectorXd& first) const {
   for (int v = 0; v < variables(); ++v) {
-    x[v] = i == 0 ? q[dofs[v]] : sample_lower_[v] + (sample_upper_[v] - sample_lower_[v]) * sequence_.at(i, v);
+    x[v] = i == 0 ? (first.size() > 0 ? first[v] : q[dofs[v]])
+                  : sample_lower_[v] + (sample_upper_[v] - sample_lower_[v]) * sequence_.at(i, v);
   }
   normalize(x);
 }

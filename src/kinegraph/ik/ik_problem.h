@@ -22,8 +22,14 @@ struct IkProblem {
 
   int variables() const { return int(dofs.size()); }
 
-  /// Writes starting point i: the Config's own x for i = 0, else a point of the sequence.
-  void startingPoint(int i, double* x) const;
+  /// Writes starting point i: `first` for i = 0, the Config's own x if it is empty, else a point of the sequence.
+  void startingPoint(int i, double* x, const VectorXd& first = {}) const;
+
+  /// The variables of a configuration (n,), within the limits.
+  VectorXd variablesOf(const VectorXd& q) const;
+
+  /// The x from which the cost of answers is measured for a start: the start, or its mean with the home pose.
+  VectorXd preferredFor(const VectorXd& start) const;
 
   /// Scales quaternions among the variables to norm one.
   void normalize(double* x) const;
@@ -38,8 +44,8 @@ struct IkProblem {
   VectorXd q;                              ///< of the Config, within the limits
   VectorXd lower, upper;                   ///< per variable
   VectorXd longest;                        ///< per variable: largest step
-  VectorXd preferred;                      ///< per variable: x from which the cost of answers is measured
-  bool has_preference = false;             ///< answers are moved as close to `preferred` as the targets allow
+  VectorXd preferred;                      ///< per variable: preferredFor the Config's own x
+  bool has_preference = false;             ///< answers are moved as close to the preferred x as the targets allow
   std::vector<std::pair<int, int>> pairs;  ///< frames that the variables move relative to each other
   std::optional<BodyPairs> bodies;         ///< the bodies of `pairs`
   std::string blocking;  ///< description of the pairs that collide for all values of the variables; "" if none do

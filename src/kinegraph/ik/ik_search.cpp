@@ -11,15 +11,16 @@ namespace kinegraph {
 IkSearch::IkSearch(std::shared_ptr<const IkProblem> problem)
     : problem_(std::move(problem)), iterate_(*problem_), step_(problem_->variables()) {}
 
-IkResult IkSearch::solve(const std::vector<IkTarget>& targets, const CancellationToken& cancellation) {
+IkResult IkSearch::solve(const std::vector<IkTarget>& targets, const CancellationToken& cancellation,
+                         const VectorXd* start) {
   IkJob job;
-  open(job, targets);
+  open(job, targets, start);
   VectorXd x(problem_->variables());
   for (bool decided = false; !decided;) {
     if (cancellation()) return finish(job, true, cancellation);
     job_ = &job;
     iterate_.select(job);
-    iterate_.setStartingPoint(job.attempts);
+    iterate_.setStartingPoint(job.attempts, job.start);
     IkApproach made = approach();
     made.evals = 0;  // the iterate has counted them
     x = iterate_.x();
@@ -28,13 +29,15 @@ IkResult IkSearch::solve(const std::vector<IkTarget>& targets, const Cancellatio
   return finish(job, false, cancellation);
 }
 
-void IkSearch::open(IkJob& job, const std::vector<IkTarget>& targets) {
+void IkSearch::open(IkJob& job, const std::vector<IkTarget>& targets, const VectorXd* start) {
   job.attempts = job.evals = 0;
   job.feasible = job.cancelled = job.best_is_current = false;
   job.best_value = std::numeric_limits<double>::infinity();
   job.blocked.assign(problem_->pairs.size(), 0);
+  job.start = start ? problem_->variablesOf(*start) : VectorXd();
+  job.preferred = start ? problem_->preferredFor(job.start) : problem_->preferred;
   job.best.resize(problem_->variables());
-  problem_->startingPoint(0, job.best.data());
+  problem_->startingPoint(0, job.best.data(), job.start);
   iterate_.setTargets(job, targets);
 }
 
@@ -168,7 +171,7 @@ IkSearch::Outcome IkSearch::approachPreferred(const CancellationToken& cancellat
     const double before = costOf(x);
     // The step goes all the way to `preferred` in the directions that the targets leave free. If it overshoots, as it
     // does with curved constraints, a smaller share converges.
-    step_ = share * (problem_->preferred - x);
+    step_ = share * (job_->preferred - x);
     iterate_.stepApart(step_.data());
     const double moved = iterate_.lastStep();
     iterate_.evaluate();
@@ -231,7 +234,7 @@ std::string IkSearch::askAboutQuaternions(const IkJob& job, const CancellationTo
   iterate_.select(read_otherwise);
   bool met = false;
   for (int i = 0; i < most_attempts && !met && !cancellation(); ++i) {
-    iterate_.setStartingPoint(i);
+    iterate_.setStartingPoint(i, read_otherwise.start);
     met = approach().met;
   }
   return met ? "; did you mean w x y z? Read as x y z w, the quaternion is reached" : "";

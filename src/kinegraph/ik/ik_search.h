@@ -15,11 +15,13 @@ class IkSearch {
   explicit IkSearch(std::shared_ptr<const IkProblem> problem);
 
   /// Solves one problem; `targets` have the problem's frames and kinds.
-  IkResult solve(const std::vector<IkTarget>& targets, const CancellationToken& cancellation);
+  /// `start` is the configuration (n,) of the first attempt; null: the Config's.
+  IkResult solve(const std::vector<IkTarget>& targets, const CancellationToken& cancellation,
+                 const VectorXd* start = nullptr);
 
   // The stages of solve, for callers that compute the approaches themselves: open, assess until it returns true,
   // finish.
-  void open(IkJob& job, const std::vector<IkTarget>& targets);
+  void open(IkJob& job, const std::vector<IkTarget>& targets, const VectorXd* start = nullptr);
 
   /// Completes attempt number `job.attempts`, whose approach ended at x, and records its result. Returns true if no
   /// further attempt is needed.
@@ -35,7 +37,7 @@ class IkSearch {
   Outcome avoidCollisions(const CancellationToken& cancellation);
   Outcome moveApart(int steps, const CancellationToken& cancellation);
   Outcome approachPreferred(const CancellationToken& cancellation);
-  double costOf(const VectorXd& x) const { return (x - problem_->preferred).squaredNorm(); }
+  double costOf(const VectorXd& x) const { return (x - job_->preferred).squaredNorm(); }
   bool polish(const CancellationToken& cancellation);
   std::string askAboutQuaternions(const IkJob& job, const CancellationToken& cancellation);
 

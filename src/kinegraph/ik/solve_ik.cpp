@@ -45,9 +45,9 @@ IkResult solveIk(const Config& config, const std::vector<IkTarget>& targets, con
 
 std::vector<IkResult> solveIkBatch(const Config& config, const std::vector<std::vector<IkTarget>>& problems,
                                    const IkOptions& options, int threads, const ProgressCallback& progress,
-                                   const CancellationToken& cancellation) {
+                                   const CancellationToken& cancellation, std::vector<VectorXd> starts) {
   if (problems.empty()) return {};
-  return IkSolver(config, problems[0], options).solve(problems, threads, progress, cancellation);
+  return IkSolver(config, problems[0], options).solve(problems, threads, progress, cancellation, std::move(starts));
 }
 
 IkSolver::IkSolver(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options) {
@@ -55,9 +55,18 @@ IkSolver::IkSolver(const Config& config, const std::vector<IkTarget>& targets, c
 }
 
 std::vector<IkResult> IkSolver::solve(std::vector<std::vector<IkTarget>> given, int threads,
-                                      const ProgressCallback& progress, const CancellationToken& cancellation) const {
+                                      const ProgressCallback& progress, const CancellationToken& cancellation,
+                                      std::vector<VectorXd> starts) const {
   if (threads < 1) throw ValueError(cat("solveIk: threads is ", threads, "; expected at least 1"));
-  const auto request = std::make_shared<const IkRequest>(problem_, std::move(given));
+  if (!starts.empty() && starts.size() != given.size())
+    throw ValueError(
+        cat("solveIk: there are ", starts.size(), " starts and ", given.size(), " problems; expected equal numbers"));
+  for (std::size_t i = 0; i < starts.size(); ++i)
+    if (starts[i].size() != problem_->q.size() || !starts[i].allFinite())
+      throw ValueError(cat("solveIk: start ", i, " has ", starts[i].size(), " entries; expected ", problem_->q.size(),
+                           " finite ones"));
+  const auto request = std::make_shared<const IkRequest>(problem_, std::move(given), std::move(starts));
+  const auto start_at = [&](int i) { return request->starts.empty() ? nullptr : &request->starts[std::size_t(i)]; };
   const std::vector<std::vector<IkTarget>>& problems = request->problems;
   for (std::size_t i = 0; i < problems.size(); ++i) {
     const std::vector<IkProblem::Task>& tasks = problem_->tasks;
@@ -88,7 +97,7 @@ std::vector<IkResult> IkSolver::solve(std::vector<std::vector<IkTarget>> given, 
     return stop.load();
   };
   if (threads == 1 || count <= 1) {
-    IkLanes(problem_).solve(problems.data(), count, results.data(), done, asked);
+    IkLanes(problem_).solve(problems.data(), start_at(0), count, results.data(), done, asked);
     return withRequest();
   }
   const int part = std::clamp(count / (4 * threads), 1, kLargestBatch);
@@ -98,7 +107,7 @@ std::vector<IkResult> IkSolver::solve(std::vector<std::vector<IkTarget>> given, 
       [&](int worker, int from, int to) {
         std::optional<IkLanes>& search = searches[std::size_t(worker)];
         if (!search) search.emplace(problem_);
-        search->solve(&problems[std::size_t(from)], to - from, &results[std::size_t(from)], done,
+        search->solve(&problems[std::size_t(from)], start_at(from), to - from, &results[std::size_t(from)], done,
                       worker == 0 ? asked : stopped);
       },
       [&] { asked(); });

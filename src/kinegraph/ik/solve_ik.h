@@ -61,10 +61,11 @@ IkResult solveIk(const Config& config, const std::vector<IkTarget>& targets, con
 /// Solves one problem per entry of `problems`. All must have the frames and kinds of the first one's targets; otherwise
 /// throws ValueError. Each result equals that of `solveIk`, for any number of threads. The calling
 /// thread regularly calls `progress` with the number of solved problems and asks `cancellation`, which ends the search
-/// with the best answers so far.
+/// with the best answers so far. `starts` as for IkSolver::solve.
 std::vector<IkResult> solveIkBatch(const Config& config, const std::vector<std::vector<IkTarget>>& problems,
                                    const IkOptions& options = {}, int threads = 1,
-                                   const ProgressCallback& progress = {}, const CancellationToken& cancellation = {});
+                                   const ProgressCallback& progress = {}, const CancellationToken& cancellation = {},
+                                   std::vector<VectorXd> starts = {});
 
 /// Finds all solutions, the nearest to the Config's q first. Solutions that differ by whole turns of hinges count once,
 /// with the turns that are the nearest to q.
@@ -88,8 +89,11 @@ class IkSolver {
   /// Uses all of `targets` except their poses, directions and values.
   IkSolver(const Config& config, const std::vector<IkTarget>& targets, const IkOptions& options = {});
 
+  /// `starts` has the configuration (n,) of the first attempt of each problem; empty: the q of the Config. The options
+  /// `best` and `start_weight` measure the distance of answers from there. Throws ValueError for another number.
   std::vector<IkResult> solve(std::vector<std::vector<IkTarget>> problems, int threads = 1,
-                              const ProgressCallback& progress = {}, const CancellationToken& cancellation = {}) const;
+                              const ProgressCallback& progress = {}, const CancellationToken& cancellation = {},
+                              std::vector<VectorXd> starts = {}) const;
 
  private:
   std::shared_ptr<const IkProblem> problem_;

@@ -138,6 +138,19 @@ void Komo::addObjective(const std::vector<double>& times, const FeatureSource& f
   motion_->require(std::move(objective));
 }
 
+void Komo::addObjectivePerSlice(const std::vector<double>& times, const FeatureSource& feature,
+                                const std::vector<std::string>& frames, ObjectiveType type, const MatrixXd& targets,
+                                const Scale& scale, int order) {
+  path().requireBuilt("addObjectivePerSlice");
+  const auto [from, to] = path().grid().select(times);
+  if (targets.rows() != to - from + 1)
+    throw ValueError(cat("addObjectivePerSlice: targets have ", targets.rows(), " rows; expected ", to - from + 1,
+                         ", one per slice"));
+  for (int slice = from; slice <= to; ++slice)
+    addObjective({path().grid().timeOf(slice)}, feature, frames, type, scale,
+                 VectorXd(targets.row(slice - from).transpose()), order);
+}
+
 void Komo::addFreeMotion(const std::vector<double>& times, double margin, double scale) {
   constexpr double kSlack = 1e-3;  // m
   path().requireBuilt("addFreeMotion");

@@ -63,6 +63,12 @@ class Komo {
                     const std::vector<std::string>& frames, ObjectiveType type, const Scale& scale = {},
                     const Target& target = {}, int order = -1, double margin = 0.);
 
+  /// Adds scale * (feature - target) with a target of its own in each of the K slices that `times` selects: rows of
+  /// `targets` (K, d). Throws ValueError for another number of rows.
+  void addObjectivePerSlice(const std::vector<double>& times, const FeatureSource& feature,
+                            const std::vector<std::string>& frames, ObjectiveType type, const MatrixXd& targets,
+                            const Scale& scale = {}, int order = -1);
+
   /// Adds the sum of squares of the order-th derivative of the initial configuration's dofs, weighted by their control
   /// weights and integrated over time. Order 0 penalizes the distance from home.
   void addControlObjective(const std::vector<double>& times, int order, double scale = 1., const Target& target = {},

@@ -290,3 +290,21 @@ def test_whatever_the_start_the_target_and_the_seed(target, start, seed):
     assert (result.q >= low).all() and (result.q <= high).all()
     distance, angle = missOf(scene, "l_gripper", pose, result.q)
     assert distance <= 1.001e-5 and angle <= 1.01e-5
+
+
+def test_each_problem_of_a_batch_may_have_its_own_start():
+    C = pandaScene()
+    Q = randomJoints(C, 40, 3)
+    targets = {"l_gripper": {"pose": posesOf(C, "l_gripper", Q)}}
+    near = ry.solveIk(C, targets, start=Q + 1e-3, collisions=False, attempts=1)
+    assert all(near.feasible)
+    assert np.abs(near.q - Q).max() < 0.01  # the branch of each start
+    far = ry.solveIk(C, targets, collisions=False)
+    assert np.abs(far.q - Q).max(axis=1).min() > 0.01
+    again = ry.solveIk(C, targets, start=Q + 1e-3, collisions=False, attempts=1, threads=2)
+    np.testing.assert_array_equal(again.q, near.q)
+    one = {"l_gripper": {"position": posesOf(C, "l_gripper", Q[:1])[0, :3]}}
+    best = ry.solveIk(C, one, start=Q[0], best=True, collisions=False)
+    np.testing.assert_allclose(best.q, np.clip(Q[0], *C.getJointLimits()), atol=1e-4)  # nothing is nearer
+    with pytest.raises(ry.errors.ArgumentError, match=r"start has shape \(39, 7\); expected \(7,\) or \(40, 7\)"):
+        ry.solveIk(C, targets, start=Q[1:])
