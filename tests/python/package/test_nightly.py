@@ -9,7 +9,15 @@ ROOT = Path(__file__).parent.parent.parent.parent
 SCRIPT = (ROOT / "tools" / "nightly.sh").read_text()
 
 # Parts of other benchmarks, pictures to be compared by eye, and one that needs a program compiled by hand.
-NOT_RUN = {"control_peers", "panda_peers", "planning_peers", "everyday_scenes", "look", "aligator_horizon"}
+NOT_RUN = {
+    "control_peers",
+    "panda_peers",
+    "planning_peers",
+    "everyday_scenes",
+    "komo_family",
+    "look",
+    "aligator_horizon",
+}
 
 
 def test_every_benchmark_is_a_stage():
