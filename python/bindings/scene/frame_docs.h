@@ -29,8 +29,8 @@ Raises:
 
 inline constexpr char setAttributes[] = R"(Sets attributes, with the effect that they have in a .g file.
 
-contact, mass, color, q and limits change the frame. Words that the library reads when they are needed (friction,
-logical, ctrl_limits, simulate, ...) and unknown words are stored.
+contact, contact_exclude, mass, color, q and limits change the frame. Words that the library reads when they are needed
+(friction, logical, ctrl_limits, simulate, ...) and unknown words are stored.
 
 Args:
     attributes: Dict from names to bool, numbers, text, lists or dicts.

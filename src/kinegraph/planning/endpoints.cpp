@@ -13,6 +13,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double kBeyondLimit = 1e-5;              // rad, m: rounding in files counts as at the limit
+constexpr double kTouching = 1e-8;                 // m, in messages
 constexpr std::size_t kNamed = 3;                  // pairs and obstacles, in messages
 constexpr double kSlack = 2. * Clearance::kGuard;  // m, between the clearance of an endpoint and the margin around it
 
@@ -36,8 +37,9 @@ std::string describePairs(const KinematicModel& model, const std::vector<Clearan
     const ClearanceCheck::Nearest& pair = pairs[i];
     parts.push_back(cat("'", model.frame_name[std::size_t(pair.a)], "' and '", model.frame_name[std::size_t(pair.b)],
                         "' ",
-                        pair.distance < 0. ? cat("overlap by ", formatLength(-pair.distance))
-                                           : cat("are ", formatLength(pair.distance), " apart")));
+                        std::abs(pair.distance) < kTouching ? "touch"
+                        : pair.distance < 0.                ? cat("overlap by ", formatLength(-pair.distance))
+                                                            : cat("are ", formatLength(pair.distance), " apart")));
   }
   if (pairs.size() > kNamed) parts.push_back(cat("and ", pairs.size() - kNamed, " more pairs"));
   return join(parts);

@@ -75,6 +75,20 @@ void setLimits(Frame& frame, const Node& node) {
   frame.scene()->structureChanged();
 }
 
+/// The shapes of these frames never collide with those of the frame, instead of the ones named before.
+void setContactExclude(Frame& frame, const Node& node) {
+  std::vector<std::string> names;
+  if (const auto* list = node.value.as<StringArray>()) names = *list;
+  if (const auto* tuple = node.value.as<NameTuple>()) names = tuple->names;
+  if (const auto* name = node.value.as<std::string>()) names = {*name};
+  if (names.empty())
+    throw ValueError(cat("frame '", frame.getName(), "': contact_exclude has no names of frames; expected [a, b]"));
+  std::vector<FrameData*> others;
+  for (const std::string& name : names) others.push_back(&frame.scene()->get(name, "setAttributes, contact_exclude"));
+  frame.edit().no_contact = others;
+  frame.scene()->structureChanged();
+}
+
 }  // namespace
 
 void setAttributes(Frame& frame, const Graph& attributes) {
@@ -88,6 +102,7 @@ void setAttributes(Frame& frame, const Graph& attributes) {
     if (node.key == "mass") frame.setMass(numberOf(frame, node));
     if (node.key == "color") frame.setColor(numbersOf(frame, node));
     if (node.key == "limits") setLimits(frame, node);
+    if (node.key == "contact_exclude") setContactExclude(frame, node);
     if (node.key == "q") {
       const std::vector<double> q = numbersOf(frame, node);
       frame.setJointState(Eigen::Map<const VectorXd>(q.data(), Eigen::Index(q.size())));

@@ -1,8 +1,10 @@
 #include "kinegraph/task_planning/open_hands.h"
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
+#include "kinegraph/scene/hand_fingers.h"
 #include "kinegraph/task_planning/task_actions.h"
 
 namespace kinegraph {
@@ -34,14 +36,6 @@ Fingers fingersOf(const Config& C, const std::string& hand) {
   return fingers;
 }
 
-/// A measure that grows with the opening: the sum of the distances between the fingers' joints.
-double spreadOf(const Fingers& fingers) {
-  double sum = 0.;
-  for (const Frame& a : fingers.moved)
-    for (const Frame& b : fingers.moved) sum += (a.getPosition() - b.getPosition()).norm();
-  return sum;
-}
-
 void setFingers(Config& C, const Fingers& fingers, double q) {
   C.setJointState(VectorXd::Constant(1, q), {fingers.joint->name});
 }
@@ -50,16 +44,15 @@ void setFingers(Config& C, const Fingers& fingers, double q) {
 
 Config withOpenHands(const Config& C) {
   Config scene = C;
+  const std::vector<HandFingers> openings = handFingersOf(C);
   for (const std::string& hand : wordsOf(taskFacts(C), "is_gripper")) {
     const Fingers fingers = fingersOf(scene, hand);
     if (!fingers.joint) continue;
     const double now = fingers.joint->joint->q[0];
     const double lower = fingers.joint->joint->lower[0], upper = fingers.joint->joint->upper[0];
-    setFingers(scene, fingers, lower);
-    const double at_lower = spreadOf(fingers);
-    setFingers(scene, fingers, upper);
-    const double open = spreadOf(fingers) > at_lower ? upper : lower;
-    setFingers(scene, fingers, now);
+    const auto opening = std::ranges::find(openings, fingers.joint->name, &HandFingers::joint);
+    if (opening == openings.end()) continue;
+    const double open = opening->widthAt(upper) > opening->widthAt(lower) ? upper : lower;
     const std::size_t overlaps = scene.getCollisions(-kNewOverlap).size();
     for (const double share : kShares) {
       setFingers(scene, fingers, now + share * (open - now));

@@ -41,6 +41,18 @@ def test_attributes_do_what_they_do_in_a_file(lever: ry.Config) -> None:
     assert f.asDict() == before
 
 
+def test_contact_exclude_is_set_as_in_a_file() -> None:
+    C = ry.Config()
+    C.addFrame("table").setShape(ry.ST.box, [1, 1, 0.1]).setContact(1)
+    C.addFrame("foot").setShape(ry.ST.box, [0.1, 0.1, 0.1]).setPosition([0, 0, 0.05]).setContact(1)
+    assert len(C.getCollisions(-0.01)) == 1
+    with pytest.raises(ry.ArgumentError, match="tabel.*table"):
+        C.getFrame("foot").setAttributes({"contact_exclude": ["tabel"]})
+    assert len(C.getCollisions(-0.01)) == 1
+    C.getFrame("foot").setAttributes({"contact_exclude": ["table"]})
+    assert not C.getCollisions(-0.01) and not C.getCollidablePairs()
+
+
 @pytest.mark.parametrize(
     ("suffix", "hint"),
     [
