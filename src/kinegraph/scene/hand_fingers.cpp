@@ -180,6 +180,18 @@ double HandFingers::slopeAt(double at) const {
   return slope / mean > .1 ? slope : mean;  // flat where closed fingers overlap
 }
 
+HandFingers HandFingers::scaled(double scale) const {
+  HandFingers hand = *this;
+  if (scale == 1.) return hand;
+  hand.q *= scale;
+  hand.per_position /= scale;
+  if (scale < 0.) {  // q increases
+    hand.q.reverseInPlace();
+    hand.widths.reverseInPlace();
+  }
+  return hand;
+}
+
 std::vector<HandFingers> handFingersOf(const Config& C) {
   std::vector<HandFingers> hands;
   for (const auto& frame : C.scene()->frames()) {

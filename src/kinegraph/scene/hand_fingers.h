@@ -25,6 +25,9 @@ struct HandFingers {
   /// Change of the opening with the joint position, m per m or rad; negative if a larger position closes the hand.
   double slopeAt(double joint_position) const;
 
+  /// Returns the opening as a function of scale * q. scale is not 0.
+  HandFingers scaled(double scale) const;
+
   double minWidth() const { return q.size() > 0 ? widths.minCoeff() : 0.; }
   double maxWidth() const { return q.size() > 0 ? widths.maxCoeff() : 0.; }
 

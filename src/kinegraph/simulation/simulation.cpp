@@ -56,10 +56,11 @@ std::unique_ptr<World> Simulation::Impl::makeWorld() {
   auto model = std::make_shared<SceneModel>(makeSceneModel(scene, options, at));
   const std::vector<HandFingers> hands =
       model->grippers.empty() ? std::vector<HandFingers>() : handFingersOf(Config(scene));
-  for (GripperJoint& gripper : model->grippers)
+  for (GripperJoint& gripper : model->grippers) {
+    const ModelJoint& joint = model->joints[std::size_t(gripper.joint)];
     for (const HandFingers& hand : hands)
-      if (hand.joint == scene.frames()[std::size_t(model->joints[std::size_t(gripper.joint)].frame)]->name)
-        gripper.opening = hand;
+      if (hand.joint == scene.frames()[std::size_t(joint.frame)]->name) gripper.opening = hand.scaled(joint.scale);
+  }
   auto made = std::make_unique<World>(model, options, engine == SimulationEngine::kinematic);
   frames = scene.frames();
   revision = scene.structureRevision();

@@ -16,7 +16,7 @@ def test_an_objective_may_have_a_target_per_slice():
     komo = ry.KOMO(C, 1, 10, 2, False)
     komo.addControlObjective([], 2, 1e-1)
     komo.addObjectivePerSlice([], FS.position, ["l_gripper"], OT.eq, points, scale=10)
-    assert komo.solve(verbose=0).feasible
+    assert ry.NLP_Solver(komo.nlp(), verbose=0).solve().feasible
     found = C.evalBatch(FS.position, ["l_gripper"], komo.getPath())[0]
     np.testing.assert_allclose(found, points, atol=1e-4)
     one_by_one = ry.KOMO(C, 1, 10, 2, False)

@@ -46,7 +46,7 @@ def test_contact_exclude_is_set_as_in_a_file() -> None:
     C.addFrame("table").setShape(ry.ST.box, [1, 1, 0.1]).setContact(1)
     C.addFrame("foot").setShape(ry.ST.box, [0.1, 0.1, 0.1]).setPosition([0, 0, 0.05]).setContact(1)
     assert len(C.getCollisions(-0.01)) == 1
-    with pytest.raises(ry.ArgumentError, match="tabel.*table"):
+    with pytest.raises(ry.FrameNotFound, match="tabel.*table"):
         C.getFrame("foot").setAttributes({"contact_exclude": ["tabel"]})
     assert len(C.getCollisions(-0.01)) == 1
     C.getFrame("foot").setAttributes({"contact_exclude": ["table"]})

@@ -307,3 +307,43 @@ def test_fingers_that_are_joints_of_q_are_no_gripper(tmp_path) -> None:
     C.selectJoints(["j1", "j2", "j3", "j4", "j5"])
     world = executed(C, ry.planTask(C, "(on tray mug)"))
     assert stands(world, "mug", "tray", 0.01 + 0.05, 0.1)
+
+
+def crane(sign: int) -> ry.Config:
+    """A hand with two turning fingers at slides; the root of the robot has a pose. sign 1: larger positions open."""
+    low, high = (-0.25, 0.6) if sign > 0 else (-0.6, 0.25)
+    C = ry.Config()
+    C.addText(f"""
+table: {{ X: [0 0 .55], shape: ssBox, size: [1.6 1.6 .1 .005], contact: 1, logical: {{ is_place }} }}
+mast: {{ X: [0 0 1.1], multibody: true }}
+slide_x (mast): {{ joint: transX, limits: [-.6 .6] }}
+slide_y (slide_x): {{ joint: transY, limits: [-.6 .6] }}
+slide_z (slide_y): {{ joint: transZ, limits: [-.4 .2] }}
+yaw (slide_z): {{ joint: hingeZ, limits: [-2 2] }}
+palm (yaw): {{ shape: ssBox, size: [.14 .05 .04 .005], contact: -3, mass: 1 }}
+f1_base (palm): {{ Q: [.035 0 -.03] }}
+f1 (f1_base): {{ joint: hingeY, joint_active: false, q: {0.1 * sign}, limits: [{low} {high}], joint_scale: {-sign} }}
+f1_shape (f1): {{ Q: [0 0 -.06], shape: ssBox, size: [.015 .02 .1 .003], contact: -3, mass: .05 }}
+f2_base (palm): {{ Q: [-.035 0 -.03] }}
+f2 (f2_base): {{ joint: hingeY, mimic: f1, joint_active: false, joint_scale: -1 }}
+f2_shape (f2): {{ Q: [0 0 -.06], shape: ssBox, size: [.015 .02 .1 .003], contact: -3, mass: .05 }}
+gripper (palm): {{ Q: [0 0 -.12], shape: marker, size: [.05], logical: {{ is_gripper }} }}
+tray: {{ X: [.3 .3 .605], shape: ssBox, size: [.3 .3 .01 .004], contact: 1, logical: {{ is_place }} }}
+box (table): {{ X: [-.3 .2 .64], shape: ssBox, size: [.04 .04 .08 .004], contact: 1, mass: .1, joint: rigid }}""")
+    return C
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_turning_fingers_open_at_either_limit(sign: int) -> None:
+    C = crane(sign)
+    plan = ry.planTask(C, "(on tray box)")
+    assert [action[0] for action in plan.actions] == ["pick", "place"]
+    assert ry.checkTaskPlan(C, plan) == []
+    assert stands(executed(C, plan), "box", "tray", 0.61 + 0.04, 0.15)
+
+
+def test_what_is_out_of_reach_of_a_robot_on_a_root_with_a_pose_is_told() -> None:
+    C = crane(1)
+    C.getFrame("tray").setPosition([1.5, 0.3, 0.605])
+    plan = ry.planTask(C, "(on tray box)")
+    assert plan.status == ry.TaskStatus.infeasible and "beyond the reach of 'gripper'" in plan.message

@@ -68,7 +68,7 @@ void addJoint(const Frame& frame, Reach& reach) {
   }
 }
 
-/// The pose of a frame in its parent with its joint at zero.
+/// The pose of a frame in its parent, or of a root in the world, with its joint at zero.
 RigidTransform offsetOf(const Config& C, const Frame& frame) {
   Config D = C;
   Frame same = D.getFrame(frame.getName());
@@ -78,7 +78,7 @@ RigidTransform offsetOf(const Config& C, const Frame& frame) {
     if (same.getJointType() == JointType::free) q[3] = 1.;
     same.setJointState(q);
   }
-  return same.getRelativePose().transform();
+  return (same.getParent() ? same.getRelativePose() : same.getPose()).transform();
 }
 
 /// Radius of a ball around the origin of a frame that contains its shape, m.
@@ -361,7 +361,6 @@ Reach reachOf(const Config& C, const std::string& name) {
   Reach reach;
   for (std::optional<Frame> frame = C.getFrame(name); frame; frame = frame->getParent()) {
     if (!isFixed(frame->getJointType())) addJoint(*frame, reach);
-    if (!frame->getParent()) break;
     const RigidTransform X = offsetOf(C, *frame);
     reach.center = X * reach.center;
     if (reach.half.allFinite()) reach.half = Vector3d(X.R.cwiseAbs() * reach.half);

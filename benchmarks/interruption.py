@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures how soon Ctrl-C ends long calls, and checks their results.
 
-    python benchmarks/interrupts.py [--times 50] [--only solveIk]
+    python benchmarks/interruption.py [--times 50] [--only solveIk]
 
 Another process sends SIGINT at random times, 5 to 300 ms after the start. Each call must return a result with status
 cancelled and finite numbers, or raise KeyboardInterrupt, as listed in the table. A further solve must work. `early`
