@@ -78,6 +78,7 @@ FOUND = {
     ],
     "36_write_a_word": [r"^<ToolPathPlan solved: 4 paths", r"'transfer', 'path'", r"the cut at up to 0\.(1|2|300)"],
     "37_part_in_the_hand": [r"the jet moves by 0\.000 m", r"the table turns by -?\d+ degrees"],
+    "38_look_before_moving": [r"cube: seen at -0\.2[67]", r"\(pick cube", r"reached the goal after 1 action"],
     "33_look_plan_pick": [r"blue was seen within \d\.\d mm", r"reached the goal after \d actions"],
     "27_calibrate": [r"step 4: configurations off by 0\.\d+ mrad", r"found within 0\.\d+ mm", r"elbow bent by"],
     "22_a_data_set": [r"in \d+ s|in \d\.\d+ s", r"2000 targets, \d\d\.\d % of them", r"of 20 motions found"],
