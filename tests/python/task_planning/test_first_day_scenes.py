@@ -347,3 +347,20 @@ def test_what_is_out_of_reach_of_a_robot_on_a_root_with_a_pose_is_told() -> None
     C.getFrame("tray").setPosition([1.5, 0.3, 0.605])
     plan = ry.planTask(C, "(on tray box)")
     assert plan.status == ry.TaskStatus.infeasible and "beyond the reach of 'gripper'" in plan.message
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"time_limit": np.nan}, "time_limit is nan s; expected a number >= 0"),
+        ({"time_limit": -1.0}, "time_limit is -1 s"),
+        ({"velocity": -1.0}, "velocity is -1; expected positive numbers"),
+        ({"acceleration": [1.0] * 6 + [np.nan]}, "acceleration is nan"),
+    ],
+)
+def test_wrong_options_are_refused_where_the_goal_holds(options: dict, message: str) -> None:
+    C = scene()
+    tray(C)
+    box(C, "red", "tray", (-0.3, 0.3, TOP + 0.01))
+    with pytest.raises(ry.ArgumentError, match=message):
+        ry.planTask(C, "(on tray red)", **options)

@@ -92,6 +92,8 @@ MatrixXd withoutRepeats(const MatrixXd& configurations) {
 
 VectorXd perDof(const char* name, const VectorXd& given, const VectorXd& otherwise) {
   if (given.size() == 0) return otherwise;
+  for (const double limit : given)
+    if (!(limit > 0.)) throw ValueError(cat("planTask: ", name, " is ", limit, "; expected positive numbers"));
   if (given.size() == 1) return VectorXd::Constant(otherwise.size(), given[0]);
   if (given.size() == otherwise.size()) return given;
   throw ValueError(

@@ -64,6 +64,11 @@ int requireThreads(int threads) {
   return threads;
 }
 
+double requireTimeLimit(double seconds) {
+  if (seconds >= 0.) return seconds;
+  throw ValueError(cat("planTask: time_limit is ", seconds, " s; expected a number >= 0, or infinity"));
+}
+
 }  // namespace
 
 TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptions& options)
@@ -75,7 +80,7 @@ TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptio
       logic_(options.domain ? *options.domain : defaultDomain(), readLiterals(goal, "goal"),
              taskFacts(C_, readLiterals(goal, "goal")), options.cancellation),
       limits_(taskMotionLimits(C, options.velocity, options.acceleration)),
-      deadline_(deadlineAfter(options.time_limit)),
+      deadline_(deadlineAfter(requireTimeLimit(options.time_limit))),
       settings_{rulesWith(options.rules, mentionsFaces(logic_.goal())),
                 options.seed,
                 requireThreads(options.threads),
