@@ -223,7 +223,7 @@ TEST(Komo, AnObjectiveMayHaveATargetPerSlice) {
   Komo komo(config, 2., 10, 2);
   komo.addControlObjective({}, 2, 1e-1);
   komo.addObjectivePerSlice({1.1, 2.}, FeatureSymbol::position, {"l_gripper"}, ObjectiveType::eq, points, 10.);
-  ASSERT_TRUE(komo.solve().feasible());
+  ASSERT_TRUE(komo.solve().feasible);
   const MatrixXd path = komo.getPath();
   for (int k = 0; k < 10; ++k) {
     config.setJointState(path.row(10 + k).transpose());
