@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
 from pathlib import Path
 
@@ -38,11 +39,13 @@ def raiPath(path: str = "") -> str:
 
     Args:
         path: Relative to the model collection: 'panda/panda.g', 'scenarios/pandaSingle.g'. The older spellings
-            '../rai-robotModels/...' and 'rai-robotModels/...' work, too.
+            '../rai-robotModels/...' and 'rai-robotModels/...' work, too. Meshes of robots, such as
+            'g1/meshes/head_link.h5', are those of the extra 'meshes'.
     Returns:
         The path.
     Raises:
-        FileError: There is no such model; the message lists similar names.
+        FileError: There is no such model, and the message lists similar names; or the extra 'meshes' has it and is
+            not installed.
     """
     relative = str(path).lstrip("/")
     for prefix in ("../rai-robotModels/", "rai-robotModels/"):
@@ -53,6 +56,14 @@ def raiPath(path: str = "") -> str:
     for folder in folders:
         if (folder / relative).exists():
             return str(folder / relative) + ("/" if relative == "" else "")
+    if mesh := _meshOfPackage(relative):
+        for folder in os.environ.get("KINEGRAPH_PACKAGE_PATH", "").split(os.pathsep):
+            if folder and (Path(folder) / mesh).is_file():
+                return str(Path(folder) / mesh)
+        raise FileError(
+            f"raiPath: the mesh '{path}' is not part of Kinegraph; package://{mesh} has its shape: "
+            "python -m pip install 'kinegraph[meshes]'"
+        )
     near = similarModels(relative)
     hint = (
         f"; similar names: {', '.join(near)}"
@@ -60,6 +71,16 @@ def raiPath(path: str = "") -> str:
         else f"; models: {', '.join(sorted(p.name for p in _SHIPPED.iterdir()))}"
     )
     raise FileError(f"raiPath: there is no model '{path}' in {folders[0]}{hint}")
+
+
+def _meshOfPackage(relative: str) -> str | None:
+    """Returns the mesh of another package that a shipped robot shows instead of a file in its folder `meshes`."""
+    robot, _, file = relative.partition("/meshes/")
+    shown = re.compile(rf"<package://([^>]*/{re.escape(Path(file).stem)}\.\w+)>") if file else None
+    for scene in sorted((_SHIPPED / robot).glob("*.g")) if shown else []:
+        if match := shown.search(scene.read_text()):
+            return match[1]
+    return None
 
 
 def similarModels(path: str) -> list[str]:

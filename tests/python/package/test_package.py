@@ -7,6 +7,7 @@ import re
 import subprocess
 import sys
 import warnings
+from pathlib import Path
 
 import pytest
 
@@ -161,3 +162,15 @@ def test_a_misspelt_symbol_names_those_that_are_near():
     assert not hasattr(ry.FS, "__wrapped__")
     assert ry.FS.position == ry.FS["position"] and ry.FS.position in list(ry.FS)
     assert pickle.loads(pickle.dumps(ry.FS.position)) is ry.FS.position
+
+
+def test_meshes_of_the_reference_are_those_of_the_extra(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("KINEGRAPH_PACKAGE_PATH", str(tmp_path))
+    with pytest.raises(ry.FileError, match=r"head_link.h5' is not part .* pip install 'kinegraph\[meshes\]'"):
+        ry.raiPath("g1/meshes/head_link.h5")
+    mesh = tmp_path / "example-robot-data/robots/g1_description/meshes/head_link.STL"
+    mesh.parent.mkdir(parents=True)
+    mesh.write_bytes(b"")
+    assert ry.raiPath("g1/meshes/head_link.h5") == str(mesh)
+    with pytest.raises(ry.FileError, match="there is no model"):
+        ry.raiPath("g1/meshes/tail_link.h5")
