@@ -53,12 +53,16 @@ mjvLight flatLight() {
   return light;
 }
 
-/// Colors the pixels with infinite depth.
-void paintBackground(CameraImage& image, const Vector3d& color) {
-  std::uint8_t rgb[3];
-  for (int i = 0; i < 3; ++i) rgb[i] = std::uint8_t(std::lround(255. * std::clamp(color[i], 0., 1.)));
+/// Colors the pixels with infinite depth. Translucent shapes have no depth: `over_white` has the colors before a white
+/// background instead of a black one, or is empty if there are none.
+void paintBackground(CameraImage& image, const Vector3d& color, const std::vector<std::uint8_t>& over_white) {
   for (std::size_t i = 0; i < image.depth.size(); ++i) {
-    if (image.depth[i] <= 0.f) std::copy_n(rgb, 3, &image.rgb[3 * i]);
+    if (image.depth[i] > 0.f) continue;
+    for (std::size_t k = 3 * i; k < 3 * i + 3; ++k) {
+      const int over_black = over_white.empty() ? 0 : image.rgb[k];
+      const int seen = over_white.empty() ? 255 : std::max(0, over_white[k] - over_black);  // share of the background
+      image.rgb[k] = std::uint8_t(std::lround(over_black + seen * std::clamp(color[Eigen::Index(k - 3 * i)], 0., 1.)));
+    }
   }
 }
 
@@ -147,6 +151,8 @@ struct CameraRenderer::Impl {
   ~Impl();
 
   void draw(SceneTree& tree, const Camera& camera, bool visuals_only, bool segmentation);
+  bool hasTranslucentShapes() const;
+  void drawBeforeWhite(const Camera& camera);
   void read(const Camera& camera, std::uint8_t* rgb, float* depth);
   CameraImage write(const std::string& text, int width, int height);
 
@@ -243,7 +249,7 @@ void CameraRenderer::Impl::addMarker(double length, const RigidTransform& X_WG, 
 
 void CameraRenderer::Impl::placeGeoms(const std::vector<Item>& items, const State& state, const Camera& camera,
                                       int frames) {
-  std::size_t count = 1;
+  std::size_t count = 2;  // the floor, and the white background
   for (const Item& item : items)
     count += std::max<std::size_t>(3, shapeKind(item.geometry->type).is_symbol || builtinShape(item.geometry->type)
                                           ? 0
@@ -379,6 +385,23 @@ void CameraRenderer::Impl::draw(SceneTree& tree, const Camera& camera, bool visu
   mujoco().mjr_render({0, 0, camera.width, camera.height}, scene.get(), context.get());
 }
 
+bool CameraRenderer::Impl::hasTranslucentShapes() const {
+  return std::any_of(scene->geoms, scene->geoms + scene->ngeom, [](const mjvGeom& geom) { return geom.transparent; });
+}
+
+/// Draws the scene of the last draw() before a bright white wall near the end of the view.
+void CameraRenderer::Impl::drawBeforeWhite(const Camera& camera) {
+  constexpr double kShareOfView = .999;
+  const Matrix3d R = camera.pose.q.toRotationMatrix();
+  const double far = camera.far, wide = 100. * far;
+  mjvGeom& wall = addGeom(mjGEOM_BOX, {wide, wide, 1e-4 * far}, {R, camera.pose.p + kShareOfView * far * R.col(2)},
+                          Vector4d::Ones(), -1);
+  wall.emission = 1.f;
+  wall.specular = 0.f;
+  wall.castshadow = false;
+  mujoco().mjr_render({0, 0, camera.width, camera.height}, scene.get(), context.get());
+}
+
 void CameraRenderer::Impl::read(const Camera& camera, std::uint8_t* rgb, float* depth) {
   mujoco().mjr_readPixels(rgb, depth, {0, 0, camera.width, camera.height}, context.get());
   const std::size_t row = std::size_t(camera.width);  // OpenGL's rows run from bottom to top
@@ -410,7 +433,14 @@ CameraImage CameraRenderer::render(SceneTree& scene, const Camera& camera, bool 
   const MujocoErrors errors;
   impl_->draw(scene, fine, visuals_only, false);
   impl_->read(fine, image.rgb.data(), image.depth.data());
-  paintBackground(image, impl_->options.background);
+  std::vector<std::uint8_t> over_white;
+  const auto empty = [](float depth) { return depth <= 0.f; };
+  if (impl_->hasTranslucentShapes() && std::ranges::any_of(image.depth, empty)) {
+    over_white.resize(image.rgb.size());
+    impl_->drawBeforeWhite(fine);
+    impl_->read(fine, over_white.data(), nullptr);
+  }
+  paintBackground(image, impl_->options.background, over_white);
   if (factor > 1) image = shrunk(image, factor);
   toMeters(image.depth, camera);
   return image;

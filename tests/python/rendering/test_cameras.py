@@ -588,3 +588,25 @@ def test_the_examples_of_planning_save_pictures_with_the_paths_in_them(tmp_path)
         red, green, blue = (colors[..., i].astype(int) for i in range(3))
         assert colors.shape == (360, 480, 3)
         assert np.sum((green > red + 40) & (green > blue + 20)) > 60, picture.name
+
+
+@needs_egl
+def test_translucent_shapes_are_mixed_with_what_is_behind_them() -> None:
+    def seen(alpha: float, background: list[float]) -> np.ndarray:
+        C = ry.Config()
+        C.addFrame("box").setShape(ry.ST.box, [0.5, 0.5, 0.5]).setColor([0.1, 0.2, 0.8, alpha]).setPosition([0, 0, 1])
+        ry.params_add({"Render/backgroundColor": background})
+        C.view(offscreen=True)
+        C.viewer().setCamera([0, -3, 1.2], [0, 0, 1.2])
+        image = C.viewer().getRgb().astype(float)
+        return image[image.shape[0] // 2, image.shape[1] // 2]
+
+    white, green = [1.0, 1.0, 1.0], [0.2, 0.5, 0.3]
+    try:
+        for background in (white, green):
+            assert np.allclose(seen(0.0, background), 255 * np.array(background), atol=1)
+        assert np.allclose(seen(1.0, white), seen(1.0, green))
+        behind = (seen(0.5, white) - seen(0.5, green)) / (255 * (np.array(white) - green))
+    finally:
+        ry.params_clear()
+    assert np.allclose(behind, 0.25, atol=0.02)  # two sides of the box, each of which lets half of the light through
