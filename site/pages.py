@@ -15,7 +15,7 @@ EXAMPLES = [  # captions, and the numbers of the examples below
     ("Control loops", "12 14"),
     ("A simulation that holds", "15 16 20"),
     ("Tasks", "17 18 21 19 23 24 25 30 31"),
-    ("A camera in the loop", "33"),
+    ("A camera in the loop", "33 38"),
     ("Calibration by gradients", "27"),
     ("Many problems, data sets and a policy", "10 22 32 26"),
 ]
