@@ -76,8 +76,8 @@ class MotionPlan : public Trajectory {
   double margin = 0.;                  ///< m, kept everywhere but around endpoints that keep less
   double verified_margin = 0.;         ///< m, verified along the whole motion
 
-  /// What an occupancy map has not seen and what alone prevents the motion; none if there is a motion, or if there is
-  /// none either with all unseen cells free.
+  /// The first unseen place of an occupancy map that prevents the motion. None if there is a motion, or if free unseen
+  /// cells would not help.
   std::optional<UnseenPlace> blockedByUnseen;
 
   bool feasible() const { return status == PlanStatus::solved; }

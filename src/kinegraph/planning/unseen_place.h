@@ -7,7 +7,7 @@
 
 namespace kinegraph {
 
-/// Finds what an occupancy map has not seen and what alone prevents a motion. `plan_in` plans the same motion in a copy
+/// Finds the first unseen place of an occupancy map that prevents a motion. `plan_in` plans the same motion in a copy
 /// of the scene whose unseen cells are free. None without such cells or such a motion.
 std::optional<UnseenPlace> findUnseenPlace(const Config& config, double margin,
                                            const std::function<MotionPlan(const Config&)>& plan_in);
