@@ -212,7 +212,7 @@ def test_the_command_line_writes_the_motion(scene, tmp_path):
 
 
 def test_a_torch_leans_by_its_travel_and_work_angles(scene):
-    """Down on a line along x: 10 degrees of travel lean z to +x; 5 degrees of work lean it to the left, seen from above z."""
+    """On a line along x, travel leans z to +x, and work to the left, seen along the path with z up."""
     s = np.linspace(-0.1, 0.1, 41)
     points = np.stack([s, 0.3 + 0 * s, 0.85 + 0 * s], axis=1)
     travel, work = np.radians([10, 5])
