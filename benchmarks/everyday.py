@@ -3,12 +3,14 @@
     python benchmarks/everyday.py [--generators "stack,swap"] [--scenes 5] [--first 0] [--jobs 2] [--repairs 3]
         [--time-limit 60] [--conditions undisturbed,errors,moved] [--details]
 
-everyday_scenes.py draws the scenes, one for each number. Each plan is executed three times:
+everyday_scenes.py and everyday_objects.py draw the scenes, one for each number. Each plan is executed under these conditions:
 
 - undisturbed;
 - with errors of pose: all things and the arms are up to 3 mm and 1 degree away from the scene of the plan, without
   repairs;
-- with one object moved by 3 to 10 cm between two steps of the execution, with repairs.
+- with one object moved by 3 to 10 cm between two steps of the execution, with repairs;
+- with `--conditions start`: from a collision-free configuration within .1 rad of the start of the plan, without
+  repairs.
 
 An execution succeeds if 2 s after its end the goal holds, every thing that no action moved is at its place to 1 cm, and
 nothing has fallen. The judge knows the simulated world, and nothing of what `execute` says; column "untrue" counts
@@ -28,16 +30,20 @@ from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field
 
 import numpy as np
+from everyday_objects import OBJECT_GENERATORS
 from everyday_scenes import GENERATORS, Scene
 
 import kinegraph as ry
 
 SHIFT, TURN = 3e-3, np.deg2rad(1.0)  # errors of pose: m, rad
 MOVE = (0.03, 0.1)  # m: by which an object is moved
+BESIDE = 0.1  # rad or m: by which joints are moved
 GAP = 0.008  # m: between the moved object and all others
 STAYED, LEVEL = 1e-2, np.cos(np.deg2rad(10.0))  # m; cosine
 CONTACT = 6e-3  # m: between an object and its place
 REST = 2.0  # s until the judge looks
+
+ALL = {**GENERATORS, **OBJECT_GENERATORS}
 
 
 def literals(goal: str) -> list[tuple[str, list[str], bool]]:
@@ -45,7 +51,7 @@ def literals(goal: str) -> list[tuple[str, list[str], bool]]:
 
 
 def halfSizes(C: ry.Config, name: str) -> np.ndarray:
-    """Half of the extents of a box or an upright cylinder."""
+    """Half of the extents of the shape of a place: a box or an upright cylinder."""
     frame = C.getFrame(name)
     size = frame.getSize()
     if frame.getShapeType() == ry.ST.cylinder:
@@ -53,41 +59,54 @@ def halfSizes(C: ry.Config, name: str) -> np.ndarray:
     return 0.5 * np.asarray(size[:3])
 
 
-def tilts(C: ry.Config, name: str) -> bool:
-    return bool(C.getFrame(name).getRotationMatrix()[2, 2] < LEVEL)
+def pointsOf(C: ry.Config, name: str, place: str | None = None) -> np.ndarray:
+    """The points of a body with all parts fixed to it, in the axes of the world, or of the top of a place."""
+    frames, points = [C.getFrame(name)], []
+    while frames:
+        frame = frames.pop()
+        frames += [f for f in frame.getChildren() if f.getJointType() == ry.JT.none]
+        if frame.getShapeType() != ry.ST.none:
+            points.append(frame.getMeshPoints() @ frame.getRotationMatrix().T + frame.getPosition())
+    all_points = np.vstack(points)
+    if place is None:
+        return all_points
+    base = C.getFrame(place)
+    return (all_points - base.getPosition()) @ base.getRotationMatrix() - [0, 0, halfSizes(C, place)[2]]
+
+
+def tilts(C: ry.Config, name: str, before: ry.Config) -> bool:
+    """Whether another side of an object points up than before. Round ones may roll."""
+    now, then = (world.getFrame(name).getRotationMatrix()[2] for world in (C, before))
+    if C.getFrame(name).getShapeType() in (ry.ST.cylinder, ry.ST.capsule):
+        now, then = (np.array([np.hypot(*up[:2]), up[2]]) for up in (now, then))
+    return bool(now @ then < LEVEL)
 
 
 def bottom(C: ry.Config, name: str) -> float:
-    return float(C.getFrame(name).getPosition()[2] - halfSizes(C, name)[2])
-
-
-def inPlace(C: ry.Config, name: str, place: str) -> np.ndarray:
-    """The position of an object relative to the center of a place's top, in its axes; its third entry is the gap."""
-    frame = C.getFrame(place)
-    offset = frame.getRotationMatrix().T @ (C.getFrame(name).getPosition() - frame.getPosition())
-    return offset - [0, 0, halfSizes(C, place)[2] + halfSizes(C, name)[2]]
+    return float(pointsOf(C, name)[:, 2].min())
 
 
 def standsOn(C: ry.Config, name: str, place: str) -> bool:
-    at = inPlace(C, name, place)
-    return abs(at[2]) < CONTACT and bool(np.all(np.abs(at[:2]) < halfSizes(C, place)[:2])) and not tilts(C, name)
+    """Whether the lowest point of an object is at the top of a place, and the middle of its lowest part above it."""
+    points = pointsOf(C, name, place)
+    sole = points[points[:, 2] < points[:, 2].min() + CONTACT, :2]
+    middle = 0.5 * (sole.min(axis=0) + sole.max(axis=0))
+    return bool(abs(points[:, 2].min()) < CONTACT and np.all(np.abs(middle) < halfSizes(C, place)[:2]))
 
 
 def footprint(C: ry.Config, name: str, place: str) -> bool | None:
     """Whether the whole footprint of an object is on a place; None if the place is smaller."""
-    half, room = halfSizes(C, name), halfSizes(C, place)
-    if min(room[:2]) < max(half[:2]):
+    points, room = pointsOf(C, name, place), halfSizes(C, place)
+    sole = points[points[:, 2] < points[:, 2].min() + CONTACT, :2]
+    if min(room[:2]) < 0.5 * max(np.ptp(sole, axis=0)):
         return None
-    R = C.getFrame(place).getRotationMatrix().T @ C.getFrame(name).getRotationMatrix()
-    is_round = C.getFrame(name).getShapeType() == ry.ST.cylinder
-    extent = half[:2] if is_round else np.abs(R[:2, :2]) @ half[:2]
-    return bool(np.all(np.abs(inPlace(C, name, place)[:2]) + extent < room[:2] + 1e-3))
+    return bool(np.all(np.abs(sole) < room[:2] + 1e-3))
 
 
 def holds(C: ry.Config, predicate: str, words: list[str]) -> bool:
     if predicate == "on" and words[0].endswith("gripper"):
-        away = np.linalg.norm(C.getFrame(words[0]).getPosition() - C.getFrame(words[1]).getPosition())
-        return bool(away < max(halfSizes(C, words[1])) + 0.02)
+        away = pointsOf(C, words[1]) - C.getFrame(words[0]).getPosition()
+        return bool(np.all(away.min(axis=0) < 0.02) and np.all(away.max(axis=0) > -0.02))
     if predicate == "on":
         return standsOn(C, words[1], words[0])
     if predicate in ("opened", "closed"):
@@ -103,21 +122,35 @@ def judge(scene: Scene, before: ry.Config, C: ry.Config, touched: set[str]) -> l
             wrong.append(f"({predicate} {' '.join(words)}) is {not expected}")
     names = scene.objects
     held = {w[1] for p, w, yes in literals(scene.goal) if p == "on" and yes and w[0].endswith("gripper")}
-    places = [
-        f.name for f in C.getFrames() if f.getShapeType() == ry.ST.ssBox and f.getSize().size and f.name not in names
-    ]
+    places = placesOf(C, names)
     for name in names:
         if name in held:
             continue
-        if tilts(C, name):
+        if tilts(C, name, before):
             wrong.append(f"{name} has fallen")
         elif name not in touched:
             moved = np.linalg.norm(C.getFrame(name).getPosition() - before.getFrame(name).getPosition())
             if moved > STAYED and not travels(C, name):
                 wrong.append(f"{name} was pushed by {1e3 * moved:.0f} mm")
-        elif not any(standsOn(C, name, place) for place in [*places, *names] if place != name):
+        elif not any(standsOn(C, name, place) for place in places if place != name):
             wrong.append(f"{name} stands on nothing")
     return wrong
+
+
+def placesOf(C: ry.Config, objects: list[str]) -> list[str]:
+    """Boxes, and objects with a box or a cylinder of their own."""
+    tops = [f for f in C.getFrames() if f.getShapeType() in (ry.ST.box, ry.ST.ssBox, ry.ST.cylinder)]
+    return [
+        f.name for f in tops if f.name in objects or (f.getShapeType() != ry.ST.cylinder and not bodyOf(f, objects))
+    ]
+
+
+def bodyOf(frame: ry.Frame, objects: list[str]) -> str | None:
+    """The object that a frame belongs to."""
+    above: ry.Frame | None = frame
+    while above is not None and above.name not in objects:
+        above = above.getParent()
+    return above.name if above is not None else None
 
 
 def travels(C: ry.Config, name: str) -> bool:
@@ -146,6 +179,16 @@ def withErrors(scene: Scene, rng: np.random.Generator) -> ry.Config:
     return world
 
 
+def moveArms(C: ry.Config, rng: np.random.Generator) -> None:
+    """Draws a collision-free configuration close to that of a scene."""
+    q, apart = C.getJointState(), len(C.getCollisions(0.0))
+    for _ in range(100):
+        C.setJointState(q + rng.uniform(-BESIDE, BESIDE, len(q)))
+        if len(C.getCollisions(0.0)) <= apart:
+            return
+    C.setJointState(q)
+
+
 def displaced(scene: Scene, C: ry.Config, rng: np.random.Generator) -> tuple[str, np.ndarray] | None:
     """Draws an object with nothing on it, not in a hand nor in something that moves, and a free pose for it on the
     table, 3 to 10 cm away; None if there is none.
@@ -154,31 +197,37 @@ def displaced(scene: Scene, C: ry.Config, rng: np.random.Generator) -> tuple[str
     if table is None or not table.getSize().size:
         table = C.getFrame("here")
     top = table.getPosition()[2] + 0.5 * table.getSize()[2]
-    names, places = scene.objects, [f.name for f in C.getFrames() if f.getShapeType() == ry.ST.ssBox]
+    names, places = scene.objects, placesOf(C, scene.objects)
     free = [
-        n for n in names if not tilts(C, n) and not travels(C, n) and any(standsOn(C, n, p) for p in places if p != n)
+        n
+        for n in names
+        if not tilts(C, n, scene.C) and not travels(C, n) and any(standsOn(C, n, p) for p in places if p != n)
     ]
-    free = [n for n in free if not any(standsOn(C, o, n) for o in names if o != n)]
+    free = [n for n in free if not any(standsOn(C, o, n) for o in names if o != n and n in places)]
     for _ in range(300 if free else 0):
         name = free[rng.integers(len(free))]
         pose, a, r = C.getFrame(name).getPose(), rng.uniform(0, 2 * np.pi), rng.uniform(*MOVE)
-        at = np.array([*(pose[:2] + r * np.array([np.cos(a), np.sin(a)])), top + halfSizes(C, name)[2]])
+        at = np.array([*(pose[:2] + r * np.array([np.cos(a), np.sin(a)])), top + pose[2] - bottom(C, name)])
         bases = [C.getFrame(base).getPosition() for base in scene.robots]
         reach = [min(float(np.linalg.norm((p - base)[:2])) for base in bases) for p in (pose[:3], at)]
-        if 0.3 < reach[1] < max(0.66, reach[0]) and isFree(C, name, at):
+        if 0.3 < reach[1] < max(0.66, reach[0]) and isFree(C, name, at, names):
             return name, np.array([*at, *pose[3:]])
     return None
 
 
-def isFree(C: ry.Config, name: str, at: np.ndarray) -> bool:
+def isFree(C: ry.Config, name: str, at: np.ndarray, objects: list[str]) -> bool:
     """Whether an object at a position is apart from all others, but for its support."""
     D = C.copy()
     D.getFrame(name).setPosition(at)
-    return all(isSupport(D, name, a, b) for a, b, _ in D.getCollisions(GAP) if name in (a, b))
+    for pair in D.getCollisions(GAP):
+        frames = [D.getFrame(f) for f in pair[:2]]
+        bodies = [bodyOf(f, objects) for f in frames]
+        if bodies.count(name) == 1 and not isSupport(D, name, frames[1 - bodies.index(name)]):
+            return False
+    return True
 
 
-def isSupport(C: ry.Config, name: str, a: str, b: str) -> bool:
-    other = C.getFrame(b if a == name else a)
+def isSupport(C: ry.Config, name: str, other: ry.Frame) -> bool:
     return other.getShapeType() == ry.ST.ssBox and other.getPosition()[2] < bottom(C, name)
 
 
@@ -195,6 +244,8 @@ def attempt(scene: Scene, plan: ry.TaskPlan, condition: str, seed: int, repairs:
     """Executes a plan under a condition; None if there is nothing to disturb."""
     rng = np.random.default_rng(seed)
     world = withErrors(scene, rng) if condition == "errors" else scene.C.copy()
+    if condition == "start":
+        moveArms(world, rng)
     reference, result, touched = world.copy(), Outcome(condition), set[str]()
     steps = int(rng.integers(1, 2 * len(plan.actions) + 1)) if condition == "moved" else 0  # until somebody comes
     bot = ry.BotOp(world)
@@ -243,7 +294,7 @@ class Report:
 
 def evaluate(name: str, number: int, options: argparse.Namespace) -> Report:
     warnings.simplefilter("ignore")
-    scene = GENERATORS[name](np.random.default_rng([number, *name.encode()]))
+    scene = ALL[name](np.random.default_rng([number, *name.encode()]))
     began = time.process_time()
     plan = ry.planTask(scene.C, scene.goal, time_limit=options.time_limit)
     report = Report(name, number, time.process_time() - began, plan.feasible, why=str(plan.message))
@@ -275,7 +326,7 @@ def row(name: str, reports: list[Report], conditions: list[str]) -> str:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--generators", default=",".join(GENERATORS), type=lambda s: [n.strip() for n in s.split(",")])
+    parser.add_argument("--generators", default=",".join(ALL), type=lambda s: [n.strip() for n in s.split(",")])
     parser.add_argument("--scenes", type=int, default=5, help="scenes per generator")
     parser.add_argument("--first", type=int, default=0, help="the first number of a scene")
     parser.add_argument("--jobs", type=int, default=1, help="processes")

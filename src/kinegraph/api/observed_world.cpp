@@ -42,6 +42,14 @@ double cosineBetween(const Frame& a, const Frame& b) {
   return isRound(a) ? R(2, 2) : .5 * (R.trace() - 1.);
 }
 
+/// The cosine of the angle between the directions that point up, in the axes of an object. A lying round object may
+/// roll.
+double cosineOfTilt(const Frame& a, const Frame& b) {
+  const Vector3d up_a = a.getRotationMatrix().row(2), up_b = b.getRotationMatrix().row(2);
+  if (!isRound(a)) return up_a.dot(up_b);
+  return up_a.z() * up_b.z() + up_a.head<2>().norm() * up_b.head<2>().norm();
+}
+
 /// Returns the place that an object stands on: the nearest of those that it touches and whose center is lower; "" if
 /// none.
 std::string placeBelow(const Config& C, const std::string& obj, const Words& places) {
@@ -207,7 +215,7 @@ void ObservedWorld::release(const std::string& obj) {
 }
 
 bool ObservedWorld::touches(const std::string& hand, const std::string& obj) const {
-  return gapOf(seen_, obj, hand) <= kTouch;
+  return handGap(seen_, obj, hand) <= kTouch;
 }
 
 double ObservedWorld::gripForce(const std::string& hand, const std::string& obj) const {
@@ -269,8 +277,7 @@ std::string ObservedWorld::objectDeviation(const std::string& obj, const Config&
   }
   const double off = (is.getPosition() - shall.getPosition()).norm();
   if (off > kOff) return cat("'", obj, "' is ", fixed(off, 3), " m away from where it should be");
-  const bool is_level = is.getRotationMatrix().col(2).dot(shall.getRotationMatrix().col(2)) >= kUpright;
-  return is_level ? "" : cat("'", obj, "' has tilted");
+  return cosineOfTilt(is, shall) >= kUpright ? "" : cat("'", obj, "' has tilted");
 }
 
 std::vector<std::string> ObservedWorld::missedGoals(const std::vector<Literal>& goal, const Config& C) const {

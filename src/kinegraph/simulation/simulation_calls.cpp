@@ -69,9 +69,12 @@ void Simulation::closeGripper(const std::string& gripper, double width, double s
   GripperTask& task = s.world->grippers()[g];
   task.reference = s.world->positions()[joint.qpos[0]];
   task.target = std::clamp(joint.opening.positionAt(width), joint.lower, joint.upper);
-  const double slope = std::abs(joint.opening.slopeAt(task.target)), parts = double(joint.qpos.size());
+  const double opens = joint.opening.slopeAt(task.target), slope = std::abs(opens), parts = double(joint.qpos.size());
   task.speed = 2. * speed / slope;
   task.force = force * slope / parts;  // of each joint, m or rad
+  const double reach = task.force * parts / joint.stiffness;
+  if (opens > 0. && task.target == joint.lower) task.target -= reach;  // thin objects are pressed with all of the force
+  if (opens < 0. && task.target == joint.upper) task.target += reach;
   task.still = 0.;
   s.record(Recording::Call::Kind::gripper, {width, speed, force}, {gripper});
 }

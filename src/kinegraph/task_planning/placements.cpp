@@ -53,7 +53,8 @@ std::set<std::string> jointsAbove(const Frame& frame) {
 /// Plans placements action by action.
 class Packing {
  public:
-  Packing(const Config& C, const std::vector<TaskAction>& actions) : C_(C), actions_(actions) {
+  Packing(const Config& C, const std::vector<TaskAction>& actions, const std::vector<std::string>& variants)
+      : C_(C), actions_(actions), variants_(variants) {
     for (const TaskAction& action : actions)
       if (action[0] == "place") places_.insert(action[3]);
   }
@@ -74,6 +75,12 @@ class Packing {
   }
 
  private:
+  Matrix3d rotationOf(const std::string& obj) const {
+    for (std::size_t i = 0; i < std::min(variants_.size(), actions_.size()); ++i)
+      if (actions_[i][0] == "place" && actions_[i][1] == obj && variants_[i] == "upright") return Matrix3d::Identity();
+    return restingRotation(C_.getFrame(obj));
+  }
+
   /// The placement of an object among those that the sequence puts on the same place.
   Placement packed(std::size_t i, const Vector2d& half) {
     const std::string &obj = actions_[i][1], &to = actions_[i][3];
@@ -91,7 +98,7 @@ class Packing {
   std::map<std::string, Placement> layout(const std::string& to, const std::vector<std::string>& objects,
                                           const Vector2d& half, std::size_t before) const {
     std::vector<Footprint> footprints;
-    for (const std::string& obj : objects) footprints.push_back(footprintOf(C_.getFrame(obj)));
+    for (const std::string& obj : objects) footprints.push_back(footprintOf(C_.getFrame(obj), rotationOf(obj)));
     double height = 0.;
     for (const Footprint& footprint : footprints) height = std::max(height, footprint.height);
     const std::vector<Rectangle> obstacles = obstaclesOn(to, height, half, before);
@@ -192,7 +199,7 @@ class Packing {
   /// A free spot on a large place near the object.
   Placement nearby(std::size_t i, const Vector2d& half) {
     const std::string &obj = actions_[i][1], &to = actions_[i][3];
-    const Footprint footprint = footprintOf(C_.getFrame(obj));
+    const Footprint footprint = footprintOf(C_.getFrame(obj), rotationOf(obj));
     const RigidTransform to_place = C_.getFrame(to).getPose().inverse().transform();
     const Vector3d world = at_.contains(obj) ? at_.at(obj) : C_.getFrame(obj).getPosition();
     const Vector2d start = Vector3d(to_place * world).head<2>();
@@ -251,6 +258,7 @@ class Packing {
 
   const Config& C_;
   const std::vector<TaskAction>& actions_;
+  const std::vector<std::string>& variants_;
   std::set<std::string> places_;
   std::map<std::string, std::map<std::string, Placement>> packed_;  ///< by place and object
   std::map<std::string, std::vector<Rectangle>> taken_;             ///< spots chosen on large places
@@ -259,8 +267,8 @@ class Packing {
 
 }  // namespace
 
-Footprint footprintOf(const Frame& body) {
-  const RigidTransform X = body.getPose().inverse().transform();
+Footprint footprintOf(const Frame& body, const Matrix3d& rotation) {
+  const RigidTransform X = RigidTransform{rotation, Vector3d::Zero()} * body.getPose().inverse().transform();
   std::vector<Vector3d> points;
   for (const Frame& part : shapesOf(body)) {
     const RigidTransform of_part = part.getPose().transform();
@@ -284,8 +292,9 @@ Footprint footprintOf(const Frame& body) {
   return footprint;
 }
 
-std::vector<std::optional<Placement>> placementsOf(const Config& C, const std::vector<TaskAction>& actions) {
-  return Packing(C, actions).all();
+std::vector<std::optional<Placement>> placementsOf(const Config& C, const std::vector<TaskAction>& actions,
+                                                   const std::vector<std::string>& variants) {
+  return Packing(C, actions, variants).all();
 }
 
 }  // namespace kinegraph

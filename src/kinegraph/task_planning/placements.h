@@ -20,8 +20,12 @@ struct Footprint {
   Eigen::Vector2d half() const { return low.cwiseAbs().cwiseMax(high.cwiseAbs()); }
 };
 
-/// Returns the footprint of a body with everything fixed to it; a point without shapes.
-Footprint footprintOf(const Frame& body);
+/// Returns the footprint of a body with everything fixed to it, after a rotation; a point without shapes. Its axes are
+/// those of the rotated frame.
+Footprint footprintOf(const Frame& body, const Matrix3d& rotation = Matrix3d::Identity());
+
+/// The variant of `place` that puts an object down on the side on which it lies now (restingRotation).
+inline constexpr char kAsItLies[] = "as it lies";
 
 /// Where an object is put.
 struct Placement {
@@ -33,7 +37,9 @@ struct Placement {
 
 /// Chooses where the `place` actions of a sequence put their objects; none for other actions. Objects on one place are
 /// packed together, apart from each other and from what stands there, and towards the middle. On a large place, such as
-/// a table, an object is put down near its current position, where it is in the way of nothing.
-std::vector<std::optional<Placement>> placementsOf(const Config& C, const std::vector<TaskAction>& actions);
+/// a table, an object is put down near its current position, where it is in the way of nothing. Objects are put down as
+/// they lie, but for those with the variant "upright".
+std::vector<std::optional<Placement>> placementsOf(const Config& C, const std::vector<TaskAction>& actions,
+                                                   const std::vector<std::string>& variants = {});
 
 }  // namespace kinegraph

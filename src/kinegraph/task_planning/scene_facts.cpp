@@ -1,5 +1,6 @@
 #include "kinegraph/task_planning/scene_facts.h"
 
+#include <algorithm>
 #include <set>
 
 #include "kinegraph/geometry/shapes/shape_kinds.h"
@@ -34,6 +35,17 @@ Frame movingRoot(Frame frame) {
   return frame;
 }
 
+/// Whether a frame without a shape has colliding parts, and no joints below it.
+bool isBodyOfParts(const Frame& frame) {
+  const std::vector<Frame> below = frame.getSubtree();
+  const auto isDof = [](const Frame& part) { return part.data().joint && part.data().joint->dofs() > 0; };
+  const auto isPart = [&](const Frame& part) {
+    const auto& shape = part.data().shape;
+    return shape && shape->contact && movingRoot(part) == frame;
+  };
+  return std::ranges::none_of(below, isDof) && std::ranges::any_of(below, isPart);
+}
+
 }  // namespace
 
 std::vector<Literal> sceneFacts(const Config& C) {
@@ -45,9 +57,11 @@ std::vector<Literal> sceneFacts(const Config& C) {
     const Graph* words = logical ? logical->value.as<Graph>() : nullptr;
     if (words) {
       for (const Node& word : words->nodes) facts.push_back({word.key, {frame.getName()}});
-    } else if (frame.getJointType() == JointType::rigid && frame.getShapeType() != ShapeType::none) {
+    } else if (frame.getJointType() == JointType::rigid &&
+               (frame.getShapeType() != ShapeType::none || isBodyOfParts(frame))) {
       facts.push_back({"is_object", {frame.getName()}});
-      if (const std::string shape = shapeFact(frame.getShapeType()); !shape.empty())
+      const bool has_shape = frame.getShapeType() != ShapeType::none;
+      if (const std::string shape = has_shape ? shapeFact(frame.getShapeType()) : ""; !shape.empty())
         facts.push_back({shape, {frame.getName()}});
     } else {
       continue;

@@ -6,8 +6,8 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/geometry/shapes/shape_kinds.h"
-#include "kinegraph/scene/hand_fingers.h"
+#include "kinegraph/task_planning/grasps.h"
+#include "kinegraph/task_planning/placements.h"
 #include "kinegraph/task_planning/shape_points.h"
 #include "kinegraph/task_planning/task_tools.h"
 #include "kinegraph/task_planning/task_waypoints.h"
@@ -18,11 +18,8 @@ namespace {
 
 using F = FeatureSymbol;
 using O = ObjectiveType;
-using Body = ShapeKind::Body;
 using Variants = std::vector<std::string>;
 
-constexpr double kFingers = .08;             ///< m: default opening of a hand with a palm
-constexpr double kInside = .012;             ///< m: distance of a grasp from the ends of an object
 constexpr double kInsideHandle = .02;        ///< m: the same for handles
 constexpr double kHookGap = 5e-4;            ///< m: between a hook and the object at the begin of a pull
 constexpr double kAbove = .003;              ///< m: clearance of a pulling tool from the ground
@@ -30,77 +27,13 @@ constexpr double kPlay = .002;               ///< m: by which the lowest tool ma
 constexpr double kSafe = .5;                 ///< share of the height at which the pulled object tips
 constexpr std::size_t kCombinations = 4096;  ///< of variants that are ranked at most
 
-Body bodyOf(const Frame& frame) { return shapeKind(frame.getShapeType()).body; }
-
-double leastSide(const std::vector<double>& size) { return std::min({size[0], size[1], size[2]}); }
-
-/// The sizes of a box, or of the box around a mesh, along x, y, z, m.
-Vector3d widthsOf(const Frame& frame) {
-  const std::vector<double> size = frame.getSize();
-  if (isBox(frame)) return {size[0], size[1], size[2]};
-  const Eigen::AlignedBox3d around = boxAround(frame);
-  if (around.isEmpty())
-    throw ValueError(cat("planTask: object '", frame.getName(), "' has no shape that can be grasped"));
-  return around.max() - around.min();
-}
-
-/// Across a mesh: the fingers close along an axis of the box around its hull, inside of the other sides.
-void graspHull(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj, int axis) {
-  const Eigen::AlignedBox3d around = boxAround(w.C.getFrame(obj));
-  const Vector3d middle = .5 * (around.max() + around.min()), half = .5 * (around.max() - around.min());
-  const Vector3d inside = half.array() - (.5 * half.array()).min(kInside);
-  std::vector<int> others = {0, 1, 2};
-  others.erase(others.begin() + axis);
-  const MatrixXd all = 1e1 * Eigen::Matrix3d::Identity(), along = all.row(axis), across = all(others, Eigen::all);
-  const Vector3d most = middle + inside, least = middle - inside;
-  w.komo().addObjective({time}, F::positionRel, {hand, obj}, O::eq, along, middle);
-  w.komo().addObjective({time}, F::positionRel, {hand, obj}, O::ineq, across, most);
-  w.komo().addObjective({time}, F::positionRel, {hand, obj}, O::ineq, -across, least);
-  constexpr std::array kProducts = {F::scalarProductXX, F::scalarProductXY, F::scalarProductXZ};
-  for (const int other : others)
-    w.komo().addObjective({time - .2, time}, kProducts[std::size_t(other)], {hand, obj}, O::eq, 1e0);
-  if (const std::string palm = palmOf(w.C, hand); !palm.empty())
-    w.komo().addObjective({time - .3, time}, F::distance, {palm, obj}, O::ineq, 1e1, -.001);
-}
-
-/// A grasp far inside and close to the center of mass reduces the rotation in the hand.
-void nearCenter(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj) {
-  const Vector3d center = centerOfBody(w.C.getFrame(obj));
-  if (isCentered(center))
-    w.komo().addObjective({time}, F::positionDiff, {hand, obj}, O::sos, 3e0);
-  else
-    w.komo().addObjective({time}, F::positionRel, {hand, obj}, O::sos, 3e0, center);
-}
-
-void grasp(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj, const std::string& variant,
-           double inside = kInside) {
-  const std::string palm = palmOf(w.C, hand);
-  const Frame thing = w.C.getFrame(obj);
-  const std::vector<double> size = thing.getSize();
-  if (!palm.empty()) nearCenter(w, time, hand, obj);
-  if (variant == "touch") {
-    w.komo().addObjective({time}, F::distance, {obj, hand}, O::eq, 1e1);
-  } else if (variant == "center") {
-    w.komo().addObjective({time}, F::positionDiff, {hand, obj}, O::eq, 1e1);
-  } else if (variant == "around") {
-    w.m->grasp_cylinder(time, hand, obj, palm, std::min(inside, .25 * size[0]));
-  } else if (isBox(thing)) {
-    w.m->grasp_box(time, hand, obj, palm, variant, std::min(inside, .25 * leastSide(size)));
-  } else {
-    const std::size_t axis = std::string_view("xyz").find(variant);
-    if (variant.size() != 1 || axis == std::string_view::npos)
-      throw ValueError(cat("planTask: '", hand, "' cannot hold '", obj, "' by '", variant, "'; expected x, y or z"));
-    graspHull(w, time, hand, obj, int(axis));
-  }
-}
-
 void take(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
   w.attach(time, action[3], action[1]);
-  grasp(w, time, action[3], action[1], variant);
+  addGrasp(w, time, action[3], action[1], variant);
 }
 
 void place(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
-  if (variant == "upright")
+  if (variant == "upright" || variant == kAsItLies)
     w.put(time, action[1], action[3]);
   else
     w.lay(time, action[1], action[3], variant);
@@ -167,7 +100,7 @@ void push(TaskWaypoints& w, double time, const TaskAction& action, const std::st
 }
 
 void hold(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
-  grasp(w, time, action[3], action[2], variant, kInsideHandle);
+  addGrasp(w, time, action[3], action[2], variant, kInsideHandle);
 }
 
 void guide(TaskWaypoints& w, double time, const TaskAction& action, const std::string& variant) {
@@ -183,12 +116,10 @@ Variants faceOf(const Config& C, const TaskAction& action) {
   return isBox(C.getFrame(action[1])) ? Variants{action[4]} : Variants{};
 }
 
-/// Upright; a box keeps the face up that it has up already.
+/// An object that lies on its side stays so if it can.
 Variants standsOf(const Config& C, const TaskAction& action) {
-  Variants ways = {"upright"};
-  const std::string face = upOf(C, action[1]);
-  if (isBox(C.getFrame(action[1])) && !face.empty() && face != "z") ways.push_back(face);
-  return ways;
+  if (restingRotation(C.getFrame(action[1])).isIdentity(0.)) return {"upright"};
+  return {kAsItLies, "upright"};
 }
 
 auto only(const char* variant) {
@@ -215,61 +146,6 @@ TaskRules defaultTaskRules(bool is_upright) {
   };
   if (is_upright) rules["place"].variants = only("upright");
   return rules;
-}
-
-std::string palmOf(const Config& C, const std::string& hand) {
-  constexpr std::string_view kGripper = "gripper";
-  const bool is_named = hand.ends_with(kGripper);
-  const std::string name = hand.substr(0, hand.size() - (is_named ? kGripper.size() : 0)) + "palm";
-  return C.findFrame(name) ? name : "";
-}
-
-std::optional<double> opening(const Config& C, const std::string& hand) {
-  const Node* said = C.getFrame(hand).attributes().find("opening");
-  if (const double* width = said ? said->value.as<double>() : nullptr) return *width;
-  return palmOf(C, hand).empty() ? std::nullopt : std::optional(kFingers);
-}
-
-Config withOpenings(const Config& C, const std::vector<std::string>& hands) {
-  Config scene = C;
-  const std::vector<HandFingers> all = handFingersOf(C);
-  for (const std::string& hand : hands) {
-    Frame frame = scene.getFrame(hand);
-    if (frame.attributes().find("opening")) continue;
-    std::optional<Frame> head = frame;
-    while (head->getJointType() == JointType::none && head->getParent()) head = head->getParent();
-    const auto isBelow = [&](const HandFingers& fingers) {
-      for (std::optional<Frame> up = scene.getFrame(fingers.joint); up; up = up->getParent())
-        if (*up == *head) return true;
-      return false;
-    };
-    const auto found = std::ranges::find_if(all, isBelow);
-    if (found != all.end() && found->maxWidth() > 0.)
-      frame.editAttributes().set({"opening", {}, {}, {found->maxWidth(), {}}, {}});
-  }
-  return scene;
-}
-
-Variants graspVariants(const Config& C, const std::string& obj, const std::string& hand) {
-  const std::optional<double> wide = opening(C, hand);
-  if (!wide) return {"touch"};
-  const Frame frame = C.getFrame(obj);
-  const std::vector<double> size = frame.getSize();
-  const Body body = bodyOf(frame);
-  if (body == Body::ball) return 2. * size.back() <= *wide ? Variants{"center"} : Variants{};
-  if (body == Body::cylinder || body == Body::capsule) return 2. * size[1] <= *wide ? Variants{"around"} : Variants{};
-  const Vector3d widths = widthsOf(frame);
-  std::array<int, 3> axes = {0, 1, 2};
-  std::ranges::stable_sort(axes, {}, [&](int k) { return widths[k]; });
-  Variants ways;
-  for (const int k : axes)
-    if (widths[k] <= *wide) ways.emplace_back(1, "xyz"[k]);
-  return ways;
-}
-
-bool isTooWideAcross(const Config& C, const std::string& obj, const std::string& hand) {
-  const Variants ways = graspVariants(C, obj, hand);
-  return ways.size() == 1 && upOf(C, obj).starts_with(ways[0]);
 }
 
 std::vector<Variants> allVariants(const Config& C, const std::vector<TaskAction>& actions, const TaskRules& rules,

@@ -1,6 +1,7 @@
 #include "kinegraph/task_planning/task_tools.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <set>
@@ -41,6 +42,15 @@ double frictionOf(const Frame& frame) {
   const double* friction = said ? said->value.as<double>() : nullptr;
   return friction ? *friction : kUsual;
 }
+
+using Body = ShapeKind::Body;
+
+bool isOfKind(const Frame& frame, Body body) {
+  return frame.getShapeType() != ShapeType::none && shapeKind(frame.getShapeType()).body == body;
+}
+
+/// Whether a shape is round about its z axis, and rests on its side or its ends.
+bool isRolling(const Frame& frame) { return isOfKind(frame, Body::cylinder) || isOfKind(frame, Body::capsule); }
 
 bool hasSurface(const Frame& part) { return isBox(part) || !shapePoints(part).empty(); }
 
@@ -133,6 +143,52 @@ double supportOf(const Frame& obj, const Frame& place) {
 
 bool isBall(const Frame& obj) {
   return obj.getShapeType() != ShapeType::none && shapeKind(obj.getShapeType()).body == ShapeKind::Body::ball;
+}
+
+Matrix3d restingRotation(const Frame& obj) {
+  constexpr double kRests = .94;  // cosine: other shapes that stand still rest on any side
+  if (isBall(obj)) return Matrix3d::Identity();
+  const bool is_round = isRolling(obj);
+  Vector3d up = obj.getRotationMatrix().row(2);
+  Eigen::Index axis = 0;
+  up.cwiseAbs().maxCoeff(&axis);
+  if (is_round && axis != 2) {
+    up = Vector3d(up.x(), up.y(), 0.).normalized();
+  } else if (is_round || isBox(obj) || std::abs(up[axis]) > kRests || !movingAbove(obj).empty()) {
+    up = (up[axis] < 0. ? -1. : 1.) * Vector3d::Unit(axis);
+  }
+  if (up == Vector3d::UnitZ()) return Matrix3d::Identity();
+  const Vector3d about = up.cross(Vector3d::UnitZ());
+  Matrix3d R =
+      Eigen::AngleAxisd(std::atan2(about.norm(), up.z()), about.norm() > kFine ? about.normalized() : Vector3d::UnitX())
+          .toRotationMatrix();
+  if (is_round && axis != 2) R = Eigen::AngleAxisd(-std::atan2(R(1, 2), R(0, 2)), Vector3d::UnitZ()) * R;
+  return R;
+}
+
+double depthOfShape(const Frame& part, const RigidTransform& X) {
+  if (isRolling(part)) {
+    const std::vector<double> size = part.getSize();
+    const double up = std::abs(X.R(2, 2)), level = std::sqrt(std::max(1. - up * up, 0.));
+    const double caps = isOfKind(part, Body::capsule) ? size[1] : size[1] * level;
+    return .5 * size[0] * up + caps - X.p.z();
+  }
+  double lowest = -std::numeric_limits<double>::infinity();
+  for (const Vector3d& point : isBox(part) ? boxCorners(part) : shapePoints(part))
+    lowest = std::max(lowest, -Vector3d(X * point).z());
+  return lowest;
+}
+
+double depthBelow(const Frame& obj, const Matrix3d& rotation) {
+  double depth = 0.;
+  bool is_first = true;
+  for (const Frame& part : shapesOf(obj)) {
+    if (!part.data().shape->contact && !(part == obj)) continue;
+    const double below = depthOfShape(part, RigidTransform{rotation, Vector3d::Zero()} * part.getPose(obj).transform());
+    depth = is_first ? below : std::max(depth, below);
+    is_first = false;
+  }
+  return depth;
 }
 
 bool isSupported(const Frame& obj, const Frame& place) { return supportOf(obj, place) >= -kFine; }

@@ -40,6 +40,17 @@ void includePairs(Config& C, const FramePairs& pairs);
 /// Returns the frames with a shape of a body: its own, and those fixed to it.
 std::vector<Frame> shapesOf(const Frame& body);
 
+/// Returns the rotation that stands an object on level ground as it lies now: the side that points up stays up, and the
+/// rotation about the vertical is dropped, so that its axes, or that of a lying cylinder, are along x and y. Identity
+/// for upright objects and balls. The nearest side counts for boxes, cylinders, and objects in a hand.
+Matrix3d restingRotation(const Frame& obj);
+
+/// Returns the depth of the lowest point of a shape in the pose X below the origin of the world, m.
+double depthOfShape(const Frame& part, const RigidTransform& X);
+
+/// Returns the height of the origin of a body above its lowest point after a rotation, m.
+double depthBelow(const Frame& obj, const Matrix3d& rotation);
+
 /// Returns the axis of a bar (0 to 2) that points up if its tool lies flat: the one across the bar along which the tool
 /// is thinner.
 int flatAxis(const Frame& bar, const Frame& tool);

@@ -8,6 +8,9 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/komo/mode_switches.h"
+#include "kinegraph/komo/path/mode.h"
+#include "kinegraph/task_planning/grasps.h"
 #include "kinegraph/task_planning/pull_start.h"
 #include "kinegraph/task_planning/shape_points.h"
 #include "kinegraph/task_planning/task_doors.h"
@@ -37,6 +40,11 @@ constexpr double kApart = .003;  ///< m: preferred clearance of a hand at a hand
 constexpr double kNear = .3;     ///< scale of the objective that keeps a push close to a straight line of the joints
 constexpr char kRoom[] = "room on ", kWeight[] = "weight of ";
 
+/// The rotation in which an object is put down.
+Matrix3d putRotation(const Frame& obj, const std::string& variant) {
+  return variant == "upright" ? Matrix3d(Matrix3d::Identity()) : restingRotation(obj);
+}
+
 std::string cornerName(int number, const std::string& obj) { return cat("corner ", number, " of ", obj); }
 
 std::vector<TaskAction> joined(std::vector<TaskAction> first, const std::vector<TaskAction>& then) {
@@ -48,7 +56,7 @@ std::string roundText(double time) { return std::to_string(long(std::nearbyint(t
 
 /// Adds auxiliary frames to a scene: a large frame on each place for `lay`, because a free frame below it gets wide
 /// limits; a frame at the center of mass of each placed object that is not at its origin; and frames at the corners of
-/// the footprints of objects that are put down.
+/// the footprints of objects that are put down; and the frames by which hands hold low objects.
 Config prepared(const Config& C, const std::vector<TaskAction>& actions, const std::vector<std::string>& variants) {
   if (variants.size() != actions.size())
     throw ValueError(
@@ -60,14 +68,18 @@ Config prepared(const Config& C, const std::vector<TaskAction>& actions, const s
     if (isPlace(actions[i]) && is_laid) places.insert(actions[i][3]);
   }
   Config scene = C;
-  for (const TaskAction& action : actions) {
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    const TaskAction& action = actions[i];
+    if (isPick(action) || action[0] == "handover") addGripFrame(scene, action[3], action[1], variants[i]);
     if (action[0] != "place" && !endsSliding(action)) continue;
-    const Footprint footprint = footprintOf(scene.getFrame(action[1]));
+    const Matrix3d rotation = putRotation(scene.getFrame(action[1]), variants[i]);
+    const Footprint footprint = footprintOf(scene.getFrame(action[1]), rotation);
     if (footprint.is_round || scene.findFrame(cornerName(0, action[1]))) continue;
-    for (int k = 0; k < 4; ++k)
-      scene.addFrame(cornerName(k, action[1]), action[1])
-          .setRelativePosition(
-              {(k & 1 ? footprint.high : footprint.low).x(), (k & 2 ? footprint.high : footprint.low).y(), 0.});
+    for (int k = 0; k < 4; ++k) {
+      const Vector3d corner((k & 1 ? footprint.high : footprint.low).x(), (k & 2 ? footprint.high : footprint.low).y(),
+                            0.);
+      scene.addFrame(cornerName(k, action[1]), action[1]).setRelativePosition(rotation.transpose() * corner);
+    }
   }
   for (const TaskAction& action : actions) {
     if (!isPlace(action) || scene.findFrame(kWeight + action[1])) continue;
@@ -105,7 +117,7 @@ TaskWaypoints::TaskWaypoints(const Config& config, std::vector<TaskAction> words
       variants(std::move(ways)),
       margin(clearance),
       doors_(doorsOf(C)),
-      placements_(placementsOf(config, joined(actions, later))) {
+      placements_(placementsOf(config, joined(actions, later), variants)) {
   m->setup_sequence(C, double(actions.size()), 1e-2, 1e-2);
   if (margin > 0.)
     komo().addObjective({}, F::accumulatedCollisions, {}, O::sos, kApartScale, {}, -1, kMoreMargin * margin);
@@ -205,15 +217,28 @@ void TaskWaypoints::attach(double time, const std::string& hand, const std::stri
 
 void TaskWaypoints::put(double time, const std::string& obj, const std::string& to) {
   const std::string name = cat("place_", to, "_", obj, "_", roundText(time));
-  m->add_place_frame(to, obj, name);
-  addSlot(SlotKind::place, name, 3);
-  switchTo(time, name, obj);
   const std::size_t action = std::size_t(std::max(std::lround(time) - 1, 0L));
+  const Matrix3d rotation = putRotation(C.getFrame(obj), action < variants.size() ? variants[action] : "");
+  addSlot(SlotKind::place, name, 3);
+  if (rotation.isIdentity(0.)) {
+    m->add_place_frame(to, obj, name);
+    switchTo(time, name, obj);
+  } else {
+    const double above = .5 * height(C.getFrame(to)) + depthBelow(C.getFrame(obj), rotation);
+    const Pose on_top = C.getFrame(to).getPose() * Pose(Vector3d(0., 0., above), Quaterniond::Identity());
+    const Pose as_it_lies = on_top * Pose(Vector3d::Zero(), Quaterniond(rotation));
+    const std::string lying = cat(name, "_", kAsItLies);
+    const JointType flat = JointType::transXYPhi, fixed_to = JointType::none;
+    addFrameDof(komo().path(), {.name = name, .parent = to, .type = flat, .stable = true, .origin_pose = on_top});
+    addFrameDof(komo().path(),
+                {.name = lying, .parent = name, .type = fixed_to, .stable = true, .origin_pose = as_it_lies});
+    switchTo(time, lying, obj);
+  }
   const Placement* placement = nullptr;
   if (action < actions.size() && objectOf(actions[action]) == obj && placements_[action])
     placement = &*placements_[action];
   if (placement) slots_.back().placement = *placement;
-  const Footprint footprint = footprintOf(C.getFrame(obj));
+  const Footprint footprint = footprintOf(C.getFrame(obj), rotation);
   const Eigen::Vector2d half = .5 * placeSides(C.getFrame(to));
   const bool is_whole =
       placement ? placement->is_whole : (half - Eigen::Vector2d::Constant(footprint.radius)).minCoeff() > kRim;

@@ -44,8 +44,8 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
   /// apart, as of a stick that takes an object along.
   void attach(double time, const std::string& hand, const std::string& obj, bool touching = false, double gap = 0.);
 
-  /// Lets an object stand upright on a place from a time on: with its whole footprint on it where there is room, else
-  /// with its center well inside; close to the position that placementsOf chooses.
+  /// Lets an object rest on a place from a time on, as it lies now or upright (variant `upright`): with its whole
+  /// footprint on it if there is room, else with its center well inside; close to the choice of placementsOf.
   void put(double time, const std::string& obj, const std::string& to);
 
   /// Lets a box lie on a place from a time on, with a face up: x y z xNeg yNeg zNeg. Throws ValueError for other faces.

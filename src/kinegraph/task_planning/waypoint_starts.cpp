@@ -7,6 +7,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/ik/solve_ik.h"
 #include "kinegraph/komo/path/path.h"
+#include "kinegraph/task_planning/grasps.h"
 #include "kinegraph/task_planning/pull_start.h"
 #include "kinegraph/task_planning/task_doors.h"
 #include "kinegraph/task_planning/task_waypoints.h"
@@ -134,6 +135,36 @@ VectorXd takes(const Config& C, const std::string& hand, const std::string& obj,
   return best;
 }
 
+/// The same for a grasp by a part of a body whose position is given: the hand is oriented along the guess.
+VectorXd takesPart(const Config& C, const std::string& hand, const std::string& obj, const Vector3d& position,
+                   const GraspGuess& guess, const VectorXd& q, int first, double room) {
+  const Matrix3d R = C.getFrame(obj).getRotationMatrix();
+  const Vector3d target = position + R * guess.at, x = R * guess.closing, z = R * guess.back;
+  Config all = C;
+  all.setJointState(q);
+  StillDoors still = withStillDoors(all, doorsOf(all));
+  IkOptions options;
+  options.collisions = false;
+  options.attempts = 10;
+  VectorXd best;
+  double most = 0.;
+  for (const double sign : {1., -1.}) {
+    const Vector3d closing = (first == 2 ? -sign : sign) * x;
+    const IkResult result =
+        solveIk(still.scene,
+                {IkTarget::toPosition(hand, target), IkTarget::toDirection(hand, Vector3d::UnitZ(), z),
+                 IkTarget::toDirection(hand, Vector3d::UnitX(), closing)},
+                options);
+    if (!result.feasible()) continue;
+    VectorXd found = q;
+    found(still.dofs) = result.q;
+    const double there = roomAt(C, found, hand, obj, room);
+    if (best.size() == 0 || there > most) best = found, most = there;
+    if (most >= room) break;
+  }
+  return best.size() > 0 ? best : near(C, hand, target, q, {z, 0.});
+}
+
 /// Samples a rotation other than none, in right angles: half of the time, the other way round.
 int rightAngles(Rng& rng) { return rng.uniform() < .5 ? 2 : rng.uniform() < .5 ? 1 : 3; }
 
@@ -214,8 +245,12 @@ VectorXd TaskWaypoints::start(Rng* rng, bool grasps) const {
 VectorXd TaskWaypoints::startOf(std::size_t i, const VectorXd& before, std::map<std::string, Vector3d>& at,
                                 const std::map<std::string, Vector3d>& offsets, int angles) const {
   const TaskAction& action = actions[i];
-  if (isPick(action) && at.contains(action[1]))
-    return takes(C, action[3], action[1], at.at(action[1]), before, angles, angles > 0 ? margin : -kResolved);
+  if (isPick(action) && at.contains(action[1])) {
+    const double room = angles > 0 ? margin : -kResolved;
+    if (const auto guess = graspGuess(C, action[1], action[3], variants[i]))
+      return takesPart(C, action[3], action[1], at.at(action[1]), *guess, before, angles, room);
+    return takes(C, action[3], action[1], at.at(action[1]), before, angles, room);
+  }
   if (isPlace(action)) {
     const auto offset = offsets.find(cat("place_", action[3], "_", action[1], "_", i + 1));
     Vector3d target = at.at(action[3]);

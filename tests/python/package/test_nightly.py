@@ -13,6 +13,7 @@ NOT_RUN = {
     "control_peers",
     "panda_peers",
     "planning_peers",
+    "everyday_objects",
     "everyday_scenes",
     "komo_family",
     "look",

@@ -88,6 +88,8 @@ class PlanPlayer {
         wedged_(wedgedPairs(C, wordsOf(plan.start, "is_gripper"), wordsOf(plan.start, "is_object"), kOverlap)),
         ignored_(overlaps(C)) {
     for (const auto& [a, b] : wedged_) depth_.push_back(-gapOf(C, a, b));
+    for (const TaskAction& action : plan.actions)
+      if (isPlace(action) || endsSliding(action)) resting_.emplace(action[1], restingRotation(C.getFrame(action[1])));
     ignorePairs(scene_, wedged_);
   }
 
@@ -238,7 +240,7 @@ class PlanPlayer {
     if (action[0] == "hook_start" && holderOf(scene_, action[3], {action[5]}).empty())
       report(text, cat("'", action[5], "' does not hold '", action[4], "'"));
     if (isPick(action) || action[0] == "handover" || startsSliding(action)) {
-      if (const double apart = gapOf(scene_, action[1], action[3]); apart > kOffPlace)
+      if (const double apart = handGap(scene_, action[1], action[3]); apart > kOffPlace)
         report(text, cat("the hand is ", fixed(apart, 4), " m away from what it takes"));
       hang(scene_, action[1], action[3]);
       is_freed_ = is_freed_ || (action[0] == "handover" && isWedged(action[1]));
@@ -252,7 +254,7 @@ class PlanPlayer {
       const auto is_door = [&](const TaskDoor& door) { return door.name == action[1]; };
       if (std::ranges::none_of(doors_, is_door) || holderOf(scene_, action[2], {action[1]}).empty())
         report(text, cat("'", action[2], "' is no handle of a door"));
-      if (const double apart = gapOf(scene_, action[2], action[3]); apart > kOffPlace)
+      if (const double apart = handGap(scene_, action[2], action[3]); apart > kOffPlace)
         report(text, cat("the hand is ", fixed(apart, 4), " m away from what it takes"));
       held_.insert_or_assign(action[1], Held{action[2], action[3], scene_});
     } else if (isGuided(action)) {
@@ -268,7 +270,9 @@ class PlanPlayer {
     const Vector3d above = place.getRotationMatrix().col(2);
     const Vector3d axes = thing.getRotationMatrix().transpose() * above * (above.z() < 0. ? -1. : 1.);
     const std::string with_face = face.empty() ? "" : cat(", with ", face, " up");
-    if (axes.cwiseAbs().maxCoeff() < levelCosine() || (!face.empty() && shareOf(axes, face) < levelCosine()))
+    const bool is_as_before = (resting_.at(obj) * axes).z() > levelCosine();
+    const bool is_level = axes.cwiseAbs().maxCoeff() >= levelCosine() || (face.empty() && is_as_before);
+    if (!is_level || (!face.empty() && shareOf(axes, face) < levelCosine()))
       report(text, cat("it does not stand level", with_face));
     if (const double gap = standingGap(scene_, obj, to); std::abs(gap) > kOffPlace)
       report(text, cat("it is ", fixed(gap, 4), " m above its place"));
@@ -337,6 +341,7 @@ class PlanPlayer {
   bool is_freed_ = false;                      ///< the held object was put down
   const Pairs ignored_;                        ///< overlaps of the initial scene
   std::map<std::string, std::string> pushed_;  ///< by object: its pusher
+  std::map<std::string, Matrix3d> resting_;    ///< rotations in which objects lay before the plan
   Lines violations_;
 };
 

@@ -50,7 +50,9 @@ class GoalFlaw {
     const std::optional<Frame> frame = C_.findFrame(name);
     if (!frame || is("is_object", name)) return "";
     if (frame->getJointType() == JointType::rigid && frame->getShapeType() == ShapeType::none)
-      return cat("'", name, "' is no object: it has no shape; call setShape");
+      return cat("'", name,
+                 "' is no object: neither it nor a part fixed to it has a shape that collides; call setShape and "
+                 "setContact(1)");
     if (frame->getJointType() == JointType::rigid)
       return cat("'", name, "' is no object: it carries joints, or it has labels without is_object");
     return cat("'", name,

@@ -6,6 +6,7 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/eval.h"
+#include "kinegraph/task_planning/grasps.h"
 #include "kinegraph/task_planning/task_actions.h"
 #include "kinegraph/task_planning/task_tools.h"
 
@@ -31,6 +32,17 @@ double standingGap(const Config& scene, const std::string& obj, const std::strin
   for (const Frame& part : shapesOf(scene.getFrame(obj)))
     if (part.data().shape->contact) gap = std::min(gap, gapOf(scene, part.getName(), place));
   return gap;
+}
+
+double handGap(const Config& scene, const std::string& obj, const std::string& hand) {
+  const Frame body = scene.getFrame(obj);
+  double gap = gapOf(scene, obj, hand);
+  for (const Frame& part : heldShapes(body)) gap = std::min(gap, gapOf(scene, part.getName(), hand));
+  if (isCompound(body)) {  // a hand may close across a hollow body
+    const Vector3d at = body.getPose().inverse().transform() * scene.getFrame(hand).getPosition();
+    gap = std::min(gap, boxOfBody(body).exteriorDistance(at));
+  }
+  return gap > 0. ? std::max(gap - fingerReach(scene, hand), 0.) : gap;
 }
 
 void hang(Config& scene, const std::string& obj, const std::string& parent) {

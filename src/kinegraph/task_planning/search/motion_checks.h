@@ -19,6 +19,9 @@ double gapOf(const Config& scene, const std::string& a, const std::string& b);
 /// The same between an object, with all parts fixed to it, and what it stands on.
 double standingGap(const Config& scene, const std::string& obj, const std::string& place);
 
+/// The same between an object and the nearest point that the fingers of a hand reach: none is farther from its frame.
+double handGap(const Config& scene, const std::string& obj, const std::string& hand);
+
 /// Attaches an object to a frame in its current pose, as a held or standing object.
 void hang(Config& scene, const std::string& obj, const std::string& parent);
 

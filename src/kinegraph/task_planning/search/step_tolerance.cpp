@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kinegraph/common/text.h"
+#include "kinegraph/task_planning/grasps.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/task_tools.h"
 
@@ -19,28 +20,6 @@ MatrixXd sampled(const MatrixXd& path) {
   for (Eigen::Index k = 0; k <= count; ++k) rows.row(k) = path.row(k * kEvery);
   rows.row(count + 1) = path.row(last);
   return rows;
-}
-
-/// The colliding shapes of the fingers of a hand: those of its link that inactive joints move.
-std::vector<std::string> fingerShapes(const Config& C, const std::string& hand) {
-  const auto headOf = [](Frame frame, bool& is_finger) {
-    while (!frame.data().moves() || !frame.data().joint->active) {
-      is_finger = is_finger || frame.data().moves();
-      const std::optional<Frame> parent = frame.getParent();
-      if (!parent) break;
-      frame = *parent;
-    }
-    return frame;
-  };
-  bool unused = false;
-  const Frame head = headOf(C.getFrame(hand), unused);
-  std::vector<std::string> fingers;
-  for (const Frame& frame : C.getFrames()) {
-    bool is_finger = false;
-    if (frame.data().shape && frame.data().shape->contact && headOf(frame, is_finger) == head && is_finger)
-      fingers.push_back(frame.getName());
-  }
-  return fingers;
 }
 
 void lower(StepTolerance& tolerance, double error, const std::string& limit) {

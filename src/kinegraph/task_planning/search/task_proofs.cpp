@@ -9,9 +9,11 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
+#include "kinegraph/task_planning/grasps.h"
 #include "kinegraph/task_planning/shape_points.h"
 #include "kinegraph/task_planning/task_doors.h"
 #include "kinegraph/task_planning/task_rules.h"
+#include "kinegraph/task_planning/task_tools.h"
 
 namespace kinegraph {
 
@@ -103,6 +105,15 @@ double radiusOf(const Config& C, const std::string& name) {
   }
 }
 
+/// The same around a body with all shapes fixed to it.
+double radiusOfBody(const Config& C, const std::string& name) {
+  const Frame body = C.getFrame(name);
+  double radius = radiusOf(C, name);
+  for (const Frame& part : shapesOf(body))
+    radius = std::max(radius, part.getPose(body).p.norm() + radiusOf(C, part.getName()));
+  return radius;
+}
+
 /// Half of the smallest horizontal width of an upright object, m; none if it is unknown.
 std::optional<double> innerRadius(const Config& C, const std::string& name) {
   const Frame frame = C.getFrame(name);
@@ -141,12 +152,11 @@ class Proofs {
             found_.push_back({action, {}, cat("'", action[1], "' cannot stand on its part '", action[3], "'")});
         const double half = .5 * diagonalOf(C_.getFrame(action[3]), 3);
         if (const auto travel = travelOf(action[3]))
-          proveReach(action, action[2], action[3],
-                     *travel + half + 2. * radiusOf(C_, action[1]) + radiusOf(C_, action[2]));
+          proveReach(action, action[2], action[3], *travel + half + 2. * bodyRadius(action[1]) + handRadius(action[2]));
       } else if (isHold(action)) {
         if (graspVariants(C_, action[2], action[3]).empty()) addTooWide(action, action[2]);
         if (const auto travel = travelOf(action[2]))
-          proveReach(action, action[3], action[2], *travel + radiusOf(C_, action[2]) + radiusOf(C_, action[3]));
+          proveReach(action, action[3], action[2], *travel + bodyRadius(action[2]) + handRadius(action[3]));
       } else if (isGuided(action)) {
         proveDoorMotion(action);
       } else if (action[0] == "hook_start") {
@@ -162,6 +172,19 @@ class Proofs {
   }
 
  private:
+  double bodyRadius(const std::string& name) {
+    const auto [known, is_new] = body_radius_.try_emplace(name, 0.);
+    if (is_new) known->second = radiusOfBody(C_, name);
+    return known->second;
+  }
+
+  /// The radius of a ball around the origin of a hand that contains the tips of its fingers, m.
+  double handRadius(const std::string& hand) {
+    const auto [known, is_new] = hand_radius_.try_emplace(hand, 0.);
+    if (is_new) known->second = radiusOf(C_, hand) + fingerReach(C_, hand);
+    return known->second;
+  }
+
   void provePick(const TaskAction& action) {
     const std::string &obj = action[1], &place = action[2], &hand = action[3];
     if (graspVariants(C_, obj, hand).empty()) return addTooWide(action, obj);
@@ -169,7 +192,7 @@ class Proofs {
     if (!travel) return;
     const double half = .5 * diagonalOf(C_.getFrame(place), 2);
     const double far = (C_.getFrame(obj).getPosition() - C_.getFrame(place).getPosition()).norm();
-    const double room = 2. * radiusOf(C_, obj) + radiusOf(C_, hand);
+    const double room = 2. * bodyRadius(obj) + handRadius(hand);
     proveReach(action, hand, place, *travel + std::max(half, far) + room);
     if (staysInPlace(obj, place))
       proveReach(action, hand, obj, room, {Literal{"fresh", {obj}}});
@@ -249,7 +272,7 @@ class Proofs {
   bool isBeyondAll(const std::string& obj, const std::string& place) {
     if (!contains(start_, {"on", {place, obj}}) || !isStatic(C_.getFrame(place))) return false;
     return std::ranges::all_of(wordsOf(start_, "is_gripper"), [&](const std::string& hand) {
-      return beyond(hand, obj) > 2. * radiusOf(C_, obj) + radiusOf(C_, hand);
+      return beyond(hand, obj) > 2. * bodyRadius(obj) + handRadius(hand);
     });
   }
 
@@ -267,7 +290,7 @@ class Proofs {
     const Frame root = C_.getFrame(tool);
     for (const Frame& part : root.getSubtree())
       size = std::max(size, part.getPose(root).p.norm() + radiusOf(C_, part.getName()));
-    const double room = 2. * size + radiusOf(C_, obj) + radiusOf(C_, hand);
+    const double room = 2. * size + bodyRadius(obj) + handRadius(hand);
     proveReach(action, hand, obj, room, {Literal{"fresh", {obj}}}, cat(", with '", tool, "', too"));
   }
 
@@ -347,6 +370,7 @@ class Proofs {
   const std::vector<Literal>& start_;
   const std::vector<TaskDoor> doors_;
   std::map<std::string, Reach> reach_;
+  std::map<std::string, double> body_radius_, hand_radius_;
   std::vector<ImpossibleAction> found_;
 };
 

@@ -8,6 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/komo/path/path.h"
 #include "kinegraph/solvers/nlp_solver.h"
+#include "kinegraph/task_planning/grasps.h"
 #include "kinegraph/task_planning/violated_constraint.h"
 
 namespace kinegraph {
@@ -53,10 +54,8 @@ std::string causeOf(const Config& C, const TaskAction& action, const std::string
     cause = takes ? cat("'", action[3], "' misses its grasp of '", action[1], "' by ", amount)
                   : cat("'", action[1], "' misses its place on '", action[3], "' by ", amount);
   }
-  if (isPick(action) && isTooWideAcross(C, action[1], action[3]))
-    cause = cat("'", action[1], "' is wider than '", action[3], "' opens (",
-                fixed(opening(C, action[3]).value_or(0.), 3), " m) along its level axes; ", cause);
-  return cause;
+  const std::string flaw = isPick(action) ? graspFlaw(C, action[1], action[2], action[3]) : "";
+  return flaw.empty() ? cause : flaw;
 }
 
 }  // namespace

@@ -1,0 +1,290 @@
+#include "kinegraph/task_planning/grasps.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
+#include "kinegraph/scene/hand_fingers.h"
+#include "kinegraph/task_planning/shape_points.h"
+#include "kinegraph/task_planning/task_tools.h"
+
+// Grasps: the shape of an object that the fingers hold, and the axis along which they close.
+namespace kinegraph {
+
+namespace {
+
+using F = FeatureSymbol;
+using O = ObjectiveType;
+using Body = ShapeKind::Body;
+using Variants = std::vector<std::string>;
+
+constexpr double kUsualOpening = .08;      ///< m: default opening of a hand with a palm
+constexpr double kLeastClearance = .0015;  ///< m: of fingertips from the ground next to a thin object
+constexpr double kThinnest = .004;         ///< m: fingertips do not hold lower objects on their ground
+constexpr double kFreeShare = .25;         ///< share of the height of a low object that fingertips leave free
+constexpr double kNoShift = 1e-4;          ///< m: smaller shifts are none
+constexpr std::size_t kMostGrasps = 6;     ///< by parts of a body
+
+/// The sizes of a box, or of the box around a mesh, along x, y, z, m.
+Vector3d widthsOf(const Frame& frame) {
+  const Eigen::AlignedBox3d around = boxOfShape(frame);
+  if (around.isEmpty())
+    throw ValueError(cat("planTask: object '", frame.getName(), "' has no shape that can be grasped"));
+  return around.sizes();
+}
+
+/// The distance by which fingers are shifted so that their tips hold a low object without meeting the ground, m.
+double gripShift(const Config& C, const std::string& hand, const std::string& obj, const std::string& variant) {
+  const GraspWords words = graspWords(obj, variant);
+  const double reach = fingerReach(C, hand);
+  if (words.way == "touch" || !(reach > 0.)) return 0.;
+  if (const int axis = words.axis(); axis >= 0) {
+    constexpr double kUpright = .7;  // fingers above and below the object
+    if (std::abs(heldShape(C, obj, words).frame.getRotationMatrix()(2, axis)) > kUpright) return 0.;
+  }
+  const HeldHeights at = heldHeights(C, obj, words);
+  const double top = at.below + at.height;
+  if (top < kThinnest) return 0.;
+  const double clearance = std::clamp(kFreeShare * top, kLeastClearance, kTaskMargin);
+  const double highest = top - std::min(kGraspInside, kFreeShare * at.height);
+  return highest >= reach + clearance ? 0. : std::max(reach + clearance - at.below - .5 * at.height, 0.);
+}
+
+std::string gripName(const std::string& hand, const std::string& obj, const std::string& variant) {
+  return cat("grip of ", hand, " at ", obj, " (", variant, ")");
+}
+
+/// The ways in which fingers close on one shape, the narrow ones first; none if it is too wide.
+Variants waysOf(const Frame& frame, double wide) {
+  const std::vector<double> size = frame.getSize();
+  const Body body = shapeKind(frame.getShapeType()).body;
+  if (body == Body::ball) return 2. * size.back() <= wide ? Variants{"center"} : Variants{};
+  if (body == Body::capsule) return 2. * size[1] <= wide ? Variants{"around"} : Variants{};
+  if (body == Body::cylinder && 2. * size[1] <= wide) return {"around"};
+  if (body == Body::cylinder) return size[0] <= wide ? Variants{"z"} : Variants{};  // a disk, at its rim
+  const Vector3d widths = widthsOf(frame);
+  std::array<int, 3> axes = {0, 1, 2};
+  std::ranges::stable_sort(axes, {}, [&](int k) { return widths[k]; });
+  Variants ways;
+  for (const int k : axes)
+    if (widths[k] <= wide) ways.emplace_back(1, "xyz"[k]);
+  return ways;
+}
+
+/// Grasps of a body of several shapes: by the shape of its own frame, across all of it, then by its parts. First those
+/// that fingers get around, close to the center of mass; parts at equal distances are spread.
+Variants waysOfBody(const Config& C, const std::string& obj, const std::string& hand, double wide) {
+  constexpr double kRing = .005;  // m
+  const Frame body = C.getFrame(obj);
+  const PartAccess access(C, obj, wide);
+  const Vector3d center = centerOfBody(body), from = C.getFrame(hand).getPosition();
+  Variants first, others;
+  const auto add = [&](const std::string& variant) { (access.guess(variant) ? first : others).push_back(variant); };
+  if (body.getShapeType() != ShapeType::none)
+    for (const std::string& way : waysOf(body, wide)) add(way);
+  const Eigen::AlignedBox3d around = boxOfBody(body);
+  for (int k = 0; k < 3; ++k)
+    if (around.sizes()[k] <= wide) add(cat(std::string(1, "xyz"[k]), kOfPart, kAllParts));
+  using Ranked = std::pair<std::pair<long, double>, std::string>;
+  std::vector<Ranked> parts;
+  for (const Frame& part : heldShapes(body)) {
+    if (part == body) continue;
+    for (const std::string& way : waysOf(part, wide)) {
+      const std::string variant = cat(way, kOfPart, part.getName());
+      const std::optional<GraspGuess> guess = access.guess(variant);
+      if (!guess) {
+        others.push_back(variant);
+        continue;
+      }
+      const Vector3d at = body.getPose().transform() * guess->at;
+      parts.push_back({{std::lround((guess->at - center).norm() / kRing), (at - from).norm()}, variant});
+    }
+  }
+  std::ranges::sort(parts);
+  const std::size_t room = kMostGrasps - std::min(first.size(), kMostGrasps - 1);
+  const std::size_t count = std::min(parts.size(), room);
+  for (std::size_t k = 0; k < count; ++k)
+    first.push_back(parts[count < 2 ? 0 : k * (parts.size() - 1) / (count - 1)].second);
+  first.insert(first.end(), others.begin(), others.end());
+  return first;
+}
+
+// --- constraints -----------------------------------------------------------------------------------------------------
+
+/// The fingers close along an axis of a box, inside of its other sides.
+void graspBox(TaskWaypoints& w, double time, const std::string& grip, const std::string& obj,
+              const Eigen::AlignedBox3d& box, int axis, const std::string& palm) {
+  const Vector3d middle = box.center(), half = .5 * box.sizes();
+  const Vector3d inside = half.array() - (.5 * half.array()).min(kGraspInside);
+  std::vector<int> others = {0, 1, 2};
+  others.erase(others.begin() + axis);
+  const MatrixXd all = 1e1 * Eigen::Matrix3d::Identity(), along = all.row(axis), across = all(others, Eigen::all);
+  const Vector3d most = middle + inside, least = middle - inside;
+  w.komo().addObjective({time}, F::positionRel, {grip, obj}, O::eq, along, middle);
+  w.komo().addObjective({time}, F::positionRel, {grip, obj}, O::ineq, across, most);
+  w.komo().addObjective({time}, F::positionRel, {grip, obj}, O::ineq, -across, least);
+  constexpr std::array kProducts = {F::scalarProductXX, F::scalarProductXY, F::scalarProductXZ};
+  for (const int other : others)
+    w.komo().addObjective({time - .2, time}, kProducts[std::size_t(other)], {grip, obj}, O::eq, 1e0);
+  if (!palm.empty()) w.komo().addObjective({time - .3, time}, F::distance, {palm, obj}, O::ineq, 1e1, -.001);
+}
+
+/// A grasp far inside and close to the center of mass reduces the rotation in the hand.
+void nearCenter(TaskWaypoints& w, double time, const std::string& grip, const std::string& obj) {
+  const Vector3d center = centerOfBody(w.C.getFrame(obj));
+  if (isCentered(center))
+    w.komo().addObjective({time}, F::positionDiff, {grip, obj}, O::sos, 3e0);
+  else
+    w.komo().addObjective({time}, F::positionRel, {grip, obj}, O::sos, 3e0, center);
+}
+
+/// The box in a disk, in whose sides fingers hold its rim.
+Eigen::AlignedBox3d boxInDisk(const Frame& disk) {
+  const double half = disk.getSize()[1] / std::sqrt(2.), thick = .5 * disk.getSize()[0];
+  return {Vector3d(-half, -half, -thick), Vector3d(half, half, thick)};
+}
+
+}  // namespace
+
+std::vector<std::string> fingerShapes(const Config& C, const std::string& hand) {
+  const auto headOf = [](Frame frame, bool& is_finger) {
+    while (!frame.data().moves() || !frame.data().joint->active) {
+      is_finger = is_finger || frame.data().moves();
+      const std::optional<Frame> parent = frame.getParent();
+      if (!parent) break;
+      frame = *parent;
+    }
+    return frame;
+  };
+  bool unused = false;
+  const Frame head = headOf(C.getFrame(hand), unused);
+  std::vector<std::string> fingers;
+  for (const Frame& frame : C.getFrames()) {
+    bool is_finger = false;
+    if (frame.data().shape && frame.data().shape->contact && headOf(frame, is_finger) == head && is_finger)
+      fingers.push_back(frame.getName());
+  }
+  return fingers;
+}
+
+double fingerReach(const Config& C, const std::string& hand) {
+  double reach = 0.;
+  const Frame frame = C.getFrame(hand);
+  for (const std::string& name : fingerShapes(C, hand)) {
+    const Frame finger = C.getFrame(name);
+    const RigidTransform X = finger.getPose(frame).transform();
+    for (const Vector3d& corner : boxCorners(finger)) reach = std::max(reach, -Vector3d(X * corner).z());
+  }
+  return reach;
+}
+
+std::string addGripFrame(Config& scene, const std::string& hand, const std::string& obj, const std::string& variant) {
+  const double shift = gripShift(scene, hand, obj, variant);
+  if (shift < kNoShift) return hand;
+  const std::string name = gripName(hand, obj, variant);
+  if (!scene.findFrame(name)) scene.addFrame(name, hand).setRelativePosition({0., 0., -shift});
+  return name;
+}
+
+std::optional<GraspGuess> graspGuess(const Config& C, const std::string& obj, const std::string& hand,
+                                     const std::string& variant) {
+  const std::optional<double> wide = opening(C, hand);
+  if (!wide || !isCompound(C.getFrame(obj)) || variant == "touch") return std::nullopt;
+  return PartAccess(C, obj, *wide).guess(variant);
+}
+
+void addGrasp(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj,
+              const std::string& variant, double inside) {
+  const std::string palm = palmOf(w.C, hand), shifted = gripName(hand, obj, variant);
+  const std::string grip = w.C.findFrame(shifted) ? shifted : hand;
+  const GraspWords words = graspWords(obj, variant);
+  if (!palm.empty()) nearCenter(w, time, grip, obj);
+  if (words.isOfAllParts()) {
+    graspBox(w, time, grip, obj, boxOfBody(w.C.getFrame(obj)), words.axis(), "");
+    return;
+  }
+  const Frame thing = w.C.getFrame(words.part);
+  const std::vector<double> size = thing.getSize();
+  const int axis = words.axis();
+  if (words.way == "touch") {
+    w.komo().addObjective({time}, F::distance, {words.part, hand}, O::eq, 1e1);
+  } else if (words.way == "center") {
+    w.komo().addObjective({time}, F::positionDiff, {grip, words.part}, O::eq, 1e1);
+  } else if (words.way == "around") {
+    w.m->grasp_cylinder(time, grip, words.part, palm, std::min(inside, .25 * size[0]));
+  } else if (isBox(thing)) {
+    double least = std::min({size[0], size[1], size[2]});
+    if (words.part != obj && axis >= 0)
+      least = std::min(size[std::size_t(axis + 1) % 3], size[std::size_t(axis + 2) % 3]);
+    w.m->grasp_box(time, grip, words.part, palm, words.way, std::min(inside, .25 * least));
+  } else if (axis >= 0) {
+    graspBox(w, time, grip, words.part, isRoundBody(thing) ? boxInDisk(thing) : boxAround(thing), axis, palm);
+  } else {
+    throw ValueError(cat("planTask: '", hand, "' cannot hold '", obj, "' by '", variant, "'; expected x, y or z"));
+  }
+}
+
+std::string graspFlaw(const Config& C, const std::string& obj, const std::string& place, const std::string& hand) {
+  const std::optional<double> wide = opening(C, hand);
+  if (!wide) return "";
+  const Variants ways = graspVariants(C, obj, hand);
+  const HeldHeights at = heldHeights(C, obj, {"", std::string(kAllParts)});
+  const std::string lies = cat("lies flat on '", place, "': let it overhang an edge, or raise it");
+  if (isTooWideAcross(C, obj, hand))
+    return cat("'", obj, "' is wider than '", hand, "' opens (", fixed(*wide, 3),
+               " m) along its level axes, and no finger gets below it while it ", lies);
+  if (!ways.empty() && at.height < kThinnest && fingerReach(C, hand) > 0.)
+    return cat("'", obj, "' is ", fixed(1e3 * at.height, 1), " mm high, too thin for the tips of '", hand, "' (",
+               fixed(1e3 * kThinnest, 0), " mm) while it ", lies);
+  return "";
+}
+
+std::string palmOf(const Config& C, const std::string& hand) {
+  constexpr std::string_view kGripper = "gripper";
+  const bool is_named = hand.ends_with(kGripper);
+  const std::string name = hand.substr(0, hand.size() - (is_named ? kGripper.size() : 0)) + "palm";
+  return C.findFrame(name) ? name : "";
+}
+
+std::optional<double> opening(const Config& C, const std::string& hand) {
+  const Node* said = C.getFrame(hand).attributes().find("opening");
+  if (const double* width = said ? said->value.as<double>() : nullptr) return *width;
+  return palmOf(C, hand).empty() ? std::nullopt : std::optional(kUsualOpening);
+}
+
+Config withOpenings(const Config& C, const std::vector<std::string>& hands) {
+  Config scene = C;
+  const std::vector<HandFingers> all = handFingersOf(C);
+  for (const std::string& hand : hands) {
+    Frame frame = scene.getFrame(hand);
+    if (frame.attributes().find("opening")) continue;
+    std::optional<Frame> head = frame;
+    while (head->getJointType() == JointType::none && head->getParent()) head = head->getParent();
+    const auto isBelow = [&](const HandFingers& fingers) {
+      for (std::optional<Frame> up = scene.getFrame(fingers.joint); up; up = up->getParent())
+        if (*up == *head) return true;
+      return false;
+    };
+    const auto found = std::ranges::find_if(all, isBelow);
+    if (found != all.end() && found->maxWidth() > 0.)
+      frame.editAttributes().set({"opening", {}, {}, {found->maxWidth(), {}}, {}});
+  }
+  return scene;
+}
+
+Variants graspVariants(const Config& C, const std::string& obj, const std::string& hand) {
+  const std::optional<double> wide = opening(C, hand);
+  if (!wide) return {"touch"};
+  const Frame frame = C.getFrame(obj);
+  return isCompound(frame) ? waysOfBody(C, obj, hand, *wide) : waysOf(frame, *wide);
+}
+
+bool isTooWideAcross(const Config& C, const std::string& obj, const std::string& hand) {
+  const Variants ways = graspVariants(C, obj, hand);
+  return ways.size() == 1 && ways[0].size() == 1 && upOf(C, obj).starts_with(ways[0]);
+}
+
+}  // namespace kinegraph
