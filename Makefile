@@ -34,9 +34,7 @@ test-models:
 	PYTHON="$(PYTHON)" bash tools/test_models.sh $(ARGS)
 
 test-ros:
-	PYTHON="$(PYTHON)" bash tools/ros_venv.sh build/ros
-	PYTHONPATH="$(CURDIR)/python" ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST KINEGRAPH_HEADLESS=1 \
-	  build/ros/bin/python -m pytest -q tests/ros
+	PYTHON="$(PYTHON)" bash tools/test_ros.sh $(ARGS)
 
 tidy:
 	PYTHON="$(PYTHON)" bash tools/tidy.sh $(ARGS)
