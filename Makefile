@@ -3,6 +3,7 @@
 # make docs           builds the site: build/site/html/index.html (make docs-serve: at http://localhost:8000)
 # make test-models    reads every robot of two large collections and compares with Pinocchio and MuJoCo (2 GB, minutes)
 # make test-ros       makes an environment with rclpy in build/ros, and tests the connection to ROS 2
+# make test-lerobot   installs lerobot into build/lerobot_venv (8 GB), and tests data sets, plugins and environments with it
 # make tidy           runs clang-tidy on the library; ARGS="src/kinegraph/komo" takes some rooms
 # make nightly        runs tests, Clang, sanitizers, fuzzers and benchmarks, and writes docs/results/VERSION.md (hours);
 #                     ARGS=--quick takes a small sample of each
@@ -13,7 +14,7 @@
 PYTHON ?= python3
 VENV := .venv
 
-.PHONY: demo install test docs docs-serve test-models test-ros tidy nightly release clean
+.PHONY: demo install test docs docs-serve test-models test-ros test-lerobot tidy nightly release clean
 
 demo: install
 	$(VENV)/bin/kinegraph demo $(ARGS)
@@ -34,9 +35,10 @@ test-models:
 	PYTHON="$(PYTHON)" bash tools/test_models.sh $(ARGS)
 
 test-ros:
-	PYTHON="$(PYTHON)" bash tools/ros_venv.sh build/ros
-	PYTHONPATH="$(CURDIR)/python" ROS_AUTOMATIC_DISCOVERY_RANGE=LOCALHOST KINEGRAPH_HEADLESS=1 \
-	  build/ros/bin/python -m pytest -q tests/ros
+	PYTHON="$(PYTHON)" bash tools/test_ros.sh $(ARGS)
+
+test-lerobot:
+	PYTHON="$(PYTHON)" bash tools/test_lerobot.sh $(ARGS)
 
 tidy:
 	PYTHON="$(PYTHON)" bash tools/tidy.sh $(ARGS)

@@ -215,7 +215,12 @@ def page(folder: Path) -> None:
 def arms(folder: Path) -> None:
     """The arms of the pages on their drivers."""
     bent = [0.0, -1.2, 1.6, -2.0, -1.6, 0.0]
-    for name, file, home in (("trossen", "trossen/trossen.g", None), ("ur5e", "ur5e/ur5e.g", bent)):
+    above = [0.4, -0.6, 1.0, 1.0, 0.0]
+    for name, file, home in (
+        ("trossen", "trossen/trossen.g", None),
+        ("ur5e", "ur5e/ur5e.g", bent),
+        ("so101", "so101/so101.g", above),
+    ):
         C = ry.Config()
         C.addFile(ry.raiPath(file))
         if home is not None:

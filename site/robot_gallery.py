@@ -14,7 +14,21 @@ import kinegraph as ry
 
 SIZE = (320, 280)  # pixels
 EXTRA = "example-robot-data"  # the package of the extra `meshes`
-KIND = {"panda", "ur5e", "ur10e", "ur10", "irb120", "allegro", "g1", "pr2", "ranger", "robotiq", "trossen", "basler"}
+KIND = {
+    "panda",
+    "ur5e",
+    "ur10e",
+    "ur10",
+    "irb120",
+    "allegro",
+    "g1",
+    "pr2",
+    "ranger",
+    "robotiq",
+    "so101",
+    "trossen",
+    "basler",
+}
 
 
 def robotFiles(models: Path) -> list[Path]:

@@ -125,6 +125,9 @@ stage films "$tests/bin/python" -c \
 bench panda_tasks "--families tower,sort,drawer,stow,hook --seeds 5" "--seeds 1 --repairs 0"
 bench lgp "" "--seeds 1"
 bench viewer "" "bundle"
+stage lerobot bash tools/test_lerobot.sh
+stage ros bash tools/test_ros.sh
+stage benchmark_ros_bridge env PYTHONPATH=python build/ros/bin/python benchmarks/ros_bridge.py --seconds "$(pick 2 10)"
 if [ -n "$reference" ]; then
   bench tutorial_ratio "$reference --rounds 5" "$reference --rounds 1 --targets 30"
   bench solve_ik "$reference --targets 400" "$reference --rounds 1 --targets 20"

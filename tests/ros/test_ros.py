@@ -5,7 +5,6 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 import pytest
@@ -13,81 +12,22 @@ import pytest
 rclpy = pytest.importorskip("rclpy", reason="needs ROS 2; make test-ros installs its wheels")
 
 from action_msgs.msg import GoalStatus  # noqa: E402
-from builtin_interfaces.msg import Duration  # noqa: E402
-from control_msgs.action import FollowJointTrajectory  # noqa: E402
 from control_msgs.msg import JointTolerance  # noqa: E402
-from rclpy.action import ActionClient  # noqa: E402
-from rclpy.qos import DurabilityPolicy, QoSProfile  # noqa: E402
+from ros_client import Client, move, scene, trajectory  # noqa: E402
 from sensor_msgs.msg import JointState  # noqa: E402
-from std_msgs.msg import Float64MultiArray, String  # noqa: E402
-from tf2_msgs.msg import TFMessage  # noqa: E402
-from trajectory_msgs.msg import JointTrajectory, JointTrajectoryPoint  # noqa: E402
+from std_msgs.msg import Float64MultiArray  # noqa: E402
+from trajectory_msgs.msg import JointTrajectory  # noqa: E402
 
 import kinegraph as ry  # noqa: E402
-from kinegraph.ros import RosBridge, RosDriver, throughPoints  # noqa: E402
+from kinegraph.ros import RosBridge, RosDriver, jointTrajectory, throughPoints  # noqa: E402
 from kinegraph.ros.node import RunningNode  # noqa: E402
 
 pytestmark = pytest.mark.filterwarnings("ignore::DeprecationWarning")  # of packages of ROS
-LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
 @pytest.fixture(autouse=True)
 def only_this_machine(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
-
-
-def scene() -> ry.Config:
-    C = ry.Config()
-    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
-    return C
-
-
-class Client:
-    """A node of its own that sees the robot, as RViz or MoveIt do."""
-
-    def __init__(self) -> None:
-        self._running = RunningNode("client", 2)
-        node = self.node = self._running.node
-        self.states: list[JointState] = []
-        self.descriptions: list[str] = []
-        self.transforms: dict[str, tuple[str, Any]] = {}
-        node.create_subscription(JointState, "/joint_states", self.states.append, 100)
-        node.create_subscription(String, "/robot_description", lambda m: self.descriptions.append(m.data), LATCHED)
-        node.create_subscription(TFMessage, "/tf_static", self._onTransforms, LATCHED)
-        node.create_subscription(TFMessage, "/tf", self._onTransforms, 100)
-        self.topic = node.create_publisher(JointTrajectory, "/joint_trajectory_controller/joint_trajectory", 1)
-        self.action = ActionClient(node, FollowJointTrajectory, "/joint_trajectory_controller/follow_joint_trajectory")
-        self.feedbacks: list[Any] = []
-        self._running.start()
-        assert self.action.wait_for_server(20.0)
-        self.wait(lambda: self.states)
-
-    def _onTransforms(self, message: TFMessage) -> None:
-        for transform in message.transforms:
-            self.transforms[transform.child_frame_id] = transform.header.frame_id, transform.transform
-
-    def wait(self, condition: Any, seconds: float = 20.0) -> Any:
-        end = time.monotonic() + seconds
-        while not condition():
-            assert time.monotonic() < end, "nothing happened"
-            time.sleep(0.01)
-        return condition()
-
-    def send(self, trajectory: JointTrajectory, **fields: Any) -> Any:
-        goal = FollowJointTrajectory.Goal(trajectory=trajectory, **fields)
-        future = self.action.send_goal_async(goal, feedback_callback=self.feedbacks.append)
-        self.wait(future.done)
-        assert future.result().accepted
-        return future.result()
-
-    def result(self, handle: Any) -> tuple[int, int, str]:
-        future = handle.get_result_async()
-        self.wait(future.done, 40.0)
-        result = future.result()
-        return result.status, result.result.error_code, result.result.error_string
-
-    def close(self) -> None:
-        self._running.close()
 
 
 @pytest.fixture
@@ -101,41 +41,14 @@ def robot() -> Iterator[tuple[ry.Config, ry.BotOp, Client]]:
     bot.close()
 
 
-def trajectory(names: list[str], times: Any, q: Any, velocity: Any = None) -> JointTrajectory:
-    points = []
-    for row, t in enumerate(times):
-        point = JointTrajectoryPoint(positions=[float(x) for x in q[row]])
-        point.time_from_start = Duration(sec=int(t), nanosec=round(t % 1 * 1e9))
-        if velocity is not None:
-            point.velocities = [float(x) for x in velocity[row]]
-        points.append(point)
-    return JointTrajectory(joint_names=names, points=points)
-
-
-def move(bot: ry.BotOp, C: ry.Config, by: float, seconds: float) -> JointTrajectory:
-    """Smooth points with velocities, joints in reverse order."""
-    q, u = bot.get_q(), np.linspace(0, 1, 21)[1:]
-    share = 10 * u**3 - 15 * u**4 + 6 * u**5
-    rate = (30 * u**2 - 60 * u**3 + 30 * u**4) / seconds
-    names = C.getJointNames()[::-1]
-    rows = q + by * share[:, None] * np.eye(7)[0]
-    return trajectory(names, u * seconds, rows[:, ::-1], (by * rate[:, None] * np.eye(7)[0])[:, ::-1])
-
-
 def test_others_see_the_robot(robot: tuple[ry.Config, ry.BotOp, Client]) -> None:
     C, bot, client = robot
-    assert list(client.states[-1].name) == C.getJointNames()
-    np.testing.assert_allclose(client.states[-1].position, bot.get_q())
+    fingers = ["l_panda_finger_joint1", "l_panda_finger_joint2"]
+    assert list(client.states[-1].name) == [*C.getJointNames(), *fingers]
+    np.testing.assert_allclose(client.states[-1].position, [*bot.get_q(), 0.04, 0.04])
     assert "<robot" in client.wait(lambda: client.descriptions)[0]
     client.wait(lambda: {"l_gripper", "l_panda_joint7_link", "table"} <= set(client.transforms))
-    pose, at = np.eye(4), "l_gripper"
-    while at != "world":
-        at, transform = client.transforms[at]
-        t, r = transform.translation, transform.rotation
-        step = np.eye(4)
-        step[:3, :3], step[:3, 3] = ry.Quaternion([r.w, r.x, r.y, r.z]).getMatrix(), [t.x, t.y, t.z]
-        pose = step @ pose
-    np.testing.assert_allclose(pose, C.getFrame("l_gripper").getTransform(), atol=1e-9)
+    np.testing.assert_allclose(client.pose("l_gripper"), C.getFrame("l_gripper").getTransform(), atol=1e-9)
 
 
 def test_a_goal_is_reached_with_feedback(robot: tuple[ry.Config, ry.BotOp, Client]) -> None:
@@ -163,6 +76,11 @@ def test_goals_that_are_too_fast_or_of_another_robot_are_refused(robot: tuple[ry
     assert "the points have [3] positions; expected 7 each" in client.result(client.send(short))[2]
     nan = trajectory(C.getJointNames(), [1.0], [q * np.nan])
     assert client.result(client.send(nan))[2] == "a number is not finite"
+    fast = trajectory(C.getJointNames(), [1.0], [q], [0.1 * np.eye(7)[3]])
+    assert "the velocity of joint 'l_panda_joint4' at the last point is 0.1" in client.result(client.send(fast))[2]
+    old = trajectory(C.getJointNames(), [1.0], [q])
+    old.header.stamp.sec = 1000
+    assert client.result(client.send(old))[1] == -3
     np.testing.assert_array_equal(bot.get_q(), q)
 
 
@@ -184,6 +102,61 @@ def test_a_goal_is_canceled_and_replaced(robot: tuple[ry.Config, ry.BotOp, Clien
     second = client.send(move(bot, C, 0.2, 2.0))
     assert client.result(first) == (GoalStatus.STATUS_ABORTED, -1, "a new goal has replaced this one")
     assert client.result(second)[0] == GoalStatus.STATUS_SUCCEEDED
+
+
+def test_a_goal_flows_into_the_next_one(robot: tuple[ry.Config, ry.BotOp, Client]) -> None:
+    C, bot, client = robot
+    start = bot.get_q()
+    first = client.send(trajectory(C.getJointNames(), [4.0], [start + 0.8 * np.eye(7)[0]]))
+    client.wait(lambda: bot.get_q()[0] > start[0] + 0.1)
+    began = len(client.states)
+    goal = start + 0.6 * np.eye(7)[0] + 0.2 * np.eye(7)[3]
+    second = client.send(trajectory(C.getJointNames(), [3.0], [goal]))
+    client.wait(lambda: bot.get_q()[0] > start[0] + 0.4)
+    speeds = [state.velocity[0] for state in client.states[began:]]
+    assert min(speeds) > 0.05, "the robot has stopped in between"
+    assert client.result(first)[1:] == (-1, "a new goal has replaced this one")
+    assert client.result(second) == (GoalStatus.STATUS_SUCCEEDED, 0, "")
+    np.testing.assert_allclose(bot.get_q(), goal, atol=1e-9)
+    third = client.send(trajectory(C.getJointNames(), [4.0], [start]))
+    client.wait(lambda: bot.get_q()[0] < start[0] + 0.5)
+    wrong = client.send(trajectory(C.getJointNames(), [1.0], [goal * np.nan]))
+    assert client.result(wrong)[2] == "a number is not finite"
+    assert client.result(third)[0] == GoalStatus.STATUS_SUCCEEDED  # an invalid goal leaves the present one alone
+
+
+def test_a_turn_beyond_the_limits_stops_first(robot: tuple[ry.Config, ry.BotOp, Client]) -> None:
+    C, bot, client = robot
+    start = bot.get_q()
+    client.send(trajectory(C.getJointNames(), [1.5], [start + np.eye(7)[0]]))
+    client.wait(lambda: bot.get_qDot()[0] > 0.9)
+    q = bot.get_q() + 0.3 * np.eye(7)[0]
+    back = trajectory(C.getJointNames(), [0.02, 1.5], [q, q], np.zeros((2, 7)))
+    status, code, text = client.result(client.send(back))
+    assert (status, code) == (GoalStatus.STATUS_ABORTED, -1) and "l_panda_joint1" in text and "limit" in text
+    assert np.abs(bot.get_qDot()).max() < 1e-9
+
+
+def test_a_stamp_delays_the_start(robot: tuple[ry.Config, ry.BotOp, Client]) -> None:
+    C, bot, client = robot
+    start = bot.get_q()
+    later = move(bot, C, 0.2, 1.0)
+    stamp = client.node.get_clock().now().nanoseconds + 10**9
+    later.header.stamp.sec, later.header.stamp.nanosec = stamp // 10**9, stamp % 10**9
+    handle = client.send(later)
+    assert client.result(handle)[0] == GoalStatus.STATUS_SUCCEEDED
+    first = next(state for state in client.states if abs(state.position[0] - start[0]) > 1e-6)
+    began = first.header.stamp.sec * 10**9 + first.header.stamp.nanosec
+    assert 0.0 < 1e-9 * (began - stamp) < 0.15
+
+
+def test_plans_become_messages(robot: tuple[ry.Config, ry.BotOp, Client]) -> None:
+    C, bot, client = robot
+    plan = ry.planMotion(C, bot.get_q() + np.array([0.3, 0, 0.2, 0, 0, 0, 0.5]))
+    assert client.result(client.send(jointTrajectory(plan, C.getJointNames()))) == (GoalStatus.STATUS_SUCCEEDED, 0, "")
+    np.testing.assert_allclose(bot.get_q(), plan.path[-1], atol=1e-9)
+    with pytest.raises(ry.ArgumentError, match="there are 2 names of joints; expected 7"):
+        jointTrajectory(plan, ["a", "b"])
 
 
 def test_the_topic_moves_and_an_empty_trajectory_holds(robot: tuple[ry.Config, ry.BotOp, Client]) -> None:

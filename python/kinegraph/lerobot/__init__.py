@@ -2,6 +2,7 @@
 
 from .checking import checkDataset
 from .demonstrations import Demonstrations, Randomization, demonstrate
+from .rehearsal import rehearse
 from .writer import LeRobotWriter, mergeShards
 
-__all__ = ["Demonstrations", "LeRobotWriter", "Randomization", "checkDataset", "demonstrate", "mergeShards"]
+__all__ = ["Demonstrations", "LeRobotWriter", "Randomization", "checkDataset", "demonstrate", "mergeShards", "rehearse"]

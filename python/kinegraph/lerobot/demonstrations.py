@@ -19,6 +19,7 @@ from .._core import BotOp, Config
 from ..errors import ArgumentError
 from ..fleets import map as mapItems
 from .layout import SHARDS, shardFolder, writeText
+from .rehearsal import sentence, stateNames, stateOf
 from .writer import LeRobotWriter, finishedShards, mergeShards
 
 KEEP = ("success", "clean", "all")
@@ -180,7 +181,7 @@ def demonstrate(
         raise ArgumentError(f"demonstrate: fps is {fps}; expected a divisor of the control rate, 100 Hz, such as 20")
     height, width = (size, size) if isinstance(size, int) else size
     vary = Randomization() if randomize is None else randomize
-    job = _Job(scene, goal, tuple(cameras), (height, width), fps, seed, keep, vary, task or _sentence(goal))
+    job = _Job(scene, goal, tuple(cameras), (height, width), fps, seed, keep, vary, task or sentence(goal))
     settings = {
         "goal": goal,
         "cameras": list(cameras),
@@ -217,12 +218,6 @@ def demonstrate(
         for reason, count in report["failures"].items():
             failures[reason] = failures.get(reason, 0) + count
     return Demonstrations(folder, info["total_episodes"], info["total_frames"], attempts, failures)
-
-
-def _sentence(goal: str) -> str:
-    parts = [part.split() for part in goal.replace("(", " ").split(")") if part.strip()]
-    texts = [f"put {p[2]} on {p[1]}" if p[0] == "on" and len(p) == 3 else " ".join(p) for p in parts]
-    return " and ".join(texts)
 
 
 def _requireSame(folder: Path, settings: dict[str, Any]) -> None:
@@ -324,15 +319,12 @@ def _attempt(job: _Job, rng: np.random.Generator) -> _Episode:
             episode.failure = f"no plan: {plan.message}"
             return episode
         bot = BotOp(C)
-        grippers = bot.getInfo().grippers
-        episode.names = [f"{name}.pos" for name in bot.getInfo().joints] + [f"{g.name}.pos" for g in grippers]
+        episode.names = stateNames(bot)
 
         def film(_: float) -> None:
-            observation = bot.stepObservation()
-            widths = [bot.getGripperPos(i) for i in range(len(grippers))]
-            targets = [bot.getGripperTarget(i) for i in range(len(grippers))]
-            episode.state.append(np.concatenate([observation.qpos, widths]))
-            episode.command.append(np.concatenate([observation.qref, targets]))
+            state, command = stateOf(bot)
+            episode.state.append(state)
+            episode.command.append(command)
             for camera in job.cameras:
                 episode.images[camera].append(bot.getImage(camera))
 

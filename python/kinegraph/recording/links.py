@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sequence
 from xml.etree import ElementTree
 
 import numpy as np
@@ -61,6 +62,8 @@ class Links:
                 moving.add(child.get("link", ""))
                 if joint.get("name") in self._index and joint.get("type") in ("revolute", "continuous", "prismatic"):
                     self.joints.append(str(joint.get("name")))
+        in_q = set(config.getJointNames())
+        self.fingers = [name for name in self.joints if name not in in_q]  # joints that are not part of q
         links = [str(link.get("name")) for link in tree.iter("link")]
         known = urdf_joints.union(links)
         links += [f for f in frames if f not in known and f + "_link" not in known and self._isFree(config, f)]
@@ -99,3 +102,37 @@ class Links:
         moving = [(self.parents[i], self.names[i], poses[i]) for i in np.flatnonzero(self._moving)]
         resting = [(self.parents[i], self.names[i], poses[i]) for i in np.flatnonzero(~self._moving)] if first else []
         return moving, resting
+
+
+class JointStates:
+    """The states of all joints: those of q, and others, such as fingers."""
+
+    def __init__(self, joints: Sequence[str]):
+        """Begins.
+
+        Args:
+            joints: Names of the joints of q.
+        """
+        self._joints = list(joints)
+        self._last: tuple[float, np.ndarray] | None = None
+
+    def read(
+        self, time: float, config: Config, links: Links, q: np.ndarray, velocity: np.ndarray
+    ) -> tuple[list[str], np.ndarray, np.ndarray]:
+        """Returns names, positions and velocities of all joints; velocities of others are differences of positions.
+
+        Args:
+            time: s.
+            config: The scene in its present state.
+            links: Its links.
+            q, velocity: State of the joints of q.
+        """
+        others = [name for name in links.joints if name not in self._joints]
+        if not others:
+            return self._joints, q, velocity
+        values = np.array([config.getFrame(name).getJointState()[0] for name in others])
+        speeds = np.zeros(len(others))
+        if self._last is not None and time > self._last[0] and len(self._last[1]) == len(others):
+            speeds = (values - self._last[1]) / (time - self._last[0])
+        self._last = (time, values)
+        return [*self._joints, *others], np.append(q, values), np.append(velocity, speeds)

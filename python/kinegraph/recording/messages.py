@@ -114,7 +114,7 @@ def encodeText(text: str) -> bytes:
 
 def encodeImage(time: int, frame: str, image: np.ndarray) -> bytes:
     """Encodes an image, shape (height, width, 3), 0..255, as JPEG in a CompressedImage."""
-    return _encode(IMAGE, _header(time, frame), "jpeg", np.frombuffer(_jpeg(image), np.uint8))
+    return _encode(IMAGE, _header(time, frame), "jpeg", np.frombuffer(encodeJpeg(image), np.uint8))
 
 
 def encodeCamera(time: int, frame: str, size: tuple[int, int], fxycxy: np.ndarray) -> bytes:
@@ -144,7 +144,12 @@ def encodeCamera(time: int, frame: str, size: tuple[int, int], fxycxy: np.ndarra
     )
 
 
-def _jpeg(image: np.ndarray) -> bytes:
+def encodeJpeg(image: np.ndarray) -> bytes:
+    """Encodes an image, shape (height, width, 3), 0..255, as JPEG.
+
+    Raises:
+        NotFound: The package av is not installed.
+    """
     av = needed("av")
     codec = av.CodecContext.create("mjpeg", "w")
     codec.height, codec.width = image.shape[:2]

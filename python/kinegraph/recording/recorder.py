@@ -13,7 +13,7 @@ from .._core import BotOp, CameraView, Config, Simulation
 from ..errors import ArgumentError
 from . import messages
 from .files import McapFile
-from .links import Links
+from .links import JointStates, Links
 
 Camera = tuple[np.ndarray, np.ndarray]  # image (height, width, 3) and fx, fy, cx, cy
 
@@ -60,7 +60,7 @@ class Recorder:
         self._next_sample = self._next_image = -math.inf
         self._sink: Sink | None = None
         self._links: Links | None = None
-        self._fingers: tuple[float, np.ndarray] | None = None
+        self._states: JointStates | None = None
 
     def open(self, sink: Sink) -> None:
         """Begins to send messages to a sink, which ends with this object or with the program."""
@@ -124,7 +124,9 @@ class Recorder:
         if links is None or links.count != config.getFrameDimension():
             links = self._links = Links(config)
             self._send("/robot_description", messages.TEXT, messages.encodeText(links.urdf), stamp)
-        names, values, speeds = self._withFingers(time, config, links, joints, q, velocity)
+        if self._states is None:
+            self._states = JointStates(joints)
+        names, values, speeds = self._states.read(time, config, links, q, velocity)
         self._send("/clock", messages.CLOCK, messages.encodeClock(stamp), stamp)
         if effort is not None:
             effort = np.append(effort, np.zeros(len(values) - len(effort)))
@@ -164,20 +166,6 @@ class Recorder:
     def _send(self, topic: str, kind: str, data: bytes, time: int) -> None:
         if self._sink is not None:
             self._sink.send(topic, kind, data, time)
-
-    def _withFingers(
-        self, time: float, config: Config, links: Links, joints: Sequence[str], q: np.ndarray, velocity: np.ndarray
-    ) -> tuple[list[str], np.ndarray, np.ndarray]:
-        """Adds the joints that are not part of q, such as those of fingers."""
-        others = [name for name in links.joints if name not in joints]
-        if not others:
-            return list(joints), q, velocity
-        values = np.array([config.getFrame(name).getJointState()[0] for name in others])
-        speeds = np.zeros(len(others))
-        if self._fingers is not None and time > self._fingers[0] and len(self._fingers[1]) == len(others):
-            speeds = (values - self._fingers[1]) / (time - self._fingers[0])
-        self._fingers = (time, values)
-        return [*joints, *others], np.append(q, values), np.append(velocity, speeds)
 
 
 def watchRobot(bot: BotOp, recorder: Recorder) -> None:

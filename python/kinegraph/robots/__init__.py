@@ -7,7 +7,8 @@ hand. They import the vendors' packages when they connect.
 from .franka import FrankaDriver
 from .lerobot import LeRobotDriver
 from .panda import PandaDriver
+from .tool_control import ToolControl
 from .trossen import TrossenDriver
 from .ur import UrDriver
 
-__all__ = ["FrankaDriver", "LeRobotDriver", "PandaDriver", "TrossenDriver", "UrDriver"]
+__all__ = ["FrankaDriver", "LeRobotDriver", "PandaDriver", "ToolControl", "TrossenDriver", "UrDriver"]

@@ -4,7 +4,7 @@ rclpy comes with an installed ROS 2 (`source /opt/ros/DISTRO/setup.bash`); this 
 """
 
 from .bridge import RosBridge
-from .driver import RosDriver
-from .points import throughPoints
+from .driver import RosDriver, RosGripper
+from .points import jointTrajectory, throughPoints
 
-__all__ = ["RosBridge", "RosDriver", "throughPoints"]
+__all__ = ["RosBridge", "RosDriver", "RosGripper", "jointTrajectory", "throughPoints"]

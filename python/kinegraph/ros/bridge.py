@@ -2,40 +2,36 @@
 
 from __future__ import annotations
 
+import array
+import math
+import re
 import threading
 import time
+from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
+from .._core import BotOp, Config, Trajectory
+from ..errors import ArgumentError, RobotFault
+from ..recording.links import JointStates, Links
+from .grippers import Finger, GripperController
+from .node import RunningNode, needed
+from .robot import Robot, State
+from .sights import Camera, Markers
+from .trajectories import TrajectoryController
 
-from .._core import BotOp, Trajectory
-from ..errors import ArgumentError, Error, RobotFault
-from ..recording.links import Links
-from .node import RunningNode, needed, seconds
-from .points import throughPoints
-
-FEEDBACK = 0.05  # s between feedbacks of a goal
-TOLERANCE = 0.01  # rad or m at the goal, if the goal has no tolerance
-NEAR = 0.05  # rad or m: a first point without time that is farther from the robot is refused
-
-
-class _Refused(Exception):
-    """A trajectory that is not executed, with the error code of FollowJointTrajectory."""
-
-    def __init__(self, code: int, reason: str):
-        super().__init__(reason)
-        self.code = code
+MARKER_PERIOD = 0.05  # s between two messages of contacts
 
 
 class RosBridge:
     """Publishes a robot, and executes trajectories of ROS 2 with it.
 
-    It publishes /joint_states, /robot_description, /tf and /tf_static, and has the topic
-    CONTROLLER/joint_trajectory and the action CONTROLLER/follow_joint_trajectory of a joint_trajectory_controller.
-    A trajectory goes exactly through its points, within the limits of the robot, or is refused with the reason. A
-    new goal stops the present one.
+    It publishes /joint_states, /robot_description, /tf, /tf_static, images and markers. Images, points and contacts are
+    published while someone listens. The bridge has the topic CONTROLLER/joint_trajectory and the action
+    CONTROLLER/follow_joint_trajectory of a joint_trajectory_controller, and the actions of gripper controllers. A
+    trajectory goes exactly through its points, within the limits of the robot, or is refused with the reason. The
+    present motion flows into the motion of a new goal if the limits allow, else the robot stops in between.
 
-    The robot runs in real time: BotOp(C, realtime=True), or a real robot.
+    The robot runs in real time, as BotOp(C, realtime=True) or a real one does, or, with clock=True, in virtual time.
     """
 
     def __init__(
@@ -45,63 +41,88 @@ class RosBridge:
         rate: float = 100.0,
         controller: str = "joint_trajectory_controller",
         tf: bool = True,
+        cameras: Sequence[str] = (),
+        camera_rate: float = 10.0,
+        clock: bool = False,
         name: str = "kinegraph",
     ):
         """Starts the node in threads of its own.
 
         Args:
-            bot: The robot, in real time.
+            bot: The robot.
             rate: Messages of /joint_states and /tf per second, Hz; up to about 500.
             controller: Name of the controller.
-            tf: Whether to publish /tf, /tf_static.
+            tf: True publishes /tf, /tf_static.
+            cameras: Frames of cameras of a simulated robot: NAME/image_raw, image_raw/compressed, camera_info,
+                depth/image_rect_raw, points.
+            camera_rate: Images per second, Hz.
+            clock: The robot has virtual time, which advances while calls wait (bot.sync, bot.wait): publishes it as
+                /clock, for nodes with use_sim_time. All stamps are of this time, and goals advance with it.
             name: Name of the node.
         Raises:
             NotFound: A package of ROS 2 is missing.
-            ArgumentError: The rate is invalid.
+            ArgumentError: A rate is invalid, the robot has virtual time without `clock`, or a real robot has cameras.
+            FrameNotFound: There is no such camera.
         """
-        if not 0 < rate <= 1000:
-            raise ArgumentError(f"RosBridge: rate is {rate}; expected a number above 0 and at most 1000, in Hz")
-        sensor, trajectory = needed("sensor_msgs.msg"), needed("trajectory_msgs.msg")
-        std, control, action = needed("std_msgs.msg"), needed("control_msgs.action"), needed("rclpy.action")
-        self._bot, self._joints = bot, list(bot.getInfo().joints)
-        self._action = control.FollowJointTrajectory
-        self._point = trajectory.JointTrajectoryPoint
-        self._lock = threading.Lock()
-        self._goal_number = 0
+        for what, value in (("rate", rate), ("camera_rate", camera_rate)):
+            if not 0 < value <= 1000:
+                raise ArgumentError(f"RosBridge: {what} is {value}; expected a number above 0 and at most 1000, in Hz")
+        if isinstance(cameras, str):
+            raise ArgumentError(f"RosBridge: cameras is '{cameras}'; expected a list of names, ['{cameras}']")
+        if cameras and not bot.isSimulated():
+            raise ArgumentError("RosBridge: cameras are those of a simulation; this robot is real")
+        for camera in cameras:
+            bot.getCameraFxycxy(camera)  # refuses a wrong name
+        sensor, std, qos = needed("sensor_msgs.msg"), needed("std_msgs.msg"), needed("rclpy.qos")
+        robot = self._robot = Robot(bot, rate, clock)
         self._running = RunningNode(name, 4)
         node = self._node = self._running.node
-        groups, qos = needed("rclpy.callback_groups"), needed("rclpy.qos")
+        group = needed("rclpy.callback_groups").ReentrantCallbackGroup()
         latched = qos.QoSProfile(depth=1, durability=qos.DurabilityPolicy.TRANSIENT_LOCAL)
+        self._time = needed("builtin_interfaces.msg").Time
         self._states = node.create_publisher(sensor.JointState, "/joint_states", 10)
-        self._state = sensor.JointState(name=self._joints)
-        self._links = Links(bot.getWorld())
+        self._state = sensor.JointState()
+        self._joint_states = JointStates(robot.joints)
+        world = bot.getWorld()
+        self._links = Links(world)
         self._description = node.create_publisher(std.String, "/robot_description", latched)
         self._description.publish(std.String(data=self._links.urdf))
+        self._clock: Any = None
+        if clock:
+            self._clock_type = needed("rosgraph_msgs.msg").Clock
+            self._clock = node.create_publisher(self._clock_type, "/clock", 10)
         self._tf: Any = None
         if tf:
             tf2, geometry = needed("tf2_msgs.msg"), needed("geometry_msgs.msg")
             self._transforms, self._geometry = tf2.TFMessage, geometry
             self._tf = node.create_publisher(tf2.TFMessage, "/tf", 100)
             self._static = node.create_publisher(tf2.TFMessage, "/tf_static", latched)
-        group = groups.ReentrantCallbackGroup()
-        topic = f"/{controller.strip('/')}"
-        node.create_subscription(
-            trajectory.JointTrajectory, f"{topic}/joint_trajectory", self._onTrajectory, 1, callback_group=group
-        )
-        self._server = action.ActionServer(
-            node,
-            self._action,
-            f"{topic}/follow_joint_trajectory",
-            self._execute,
-            cancel_callback=lambda handle: action.CancelResponse.ACCEPT,
-            callback_group=group,
-        )
-        node.create_timer(1.0 / rate, self._publish, callback_group=groups.MutuallyExclusiveCallbackGroup())
+        self._controllers: list[Any] = [TrajectoryController(node, robot, controller, group)]
+        for index, info in enumerate(robot.grippers):
+            finger = Finger(world, self._links, info.name, (info.min_width, info.max_width), bot.getGripperPos(index))
+            prefix = "" if len(robot.grippers) == 1 else re.sub(r"\W", "_", info.name) + "_"
+            names = (f"{prefix}gripper_controller", f"{prefix}parallel_gripper_controller")
+            self._controllers.append(GripperController(node, robot, index, finger, names, group))
+        self._markers: Any = None
+        if _exists("visualization_msgs.msg"):
+            self._markers = Markers(node, latched, self._now)
+        self._cameras = [Camera(node, camera) for camera in cameras]
+        self._camera_period, self._next_image, self._next_markers = 1.0 / camera_rate, -math.inf, -math.inf
+        self._ended = threading.Event()
+        self._camera_thread = threading.Thread(target=self._render, daemon=True)
         self._running.start()
+        robot.start(self._publish)
+        if self._cameras and not clock:
+            self._camera_thread.start()
 
     def close(self) -> None:
         """Ends the node. The robot finishes its present motion."""
-        self._goal_number += 1
+        self._ended.set()
+        for controller in self._controllers:
+            controller.close()
+        self._robot.close()
+        if self._camera_thread.is_alive():
+            self._camera_thread.join(timeout=2.0)
         self._running.close()
 
     def __enter__(self) -> RosBridge:
@@ -110,156 +131,85 @@ class RosBridge:
     def __exit__(self, *error: object) -> None:
         self.close()
 
-    def _publish(self) -> None:
-        now = self._node.get_clock().now().to_msg()
-        try:
-            q, velocity, world = self._bot.get_q(), self._bot.get_qDot(), self._bot.getWorld()
-        except RobotFault:
-            return  # the robot is closed
-        self._state.header.stamp = now
-        self._state.position, self._state.velocity = q.tolist(), velocity.tolist()
-        self._states.publish(self._state)
+    def showPlan(self, motion: Trajectory, frames: str | Sequence[str], rate: float = 50.0) -> None:
+        """Publishes the ways of frames along a motion as lines, on /kinegraph/plan. RViz shows them until the next one.
+
+        In virtual time, call it in the thread of the robot.
+
+        Args:
+            motion: A plan, or another Trajectory.
+            frames: Name of a frame, such as the gripper, or several.
+            rate: Points per second of the motion.
+        Raises:
+            FrameNotFound: There is no such frame.
+            NotFound: The package visualization_msgs is missing.
+        """
+        needed("visualization_msgs.msg")
+        names = [frames] if isinstance(frames, str) else list(frames)
+        self._markers.plan(motion, self._robot.bot.getWorld(), names, rate)
+
+    def _now(self) -> Any:
+        """Returns the stamp of messages."""
+        if self._clock is None:
+            return self._node.get_clock().now().to_msg()
+        return self._stamp(self._last.time)
+
+    def _stamp(self, seconds: float) -> Any:
+        nanoseconds = round(seconds * 1e9)
+        return self._time(sec=nanoseconds // 10**9, nanosec=nanoseconds % 10**9)
+
+    def _publish(self, state: State, world: Config) -> None:
+        self._last = state
+        now = self._now()
+        if self._clock is not None:
+            self._clock.publish(self._clock_type(clock=now))
+        names, q, velocity = self._joint_states.read(state.time, world, self._links, state.q, state.velocity)
+        message = self._state
+        message.header.stamp, message.name = now, names
+        message.position, message.velocity = array.array("d", q.tobytes()), array.array("d", velocity.tobytes())
+        self._states.publish(message)
         if self._tf is not None:
             moving, resting = self._links.read(world)
             if resting:
                 self._static.publish(self._message(now, resting))
             self._tf.publish(self._message(now, moving))
+        if self._markers is not None and state.time >= self._next_markers:
+            self._next_markers = state.time + MARKER_PERIOD
+            self._markers.contacts(self._robot.bot.getContacts)
+        if self._clock is not None and self._cameras and state.time >= self._next_image - 1e-9:
+            self._next_image = max(self._next_image, state.time - self._camera_period) + self._camera_period
+            for camera in self._cameras:
+                camera.publish(world, now)
+
+    def _render(self) -> None:
+        """Publishes images in real time, in a thread of its own."""
+        due = time.monotonic()
+        while not self._ended.is_set():
+            try:
+                world, now = self._robot.bot.getWorld(), self._now()
+            except RobotFault:
+                return  # the robot is closed
+            for camera in self._cameras:
+                camera.publish(world, now)
+            due = max(due + self._camera_period, time.monotonic())
+            self._ended.wait(due - time.monotonic())
 
     def _message(self, now: Any, transforms: Any) -> Any:
         message = self._transforms()
-        for parent, child, (x, y, z, qw, qx, qy, qz) in transforms:
+        for parent, child, pose in transforms:
+            x, y, z, qw, qx, qy, qz = pose.tolist()
             transform = self._geometry.TransformStamped(child_frame_id=child)
             transform.header.stamp, transform.header.frame_id = now, parent
             position, rotation = transform.transform.translation, transform.transform.rotation
-            position.x, position.y, position.z = float(x), float(y), float(z)
-            rotation.w, rotation.x, rotation.y, rotation.z = float(qw), float(qx), float(qy), float(qz)
+            position.x, position.y, position.z = x, y, z
+            rotation.w, rotation.x, rotation.y, rotation.z = qw, qx, qy, qz
             message.transforms.append(transform)
         return message
 
-    # --- trajectories ---------------------------------------------------------------------------------------------
 
-    def _trajectory(self, message: Any) -> Trajectory:
-        """Converts a message; the motion starts at the present reference, at rest."""
-        result = self._action.Result
-        names = list(message.joint_names)
-        if sorted(names) != sorted(self._joints):
-            raise _Refused(
-                result.INVALID_JOINTS,
-                f"the trajectory has the joints {', '.join(names)}; expected {', '.join(self._joints)}",
-            )
-        order = [names.index(joint) for joint in self._joints]
-        times = np.array([seconds(point.time_from_start) for point in message.points])
-        columns: dict[str, np.ndarray | None] = {}
-        for what in ("positions", "velocities", "accelerations"):
-            sizes = {len(getattr(point, what)) for point in message.points}
-            if sizes == {len(names)}:
-                columns[what] = np.array([getattr(point, what) for point in message.points])[:, order]
-            elif sizes == {0} and what != "positions":
-                columns[what] = None
-            else:
-                raise _Refused(
-                    result.INVALID_GOAL, f"the points have {sorted(sizes)} {what}; expected {len(names)} each"
-                )
-        q, velocity, acceleration = columns["positions"], columns["velocities"], columns["accelerations"]
-        assert q is not None
-        start = self._bot.stepObservation().qref
-        if times[0] > 0:
-            times = np.append(0.0, times)
-            q = np.vstack([start, q])
-            velocity, acceleration = (
-                None if x is None else np.vstack([np.zeros(len(names)), x]) for x in (velocity, acceleration)
-            )
-        elif np.abs(q[0] - start).max() <= NEAR:
-            q[0] = start
-        try:
-            return throughPoints(times, q, velocity, acceleration if velocity is not None else None)
-        except ArgumentError as error:
-            raise _Refused(result.INVALID_GOAL, str(error).removeprefix("throughPoints: ")) from None
-
-    def _start(self, message: Any) -> tuple[int, Trajectory | None]:
-        """Stops the present motion and starts a trajectory; returns its number, and it, or None for an empty one."""
-        with self._lock:
-            self._goal_number += 1
-            number = self._goal_number
-            try:
-                if self._bot.getTimeToEnd() > 0:
-                    self._bot.hold()
-                    time.sleep(FEEDBACK)
-                if not message.points:
-                    self._bot.hold()
-                    return number, None
-                motion = self._trajectory(message)
-                self._bot.follow(motion)
-                return number, motion
-            except RobotFault as error:
-                raise _Refused(self._action.Result.INVALID_GOAL, str(error)) from None
-            except Error as error:
-                raise _Refused(self._action.Result.INVALID_GOAL, str(error)) from None
-
-    def _onTrajectory(self, message: Any) -> None:
-        try:
-            self._start(message)
-        except _Refused as refused:
-            self._node.get_logger().error(f"trajectory refused: {refused}")
-
-    def _execute(self, handle: Any) -> Any:
-        """Executes a goal of the action."""
-        result = self._action.Result()
-        try:
-            number, motion = self._start(handle.request.trajectory)
-            if motion is not None:
-                result.error_code, result.error_string = self._follow(handle, number, motion)
-        except _Refused as refused:
-            result.error_code, result.error_string = refused.code, str(refused)
-        if handle.is_cancel_requested:
-            handle.canceled()
-        elif result.error_code != self._action.Result.SUCCESSFUL:
-            handle.abort()
-        else:
-            handle.succeed()
-        return result
-
-    def _follow(self, handle: Any, number: int, motion: Trajectory) -> tuple[int, str]:
-        """Waits for the end of a motion; returns the error code and its text."""
-        bot, codes = self._bot, self._action.Result
-        limits = {tolerance.name: tolerance.position for tolerance in handle.request.path_tolerance}
-        goal_limits = {tolerance.name: tolerance.position for tolerance in handle.request.goal_tolerance}
-        goal, late = motion.eval(motion.duration)[0], None
-        while True:
-            if self._goal_number != number:
-                return codes.INVALID_GOAL, "a new goal has replaced this one"
-            if handle.is_cancel_requested:
-                bot.hold()
-                return codes.SUCCESSFUL, "canceled; the robot holds"
-            fault = bot.getFault()
-            if fault:
-                return codes.PATH_TOLERANCE_VIOLATED, fault
-            observation = bot.stepObservation()
-            self._feedback(handle, observation)
-            error = np.abs(observation.qpos - observation.qref)
-            for joint, off in zip(self._joints, error, strict=True):
-                if 0 < limits.get(joint, 0.0) < off:
-                    bot.hold()
-                    return codes.PATH_TOLERANCE_VIOLATED, f"joint '{joint}' is {off:.3g} from its path; the robot holds"
-            if bot.getTimeToEnd() <= 0:
-                late = late or time.monotonic() + max(seconds(handle.request.goal_time_tolerance), 0.5)
-                apart = np.abs(observation.qpos - goal)
-                allowed = [goal_limits.get(joint, 0.0) or TOLERANCE for joint in self._joints]
-                if (apart <= allowed).all():
-                    return codes.SUCCESSFUL, ""
-                if time.monotonic() > late:
-                    worst = int(np.argmax(apart - allowed))
-                    return (
-                        codes.GOAL_TOLERANCE_VIOLATED,
-                        f"joint '{self._joints[worst]}' is {apart[worst]:.3g} from the goal; the tolerance is "
-                        f"{allowed[worst]:g}",
-                    )
-            time.sleep(min(FEEDBACK, max(bot.getTimeToEnd(), 0.005)))
-
-    def _feedback(self, handle: Any, observation: Any) -> None:
-        feedback = self._action.Feedback(joint_names=self._joints)
-        feedback.header.stamp = self._node.get_clock().now().to_msg()
-        feedback.actual = self._point(positions=observation.qpos.tolist(), velocities=observation.qvel.tolist())
-        feedback.desired = self._point(positions=observation.qref.tolist(), velocities=observation.qvel_ref.tolist())
-        feedback.error = self._point(positions=(observation.qref - observation.qpos).tolist())
-        handle.publish_feedback(feedback)
+def _exists(module: str) -> bool:
+    try:
+        needed(module)
+    except Exception:
+        return False
+    return True

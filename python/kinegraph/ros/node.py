@@ -60,11 +60,11 @@ class RunningNode:
         """Ends the threads and removes the node."""
         if not self._context.ok():
             return
-        self._executor.shutdown(timeout_sec=2.0)
-        self.node.destroy_node()
-        self._rclpy.shutdown(context=self._context)
+        self._rclpy.shutdown(context=self._context)  # ends the spinning before the node, whose callbacks may run
         if self._thread.is_alive():
             self._thread.join(timeout=2.0)
+        self._executor.shutdown(timeout_sec=2.0)
+        self.node.destroy_node()
 
 
 def seconds(duration: Any) -> float:

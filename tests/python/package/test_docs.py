@@ -42,7 +42,11 @@ FOUND = {
         r"^BotOp\.follow: .*velocity",
     ],
     "ros2": [r"^\[0\.2 0\.1\] 1\.5$"],
-    "lerobot_robots": [r"^True \['shoulder_pan', ", r"^\[0\.22 0\.05 0\.05\] \[ *-?0\. +-?0\. +-1\.\]"],
+    "lerobot_robots": [
+        r"^True \['shoulder_pan', ",
+        r"^\[0\.22 0\.05 0\.05\] \[ *-?0\. +-?0\. +1\.\]",
+        r"^\[0\.27 *0\.05 *0\.05",
+    ],
     "lerobot": [r"^2 episodes; faults: \[\]"],
     "determinism": [r"^\[True, True, True\]$"],
     "dynamics": [r"^True \d+\.\d+", r"^\[ *[-+\d.e ]* -9\.81"],
