@@ -53,6 +53,8 @@ from .results import NLP_Solver, SolverReturn
 from .scenes import Config
 from .simulation import Simulation, SimulationState
 
+SimulatorEngine = kinegraph.SimulationEngine  # in libry
+
 _acceptEarlierWords()
 
 __all__ = [
@@ -65,6 +67,7 @@ __all__ = [
     "ManipulationModelling",
     "MujocoLoader",
     "SRRT_PathFinder",
+    "SimulatorEngine",
     "TAMP_Provider",
     "algo",
     "arg",

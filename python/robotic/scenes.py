@@ -73,6 +73,20 @@ class Config(kinegraph.Config):
         except FrameNotFound as error:
             warnings.warn(str(error), KinegraphWarning, stacklevel=2)
 
+    def simulation(self, engine: Any = kinegraph.SimulationEngine.physx, verbose: int = 2) -> Any:
+        """Returns a simulation of this scene, like Simulation(C, engine, verbose), as in scripts for libry.
+
+        Args:
+            engine, verbose: As in Simulation.
+        Returns:
+            A Simulation.
+        Raises:
+            ArgumentError: The engine does not exist.
+        """
+        from .simulation import Simulation
+
+        return Simulation(self, engine, verbose)
+
     def copy(self, other: kinegraph.Config | None = None) -> Any:
         """Returns an independent copy; with another scene, replaces this scene by a copy of that one.
 

@@ -6,6 +6,7 @@
 #include <fstream>
 #include <limits>
 #include <set>
+#include <stdexcept>
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/logic/fol_reader.h"
@@ -121,6 +122,37 @@ TEST(PlanSearch, EffortIsLimited) {
   PlanSearch search(ground(tower(6)), {.max_expansions = 5});
   EXPECT_FALSE(search.next());
   EXPECT_EQ(search.status(), PlanSearch::Status::limit);
+}
+
+TEST(PlanSearch, NoPlanIsLostWhenItsTokenCancelsOrThrows) {
+  const auto plansOf = [](PlanSearch::Options options) {
+    PlanSearch search(ground(tower(4)), std::move(options));
+    std::set<std::string> plans;
+    std::size_t length = 0;
+    for (int stops = 0; plans.size() < 200;) {
+      try {
+        const auto plan = search.next();
+        if (!plan) {
+          EXPECT_EQ(search.status(), PlanSearch::Status::cancelled);
+          if (++stops > 9) break;
+          continue;
+        }
+        EXPECT_GE(plan->size(), length);
+        length = plan->size();
+        EXPECT_TRUE(plans.insert(words(search, *plan)).second);
+      } catch (const std::runtime_error&) {
+      }
+    }
+    return plans;
+  };
+  int asked = 0;
+  const auto disturbed = plansOf({.cancellation = [&asked] {
+    ++asked;
+    if (asked == 2) throw std::runtime_error("enough");
+    return asked == 1 || asked == 4;
+  }});
+  EXPECT_GT(asked, 3);
+  EXPECT_EQ(disturbed, plansOf({}));
 }
 
 TEST(PlanSearch, LandmarksAreExactWhereGoalsAreIndependent) {

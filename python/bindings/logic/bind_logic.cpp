@@ -16,7 +16,6 @@
 #include "kinegraph/task_planning/scene_facts.h"
 #include "logic/logic_docs.h"
 #include "logic/logic_objects.h"
-#include "solvers/solving.h"
 #include "task_planning/bind_tasks.h"
 
 namespace kinegraph::python {
@@ -57,7 +56,6 @@ std::optional<Plan> nextPlan(PyPlanSearch& self) {
     nb::gil_scoped_release release;
     plan = self.search->next();
   }
-  if (self.search->status() == PlanSearch::Status::cancelled) throwKeyboardInterrupt();
   if (!plan) return std::nullopt;
   return actionWords(self.ground(), *plan);
 }
@@ -73,14 +71,11 @@ void forbid(PyPlanSearch& self, const Words& action, const std::string& facts) {
   self.search->forbid(actionNumber(self.ground(), action), changingFacts(self.ground(), readLiterals(facts, "facts")));
 }
 
-bool keepGoing() {
-  nb::gil_scoped_acquire acquire;
-  return PyErr_CheckSignals() == 0 || (PyErr_Clear(), false);
-}
-
 void makeSearch(PyPlanSearch* self, const LogicProblem& problem, long most) {
-  new (self) PyPlanSearch{std::make_shared<PlanSearch>(
-      ground(problem), PlanSearch::Options{.max_expansions = most, .cancellation = keepGoing})};
+  PlanSearch::Options options;
+  options.max_expansions = most;
+  options.cancellation = [check = CheckInterrupts()]() mutable { check(); };
+  new (self) PyPlanSearch{std::make_shared<PlanSearch>(ground(problem), std::move(options))};
 }
 
 void bindDomain(nb::module_& m) {

@@ -243,6 +243,13 @@ int playOnPage(PyConfig& config, const Config& shown, const ShownMotion& motion,
 void bindViewer(nb::module_& m, nb::class_<PyConfig>& config) {
   nb::class_<PyViewer> viewer(m, "ConfigurationViewer",
                               "Shows a configuration in the browser, and renders pictures of it.");
+  viewer.def(
+      "__init__",
+      [](PyViewer* made) {
+        new (made) PyViewer();
+        made->scene = std::make_shared<SceneTree>();
+      },
+      docs::viewer::make);
   bindRecording(m);
   bindPage(viewer);
   bindPictures(viewer);

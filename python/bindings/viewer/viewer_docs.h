@@ -110,6 +110,8 @@ Raises:
     ArgumentError: The host is not an IP address, or the port or the token is invalid.
     Error: This machine does not have the address, or no port is free.)";
 
+inline constexpr char make[] = R"(Makes a viewer of an empty scene; C.set_viewer(viewer) shows C there.)";
+
 inline constexpr char set_viewer[] = R"(Shows this scene in the viewer of another one.
 
 Args:

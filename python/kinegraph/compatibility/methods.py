@@ -6,13 +6,26 @@ import inspect
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from .._core import KOMO, NLP, BotOp, CameraView, Config, Frame, NLP_Factory, NLP_Solver, NLP_SolverOptions, Skeleton
+from .._core import (
+    KOMO,
+    NLP,
+    BotOp,
+    CameraView,
+    Config,
+    ConfigurationViewer,
+    Frame,
+    NLP_Factory,
+    NLP_Solver,
+    NLP_SolverOptions,
+    Skeleton,
+)
 from . import bot_op, problems, scenes, views
 
 METHODS: dict[type, Sequence[Callable[..., Any]]] = {
     BotOp: bot_op.METHODS,
     CameraView: views.CAMERA_METHODS,
     Config: [*scenes.CONFIG_METHODS, *views.CONFIG_METHODS],
+    ConfigurationViewer: views.VIEWER_METHODS,
     Frame: scenes.FRAME_METHODS,
     KOMO: problems.KOMO_METHODS,
     NLP: [problems.getFeatureTypes],

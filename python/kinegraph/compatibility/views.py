@@ -114,6 +114,29 @@ def getFxyCxy(self: CameraView) -> NDArray[np.float64]:
     return self.getFxycxy()
 
 
+def setConfiguration(self: ConfigurationViewer, C: Config, text: str = "", watch: bool = False) -> int:
+    """Shows a scene in this viewer, like C.set_viewer(viewer) and C.view().
+
+    Args:
+        C: The scene.
+        text: Text in the corner of the page.
+        watch: Whether to wait for a key.
+    Returns:
+        The code of the key, or 0, like C.view.
+    """
+    C.set_viewer(self)
+    return C.view(watch, text)
+
+
+def updateConfiguration(self: ConfigurationViewer, C: Config) -> int:
+    """Shows a scene in this viewer, like setConfiguration."""
+    return setConfiguration(self, C)
+
+
+def recopyMeshes(self: ConfigurationViewer, C: Config) -> None:
+    """Does nothing: viewers take changes of shapes over by themselves."""
+
+
 CONFIG_METHODS = [
     get_viewer,
     view_getRgb,
@@ -127,4 +150,5 @@ CONFIG_METHODS = [
     view_recopyMeshes,
     view_setCamera,
 ]
+VIEWER_METHODS = [setConfiguration, updateConfiguration, recopyMeshes]
 CAMERA_METHODS = [getFxyCxy]

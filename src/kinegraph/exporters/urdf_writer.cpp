@@ -293,7 +293,8 @@ class UrdfWriter {
     if (bounded || joint.effort != 0. || joint.velocity != 0.) {
       text_ += "    <limit";
       if (bounded) text_ += cat(" lower=\"", exact(joint.lower), "\" upper=\"", exact(joint.upper), "\"");
-      text_ += cat(" effort=\"", exact(joint.effort), "\" velocity=\"", exact(joint.velocity), "\"/>\n");
+      const auto ofMotor = [](double limit) { return exact(limit > 0. ? limit : kUrdfUnlimited); };
+      text_ += cat(" effort=\"", ofMotor(joint.effort), "\" velocity=\"", ofMotor(joint.velocity), "\"/>\n");
     }
     if (!joint.mimic.empty())
       text_ += cat("    <mimic joint=\"", xmlEscaped(joint.mimic), "\" multiplier=\"", exact(joint.multiplier),

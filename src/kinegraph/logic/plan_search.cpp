@@ -275,6 +275,15 @@ bool PlanSearch::advanceToFirst() {
   }
 }
 
+/// Leaves the path, so that the next call finds what was not returned yet.
+void PlanSearch::beginAgain() {
+  for (StateInfo& info : states_) info.on_path = false;
+  path_.clear();
+  actions_.clear();
+  used_ = 0;
+  most_to_order_ = 0;
+}
+
 std::optional<std::vector<int>> PlanSearch::next() {
   status_ = Status::found;
   try {
@@ -294,10 +303,10 @@ std::optional<std::vector<int>> PlanSearch::next() {
     }
     status_ = Status::exhausted;
   } catch (Stopped) {
-    for (StateInfo& info : states_) info.on_path = false;
-    path_.clear();
-    actions_.clear();
-    used_ = 0;
+    beginAgain();
+  } catch (...) {  // of the cancellation: the next call goes on, too
+    beginAgain();
+    throw;
   }
   return std::nullopt;
 }

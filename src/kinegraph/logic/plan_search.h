@@ -40,7 +40,8 @@ class PlanSearch {
   PlanSearch(GroundProblem ground, Options options);
   ~PlanSearch();
 
-  /// Returns the next plan, indices of actions.
+  /// Returns the next plan, indices of actions. After a limit, a cancellation, or an exception of the cancellation
+  /// token, the next call goes on: no plan is lost.
   std::optional<std::vector<int>> next();
 
   /// The result of the last `next`.
@@ -87,6 +88,7 @@ class PlanSearch {
   bool advanceToFirst();
   std::vector<int> planOfDistances();
   void restart();
+  void beginAgain();
   void leave();
   bool beginsForbidden() const;
 

@@ -366,8 +366,13 @@ class UrdfParser {
       return;
     }
     joint.limit_where = limit->where;
-    joint.effort = limitOf(*limit, "effort", 0.);  // 0: unknown
-    joint.velocity = limitOf(*limit, "velocity", 0.);
+    const auto ofMotor = [&](const char* name) {  // 0: unknown
+      const double value = limitOf(*limit, name, 0.);
+      return value < kUrdfUnlimited ? value : 0.;
+    };
+    joint.effort = ofMotor("effort");
+    joint.velocity = ofMotor("velocity");
+    sayThatZeroIsNoLimit(*limit, element);
     if (!bounded) return;
     joint.lower = limitOf(*limit, "lower", kUrdfUnlimited);
     joint.upper = limitOf(*limit, "upper", kUrdfUnlimited);
@@ -381,13 +386,25 @@ class UrdfParser {
     }
   }
 
+  /// Exporters write 0 where they know no limits of motors. Warns once per file.
+  void sayThatZeroIsNoLimit(const XmlElement& limit, const XmlElement& joint) {
+    if (said_that_zero_is_no_limit_ || joint.child("mimic")) return;
+    const auto isZero = [&](const char* name) { return limit.attribute(name) && limitOf(limit, name, 1.) == 0.; };
+    const bool effort = isZero("effort"), velocity = isZero("velocity");
+    if (!effort && !velocity) return;
+    const char* what = effort && velocity ? "effort and velocity are" : effort ? "effort is" : "velocity is";
+    warn(limit.where, cat(context_, "its ", what, " 0, which is read as no limit, here and at other joints; write the ",
+                          "motor's ", effort && velocity ? "limits" : "limit"));
+    said_that_zero_is_no_limit_ = true;
+  }
+
   std::vector<Diagnostic>& found_;
   UrdfModel model_;
   std::map<std::string, const XmlElement*> materials_;
   std::string context_;                  ///< "link 'x': ", for messages
   const char* optional_part_ = nullptr;  ///< element that an error leaves out, or null
   bool part_failed_ = false;
-  bool asked_for_radians_ = false;
+  bool asked_for_radians_ = false, said_that_zero_is_no_limit_ = false;
 };
 
 }  // namespace

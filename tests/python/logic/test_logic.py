@@ -1,5 +1,9 @@
 """Domain, LogicProblem, PlanSearch: what Python adds; the rest is tested in C++."""
 
+import signal
+import types
+from collections import deque
+
 import pytest
 
 import kinegraph as ry
@@ -90,3 +94,72 @@ def test_a_fact_that_two_preconditions_deny_counts_once() -> None:
     goal = "(done p) (done q)"
     problem = ry.LogicProblem(ry.Domain.fromFolText(fol), "(is_a a) (is_b p) (is_b q)", goal)
     assert [action[0] for action in ry.PlanSearch(problem).next()] == ["go", "end"] * 2
+
+
+SLIDE = """(define (domain slide) (:predicates (at ?tile ?cell) (blank ?cell) (near ?one ?other))
+  (:action move :parameters (?tile ?from ?to)
+   :precondition (and (at ?tile ?from) (blank ?to) (near ?from ?to))
+   :effect (and (not (at ?tile ?from)) (not (blank ?to)) (at ?tile ?to) (blank ?from))))"""
+
+
+def near(cell: int) -> list[int]:
+    """The neighbors of a cell of a grid of 3 x 3."""
+    return [other for other in range(9) if (abs(other % 3 - cell % 3), abs(other // 3 - cell // 3)) in ((0, 1), (1, 0))]
+
+
+def moves(tiles: str) -> int:
+    """Fewest moves to " 12345678", by breadth-first search."""
+    seen, queue = {tiles}, deque([(tiles, 0)])
+    while queue:
+        state, count = queue.popleft()
+        if state == " 12345678":
+            return count
+        blank = state.index(" ")
+        for cell in near(blank):
+            now = list(state)
+            now[blank], now[cell] = now[cell], " "
+            if (text := "".join(now)) not in seen:
+                seen.add(text)
+                queue.append((text, count + 1))
+    raise AssertionError
+
+
+def sliding(tiles: str, tmp_path) -> ry.PlanSearch:
+    facts = [f"(at t{tile} c{cell})" if tile != " " else f"(blank c{cell})" for cell, tile in enumerate(tiles)]
+    facts += [f"(near c{one} c{other})" for one in range(9) for other in near(one)]
+    goal = " ".join(f"(at t{tile} c{tile})" for tile in range(1, 9))
+    objects = " ".join([*(f"t{i}" for i in range(1, 9)), *(f"c{i}" for i in range(9))])
+    file = tmp_path / "p.pddl"
+    file.write_text(
+        f"(define (problem p) (:domain slide) (:objects {objects}) (:init {' '.join(facts)}) (:goal (and {goal})))"
+    )
+    return ry.PlanSearch(ry.LogicProblem.fromPddl(ry.Domain.fromPddlText(SLIDE), file))
+
+
+def test_a_search_through_many_states_ends_with_a_shortest_plan(tmp_path) -> None:
+    for tiles in ("312 45678", "1423 5678", "341625 78", "3 1465782"):
+        plans = sliding(tiles, tmp_path)
+        plan = plans.next()
+        assert plan is not None and len(plan) == moves(tiles), tiles
+    assert plans.expansions > 64  # signals are asked for meanwhile
+
+
+def test_what_a_signal_handler_raises_ends_a_search_and_the_next_call_goes_on(tmp_path) -> None:
+    class Enough(Exception):
+        pass
+
+    def enough(number: int, frame: types.FrameType | None) -> None:
+        raise Enough
+
+    tiles = "8672543 1"
+    plans = sliding(tiles, tmp_path)
+    before = signal.signal(signal.SIGALRM, enough)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.1)
+        with pytest.raises(Enough):
+            plans.next()
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    plan = plans.next()
+    assert plan is not None and len(plan) == moves(tiles)

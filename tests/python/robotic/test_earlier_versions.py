@@ -208,3 +208,18 @@ def test_libry_is_robotic() -> None:
     import libry
 
     assert libry is sys.modules["robotic"]
+
+
+def test_a_viewer_is_made_before_the_scene_it_shows_and_a_scene_makes_its_simulation() -> None:
+    V = ry.ConfigurationViewer()
+    empty = V.getRgb()
+    C = arm()
+    assert V.setConfiguration(C) == 0 and C.viewer() is V
+    assert not np.array_equal(V.getRgb(), empty)
+    V.recopyMeshes(C)
+    assert V.updateConfiguration(C) == 0
+    S = C.simulation(ry.SimulatorEngine.physx, 0)
+    assert isinstance(S, ry.Simulation)
+    q = S.get_q()
+    S.step(q, 0.01, ry.ControlMode.position)
+    assert np.allclose(S.get_q(), q, atol=1e-3)

@@ -44,7 +44,7 @@ ARM = """<?xml version="1.0"?>
   </joint>
   <joint name="spin" type="revolute">
     <origin xyz="1 0 0"/><parent link="base"/><child link="wheel"/><axis xyz="0 1 0"/>
-    <limit lower="-1" upper="1" effort="0" velocity="0"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/>
   </joint>
 </robot>
 """
@@ -154,6 +154,37 @@ def test_velocity_and_effort_limits_are_those_of_the_file(tmp_path: Path) -> Non
     C.addFile(tmp_path / "r.urdf")
     np.testing.assert_array_equal(C.getVelocityLimits(), [2.5, np.inf])
     np.testing.assert_array_equal(C.getEffortLimits(), [87, np.inf])
+
+
+def test_a_motor_without_effort_or_velocity_has_no_limits_and_the_file_is_named_once(tmp_path: Path) -> None:
+    joint = """<joint name="{0}" type="revolute"><parent link="{1}"/><child link="{0}"/>
+        <limit lower="-1" upper="1" {2}/>{3}</joint><link name="{0}"/>"""
+    file = tmp_path / "r.urdf"
+    mimic = '<mimic joint="b"/>'
+    for limits, said in {
+        'effort="0" velocity="0"': "its effort and velocity are 0, which is read as no limit, here and at other joints",
+        'effort="0." velocity="2"': "its effort is 0",
+        'effort="2" velocity="0"': "its velocity is 0",
+    }.items():
+        both = joint.format("b", "a", limits, "") + joint.format("c", "b", limits, "")
+        file.write_text(f'<robot name="r"><link name="a"/>{both}</robot>')
+        C = ry.Config()
+        with pytest.warns(ry.KinegraphWarning) as warned:
+            C.addFile(file)
+        assert len(warned) == 1 and f"{file}:2:" in str(warned[0].message) and said in str(warned[0].message)
+        assert ("velocity" in said) == bool(np.isinf(C.getVelocityLimits()).all())
+        assert ("effort" in said) == bool(np.isinf(C.getEffortLimits()).all())
+        again = tmp_path / "again.urdf"
+        again.write_text(C.writeURDF())
+        D = ry.Config()
+        D.addFile(again)  # without a warning
+        np.testing.assert_array_equal(D.getEffortLimits(), C.getEffortLimits())
+        np.testing.assert_array_equal(D.getVelocityLimits(), C.getVelocityLimits())
+    arm = joint.format("b", "a", 'effort="1" velocity="1"', "") + joint.format(
+        "c", "b", 'effort="0" velocity="0"', mimic
+    )
+    file.write_text(f'<robot name="r"><link name="a"/>{arm}</robot>')
+    ry.Config().addFile(file)  # without a warning: a joint that follows another has no motor
 
 
 needs_pinocchio = pytest.mark.skipif(
