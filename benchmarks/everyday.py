@@ -3,7 +3,8 @@
     python benchmarks/everyday.py [--generators "stack,swap"] [--scenes 5] [--first 0] [--jobs 2] [--repairs 3]
         [--time-limit 60] [--conditions undisturbed,errors,moved] [--details]
 
-everyday_scenes.py and everyday_objects.py draw the scenes, one for each number. Each plan is executed under these conditions:
+everyday_scenes.py and everyday_objects.py draw the scenes, one for each number. Each plan is executed under these
+conditions:
 
 - undisturbed;
 - with errors of pose: all things and the arms are up to 3 mm and 1 degree away from the scene of the plan, without
