@@ -183,8 +183,9 @@ def withErrors(scene: Scene, rng: np.random.Generator) -> ry.Config:
 def moveArms(C: ry.Config, rng: np.random.Generator) -> None:
     """Draws a collision-free configuration close to that of a scene."""
     q, apart = C.getJointState(), len(C.getCollisions(0.0))
+    moved = [name not in ry.doorStates(C) for name in C.getJointNames()]
     for _ in range(100):
-        C.setJointState(q + rng.uniform(-BESIDE, BESIDE, len(q)))
+        C.setJointState(q + np.where(moved, rng.uniform(-BESIDE, BESIDE, len(q)), 0.0))
         if len(C.getCollisions(0.0)) <= apart:
             return
     C.setJointState(q)
