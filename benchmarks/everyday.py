@@ -3,7 +3,8 @@
     python benchmarks/everyday.py [--generators "stack,swap"] [--scenes 5] [--first 0] [--jobs 2] [--repairs 3]
         [--time-limit 60] [--conditions undisturbed,errors,moved] [--details]
 
-everyday_scenes.py and everyday_objects.py draw the scenes, one for each number. Each plan is executed under these conditions:
+everyday_scenes.py and everyday_objects.py draw the scenes, one for each number. Each plan is executed under these
+conditions:
 
 - undisturbed;
 - with errors of pose: all things and the arms are up to 3 mm and 1 degree away from the scene of the plan, without
@@ -182,8 +183,9 @@ def withErrors(scene: Scene, rng: np.random.Generator) -> ry.Config:
 def moveArms(C: ry.Config, rng: np.random.Generator) -> None:
     """Draws a collision-free configuration close to that of a scene."""
     q, apart = C.getJointState(), len(C.getCollisions(0.0))
+    moved = [name not in ry.doorStates(C) for name in C.getJointNames()]
     for _ in range(100):
-        C.setJointState(q + rng.uniform(-BESIDE, BESIDE, len(q)))
+        C.setJointState(q + np.where(moved, rng.uniform(-BESIDE, BESIDE, len(q)), 0.0))
         if len(C.getCollisions(0.0)) <= apart:
             return
     C.setJointState(q)

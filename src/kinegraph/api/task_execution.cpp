@@ -220,9 +220,8 @@ class TaskRun::Impl {
     const double off = world_.jointErrors(start).maxCoeff();
     if (off <= kThere) return "";
     Config C = world_.scene();
-    const VectorXd q = bot_.get_q();
+    const VectorXd q = C.getJointState();  // joints a little beyond a limit are at it
     for (const auto& [door, dof] : world_.doors()) start[dof] = q[dof];
-    C.setJointState(q);
     ignorePairs(C, wedgedPairs(C, wordsOf(plan_.start, "is_gripper"), wordsOf(plan_.start, "is_object"), kOverlap));
     PlanOptions options;
     options.margin = kStartMargin;

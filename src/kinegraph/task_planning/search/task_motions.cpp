@@ -207,13 +207,14 @@ TaskMotions::Found TaskMotions::planFree(const Config& C, const VectorXd& q0, co
       if (found.feasible()) {
         for (Eigen::Index i = 0; i < found.path.rows(); ++i) configurations.push_back(found.path.row(i));
         configurations.insert(configurations.end(), tail.rbegin(), tail.rend());
-        return finished(timed(around, rowsOf(configurations)));
+        if (Found lifted = timed(around, rowsOf(configurations)); lifted.motion) return finished(std::move(lifted));
       }
     }
   }
   const MotionPlan found = direct ? countedPlan(direct.get()) : findPath(C, q0, q1, level);
   if (!found.feasible()) return {std::nullopt, 0., cat("no motion was found: ", found.message)};
-  return finished(timed(around, found.path));
+  Found path = timed(around, found.path);
+  return path.motion ? finished(std::move(path)) : path;
 }
 
 /// A straight motion of an object on its ground: the straight motion of the joints, or one that keeps the object on the
@@ -380,7 +381,8 @@ TimedRows TaskMotions::slower(const Config& C, TimedRows rows, const std::vector
   return rows;
 }
 
-/// Times a path. Corners are rounded as far as the margin allows; the result has the margin that was verified.
+/// Times a path. Corners are rounded as far as the margin allows; the result has the margin that was verified, and no
+/// motion if the path is not collision-free.
 TaskMotions::Found TaskMotions::timed(const Surroundings& around, const MatrixXd& configurations) const {
   const MatrixXd kept = withoutRepeats(configurations);
   const MotionLimits limits{limits_.row(0), limits_.row(1), {}};
@@ -403,7 +405,10 @@ TaskMotions::Found TaskMotions::timed(const Surroundings& around, const MatrixXd
     }
   RetimeOptions stops;
   stops.corners = Corners::stop;
-  return {rowsOf(retime(kept, limits, stops), configurations), 0., ""};
+  TimedRows rows = rowsOf(retime(kept, limits, stops), configurations);
+  std::string contact = around.violation(rows.path, 0.);
+  if (!contact.empty()) return {std::nullopt, 0., std::move(contact)};
+  return {std::move(rows), 0., ""};
 }
 
 MatrixXd taskMotionLimits(const Config& C, const VectorXd& velocity, const VectorXd& acceleration) {
