@@ -11,8 +11,9 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kGripTolerance = 1e-4;  ///< m: a gripper has reached its target
-constexpr double kStillFor = .02;        ///< s without motion after which fingers count as stopped
+constexpr double kGripTolerance = 1e-4;       ///< m: a gripper has reached its target
+constexpr std::size_t kRestingContacts = 16;  ///< usual number per sleeping body
+constexpr double kStillFor = .02;             ///< s without motion after which fingers count as stopped
 
 int stateSize(const mjModel& m) { return physics().mj_stateSize(&m, mjSTATE_INTEGRATION); }
 
@@ -39,6 +40,7 @@ World::World(std::shared_ptr<const SceneModel> model, const SimulationOptions& o
   bias_.resize(6 * std::size_t(physics_->nbody));
   desired_acceleration_.resize(std::size_t(physics_->nv));
   torque_.resize(std::size_t(physics_->nv));
+  resting_contacts_.reserve(kRestingContacts * std::size_t(physics_->ntree));  // steps request no memory
   if (!options_.speculative) contact_search_ = ContactSearch(*physics_);
   gyroscopic_forces_ = GyroscopicForces(*model_, *physics_);
   settle();
