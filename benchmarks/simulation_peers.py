@@ -1,11 +1,12 @@
 """Compares scenes in three engines, in turns: kinegraph, the package `robotic`, and plain MuJoCo.
 
-    python benchmarks/simulation_peers.py --robotic PYTHON --mujoco PYTHON
+    python benchmarks/simulation_peers.py --robotic PYTHON --mujoco PYTHON [--scenes panda_with_boxes reach]
 
 Both PYTHON are interpreters, one with `robotic`, one with `mujoco` and numpy; an engine without one is skipped. Each
 scene runs in a process of its own, all engines one after the other. Times are processor times, the best of three
-rounds. MuJoCo has its defaults, steps of 2 ms and position actuators. The others take steps of 10 ms of their own.
-Slips are in mm. The grippers of `robotic` have a fixed, unknown force, so that a light box is grasped there.
+rounds. MuJoCo has its defaults, steps of 2 ms, position actuators, and an arm of seven capsules. The others take steps
+of 10 ms of their own. Slips are in mm. The grippers of `robotic` have a fixed, unknown force, so that a light box is
+grasped there.
 """
 
 import argparse
@@ -23,6 +24,8 @@ ROUNDS = 3
 SLOPE = np.deg2rad(20)
 TUMBLING = np.array([0.0008, 0.0010, 0.0016])  # inertia, kg m^2, of a body of .5 kg that rotates about the second axis
 TOP = np.array([0.00205, 0.00205, 0.0016])  # about the tip, of a top of .5 kg with its center .05 m above it
+BOXES_AT_REST = [[-0.5 + 0.09 * (i % 5), 0.25 + 0.1 * (i // 5), 0.68] for i in range(20)]
+BOXES_IN_THE_AIR = [[-0.3 + 0.05 * (i % 3) + 0.01 * (i % 2), 0.45 + 0.04 * (i % 2), 1 + 0.09 * i] for i in range(20)]
 LEAN = np.array([np.cos(0.2), np.sin(0.2), 0, 0])  # of the top: .4 rad
 
 
@@ -133,6 +136,32 @@ class Ry:
             "Panda and a box, 10 ms (us)": 1e4 * wall(self.steps, S, 100),
             "Panda and a box, creation (ms)": 1e3 * making,
         }
+
+    def panda_with_boxes(self):
+        at_rest = self.panda()
+        for i, position in enumerate(BOXES_AT_REST):
+            self.add_box(at_rest, f"b{i}", position)
+        S = self.simulation(at_rest)
+        self.steps(S, 100)
+        found = {"Panda and 20 boxes at rest, 10 ms (us)": 1e4 * wall(self.steps, S, 100)}
+        falling = self.panda()
+        for i, position in enumerate(BOXES_IN_THE_AIR):
+            self.add_box(falling, f"b{i}", position)
+        S = self.simulation(falling)
+        return found | {"Panda and 20 boxes that fall for 1.5 s, 10 ms (us)": 1e4 / 1.5 * wall(self.steps, S, 150)}
+
+    def reach(self):
+        C = self.panda()
+        velocity = np.random.default_rng(0).uniform(-0.5, 0.5, 7)
+        if self.ry.__name__ == "kinegraph":
+            batch = self.ry.SimulationBatch(C, 32)
+            u = np.tile(velocity, (32, 1))
+            time = wall(lambda: [batch.step(u, 0.05, self.ry.ControlMode.velocity) for _ in range(10)]) / 320
+        else:
+            S = self.simulation(C)
+            q = C.getJointState() + 0.01 * np.arange(1, 101)[:, None] * velocity
+            time = wall(lambda: [S.step(row, 0.01, self.ry.ControlMode.position) for row in q]) / 20
+        return {"arm in the air, one core, 50 ms (us)": 1e6 * time}
 
     def grasp(self):
         configurations = self.configurations
@@ -269,6 +298,32 @@ class Mujoco:
         self.steps(model, data, 3)
         return {"heap of 20 boxes, 10 ms (us)": 1e4 * wall(self.steps, model, data, 1)}
 
+    def arm(self):
+        """Returns an arm of seven capsules on a table and its actuators: as many joints as the Panda."""
+        arm = ""
+        for i in reversed(range(7)):
+            axis, away = ("0 0 1", "0 0 .1") if i % 2 == 0 else ("0 1 0", "0 0 .16")
+            link = f"<joint name='j{i}' axis='{axis}' damping='1' armature='.1'/><geom type='capsule' fromto='0 0 0 {away}' size='.04'/>"
+            place = "0 0 .68" if i == 0 else "0 0 .14"
+            arm = f"<body name='l{i}' pos='{place}'>{link}{arm}</body>"
+        more = "".join(f"<position joint='j{i}' kp='1000' kv='50'/>" for i in range(7))
+        table = "<geom type='box' size='1.25 1 .05' pos='0 0 .6'/>"
+        return table + arm, f"<actuator>{more}</actuator>"
+
+    def panda_with_boxes(self):
+        arm, actuators = self.arm()
+        model, data = self.make(arm + "".join(map(self.box, BOXES_AT_REST)), actuators)
+        self.steps(model, data, 1)
+        found = {"Panda and 20 boxes at rest, 10 ms (us)": 1e4 * wall(self.steps, model, data, 1)}
+        model, data = self.make(arm + "".join(map(self.box, BOXES_IN_THE_AIR)), actuators)
+        time = wall(self.steps, model, data, 1.5)
+        return found | {"Panda and 20 boxes that fall for 1.5 s, 10 ms (us)": 1e4 / 1.5 * time}
+
+    def reach(self):
+        model, data = self.make(*self.arm())
+        data.ctrl[:] = np.random.default_rng(0).uniform(-0.5, 0.5, 7)
+        return {"arm in the air, one core, 50 ms (us)": 1e6 / 20 * wall(self.steps, model, data, 1)}
+
     def tops(self):
         """Simulates the top with each integrator."""
         free = "<inertial pos='0 0 0' mass='.5' diaginertia='.0008 .0010 .0016'/><freejoint/>"
@@ -296,8 +351,8 @@ class Mujoco:
         return found
 
 
-TIMED = ["heap", "step_time"]
-SCENES = ["tower", "slope", "turntable", "heap", "tracking", "step_time", "grasp", "tops"]
+TIMED = ["heap", "step_time", "panda_with_boxes", "reach"]
+SCENES = ["tower", "slope", "turntable", "heap", "tracking", "step_time", "panda_with_boxes", "reach", "grasp", "tops"]
 
 
 def measure(python, engine, scene, configurations):
@@ -341,6 +396,7 @@ def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("--robotic", help="a Python with robotic")
     parser.add_argument("--mujoco", help="a Python with mujoco")
+    parser.add_argument("--scenes", nargs="*", choices=SCENES, help="all by default")
     parser.add_argument("--one", nargs=3, help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.one:
@@ -349,7 +405,7 @@ def main():
     engines = {"kinegraph": sys.executable, "robotic": arguments.robotic, "mujoco": arguments.mujoco}
     engines = {name: python for name, python in engines.items() if python}
     poses = configurations()
-    for scene in SCENES:
+    for scene in arguments.scenes or SCENES:
         best = {name: {} for name in engines}
         for _ in range(ROUNDS if scene in TIMED else 1):
             for name, python in engines.items():

@@ -4,6 +4,8 @@
 
 #include "kinegraph/common/dynamic_library.h"
 
+extern "C" void mj_updateSleep(const mjModel* m, mjData* d);  ///< exported, but in none of MuJoCo's headers
+
 namespace kinegraph {
 
 // clang-format off
@@ -14,7 +16,7 @@ namespace kinegraph {
   X(mj_setState) X(mj_contactForce) X(mj_applyFT) X(mj_kinematics) X(mjs_getError) X(mjs_findBody) X(mjs_addBody) \
   X(mjs_addJoint) X(mjs_addFreeJoint) X(mjs_addGeom) X(mjs_addSite) X(mjs_addMesh) X(mjs_addActuator) \
   X(mjs_addTendon) X(mjs_wrapJoint) X(mjs_addEquality) X(mjs_addExclude) X(mjs_addPair) X(mjs_addSensor) X(mjs_setName) \
-  X(mjs_setString) X(mjs_setFloat) X(mjs_getId) X(mj_rne) X(mj_solveM) X(mj_jac)
+  X(mjs_setString) X(mjs_setFloat) X(mjs_getId) X(mj_rne) X(mj_solveM) X(mj_jac) X(mj_updateSleep) X(mj_geomDistance)
 // clang-format on
 
 /// The functions of MuJoCo that simulation steps call, by their own names.

@@ -18,8 +18,9 @@ constexpr int kWelds = 32;                ///< equalities reserved for attach
 constexpr double kOverlap = 1e-3;         ///< m: pairs of one tree that overlap more at the start never collide
 constexpr double kGripStiffness = 2000.;  ///< N/m; the damping is in N s/m
 constexpr double kGripDamping = 60.;
-constexpr double kLocked = 1e-4;   ///< rad or m, to both sides: range of a joint with equal limits
-constexpr double kGripLever = .1;  ///< m: converts both to values of rotating fingers
+constexpr double kRestSpeed = 1e-5;  ///< m/s: bodies that are slower for ten inner steps fall asleep
+constexpr double kLocked = 1e-4;     ///< rad or m, to both sides: range of a joint with equal limits
+constexpr double kGripLever = .1;    ///< m: converts both to values of rotating fingers
 
 class ModelMaker {
  public:
@@ -58,6 +59,7 @@ class ModelMaker {
     option.disableflags |= mjDSBL_AUTORESET;
     if (options_.speculative) option.enableflags |= mjENBL_SPECULATIVE;
     if (options_.sleep) option.enableflags |= mjENBL_SLEEP;
+    option.sleep_tolerance = kRestSpeed;
     spec_->compiler.degree = 0;
     spec_->compiler.balanceinertia = 1;
     spec_->compiler.boundmass = 1e-6;
@@ -328,7 +330,17 @@ class ModelMaker {
     model_.model = PhysicsModel(mj_.mj_compile(spec_.get(), nullptr), mj_.mj_deleteModel);
     if (!model_.model) throw ValueError(cat("Simulation: ", mj_.mjs_getError(spec_.get())));
     model_.model->flg_surfacevel = 1;
+    chooseSleepers();
     indexModel(parts_, shapes_.geoms, kinematics_, model_);
+  }
+
+  /// Lets free bodies sleep. Links do not: a pendulum may be slow at a point where it does not stay.
+  void chooseSleepers() {
+    mjModel& m = *model_.model;
+    for (int tree = 0; tree < m.ntree; ++tree) {
+      const bool is_free = m.tree_dofnum[tree] == 6 && m.jnt_type[m.dof_jntid[m.tree_dofadr[tree]]] == mjJNT_FREE;
+      m.tree_sleep_policy[tree] = is_free ? mjSLEEP_ALLOWED : mjSLEEP_NEVER;
+    }
   }
 
   const Physics& mj_ = physics();

@@ -80,8 +80,11 @@ void Simulation::Impl::readConfig(World& to) const {
 }
 
 void Simulation::update() {
+  if (impl_->config.scene()->structureRevision() != impl_->revision) renew();
+}
+
+void Simulation::renew() {
   Impl& s = *impl_;
-  if (s.config.scene()->structureRevision() == s.revision) return;
   if (isRecording()) {
     s.recording->end = getState();
     s.recording->is_cut = true;

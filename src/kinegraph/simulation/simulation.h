@@ -51,6 +51,7 @@ class Simulation {
   /// The parts of `step`, for callers that lock the Config: `advance` does not touch it. `cancellation` is checked
   /// between inner steps and may throw, which restores the state before the call.
   void update();  ///< takes in new frames of the Config
+  void renew();   ///< builds the model again from the Config, in the same state
   void advance(const VectorXd& u, double tau, ControlMode mode, const CancellationToken& cancellation = {});
   void publish();  ///< writes joints and free bodies to the Config
 

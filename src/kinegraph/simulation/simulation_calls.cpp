@@ -189,23 +189,14 @@ void Simulation::multi_step(double tau_step, double tau_sim, const CancellationT
 // --- measuring ----------------------------------------------------------------------------------------------------
 
 std::vector<Contact> Simulation::getContacts() const {
-  const World& world = *impl_->world;
-  const mjData& d = world.computed();
   const auto name = [&](int geom) {
-    const int frame = world.scene().geom_frame[std::size_t(geom)];
+    const int frame = impl_->world->scene().geom_frame[std::size_t(geom)];
     return frame < 0 ? std::string("ground") : impl_->frames[std::size_t(frame)]->name;
   };
   std::vector<Contact> found;
-  for (int i = 0; i < d.ncon; ++i) {
-    const mjContact& contact = d.contact[i];
-    if (contact.efc_address < 0) continue;
-    mjtNum force[6];
-    physics().mj_contactForce(&world.model(), &d, i, force);
-    // the contact frame's rows: the normal from geom 0 to geom 1, and two tangents
-    const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> axes(contact.frame);
-    found.push_back({name(contact.geom[0]), name(contact.geom[1]), Eigen::Map<const Vector3d>(contact.pos), axes.row(0),
-                     contact.dist - contact.includemargin, axes.transpose() * Eigen::Map<const Vector3d>(force)});
-  }
+  for (const GeomContact& contact : impl_->world->contacts())
+    found.push_back({name(contact.geom_a), name(contact.geom_b), contact.position, contact.normal, contact.distance,
+                     contact.force});
   return found;
 }
 

@@ -16,6 +16,9 @@ struct Simulation::Impl {
   void readConfig(World& to) const;
   void writeConfig();
 
+  /// Returns whether a shape has another pose in its body than in the model, such as a table that was moved.
+  bool hasMovedShapes() const;
+
   /// Rebuilds the model from the present Config and transfers the state.
   void rebuild();
 

@@ -34,7 +34,7 @@ struct SimulationOptions {
   double armature = .1;                 ///< kg m^2 or kg: inertia of motors, added to actuated joints
   bool ground = true;                   ///< a plane at z = 0
   bool speculative = false;             ///< predicts contacts, which keeps fast objects from passing through thin walls
-  bool sleep = false;                   ///< bodies at rest are not computed; states then replay in the same object only
+  bool sleep = true;                    ///< free bodies at rest are not computed until something moves them
 
   /// Throws ValueError with the name of the first invalid field.
   void validate() const;

@@ -12,6 +12,8 @@ namespace kinegraph {
 
 namespace {
 
+constexpr double kMoved = 1e-9;  ///< m or quaternion: larger differences of poses are no rounding
+
 void expectSize(const char* call, const char* what, std::ptrdiff_t rows, std::ptrdiff_t columns,
                 const MatrixXd& values) {
   if (values.rows() != rows || values.cols() != columns)
@@ -56,13 +58,20 @@ void Simulation::restore(const SimulationState& state) {
   if (!state.remainder.empty()) s.world->setState(stateFromBytes(state.remainder, *s.world));
   // changed fields take precedence over the stored bytes
   const VectorXd q_before = s.q();
-  if (state.q != q_before || state.qDot != s.qDot()) s.setJoints(state.q, &state.qDot);
+  if (state.q != q_before || state.qDot != s.qDot()) {
+    s.world->wake();
+    s.setJoints(state.q, &state.qDot);
+  }
   if (state.freePos != s.freePoses()) {
+    s.world->wake();
     for (std::ptrdiff_t i = 0; i < f; ++i)
       writeFreePose(Pose::fromNumbers(state.freePos.row(i).transpose()),
                     s.world->positions() + s.world->scene().free_qpos[std::size_t(i)]);
   }
-  if (state.freeVel != s.freeVelocities()) s.setFreeVelocities(state.freeVel);
+  if (state.freeVel != s.freeVelocities()) {
+    s.world->wake();
+    s.setFreeVelocities(state.freeVel);
+  }
   s.world->setTime(state.time);
   if (state.q != q_before || state.remainder.empty()) s.world->settle();
   s.recordState(state);
@@ -72,10 +81,10 @@ void Simulation::pushConfigToSim(const MatrixXd& frame_velocities, const VectorX
   update();
   Impl& s = *impl_;
   const char* call = "Simulation.pushConfigToSim";
-  const SceneModel& model = s.world->scene();
   if (frame_velocities.size() > 0)
-    expectSize(call, "frameVelocities", std::ptrdiff_t(model.free_frames.size()), 6, frame_velocities);
-  if (joint_velocities.size() > 0) expectSize(call, "jointVelocities", model.dofs, 1, joint_velocities);
+    expectSize(call, "frameVelocities", std::ptrdiff_t(s.world->scene().free_frames.size()), 6, frame_velocities);
+  if (joint_velocities.size() > 0) expectSize(call, "jointVelocities", s.world->scene().dofs, 1, joint_velocities);
+  if (s.hasMovedShapes()) renew();
   s.readConfig(*s.world);
   std::fill_n(s.world->velocities(), s.world->model().nv, 0.);
   if (frame_velocities.size() > 0) s.setFreeVelocities(frame_velocities);
@@ -83,6 +92,20 @@ void Simulation::pushConfigToSim(const MatrixXd& frame_velocities, const VectorX
   s.world->settle();
   s.world->forgetForces();
   s.recordState(getState());
+}
+
+bool Simulation::Impl::hasMovedShapes() const {
+  SceneTree& scene = *config.scene();
+  const SceneBodies& placed = world->scene().scene;
+  for (std::size_t i = 0; i < placed.frames.size(); ++i) {
+    const PlacedFrame& in_model = placed.frames[i];
+    if (!in_model.collides) continue;
+    const FrameData* body = placed.bodies[std::size_t(in_model.body)].frame;
+    const Pose now = (body ? scene.worldPose(*body).inverse() : Pose()) * scene.worldPose(*frames[i]);
+    const auto &a = now.q.coeffs(), &b = in_model.X_BF.q.coeffs();
+    if ((now.p - in_model.X_BF.p).norm() > kMoved || std::min((a - b).norm(), (a + b).norm()) > kMoved) return true;
+  }
+  return false;
 }
 
 void Simulation::Impl::rebuild() {

@@ -10,7 +10,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr std::uint64_t kMark = 0x32305453474b;  // "KGST02"
+constexpr std::uint64_t kMark = 0x33305453474b;          // "KGST03"
+constexpr std::uint64_t kMarkAllAwake = 0x32305453474b;  // "KGST02": states before bodies could sleep
 
 class StateWriter {
  public:
@@ -86,12 +87,25 @@ struct SpringBytes {
   double point[3], target[3];
 };
 
+/// Returns whether each tree is awake (negative) or points to the next one of its cycle of sleeping trees.
+bool areSleepCycles(const std::vector<int>& sleep, std::size_t trees) {
+  if (sleep.size() != trees) return false;
+  std::vector<char> is_next(trees, false);
+  for (const int next : sleep) {
+    if (next < 0) continue;
+    if (std::size_t(next) >= trees || sleep[std::size_t(next)] < 0 || is_next[std::size_t(next)]) return false;
+    is_next[std::size_t(next)] = true;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::string stateToBytes(const WorldState& state) {
   StateWriter write;
   write(kMark);
   write(state.physics);
+  write(state.sleep);
   const Reference::Parts parts = state.reference.parts();
   write(parts.dofs);
   write(parts.courses);
@@ -123,10 +137,12 @@ WorldState stateFromBytes(std::string_view bytes, const World& world) {
   StateReader read(bytes);
   std::uint64_t mark = 0;
   read(mark);
-  if (mark != kMark) StateReader::fail();
+  if (mark != kMark && mark != kMarkAllAwake) StateReader::fail();
   const WorldState now = world.state();
   WorldState state = now;
   read(state.physics);
+  state.sleep.clear();
+  if (mark == kMark) read(state.sleep);
   Reference::Parts parts;
   read(parts.dofs);
   read(parts.courses);
@@ -152,6 +168,7 @@ WorldState stateFromBytes(std::string_view bytes, const World& world) {
     throw ValueError(
         "Simulation.setState: the state has another number of bodies: it belongs to another scene, or was taken before "
         "addForceTorqueSensor; take states after the sensors are added");
+  if (mark == kMark && !areSleepCycles(state.sleep, now.sleep.size())) StateReader::fail();
   state.reference.setParts(parts);
   state.reference.spline = spline;
   const int bodies = int(world.scene().scene.bodies.size());

@@ -10,12 +10,14 @@ void World::forgetForces() {
 }
 
 void World::constantsChanged() {
+  wake();
   const WorldState before = state();
   physics().mj_setConst(physics_.get(), data_.get());
   setState(before);
 }
 
 void World::setFriction(int frame, double friction) {
+  wake();
   mjModel& m = *physics_;
   const std::vector<int>& of = model_->geom_frame;
   for (int g = 0; g < m.ngeom; ++g) {

@@ -11,8 +11,9 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kGripTolerance = 1e-4;  ///< m: a gripper has reached its target
-constexpr double kStillFor = .02;        ///< s without motion after which fingers count as stopped
+constexpr double kGripTolerance = 1e-4;       ///< m: a gripper has reached its target
+constexpr std::size_t kRestingContacts = 16;  ///< usual number per sleeping body
+constexpr double kStillFor = .02;             ///< s without motion after which fingers count as stopped
 
 int stateSize(const mjModel& m) { return physics().mj_stateSize(&m, mjSTATE_INTEGRATION); }
 
@@ -39,11 +40,14 @@ World::World(std::shared_ptr<const SceneModel> model, const SimulationOptions& o
   bias_.resize(6 * std::size_t(physics_->nbody));
   desired_acceleration_.resize(std::size_t(physics_->nv));
   torque_.resize(std::size_t(physics_->nv));
+  resting_contacts_.reserve(kRestingContacts * std::size_t(physics_->ntree));  // steps request no memory
+  if (!options_.speculative) contact_search_ = ContactSearch(*physics_);
   gyroscopic_forces_ = GyroscopicForces(*model_, *physics_);
   settle();
 }
 
 void World::settle() {
+  wake();
   for (const SceneModel::Follower& f : model_->followers) {
     data_->qpos[f.qpos] = f.ratio * data_->qpos[f.source_qpos];
     data_->qvel[f.dof] = f.ratio * data_->qvel[f.source_dof];
@@ -72,6 +76,7 @@ WorldState World::state() const {
 void World::saveState(WorldState& state) const {
   state.physics.resize(std::size_t(stateSize(*physics_)));
   physics().mj_getState(physics_.get(), data_.get(), state.physics.data(), mjSTATE_INTEGRATION);
+  state.sleep.assign(data_->tree_asleep, data_->tree_asleep + physics_->ntree);
   state.reference = reference_;
   state.grippers = grippers_;
   state.welds = welds_;
@@ -80,13 +85,14 @@ void World::saveState(WorldState& state) const {
 
 void World::setState(const WorldState& state) {
   physics().mj_setState(physics_.get(), data_.get(), state.physics.data(), mjSTATE_INTEGRATION);
-  for (mjWarningStat& warning : data_->warning) warning = {};
   reference_ = state.reference;
   grippers_ = state.grippers;
   welds_ = state.welds;
   perturbation_ = state.perturbation;
   perturbation_force_.setZero();
   for (std::size_t slot = 0; slot < welds_.size(); ++slot) activate(slot);
+  restoreSleep(state.sleep);
+  for (mjWarningStat& warning : data_->warning) warning = {};
   is_computed_ = copy_is_computed_ = false;
 }
 
@@ -110,6 +116,8 @@ void World::weld(int body_a, int body_b) { weld(body_a, body_b, bodyPose(body_a)
 void World::weld(int body_a, int body_b, const Pose& X_AB) {
   for (std::size_t slot = 0; slot < welds_.size(); ++slot) {
     if (welds_[slot].active) continue;
+    wake(body_a);
+    wake(body_b);
     welds_[slot] = {body_a, body_b, X_AB, true};
     activate(slot);
     return;
@@ -123,6 +131,8 @@ bool World::unweld(int body_a, int body_b) {
   for (std::size_t slot = 0; slot < welds_.size(); ++slot) {
     WeldedPair& pair = welds_[slot];
     if (!pair.active || pair.body_a != body_a || pair.body_b != body_b) continue;
+    wake(body_a);
+    wake(body_b);
     pair.active = false;
     activate(slot);
     found = true;
@@ -131,6 +141,7 @@ bool World::unweld(int body_a, int body_b) {
 }
 
 void World::applyForce(int body, const Vector3d& force, const Vector3d& torque, const Vector3d& point) {
+  wake(body);
   const int id = model_->body_id[std::size_t(body)];
   const Pose X_WB = bodyPose(body);
   const Vector3d com = X_WB.p + X_WB.q * Vector3d(Eigen::Map<const Vector3d>(physics_->body_ipos + 3 * id));

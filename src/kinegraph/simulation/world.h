@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kinegraph/common/cancellation.h"
+#include "kinegraph/simulation/contact_search.h"
 #include "kinegraph/simulation/gyroscopic_forces.h"
 #include "kinegraph/simulation/reference.h"
 #include "kinegraph/simulation/scene_model.h"
@@ -38,9 +39,19 @@ struct PerturbationSpring {
   bool operator==(const PerturbationSpring&) const = default;
 };
 
+/// A contact point between two geoms of the model.
+struct GeomContact {
+  int geom_a = 0, geom_b = 0;
+  Vector3d position;     ///< world, m
+  Vector3d normal;       ///< unit, from a to b
+  double distance = 0.;  ///< m
+  Vector3d force;        ///< exerted by a on b, world, N
+};
+
 /// The complete state of a world: two worlds of one model with equal states evolve equally, bit for bit.
 struct WorldState {
   std::vector<mjtNum> physics;
+  std::vector<int> sleep;  ///< mjData::tree_asleep: the next tree of a sleeping island; negative: awake
   Reference reference;
   std::vector<GripperTask> grippers;
   std::vector<WeldedPair> welds;
@@ -73,6 +84,11 @@ class World {
   const mjtNum* positions() const { return data_->qpos; }
   void setTime(double time) { data_->time = time; }
 
+  /// Wakes all bodies, or a body and those that sleep in contact with it. Changes of the model, of positions or
+  /// velocities require it; bodies that meet moving ones wake by themselves, as do bodies with applied forces.
+  void wake();
+  void wake(int body);
+
   /// Moves followers to their sources' positions, and sets the motors' references to the present positions.
   void settle();
 
@@ -88,6 +104,9 @@ class World {
   /// Copies the state of all frames that another world has, too. `old_frame` maps a frame's id to its id there, or to
   /// -1.
   void transferState(const World& old, const std::function<int(int frame)>& old_frame);
+
+  /// The contacts that transmit forces, those of sleeping bodies last.
+  std::vector<GeomContact> contacts() const;
 
   /// Clears the warm start: forces of the last step do not predict those of the next.
   void forgetForces();
@@ -133,6 +152,13 @@ class World {
   void transferWelds(const World& old, const std::function<int(int frame)>& old_frame);
   void weld(int body_a, int body_b, const Pose& X_AB);
   void innerStep(double h);
+  void restoreSleep(const std::vector<int>& sleep);
+  void keepUnsupportedAwake();
+  void wakeTree(int tree);
+  bool isGeomAsleep(int geom) const;
+  GeomContact contactOf(const mjData& d, int i) const;
+  void keepRestingContacts();
+  void forgetWokenContacts();
   void correctContacts(double h);
   void addBounces(double h);
   void driveMotors(double h);
@@ -160,7 +186,10 @@ class World {
   std::vector<mjtNum> point_jacobian_, point_response_;    ///< of the perturbed point, 3 x nv: J and J M^-1
   std::vector<mjtNum> bias_, desired_acceleration_, torque_;
   GyroscopicForces gyroscopic_forces_;
-  WorldState before_;  ///< at the begin of the last step
+  ContactSearch contact_search_;
+  std::vector<GeomContact> resting_contacts_;  ///< of sleeping bodies, from the step in which they fell asleep
+  std::vector<char> is_supported_;             ///< per tree
+  WorldState before_;                          ///< at the begin of the last step
   std::set<int> too_fast_;
 };
 

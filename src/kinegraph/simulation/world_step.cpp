@@ -113,7 +113,14 @@ void World::innerStep(double h) {
     const int dofs = servo.kind == MotionKind::quaternion ? 3 : 1;
     for (int k = servo.dof; k < servo.dof + dofs; ++k) m->dof_frictionloss[k] = direct ? servo.friction : 0.;
   }
+  if (perturbation_.body != 0) wake(perturbation_.body);
+  const int awake_before = d->ntree_awake;
+  const bool is_needless = !options_.speculative && contact_search_.isNeedless(*m, *d);
+  if (is_needless) m->opt.disableflags |= mjDSBL_CONTACT;
   mj.mj_fwdPosition(m, d);
+  m->opt.disableflags &= ~mjDSBL_CONTACT;
+  if (d->ntree_awake > awake_before) forgetWokenContacts();
+  const int awake = d->ntree_awake;
   if (d->ncon > 0) {
     mj.mj_comVel(m, d);
     correctContacts(h);
@@ -131,6 +138,8 @@ void World::innerStep(double h) {
   if (perturbation_.body != 0) addPerturbation();
   mj.mj_step2(m, d);
   if (perturbation_.body != 0) removePerturbation();
+  if (d->ntree_awake < awake) keepRestingContacts();
+  keepUnsupportedAwake();
 }
 
 /// Corrects a drift of MuJoCo's contacts. MuJoCo omits the term dJ/dt v in the rows of contacts, so objects held by
@@ -281,6 +290,7 @@ void World::checkNumbers(double time) {
       warning[mjWARN_BADQPOS].number > 0 || warning[mjWARN_BADQVEL].number > 0 || warning[mjWARN_BADQACC].number > 0;
   if (!full && !bad) return;
   setState(before_);
+  contact_search_ = ContactSearch(*physics_);
   if (full) throw Error("Simulation.step: the contacts exceed the memory; the state before the step is restored");
   throw Error(
       cat("Simulation.step: the simulation diverges before ", time,
