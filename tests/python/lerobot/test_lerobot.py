@@ -229,3 +229,18 @@ def test_the_command_makes_and_continues_a_data_set(tmp_path: Path, capsys: pyte
     told = capsys.readouterr()
     assert "1 episodes of 1 attempts" in told.out and "has 1 episodes in shard 0; expected 10" in told.err
     assert ry.checkDataset(tmp_path / "out") == []
+
+
+def test_a_goal_out_of_reach_ends_with_its_reason(tmp_path):
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    box = (
+        C.addFrame("box", "table")
+        .setRelativePosition([3.0, 0.25, 0.09])
+        .setShape(ry.ST.ssBox, [0.04, 0.05, 0.08, 0.004])
+    )
+    box.setContact(1).setJoint(ry.JT.rigid).setMass(0.1)
+    tray = C.addFrame("tray", "table").setRelativePosition([-0.25, 0.25, 0.055])
+    tray.setShape(ry.ST.ssBox, [0.14, 0.14, 0.01, 0.004]).setContact(1)
+    with pytest.raises(ry.Error, match="20 attempts of shard 0 gave 0 episodes; the last one: no plan: "):
+        ry.demonstrate(C, "(on tray box)", 1, tmp_path / "out", progress=False)
