@@ -18,8 +18,8 @@ import pytest
 
 pytest.importorskip("pylibfranka", reason="needs pylibfranka and franky-sim; make test-franka installs them")
 
-import kinegraph as ry  # noqa: E402
-from kinegraph.robots import FrankaDriver  # noqa: E402
+import kinegraph as ry
+from kinegraph.robots import FrankaDriver
 
 HOST, PERIOD = "127.0.0.1", 0.01
 RISE = np.array([0.3, 0, 0, 0.2, 0, 0, 0.4])
