@@ -231,6 +231,30 @@ def test_the_command_makes_and_continues_a_data_set(tmp_path: Path, capsys: pyte
     assert ry.checkDataset(tmp_path / "out") == []
 
 
+@pytest.mark.parametrize("camera", [False, True])
+def test_a_full_disk_names_the_file_and_leaves_the_finished_shards(tmp_path: Path, camera: bool) -> None:
+    script = (
+        "import resource, signal, numpy as np, kinegraph as ry\n"
+        "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
+        "rng = np.random.default_rng(0)\n"
+        f"cameras = {{'top': (64, 64)}} if {camera} else {{}}\n"
+        "def write(shard, count):\n"
+        "    images = {'top': list(rng.integers(0, 255, (count, 64, 64, 3), np.uint8))} if cameras else {}\n"
+        "    with ry.LeRobotWriter('data', 10, ['a.pos', 'b.pos'], cameras=cameras, shard=shard) as writer:\n"
+        "        writer.addEpisode(rng.normal(size=(count, 2)), rng.normal(size=(count, 2)), images, 'x')\n"
+        "write(0, 5)\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (60000, 60000))\n"
+        "try:\n    write(1, 100 if cameras else 20000)\nexcept ry.FileError as error:\n    print(error)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, env=os.environ)
+    assert (
+        done.stderr == ""
+        and done.stdout.startswith("LeRobotWriter: cannot write 'data/")
+        and "File too large" in done.stdout
+    )
+    assert ry.checkDataset(tmp_path / "data") == []
+
+
 def test_a_goal_out_of_reach_ends_with_its_reason(tmp_path):
     C = ry.Config()
     C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
