@@ -268,3 +268,15 @@ def test_a_goal_out_of_reach_ends_with_its_reason(tmp_path):
     tray.setShape(ry.ST.ssBox, [0.14, 0.14, 0.01, 0.004]).setContact(1)
     with pytest.raises(ry.Error, match="20 attempts of shard 0 gave 0 episodes; the last one: no plan: "):
         ry.demonstrate(C, "(on tray box)", 1, tmp_path / "out", progress=False)
+
+
+def test_tasks_of_an_index_without_a_name_are_read_as_lerobot_writes_them(tmp_path: Path) -> None:
+    filled(tmp_path)
+    path = tmp_path / "meta" / "tasks.parquet"
+    table = pq.read_table(path)
+    pq.write_table(table.rename_columns(["task_index", "__index_level_0__"]), path)
+    assert ry.checkDataset(tmp_path) == []
+    pq.write_table(table.rename_columns(["task_index", "words"]), path)
+    assert ry.checkDataset(tmp_path) == [
+        "tasks.parquet has the columns task_index, words; expected task_index and task"
+    ]
