@@ -3,6 +3,7 @@
 # make docs           builds the site: build/site/html/index.html (make docs-serve: at http://localhost:8000)
 # make test-models    reads every robot of two large collections and compares with Pinocchio and MuJoCo (2 GB, minutes)
 # make test-ros       makes an environment with rclpy in build/ros, and tests the connection to ROS 2
+# make test-franka    installs franky-sim into build/franka_venv (.7 GB), and tests the driver of the FR3 with it
 # make test-lerobot   installs lerobot into build/lerobot_venv (8 GB), and tests data sets, plugins and environments with it
 # make tidy           runs clang-tidy on the library; ARGS="src/kinegraph/komo" takes some rooms
 # make nightly        runs tests, Clang, sanitizers, fuzzers and benchmarks, and writes docs/results/VERSION.md (hours);
@@ -14,7 +15,7 @@
 PYTHON ?= python3
 VENV := .venv
 
-.PHONY: demo install test docs docs-serve test-models test-ros test-lerobot tidy nightly release clean
+.PHONY: demo install test docs docs-serve test-models test-ros test-lerobot test-franka tidy nightly release clean
 
 demo: install
 	$(VENV)/bin/kinegraph demo $(ARGS)
@@ -39,6 +40,9 @@ test-ros:
 
 test-lerobot:
 	PYTHON="$(PYTHON)" bash tools/test_lerobot.sh $(ARGS)
+
+test-franka:
+	PYTHON="$(PYTHON)" bash tools/test_franka.sh $(ARGS)
 
 tidy:
 	PYTHON="$(PYTHON)" bash tools/tidy.sh $(ARGS)

@@ -21,7 +21,7 @@ EXAMPLES = [  # captions, and the numbers of the examples below
 ]
 
 HOW_TO = [
-    ("Scenes and robots", ["scenes", "robots", "ik", "features"]),
+    ("Scenes and robots", ["scenes", "robots", "other_simulators", "ik", "features"]),
     ("Motions", ["motion", "planning", "timing", "tool_paths"]),
     ("Tasks", ["tasks"]),
     ("Cameras", ["perception"]),

@@ -125,6 +125,7 @@ stage films "$tests/bin/python" -c \
 bench panda_tasks "--families tower,sort,drawer,stow,hook --seeds 5" "--seeds 1 --repairs 0"
 bench lgp "" "--seeds 1"
 bench viewer "" "bundle"
+stage franka bash tools/test_franka.sh
 stage lerobot bash tools/test_lerobot.sh
 stage ros bash tools/test_ros.sh
 stage benchmark_ros_bridge env PYTHONPATH=python build/ros/bin/python benchmarks/ros_bridge.py --seconds "$(pick 2 10)"

@@ -32,10 +32,10 @@ CLOSED, CHANGE = 2e-3, 1e-3  # m: an opening this near to the smallest one close
 class TaskEnv(gymnasium.Env[dict[str, Any], NDArray[np.float64]]):
     """A robot places objects: goals are "(on PLACE OBJECT)", one or several.
 
-    An observation has `agent_pos`, the joint values (rad or m) and the openings of hands (m), and `pixels`, an image per
+    An observation has `agent_pos`, the joint values (rad or m) and openings of hands (m), and `pixels`, an image per
     camera. An action is the command for the next frame: joint values, and openings. The smallest opening closes the
-    hand with force. An episode ends with reward 1 and `info["is_success"]` when the objects rest on their places and the robot
-    does not touch them.
+    hand with force. An episode ends with reward 1 and `info["is_success"]` when the objects rest on their places and
+    the robot does not touch them.
     """
 
     metadata: ClassVar[dict[str, Any]] = {"render_modes": ["rgb_array"], "render_fps": 20}

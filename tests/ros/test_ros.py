@@ -212,7 +212,7 @@ class Controller:
         node = self._node = self._running.node
         self.q, self._names = np.array(q), names
         self.commands = 0
-        self.silent = threading.Event()
+        self.silent, self.broken = threading.Event(), threading.Event()
         node.create_subscription(Float64MultiArray, "/forward_position_controller/commands", self._onCommand, 1)
         self._states = node.create_publisher(JointState, "/joint_states", 10)
         node.create_timer(0.004, self._publish)
@@ -223,7 +223,8 @@ class Controller:
 
     def _publish(self) -> None:
         if not self.silent.is_set():
-            message = JointState(name=["other", *self._names[::-1]], position=[0.0, *self.q[::-1].tolist()])
+            q = self.q * np.nan if self.broken.is_set() else self.q
+            message = JointState(name=["other", *self._names[::-1]], position=[0.0, *q[::-1].tolist()])
             message.header.stamp = self._node.get_clock().now().to_msg()
             self._states.publish(message)
 
@@ -246,6 +247,32 @@ def test_a_robot_of_ros2_control_is_driven_and_stops_if_its_states_end() -> None
     with pytest.raises(ry.RobotFault, match="clock has stood still"):
         bot.sync(C, 1.0)
     bot.close()
+    controller.close()
+
+
+def test_states_that_are_not_numbers_hold_a_robot_of_ros2_control() -> None:
+    C = scene()
+    controller = Controller(C.getJointNames(), C.getJointState())
+    bot = ry.BotOp(C, True, driver=RosDriver(C, timeout=20.0))
+    bot.moveTo(bot.get_q() + 0.5)
+    bot.sync(C, 0.5)
+    controller.broken.set()
+    with pytest.raises(ry.RobotFault, match="not finite|nan"):
+        bot.sync(C, 5.0)
+    time.sleep(0.2)
+    held = controller.q.copy()
+    assert np.isfinite(held).all()
+    time.sleep(0.3)
+    np.testing.assert_array_equal(controller.q, held)
+    bot.close()
+    controller.close()
+
+
+def test_the_states_of_another_robot_are_named() -> None:
+    C = scene()
+    controller = Controller(["joint_a", "joint_b"], np.zeros(2))
+    with pytest.raises(ry.RobotFault, match="states there have the joints other, joint_b, joint_a"):
+        ry.BotOp(C, True, driver=RosDriver(C, timeout=8.0))
     controller.close()
 
 

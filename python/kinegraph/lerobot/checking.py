@@ -45,7 +45,11 @@ def checkDataset(folder: str | os.PathLike[str]) -> list[str]:
     for field, count in {"total_episodes": len(episodes), "total_tasks": tasks.num_rows}.items():
         if info[field] != count:
             faults.append(f"{field} is {info[field]}; the tables have {count}")
-    faults += _frameFaults(root, info, episodes, tasks.to_pylist())
+    texts = "task" if "task" in tasks.column_names else "__index_level_0__"  # an index of pandas without a name
+    if texts not in tasks.column_names:
+        return [*faults, f"tasks.parquet has the columns {', '.join(tasks.column_names)}; expected task_index and task"]
+    named = {row["task_index"]: row[texts] for row in tasks.to_pylist()}
+    faults += _frameFaults(root, info, episodes, named)
     for key, feature in info["features"].items():
         if feature["dtype"] == "video":
             faults += _filmFaults(root, info, episodes, key)
@@ -105,7 +109,7 @@ def _frameFaults(root: Path, info: Any, episodes: Any, tasks: Any) -> list[str]:
         for key in ("observation.state", "action"):
             if not np.isfinite(np.array(part[key].to_pylist(), float)).all():
                 faults.append(f"{key} of {name} has numbers that are not finite")
-        if [tasks[i]["task"] for i in set(part["task_index"].to_pylist())] != row["tasks"]:
+        if [tasks.get(i) for i in sorted(set(part["task_index"].to_pylist()))] != row["tasks"]:
             faults.append(f"{name} has other tasks in its frames than in its description")
         begin += row["length"]
     if begin != info["total_frames"]:

@@ -16,7 +16,7 @@ import numpy as np
 
 from .. import _core
 from .._core import BotOp, Config
-from ..errors import ArgumentError
+from ..errors import ArgumentError, Error
 from ..fleets import map as mapItems
 from .layout import SHARDS, shardFolder, writeText
 from .rehearsal import sentence, stateNames, stateOf
@@ -295,7 +295,7 @@ def _makeShard(job: _Job, folder: str, robot_type: str, codec: str, number: int,
             writer.addEpisode(episode.state, actions, episode.images, job.task, success=not episode.failure)
             made += 1
         elif attempt >= TRIES * (made + 1):
-            raise _core.Error(
+            raise Error(
                 f"demonstrate: {attempt} attempts of shard {number} gave {made} episodes; the last one: "
                 f"{episode.failure or 'it was repaired'}"
             )

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
+from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from ..errors import NotFound
+from ..errors import FileError, NotFound
 
 VERSION = "v3.0"
 CHUNK = 1000  # files per folder
@@ -57,23 +59,37 @@ def shardFolder(folder: Path, shard: int) -> Path:
     return folder / SHARDS / f"{shard:06d}"
 
 
+@contextlib.contextmanager
+def _wholeFile(path: Path) -> Iterator[Path]:
+    """Gives the name of a file to write, and then its own name to it; without a trace if that fails.
+
+    Raises:
+        FileError: The file cannot be written.
+    """
+    part = path.with_name(path.name + ".part")
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        yield part
+        part.replace(path)
+    except OSError as error:
+        with contextlib.suppress(OSError):
+            part.unlink(missing_ok=True)
+        reason = os.strerror(error.errno) if error.errno else str(error)
+        raise FileError(f"LeRobotWriter: cannot write '{path}': {reason}") from None
+
+
 def writeText(path: Path, text: str) -> None:
     """Writes a file completely or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(path.name + ".part")
-    with part.open("w") as file:
+    with _wholeFile(path) as part, part.open("w") as file:
         file.write(text)
         file.flush()
         os.fsync(file.fileno())
-    part.replace(path)
 
 
 def writeTable(path: Path, table: Any) -> None:
     """Writes a Parquet file completely or not at all."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    part = path.with_name(path.name + ".part")
-    needed("pyarrow.parquet").write_table(table, part)
-    part.replace(path)
+    with _wholeFile(path) as part:
+        needed("pyarrow.parquet").write_table(table, part)
 
 
 def column(values: Any, dtype: str, shape: list[int]) -> Any:

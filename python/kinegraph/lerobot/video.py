@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
+import os
+from collections.abc import Iterator
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -52,13 +55,21 @@ class Film:
         return begin, self._count / self._fps
 
     def _write(self, frame: Any) -> None:
-        try:
+        with self._named():
             for packet in self._stream.encode(frame):
                 self._container.mux(packet)
+
+    @contextlib.contextmanager
+    def _named(self) -> Iterator[None]:
+        """Raises FileError, with the name of the file, if it cannot be written."""
+        try:
+            yield
         except OSError as error:
-            raise FileError(f"LeRobotWriter: cannot write '{self._path}': {error}") from None
+            reason = os.strerror(error.errno) if error.errno else str(error)
+            raise FileError(f"LeRobotWriter: cannot write '{self._path}': {reason}") from None
 
     def close(self) -> None:
         """Ends the film."""
         self._write(None)
-        self._container.close()
+        with self._named():
+            self._container.close()

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 Vector = list[float]
 
+FOLLOW, SKIP = 0.05, 2.0  # share of its delay by which a setpoint moves the schedule; periods that begin a new schedule
 STRETCHES, MARGIN = 14, 0.9  # tries of longer durations; share of acceleration and jerk that a polynomial may use
 SAMPLES = (0.0, 0.1, 0.2, 0.35, 0.5, 0.65, 0.8, 0.9, 1.0)
 
@@ -39,9 +40,14 @@ class Setpoints:
         self._coefficients: list[tuple[float, float, float, float, float, float]] | None = None
         self._time = self._duration = 0.0
         self._braking = False
+        self._clock = 0.0  # of the robot, s
+        self._due: float | None = None  # when the next setpoint is expected
 
     def aim(self, q: Sequence[float], velocity: Sequence[float], acceleration: Sequence[float], period: float) -> None:
         """Moves toward a setpoint: in 1.5 periods, or longer if the limits demand it.
+
+        Setpoints count from the times at which they are due, period by period, so that small delays of the program do
+        not disturb the motion.
 
         Args:
             q, velocity, acceleration: State one period from now.
@@ -49,9 +55,13 @@ class Setpoints:
         """
         if self.fault:
             return
-        duration = 1.5 * period
+        due = self._clock if self._due is None else self._due
+        shift = due - self._clock
+        shift = 0.0 if abs(shift) > SKIP * period else (1.0 - FOLLOW) * shift
+        self._due = self._clock + shift + period
+        duration = max(1.5 * period + shift, period)
         for _ in range(STRETCHES):
-            ahead = duration - period
+            ahead = duration - period - shift
             a_end = acceleration if duration < 3.0 * period else [0.0] * len(q)  # not predicted for longer
             ends = [
                 (x + ahead * v + 0.5 * ahead**2 * a, v + ahead * a, a)
@@ -60,7 +70,7 @@ class Setpoints:
             starts = zip(self.q, self.velocity, self.acceleration, strict=True)
             self._coefficients = [_quintic(start, end, duration) for start, end in zip(starts, ends, strict=True)]
             samples = ([_at(c, u * duration) for c in self._coefficients] for u in SAMPLES)
-            problem = next(filter(None, (self._excess(state, MARGIN) for state in samples)), "")
+            problem = next(filter(None, (self._excess(state, MARGIN, self.acceleration) for state in samples)), "")
             if not problem:
                 break
             duration *= 1.3
@@ -102,6 +112,7 @@ class Setpoints:
         Args:
             dt: s.
         """
+        self._clock += dt
         if self._coefficients is None:
             return self.q
         self._time += dt
@@ -112,22 +123,30 @@ class Setpoints:
             return self.q
         if self._time > self._duration + dt:  # the next setpoint is late
             self.brake()
+            self._clock -= dt
             return self.advance(dt)
         state = [_at(c, self._time) for c in self._coefficients]
         problem = "" if self._braking else self._excess(state)
         if problem:
             self.brake(problem)
+            self._clock -= dt
             return self.advance(dt)
         self.q = [s[0] for s in state]
         self.velocity, self.acceleration = [s[1] for s in state], [s[2] for s in state]
         return self.q
 
-    def _excess(self, state: list[tuple[float, float, float, float]], share: float = 1.0) -> str:
+    def _excess(
+        self, state: list[tuple[float, float, float, float]], share: float = 1.0, present: Sequence[float] = ()
+    ) -> str:
+        """Returns the limit that a state exceeds; accelerations may be as large as the present ones."""
         limits = self._limits
+        accelerations = [share * limit for limit in limits.acceleration]
+        if present:
+            accelerations = [max(allowed, abs(a)) for allowed, a in zip(accelerations, present, strict=True)]
         for i, (_, v, a, j) in enumerate(state):
             for name, value, limit, unit in (
                 ("velocity", v, limits.velocity[i], "rad/s"),
-                ("acceleration", a, share * limits.acceleration[i], "rad/s^2"),
+                ("acceleration", a, accelerations[i], "rad/s^2"),
                 ("jerk", j, share * limits.jerk[i], "rad/s^3"),
             ):
                 if not abs(value) <= limit + 1e-9:  # NaN, too

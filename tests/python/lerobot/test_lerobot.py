@@ -229,3 +229,55 @@ def test_the_command_makes_and_continues_a_data_set(tmp_path: Path, capsys: pyte
     told = capsys.readouterr()
     assert "1 episodes of 1 attempts" in told.out and "has 1 episodes in shard 0; expected 10" in told.err
     assert ry.checkDataset(tmp_path / "out") == []
+
+
+@pytest.mark.parametrize("camera", [False, True])
+def test_a_full_disk_names_the_file_and_leaves_the_finished_shards(tmp_path: Path, camera: bool) -> None:
+    script = (
+        "import resource, signal, numpy as np, kinegraph as ry\n"
+        "signal.signal(signal.SIGXFSZ, signal.SIG_IGN)\n"
+        "rng = np.random.default_rng(0)\n"
+        f"cameras = {{'top': (64, 64)}} if {camera} else {{}}\n"
+        "def write(shard, count):\n"
+        "    images = {'top': list(rng.integers(0, 255, (count, 64, 64, 3), np.uint8))} if cameras else {}\n"
+        "    with ry.LeRobotWriter('data', 10, ['a.pos', 'b.pos'], cameras=cameras, shard=shard) as writer:\n"
+        "        writer.addEpisode(rng.normal(size=(count, 2)), rng.normal(size=(count, 2)), images, 'x')\n"
+        "write(0, 5)\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (60000, 60000))\n"
+        "try:\n    write(1, 100 if cameras else 20000)\nexcept ry.FileError as error:\n    print(error)\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], cwd=tmp_path, capture_output=True, text=True, env=os.environ)
+    assert (
+        done.stderr == ""
+        and done.stdout.startswith("LeRobotWriter: cannot write 'data/")
+        and "File too large" in done.stdout
+    )
+    assert ry.checkDataset(tmp_path / "data") == []
+
+
+def test_a_goal_out_of_reach_ends_with_its_reason(tmp_path):
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    box = (
+        C.addFrame("box", "table")
+        .setRelativePosition([3.0, 0.25, 0.09])
+        .setShape(ry.ST.ssBox, [0.04, 0.05, 0.08, 0.004])
+    )
+    box.setContact(1).setJoint(ry.JT.rigid).setMass(0.1)
+    tray = C.addFrame("tray", "table").setRelativePosition([-0.25, 0.25, 0.055])
+    tray.setShape(ry.ST.ssBox, [0.14, 0.14, 0.01, 0.004]).setContact(1)
+    with pytest.raises(ry.Error, match="20 attempts of shard 0 gave 0 episodes; the last one: no plan: "):
+        ry.demonstrate(C, "(on tray box)", 1, tmp_path / "out", progress=False)
+
+
+def test_tasks_of_an_index_without_a_name_are_read_as_lerobot_writes_them(tmp_path: Path) -> None:
+    filled(tmp_path)
+    path = tmp_path / "meta" / "tasks.parquet"
+    table = pq.read_table(path)
+    for name, faults in (
+        ("__index_level_0__", []),
+        ("words", ["tasks.parquet has the columns task_index, words; expected task_index and task"]),
+    ):
+        renamed = table.rename_columns(["task_index", name]).replace_schema_metadata(table.schema.metadata)
+        pq.write_table(renamed, path)
+        assert ry.checkDataset(tmp_path) == faults

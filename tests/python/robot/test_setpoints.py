@@ -49,6 +49,24 @@ def test_a_smooth_reference_is_sent_within_a_tenth_of_a_milliradian() -> None:
     assert (velocity < VELOCITY).all() and (acceleration < ACCELERATION).all() and (jerk < JERK).all()
 
 
+@pytest.mark.parametrize("delay", [0.0015, 0.003])
+def test_delays_of_the_program_do_not_disturb_the_motion(delay: float) -> None:
+    rng = np.random.default_rng(0)
+    setpoints, rows, k = Setpoints([0.0] * 7, FR3), [], 0
+    late = rng.uniform(0.0, delay, 1000)
+    for cycle in range(4000):
+        if cycle * DT >= k * PERIOD + late[k]:
+            setpoints.aim(*[np.array(x, float).tolist() for x in swing((k + 1) * PERIOD)], PERIOD)
+            k += 1
+        rows.append(list(setpoints.advance(DT)))
+    assert setpoints.fault == ""
+    times = DT * np.arange(1, len(rows) + 1) - 0.5 * delay  # the mean delay remains
+    error = np.abs(np.array(rows)[:, 0] - 0.25 * (1 - np.cos(np.pi * times)))
+    assert error[300:].max() < 1e-3, "the reference has up to .8 rad/s: 1 ms is .8 mrad"
+    velocity, acceleration, jerk = derivatives(np.array(rows))
+    assert (velocity < VELOCITY).all() and (acceleration < ACCELERATION).all() and (jerk < JERK).all()
+
+
 def test_setpoints_at_irregular_times_cause_no_stop() -> None:
     rng = np.random.default_rng(0)
     setpoints = Setpoints([0.0] * 7, FR3)

@@ -136,6 +136,30 @@ def test_an_error_of_the_controller_holds_the_arm_until_it_recovers(arm: StandIn
         bot.sync(C, 0.1)
 
 
+def test_states_that_are_not_numbers_and_a_lost_connection_hold_the_arm(
+    arm: StandIn, C: ry.Config, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    bot = ry.BotOp(C, driver=TrossenDriver(C, "192.168.1.2"))
+    bot.moveTo(bot.get_q() + 0.3)
+    bot.sync(C, 0.3)
+    arm.broken = True
+    with pytest.raises(ry.RobotFault, match="not finite|nan"):
+        bot.sync(C, 0.5)
+    held = list(arm.q)
+    arm.broken = False
+    bot.recover()
+    bot.sync(C, 0.2)
+    np.testing.assert_allclose(arm.q, held, atol=1e-9)
+
+    def lost(_: object) -> None:
+        raise RuntimeError("connection reset by peer")
+
+    monkeypatch.setattr(sys.modules["trossen_arm"].TrossenArmDriver, "get_robot_output", lost)
+    with pytest.raises(ry.RobotFault, match="connection reset by peer"):
+        bot.sync(C, 0.5)
+    np.testing.assert_allclose(arm.q, held, atol=1e-9)
+
+
 def test_other_arms_and_names_are_refused(arm: StandIn, C: ry.Config) -> None:
     whole = ry.Config()
     whole.addFile(ry.raiPath("trossen/trossen.g"))
