@@ -32,7 +32,7 @@ constexpr const char* kRobotWithMimic = R"(<robot name="r">
   <joint name="shoulder" type="revolute"><origin xyz="0 0 1" rpy=".1 1.5707963267948966 .2"/><parent link="base"/><child link="arm"/>
     <axis xyz="0 .6 -.8"/><limit lower="-1" upper="2" effort="7" velocity="3"/></joint>
   <joint name="wrist" type="fixed"><origin xyz="1 0 0"/><parent link="arm"/><child link="tip"/></joint>
-  <joint name="rail" type="prismatic"><parent link="base"/><child link="cart"/><axis xyz="1 1 0"/><limit lower="0" upper="1" effort="0" velocity="0"/></joint>
+  <joint name="rail" type="prismatic"><parent link="base"/><child link="cart"/><axis xyz="1 1 0"/><limit lower="0" upper="1" effort="1" velocity="1"/></joint>
   <joint name="copy" type="continuous"><parent link="tip"/><child link="follower"/><axis xyz="0 0 1"/><mimic joint="shoulder" multiplier="-2" offset=".1"/></joint>
 </robot>)";
 

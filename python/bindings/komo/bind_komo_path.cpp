@@ -31,6 +31,7 @@ nb::typed<nb::list, Attributes> forceInteractions(const PyKomo& komo) {
 }
 
 Array pathFrames(const PyKomo& komo) {
+  komo.path().requireBuilt("getPathFrames");
   nb::list slices;
   for (int t = 0; t < komo.slices(); ++t) slices.append(toNumpy(komo.getFrameState(t)));
   return Array(nb::module_::import_("numpy").attr("stack")(slices));

@@ -351,7 +351,7 @@ void DiffIk::solve() {
     const int priority = priorities_.empty() ? 0 : priorities_[i];
     addCosts(q_, priority, i + 1 == priorities);
     if (i == 0) {
-      solveFirst();
+      if (q_.size() > 0) solveFirst();
       free_.setIdentity();
       free_count_ = int(free_.cols());
     } else {

@@ -82,7 +82,8 @@ void addPhysics(MotionProblem& motion, M mode, const std::string& object, int fr
 std::pair<std::string, std::string> framesOf(const Path& path, const SwitchSpec& spec) {
   std::vector<std::string> frames = spec.frames;
   const bool alone = movesAlone(spec.mode);
-  if (frames.size() == 1 && alone) frames.insert(frames.begin(), path.initial().model->frame_name.front());
+  const std::vector<std::string>& known = path.initial().model->frame_name;
+  if (frames.size() == 1 && alone && !known.empty()) frames.insert(frames.begin(), known.front());
   const std::vector<double>& times = spec.times;
   if (times.empty() || times.size() > 2 || !(times[0] >= 0.)) {
     throw ValueError("addModeSwitch: times must be [from, to], both phase times; to is -1 for a mode until the end");
@@ -183,8 +184,11 @@ void addFrameDof(Path& path, const FrameSpec& spec) {
     throw ValueError(cat("addFrameDof: frame '", spec.name, "' exists already; expected a new name"));
   }
   std::string below = spec.parent;
-  if (below.empty() && spec.type != JointType::none)
+  if (below.empty() && spec.type != JointType::none) {
+    if (model.frame_name.empty())
+      throw ValueError(cat("addFrameDof: the scene has no frame to which '", spec.name, "' could be joined; add one"));
     below = model.frame_index.contains("world") ? "world" : model.frame_name.front();
+  }
   if (!below.empty()) requireFrame(path, below, "addFrameDof");
   if (!spec.origin.empty()) requireFrame(path, spec.origin, "addFrameDof");
   const JointType type = spec.type;

@@ -84,7 +84,9 @@ bool PlanSearch::isForbidden(int action, const FactSet& facts) const {
 
 const std::vector<PlanSearch::Edge>& PlanSearch::edges(int state) {
   if (!states_[std::size_t(state)].expanded) {
-    if (++expansions_ > options_.max_expansions) {
+    ++expansions_;
+    if (most_to_order_ > 0 && expansions_ > most_to_order_) throw Unresolved();
+    if (expansions_ > options_.max_expansions) {
       status_ = Status::limit;
       throw Stopped();
     }
@@ -92,7 +94,6 @@ const std::vector<PlanSearch::Edge>& PlanSearch::edges(int state) {
       status_ = Status::cancelled;
       throw Stopped();
     }
-    if (most_to_order_ > 0 && expansions_ > most_to_order_) throw Unresolved();
     std::vector<Edge> list;
     const FactSet facts = states_[std::size_t(state)].facts;
     candidates_ = unneeding_;
@@ -258,8 +259,11 @@ std::vector<int> PlanSearch::planOfDistances() {
 /// the plan that A* found, and the enumeration begins again behind it.
 bool PlanSearch::advanceToFirst() {
   std::vector<int> plan = beginnings_.empty() ? planOfDistances() : std::vector<int>();
-  most_to_order_ =
-      plan.empty() || returned_.contains(plan) ? 0 : expansions_ + std::max(options_.order_expansions, expansions_ / 4);
+  most_to_order_ = 0;
+  if (!plan.empty() && !returned_.contains(plan)) {
+    const long most = expansions_ + std::max(options_.order_expansions, expansions_ / 4);
+    most_to_order_ = std::min(most, options_.max_expansions);  // the plan is known: no limit hides it
+  }
   try {
     const bool found = advance();
     most_to_order_ = 0;

@@ -124,7 +124,7 @@ def moves(tiles: str) -> int:
     raise AssertionError
 
 
-def sliding(tiles: str, tmp_path) -> ry.PlanSearch:
+def sliding(tiles: str, tmp_path, most: int = 100000) -> ry.PlanSearch:
     facts = [f"(at t{tile} c{cell})" if tile != " " else f"(blank c{cell})" for cell, tile in enumerate(tiles)]
     facts += [f"(near c{one} c{other})" for one in range(9) for other in near(one)]
     goal = " ".join(f"(at t{tile} c{tile})" for tile in range(1, 9))
@@ -133,7 +133,7 @@ def sliding(tiles: str, tmp_path) -> ry.PlanSearch:
     file.write_text(
         f"(define (problem p) (:domain slide) (:objects {objects}) (:init {' '.join(facts)}) (:goal (and {goal})))"
     )
-    return ry.PlanSearch(ry.LogicProblem.fromPddl(ry.Domain.fromPddlText(SLIDE), file))
+    return ry.PlanSearch(ry.LogicProblem.fromPddl(ry.Domain.fromPddlText(SLIDE), file), most)
 
 
 def test_a_search_through_many_states_ends_with_a_shortest_plan(tmp_path) -> None:
@@ -142,6 +142,15 @@ def test_a_search_through_many_states_ends_with_a_shortest_plan(tmp_path) -> Non
         plan = plans.next()
         assert plan is not None and len(plan) == moves(tiles), tiles
     assert plans.expansions > 64  # signals are asked for meanwhile
+
+
+def test_a_limit_that_suffices_for_a_shortest_plan_gives_it(tmp_path) -> None:
+    plans = sliding("3 1465782", tmp_path)
+    length = len(plans.next() or ())
+    enough = next(most for most in range(1, 200) if sliding("3 1465782", tmp_path, most).next() is not None)
+    assert enough < plans.expansions  # the rest orders plans of one cost
+    plan = sliding("3 1465782", tmp_path, enough).next()
+    assert plan is not None and len(plan) == length == moves("3 1465782")
 
 
 def test_what_a_signal_handler_raises_ends_a_search_and_the_next_call_goes_on(tmp_path) -> None:
