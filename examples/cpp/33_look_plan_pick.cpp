@@ -35,9 +35,9 @@ int main() try {
   Rng rng(0);
 
   // Returns the poses of the cubes that the camera sees, and updates the robot's belief.
-  const auto look = [&] {
+  const auto look = [&](Config& believed) {
     const Config there = bot.getWorld();
-    C.setJointState(there.getJointState());
+    believed.setJointState(there.getJointState());
     CameraView view(there);
     view.setCamera("camera");
     CameraImage image = view.computeImageAndDepth();
@@ -45,19 +45,19 @@ int main() try {
     const DepthView depth{image.depth, image.width, image.height, view.getFxycxy(), "camera"};
     ObservedPoses poses;
     const std::vector<DepthView> views = {depth};
-    for (const auto& [name, frame] : registerScene(C, views, {"red", "blue"}, {"table", .1}).frames)
+    for (const auto& [name, frame] : registerScene(believed, views, {"red", "blue"}, {"table", .1}).frames)
       poses[name] = frame.status == SeenStatus::seen ? std::optional(frame.pose) : std::nullopt;
     return poses;
   };
 
-  for (const auto& [name, pose] : look()) {
+  for (const auto& [name, pose] : look(C)) {
     if (!pose) continue;
     const double off = (pose->p - world.getFrame(name).getPosition()).norm();
     std::cout << name << " was seen within " << 1e3 * off << " mm\n";
   }
 
   const TaskPlan plan = planTask(C, "(on tray red) (on tray blue)");
-  Config seen = worldOf(bot, plan);
+  Config seen = worldOf(bot, plan, true);
   TaskRun run(plan, bot, seen, {.observe = look});
   bool moved = false;
   while (const auto event = run.next()) {

@@ -54,6 +54,7 @@
 #include "kinegraph/perception/calibrate_camera.h"            // calibrateCamera: camera to hand or to base
 #include "kinegraph/perception/occupancy_map.h"               // OccupancyMap: free, occupied and unseen space
 #include "kinegraph/perception/register_scene.h"              // registerScene: poses from depth images
+#include "kinegraph/perception/scene_observer.h"              // SceneObserver: cameras in the loop
 #include "kinegraph/planning/path_finder.h"                   // paths between two configurations
 #include "kinegraph/planning/plan_motion.h"                   // planMotion
 #include "kinegraph/planning/plan_motions.h"                  // MotionPlans: ever better plans

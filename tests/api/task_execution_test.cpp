@@ -156,7 +156,7 @@ TEST(TaskExecution, CamerasThatLeaveObjectsOutAreBelieved) {
   BotOp bot(s.C);
   int looks = 0;
   ExecutionOptions options;
-  options.observe = [&] {
+  options.observe = [&](Config&) {
     ++looks;
     const Config world = bot.getWorld();
     ObservedPoses poses;

@@ -52,6 +52,58 @@ TEST(OccupancyMap, ABoxThatTheSceneDoesNotHaveIsOccupiedAndHidesWhatIsBehind) {
   EXPECT_EQ(map.state({9., 0., 0.}), CellState::free);
 }
 
+/// The number of cells that block if all cells but some are free.
+int blocking(Config C, const std::vector<std::pair<std::array<int, 3>, CellState>>& cells, Unseen unseen) {
+  OccupancyMap map(C, {-.3, -.3, .65}, {.3, .3, 1.}, .05);
+  std::vector<CellState> states(map.states().size(), CellState::free);
+  for (const auto& [at, state] : cells)
+    states[std::size_t((at[0] * map.counts()[1] + at[1]) * map.counts()[2] + at[2])] = state;
+  map.setStates(std::move(states));
+  map.attach(C, unseen);
+  const std::vector<float>& values = C.getFrame("map").data().shape->geometry->grid->values;
+  return int(std::count_if(values.begin(), values.end(), [](float value) { return value != CellKind::free; }));
+}
+
+TEST(OccupancyMap, HiddenCellsBlockIfTheyTouchWhatCanHoldAThingSinceNothingFloats) {
+  const Config table = mapScene();
+  const std::pair<std::array<int, 3>, CellState> floating = {{5, 5, 4}, CellState::hidden};
+  for (const Unseen unseen : {Unseen::shadows, Unseen::blocked}) {
+    EXPECT_EQ(blocking(table, {floating}, unseen), 0);
+    EXPECT_EQ(blocking(table, {floating, {{5, 6, 5}, CellState::hidden}}, unseen), 0);
+    EXPECT_EQ(blocking(table, {floating, {{5, 6, 4}, CellState::occupied}}, unseen), 2);
+    EXPECT_EQ(blocking(table, {floating, {{6, 6, 5}, CellState::occupied}}, unseen), 1);  // not by a corner
+    // down to the table; the lowest cells touch it, and are its own
+    EXPECT_EQ(blocking(table, {floating, {{5, 5, 3}, CellState::hidden}, {{5, 5, 2}, CellState::hidden}}, unseen), 0);
+    EXPECT_EQ(
+        blocking(
+            table,
+            {floating, {{5, 5, 3}, CellState::hidden}, {{5, 5, 2}, CellState::hidden}, {{5, 5, 1}, CellState::hidden}},
+            unseen),
+        4);
+  }
+  // never in an image: free in one case, anything in the other
+  EXPECT_EQ(blocking(table, {floating, {{5, 5, 5}, CellState::unseen}}, Unseen::shadows), 0);
+  EXPECT_EQ(blocking(table, {floating, {{5, 5, 5}, CellState::unseen}}, Unseen::blocked), 2);
+  // in part in an image: a way to the table, but not itself an obstacle of shadows
+  const std::vector<std::pair<std::array<int, 3>, CellState>> in_part = {
+      floating, {{5, 5, 3}, CellState::undecided}, {{5, 5, 2}, CellState::hidden}, {{5, 5, 1}, CellState::hidden}};
+  EXPECT_EQ(blocking(table, in_part, Unseen::shadows), 3);
+  EXPECT_EQ(blocking(table, in_part, Unseen::blocked), 4);
+}
+
+TEST(OccupancyMap, ThingsMayLieInADrawerButNotOnAnArm) {
+  const std::string box = "shape: box, size: [.04, .04, .04], contact: 1 }";  // below the cell (5, 5, 4)
+  Config drawer = mapScene(), arm = mapScene();
+  drawer.addText("world: {} drawer (world): { joint: transX, pre: \"t(-.025 -.025 .825)\", " + box);
+  arm.addText(
+      "world: {} upper (world): { joint: hingeZ, pre: \"t(-.025 -.025 .7)\" } hand (upper): { joint: transZ, pre: "
+      "\"t(0 0 .125)\", " +
+      box);
+  const std::pair<std::array<int, 3>, CellState> above = {{5, 5, 4}, CellState::hidden};
+  EXPECT_EQ(blocking(drawer, {above}, Unseen::shadows), 1);
+  EXPECT_EQ(blocking(arm, {above}, Unseen::shadows), 0);
+}
+
 TEST(OccupancyMap, AttachAddsAFrameOfCellsAndReplacesItsCells) {
   Config C = mapScene();
   const OccupancyMap map(C, {-.3, -.3, .7}, {.3, .3, 1.}, .05);

@@ -17,6 +17,7 @@
 #include "kinegraph/scene/frame_cells.h"
 #include "perception/calibration_docs.h"
 #include "perception/perception_docs.h"
+#include "perception/scene_observer_object.h"
 #include "planning/plan_objects.h"
 #include "python_names.h"
 
@@ -222,6 +223,49 @@ Frame& setCellsOf(Frame& frame, const ArrayArgument& data, const Numbers& size) 
   return frame;
 }
 
+void makeObserver(PySceneObserver* self, const nb::object& take, std::vector<std::string> frames,
+                  const std::optional<std::string>& support, double search_radius, const nb::object& map,
+                  const std::string& unseen) {
+  RegisterOptions options;
+  options.support = support.value_or("");
+  options.search_radius = search_radius;
+  OccupancyMap* cells = map.is_none() ? nullptr : &nb::cast<OccupancyMap&>(map);
+  const auto views = [take] {
+    const nb::gil_scoped_acquire lock;
+    return depthViews(take());
+  };
+  auto observer = std::make_unique<SceneObserver>(views, std::move(frames), options, cells, unseenFromName(unseen));
+  new (self) PySceneObserver{take, map, std::move(observer)};
+}
+
+nb::dict observeWith(PySceneObserver& self, PyConfig& config) {
+  std::map<std::string, std::optional<Pose>> poses;
+  {
+    const nb::gil_scoped_release unlock;
+    poses = self.observe(config);
+  }
+  nb::dict result;
+  for (const auto& [name, pose] : poses) result[name.c_str()] = pose ? nb::cast(seenPose(*pose)) : nb::none();
+  return result;
+}
+
+void bindSceneObserver(nb::module_& m) {
+  nb::class_<PySceneObserver>(m, "SceneObserver", docs::perception::sceneObserver)
+      .def("__init__", makeObserver, "take"_a, "frames"_a, nb::kw_only(), "support"_a = nb::none(),
+           "search_radius"_a = RegisterOptions().search_radius, "map"_a = nb::none(), "unseen"_a = "shadows",
+           nb::sig("def __init__(self, take: collections.abc.Callable[[], DepthView | "
+                   "collections.abc.Sequence[DepthView]], frames: collections.abc.Sequence[str], *, support: str | "
+                   "None = None, search_radius: float = 0.05, map: OccupancyMap | None = None, unseen: str = "
+                   "'shadows') -> None"),
+           docs::perception::makeObserver)
+      .def("observe", observeWith, "config"_a, docs::perception::observe,
+           nb::sig("def observe(self, config: Config) -> dict[str, numpy.ndarray | None]"))
+      .def_prop_ro(
+          "seen", [](const PySceneObserver& self) { return self.observer->seen(); },
+          "The SeenScene of the last images: what they showed of the things.")
+      .def_ro("map", &PySceneObserver::map, "The OccupancyMap, or None.");
+}
+
 void bindOccupancyMap(nb::module_& m) {
   nb::borrow<nb::class_<Frame>>(nb::type<Frame>())
       .def("setCells", setCellsOf, "data"_a, "size"_a, kChain, docs::perception::setCells);
@@ -229,7 +273,8 @@ void bindOccupancyMap(nb::module_& m) {
       .value("unseen", CellState::unseen, "It was in no image.")
       .value("hidden", CellState::hidden, "It was only ever behind something.")
       .value("free", CellState::free, "A camera looked through it, or a known shape was there.")
-      .value("occupied", CellState::occupied, "Something unknown was measured in it.");
+      .value("occupied", CellState::occupied, "Something unknown was measured in it.")
+      .value("undecided", CellState::undecided, "Images show it, but only in part, as at the edges of things.");
   nb::class_<OccupancyMap>(m, "OccupancyMap", docs::perception::occupancyMap)
       .def("__init__", makeMap, "config"_a, "region"_a, "cell"_a = .01, nb::kw_only(),
            "free"_a = std::vector<std::string>(), docs::perception::makeMap)
@@ -329,6 +374,13 @@ void bindNextView(nb::module_& m) {
 
 }  // namespace
 
+std::map<std::string, std::optional<Pose>> PySceneObserver::observe(Config& scene) {
+  std::map<std::string, std::optional<Pose>> poses = observer->observe(scene);
+  const nb::gil_scoped_acquire lock;
+  for (const std::string& warning : observer->seen().warnings) emitWarning(cat("SceneObserver: ", inPython(warning)));
+  return poses;
+}
+
 void bindPerception(nb::module_& m) {
   nb::class_<DepthView>(m, "DepthView", "A depth image with the camera that took it.")
       .def("__init__", makeDepthView, "depth"_a, "fxycxy"_a, "camera"_a, nb::kw_only(), "unit"_a = nb::none(),
@@ -364,6 +416,7 @@ void bindPerception(nb::module_& m) {
                 "SeenScene"),
         docs::perception::registerScene);
   bindOccupancyMap(m);
+  bindSceneObserver(m);
   bindCalibration(m);
   bindNextView(m);
 }

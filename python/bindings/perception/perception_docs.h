@@ -67,7 +67,7 @@ a thing that moved away become free once a camera sees the background.)";
 inline constexpr char makeMap[] = R"(Creates a map of which nothing was seen.
 
 Args:
-    config: The scene. Cells that its shapes touch, and those within 2 cm of the robot, are free.
+    config: The scene. Cells that its shapes touch, and those within 5 mm of the robot, are free.
     region: Two corners of the box in the world, shape (2, 3), m. It is enlarged to whole cells. Space outside of it is
         free.
     cell: The side of a cell, m.
@@ -92,7 +92,8 @@ Raises:
 inline constexpr char attachMap[] = R"(Makes the map an obstacle of the scene.
 
 The frame `name` gets the shape of the cells that block motions, with contact. It is added if it does not exist. The
-scene keeps these cells until the next call: call it again after an update.
+scene keeps these cells until the next call: call it again after an update. Nothing floats: a group of hidden cells does
+not block if it touches no occupied cell, no shape of the scene on which things rest, and no other cell that blocks.
 
 Args:
     config: The scene.
@@ -101,6 +102,41 @@ Args:
     name: The name of the frame.
 Raises:
     ArgumentError: `unseen` is another word, or the frame exists with another shape.)";
+
+inline constexpr char sceneObserver[] =
+    R"(Looks with cameras: sees where the things of a scene are, and keeps a map of all else.
+
+    map = ry.OccupancyMap(C, region=[[-0.5, 0, 0.66], [0.5, 0.7, 1.1]], cell=0.02)
+    observer = ry.SceneObserver(take, ["cup"], support="table", map=map)
+    observer.observe(C)
+    run = ry.planTask(C, goal).execute(bot, observe=observer)
+
+During an execution, the robot looks before and after each motion and grip. It stops before a motion that would enter
+cells of the map, and new plans avoid them.)";
+
+inline constexpr char makeObserver[] = R"(Creates an observer.
+
+Args:
+    take: A function without arguments that returns depth images of this moment: a DepthView, or a list of them.
+    frames: The things that registerScene looks for.
+    support: As for registerScene.
+    search_radius: As for registerScene, m.
+    map: An OccupancyMap that is updated and attached; None: no map.
+    unseen: "blocked", "shadows" or "free", as for OccupancyMap.attach.
+Raises:
+    ArgumentError: `unseen` is another word, or the radius is invalid.)";
+
+inline constexpr char observe[] =
+    R"(Takes images, moves the things to where they are seen, and attaches the updated map.
+
+Args:
+    config: The scene, with the joint angles of this moment, and with objects in hands attached to these. Held objects
+        are not looked for.
+Returns:
+    For each of the frames its pose in the world, shape (7,), or None if it was not seen.
+Raises:
+    FrameNotFound: A frame or camera is unknown.
+    ArgumentError: A view is invalid, or a frame has no visible shape.)";
 
 inline constexpr char stateAt[] = R"(Returns whether places are free, occupied, hidden or unseen.
 

@@ -7,6 +7,7 @@
 #include "arrays.h"
 #include "kinegraph/api/task_execution.h"
 #include "kinegraph/common/text.h"
+#include "perception/scene_observer_object.h"
 #include "python_names.h"
 #include "robot/robot_objects.h"
 #include "task_planning/task_execution_docs.h"
@@ -23,9 +24,11 @@ struct PyTaskRun {
   TaskRun run;
 };
 
-std::function<ObservedPoses()> observer(const nb::object& observe) {
+std::function<ObservedPoses(Config&)> observer(const nb::object& observe) {
   if (observe.is_none()) return {};
-  return [observe] {
+  if (nb::isinstance<PySceneObserver>(observe))
+    return [observe](Config& scene) { return nb::cast<PySceneObserver&>(observe).observe(scene); };
+  return [observe](Config&) {
     const nb::gil_scoped_acquire lock;
     ObservedPoses poses;
     for (const auto& [name, pose] : nb::cast<std::map<std::string, nb::object>>(observe()))
@@ -42,7 +45,7 @@ BotOp& robotOf(nb::handle robot, const char* call) {
 }
 
 PyTaskRun makeRun(const PyTaskPlan& plan, BotOp& bot, ExecutionOptions options) {
-  auto seen = std::make_unique<PyConfig>(PyConfig{worldOf(bot, plan), nullptr});
+  auto seen = std::make_unique<PyConfig>(PyConfig{worldOf(bot, plan, bool(options.observe)), nullptr});
   TaskRun run(plan, bot, *seen, std::move(options));
   return {std::move(seen), plan.request, std::move(run)};
 }
@@ -147,8 +150,9 @@ void bindExecutionOf(nb::class_<PyTaskPlan, Trajectory>& plan) {
   plan.def("execute", executePlan, "bot"_a, nb::kw_only(), "repairs"_a = 3, "observe"_a = nb::none(),
            "callback"_a = nb::none(), "max_external_effort"_a = nb::none(), "time_limit"_a = nb::none(),
            "max_evaluations"_a = nb::none(), "threads"_a = nb::none(),
-           nb::sig("def execute(self, bot: BotOp, *, repairs: int = 3, observe: collections.abc.Callable[[], "
-                   "collections.abc.Mapping[str, numpy.typing.ArrayLike | None]] | None = None, callback: "
+           nb::sig("def execute(self, bot: BotOp, *, repairs: int = 3, observe: SceneObserver | "
+                   "collections.abc.Callable[[], collections.abc.Mapping[str, numpy.typing.ArrayLike | None]] | None = "
+                   "None, callback: "
                    "collections.abc.Callable[[TaskEvent], object] | None = None, max_external_effort: "
                    "numpy.typing.ArrayLike | None = None, time_limit: float | None = None, max_evaluations: int | None "
                    "= None, threads: int | None = None) -> TaskExecution"),
@@ -156,8 +160,9 @@ void bindExecutionOf(nb::class_<PyTaskPlan, Trajectory>& plan) {
       .def("run", runPlan, "bot"_a, nb::kw_only(), "repairs"_a = 3, "observe"_a = nb::none(),
            "max_external_effort"_a = nb::none(), "time_limit"_a = nb::none(), "max_evaluations"_a = nb::none(),
            "threads"_a = nb::none(), nb::keep_alive<0, 2>(),
-           nb::sig("def run(self, bot: BotOp, *, repairs: int = 3, observe: collections.abc.Callable[[], "
-                   "collections.abc.Mapping[str, numpy.typing.ArrayLike | None]] | None = None, max_external_effort: "
+           nb::sig("def run(self, bot: BotOp, *, repairs: int = 3, observe: SceneObserver | "
+                   "collections.abc.Callable[[], collections.abc.Mapping[str, numpy.typing.ArrayLike | None]] | None = "
+                   "None, max_external_effort: "
                    "numpy.typing.ArrayLike | None = None, time_limit: float | None = None, max_evaluations: int | None "
                    "= None, threads: int | None = None) -> TaskRun"),
            docs::run);

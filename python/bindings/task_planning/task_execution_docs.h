@@ -14,7 +14,9 @@ Args:
     repairs: New plans, at most, if the world deviates; 0 stops at the first deviation.
     observe: Returns the poses of objects, as cameras see them: name -> (x, y, z, qw, qx, qy, qz) in m, or None for an
         object that was not seen. Objects without a pose are taken to be where they were, or in the hand that holds
-        them. None: the poses of the simulated world.
+        them. A SceneObserver does this, and its map becomes an obstacle: the robot stops before a motion that would
+        enter its cells. With cameras, the execution knows the scene of the plan, and not the simulated world. None: the
+        poses of the simulated world.
     callback: Called with a TaskEvent after each step; returning False ends the execution.
     max_external_effort: Torque (N m) or force (N) of contacts at a joint above which a motion stops, a number or one
         per dof; None: no limit.
@@ -40,7 +42,7 @@ may look, disturb the world, or stop:
 Args:
     bot: A BotOp whose world is the scene of the plan. Objects that actions move need a mass there.
     repairs: New plans, at most, if the world deviates.
-    observe: Returns the poses of objects, name -> pose or None; see `execute`.
+    observe: A SceneObserver, or a function that returns the poses of objects, name -> pose or None; see `execute`.
     max_external_effort: Torque (N m) or force (N) of contacts at a joint above which a motion stops; None: no limit.
     time_limit: s of wall time for each new plan; None: as for planTask.
     max_evaluations: Budget of each new plan; None: as for planTask.

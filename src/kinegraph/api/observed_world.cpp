@@ -7,8 +7,10 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/geometry/shapes/cells.h"
 #include "kinegraph/logic/domain.h"
 #include "kinegraph/robot/scene_grippers.h"
+#include "kinegraph/scene/frame_cells.h"
 #include "kinegraph/simulation/scene_bodies.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/task_doors.h"
@@ -62,6 +64,22 @@ std::string placeBelow(const Config& C, const std::string& obj, const Words& pla
     if (gap < nearest || (gap == nearest && place < below)) nearest = gap, below = place;
   }
   return nearest <= kTouch ? below : "";
+}
+
+/// Gives a scene the cells of another one, as obstacles. Returns the sides of single cells by the ids of frames, m.
+std::map<int, double> copyCells(const Config& from, Config& to) {
+  std::map<int, double> sides;
+  for (const Frame& cells : from.getFrames()) {
+    if (cells.getShapeType() != kCells || cells.data().shape->contact == 0) continue;
+    const Geometry& geometry = *cells.data().shape->geometry;
+    const std::string& name = cells.getName();
+    Frame copy = to.findFrame(name) ? to.getFrame(name) : to.addFrame(name);
+    setCells(copy, *geometry.grid, {geometry.size[0], geometry.size[1], geometry.size[2]});
+    copy.setPose(cells.getPose());
+    copy.setContact(1);
+    sides[copy.id()] = geometry.size[0] / geometry.grid->cells[0];
+  }
+  return sides;
 }
 
 Frame rootOf(const Config& C, const std::string& name) {
@@ -145,7 +163,22 @@ void requireGrippers(const TaskPlan& plan, const std::map<std::string, int>& gri
   }
 }
 
-ObservedWorld::ObservedWorld(BotOp& bot, Config& seen, std::function<ObservedPoses()> observe)
+Config worldOf(BotOp& bot, const TaskPlan& plan, bool is_observed) {
+  plan.requireScenes("execute");
+  if (is_observed && !plan.scenes.empty()) return plan.scenes.front();
+  Config world = bot.getWorld();
+  if (bot.isSimulated() || plan.scenes.empty()) return world;
+  for (const std::string& obj : wordsOf(plan.start, "is_object")) {
+    const std::optional<Frame> object = world.findFrame(obj);
+    if (!object)
+      throw ValueError(
+          cat("execute: '", obj, "' is not in the scene of the robot; call bot.sync(C) with a scene that has it"));
+    Frame(*object).setPose(plan.scenes.front().getFrame(obj).getPose());
+  }
+  return world;
+}
+
+ObservedWorld::ObservedWorld(BotOp& bot, Config& seen, std::function<ObservedPoses(Config&)> observe)
     : bot_(bot), seen_(seen), observe_(std::move(observe)), is_simulated_(bot.isSimulated()) {}
 
 void ObservedWorld::setPlan(const TaskPlan& plan) {
@@ -183,7 +216,11 @@ void ObservedWorld::advance(double seconds) {
 void ObservedWorld::look() {
   bot_.sync(seen_, 0.);
   if (observe_) {
-    for (const auto& [name, pose] : observe_()) {
+    placeBelieved();
+    Config scene = this->scene();
+    const ObservedPoses poses = observe_(scene);
+    takeCells(scene);
+    for (const auto& [name, pose] : poses) {
       seen_.getFrame(name);  // throws FrameNotFound
       if (!pose) continue;
       const auto held = held_.find(name);
@@ -191,6 +228,25 @@ void ObservedWorld::look() {
     }
   }
   placeBelieved();
+}
+
+void ObservedWorld::takeCells(const Config& scene) { copyCells(scene, seen_); }
+
+std::string ObservedWorld::blockedByCells(Config planned, const MatrixXd& path) const {
+  const std::map<int, double> sides = copyCells(seen_, planned);
+  if (sides.empty()) return "";
+  for (const VectorXd& q : path.rowwise()) {
+    planned.setJointState(q);
+    for (const Config::NearPair& pair : planned.getCollisions()) {
+      for (const auto& [map, other] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)}) {
+        const auto side = sides.find(map);
+        if (side != sides.end() && pair.distance < -.5 * side->second)
+          return cat("'", planned.getFrame(other).getName(), "' would enter '", planned.getFrame(map).getName(),
+                     "' by ", fixed(-pair.distance, 3), " m");
+      }
+    }
+  }
+  return "";
 }
 
 /// Moves objects that cameras observe to their last poses, or along with the hand.

@@ -23,7 +23,7 @@ void requireGrippers(const TaskPlan& plan, const std::map<std::string, int>& gri
 /// The world during an execution as it is observed, the objects in hands, and its deviations from a plan.
 class ObservedWorld {
  public:
-  ObservedWorld(BotOp& bot, Config& seen, std::function<ObservedPoses()> observe);
+  ObservedWorld(BotOp& bot, Config& seen, std::function<ObservedPoses(Config&)> observe);
 
   /// Takes over the hands, objects, places and doors of a plan, and the objects that its hands hold at the start.
   void setPlan(const TaskPlan& plan);
@@ -52,6 +52,10 @@ class ObservedWorld {
   /// their places exactly enough to be grasped or stood on.
   std::string deviation(Config planned, const VectorXd& q, const std::vector<std::string>& near) const;
 
+  /// Returns the first place at which a path in the scene of an action enters observed cells by more than half of a
+  /// cell, or "".
+  std::string blockedByCells(Config planned, const MatrixXd& path) const;
+
   /// Returns the literals of a goal about places and doors that do not hold in `C`, which `scene` returned.
   std::vector<std::string> missedGoals(const std::vector<Literal>& goal, const Config& C) const;
 
@@ -60,11 +64,12 @@ class ObservedWorld {
 
  private:
   void placeBelieved();
+  void takeCells(const Config& scene);
   std::string objectDeviation(const std::string& obj, const Config& planned) const;
 
   BotOp& bot_;
   Config& seen_;
-  const std::function<ObservedPoses()> observe_;
+  const std::function<ObservedPoses(Config&)> observe_;
   const bool is_simulated_;
   std::vector<std::string> hands_, objects_, places_;
   std::map<std::string, std::string> held_;

@@ -122,6 +122,9 @@ class TaskRun::Impl {
     world_.look();
     if (index_ == plan_.actions.size()) return finish();
     std::string failure = deviation(false);
+    const RowRange& rows = plan_.segments[index_];
+    if (failure.empty())
+      failure = world_.blockedByCells(plan_.scenes[index_], plan_.path.middleRows(rows.begin, rows.size()));
     if (failure.empty()) failure = follow(ActionMotion(plan_, plan_.segments[index_]));
     if (is_stopped_) return stopped();
     world_.look();
@@ -419,20 +422,6 @@ std::string TaskExecution::str() const {
   return feasible ? text : cat(text, ": ", message);
 }
 
-Config worldOf(BotOp& bot, const TaskPlan& plan) {
-  plan.requireScenes("execute");
-  Config world = bot.getWorld();
-  if (bot.isSimulated() || plan.scenes.empty()) return world;
-  for (const std::string& obj : wordsOf(plan.start, "is_object")) {
-    const std::optional<Frame> object = world.findFrame(obj);
-    if (!object)
-      throw ValueError(
-          cat("execute: '", obj, "' is not in the scene of the robot; call bot.sync(C) with a scene that has it"));
-    Frame(*object).setPose(plan.scenes.front().getFrame(obj).getPose());
-  }
-  return world;
-}
-
 TaskExecution execute(const TaskPlan& plan, BotOp& bot, Config& seen, const ExecutionOptions& options) {
   TaskRun run(plan, bot, seen, options);
   while (const std::optional<TaskEvent> event = run.next())
@@ -443,7 +432,7 @@ TaskExecution execute(const TaskPlan& plan, BotOp& bot, Config& seen, const Exec
 TaskExecution TaskPlan::execute(BotOp& bot) const { return execute(bot, {}); }
 
 TaskExecution TaskPlan::execute(BotOp& bot, const ExecutionOptions& options) const {
-  Config seen = worldOf(bot, *this);
+  Config seen = worldOf(bot, *this, bool(options.observe));
   return kinegraph::execute(*this, bot, seen, options);
 }
 

@@ -52,9 +52,12 @@ using ObservedPoses = std::map<std::string, std::optional<Pose>>;
 struct ExecutionOptions {
   int repairs = 3;  ///< new plans, at most, if the world deviates from the plan
 
-  /// Returns the poses of objects, as cameras see them. Objects that it leaves out, or has no pose for, are taken to be
-  /// where they were, or in the hand that holds them. Null: the poses of the simulated world.
-  std::function<ObservedPoses()> observe = {};
+  /// Returns the poses of objects, as cameras see them, such as SceneObserver::observe does. It is given the believed
+  /// scene of this moment, with objects in the hands that hold them. Cells that it attaches there, as
+  /// OccupancyMap::attach does, become obstacles: the robot stops before a motion that would enter them, and new plans
+  /// avoid them. Objects without a pose are taken to be where they were, or in the hand that holds them. Null: the
+  /// poses of the simulated world.
+  std::function<ObservedPoses(Config& scene)> observe = {};
 
   /// Called after each step; false ends the execution.
   std::function<bool(const TaskEvent&)> callback = {};
@@ -101,8 +104,9 @@ class TaskRun {
 };
 
 /// Returns the simulated world of a robot; for a real robot, its scene with the
-/// robot's q and the objects of the plan at their places.
-Config worldOf(BotOp& bot, const TaskPlan& plan);
+/// robot's q and the objects of the plan at their places. If cameras observe it, the scene of the plan: what the robot
+/// believes.
+Config worldOf(BotOp& bot, const TaskPlan& plan, bool is_observed = false);
 
 /// Executes a plan on a robot, and makes new plans if the world deviates; see TaskRun.
 TaskExecution execute(const TaskPlan& plan, BotOp& bot, Config& seen, const ExecutionOptions& options = {});

@@ -92,6 +92,15 @@ void findNearest(ObservedView& view) {
   sweep(-1);
 }
 
+/// The number of joints that move a frame in the world.
+int jointsOf(const Frame& frame) {
+  int joints = 0;
+  for (std::optional<Frame> at = frame; at; at = at->getParent()) {
+    if (at->data().joint && at->data().joint->dofs() > 0) ++joints;
+  }
+  return joints;
+}
+
 DepthView everySecondPixel(const DepthView& view) {
   DepthView half = view;
   half.width = (view.width + kStride - 1) / kStride;
@@ -113,12 +122,7 @@ Vector3d ObservedView::point(int row, int column) const {
   return X_WC * Vector3d((column + .5 / kStride - cx) * d / fx, (row + .5 / kStride - cy) * d / fy, d);
 }
 
-bool isMoved(const Frame& frame) {
-  for (std::optional<Frame> at = frame; at; at = at->getParent()) {
-    if (at->data().joint && at->data().joint->dofs() > 0) return true;
-  }
-  return false;
-}
+bool isMoved(const Frame& frame) { return jointsOf(frame) > 0; }
 
 std::vector<KnownShape> knownShapes(const Config& config, const std::set<int>& looked_for) {
   std::vector<KnownShape> known;
@@ -129,7 +133,8 @@ std::vector<KnownShape> knownShapes(const Config& config, const std::set<int>& l
         shape->geometry->type == ShapeType::none)
       continue;
     if (shape->contact == 0 && shape->color && (*shape->color)[3] < 1.) continue;
-    known.push_back({shape->body(), frame.getPose().transform(), frame.id(), isMoved(frame)});
+    const int joints = jointsOf(frame);
+    known.push_back({shape->body(), frame.getPose().transform(), frame.id(), joints > 0, joints <= 1});
   }
   std::stable_sort(known.begin(), known.end(), [](const KnownShape& a, const KnownShape& b) {
     return a.body->core() < CollisionBody::Core::hull && b.body->core() >= CollisionBody::Core::hull;

@@ -13,7 +13,8 @@ struct KnownShape {
   std::shared_ptr<const CollisionBody> body;
   RigidTransform X_WB;
   int frame = -1;
-  bool moves = false;  ///< a joint moves it: things behind it may be anywhere
+  bool moves = false;    ///< a joint moves it: things behind it may be anywhere
+  bool supports = true;  ///< things may rest on it: at most one joint moves it, as that of a drawer
 };
 
 /// Whether a joint with dofs moves the frame in the world.

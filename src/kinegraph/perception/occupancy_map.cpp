@@ -15,7 +15,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double kMostCells = 5e7;
-constexpr double kRobotClearance = .02;  // m, space around the robot that is taken to be free
+constexpr double kRobotClearance = .005;  // m, space around the robot that is taken to be free
 constexpr double kHalfDiagonal = .8660254037844386;
 constexpr double kDoubtful = .05;  // share of points deep inside of known shapes
 
@@ -181,13 +181,52 @@ void OccupancyMap::addView(const DepthView& given, const Pose& camera, const std
           if (hits[index] > 0) state = CellState::occupied;
         } else if (answer == FreeDepth::Answer::free) {
           state = CellState::free;
-        } else if (answer == FreeDepth::Answer::behind && state == CellState::unseen) {
-          state = CellState::hidden;
+        } else if (state == CellState::unseen || state == CellState::undecided) {
+          if (answer == FreeDepth::Answer::behind) state = CellState::hidden;
+          if (answer == FreeDepth::Answer::undecided) state = CellState::undecided;
         }
       }
     }
   }
   if (in_view == 0) warnings.push_back(cat(name, " shows nothing of the region"));
+}
+
+/// The cells that can hold something: those from which cells that may hold something lead to a measured one, to a
+/// shape on which things rest, or to an unseen one that blocks.
+std::vector<bool> OccupancyMap::grounded(const Config& config, Unseen unseen) const {
+  const bool unseen_blocks = unseen == Unseen::blocked;
+  const auto mayHold = [&](std::size_t i) {
+    return states_[i] != CellState::free && (unseen_blocks || states_[i] != CellState::unseen);
+  };
+  std::vector<bool> reached(states_.size(), false);
+  std::vector<std::size_t> open;
+  const auto reach = [&](std::size_t i) {
+    if (reached[i] || !mayHold(i)) return;
+    reached[i] = true;
+    open.push_back(i);
+  };
+  for (std::size_t i = 0; i < states_.size(); ++i) {
+    if (states_[i] == CellState::occupied || (unseen_blocks && states_[i] == CellState::unseen)) reach(i);
+  }
+  const double beside = (kHalfDiagonal + 1.) * cell_ + 1e-6;  // the next cell touches the shape
+  for (const KnownShape& shape : knownShapes(config, {})) {
+    if (!shape.supports) continue;
+    forCellsNear(*this, shape, beside, [&](std::size_t index, const Vector3d& middle) {
+      if (!reached[index] && mayHold(index) && isWithin(shape, middle, beside)) reach(index);
+    });
+  }
+  const std::array<std::size_t, 3> count = {std::size_t(count_[0]), std::size_t(count_[1]), std::size_t(count_[2])};
+  const std::array<std::size_t, 3> step = {count[1] * count[2], count[2], 1};
+  while (!open.empty()) {  // through faces: a solid thing does not hang together by edges or corners alone
+    const std::size_t index = open.back();
+    open.pop_back();
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t at = index / step[axis] % count[axis];
+      if (at > 0) reach(index - step[axis]);
+      if (at + 1 < count[axis]) reach(index + step[axis]);
+    }
+  }
+  return reached;
 }
 
 void OccupancyMap::attach(Config& config, Unseen unseen, const std::string& name) const {
@@ -196,8 +235,14 @@ void OccupancyMap::attach(Config& config, Unseen unseen, const std::string& name
   grid.values.resize(states_.size());
   const float of_unseen = unseen == Unseen::blocked ? CellKind::unseen : CellKind::free,
               of_hidden = unseen == Unseen::free ? CellKind::free : CellKind::unseen;
-  const std::array<float, 4> values = {of_unseen, of_hidden, CellKind::free, CellKind::occupied};
+  const std::array<float, 5> values = {of_unseen, of_hidden, CellKind::free, CellKind::occupied, of_unseen};
   for (std::size_t i = 0; i < states_.size(); ++i) grid.values[i] = values[std::size_t(states_[i])];
+  if (unseen != Unseen::free) {
+    const std::vector<bool> holds = grounded(config, unseen);
+    for (std::size_t i = 0; i < states_.size(); ++i) {
+      if (!holds[i]) grid.values[i] = CellKind::free;
+    }
+  }
   const Vector3d size = cell_ * Vector3d(count_[0], count_[1], count_[2]);
   const bool exists = config.findFrame(name).has_value();
   Frame frame = exists ? config.getFrame(name) : config.addFrame(name);
@@ -226,10 +271,11 @@ void OccupancyMap::setStates(std::vector<CellState> states) {
 }
 
 std::string OccupancyMap::str() const {
-  std::array<std::size_t, 4> counts{};
+  std::array<std::size_t, 5> counts{};
   for (const CellState state : states_) ++counts[std::size_t(state)];
   return cat("OccupancyMap of ", count_[0], " x ", count_[1], " x ", count_[2], " cells of ", cell_, " m: ", counts[2],
-             " free, ", counts[3], " occupied, ", counts[1], " hidden, ", counts[0], " unseen");
+             " free, ", counts[3], " occupied, ", counts[1], " hidden, ", counts[4], " undecided, ", counts[0],
+             " unseen");
 }
 
 }  // namespace kinegraph

@@ -13,10 +13,11 @@ namespace kinegraph {
 
 /// What an occupancy map knows of a cell.
 enum class CellState : std::uint8_t {
-  unseen,    ///< it was in no image
-  hidden,    ///< it was only ever behind something
-  free,      ///< a camera looked through it, or a known shape was there
-  occupied,  ///< something unknown was measured in it
+  unseen,     ///< it was in no image
+  hidden,     ///< it was only ever behind something
+  free,       ///< a camera looked through it, or a known shape was there
+  occupied,   ///< something unknown was measured in it
+  undecided,  ///< images show it, but only in part, as at the edges of things
 };
 
 /// Which unseen cells block motions.
@@ -41,7 +42,7 @@ Unseen unseenFromName(const std::string& name);
 class OccupancyMap {
  public:
   /// Makes cubes of side `cell` (m) in the box from `lower` to `upper` (m, world), enlarged to whole cells. Cells in
-  /// the shapes of the frames `free` and within 2 cm of the robot are free at first. Throws ValueError for an empty
+  /// the shapes of the frames `free` and within 5 mm of the robot are free at first. Throws ValueError for an empty
   /// box, or more than 50 million cells, and FrameNotFound.
   OccupancyMap(const Config& config, const Vector3d& lower, const Vector3d& upper, double cell,
                const std::vector<std::string>& free = {});
@@ -52,9 +53,10 @@ class OccupancyMap {
   /// invalid views; the map is then unchanged.
   std::vector<std::string> update(const Config& config, std::span<const DepthView> views, const SeenScene& known = {});
 
-  /// Gives the frame `name` the shape of the cells that block: occupied ones, and the unseen ones. The frame is added
-  /// if it does not exist. Call it again after an update; the scene keeps the cells of the last call. Throws ValueError
-  /// if the frame exists with another shape.
+  /// Gives the frame `name` the shape of the cells that block: occupied ones, and the unseen ones. Nothing floats:
+  /// groups of hidden cells do not block if they touch no occupied cell, no shape on which things can rest, and
+  /// no other cell that blocks. The frame is added if it does not exist. Call it again after an update; the scene keeps
+  /// the cells of the last call. Throws ValueError if the frame exists with another shape.
   void attach(Config& config, Unseen unseen = Unseen::blocked, const std::string& name = "map") const;
 
   /// The state of the cell at a point (world); `free` outside of the box.
@@ -71,6 +73,7 @@ class OccupancyMap {
 
  private:
   void clearKnown(const std::vector<KnownShape>& known);
+  std::vector<bool> grounded(const Config& config, Unseen unseen) const;
   void addView(const DepthView& view, const Pose& camera, const std::vector<KnownShape>& known,
                std::vector<std::string>& warnings, const std::string& name);
 

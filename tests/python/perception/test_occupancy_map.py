@@ -178,6 +178,29 @@ def test_a_declared_free_frame_is_free_at_first():
     assert m.state([0.3, 0.4, 0.9]) == ry.CellState.unseen
 
 
+@pytest.mark.parametrize("seed", range(4))
+def test_no_hidden_part_of_a_thing_becomes_free_because_nothing_floats(seed):
+    rng = np.random.default_rng(300 + seed)
+    boxes = []
+    for _ in range(4):
+        size = rng.uniform([0.05, 0.05, 0.05], [0.12, 0.12, 0.3])
+        boxes.append((size, [*rng.uniform([-0.3, 0.2], [0.3, 0.6]), 0.65 + size[2] / 2]))
+    C, truth = scene(boxes, ([-0.7, 1.1, 1.45], [0.75, 1.0, 1.4]))
+    m = ry.OccupancyMap(C, REGION, 0.02)
+    m.update(C, [look(truth, f"cam{i}", 0.0027, seed) for i in range(2)])
+    m.attach(C, unseen="shadows")
+    ball = C.addFrame("ball").setShape(ry.ST.sphere, [0.001]).setContact(1)
+    points, hidden = middles(m), m.states == HIDDEN
+    blocked = np.zeros(hidden.shape, bool)
+    for at in np.argwhere(hidden):
+        ball.setPosition(points[tuple(at)])
+        blocked[tuple(at)] = C.eval(ry.FS.negDistance, ["ball", "map"])[0][0] > 0
+    for size, position in boxes:
+        inside = (np.abs(points - position) < size / 2).all(-1) & hidden
+        assert inside.any() and blocked[inside].all()
+    assert (hidden & ~blocked).any()  # the intersection of shadows in the air
+
+
 def wall_and_goal():
     """A wall in front of the robot that one camera sees, the swing of the arm around it, and the boxes."""
     return [([0.12, 0.12, 0.5], [0.0, 0.35, 0.9]), ([0.15, 0.15, 0.2], [0.35, 0.3, 0.75])]
