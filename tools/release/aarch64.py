@@ -4,9 +4,9 @@
     apt install g++-aarch64-linux-gnu qemu-user-static
     python tools/release/aarch64.py SOURCE dist/kinegraph-0.2.0-cp311-cp311-manylinux_2_28_x86_64.whl --out dist
 
-SOURCE is the unpacked sdist. The module is compiled anew. The libraries come from wheels for ARM, Python's headers and
-the C library from Debian's packages for ARM. Python files, models and the stub are those of the given wheel. The new
-wheel runs tools/release/smoke_test.py in an emulator. `make release ARGS=--aarch64` calls this for each wheel.
+SOURCE is the unpacked sdist. The script compiles the module. It takes libraries from wheels for ARM, Python's headers
+and the C library from Debian's packages for ARM, and Python files, models and the stub from the given wheel. It runs
+tools/release/smoke_test.py in an emulator. `make release ARGS=--aarch64` calls it for each wheel.
 """
 
 from __future__ import annotations
@@ -39,9 +39,7 @@ def make_sysroot(python: str, folder: Path) -> Path:
     for name in ("lists/partial", "archives/partial", "state"):
         (apt / name).mkdir(parents=True, exist_ok=True)
     (apt / "status").touch()
-    (apt / "sources.list").write_text(
-        f"deb [signed-by={KEY}] http://deb.debian.org/debian {SUITES[python]} main\n"
-    )
+    (apt / "sources.list").write_text(f"deb [signed-by={KEY}] http://deb.debian.org/debian {SUITES[python]} main\n")
     settings = {
         "APT::Architecture": "arm64", "APT::Architectures::": "arm64", "APT::Install-Recommends": "false",
         "Debug::NoLocking": "1", "Dir::State": apt / "state", "Dir::State::Lists": apt / "lists",
@@ -68,7 +66,9 @@ def install_wheels(python: str, folder: Path) -> Path:
     return folder
 
 
-def compile_module(python: str, source: Path, stub: Path, sysroot: Path, wheels: Path, build: Path, prefix: Path) -> None:
+def compile_module(
+    python: str, source: Path, stub: Path, sysroot: Path, wheels: Path, build: Path, prefix: Path
+) -> None:
     """Compiles the module for ARM and installs it, the libraries that it needs, and licenses into `prefix`."""
     defines = {
         "CMAKE_BUILD_TYPE": "Release", "KINEGRAPH_BUILD_PYTHON": "ON", "BUILD_SHARED_LIBS": "OFF",
@@ -120,9 +120,7 @@ def make_wheel(source: Path, x86: Path, work: Path, out: Path) -> Path:
     run(sys.executable, "-m", "wheel", "unpack", x86, "--dest", unpacked)
     (package,) = unpacked.iterdir()
     prefix = work / f"prefix-{python}"
-    compile_module(
-        python, source, package / "kinegraph/_core.pyi", sysroot, wheels, work / f"build-{python}", prefix
-    )
+    compile_module(python, source, package / "kinegraph/_core.pyi", sysroot, wheels, work / f"build-{python}", prefix)
     (module,) = (package / "kinegraph").glob("_core.*.so")
     module.unlink()
     shutil.rmtree(package / "kinegraph/lib")

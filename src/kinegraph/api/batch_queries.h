@@ -18,8 +18,8 @@ bool isValid(const Config& C, const VectorXd& q, double margin = 0.);
 /// The same for each row of Q, (N, n).
 std::vector<bool> isValid(const Config& C, const RowMatrix& Q, double margin = 0., int threads = 1);
 
-/// Returns whether the linear motion between two joint vectors, (n,), is within the limits and collision-free at all
-/// times. Pairs that come within margin + tolerance (m) may count as contacts.
+/// Returns whether the linear motion between two joint vectors, (n,), is within the limits and continuously
+/// collision-free. Pairs that come within margin + tolerance (m) may count as contacts.
 bool isMotionFree(const Config& C, const VectorXd& start, const VectorXd& end, double margin = 0.,
                   double tolerance = 1e-5);
 
