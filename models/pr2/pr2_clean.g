@@ -304,7 +304,7 @@ head_tilt_link_0 (head_tilt_joint): {
 }
 head_plate_frame (head_tilt_joint): { Q: [.0232 0 .0645], mass: .01, inertia: [.001 .001 .001] }
 head_plate_frame_0 (head_tilt_joint): { Q: [.0232 0 .0645], shape: box, size: [.01 .01 .01] }
-sensor_mount_link (head_tilt_joint): { Q: [.0232 0 .0645], mass: .05, inertia: [.001 .001 .01] }
+sensor_mount_link (head_tilt_joint): { Q: [.0232 0 .0645], mass: .05, inertia: [.001 .001 .001] }
 sensor_mount_link_0 (head_tilt_joint): { Q: [.0232 0 .0645], shape: box, size: [.01 .01 .01] }
 high_def_frame (head_tilt_joint): { Q: [.0232 -.109 .0995], mass: .01, inertia: [.001 .001 .001] }
 high_def_frame_0 (head_tilt_joint): { Q: [.0032 -.109 .0995], shape: box, size: [.04 .04 .04] }
@@ -314,7 +314,7 @@ high_def_optical_frame (head_tilt_joint): {
 high_def_optical_frame_0 (head_tilt_joint): {
   Q: "t(.0232 -.109 .0995) d(90 0 1 0)", shape: cylinder, size: [.05 .02]
 }
-double_stereo_link (head_tilt_joint): { Q: [.0232 0 .0675], mass: .1, inertia: [.001 .001 .01] }
+double_stereo_link (head_tilt_joint): { Q: [.0232 0 .0675], mass: .1, inertia: [.001 .001 .001] }
 double_stereo_link_0 (head_tilt_joint): { Q: [.0132 0 .0925], shape: box, size: [.02 .12 .05] }
 wide_stereo_link (head_tilt_joint): { Q: [.0232 .03 .098], mass: .1, inertia: [.01 .01 .01] }
 wide_stereo_link_0 (head_tilt_joint): { Q: [.0232 .03 .098], shape: box, size: [.001 .001 .001] }

@@ -344,7 +344,7 @@ l_upper_arm_link (l_upper_arm_joint): {
   mass: 6.01769, inertia: [.015306 -.00339325 .000607655 .0747369 -.000199537 .0760159]
 }
 l_elbow_flex_joint_origin (l_upper_arm_joint): { Q: [.4 0 0] }
-sensor_mount_link (sensor_mount_frame_joint): { mass: .05, inertia: [.001 .001 .01] }
+sensor_mount_link (sensor_mount_frame_joint): { mass: .05, inertia: [.001 .001 .001] }
 high_def_frame_joint_origin (sensor_mount_frame_joint): { Q: [0 -.109 .035] }
 double_stereo_frame_joint_origin (sensor_mount_frame_joint): { Q: [0 0 .003] }
 r_elbow_flex_joint (r_elbow_flex_joint_origin): {
@@ -394,7 +394,7 @@ l_forearm_roll_joint (l_elbow_flex_joint): {
 high_def_frame (high_def_frame_joint): { mass: .01, inertia: [.001 .001 .001] }
 high_def_frame_0 (high_def_frame_joint): { Q: [-.02 0 0], shape: box, size: [.04 .04 .04] }
 high_def_optical_frame_joint_origin (high_def_frame_joint): { Q: "d(-120 1 1 1)" }
-double_stereo_link (double_stereo_frame_joint): { mass: .1, inertia: [.001 .001 .01] }
+double_stereo_link (double_stereo_frame_joint): { mass: .1, inertia: [.001 .001 .001] }
 double_stereo_link_0 (double_stereo_frame_joint): { Q: [-.01 0 .025], shape: box, size: [.02 .12 .05] }
 wide_stereo_frame_joint_origin (double_stereo_frame_joint): { Q: [0 .03 .0305] }
 narrow_stereo_frame_joint_origin (double_stereo_frame_joint): { Q: [0 .06 .0305] }

@@ -20,12 +20,18 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, ClassVar
 
-import gymnasium
 import numpy as np
-from gymnasium.vector.utils import batch_space
 from numpy.typing import NDArray
 
 import kinegraph as ry
+
+try:
+    import gymnasium
+    from gymnasium.vector.utils import batch_space
+except ModuleNotFoundError as error:
+    raise ModuleNotFoundError(
+        "kinegraph.gym needs the package gymnasium: pip install 'kinegraph[gym]'", name=error.name
+    ) from None
 
 _SECONDS = 0.05  # duration of a step
 _SUBSTEPS = 5

@@ -14,12 +14,18 @@ from collections import OrderedDict
 from collections.abc import Callable, Sequence
 from typing import Any
 
-import jax
-import jax.numpy as jnp
 import numpy as np
 
 from ._core import KOMO, Config, IkOptions
 from .solution_layers import IkSolutions, KomoSolutions, Numbers, numbers
+
+try:
+    import jax
+    import jax.numpy as jnp
+except ModuleNotFoundError as error:
+    raise ModuleNotFoundError(
+        "kinegraph.jax needs the package jax: pip install 'kinegraph[jax]'", name=error.name
+    ) from None
 
 _CACHE_SIZE = 16  # cached solutions, whose gradients need no further solve
 

@@ -14,10 +14,16 @@ from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
-import torch
 
 from ._core import KOMO, Config, IkOptions
 from .solution_layers import IkSolutions, KomoSolutions, numbers
+
+try:
+    import torch
+except ModuleNotFoundError as error:
+    raise ModuleNotFoundError(
+        "kinegraph.torch needs the package torch: pip install 'kinegraph[torch]'", name=error.name
+    ) from None
 
 
 class _Solution(torch.autograd.Function):

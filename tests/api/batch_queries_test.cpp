@@ -71,7 +71,10 @@ TEST(BatchQueriesTest, AttributesAsTextMakeADrawer) {
   Config C = ballBeforeWall();
   EXPECT_TRUE(doorStates(C).empty());
   Frame slide = C.getFrame("slide");
-  setAttributes(slide, "logical: { is_drawer }, friction: .5");
+  EXPECT_TRUE(setAttributes(slide, "logical: { is_drawer }, friction: .5").empty());
+  const std::vector<std::string> warnings = setAttributes(slide, "mas: 2");
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_EQ(warnings[0], "setAttributes: frame 'slide': unknown attribute 'mas'; did you mean 'mass'?");
   EXPECT_EQ(doorStates(C), (std::map<std::string, std::string>{{"slide", "closed"}}));
   C.setJointState(VectorXd::Constant(1, .9));
   EXPECT_EQ(doorStates(C).at("slide"), "opened");

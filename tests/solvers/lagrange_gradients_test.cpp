@@ -40,6 +40,17 @@ TEST(LagrangeGradients, AddUpByNameAndAreSortedByTheirPull) {
   EXPECT_EQ(lagrangeGradients(nlp, x, dual).front().name, "row 3");
 }
 
+TEST(LagrangeGradients, ListActiveConstraintsWithoutAnError) {
+  CallbackNlp nlp = plane();
+  const VectorXd x = Eigen::Vector2d(1., 1.), dual = (VectorXd(6) << 0., 0., 0., 4., -3., 0.).finished();
+  const auto list = lagrangeGradients(nlp, x, dual, {"near", "near", "lean", "wall", "line", "far"});
+  std::vector<std::string> names;
+  for (const auto& entry : list) names.push_back(entry.name);
+  EXPECT_EQ(names, (std::vector<std::string>{"near", "wall", "line", "lean"})) << "far has neither";
+  EXPECT_EQ(list[1].error, 0.);
+  EXPECT_EQ(list[1].gradient, 4.);
+}
+
 TEST(LagrangeGradients, CancelOutAtASolution) {
   CallbackNlp nlp = plane();
   SolverOptions options;

@@ -157,6 +157,18 @@ TEST(PlanToolPath, JointLimitsHoldBetweenTheKnotsOfTheCurve) {
   }
 }
 
+TEST(PlanToolPath, SaysByHowMuchAPathIsOutOfReach) {
+  const auto messageAt = [](double x) {
+    Config C = planarArm();
+    return planToolPath(C, {ToolPath("tool").start(Vector3d(x, 0., 0.)).line(Vector3d(x, .1, 0.)).free()}).message;
+  };
+  EXPECT_NE(messageAt(1.6).find("no configuration reaches the path; the nearest misses its position by 0.5"),
+            std::string::npos)
+      << messageAt(1.6);
+  EXPECT_NE(messageAt(600.).find("did you mean meters? 600 mm are 0.6 m"), std::string::npos) << messageAt(600.);
+  EXPECT_EQ(messageAt(1.6).find("did you mean meters"), std::string::npos);
+}
+
 TEST(PlanToolPath, NamesThePlaceBeyondReach) {
   Config C = planarArm();
   const ToolPathPlan plan =

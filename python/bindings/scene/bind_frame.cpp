@@ -23,7 +23,7 @@ void setAttributesOf(Frame& frame, nb::dict attributes) {
     node.value = toValue(value, name);
     graph.set(node);
   }
-  setAttributes(frame, graph);
+  for (const std::string& warning : setAttributes(frame, graph)) emitWarning(warning);
 }
 
 Frame& setAttribute(Frame& frame, nb::str key, nb::any value) {

@@ -30,7 +30,8 @@ Raises:
 inline constexpr char setAttributes[] = R"(Sets attributes, with the effect that they have in a .g file.
 
 contact, contact_exclude, mass, color, q and limits change the frame. Words that the library reads when they are needed
-(friction, logical, ctrl_limits, simulate, ...) and unknown words are stored.
+(friction, logical, ctrl_limits, simulate, ...) and unknown words are stored, with a KinegraphWarning if an unknown word
+is a near miss of a known one.
 
 Args:
     attributes: Dict from names to bool, numbers, text, lists or dicts.

@@ -43,6 +43,10 @@ std::shared_ptr<NlpParameter> readParameter(const Nlp& nlp, nb::handle given) {
   };
   if (nb::isinstance<nb::tuple>(given) && nb::len(given) == 2) return readPair(nlp, named(given[0]), given[1]);
   const nb::object one = named(given);
+  for (const char* word : {"residual", "lower", "upper"})
+    if (nb::isinstance<nb::str>(one) && nb::cast<std::string>(one) == word)
+      throw ValueError(cat("sensitivity: '", word, "' needs indices in the same tuple: sensitivity((\"", word,
+                           "\", 1)) or sensitivity((\"", word, "\", [0, 1]))"));
   if (nb::isinstance<nb::str>(one)) return parameterOf(nlp, nb::cast<std::string>(one));
   if (nb::isinstance<nb::int_>(one)) return parameterOf(nlp, nb::cast<int>(one));
   throw ValueError(

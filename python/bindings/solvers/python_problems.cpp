@@ -1,6 +1,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <limits>
 
 #include "kinegraph/common/errors.h"
@@ -57,6 +58,28 @@ void evaluateFunction(const nb::object& function, const VectorXd& x, int rows, V
   if (J) Eigen::Map<Rows>(J->values.data(), rows, n) = dense;
 }
 
+/// Reads an OT, its number, or its name.
+ObjectiveType readType(nb::handle given) {
+  if (nb::isinstance<ObjectiveType>(given)) return nb::cast<ObjectiveType>(given);
+  std::vector<std::string> names;
+  for (int k = 0; k <= int(ObjectiveType::none); ++k) names.push_back(objectiveTypeName(ObjectiveType(k)));
+  if (nb::isinstance<nb::str>(given)) {
+    const std::string name = nb::cast<std::string>(given);
+    const auto found = std::ranges::find(names, name);
+    if (found != names.end()) return ObjectiveType(found - names.begin());
+    throw ValueError(cat("a type of the problem is '", name, "'; expected one of OT: ", join(names)));
+  }
+  const int number = nb::cast<int>(nb::int_(nb::borrow(given)));
+  if (number >= 0 && number <= int(ObjectiveType::none)) return ObjectiveType(number);
+  throw ValueError(cat("a type of the problem is ", number, "; expected one of OT: ", join(names)));
+}
+
+/// Whether bounds of two variables make sense only as rows [lower, upper]: as given, they cross, or fix all variables.
+bool looksTransposed(const VectorXd& lower, const VectorXd& upper) {
+  if (lower.size() != 2 || lower[0] >= lower[1] || upper[0] >= upper[1]) return false;
+  return lower == upper || (lower.array() > upper.array()).any();
+}
+
 /// Removes bounds whose upper value is below the lower one.
 void openBounds(VectorXd& lower, VectorXd& upper) {
   for (Eigen::Index i = 0; i < lower.size(); ++i) {
@@ -73,11 +96,7 @@ class PythonProblem final : public Nlp {
     if (n < 0) throw ValueError(cat("the dimension of the problem is ", n, "; expected a number >= 0"));
     const char* types_name = nb::hasattr(problem_, "types") ? "types" : "featureTypes";
     for (nb::handle type : problem_.attr(types_name)) {
-      const bool is_enum = nb::isinstance<ObjectiveType>(type);
-      const int number = is_enum ? int(nb::cast<ObjectiveType>(type)) : nb::cast<int>(nb::int_(nb::borrow(type)));
-      if (number < 0 || number > int(ObjectiveType::none))
-        throw ValueError(cat("a type of the problem is ", number, "; expected values of OT"));
-      types_.push_back(ObjectiveType(number));
+      types_.push_back(readType(type));
     }
     lower_ = VectorXd::Constant(n, -kInfinity);
     upper_ = VectorXd::Constant(n, kInfinity);
@@ -86,10 +105,15 @@ class PythonProblem final : public Nlp {
       return;
     if (bounds.rows != 2 || bounds.values.size() != 2 * n) {
       throw ValueError(cat("the bounds of the problem are ", bounds.rows, " x ", bounds.columns(),
-                           " numbers; expected 2 x ", n, ", lower and upper"));
+                           " numbers; expected 2 x ", n, ", lower and upper",
+                           int(bounds.rows) == n && bounds.columns() == 2 ? "; pass the transposed" : ""));
     }
     lower_ = bounds.values.head(n);
     upper_ = bounds.values.tail(n);
+    if (looksTransposed(lower_, upper_))
+      emitWarning(cat("the bounds of the problem are read as all lower, then all upper: variable 0 is between ",
+                      lower_[0], " and ", upper_[0], ", variable 1 between ", lower_[1], " and ", upper_[1],
+                      "; did you mean the transposed, one row [lower, upper] per variable?"));
     openBounds(lower_, upper_);
   }
 

@@ -109,7 +109,7 @@ Args:
     featureNames: One name per residual; [] for those of the problem.
 Returns:
     A dict from the objective's name to err (its error), grad (norm of its part of the gradient of the Lagrangian)
-    and type, the largest grad first. Objectives without error are omitted.
+    and type, the largest grad first. Objectives without an error and without a multiplier are omitted.
 Raises:
     Error: Nothing was solved.)";
 

@@ -2,8 +2,11 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <set>
+
 #include "bindings.h"
 #include "kinegraph/common/errors.h"
+#include "kinegraph/common/file_paths.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/rendering/framing.h"
 #include "kinegraph/rendering/letters.h"
@@ -99,12 +102,18 @@ Array fit(PyViewer& viewer) {
   return toNumpy(VectorXd(ball ? ball->center : Vector3d::Zero()));
 }
 
+/// Endings of pictures and films in other formats, which are no prefixes.
+const std::set<std::string> kOtherPictures = {".jpg",  ".jpeg", ".gif", ".bmp", ".tif", ".tiff",
+                                              ".webp", ".svg",  ".pdf", ".ppm", ".mp4", ".webm"};
+
 }  // namespace
 
 std::string savePicture(PyViewer& viewer, const std::string& path, int count, const std::optional<std::string>& text) {
+  if (const std::string suffix = lowerExtension(path); kOtherPictures.contains(suffix))
+    throw ValueError(cat("savePng: '", path, "' ends in ", suffix, ", but pictures are saved as PNG; end it in .png"));
   CameraImage image = picture(viewer, text.value_or(viewer.message()));
   std::string file = path;
-  if (!path.ends_with(".png")) {
+  if (lowerExtension(path) != ".png") {
     if (count >= 0) viewer.saved = count;
     const std::string number = std::to_string(viewer.saved++);
     file += std::string(number.size() < 6 ? 6 - number.size() : 0, '0') + number + ".png";

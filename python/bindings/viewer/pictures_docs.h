@@ -37,7 +37,7 @@ Args:
 Returns:
     The file's name.
 Raises:
-    ArgumentError: The viewer has no scene yet.
+    ArgumentError: The viewer has no scene yet, or the file ends in .jpg or another format of pictures or films.
     OSError: The file cannot be written.)";
 
 inline constexpr char setCamera[] = R"(Attaches the camera to a frame, like CameraView.setCamera.

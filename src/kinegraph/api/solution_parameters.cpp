@@ -42,9 +42,11 @@ std::shared_ptr<NlpParameter> ofKomo(const Nlp& nlp, const std::string& name, co
   const KinematicModel& model = komoOf(nlp)->path().state(0).model();
   if (model.frame_index.contains(name)) return ofFrame(nlp, name, what);
   if (name == "start") return motionStart(nlp);
+  const std::string objectives = join(known);
   known.insert(known.end(), model.frame_name.begin(), model.frame_name.end());
   known.push_back("start");
-  throw NameError(cat("there is no objective and no frame '", name, "'", similarHint(name, known)));
+  throw NameError(cat("there is no objective and no frame '", name, "'", similarHint(name, known),
+                      objectives.empty() ? "" : cat("; the objectives are ", objectives)));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
+#include <map>
 #include <vector>
 
 #include "kinegraph/common/packages.h"
@@ -192,6 +193,32 @@ std::string similarFilesHint(const std::string& path) {
   }
   std::sort(names.begin(), names.end());
   return similarHint(fs::path(path).filename().string(), names);
+}
+
+std::string shippedFile(const std::string& path) {
+  const std::string folder = expandEnvironment("$RAI_PATH");
+  const bool is_relative = !path.empty() && !fs::path(path).is_absolute() && path.find("..") == std::string::npos;
+  if (folder == "$RAI_PATH" || !is_relative || !isThere(folder + "/" + path)) return "";
+  return (fs::path(folder) / path).lexically_normal().string();
+}
+
+std::string shippedFilesHint(const std::string& path) {
+  const fs::path folder = expandEnvironment("$RAI_PATH");
+  const std::string wanted = fs::path(path).filename().string(), extension = lowerExtension(path);
+  std::error_code error;
+  if (wanted.empty() || extension.empty() || !fs::is_directory(folder, error)) return "";
+  std::map<std::string, std::vector<std::string>> places;  // by file name
+  for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+    if (lowerExtension(entry->path().string()) != extension) continue;
+    places[entry->path().filename().string()].push_back(entry->path().lexically_relative(folder).generic_string());
+  }
+  std::vector<std::string> names, found;
+  for (const auto& [name, where] : places) names.push_back(name);
+  for (const std::string& name : places.contains(wanted) ? std::vector{wanted} : similarNames(wanted, names))
+    for (const std::string& place : places[name])
+      if (found.size() < 3) found.push_back(cat("<$RAI_PATH/", place, ">"));
+  std::sort(found.begin(), found.end());
+  return found.empty() ? "" : cat("; the shipped models have ", join(found, ", "));
 }
 
 std::string lowerExtension(const std::string& path) {

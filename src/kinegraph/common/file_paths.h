@@ -25,6 +25,13 @@ std::string missingPackageMessage(const std::string& path);
 /// Returns "; similar names: ..." with files beside a missing one, or reports a missing folder.
 std::string similarFilesHint(const std::string& path);
 
+/// Returns the file `path` of the shipped models, the folder RAI_PATH; "" for absolute paths and without such a file.
+std::string shippedFile(const std::string& path);
+
+/// Returns "; the shipped models have <$RAI_PATH/scenarios/pandaSingle.g>" for a missing file whose name, or a similar
+/// one, is among the shipped models; otherwise "".
+std::string shippedFilesHint(const std::string& path);
+
 /// Returns the extension of a file name with the dot, in lower case: ".urdf".
 std::string lowerExtension(const std::string& path);
 

@@ -9,10 +9,13 @@
 
 namespace kinegraph {
 
-/// Builds the attributes of a frame; all get one position in the file.
+/// Builds the attributes of a frame; all get one position in the file, unless `setPlace` changes it.
 class FrameAttributes {
  public:
   explicit FrameAttributes(const SourcePosition& where) : where_(where) {}
+
+  /// Sets the position of the attributes that follow. Returns the former one.
+  SourcePosition setPlace(const SourcePosition& where) { return std::exchange(where_, where); }
 
   template <class T>
   void add(const char* key, T data) {

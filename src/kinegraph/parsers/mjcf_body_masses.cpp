@@ -67,9 +67,11 @@ void addMjcfInertial(const XmlElement& xml, MjcfValues& values, Findings& findin
     own = values.vector(element, "diaginertia", Vector3d::Zero()).asDiagonal();
   }
   const Matrix3d R = frame.q.toRotationMatrix(), m = R * own * R.transpose();
+  const SourcePosition body = attributes.setPlace(xml.where);
   attributes.add("mass", mass);
   attributes.addNumbers("com", {frame.p.begin(), frame.p.end()});
   attributes.addNumbers("inertia", {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)});
+  attributes.setPlace(body);
 }
 
 std::size_t MjcfBodyMasses::addBody(std::size_t node) {
@@ -90,7 +92,7 @@ void MjcfBodyMasses::bound(Body& body, Graph& graph) const {
   Vector3d moments = solver.eigenvalues();
   const Vector3d given = moments;
   const double mass = std::max(body.sum.mass, settings_.bound_mass);
-  moments = moments.cwiseMax(settings_.bound_inertia);
+  if (settings_.bound_inertia > 0.) moments = moments.cwiseMax(settings_.bound_inertia);
   if (settings_.balance_inertia && 2. * moments.maxCoeff() > moments.sum()) moments.setConstant(moments.mean());
   if (mass == body.sum.mass && moments == given) return;
   body.sum.mass = mass;

@@ -7,6 +7,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/gfile/parser.h"
+#include "kinegraph/scene/loading/attributes.h"
 #include "kinegraph/scene/tree/joint_limits.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
@@ -92,13 +93,16 @@ void setContactExclude(Frame& frame, const Node& node) {
 
 }  // namespace
 
-void setAttributes(Frame& frame, const Graph& attributes) {
+std::vector<std::string> setAttributes(Frame& frame, const Graph& attributes) {
   for (const Node& node : attributes.nodes)
     for (const auto& [word, method] : kOfFiles)
       if (node.key == word)
         throw ValueError(cat("setAttributes: '", word, "' of frame '", frame.getName(),
                              "' has a meaning in files only; call ", method));
+  std::vector<std::string> warnings;
   for (const Node& node : attributes.nodes) {
+    if (const std::string question = askAboutAttribute(node); !question.empty())
+      warnings.push_back(cat("setAttributes: frame '", frame.getName(), "': ", question));
     if (node.key == "contact") frame.setContact(contactOf(frame, node));
     if (node.key == "mass") frame.setMass(numberOf(frame, node));
     if (node.key == "color") frame.setColor(numbersOf(frame, node));
@@ -110,10 +114,11 @@ void setAttributes(Frame& frame, const Graph& attributes) {
     }
     frame.editAttributes().set(node);
   }
+  return warnings;
 }
 
-void setAttributes(Frame& frame, const std::string& text) {
-  setAttributes(frame, parse(text, cat("attributes of frame '", frame.getName(), "'")));
+std::vector<std::string> setAttributes(Frame& frame, const std::string& text) {
+  return setAttributes(frame, parse(text, cat("attributes of frame '", frame.getName(), "'")));
 }
 
 }  // namespace kinegraph

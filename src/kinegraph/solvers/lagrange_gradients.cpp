@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
@@ -23,11 +24,13 @@ std::vector<LagrangeGradient> lagrangeGradients(Nlp& nlp, const VectorXd& x, con
   VectorXd phi(rows);
   nlp.evaluate(x, phi, &J);
   std::map<std::pair<std::string, ObjectiveType>, std::pair<double, VectorXd>> groups;
+  std::set<std::pair<std::string, ObjectiveType>> active;
   for (int row = 0; row < rows; ++row) {
     const ObjectiveType type = nlp.types()[row];
     if (type == ObjectiveType::none) continue;
+    const std::string key = names.empty() ? nlp.describeRow(row).objective : names[row];
     const double y = phi[row], outside = std::max(0., y);
-    auto& [error, gradient] = groups[{names.empty() ? nlp.describeRow(row).objective : names[row], type}];
+    auto& [error, gradient] = groups[{key, type}];
     if (gradient.size() == 0) gradient.setZero(x.size());
     double weight = dual.size() > 0 ? dual[row] : 0.;
     switch (type) {
@@ -43,11 +46,13 @@ std::vector<LagrangeGradient> lagrangeGradients(Nlp& nlp, const VectorXd& x, con
       default:
         error += violation(type, y);
     }
+    if (weight != 0.) active.insert({key, type});
     J.addRowTo(row, weight, gradient);
   }
   std::vector<LagrangeGradient> list;
   for (const auto& [key, sums] : groups) {
-    if (sums.first != 0.) list.push_back({key.first, key.second, sums.first, sums.second.norm()});
+    if (sums.first != 0. || active.contains(key))
+      list.push_back({key.first, key.second, sums.first, sums.second.norm()});
   }
   std::stable_sort(list.begin(), list.end(), [](const auto& a, const auto& b) { return a.gradient > b.gradient; });
   return list;

@@ -15,9 +15,9 @@ struct LagrangeGradient {
   double gradient = 0.;  ///< norm of their sum of J (f), 2 phi J (sos), or dual J (constraints)
 };
 
-/// Returns the contributions of residuals with an error, by name and type, the largest gradient first. `dual`: one
-/// multiplier per residual, or empty for zeros. `names`: one per residual, or empty for the names of the objectives.
-/// Throws ValueError for other sizes.
+/// Returns the contributions of residuals with an error or a multiplier, by name and type, the largest gradient first.
+/// An active constraint has no error but a multiplier. `dual`: one multiplier per residual, or empty for zeros.
+/// `names`: one per residual, or empty for the names of the objectives. Throws ValueError for other sizes.
 std::vector<LagrangeGradient> lagrangeGradients(Nlp& nlp, const VectorXd& x, const VectorXd& dual,
                                                 const std::vector<std::string>& names = {});
 

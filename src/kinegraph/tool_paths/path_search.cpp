@@ -2,9 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "kinegraph/common/text.h"
+#include "kinegraph/ik/low_discrepancy.h"
+#include "kinegraph/ik/target_questions.h"
 #include "kinegraph/kinematics/state.h"
 #include "kinegraph/planning/steering/joint_space.h"
 
@@ -23,6 +26,7 @@ constexpr double kFarMiddle = .1, kFarMiddleShare = .4;
 constexpr int kPlacesOfSeeds = 4;  // besides the start, for the graph
 constexpr int kDiagnosisStarts = 60;
 constexpr int kPlacesAhead = 3;
+constexpr double kWidest = 4.;           // rad or m, from which the diagnosis starts
 constexpr double kPlaceAccuracy = 5e-4;  // m, of a failure
 constexpr double kBeyond = 1e-3;         // m behind the place of a failure
 constexpr double kExtensionStep = 8e-3;  // m
@@ -302,6 +306,25 @@ class PathSearch {
     return place;
   }
 
+  /// By how much the tool misses a target that it cannot reach: "; the nearest misses its position by 0.2 m".
+  std::string nearestTo(const ToolTarget& target) {
+    const LowDiscrepancy sequence(tool_.dofs(), settings_.seed);
+    double least = std::numeric_limits<double>::infinity();
+    for (int i = 0; i < kDiagnosisStarts; ++i) {
+      VectorXd q = home_;
+      for (int j = 0; i > 0 && j < tool_.dofs(); ++j) {
+        const double low = std::max(tool_.model().lower[j], -kWidest), high = std::min(tool_.model().upper[j], kWidest);
+        if (tool_.moving()[std::size_t(j)]) q[j] = low + (high - low) * sequence.at(i, j);
+      }
+      tool_.project(q, target, ToolRows::position, kExtensionSteps);
+      least = std::min(least, tool_.miss(q, target).p.norm());
+    }
+    if (least < kPlaceAccuracy) return "; the tool reaches its position, but not with this direction";
+    const std::string question = askAboutLength(target.p, least);
+    return cat("; the nearest misses its position by ", numberText(least, 3), " m",
+               question.empty() ? "" : cat("; ", question));
+  }
+
   void explainAt(double place) {
     PathFailure& failure = result_.failure;
     const double beyond = std::min(place + kBeyond, curve_.length());
@@ -310,6 +333,7 @@ class PathSearch {
     failure.frames.clear(), failure.joint.clear(), failure.text.clear();
     if (there.empty()) {
       failure.status = ToolPathStatus::out_of_reach;
+      nearest_ = nearestTo(curve_.at(beyond));
     } else if (!anyFree(there)) {
       failure.status = ToolPathStatus::in_collision;
       // The pair that is least too close, over all solutions.
@@ -339,7 +363,7 @@ class PathSearch {
     PathFailure& failure = result_.failure;
     switch (failure.status) {
       case ToolPathStatus::out_of_reach:
-        failure.text = "no configuration reaches the path";
+        failure.text = cat("no configuration reaches the path", nearest_);
         break;
       case ToolPathStatus::in_collision:
         failure.text = failure.frames.empty()
@@ -365,6 +389,7 @@ class PathSearch {
   std::map<std::size_t, bool> tried_;
   PathSolutions result_;
   bool has_failure_ = false;
+  std::string nearest_;  ///< of a place out of reach
   int stuck_ = -1, blocked_ = -1;
   VectorXd end_;  ///< of the strand that gets farthest, if neither a collision nor a turn ends it
   double end_place_ = 0.;

@@ -46,6 +46,9 @@ def test_a_viewer_makes_pictures_without_a_browser(tmp_path):
     assert [viewer.savePng(prefix) for _ in range(2)] == [prefix + "000000.png", prefix + "000001.png"]
     assert viewer.savePng(prefix, 41) == prefix + "000041.png"
     assert viewer.savePng(str(tmp_path / "one.png")) == str(tmp_path / "one.png")
+    assert viewer.savePng(str(tmp_path / "two.PNG")) == str(tmp_path / "two.PNG")
+    with pytest.raises(ry.ArgumentError, match=r"three.jpg' ends in .jpg, but pictures are saved as PNG"):
+        viewer.savePng(str(tmp_path / "three.jpg"))
     np.testing.assert_array_equal(decoded(tmp_path / "one.png"), viewer.getRgb())
     viewer.setCamera(None)
     assert viewer.getRgb().shape == (500, 600, 3)

@@ -112,3 +112,32 @@ def test_what_a_joint_does_not_express_of_a_pose_is_warned_of() -> None:
     C.getFrame("c").setPose([1, 2, 3, 0.6, 0, 0.8, 0])
     C.addFrame("slider", "a").setRelativePosition([0.5, 0, 0]).setJoint(ry.JT.transX).setPosition([3, 0, 0])
     assert C.getJointState()[-1] == pytest.approx(2)
+
+
+@pytest.mark.parametrize(
+    ("word", "meant"), [("contcat", "contact"), ("mas", "mass"), ("colour", "color"), ("frictoin", "friction")]
+)
+def test_a_misspelled_attribute_is_asked_about(lever: ry.Config, word: str, meant: str) -> None:
+    question = f"frame 'j': unknown attribute '{word}'; did you mean '{meant}'"
+    with pytest.warns(ry.KinegraphWarning, match=question):
+        lever.getFrame("j").setAttributes({word: 1.0})
+    with pytest.warns(ry.KinegraphWarning, match=question):
+        lever.getFrame("j").setAttribute(word, 1.0)
+    with pytest.warns(ry.KinegraphWarning, match=question):
+        lever.getFrame("j").addAttributes({word: 1.0})
+    with pytest.warns(ry.KinegraphWarning, match=f"'{word}'; did you mean '{meant}'"):
+        lever.addFrame("new", "", f"{word}: 1")
+
+
+def test_own_words_of_attributes_are_stored_without_a_question(lever: ry.Config) -> None:
+    lever.getFrame("j").setAttributes({"id": 3, "price": 2.5, "tag": "a", "owner": "lab"})
+    assert lever.getFrame("j").getAttributes()["price"] == 2.5
+
+
+def test_a_box_has_no_rounding(lever: ry.Config) -> None:
+    with pytest.warns(ry.KinegraphWarning, match="a box has no rounding, so its fourth number 0.02 is not used"):
+        lever.getFrame("j").setShape(ry.ST.box, [0.1, 0.1, 0.1, 0.02])
+    with pytest.warns(ry.KinegraphWarning, match="a box has no rounding"):
+        lever.addText("crate: { shape: box, size: [.1 .1 .1 .02] }")
+    lever.getFrame("j").setShape(ry.ST.box, [0.1, 0.1, 0.1, 0])  # as in older files
+    assert lever.getFrame("j").getSize().tolist() == [0.1, 0.1, 0.1]

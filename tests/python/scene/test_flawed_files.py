@@ -221,3 +221,97 @@ def test_robots_of_ros_packages_are_found_by_name(tmp_path: Path, monkeypatch: p
 )
 def test_robots_of_example_robot_data_are_found_by_name() -> None:
     assert ry.robotPath("panda").endswith("panda.urdf")
+
+
+INERTIAS = [
+    ((0.0, 0.0, 0.0), "its inertia is zero although its mass is 2.5 kg; it is read as a point mass"),
+    ((-0.1, 0.1, 0.1), "its inertia has a negative principal moment .*it is left out"),
+    ((1.0, 0.01, 0.01), "its principal moments of inertia .* are impossible: one exceeds the sum of the other two"),
+    ((0.1, 0.1, 0.1), ""),
+    ((0.05, 0.05, 0.1), ""),  # a thin disk
+    ((0.0495, 0.05, 0.1), ""),  # a disk, rounded
+]
+
+
+def robot_with_inertia(kind: str, moments: tuple[float, ...], folder: Path) -> tuple[Path, int]:
+    """A file whose link `b` has a mass of 2.5 kg and these moments, and the line that says so."""
+    x, y, z = moments
+    if kind == "urdf":
+        text = f"""<robot name="r"><link name="a"/><link name="b">
+<inertial><mass value="2.5"/><inertia ixx="{x}" iyy="{y}" izz="{z}" ixy="0" ixz="0" iyz="0"/></inertial>
+</link><joint name="j" type="continuous"><parent link="a"/><child link="b"/></joint></robot>"""
+    elif kind == "xml":
+        text = f"""<mujoco><worldbody><body name="b">
+<inertial pos="0 0 0" mass="2.5" diaginertia="{x} {y} {z}"/>
+<joint name="j"/></body></worldbody></mujoco>"""
+    else:
+        text = f"a: {{}}\nb (a): {{ joint: hingeZ, mass: 2.5, inertia: [{x} {y} {z}] }}\n"
+    file = folder / f"r.{kind}"
+    file.write_text(text)
+    return file, 2
+
+
+@pytest.mark.parametrize(("moments", "message"), INERTIAS)
+@pytest.mark.parametrize("kind", ["urdf", "xml", "g"])
+def test_an_inertia_that_no_body_has_is_told(
+    kind: str, moments: tuple[float, ...], message: str, tmp_path: Path
+) -> None:
+    file, line = robot_with_inertia(kind, moments, tmp_path)
+    found = [m for m in ry.checkFile(file)["messages"] if "inertia" in m.split("\n")[0]]
+    C = ry.Config()
+    if not message:
+        C.addFile(file, strict=True)
+        assert found == [] and C.fileWarnings() == []
+        return
+    assert len(found) == 1 and f"{file.name}:{line}:" in found[0]
+    with pytest.raises(ry.ParseError, match=message):
+        C.addFile(file, strict=True)
+    with pytest.warns(ry.KinegraphWarning, match=message):
+        C.addFile(file)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # the simulation says that it uses the mean of the moments
+        S = ry.Simulation(C)  # whatever was assumed can be simulated
+    S.step([], 0.01, ry.ControlMode.none)
+    assert np.isfinite(C.getFrame("b").getPose()).all()
+
+
+def test_mujoco_balances_inertias_without_a_warning(tmp_path: Path) -> None:
+    file, _ = robot_with_inertia("xml", (1.0, 0.01, 0.01), tmp_path)
+    file.write_text(file.read_text().replace("<worldbody>", '<compiler balanceinertia="true"/><worldbody>'))
+    C = ry.Config()
+    C.addFile(file, strict=True)
+    assert C.fileWarnings() == []
+
+
+def test_shipped_scenes_are_found_by_their_names(tmp_path: Path) -> None:
+    own = tmp_path / "own.g"
+    own.write_text("Prefix: my_\nInclude: <scenarios/pandaSingle.g>\nbin: { shape: box, size: [.1 .1 .1] }\n")
+    C = ry.Config()
+    C.addFile(own, strict=True)
+    D = ry.Config()
+    D.addFile(ry.raiPath("scenarios/pandaSingle.g"), "my_")
+    assert C.getFrameNames() == [*D.getFrameNames(), "bin"]
+    (tmp_path / "scenarios").mkdir()
+    (tmp_path / "scenarios" / "pandaSingle.g").write_text("mine: {}\n")
+    C = ry.Config()
+    C.addFile(own)
+    assert C.getFrameNames() == ["my_mine", "bin"]  # a file beside the scene comes first
+
+
+@pytest.mark.parametrize(
+    ("name", "hint"),
+    [
+        ("scenarios/pandaSingel.g", r"the shipped models have <\$RAI_PATH/scenarios/pandaSingle.g>"),
+        ("pandaSingle.g", r"the shipped models have <\$RAI_PATH/scenarios/pandaSingle.g>"),
+        ("tabel.g", "similar names: table.g"),
+    ],
+)
+def test_a_missing_include_names_similar_files(name: str, hint: str, tmp_path: Path) -> None:
+    (tmp_path / "table.g").write_text("table: {}\n")
+    own = tmp_path / "own.g"
+    own.write_text(f"Include: <{name}>\n")
+    with pytest.raises(ry.ParseError, match=rf"own.g:1:\d+: scene file .*{hint}"):
+        ry.Config().addFile(own)
+    if name.startswith("scenarios"):
+        with pytest.raises(ry.FileError, match=hint):
+            ry.Config().addFile(name)

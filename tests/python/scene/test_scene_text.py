@@ -58,7 +58,9 @@ def frames(draw: st.DrawFn, has_parent: bool) -> dict:
         frame["contact"] = draw(st.integers(-3, 1))
     if draw(st.booleans()):
         frame["mass"] = draw(st.floats(0.01, 100))
-        frame["inertia"] = draw(numbers(draw(st.sampled_from([3, 6, 9]))))
+        moment = draw(st.floats(0.01, 10))  # of a ball: others may be impossible, which is warned of
+        rows = {3: [1, 1, 1], 6: [1, 0, 0, 1, 0, 1], 9: [1, 0, 0, 0, 1, 0, 0, 0, 1]}
+        frame["inertia"] = [moment * entry for entry in rows[draw(st.sampled_from([3, 6, 9]))]]
         frame["com"] = draw(numbers(3))
     if draw(st.booleans()):
         frame["note"] = draw(st.one_of(NUMBER, TEXT, st.booleans(), numbers(3), st.lists(TEXT, min_size=1, max_size=3)))

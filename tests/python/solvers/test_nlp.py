@@ -72,7 +72,8 @@ def test_the_scalar_function_of_a_problem_has_its_derivatives():
 @pytest.mark.parametrize(
     ("change", "message"),
     [
-        ({"types": (7, 1)}, "type of the problem is 7"),
+        ({"types": (7, 1)}, "type of the problem is 7; expected one of OT: f, sos, ineq, eq, ineqB, ineqP, none"),
+        ({"types": ("f", "inneq")}, "type of the problem is 'inneq'; expected one of OT: f, sos, ineq, eq"),
         ({"bounds": np.zeros((3, 2))}, "bounds of the problem are 3 x 2 numbers; expected 2 x 2"),
         ({"getFHessian": lambda x: np.eye(3)}, "getFHessian returned 9 numbers; expected 2 x 2"),
         ({"getInitializationSample": lambda: [1.0]}, "getInitializationSample returned 1 numbers; expected 2"),
@@ -87,6 +88,44 @@ def test_what_is_wrong_about_a_python_object_is_said(change, message):
         setattr(problem, name, value)
     with pytest.raises((ry.ArgumentError, ZeroDivisionError), match=message):
         ry.NLP_Solver().setPyProblem(problem).setOptions(verbose=0).solve()
+
+
+def test_types_may_be_names():
+    problem = Valley()
+    problem.types = ["f", "sos"]
+    assert ry.NLP_Solver().setPyProblem(problem).getProblem().getFeatureTypes() == [ry.OT.f, ry.OT.sos]
+
+
+@pytest.mark.parametrize("bounds", [[[-2, 2], [-2, 2]], [[-2, 2], [-1, 1]], [[0, 3], [0, 1]]])
+def test_bounds_that_look_transposed_are_asked_about(bounds):
+    problem = Valley()
+    problem.bounds = bounds
+    with pytest.warns(ry.KinegraphWarning, match="did you mean the transposed, one row"):
+        ry.NLP_Solver().setPyProblem(problem)
+
+
+@pytest.mark.parametrize("bounds", [[[-2, -2], [2, 2]], [[0, 1], [5, 6]], [[-2, 1], [2, -1]], [[1, 1], [1, 1]]])
+def test_bounds_of_two_variables_are_lower_then_upper(bounds, recwarn):
+    problem = Valley()
+    problem.bounds = bounds
+    ry.NLP_Solver().setPyProblem(problem)
+    assert not recwarn
+
+
+class Corner:
+    """min |x|^2 with x + y >= 1."""
+
+    dimension, types, bounds = 2, ("f", "ineq"), ((-2, -2), (2, 2))
+
+    def evaluate(self, x):
+        return np.array([x @ x, 1 - x.sum()]), np.array([2 * x, [-1, -1]])
+
+
+def test_an_active_constraint_pulls_without_an_error():
+    solver = ry.NLP_Solver().setPyProblem(Corner()).setOptions(verbose=0, stopTolerance=1e-8)
+    np.testing.assert_allclose(solver.solve().x, [0.5, 0.5], atol=1e-6)
+    report = solver.reportLagrangeGradients(["cost", "wall"])
+    np.testing.assert_allclose(report["wall"]["grad"], np.sqrt(2), rtol=1e-5)
 
 
 def test_an_object_that_is_no_problem_says_what_is_missing():

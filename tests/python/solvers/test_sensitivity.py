@@ -272,6 +272,12 @@ def test_mistakes_are_reported():
     result = ry.NLP_Solver(komo.nlp()).solve(verbose=0)
     with pytest.raises(ry.NotFound, match="similar names: .*positionDiff"):
         result.sensitivity("positionDif of l_gripper, goal")
+    with pytest.raises(ry.NotFound, match="'positonDiff'.*; the objectives are .*positionDiff of l_gripper, goal"):
+        result.sensitivity("positonDiff")
+    with pytest.raises(
+        ry.ArgumentError, match=r"'residual' needs indices in the same tuple: sensitivity\(\(\"residual"
+    ):
+        result.sensitivity("residual", 1)
     with pytest.raises(ry.NotFound, match="no 'size'.*position or pose"):
         result.sensitivity(("box", "size"))
     with pytest.raises(ry.ArgumentError, match="is moved by its joint"):

@@ -1,5 +1,6 @@
 """Methods of NLP_Solver, how a solve is watched and ended, and errors in a user's function."""
 
+import importlib
 import pickle
 import signal
 import subprocess
@@ -312,3 +313,13 @@ def test_a_second_ctrl_c_within_a_second_leaves_a_loop_of_solves():
     assert solver(Slow()).solve().message == "interrupted by Ctrl-C"
     with pytest.raises(KeyboardInterrupt):
         solver(Slow()).solve()
+
+
+@pytest.mark.parametrize(
+    ("module", "package", "extra"), [("torch", "torch", "torch"), ("jax", "jax", "jax"), ("gym", "gymnasium", "gym")]
+)
+def test_modules_of_extras_name_the_extra(module, package, extra, monkeypatch):
+    monkeypatch.setitem(sys.modules, package, None)
+    monkeypatch.delitem(sys.modules, f"kinegraph.{module}", raising=False)
+    with pytest.raises(ModuleNotFoundError, match=rf"kinegraph.{module} needs .*pip install 'kinegraph\[{extra}\]'"):
+        importlib.import_module(f"kinegraph.{module}")

@@ -364,3 +364,41 @@ def test_wrong_options_are_refused_where_the_goal_holds(options: dict, message: 
     box(C, "red", "tray", (-0.3, 0.3, TOP + 0.01))
     with pytest.raises(ry.ArgumentError, match=message):
         ry.planTask(C, "(on tray red)", **options)
+
+
+@pytest.mark.parametrize(("turn", "rotation"), [(90, "d(90 0 0 1)"), (45, "d(45 0 0 -1)"), (-60, "d(60 0 0 1)")])
+def test_a_gripper_whose_x_axis_is_not_that_of_its_fingers_is_told(turn: float, rotation: str) -> None:
+    C = scene()
+    tray(C)
+    box(C, "red", "table", (0.3, 0.3, TOP))
+    gripper = C.getFrame("l_gripper")
+    (w, x, y, z), angle = gripper.getRelativeQuaternion(), np.radians(turn)
+    c, s = np.cos(angle / 2), np.sin(angle / 2)
+    gripper.setRelativeQuaternion([w * c - z * s, x * c + y * s, y * c - x * s, z * c + w * s])
+    plan = ry.planTask(C, "(on tray red)", time_limit=20)
+    assert "the x axis of 'l_gripper' is not the direction of its fingers" in plan.warnings[0]
+    assert f"append {rotation} to its Q" in plan.warnings[0]
+    assert plan.feasible or "is not the direction of its fingers" in plan.message
+
+
+def test_a_gripper_inside_of_the_palm_is_told() -> None:
+    C = scene()
+    tray(C)
+    box(C, "red", "table", (0.3, 0.3, TOP))
+    C.getFrame("l_gripper").setPosition(C.getFrame("l_palm").getPosition())
+    plan = ry.planTask(C, "(on tray red)", time_limit=5)
+    assert not plan.feasible
+    assert "'l_gripper' lies 70 mm inside 'l_palm', where" in plan.message
+    assert "its place is between the fingertips" in plan.message
+
+
+@pytest.mark.parametrize("file", ["pandaSingle.g", "pandasTable.g", "panda_fixRobotiq.g", "panda_fixGripper.g"])
+def test_nothing_is_said_of_the_grippers_of_the_package(file: str) -> None:
+    C = ry.Config()
+    C.addFile(ry.raiPath(f"scenarios/{file}"))
+    C.addFrame("floor").setPosition([0, 0, -3]).setShape(ry.ST.ssBox, [1, 1, 0.1, 0.01]).setContact(1)
+    box(C, "red", "floor", (0.3, 0.3, -2.95))
+    C.addFrame("place", "floor").setPosition([-0.3, 0, -2.94]).setShape(ry.ST.ssBox, [0.2, 0.2, 0.02, 0.004])
+    plan = ry.planTask(C, "(on place red)", time_limit=0.5)
+    assert not plan.feasible  # far below the arms
+    assert not any("gripper" in warning for warning in plan.warnings)

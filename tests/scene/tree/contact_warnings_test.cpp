@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "kinegraph/common/text.h"
 #include "kinegraph/scene/config.h"
 
 using namespace kinegraph;
@@ -42,6 +43,40 @@ TEST(ContactWarnings, NameShapesThatCollideWithNothing) {
   EXPECT_EQ(config.getFrame(warnings.passed_through[0]).getName(), "near");
   EXPECT_NE(config.report().find("note: 'near' is near moving links"), std::string::npos) << config.report();
   EXPECT_NE(config.report().find("collide: floor base hand"), std::string::npos) << config.report();
+}
+
+// An obstacle that stands sunk into a table, below the table or beside it in the tree, is not drawn around the table.
+TEST(ContactWarnings, NameObstaclesThatOverlapTheirTable) {
+  for (const char* place : {"wall (table): { Q: [.5 0 .35]", "wall (world): { X: [.5 0 .35]", "wall: { X: [.5 0 .35]",
+                            "low (table): { Q: [.5 0 .27]"}) {
+    const bool is_low = std::string(place).starts_with("low");
+    Config config;
+    config.addText(cat(R"g(
+      world: {}
+      table (world): { shape: ssBox, size: [2 2 .1 .02], contact: 1 }
+      base (table): { Q: [0 0 .25], shape: box, size: [.2 .2 .4], contact: 1 }
+      arm (base): { pre: [0 0 .2], joint: hingeZ }
+      hand (arm): { Q: [.5 0 0], shape: sphere, size: [.1], contact: 1 }
+    )g",
+                       place, ", shape: ssBox, size: ", is_low ? "[.1 .1 .5 .02]" : "[.1 .1 .7 .02]", " }"));
+    const std::vector<int> frames = contactWarnings(*config.scene()).passed_through;
+    ASSERT_EQ(frames.size(), 1u) << place;
+    EXPECT_EQ(config.getFrame(frames[0]).getName(), is_low ? "low" : "wall") << place;
+  }
+}
+
+// A picture of a table whose top and legs collide: whatever meets it meets them.
+TEST(ContactWarnings, SayNothingOfPicturesOfCollidingShapes) {
+  Config config;
+  config.addText(R"g(
+    table: {}
+    look (table): { Q: [0 0 -.35], shape: box, size: [1.02 1.02 .74] }
+    top (table): { shape: box, size: [1 1 .04], contact: 1 }
+    leg (table): { Q: [.45 .45 -.35], shape: box, size: [.06 .06 .7], contact: 1 }
+    arm (table): { pre: [0 0 .2], joint: hingeZ }
+    hand (arm): { Q: [.3 0 -.05], shape: sphere, size: [.1], contact: 1 }
+  )g");
+  EXPECT_TRUE(contactWarnings(*config.scene()).passed_through.empty());
 }
 
 TEST(ContactWarnings, SayNothingOfShapesThatAreMeant) {

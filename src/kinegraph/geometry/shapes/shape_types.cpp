@@ -56,6 +56,8 @@ std::vector<double> checkedSize(ShapeType type, std::vector<double> size, std::s
   const std::size_t given = size.size();
   if (type == ShapeType::none) throw ValueError(cat("shape type ", int(type), " does not exist"));
   const ShapeKind& kind = shapeKind(type);
+  if (warning && type == ShapeType::box && given == 4 && size[3] != 0.)
+    *warning = cat("a box has no rounding, so its fourth number ", size[3], " is not used; an ssBox has rounded edges");
   if (kind.modernize) kind.modernize(size);
   if (kind.sizes() == 0) size.resize(std::min(size.size(), kind.optional_sizes));
   if (size.size() != kind.sizes() && kind.sizes() > 0) {

@@ -1,5 +1,7 @@
 #include "kinegraph/scene/loading/attributes.h"
 
+#include <Eigen/Eigenvalues>
+
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -37,12 +39,35 @@ constexpr std::pair<std::string_view, std::string_view> kForeignNames[] = {
     {"pos", "pose"},        {"position", "pose"}, {"xyz", "pose"},  {"rpy", "pose"},       {"quat", "pose"},
     {"quaternion", "pose"}, {"rgba", "color"},    {"rgb", "color"}, {"geometry", "shape"}, {"filename", "mesh"}};
 
+constexpr double kLeastJudgedMass = 1e-3;  ///< kg: markers in robot files have tiny masses and any inertia
+constexpr double kRounding = .01;          ///< share of the largest moment by which rounded numbers may miss the rule
+
 bool isKnown(const std::string& key) {
   return std::any_of(std::begin(kKnownAttributes), std::end(kKnownAttributes),
                      [&](std::string_view word) { return key == word; });
 }
 
+/// Whether a word of three letters lacks one letter of a word of four: `mas`.
+bool lacksOneLetter(std::string_view key, std::string_view word) {
+  return key.size() == 3 && word.size() == 4 && isWithinEditDistance(key, word, 1.);
+}
+
 }  // namespace
+
+std::string askAboutAttribute(const Node& node) {
+  if (isKnown(node.key)) return "";
+  const auto ask = [&](std::string_view word) {
+    return cat("unknown attribute '", node.key, "'; did you mean '", word, "'?");
+  };
+  for (const auto& [foreign, word] : kForeignNames)
+    if (foreign == node.key) return ask(word);
+  if (node.value.as<Graph>()) return "";
+  for (const std::string_view word : kKnownAttributes) {
+    const bool is_near = node.key.size() >= 4 && word.size() >= 4 && isWithinEditDistance(node.key, word, 1.2);
+    if (is_near || lacksOneLetter(node.key, word)) return ask(word);
+  }
+  return "";
+}
 
 const Node* AttributeReader::find(std::initializer_list<const char*> keys) const {
   for (const char* key : keys) {
@@ -184,6 +209,7 @@ void AttributeReader::applyInertia(FrameData& frame) {
     inertia.com = shell.com;
     inertia.matrix = inertia.mass * (solid ? shell.inertia_per_mass : Matrix3d(1e-4 * Matrix3d::Identity()));
   });
+  const Matrix3d of_shape = inertia.matrix;
   if (const Node* node = find({"inertia"})) {
     const auto m = numbers(*node).value_or(std::vector<double>{});
     if (m.size() == 3) {
@@ -195,9 +221,32 @@ void AttributeReader::applyInertia(FrameData& frame) {
     } else {
       error(*node, cat("expected 3 (diagonal), 6 (xx xy xz yy yz zz) or 9 numbers, got ", m.size()));
     }
+    if (!inertia.matrix.allFinite()) return error(*node, "an inertia has finite numbers, in kg m^2");
+    judgeInertia(*node, inertia, of_shape);
   }
   if (const Node* node = find({"com"})) inertia.com = vector3(*node).value_or(inertia.com);
   frame.inertia = inertia;
+}
+
+/// Warns of an inertia that no body has. A negative one is replaced; others are kept, as Pinocchio does.
+void AttributeReader::judgeInertia(const Node& node, Inertia& inertia, const Matrix3d& otherwise) {
+  if (inertia.mass < kLeastJudgedMass) return;
+  const Vector3d moments =
+      Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia.matrix, Eigen::EigenvaluesOnly).eigenvalues();
+  const std::string listed = cat(moments[0], ", ", moments[1], ", ", moments[2], " kg m^2");
+  const double largest = moments[2];
+  if (moments[0] < -1e-6 * std::abs(largest)) {
+    inertia.matrix = otherwise;
+    warning(node, cat("its inertia has a negative principal moment (", listed, "); it is left out, and the mass of ",
+                      inertia.mass, " kg alone counts"));
+  } else if (largest <= 0.) {
+    warning(node, cat("its inertia is zero although its mass is ", inertia.mass,
+                      " kg; it is read as a point mass at its center of mass, which MuJoCo refuses"));
+  } else if (moments[0] + moments[1] < (1. - kRounding) * largest) {
+    warning(node, cat("its principal moments of inertia (", listed,
+                      ") are impossible: one exceeds the sum of the other two; they are kept for the dynamics, and a"
+                      " simulation uses their mean for all three"));
+  }
 }
 
 void AttributeReader::checkSpelling() {
@@ -211,18 +260,7 @@ void AttributeReader::checkSpelling() {
                         ")' is inside of this frame, and no frame; is a '}' missing before it?"));
     }
     if (is_known) continue;
-    const auto meant = std::find_if(std::begin(kForeignNames), std::end(kForeignNames),
-                                    [&](const auto& entry) { return entry.first == node.key; });
-    if (meant != std::end(kForeignNames)) {
-      warning(node, cat("unknown attribute '", node.key, "'; did you mean '", meant->second, "'?"));
-      continue;
-    }
-    if (node.key.size() < 4 || node.value.as<Graph>()) continue;
-    for (const std::string_view word : kKnownAttributes) {
-      if (word.size() < 4 || !isWithinEditDistance(node.key, word, 1.2)) continue;
-      warning(node, cat("unknown attribute '", node.key, "'; did you mean '", word, "'?"));
-      break;
-    }
+    if (const std::string question = askAboutAttribute(node); !question.empty()) warning(node, question);
   }
 }
 

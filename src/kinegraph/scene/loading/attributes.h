@@ -11,6 +11,10 @@
 
 namespace kinegraph {
 
+/// Returns "unknown attribute 'mas'; did you mean 'mass'?" for a word that the library does not read and that is a near
+/// miss of one that it reads; otherwise "".
+std::string askAboutAttribute(const Node& attribute);
+
 /// Reads the attributes of one frame and checks them. Collects errors, to report all errors of a file together.
 class AttributeReader {
  public:
@@ -62,6 +66,7 @@ class AttributeReader {
   bool readGrid(Geometry& geometry);
   bool readGridOf(const Node& file, Geometry& geometry);
   bool readSize(Geometry& geometry);
+  void judgeInertia(const Node& node, Inertia& inertia, const Matrix3d& otherwise);
   void checkSpelling();
   template <class Function>
   bool guarded(const Node& node, Function function);

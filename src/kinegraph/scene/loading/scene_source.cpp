@@ -32,8 +32,9 @@ class SourceReader {
   std::vector<RobotSemantics> semantics;
   std::vector<std::string> files;  ///< requested files in order, existing or not
 
-  /// `included_at` is the position of the include, if any.
-  std::vector<SourceFrame> readFile(const std::string& path, const SourcePosition& included_at) {
+  /// `given`: the path as the user wrote it. `included_at`: the position of the include, if any.
+  std::vector<SourceFrame> readFile(const std::string& path, const std::string& given,
+                                    const SourcePosition& included_at) {
     files.push_back(path);
     std::error_code error;
     const fs::path absolute = fs::absolute(path, error).lexically_normal();
@@ -44,7 +45,7 @@ class SourceReader {
     };
     if (!fs::is_regular_file(absolute, error)) {
       return refuse(cat("scene file '", path, "' ", fs::exists(absolute, error) ? "is not a file" : "does not exist",
-                        similarFilesHint(absolute.string())));
+                        similarFilesHint(absolute.string()), shippedFilesHint(given)));
     }
     if (std::find(open_.begin(), open_.end(), absolute.string()) != open_.end())
       return refuse(cat("'", path, "' includes itself"));
@@ -184,8 +185,11 @@ class SourceReader {
   std::vector<SourceFrame> include(const Node& node, const std::string& folder) {
     const std::string* file = textOf(node, "a file: 'Include: <path>'");
     if (!file) return {};
-    const std::string path = resolvePath(*file, folder);
-    if (!path.empty()) return readFile(path, node.value.where);
+    std::string path = resolvePath(*file, folder);
+    std::error_code error;
+    if (std::string shipped = fs::exists(path, error) ? "" : shippedFile(*file); !shipped.empty())
+      path = std::move(shipped);
+    if (!path.empty()) return readFile(path, *file, node.value.where);
     diagnostics_.error(node.value.where, missingPackageMessage(*file));
     return {};
   }
@@ -345,7 +349,7 @@ class SourceReader {
 SceneSource readSource(const std::string& path, SceneDiagnostics& diagnostics, const XacroArguments& arguments) {
   SourceReader reader(diagnostics, arguments);
   SceneSource source;
-  source.frames = reader.readFile(resolvePath(path, ""), {});
+  source.frames = reader.readFile(resolvePath(path, ""), path, {});
   source.joint_states = std::move(reader.joint_states);
   source.semantics = std::move(reader.semantics);
   return source;
@@ -365,7 +369,7 @@ std::vector<std::string> sourceFiles(const std::string& path) {
   SceneDiagnostics diagnostics;
   SourceReader reader(diagnostics);
   try {
-    reader.readFile(resolvePath(path, ""), {});
+    reader.readFile(resolvePath(path, ""), path, {});
   } catch (const Error&) {  // reported by the caller that reads the scene
   }
   return std::move(reader.files);

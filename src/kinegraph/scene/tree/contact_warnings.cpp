@@ -11,7 +11,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kDeep = 1e-3, kNear = .05;  // m
+constexpr double kDeep = 1e-3, kNear = .05;            // m
+constexpr double kCovered = .05, kCoveredShare = .25;  // m, and share of a shape's bounding radius
 constexpr std::size_t kMaxNamed = 3;
 
 std::vector<std::pair<int, int>> restingPairs(const State& state) {
@@ -30,18 +31,27 @@ Proximity proximityOf(const State& state, int a, int b) {
                    state.pose(b));
 }
 
-/// Returns whether the shape surrounds a colliding shape of the same frame.
-bool surroundsCollidingShape(const FrameData& frame, const State& state) {
+/// Returns the colliding shapes of the same frame as a shape, or of frames fixed to the same parent, that overlap it.
+std::vector<int> collidingPartners(const FrameData& frame, const State& state) {
   const auto ownerOf = [](const FrameData& f) { return f.parent && !f.joint ? f.parent->id : f.id; };
   const auto& frames = frame.tree->frames();
+  std::vector<int> partners;
   for (const ContactRules::Body& body : state.model().contacts.bodies) {
     const FrameData& other = *frames[std::size_t(body.frame)];
     if (ownerOf(other) != ownerOf(frame) && body.frame != ownerOf(frame) && ownerOf(other) != frame.id) continue;
-    const double size = std::min(state.model().body[std::size_t(frame.id)]->boundRadius(),
-                                 state.model().body[std::size_t(other.id)]->boundRadius());
-    if (proximityOf(state, frame.id, other.id).distance < -.1 * size) return true;
+    if (proximityOf(state, frame.id, other.id).distance < -kDeep) partners.push_back(other.id);
   }
-  return false;
+  return partners;
+}
+
+/// Returns whether one of the colliding shapes stops a moving body about where the shape itself would. An obstacle that
+/// stands sunk into a table overlaps it, but the table does not stop what meets the obstacle.
+bool isStopped(const State& state, const std::vector<int>& colliding, int shape, int moving) {
+  const double size = state.model().body[std::size_t(shape)]->boundRadius();
+  const double least =
+      std::max(proximityOf(state, shape, moving).distance, 0.) + std::min(kCovered, kCoveredShare * size);
+  return std::any_of(colliding.begin(), colliding.end(),
+                     [&](int other) { return proximityOf(state, other, moving).distance <= least; });
 }
 
 bool isOpaque(const Shape& shape) { return !shape.color || (*shape.color)[3] >= 1.; }
@@ -62,8 +72,13 @@ std::vector<int> passedThrough(const SceneTree& scene, const State& state) {
       if ((state.pose(body.frame) * other.boundCenter() - center).squaredNorm() > reach * reach) return false;
       return proximityOf(state, frame->id, body.frame).distance < kNear;
     };
-    const bool near = std::any_of(model.contacts.bodies.begin(), model.contacts.bodies.end(), isNear);
-    if (near && !surroundsCollidingShape(*frame, state)) frames.push_back(frame->id);
+    std::vector<int> near;
+    for (const ContactRules::Body& body : model.contacts.bodies)
+      if (isNear(body)) near.push_back(body.frame);
+    if (near.empty()) continue;
+    const std::vector<int> partners = collidingPartners(*frame, state);
+    if (!std::all_of(near.begin(), near.end(), [&](int body) { return isStopped(state, partners, frame->id, body); }))
+      frames.push_back(frame->id);
   }
   return frames;
 }

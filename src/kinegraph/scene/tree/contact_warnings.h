@@ -15,7 +15,8 @@ struct ContactWarnings {
   std::vector<std::pair<int, int>> resting;
 
   /// Static frames whose shape has neither `contact` nor `simulate`, within 5 cm of a moving shape that collides: the
-  /// robot passes through them. Excludes transparent shapes and shapes drawn around a colliding one.
+  /// robot passes through them. Excludes transparent shapes, and shapes drawn around a colliding one that stops the
+  /// robot there.
   std::vector<int> passed_through;
 
   /// Roots of robots (trees with at least two moving links that carry opaque shapes) of which no moving shape collides:

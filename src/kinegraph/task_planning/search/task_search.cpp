@@ -8,6 +8,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/logic/fol_reader.h"
+#include "kinegraph/task_planning/gripper_frames.h"
 #include "kinegraph/task_planning/open_hands.h"
 #include "kinegraph/task_planning/search/crowded_places.h"
 #include "kinegraph/task_planning/search/goal_flaw.h"
@@ -77,6 +78,7 @@ TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptio
       doors_(doorsOf(C)),
       options_(options),
       goal_text_(goal),
+      flaws_(gripperFrameFlaws(C, wordsOf(taskFacts(C), "is_gripper"))),
       logic_(options.domain ? *options.domain : defaultDomain(), readLiterals(goal, "goal"),
              taskFacts(C_, readLiterals(goal, "goal")), options.cancellation),
       limits_(taskMotionLimits(C, options.velocity, options.acceleration)),
@@ -161,7 +163,7 @@ std::optional<TaskPlan> TaskSearch::nextPlan() {
         has_ended_ = true;
         if (!actions) return hasPlan() ? std::nullopt : std::optional(noSequenceLeft());
         TaskPlan plan = answer(TaskStatus::solved, "");
-        plan.warnings = {"the goal already holds"};
+        plan.warnings.emplace_back("the goal already holds");
         plan.path = C_.getJointState().transpose();
         plan.times = VectorXd::Zero(1);
         return plan;
@@ -308,8 +310,11 @@ TaskPlan TaskSearch::unsolved(const std::string& reason) {
   return answer(status, join(parts, "; "));
 }
 
-/// Adds the record of the search so far.
+/// Adds the record of the search so far, and what is wrong with the frames of the hands.
 TaskPlan TaskSearch::completed(TaskPlan plan) {
+  plan.warnings.insert(plan.warnings.begin(), flaws_.begin(), flaws_.end());
+  if (!plan.feasible())
+    for (const std::string& flaw : flaws_) plan.message += cat(plan.message.empty() ? "" : "; ", flaw);
   plan.causes = log_.causes();
   plan.tree = log_.tree();
   plan.evaluations = evaluations();

@@ -66,6 +66,7 @@ class TaskSearch {
   const std::vector<TaskDoor> doors_;
   const TaskOptions options_;
   const std::string goal_text_;
+  const std::vector<std::string> flaws_;  ///< of the frames of hands
   TaskLogic logic_;
   const MatrixXd limits_;
   const std::chrono::steady_clock::time_point deadline_;

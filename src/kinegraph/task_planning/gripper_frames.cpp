@@ -1,0 +1,119 @@
+#include "kinegraph/task_planning/gripper_frames.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <numbers>
+#include <utility>
+
+#include "kinegraph/common/text.h"
+#include "kinegraph/geometry/distance/proximity.h"
+#include "kinegraph/geometry/shapes/shape_kinds.h"
+#include "kinegraph/scene/hand_fingers.h"
+#include "kinegraph/scene/tree/scene_tree.h"
+#include "kinegraph/task_planning/task_actions.h"
+
+namespace kinegraph {
+
+namespace {
+
+constexpr double kAligned = .9;   ///< cosine of the angle between the x axis and the motion of the fingers
+constexpr double kInside = 2e-3;  ///< m: a frame this deep in a shape lies inside of it
+constexpr double kNoPart = .01;   ///< smaller parts of a rotation axis are written as 0
+
+const FrameData& headOf(const FrameData& frame) {
+  const FrameData* head = &frame;
+  while (!head->joint && head->parent) head = head->parent;
+  return *head;
+}
+
+/// Returns the direction in the world in which the two sides of a hand move apart, of unit length; zero if unknown.
+Vector3d motionOfFingers(const Config& C, const HandFingers& fingers) {
+  if (fingers.pads.empty() || fingers.q.size() < 2) return Vector3d::Zero();
+  Config scene = C;
+  std::map<const FrameData*, std::pair<int, Vector3d>> sides;  // number of shapes, sum of the motions of their centers
+  for (const bool opens : {false, true}) {
+    scene.setJointState(VectorXd::Constant(1, fingers.q[opens ? fingers.q.size() - 1 : 0]), {fingers.joint});
+    const State& state = scene.scene()->state();
+    for (const std::string& name : fingers.pads) {
+      const FrameData& pad = *scene.scene()->find(name);
+      auto& [count, motion] = sides.try_emplace(&headOf(pad), 0, Vector3d::Zero()).first->second;
+      const Vector3d center = state.pose(pad.id) * pad.shape->body()->boundCenter();
+      motion += opens ? center : Vector3d(-center);
+      count += opens;
+    }
+  }
+  if (sides.size() != 2) return Vector3d::Zero();
+  const auto& first = sides.begin()->second;
+  const auto& second = std::next(sides.begin())->second;
+  const Vector3d apart = first.second / first.first - second.second / second.first;
+  return apart.norm() > 1e-6 ? Vector3d(apart.normalized()) : Vector3d(Vector3d::Zero());
+}
+
+bool isBelow(const FrameData& frame, const FrameData& head) {
+  for (const FrameData* up = &frame; up; up = up->parent)
+    if (up == &head) return true;
+  return false;
+}
+
+double rounded(double x) { return std::abs(x) < kNoPart ? 0. : std::round(1e3 * x) / 1e3; }
+
+/// Returns what is wrong with the x axis, and the rotation of the frame that mends it: the smallest.
+std::string flawOfAxes(const Pose& X, const FrameData& hand, const Vector3d& axis) {
+  Vector3d local = X.q.conjugate() * axis;
+  if (std::abs(local[0]) > kAligned) return "";
+  // Of the two directions of the fingers, the nearer one, or that of a turn about +y or +z.
+  const bool is_across = std::abs(local[0]) < 1e-6, is_along_z = std::abs(local[1]) < 1e-6;
+  if (is_across ? (is_along_z ? local[2] > 0. : local[1] < 0.) : local[0] < 0.) local = -local;
+  const Vector3d about = Vector3d::UnitX().cross(local).normalized();
+  const double degrees = std::round(std::acos(std::clamp(local[0], -1., 1.)) * 180. / std::numbers::pi);
+  const auto named = [&] {
+    for (int k = 0; k < 3; ++k)
+      if (std::abs(local[k]) > kAligned) return cat("along its ", "xyz"[k], " axis");
+    return cat("along (", rounded(local[0]), " ", rounded(local[1]), " ", rounded(local[2]), ") in its axes");
+  };
+  return cat("the x axis of '", hand.name, "' is not the direction of its fingers, which move ", named(),
+             ", so grasps will miss; append d(", degrees, " ", rounded(about[0]), " ", rounded(about[1]), " ",
+             rounded(about[2]), ") to its Q");
+}
+
+/// Returns in which shape of the hand the frame lies, the deepest.
+std::string flawOfPlace(const SceneTree& scene, const State& state, const FrameData& hand) {
+  const RigidTransform X = state.pose(hand.id);
+  const FrameData* around = nullptr;
+  double deepest = kInside;
+  for (const auto& frame : scene.frames()) {
+    if (!frame->shape || frame->shape->contact == 0 || &headOf(*frame) != &headOf(hand)) continue;
+    if (shapeKind(frame->shape->geometry->type).is_symbol || frame.get() == &hand) continue;
+    const double depth = -proximity(*pointBody(), X, *frame->shape->body(), state.pose(frame->id)).distance;
+    if (depth <= deepest) continue;
+    deepest = depth;
+    around = frame.get();
+  }
+  if (!around) return "";
+  return cat("'", hand.name, "' lies ", fixed(1e3 * deepest, 0), " mm inside '", around->name,
+             "', where the hand can hold nothing; its place is between the fingertips");
+}
+
+}  // namespace
+
+std::vector<std::string> gripperFrameFlaws(const Config& C, const std::vector<std::string>& hands) {
+  std::vector<std::string> flaws;
+  const std::vector<HandFingers> all = handFingersOf(C);
+  SceneTree& scene = *C.scene();
+  for (const std::string& name : hands) {
+    const FrameData& hand = *scene.find(name);
+    std::vector<HandFingers> own;
+    std::ranges::copy_if(all, std::back_inserter(own),
+                         [&](const HandFingers& f) { return isBelow(*scene.find(f.joint), headOf(hand)); });
+    const Vector3d axis = own.size() == 1 ? motionOfFingers(C, own[0]) : Vector3d(Vector3d::Zero());
+    if (!axis.isZero(0.))
+      if (std::string flaw = flawOfAxes(scene.worldPose(hand), hand, axis); !flaw.empty())
+        flaws.push_back(std::move(flaw));
+    if (std::string flaw = flawOfPlace(scene, scene.state(), hand); !flaw.empty()) flaws.push_back(std::move(flaw));
+  }
+  return flaws;
+}
+
+}  // namespace kinegraph
