@@ -129,12 +129,22 @@ def setConfiguration(self: ConfigurationViewer, C: Config, text: str = "", watch
 
 
 def updateConfiguration(self: ConfigurationViewer, C: Config) -> int:
-    """Shows a scene in this viewer, like setConfiguration."""
+    """Shows a scene in this viewer, like setConfiguration.
+
+    Args:
+        C: The scene.
+    Returns:
+        The code of the key, or 0, like C.view.
+    """
     return setConfiguration(self, C)
 
 
 def recopyMeshes(self: ConfigurationViewer, C: Config) -> None:
-    """Does nothing: viewers take changes of shapes over by themselves."""
+    """Does nothing: viewers take changes of shapes over by themselves.
+
+    Args:
+        C: The scene.
+    """
 
 
 CONFIG_METHODS = [
