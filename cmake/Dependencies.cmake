@@ -1,6 +1,6 @@
 # Finds third-party libraries, which come as wheels (the list is in pyproject.toml). `pip install` provides them on the
 # path of the building Python. A plain CMake build uses those of the given Python if it has them. Otherwise it installs
-# them into a virtual environment below the build folder.
+# them into a virtual environment below the build folder. A build for another processor takes them from KINEGRAPH_PREFIX.
 
 function(kinegraph_find_prefix result python)
   execute_process(
@@ -16,7 +16,9 @@ function(kinegraph_find_prefix result python)
 endfunction()
 
 set(KINEGRAPH_REQUIREMENTS_PYTHON "${Python_EXECUTABLE}")  # has the wheels, and pip
-kinegraph_find_prefix(KINEGRAPH_PREFIX "${Python_EXECUTABLE}")
+if(NOT KINEGRAPH_PREFIX)
+  kinegraph_find_prefix(KINEGRAPH_PREFIX "${Python_EXECUTABLE}")
+endif()
 if(NOT KINEGRAPH_PREFIX)
   set(venv "${PROJECT_BINARY_DIR}/requirements")
   if(NOT EXISTS "${venv}/bin/python")
@@ -61,14 +63,14 @@ else()
 endif()
 
 # Assimp reads mesh files and MuJoCo renders camera images. Both are large and loaded at their first use by these names
-# (common/dynamic_library.h). Assimp's is libassimp.so and the first number of its version.
-file(GLOB assimp RELATIVE "${KINEGRAPH_PREFIX}/lib" "${KINEGRAPH_PREFIX}/lib/libassimp.so.*")
-list(FILTER assimp INCLUDE REGEX "[.]so[.][0-9]+$")
+# (common/dynamic_library.h). Assimp's has the first number of its version: libassimp.so.6, libassimp.6.dylib.
+file(GLOB assimp RELATIVE "${KINEGRAPH_PREFIX}/lib" "${KINEGRAPH_PREFIX}/lib/libassimp.*")
+list(FILTER assimp INCLUDE REGEX "assimp([.]so)?[.][0-9]+([.]dylib)?$")
 list(GET assimp 0 KINEGRAPH_ASSIMP_LIBRARY)
 
 # The wheel of MuJoCo has the headers and one library, which depends on the C library only.
 get_filename_component(KINEGRAPH_MUJOCO "${KINEGRAPH_PREFIX}/../mujoco" ABSOLUTE)
-file(GLOB library "${KINEGRAPH_MUJOCO}/libmujoco.so.*")
+file(GLOB library "${KINEGRAPH_MUJOCO}/libmujoco.so.*" "${KINEGRAPH_MUJOCO}/libmujoco.*.dylib")
 add_library(mujoco::mujoco SHARED IMPORTED)
 set_target_properties(mujoco::mujoco PROPERTIES IMPORTED_LOCATION "${library}"
                       INTERFACE_INCLUDE_DIRECTORIES "${KINEGRAPH_MUJOCO}/include")

@@ -92,7 +92,7 @@ def withPlots(file: Path) -> None:
         columns = [column.strip() for column in mark["columns"].split(" | ")]
         shown = bars(lines[begin:end], columns)
         count += 1
-        picture = file.parent / "plots" / f"{file.stem}_{count}.svg"
+        picture = file.parent / "plots" / f"plot_{file.stem}_{count}.svg"
         picture.parent.mkdir(exist_ok=True)
         picture.write_text(chart(shown, columns))
         lines[i] = f"![{' and '.join(columns)} of the table above](plots/{picture.name})"

@@ -110,7 +110,10 @@ def _parser() -> argparse.ArgumentParser:
     plan.add_argument("--optimize", default="time", choices=["time", "length", "clearance"], help="(default: time)")
     plan.add_argument("--seed", type=int, default=0, help="seed of random configurations (default: 0)")
     plan.add_argument("--time-limit", type=float, default=float("inf"), help="s (default: none)")
-    plan.add_argument("-o", "--output", metavar="CSV", help="output file, a row per 10 ms: time, then joint values")
+    plan.add_argument(
+        "-o", "--output", metavar="CSV", help="output file: rows of time, joint values, velocities, accelerations"
+    )
+    plan.add_argument("--rate", type=float, default=100.0, help="rows of the output file per second (default: 100)")
     plan.add_argument("--no-view", action="store_true", help="print only")
 
     tool = commands.add_parser(
@@ -121,12 +124,17 @@ def _parser() -> argparse.ArgumentParser:
     tool.add_argument("--points", required=True, metavar="CSV", help="rows x y z, with a normal, or with a quaternion")
     tool.add_argument("--relative-to", metavar="FRAME", help="frame in whose coordinates rows are given")
     tool.add_argument("--free", choices=["x", "y", "z"], help="axis of the tool about which it may rotate")
+    tool.add_argument("--travel", type=float, default=0.0, help="lean of the tool's z axis along the path, degrees")
+    tool.add_argument("--work", type=float, default=0.0, help="lean of the tool's z axis to the left, degrees")
     tool.add_argument("--tilt", type=float, default=0.0, help="half angle of a cone around the free axis, degrees")
     tool.add_argument("--speed", type=float, default=0.1, help="m/s (default: 0.1)")
     tool.add_argument("--tolerance", type=float, default=2e-5, help="distance from the path, m (default: 2e-5)")
     tool.add_argument("--margin", type=float, default=0.0, help="distance to obstacles, m (default: 0)")
     tool.add_argument("--approach", type=float, default=0.0, help="length of an approach and a retract, m")
-    tool.add_argument("-o", "--output", metavar="CSV", help="output file, a row per 10 ms: time, then joint values")
+    tool.add_argument(
+        "-o", "--output", metavar="CSV", help="output file: rows of time, joint values, velocities, accelerations"
+    )
+    tool.add_argument("--rate", type=float, default=100.0, help="rows of the output file per second (default: 100)")
     tool.add_argument("--picture", metavar="PNG", help="picture of the scene with the path, colored by speed")
     tool.add_argument("--film", metavar="FILE", help="film of the motion: .mp4 or .webm")
     tool.add_argument("--no-view", action="store_true", help="print only")
@@ -242,14 +250,8 @@ def _jointValues(config: Config, words: list[str], option: str) -> Any:
         ) from None
 
 
-def _saveMotion(config: Config, motion: Trajectory, path: str) -> None:
-    """Writes a row per 10 ms: time, then joint values."""
-    count = max(2, round(motion.duration / 0.01) + 1)
-    with open(path, "w") as file:
-        print("time", *config.getJointNames()[: config.getJointDimension()], sep=",", file=file)
-        for i in range(count):
-            t = motion.duration * i / (count - 1)
-            print(t, *motion.eval(t)[0], sep=",", file=file)
+def _saveMotion(config: Config, motion: Trajectory, path: str, rate: float) -> None:
+    motion.writeCsv(path, rate, config.getJointNames()[: config.getJointDimension()])
 
 
 def _addToolCurve(config: Config, plan: ToolPathPlan, rows: np.ndarray, frame: str) -> None:
@@ -268,6 +270,8 @@ def _toolPath(options: argparse.Namespace) -> int:
     path = ToolPath.read(options.points, frame=options.frame, relativeTo=options.relative_to)
     if options.free:
         path.free(options.free)
+    if options.travel or options.work:
+        path.lean(math.radians(options.travel), math.radians(options.work))
     if options.tilt:
         path.tilt(math.radians(options.tilt))
     plan = planToolPath(
@@ -286,7 +290,7 @@ def _toolPath(options: argparse.Namespace) -> int:
     for _, begin, end, speed, cause in plan.slow:
         print(f"{begin:.3f} to {end:.3f} m: down to {speed:.4f} m/s, {cause}")
     if options.output:
-        _saveMotion(config, plan, options.output)
+        _saveMotion(config, plan, options.output, options.rate)
     rows = plan.sample(50.0)[1]
     _addToolCurve(config, plan, rows, options.frame)
     if options.picture:
@@ -318,7 +322,7 @@ def _plan(options: argparse.Namespace) -> int:
     if not motion.feasible:
         return 1
     if options.output:
-        _saveMotion(config, motion, options.output)
+        _saveMotion(config, motion, options.output, options.rate)
     if not options.no_view:
         config.view_path(motion.path, max(1.0, motion.duration), True, "the motion")
     return 0

@@ -15,6 +15,7 @@
 
 #include "kinegraph/common/compiler_check.h"
 
+#include "kinegraph/api/batch_queries.h"        // isValid, isMotionFree, getFramePoses, getDistances
 #include "kinegraph/api/camera_view.h"          // CameraView: images
 #include "kinegraph/api/custom_feature.h"       // functions of frames as features
 #include "kinegraph/api/model_path.h"           // modelPath
@@ -68,7 +69,9 @@
 #include "kinegraph/robot/simulated_driver.h"                 // robots in a simulated world
 #include "kinegraph/scene/config.h"                           // Config, Frame
 #include "kinegraph/scene/config_dynamics.h"                  // rigidBodyDynamics, centroidalMomentumMatrix
+#include "kinegraph/scene/frame_attributes.h"                 // setAttributes
 #include "kinegraph/scene/frame_cells.h"                      // setCells: cubes as an obstacle
+#include "kinegraph/scene/frame_shapes.h"                     // setLines, setMeshFile, setTexture, setSdf
 #include "kinegraph/scene/ignored_contacts.h"                 // ignoreCollisionsNow
 #include "kinegraph/scene/motor_limits.h"                     // getVelocityLimits, getEffortLimits
 #include "kinegraph/scene/self_collisions.h"                  // selfCollisionMatrix

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <string>
 
 #include "kinegraph/common/random.h"
 #include "kinegraph/trajectories/retime.h"
@@ -127,4 +129,38 @@ TEST(Trajectory, OfARetimedPathIsItsMotion) {
   EXPECT_EQ(VectorXd(samples.q.row(0)), VectorXd(path.row(0)));
   EXPECT_LT((VectorXd(samples.q.bottomRows(1).transpose()) - VectorXd(path.row(2))).norm(), 1e-12);
   expectError<ValueError>([&] { motion.eval(NAN); }, {"TimedPath::eval: t is NaN"});
+}
+
+TEST(TrajectoryCsvTest, ReadGivesTheSamplesToTheBit) {
+  const std::string file = testing::TempDir() + "/swing.csv";
+  Swing().writeCsv(file, 50., {"a", "b"});
+  const SampledTrajectory back = SampledTrajectory::read(file);
+  const MotionStates expected = Swing().sample(50.);
+  EXPECT_EQ(back.samples().times, expected.times);
+  EXPECT_EQ(back.samples().q, expected.q);
+  EXPECT_EQ(back.samples().velocity, expected.velocity);
+  EXPECT_EQ(back.samples().acceleration, expected.acceleration);
+  std::ifstream in(file);
+  std::string names;
+  std::getline(in, names);
+  EXPECT_EQ(names, "time,a,b,a_velocity,b_velocity,a_acceleration,b_acceleration");
+}
+
+TEST(TrajectoryCsvTest, ErrorsHaveTheirPlace) {
+  const std::string file = testing::TempDir() + "/wrong.csv";
+  const auto write = [&](const char* text) { std::ofstream(file) << text; };
+  const auto read = [&] { (void)SampledTrajectory::read(file); };
+  expectError<ValueError>([] { Swing().writeCsv("x.csv", 50., {"a"}); }, {"1 names", "2 dofs"});
+  expectError<FileError>([] { Swing().writeCsv("/no_such_folder/x.csv"); }, {"cannot write"});
+  expectError<FileError>([] { (void)SampledTrajectory::read("/no_such_file.csv"); }, {"cannot open"});
+  write("time,a\n0,1\n.1,2\n");
+  expectError<ParseError>(read, {":2:1", "2 numbers", "retime"});
+  write("0,1,0,0\n.1,x,0,0\n");
+  expectError<ParseError>(read, {":2:4", "not a finite number"});
+  write("0,1,0,0\n.1,1,0,0,3,4,5\n");
+  expectError<ParseError>(read, {":2:1", "7 numbers"});
+  write("");
+  expectError<ParseError>(read, {"no rows"});
+  write("0,1,0,0\n0,1,0,0\n");
+  expectError<ValueError>(read, {"times[1]"});
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Makes empty libraries with the symbols of an older C library, to link against (cmake/OldGlibc.cmake).
 
-    python tools/release/glibc_stubs.py 2.28 build/glibc-2.28
+    python tools/release/glibc_stubs.py 2.28 build/glibc-2.28 x86_64
 
 The package `ziglang` knows the symbols of all versions: it builds the libraries when it links for such a target.
 """
@@ -16,14 +16,14 @@ from pathlib import Path
 LIBRARIES = ("c", "m", "dl", "pthread", "rt")
 
 
-def make_stubs(version: str, folder: Path) -> None:
-    """Writes libc.so, libm.so, ... with the symbols of glibc `version` on x86-64 into `folder`."""
+def make_stubs(version: str, folder: Path, processor: str) -> None:
+    """Writes libc.so, libm.so, ... with the symbols of glibc `version` on `processor` into `folder`."""
     if (folder / "libc.so").exists():
         return
     with tempfile.TemporaryDirectory() as work:
         source = Path(work) / "empty.c"
         source.write_text("int empty;\n")
-        command = [sys.executable, "-m", "ziglang", "cc", "-target", f"x86_64-linux-gnu.{version}", "-shared"]
+        command = [sys.executable, "-m", "ziglang", "cc", "-target", f"{processor}-linux-gnu.{version}", "-shared"]
         environment = {**os.environ, "ZIG_GLOBAL_CACHE_DIR": work, "ZIG_LOCAL_CACHE_DIR": work}
         linked = [f"-l{name}" for name in LIBRARIES]
         subprocess.run([*command, str(source), "-o", f"{work}/empty.so", *linked], check=True, env=environment)
@@ -41,6 +41,6 @@ def make_stubs(version: str, folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 3:
+    if len(sys.argv) != 4:
         sys.exit(__doc__)
-    make_stubs(sys.argv[1], Path(sys.argv[2]))
+    make_stubs(sys.argv[1], Path(sys.argv[2]), sys.argv[3])

@@ -22,6 +22,7 @@ import tarfile
 import tomllib
 from pathlib import Path
 
+import aarch64
 from materials import bill_of_materials
 from repository_state import commit_time, refuse_unready
 
@@ -182,6 +183,7 @@ def main() -> None:
     parser.add_argument("--python", action="append", help="an interpreter to make a wheel for; may be repeated")
     parser.add_argument("--out", type=Path, default=ROOT / "dist", help="the folder of the files (default: dist)")
     parser.add_argument("--twice", action="store_true", help="build the first wheel twice and compare the bytes")
+    parser.add_argument("--aarch64", action="store_true", help="make wheels for 64-bit ARM, too (see aarch64.py)")
     parser.add_argument("--dirty", action="store_true", help="try it with uncommitted changes or without a tag")
     options = parser.parse_args()
     if not options.dirty:
@@ -204,6 +206,8 @@ def main() -> None:
         check_wheel(python, name, wheel, work)
         if options.twice and python == pythons[0]:
             check_reproducible(python, name, wheel, source, work, objects)
+        if options.aarch64:
+            aarch64.make_wheel(source, wheel, builds / "aarch64", out)
     make_cpp_package(tools, work, out, objects, builds)
     (out / f"kinegraph-{VERSION}.cdx.json").write_text(bill_of_materials(ROOT))
     write_checksums(out)

@@ -1,4 +1,4 @@
-"""What the repository says of a release: whether it is ready, and when its commit was made."""
+"""Tells whether the repository is ready for a release, and the time of its commit."""
 
 from __future__ import annotations
 

@@ -6,7 +6,7 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "kinegraph/common/errors.h"
-#include "kinegraph/scene/frame_shapes.h"
+#include "kinegraph/scene/convex_parts.h"
 #include "kinegraph/scene/tree/inertia_edits.h"
 #include "kinegraph/scene/tree/tree_edits.h"
 #include "scene/structure_docs.h"

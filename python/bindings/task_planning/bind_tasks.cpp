@@ -8,7 +8,7 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "kinegraph/task_planning/task_doors.h"
+#include "kinegraph/task_planning/scene_facts.h"
 #include "task_planning/py_manipulation.h"
 #include "task_planning/task_objects.h"
 #include "task_planning/tasks_docs.h"
@@ -124,13 +124,7 @@ void bindTasks(nb::module_& m) {
   bindPlanTask(m);
   bindLgp(m);
   m.def(
-      "doorStates",
-      [](const PyConfig& C) {
-        std::map<std::string, std::string> states;
-        for (const TaskDoor& door : doorsOf(C)) states[door.name] = door.stateAt(C.getJointState()[door.dof]);
-        return states;
-      },
-      "C"_a, docs::tasks::doorStates);
+      "doorStates", [](const PyConfig& C) { return doorStates(C); }, "C"_a, docs::tasks::doorStates);
   m.def("defaultDomain", defaultDomain, docs::tasks::defaultDomain);
 }
 

@@ -130,6 +130,9 @@ void bindToolPath(nb::module_& m) {
       .def(
           "tilt", [](ToolPath& path, double angle) -> ToolPath& { return path.tilt(angle); }, "angle"_a, kChain,
           doc::tilt)
+      .def(
+          "lean", [](ToolPath& path, double travel, double work) -> ToolPath& { return path.lean(travel, work); },
+          "travel"_a, "work"_a = 0., kChain, doc::lean)
       .def_prop_ro("frame", &ToolPath::frame, "Name of the frame that moves.")
       .def_prop_ro("warnings", &ToolPath::warnings,
                    "Sentences with file:line:column about what was ignored in a file, such as spindle commands.")

@@ -156,6 +156,20 @@ Returns:
 Raises:
     ValueError: about is another text, the range is empty, or prefer is outside of it.)";
 
+inline constexpr char lean[] =
+    R"(Leans the tool of all rows that have normals so far.
+
+The tool's z axis turns by `travel` towards the direction of the path, then by `work` to its left, seen along the path
+with z up: the travel angle and the work angle of welding. `tilt` allows deviations instead.
+
+Args:
+    travel: Between -pi / 2 and pi / 2, rad.
+    work: Between -pi / 2 and pi / 2, rad.
+Returns:
+    The path itself.
+Raises:
+    ArgumentError: Another angle, a path without rows with normals, or normals along the path.)";
+
 inline constexpr char tilt[] =
     R"(Allows the free axis to lean from its direction within a cone. Frees the rotation about z if no axis is free.
 

@@ -106,7 +106,14 @@ void bindTrajectory(nb::module_& m) {
       .def(nb::init<>(), docs::make)
       .def_prop_ro("duration", &Trajectory::duration, docs::duration)
       .def("eval", eval, "t"_a, docs::eval)
-      .def("sample", sample, "rate"_a, docs::sample);
+      .def("sample", sample, "rate"_a, docs::sample)
+      .def(
+          "writeCsv",
+          [](const Trajectory& t, const PathText& file, double rate,
+             const std::optional<std::vector<std::string>>& names) {
+            t.writeCsv(file.text, rate, names.value_or(std::vector<std::string>{}));
+          },
+          "file"_a, "rate"_a = 100., "names"_a = nb::none(), docs::writeCsv);
   nb::class_<SampledTrajectory, Trajectory>(m, "SampledTrajectory", docs::SampledTrajectory)
       .def(
           "__init__",
@@ -116,6 +123,8 @@ void bindTrajectory(nb::module_& m) {
                 {times.values, rowsOf("q", q), rowsOf("velocity", velocity), rowsOf("acceleration", acceleration)});
           },
           "times"_a, "q"_a, "velocity"_a, "acceleration"_a, docs::SampledTrajectory_make)
+      .def_static(
+          "read", [](const PathText& file) { return SampledTrajectory::read(file.text); }, "file"_a, docs::read)
       .def("__getstate__",
            [](const SampledTrajectory& t) {
              const MotionStates& s = t.samples();

@@ -37,6 +37,28 @@ Returns:
 Raises:
     ArgumentError: There is no motion, or rate is not positive.)";
 
+inline constexpr char writeCsv[] = R"(Writes samples to a text file, separated by commas.
+
+A line of names comes first, then a row per sample: the time, q, velocities and accelerations. Numbers are exact.
+
+Args:
+    file: Path of the file.
+    rate: The least number of samples per second, Hz.
+    names: Names of the dofs, such as those of config.getJointNames() that q has; None: q0, q1, ...
+Raises:
+    ArgumentError: There is no motion, rate is not positive, or names has another length.
+    FileError: The file cannot be written.)";
+
+inline constexpr char read[] = R"(Reads a file of Trajectory.writeCsv.
+
+Args:
+    file: Path of the file.
+Returns:
+    The trajectory through its rows.
+Raises:
+    FileError: The file cannot be read.
+    ParseError: A row has other content; the message has line and column.)";
+
 inline constexpr char SplineTrajectory[] =
     R"(A BSpline as a Trajectory: t = 0 is the spline's first knot, and the trajectory ends with the spline.)";
 

@@ -13,7 +13,7 @@
 #include "kinegraph/geometry/shapes/convex_hull.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 #include "kinegraph/kinematics/state.h"
-#include "kinegraph/scene/frame_shapes.h"
+#include "kinegraph/scene/convex_parts.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {

@@ -212,7 +212,13 @@ class UrdfReader {
       attributes.addNumbers("inertia", {m(0, 0), m(0, 1), m(0, 2), m(1, 1), m(1, 2), m(2, 2)});
     }
     addFrame(link.name, parent, link.where, std::move(attributes));
-    for (std::size_t i = 0; i < link.shapes.size(); ++i) addShape(link.shapes[i], link.name, i);
+    // Visual shapes come first. A link that has lost all of them shows its collision shapes.
+    bool lost = false, shown = false;
+    for (std::size_t i = 0; i < link.shapes.size(); ++i) {
+      const UrdfShape& shape = link.shapes[i];
+      const bool known = addShape(shape, link.name, i, lost && !shown);
+      if (!shape.collision) (known ? shown : lost) = true;
+    }
     for (const UrdfJoint* joint : joints_below_[link.name]) addJoint(*joint);
   }
 
@@ -242,7 +248,8 @@ class UrdfReader {
     return file.path;
   }
 
-  void addShape(const UrdfShape& shape, const std::string& link, std::size_t index) {
+  /// Adds a frame with the shape; returns false if its mesh is missing. `opaque`: a collision shape is shown as a part.
+  bool addShape(const UrdfShape& shape, const std::string& link, std::size_t index, bool opaque) {
     FrameAttributes attributes(shape.where);
     attributes.addPose(shape.origin);
     const std::string name = unusedName(cat(link, "_", index));
@@ -264,7 +271,7 @@ class UrdfReader {
       attributes.addNumbers("size", shape.size);
     }
     if (known && shape.collision) {
-      attributes.addNumbers("color", {1., 0., 0., .2});
+      attributes.addNumbers("color", opaque ? std::vector{.7, .7, .7} : std::vector{1., 0., 0., .2});
       attributes.add("contact", -2.);
     } else if (known) {
       if (shape.color) attributes.addNumbers("color", {shape.color->begin(), shape.color->end()});
@@ -272,6 +279,7 @@ class UrdfReader {
     }
     if (known && !shape.texture.empty()) attributes.add("texture", AngleText{resolvePath(shape.texture, folder_)});
     addFrame(name, link, shape.where, std::move(attributes));
+    return known;
   }
 
   void addJoint(const UrdfJoint& joint) {

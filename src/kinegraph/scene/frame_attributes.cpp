@@ -6,6 +6,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/gfile/parser.h"
 #include "kinegraph/scene/tree/joint_limits.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
@@ -109,6 +110,10 @@ void setAttributes(Frame& frame, const Graph& attributes) {
     }
     frame.editAttributes().set(node);
   }
+}
+
+void setAttributes(Frame& frame, const std::string& text) {
+  setAttributes(frame, parse(text, cat("attributes of frame '", frame.getName(), "'")));
 }
 
 }  // namespace kinegraph

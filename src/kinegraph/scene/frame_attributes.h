@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "kinegraph/gfile/value.h"
 #include "kinegraph/scene/frame.h"
 
@@ -10,5 +12,12 @@ namespace kinegraph {
 /// unknown words, are stored. Throws ValueError, before anything changes, for words that only a file can interpret
 /// (`joint`, `shape`, `pose`, ...); the message names the method instead.
 void setAttributes(Frame& frame, const Graph& attributes);
+
+/// The same for attributes as a .g file writes them:
+///
+///     setAttributes(drawer, "logical: { is_drawer }, friction: .5");
+///
+/// Throws ParseError.
+void setAttributes(Frame& frame, const std::string& text);
 
 }  // namespace kinegraph

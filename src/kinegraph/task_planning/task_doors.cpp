@@ -35,6 +35,12 @@ std::vector<TaskDoor> doorsOf(const Config& C) {
   return doors;
 }
 
+std::map<std::string, std::string> doorStates(const Config& C) {
+  std::map<std::string, std::string> states;
+  for (const TaskDoor& door : doorsOf(C)) states[door.name] = door.stateAt(C.getJointState()[door.dof]);
+  return states;
+}
+
 bool isHold(const TaskAction& action) { return !action.empty() && action[0] == "hold"; }
 
 bool isGuided(const TaskAction& action) { return !action.empty() && (action[0] == "open" || action[0] == "close"); }

@@ -1,5 +1,6 @@
 #include "kinegraph/tool_paths/tool_path.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -138,6 +139,32 @@ ToolPath& ToolPath::tilt(double angle) {
     throw ValueError(cat("ToolPath.tilt: angle is ", angle, "; expected 0 <= angle < pi / 2 rad"));
   if (free_axis_ < 0) free_axis_ = 2;
   cone_ = angle;
+  return *this;
+}
+
+ToolPath& ToolPath::lean(double travel, double work) {
+  for (const auto& [name, angle] : {std::pair("travel", travel), std::pair("work", work)})
+    if (!(std::abs(angle) < std::numbers::pi / 2.))
+      throw ValueError(
+          cat("ToolPath.lean: ", name, " is ", angle, "; expected an angle between -pi / 2 and pi / 2 rad"));
+  bool any = false;
+  for (ToolPathElement& element : elements_) {
+    const std::vector<ToolWaypoint> rows = element.waypoints;
+    if (element.kind != ToolPathElement::Kind::rows || !rows.front().rotation) continue;
+    any = true;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      const Vector3d z = *rows[k].rotation * Vector3d::UnitZ();
+      Vector3d along = rows[std::min(k + 1, rows.size() - 1)].p - rows[k == 0 ? 0 : k - 1].p;
+      along -= z.dot(along) * z;
+      if (along.norm() < 1e-9)
+        throw ValueError(cat("ToolPath.lean: the path at row ", k, " is along the tool's z axis, or stands still"));
+      along.normalize();
+      const Eigen::AngleAxisd forward(travel, z.cross(along)), left(work, -along);
+      element.waypoints[k].rotation = Quaterniond(forward * left) * *rows[k].rotation;
+    }
+    if (&element == &elements_.front()) first_ = element.waypoints.front();
+  }
+  if (!any) throw ValueError("ToolPath.lean: the path has no rows with normals; call it behind ToolPath.along or read");
   return *this;
 }
 

@@ -100,6 +100,12 @@ class ToolPath {
   /// no axis is free yet.
   ToolPath& tilt(double angle);
 
+  /// Leans the tool of all rows that have normals so far: the z axis turns by `travel` (rad) towards the direction of
+  /// the path, then by `work` (rad) to its left, seen along the path with z up. Both are below pi / 2. In the words of
+  /// welding they are the travel angle and the work angle. `tilt` allows deviations instead. Throws ValueError for
+  /// other angles, without such rows, and for normals along the path.
+  ToolPath& lean(double travel, double work = 0.);
+
   const std::string& frame() const { return frame_; }
   const std::string& relativeTo() const { return relative_to_; }
   const std::optional<ToolWaypoint>& first() const { return first_; }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <string>
+
 #include "kinegraph/trajectories/trajectory.h"
 
 namespace kinegraph {
@@ -13,6 +15,10 @@ class SampledTrajectory final : public Trajectory {
   /// `samples` have at least one row; their times start at 0 and increase. Throws ValueError otherwise, for sizes that
   /// differ, and for numbers that are not finite.
   explicit SampledTrajectory(MotionStates samples);
+
+  /// Reads a file of Trajectory::writeCsv. Throws FileError if it cannot be read, ParseError with line and column for
+  /// other content, and ValueError as the constructor.
+  static SampledTrajectory read(const std::string& file);
 
   int dimension() const override { return int(samples_.q.cols()); }
   double duration() const override { return samples_.times.size() ? samples_.times[samples_.times.size() - 1] : 0.; }

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "kinegraph/math/pose.h"
 
 namespace kinegraph {
@@ -43,6 +46,11 @@ class Trajectory {
   /// Returns the states at equal steps of time, at most 1 / rate s apart, from 0 to duration(), both included. Throws
   /// ValueError if `rate` (Hz) is not positive, or asks for more than 1e8 samples.
   MotionStates sample(double rate) const;
+
+  /// Writes the samples of `sample(rate)` to a text file, separated by commas: a line of names, then a row per sample
+  /// with the time, q, velocities and accelerations. `names` are those of the dofs; "q0", "q1", ... if empty. Numbers
+  /// are exact, with a point in each locale. Throws FileError, ValueError for another number of names, and as `sample`.
+  void writeCsv(const std::string& file, double rate = 100., const std::vector<std::string>& names = {}) const;
 };
 
 }  // namespace kinegraph

@@ -144,7 +144,7 @@ def test_plan_writes_the_motion_and_says_where_it_cannot(tmp_path):
     done = kinegraph("plan", scene, *goal, "-o", str(tmp_path / "motion.csv"))
     assert done.returncode == 0, done.stderr
     rows = np.loadtxt(tmp_path / "motion.csv", delimiter=",", skiprows=1)
-    assert rows.shape[1] == 8 and rows[0, 0] == 0 and (np.diff(rows[:, 0]) > 0).all()
+    assert rows.shape[1] == 22 and rows[0, 0] == 0 and (np.diff(rows[:, 0]) > 0).all()
     nowhere = kinegraph("plan", scene, *goal, "-o", str(tmp_path / "none" / "motion.csv"))
     assert nowhere.returncode == 1 and "Traceback" not in nowhere.stderr
-    assert nowhere.stderr.endswith("motion.csv: No such file or directory\n")
+    assert nowhere.stderr.endswith("motion.csv: cannot write the file: No such file or directory\n")

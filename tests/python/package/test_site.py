@@ -121,7 +121,7 @@ def test_a_comment_behind_a_table_becomes_a_bar_per_row_and_column(tmp_path):
     ]
     assert [bar.value for bar in shown] == pytest.approx([2e-3, 5e-4, 1e-3])
     result_plots.withPlots(page)
-    assert "](plots/times_1.svg)" in page.read_text() and "<!--" not in page.read_text()
+    assert "](plots/plot_times_1.svg)" in page.read_text() and "<!--" not in page.read_text()
     widths = re.findall(r'<rect [^>]*width="([\d.]+)"', (tmp_path / "plots" / "times_1.svg").read_text())
     assert [float(width) for width in widths] == pytest.approx([330, 82.5, 165])
 

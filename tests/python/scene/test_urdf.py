@@ -102,6 +102,20 @@ def test_mistakes_say_where_they_are(tmp_path: Path) -> None:
     )
 
 
+def test_a_link_without_its_mesh_shows_its_collision_shape(tmp_path: Path) -> None:
+    visual = '<visual><geometry><mesh filename="none.stl"/></geometry></visual>'
+    box = '<geometry><box size=".1 .1 .1"/></geometry>'
+    file = tmp_path / "arm.urdf"
+    file.write_text(f"""<robot name="arm">
+      <link name="lost">{visual}<collision>{box}</collision></link>
+      <link name="whole"><visual>{box}</visual><collision>{box}</collision></link>
+      <joint name="j" type="fixed"><parent link="lost"/><child link="whole"/></joint></robot>""")
+    with pytest.warns(ry.KinegraphWarning, match="none.stl"):
+        config = load(file)
+    lost, whole = (config.getFrame(name).asDict()["color"] for name in ("lost_1", "whole_1"))
+    assert len(lost) == 3 and list(whole) == [1, 0, 0, 0.2]
+
+
 def test_a_missing_mesh_is_a_warning_that_says_where_it_was_looked_for(tmp_path: Path) -> None:
     file = tmp_path / "r.urdf"
     file.write_text(

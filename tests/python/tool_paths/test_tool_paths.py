@@ -205,8 +205,36 @@ def test_the_command_line_writes_the_motion(scene, tmp_path):
     command = ["toolpath", str(file), "--points", str(rows), "--free", "z", "--speed", "0.05", "-o", str(motion)]
     assert main([*command, "--no-view"]) == 0
     table = np.loadtxt(motion, delimiter=",", skiprows=1)
-    x = poses(scene, table[:, 1:])[:, :3]
+    n = scene.getJointDimension()
+    assert table.shape[1] == 1 + 3 * n  # time, q, velocities, accelerations
+    x = poses(scene, table[:, 1 : n + 1])[:, :3]
     assert distance_from_line(x, start, start + 0.1 * Y).max() <= 2e-5
+
+
+def test_a_torch_leans_by_its_travel_and_work_angles(scene):
+    """On a line along x, travel leans z to +x, and work to the left, seen along the path with z up."""
+    s = np.linspace(-0.1, 0.1, 41)
+    points = np.stack([s, 0.3 + 0 * s, 0.85 + 0 * s], axis=1)
+    travel, work = np.radians([10, 5])
+    for down, sign in (([0.0, 0.0, 1.0], 1.0), ([0.0, 0.0, -1.0], -1.0)):
+        path = ry.ToolPath.along(points, np.tile(down, (41, 1))).lean(travel, work).free()
+        plan = ry.planToolPath(scene, path, speed=0.05, **LIMITS)
+        if sign < 0 and not plan:
+            continue  # the hand points up there
+        assert plan, plan.message
+        z = scene.evalBatch(ry.FS.vectorZ, ["tool"], samples(plan, 100.0)[1])[0]
+        expected = [np.cos(work) * np.sin(travel), sign * np.sin(work), sign * np.cos(work) * np.cos(travel)]
+        assert np.abs(z - expected).max() < 1e-4
+
+
+def test_lean_refuses_paths_without_normals(scene):
+    with pytest.raises(ValueError, match=r"lean: the path has no rows with normals"):
+        ry.ToolPath("tool").line([0, 0, 1]).lean(0.1)
+    rows = ry.ToolPath.along([[0, 0, 0], [0, 0, 1]], [[0, 0, 1], [0, 0, 1]])
+    with pytest.raises(ValueError, match="row 0 is along the tool's z axis"):
+        rows.lean(0.1)
+    with pytest.raises(ValueError, match="travel is 2"):
+        rows.lean(2.0)
 
 
 def rgb_of(file):
