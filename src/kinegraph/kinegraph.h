@@ -63,6 +63,7 @@
 #include "kinegraph/rendering/camera_renderer.h"              // images from any camera
 #include "kinegraph/rendering/depth_image.h"                  // points of a depth image
 #include "kinegraph/rendering/framing.h"                      // a camera that sees the whole scene
+#include "kinegraph/rendering/picture_renderer.h"             // pictures that look like the viewer's page
 #include "kinegraph/robot/bot_op.h"                           // BotOp
 #include "kinegraph/robot/kinematic_driver.h"                 // robots that follow commands exactly
 #include "kinegraph/robot/recorded_driver.h"                  // robots with known answers

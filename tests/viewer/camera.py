@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 WIDTH, HEIGHT = 640, 480  # of the page, pixels
-FIELD_OF_VIEW = np.deg2rad(40)  # vertical
+FOCAL_LENGTH = np.sqrt(3)  # heights of the page
 
 
 class Camera:
@@ -18,7 +18,7 @@ class Camera:
         right = np.cross(self._forward, [0.0, 0.0, 1.0])
         self._right = right / np.linalg.norm(right)
         self._up = np.cross(self._right, self._forward)
-        self.focal_length = HEIGHT / 2 / np.tan(FIELD_OF_VIEW / 2)
+        self.focal_length = FOCAL_LENGTH * HEIGHT
 
     def pixel(self, point: np.ndarray) -> tuple[int, int]:
         """Row and column."""

@@ -1,8 +1,7 @@
 import * as THREE from "three";
 
-const SIZE = 60,
-  SOLID = 10; // large squares
-const DEPTH = 0.001; // large squares: depth of the floor below z = 0; it must not hide the bottoms of shapes
+const LINED = 30; // large squares to each side of the camera, which have lines and shadows; more in large scenes
+const DEPTH = 0.001; // m per meter of a square: depth of the floor below z = 0; it must not hide the bottoms of shapes
 
 const GRID = /* glsl */ `
 uniform vec3 ink;
@@ -58,11 +57,11 @@ export class Floor {
   private readonly share = { value: 1 };
   private readonly square = { value: 1 }; // m
   private readonly grid = new THREE.Mesh(
-    new THREE.PlaneGeometry(SIZE, SIZE),
+    new THREE.PlaneGeometry(2, 2),
     gridMaterial(this.ink, this.share, this.square),
   );
   private readonly solid = new THREE.Mesh(
-    new THREE.PlaneGeometry(SOLID, SOLID),
+    new THREE.PlaneGeometry(2, 2),
     new THREE.MeshStandardMaterial({ roughness: 0.9 }),
   );
 
@@ -77,18 +76,18 @@ export class Floor {
   /** Size of the large squares, m. */
   setSquare(size: number): void {
     this.square.value = size;
-    for (const [plane, depth] of [[this.grid, DEPTH], [this.solid, 2 * DEPTH]] as const) {
-      plane.scale.set(size, size, 1);
-      plane.position.z = -depth * Math.min(size, 1);
-    }
+    this.grid.position.z = -DEPTH * Math.min(size, 1);
+    this.solid.position.z = -2 * DEPTH * Math.min(size, 1);
   }
 
   /** Centers the lines at the camera. They are one pixel wide, hence paler in coarse pictures: `share` is the
-   * resolution relative to full. */
-  follow(camera: THREE.Vector3, share: number): void {
+   * resolution relative to full. `reach`: distance of the farthest shape; `far`: of the end of sight, m. */
+  follow(camera: THREE.Vector3, share: number, reach: number, far: number): void {
     this.share.value = share;
-    this.grid.position.x = camera.x;
-    this.grid.position.y = camera.y;
+    const half = Math.max(LINED * this.square.value, reach);
+    this.grid.scale.set(half, half, 1);
+    this.solid.scale.set(far, far, 1);
+    for (const plane of [this.grid, this.solid]) plane.position.set(camera.x, camera.y, plane.position.z);
   }
 
   /** Makes lines dark on a light background, and light on a dark one. */

@@ -23,6 +23,7 @@ export class Lights {
   constructor() {
     const { shadow } = this.sun;
     this.sun.castShadow = true;
+    this.sky.position.set(0, 0, 1); // the direction of the sky
     shadow.bias = -0.0002;
     this.group.add(this.sky, this.flat, this.sun, this.sun.target, this.others);
     this.setCoarse(false);

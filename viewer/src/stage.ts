@@ -203,9 +203,14 @@ export class Stage {
     this.redraw();
   }
 
+  /** Distance from the camera to the farthest shape, m, at most. */
+  private get reach(): number {
+    return this.camera.position.distanceTo(this.ball.center) + this.ball.radius;
+  }
+
   /** Adapts the range of sight, fog and the floor's squares to the camera and the size of the scene. */
   private fitView(): void {
-    const reach = this.camera.position.distanceTo(this.ball.center) + this.ball.radius;
+    const { reach } = this;
     this.viewpoint.fitRange(reach);
     const fog = this.scene.fog as THREE.Fog;
     fog.near = Math.max(FOG_FROM, reach);
@@ -357,7 +362,7 @@ export class Stage {
     if (this.renderer.getPixelRatio() !== this.quality.ratio) this.renderer.setPixelRatio(this.quality.ratio);
     for (const prepare of this.preparations) prepare();
     this.fitView();
-    this.floor.follow(this.camera.position, this.quality.share);
+    this.floor.follow(this.camera.position, this.quality.share, this.reach, this.camera.far);
     if (this.lights.setCoarse(this.hurries)) this.renderer.shadowMap.needsUpdate = true;
     else this.updateShadows();
     this.renderer.render(this.scene, this.camera);

@@ -4,7 +4,7 @@ import type { CameraMessage } from "./messages";
 
 export type Camera = THREE.PerspectiveCamera | THREE.OrthographicCamera;
 
-const OWN_FOCAL = 0.5 / Math.tan(THREE.MathUtils.degToRad(20)); // in heights of the picture
+const OWN_FOCAL = Math.sqrt(3); // in heights of the picture, as of pictures that the program draws
 const NEAR = 0.01,
   FAR = 200; // m, for usual scenes
 const NEAR_OF_REACH = 0.002,

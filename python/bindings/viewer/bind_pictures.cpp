@@ -24,22 +24,23 @@ CameraImage picture(PyViewer& viewer, const std::string& text) {
   if (!viewer.scene) throw ValueError("this viewer has no scene yet; call view() first");
   const Camera camera = cameraNow(viewer);
   const Appearance appearance = appearanceFromParameters();
-  RendererOptions options{
-      .supersampling = 2, .slices = 48, .shadows = appearance.shadows, .floor = appearance.has_floor};
-  if (appearance.background) options.background = *appearance.background;
-  if (appearance.floor) options.floor_color = *appearance.floor;
-  options.lights = appearance.lights;
-  options.flat_colors = appearance.flat_colors;
-  options.wireframe = appearance.wireframe;
-  if (!viewer.renderer || !(options == viewer.renderer_options)) viewer.renderer.emplace(options);
-  viewer.renderer_options = options;
+  PictureOptions options{.has_floor = appearance.has_floor,
+                         .shadows = appearance.shadows,
+                         .background = appearance.background,
+                         .floor_color = appearance.floor,
+                         .lights = appearance.lights,
+                         .flat_colors = appearance.flat_colors,
+                         .wireframe = appearance.wireframe,
+                         .distance = viewer.distance};
+  if (!viewer.pictures) viewer.pictures.emplace();
   const nb::gil_scoped_release unlock;
-  CameraImage image = viewer.renderer->render(*viewer.scene, camera, viewer.visuals_only);
+  CameraImage image = viewer.pictures->render(*viewer.scene, camera, options, viewer.visuals_only);
   for (const auto& [id, quad] : viewer.quads) drawQuad(image.rgb, image.width, quad);
   if (appearance.text && !viewer.visuals_only && !text.empty()) {
     constexpr int kAround = 48;  // pixels of width and height that the text does not use
     const int width = std::max(image.width - kAround, 1), height = std::max(image.height - kAround, 1);
-    drawLetters(image.rgb, image.width, viewer.renderer->write(text, width, height));
+    if (!viewer.letters) viewer.letters.emplace();
+    drawLetters(image.rgb, image.width, viewer.letters->write(text, width, height));
   }
   return image;
 }
@@ -89,7 +90,11 @@ void setCameraTarget(PyViewer& viewer, const Numbers& position, const Numbers& t
   camera.pose = lookAt(from, to);
   viewer.camera.place(camera);
   viewer.camera_is_set = true;
-  viewer.aim({.pose = camera.pose, .distance = (to - from).norm(), .ortho_height = camera.ortho_height, .aspect = 1.});
+  viewer.aim({.pose = camera.pose,
+              .distance = (to - from).norm(),
+              .focal_length = camera.focal_length,
+              .ortho_height = camera.ortho_height,
+              .aspect = 1.});
 }
 
 /// Moves the camera such that the visible scene fills the picture. Returns the scene's center; 0 without a visible
@@ -97,8 +102,14 @@ void setCameraTarget(PyViewer& viewer, const Numbers& position, const Numbers& t
 Array fit(PyViewer& viewer) {
   if (!viewer.scene) throw ValueError("this viewer has no scene yet; call view() first");
   const Config config(viewer.scene);
-  placeCamera(viewer, fitted(cameraNow(viewer), config));
+  const Camera camera = fitted(cameraNow(viewer), config);
+  placeCamera(viewer, camera);
   const std::optional<ShownBall> ball = shownBall(config);
+  if (ball) {
+    PageCamera page = pageCameraOf(camera);
+    page.distance = (ball->center - camera.pose.p).norm();
+    viewer.aim(page);
+  }
   return toNumpy(VectorXd(ball ? ball->center : Vector3d::Zero()));
 }
 

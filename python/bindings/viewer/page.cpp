@@ -51,6 +51,7 @@ bool interrupted() {
 
 void PyViewer::aim(const PageCamera& from) {
   page_camera = from;
+  if (from.distance > 0.) distance = from.distance;
   if (isOpen()) setCamera(from);
 }
 
@@ -59,6 +60,7 @@ void PyViewer::endPage() {
   camera.place(defaultViewCamera());
   camera_is_set = visuals_only = false;
   page_camera.reset();
+  distance = PageCamera{}.distance;
   quads.clear();
 }
 
@@ -107,6 +109,7 @@ Camera cameraNow(PyViewer& viewer) {
     camera.ortho_height = moved->ortho_height;
     viewer.camera.place(camera);
     viewer.camera_is_set = true;
+    if (moved->distance > 0.) viewer.distance = moved->distance;
   }
   return viewer.camera.now();
 }

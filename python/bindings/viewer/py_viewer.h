@@ -8,6 +8,7 @@
 
 #include "bindings.h"
 #include "kinegraph/rendering/camera_renderer.h"
+#include "kinegraph/rendering/picture_renderer.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/viewer/config_viewer.h"
 #include "kinegraph/viewer/page_content.h"
@@ -54,11 +55,12 @@ struct PyViewer : ConfigViewer {
   bool camera_is_set = false;
   std::optional<PageCamera> page_camera;  ///< last camera sent to the pages
   bool visuals_only = false;
-  int saved = 0;                           ///< number of saved pictures
-  std::map<int, Quad> quads;               ///< images on top of the scene
-  std::vector<std::string> folders;        ///< of new controls, outermost first
-  std::optional<CameraRenderer> renderer;  ///< created with the first picture
-  RendererOptions renderer_options;        ///< options of the renderer
+  int saved = 0;                            ///< number of saved pictures
+  std::map<int, Quad> quads;                ///< images on top of the scene
+  std::vector<std::string> folders;         ///< of new controls, outermost first
+  double distance = PageCamera{}.distance;  ///< m from the camera to the center of rotation
+  std::optional<PictureRenderer> pictures;  ///< created with the first picture
+  std::optional<CameraRenderer> letters;    ///< of texts in pictures
 
   /// Sets the camera of all pages, including later ones.
   void aim(const PageCamera& from);

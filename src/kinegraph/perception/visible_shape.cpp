@@ -9,7 +9,7 @@
 #include "kinegraph/geometry/shapes/convex_hull.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/perception/triangle_tree.h"
-#include "kinegraph/rendering/framing.h"
+#include "kinegraph/rendering/shown_shapes.h"
 #include "kinegraph/scene/tree/visual_meshes.h"
 
 namespace kinegraph {

@@ -8,12 +8,11 @@
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/kinematics/kinematic_model.h"
 #include "kinegraph/kinematics/state.h"
-#include "kinegraph/rendering/framing.h"
 #include "kinegraph/rendering/gl_context.h"
 #include "kinegraph/rendering/letters.h"
 #include "kinegraph/rendering/mesh_library.h"
+#include "kinegraph/rendering/shown_shapes.h"
 #include "kinegraph/scene/tree/scene_tree.h"
-#include "kinegraph/scene/tree/visual_meshes.h"
 
 namespace kinegraph {
 
@@ -64,36 +63,6 @@ void paintBackground(CameraImage& image, const Vector3d& color, const std::vecto
       image.rgb[k] = std::uint8_t(std::lround(over_black + seen * std::clamp(color[Eigen::Index(k - 3 * i)], 0., 1.)));
     }
   }
-}
-
-/// Averages the colors of factor x factor pixels; the depth is that of their middle pixel.
-CameraImage shrunk(const CameraImage& fine, int factor) {
-  CameraImage image{fine.width / factor, fine.height / factor, {}, {}};
-  const std::size_t row_length = std::size_t(fine.width), count = std::size_t(image.width) * std::size_t(image.height);
-  image.depth.resize(count);
-  image.rgb.resize(3 * count);
-  std::vector<int> sums(3 * std::size_t(image.width));
-  const int cell = factor * factor;
-  for (int row = 0; row < image.height; ++row) {
-    std::fill(sums.begin(), sums.end(), cell / 2);
-    for (int i = 0; i < factor; ++i) {
-      const std::uint8_t* rgb = &fine.rgb[3 * row_length * std::size_t(row * factor + i)];
-      for (int column = 0; column < image.width; ++column) {
-        int* sum = &sums[3 * std::size_t(column)];
-        for (int k = 0; k < factor; ++k, rgb += 3) {
-          sum[0] += rgb[0];
-          sum[1] += rgb[1];
-          sum[2] += rgb[2];
-        }
-      }
-    }
-    const std::size_t start = std::size_t(row) * std::size_t(image.width);
-    for (std::size_t i = 0; i < sums.size(); ++i) image.rgb[3 * start + i] = std::uint8_t(sums[i] / cell);
-    const float* depth = &fine.depth[row_length * std::size_t(row * factor + factor / 2) + std::size_t(factor / 2)];
-    for (int column = 0; column < image.width; ++column)
-      image.depth[start + std::size_t(column)] = depth[column * factor];
-  }
-  return image;
 }
 
 /// Converts a depth buffer, 1 at `near` and 0 at `far`, to meters: 1/z is linear in its values (z, if orthographic).
@@ -160,15 +129,9 @@ struct CameraRenderer::Impl {
   std::optional<GlContext> gl;
 
  private:
-  struct Item {
-    int frame;
-    const Shape* shape;
-    std::shared_ptr<const Geometry> geometry;
-  };
-  std::vector<Item> visibleItems(const SceneTree& tree, bool visuals_only);
   void makeContext();
   void makeRoom(int width, int height);
-  void placeGeoms(const std::vector<Item>& items, const State& state, const Camera& camera, int frames);
+  void placeGeoms(const std::vector<ShownShape>& items, const State& state, const Camera& camera, int frames);
   void placeCamera(const Camera& camera);
   void placeLights();
   mjvGeom& addGeom(int type, const Vector3d& size, const RigidTransform& X_WG, const Vector4d& color, int segment);
@@ -190,20 +153,6 @@ CameraRenderer::Impl::~Impl() {
     mujoco().mjv_freeScene(scene.get());
   } catch (const Error&) {  // the driver has gone, and its memory with it
   }
-}
-
-std::vector<CameraRenderer::Impl::Item> CameraRenderer::Impl::visibleItems(const SceneTree& tree, bool visuals_only) {
-  std::vector<Item> items;
-  for (const auto& frame : tree.frames()) {
-    if (!frame->shape || frame->shape->geometry->type == ShapeType::none) continue;
-    const Shape& shape = *frame->shape;
-    const bool is_helper = shapeKind(shape.geometry->type).is_symbol || (shape.color && (*shape.color)[3] < 1.);
-    const bool is_invisible = shape.color && (*shape.color)[3] <= 0.;
-    if ((visuals_only && is_helper) || is_invisible || servesCollisionsOnly(shape)) continue;
-    const std::shared_ptr<const Geometry> visual = visual_meshes.of(shape);
-    items.push_back({frame->id, &shape, visual ? visual : shape.geometry});
-  }
-  return items;
 }
 
 void CameraRenderer::Impl::makeContext() {
@@ -247,10 +196,10 @@ void CameraRenderer::Impl::addMarker(double length, const RigidTransform& X_WG, 
   }
 }
 
-void CameraRenderer::Impl::placeGeoms(const std::vector<Item>& items, const State& state, const Camera& camera,
+void CameraRenderer::Impl::placeGeoms(const std::vector<ShownShape>& items, const State& state, const Camera& camera,
                                       int frames) {
   std::size_t count = 2;  // the floor, and the white background
-  for (const Item& item : items)
+  for (const ShownShape& item : items)
     count += std::max<std::size_t>(3, shapeKind(item.geometry->type).is_symbol || builtinShape(item.geometry->type)
                                           ? 0
                                           : meshes.parts(item.geometry).size());
@@ -267,7 +216,7 @@ void CameraRenderer::Impl::placeGeoms(const std::vector<Item>& items, const Stat
     floor.specular = 0.f;
     floor.castshadow = false;  // its shadow on itself would be speckled if the light is far away
   }
-  for (const Item& item : items) {
+  for (const ShownShape& item : items) {
     const RigidTransform& X_WG = state.pose(item.frame);
     const Vector4d color = item.shape->color.value_or(kDefaultColor);
     const int first = scene->ngeom;
@@ -364,9 +313,9 @@ CameraImage CameraRenderer::Impl::write(const std::string& text, int width, int 
 }
 
 void CameraRenderer::Impl::draw(SceneTree& tree, const Camera& camera, bool visuals_only, bool segmentation) {
-  const std::vector<Item> items = visibleItems(tree, visuals_only);
+  const std::vector<ShownShape> items = shownShapes(tree, visual_meshes, visuals_only);
   MeshLibrary::Shapes shapes;
-  for (const Item& item : items) {
+  for (const ShownShape& item : items) {
     if (!shapeKind(item.geometry->type).is_symbol && !builtinShape(item.geometry->type)) shapes.insert(item.geometry);
   }
   if (!model) model = emptyModel();

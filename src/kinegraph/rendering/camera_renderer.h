@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "kinegraph/rendering/camera.h"
+#include "kinegraph/rendering/camera_image.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph {
@@ -23,13 +24,6 @@ struct RendererOptions {
   bool flat_colors = false;        ///< colors without shading
   bool wireframe = false;          ///< edges of triangles only
   bool operator==(const RendererOptions&) const = default;
-};
-
-/// An image of a camera. Rows run from top to bottom.
-struct CameraImage {
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> rgb;  ///< height x width x 3
-  std::vector<float> depth;       ///< height x width, m along the camera's z; -1 for the background
 };
 
 /// Renders scenes without a display, on a graphics card or in software. The OpenGL context is created with the first

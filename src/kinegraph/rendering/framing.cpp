@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "kinegraph/geometry/shapes/tessellation.h"
+#include "kinegraph/rendering/shown_shapes.h"
 #include "kinegraph/scene/tree/scene_tree.h"
-#include "kinegraph/scene/tree/visual_meshes.h"
 
 namespace kinegraph {
 
@@ -16,23 +16,14 @@ std::vector<Vector3d> shownPoints(const Config& config) {
   std::vector<Vector3d> points;
   VisualMeshes visual_meshes;
   SceneTree& scene = *config.scene();
-  for (const auto& frame : scene.frames()) {
-    if (!frame->shape || servesCollisionsOnly(*frame->shape)) continue;
-    if (frame->shape->color && (*frame->shape->color)[3] <= 0.) continue;
-    const std::shared_ptr<const Geometry> visual = visual_meshes.of(*frame->shape);
-    const Geometry& geometry = visual ? *visual : *frame->shape->geometry;
-    const Pose X = scene.worldPose(*frame);
-    for (const Vector3d& vertex : tessellate(geometry).vertices) points.push_back(X.p + X.q * vertex);
+  for (const ShownShape& shown : shownShapes(scene, visual_meshes, false)) {
+    const Pose X = scene.worldPose(*scene.frames()[std::size_t(shown.frame)]);
+    for (const Vector3d& vertex : tessellate(*shown.geometry).vertices) points.push_back(X.p + X.q * vertex);
   }
   return points;
 }
 
 }  // namespace
-
-bool servesCollisionsOnly(const Shape& shape) {
-  constexpr double kFaint = .25;  // the same threshold as on the page
-  return shape.contact != 0 && shape.color && (*shape.color)[3] <= kFaint;
-}
 
 std::optional<ShownBall> shownBall(const Config& config) {
   const std::vector<Vector3d> points = shownPoints(config);

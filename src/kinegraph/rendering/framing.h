@@ -7,10 +7,6 @@
 
 namespace kinegraph {
 
-/// Returns whether a shape exists for collisions only: it collides, and its alpha is at most .25. The page has a switch
-/// for such shapes; pictures omit them.
-bool servesCollisionsOnly(const Shape& shape);
-
 struct ShownBall {
   Vector3d center;  ///< m, in the world
   double radius;    ///< m

@@ -122,6 +122,8 @@ GlContext::GlContext() {
 // The display stays initialized, because EGL shares it among all users in the process.
 GlContext::~GlContext() { egl().destroyContext(display_, context_); }
 
+void* GlContext::function(const char* name) { return egl().getProcAddress(name); }
+
 GlContext::Use::Use(GlContext& context) : lock_(context.mutex_), own_display_(context.display_) {
   api_ = egl().queryApi();
   display_ = egl().getCurrentDisplay();

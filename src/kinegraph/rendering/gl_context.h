@@ -32,6 +32,9 @@ class GlContext {
     void* own_display_;
   };
 
+  /// Returns the address of a function of OpenGL, or null.
+  static void* function(const char* name);
+
   const std::string& device() const { return device_; }  ///< "graphics card" or "software"
 
  private:

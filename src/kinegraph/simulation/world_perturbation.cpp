@@ -10,7 +10,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double kPerturbationFrequency = 10.;  ///< rad/s
-constexpr double kFarthest = 10.;               ///< m: a target farther away pulls as from there
+constexpr double kFarthest = 1.;          ///< m: a target farther away pulls as from there, with at most 100 m/s^2
 constexpr double kMostOfPointMass = 10.;  ///< largest mass of the spring over the inertia that the point resists with
 
 using Vector = Eigen::Map<const Vector3d>;

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "kinegraph/rendering/gl_functions.h"
+#include "kinegraph/rendering/picture_meshes.h"
+
+namespace kinegraph {
+
+/// A shape in the memory of the graphics card.
+struct StoredMesh {
+  PictureMesh mesh;                ///< without its vertices
+  std::vector<unsigned> textures;  ///< per part; 0: none
+  unsigned array = 0, buffer = 0;
+};
+
+/// The shapes of pictures in the memory of the graphics card. The context must be in use for all calls.
+class PictureStore {
+ public:
+  PictureStore() : gl_(glFunctions()) {}
+  ~PictureStore();
+  PictureStore(const PictureStore&) = delete;
+  PictureStore& operator=(const PictureStore&) = delete;
+
+  /// Returns the mesh of a shape; uploads it at the first call. Throws FileError for a damaged image.
+  const StoredMesh& of(const std::shared_ptr<const Geometry>& geometry);
+  const StoredMesh& marker(double length);
+
+  /// Returns a square from (-1, -1) to (1, 1).
+  const StoredMesh& square();
+
+  /// Frees shapes that were not asked for since the last call, if there are many.
+  void tidy();
+
+ private:
+  std::unique_ptr<StoredMesh> stored(PictureMesh mesh);
+  unsigned textureOf(const Image& image);
+  void release(StoredMesh& mesh);
+
+  const GlFunctions& gl_;
+  std::map<std::shared_ptr<const Geometry>, std::unique_ptr<StoredMesh>> meshes_;
+  std::set<std::shared_ptr<const Geometry>> used_;  ///< since the last tidy()
+  std::map<double, std::unique_ptr<StoredMesh>> markers_;
+  std::unique_ptr<StoredMesh> square_;
+  std::map<std::string, unsigned, std::less<>> textures_;  ///< by the bytes of their files
+};
+
+}  // namespace kinegraph
