@@ -63,7 +63,7 @@ TEST(BatchQueriesTest, WrongInputIsNamed) {
   expectError<ValueError>([&] { isValid(C, VectorXd::Zero(2)); }, {"1 dofs"});
   expectError<ValueError>([&] { isValid(C, VectorXd::Zero(1), NAN); }, {"margin is nan"});
   expectError<ValueError>([&] { isMotionFree(C, RowMatrix::Zero(2, 1), RowMatrix::Zero(1, 1)); },
-                          "2 starts and 1 ends");
+                          {"2 starts and 1 ends"});
   expectError<FrameNotFound>([&] { getFramePoses(C, RowMatrix::Zero(1, 1), {"bal"}); }, {"ball"});
 }
 

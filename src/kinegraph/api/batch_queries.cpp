@@ -32,10 +32,6 @@ std::vector<bool> isValid(const Config& C, const RowMatrix& Q, double margin, in
                    [&](std::span<bool> valid) { areValid(C.state(), Q, margin, valid, {.threads = threads}); });
 }
 
-bool isValid(const Config& C, const VectorXd& q, double margin) {
-  return isValid(C, RowMatrix(q.transpose()), margin, 1)[0];
-}
-
 std::vector<bool> isMotionFree(const Config& C, const RowMatrix& start, const RowMatrix& end, double margin,
                                double tolerance, int threads) {
   requireMargin("isMotionFree", margin);
@@ -45,10 +41,6 @@ std::vector<bool> isMotionFree(const Config& C, const RowMatrix& start, const Ro
   return answersOf(start.rows(), [&](std::span<bool> is_free) {
     areMotionsFree(C.state(), start, end, margin, tolerance, is_free, {.threads = threads});
   });
-}
-
-bool isMotionFree(const Config& C, const VectorXd& start, const VectorXd& end, double margin, double tolerance) {
-  return isMotionFree(C, RowMatrix(start.transpose()), RowMatrix(end.transpose()), margin, tolerance, 1)[0];
 }
 
 RowMatrix getFramePoses(const Config& C, const RowMatrix& Q, const std::vector<std::string>& frames, int threads) {

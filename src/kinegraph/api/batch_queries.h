@@ -11,21 +11,30 @@ namespace kinegraph {
 // Questions about joint vectors of a scene; its own q does not matter. All throw ValueError if they have another number
 // of dofs, or numbers that are not finite.
 
-/// Returns whether q, (n,), is within the limits (up to 1e-5 rad or m) and all pairs that joints move relative to each
-/// other are at least `margin` (m) apart.
-bool isValid(const Config& C, const VectorXd& q, double margin = 0.);
-
-/// The same for each row of Q, (N, n).
+/// Returns for each row of Q, (N, n), whether it is within the limits (up to 1e-5 rad or m) and all pairs that joints
+/// move relative to each other are at least `margin` (m) apart.
 std::vector<bool> isValid(const Config& C, const RowMatrix& Q, double margin = 0., int threads = 1);
 
-/// Returns whether the linear motion between two joint vectors, (n,), is within the limits and continuously
-/// collision-free. Pairs that come within margin + tolerance (m) may count as contacts.
-bool isMotionFree(const Config& C, const VectorXd& start, const VectorXd& end, double margin = 0.,
-                  double tolerance = 1e-5);
+/// The same for one joint vector, (n,).
+template <class Vector>
+requires(Vector::ColsAtCompileTime == 1) bool isValid(const Config& C, const Eigen::MatrixBase<Vector>& q,
+                                                      double margin = 0.) {
+  return isValid(C, RowMatrix(q.transpose()), margin, 1)[0];
+}
 
-/// The same for each row of `start` and `end`, (N, n).
+/// Returns for the linear motions from the rows of `start` to those of `end`, (N, n), whether they are within the limits
+/// and continuously collision-free. Pairs that come within margin + tolerance (m) may count as contacts.
 std::vector<bool> isMotionFree(const Config& C, const RowMatrix& start, const RowMatrix& end, double margin = 0.,
                                double tolerance = 1e-5, int threads = 1);
+
+/// The same for one motion between joint vectors, (n,).
+template <class Start, class End>
+requires(Start::ColsAtCompileTime == 1 &&
+         End::ColsAtCompileTime == 1) bool isMotionFree(const Config& C, const Eigen::MatrixBase<Start>& start,
+                                                        const Eigen::MatrixBase<End>& end, double margin = 0.,
+                                                        double tolerance = 1e-5) {
+  return isMotionFree(C, RowMatrix(start.transpose()), RowMatrix(end.transpose()), margin, tolerance, 1)[0];
+}
 
 /// Returns world poses of frames, (N, 7 F): per frame x y z qw qx qy qz. Throws FrameNotFound.
 RowMatrix getFramePoses(const Config& C, const RowMatrix& Q, const std::vector<std::string>& frames, int threads = 1);
