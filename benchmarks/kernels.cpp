@@ -12,7 +12,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/random.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/features/batch.h"
+#include "kinegraph/features/eval.h"
 #include "kinegraph/features/make_residual.h"
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/solvers/nlp_solver.h"

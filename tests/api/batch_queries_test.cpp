@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/scene/frame_attributes.h"
-#include "kinegraph/task_planning/scene_facts.h"
+#include "kinegraph/scene/frame_setters.h"
+#include "kinegraph/task_planning/task_actions.h"
 #include "tests/support/expect_error.h"
 
 namespace kinegraph {

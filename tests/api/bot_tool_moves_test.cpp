@@ -4,8 +4,7 @@
 #include <numbers>
 
 #include "kinegraph/robot/bot_op.h"
-#include "kinegraph/robot/kinematic_driver.h"
-#include "kinegraph/robot/recorded_driver.h"
+#include "kinegraph/robot/drivers.h"
 #include "kinegraph/tool_paths/plan_tool_path.h"
 #include "tests/support/expect_error.h"
 

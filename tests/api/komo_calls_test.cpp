@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "kinegraph/api/solve_all.h"
+#include "kinegraph/api/solutions.h"
 #include "kinegraph/common/errors.h"
-#include "kinegraph/trajectory_optimization/multi_start.h"
+#include "kinegraph/trajectory_optimization/motion_problems.h"
 #include "kinegraph/viewer/config_viewer.h"
 
 namespace kinegraph {

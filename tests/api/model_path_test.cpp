@@ -1,4 +1,4 @@
-#include "kinegraph/api/model_path.h"
+#include "kinegraph/api/names.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "kinegraph/api/names.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"
 

@@ -1,8 +1,8 @@
-#include "kinegraph/api/servo.h"
+#include "kinegraph/api/robot_motion.h"
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/api/model_path.h"
+#include "kinegraph/api/names.h"
 #include "tests/support/expect_error.h"
 
 namespace kinegraph {

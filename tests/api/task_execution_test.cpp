@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/api/model_path.h"
-#include "kinegraph/robot/kinematic_driver.h"
-#include "kinegraph/robot/simulated_driver.h"
+#include "kinegraph/api/names.h"
+#include "kinegraph/robot/drivers.h"
 #include "kinegraph/task_planning/search/plan_task.h"
 #include "tests/support/expect_error.h"
 

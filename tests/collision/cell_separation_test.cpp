@@ -8,8 +8,8 @@
 #include "kinegraph/geometry/distance/grid_field.h"
 #include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/geometry/shapes/cells.h"
+#include "kinegraph/scene/collisions.h"
 #include "kinegraph/scene/config.h"
-#include "kinegraph/scene/frame_cells.h"
 
 namespace kinegraph {
 namespace {

@@ -1,4 +1,4 @@
-#include "kinegraph/control/gamepad.h"
+#include "kinegraph/control/target_file.h"
 
 #include <gtest/gtest.h>
 

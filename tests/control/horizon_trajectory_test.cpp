@@ -1,4 +1,4 @@
-#include "kinegraph/control/horizon_trajectory.h"
+#include "kinegraph/control/mpc.h"
 
 #include <gtest/gtest.h>
 

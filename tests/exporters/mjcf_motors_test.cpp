@@ -1,7 +1,6 @@
 #include "kinegraph/exporters/mjcf_motors.h"
 
-#include "kinegraph/exporters/mjcf_writer.h"
-#include "kinegraph/exporters/urdf_writer.h"
+#include "kinegraph/exporters/writers.h"
 #include "kinegraph/kinematics/kinematic_model.h"
 #include "tests/exporters/mujoco_model.h"
 #include "tests/support/temporary_folder.h"

@@ -7,7 +7,7 @@
 
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/scene/config.h"
-#include "kinegraph/scene/frame_shapes.h"
+#include "kinegraph/scene/frame_setters.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {

@@ -1,4 +1,4 @@
-#include "kinegraph/exporters/scene_writer.h"
+#include "kinegraph/exporters/writers.h"
 
 #include <gtest/gtest.h>
 

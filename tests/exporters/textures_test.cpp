@@ -3,12 +3,10 @@
 #include <algorithm>
 
 #include "kinegraph/common/text.h"
-#include "kinegraph/exporters/gltf_writer.h"
-#include "kinegraph/exporters/scene_writer.h"
-#include "kinegraph/exporters/urdf_writer.h"
+#include "kinegraph/exporters/writers.h"
 #include "kinegraph/geometry/files/image_file.h"
 #include "kinegraph/geometry/files/mesh_file.h"
-#include "kinegraph/scene/frame_shapes.h"
+#include "kinegraph/scene/frame_setters.h"
 #include "kinegraph/scene/tree/scene_bytes.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"

@@ -1,4 +1,4 @@
-#include "kinegraph/features/batch.h"
+#include "kinegraph/features/eval.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,6 @@
 #include <set>
 
 #include "kinegraph/collision/edge_checkers.h"
-#include "kinegraph/features/eval.h"
 #include "kinegraph/features/make_residual.h"
 #include "tests/features/heap.h"
 #include "tests/support/expect_error.h"

@@ -2,7 +2,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/features/registry.h"
+#include "kinegraph/features/feature_source.h"
 #include "kinegraph/features/residual.h"
 #include "kinegraph/scene/config.h"
 #include "tests/support/differences.h"

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/common/text.h"
-#include "kinegraph/features/batch.h"
 #include "kinegraph/features/eval.h"
 #include "kinegraph/features/make_residual.h"
 #include "kinegraph/math/lane_widths.h"

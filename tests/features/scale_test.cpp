@@ -1,4 +1,4 @@
-#include "kinegraph/features/scale.h"
+#include "kinegraph/features/feature_source.h"
 
 #include <gtest/gtest.h>
 

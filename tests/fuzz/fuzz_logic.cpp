@@ -2,9 +2,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "kinegraph/logic/fol_reader.h"
+#include "kinegraph/logic/domain.h"
 #include "kinegraph/logic/grounding.h"
-#include "kinegraph/logic/pddl.h"
 
 /// Domains of both languages. A domain that is read is also written and grounded; all that may come of it is an Error.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

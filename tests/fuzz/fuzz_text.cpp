@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "kinegraph/common/errors.h"
-#include "kinegraph/exporters/scene_writer.h"
+#include "kinegraph/exporters/writers.h"
 #include "kinegraph/scene/config.h"
 #include "kinegraph/scene/loading/robot_semantics.h"
 

@@ -1,4 +1,4 @@
-#include "kinegraph/ik/ik_nlp.h"
+#include "kinegraph/ik/solve_ik.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kinegraph/ik/ik_options.h"
+#include "kinegraph/ik/ik_target.h"
 
 #include <gtest/gtest.h>
 

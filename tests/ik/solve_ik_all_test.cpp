@@ -4,7 +4,6 @@
 #include <numbers>
 
 #include "kinegraph/common/random.h"
-#include "kinegraph/ik/ik_nlp.h"
 #include "kinegraph/ik/solve_ik.h"
 #include "kinegraph/kinematics/kinematic_model.h"
 #include "tests/support/expect_error.h"

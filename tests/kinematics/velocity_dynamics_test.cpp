@@ -8,7 +8,7 @@
 #include "kinegraph/common/random.h"
 #include "kinegraph/kinematics/kinematic_model.h"
 #include "kinegraph/kinematics/state.h"
-#include "kinegraph/scene/config_dynamics.h"
+#include "kinegraph/scene/dynamics.h"
 #include "tests/kinematics/random_vector.h"
 
 namespace kinegraph {

@@ -6,7 +6,6 @@
 
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/komo/objective_list.h"
-#include "kinegraph/komo/report.h"
 #include "kinegraph/solvers/nlp_solver.h"
 #include "tests/komo/ball_and_wall.h"
 #include "tests/support/coal_distance.h"

@@ -8,7 +8,6 @@
 #include "kinegraph/komo/komo.h"
 #include "kinegraph/komo/objective_list.h"
 #include "kinegraph/komo/path/path.h"
-#include "kinegraph/komo/report.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 
 using namespace kinegraph;

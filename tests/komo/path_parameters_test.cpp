@@ -1,9 +1,8 @@
-#include "kinegraph/komo/path_parameters.h"
+#include "kinegraph/komo/komo.h"
 
 #include <gtest/gtest.h>
 
 #include "kinegraph/common/errors.h"
-#include "kinegraph/komo/komo.h"
 #include "tests/support/near.h"
 
 namespace kinegraph {

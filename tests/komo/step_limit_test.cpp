@@ -1,9 +1,8 @@
-#include "kinegraph/komo/step_limit.h"
+#include "kinegraph/komo/komo.h"
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/features/registry.h"
-#include "kinegraph/komo/komo.h"
+#include "kinegraph/features/feature_source.h"
 #include "kinegraph/komo/komo_parts.h"
 #include "kinegraph/scene/config.h"
 #include "kinegraph/solvers/nlp_solver.h"

@@ -1,10 +1,10 @@
-#include "kinegraph/logic/action_words.h"
+#include "kinegraph/logic/grounding.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "kinegraph/logic/fol_reader.h"
+#include "kinegraph/logic/domain.h"
 #include "tests/support/expect_error.h"
 
 namespace kinegraph {

@@ -7,9 +7,9 @@
 
 #include "kinegraph/common/random.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/logic/action_words.h"
+#include "kinegraph/logic/domain.h"
+#include "kinegraph/logic/grounding.h"
 #include "kinegraph/logic/landmark_cut.h"
-#include "kinegraph/logic/pddl.h"
 #include "kinegraph/logic/plan_search.h"
 #include "tests/logic/pddl_oracle.h"
 

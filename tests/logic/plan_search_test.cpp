@@ -9,9 +9,8 @@
 #include <stdexcept>
 
 #include "kinegraph/common/text.h"
-#include "kinegraph/logic/fol_reader.h"
+#include "kinegraph/logic/domain.h"
 #include "kinegraph/logic/landmark_cut.h"
-#include "kinegraph/logic/pddl.h"
 
 namespace kinegraph {
 namespace {

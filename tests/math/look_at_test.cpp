@@ -1,4 +1,4 @@
-#include "kinegraph/math/look_at.h"
+#include "kinegraph/math/pose.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/nlp/callback_nlp.h"
-#include "kinegraph/nlp/test_problems.h"
+#include "kinegraph/nlp/problems.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/near.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "kinegraph/common/errors.h"
-#include "kinegraph/nlp/callback_nlp.h"
+#include "kinegraph/nlp/problems.h"
 #include "tests/support/near.h"
 
 namespace kinegraph {

@@ -7,7 +7,7 @@
 #include "kinegraph/common/random.h"
 #include "kinegraph/geometry/shapes/cells.h"
 #include "kinegraph/rendering/camera_renderer.h"
-#include "kinegraph/scene/frame_cells.h"
+#include "kinegraph/scene/collisions.h"
 
 namespace kinegraph {
 namespace {

@@ -1,4 +1,4 @@
-#include "kinegraph/planning/plan_motions.h"
+#include "kinegraph/planning/plan_motion.h"
 
 #include <gtest/gtest.h>
 

@@ -2,8 +2,8 @@
 
 #include "kinegraph/geometry/shapes/cells.h"
 #include "kinegraph/planning/plan_motion.h"
+#include "kinegraph/scene/collisions.h"
 #include "kinegraph/scene/config.h"
-#include "kinegraph/scene/frame_cells.h"
 
 namespace kinegraph {
 namespace {

@@ -1,4 +1,4 @@
-#include "kinegraph/rendering/depth_image.h"
+#include "kinegraph/rendering/camera_renderer.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include "kinegraph/geometry/files/image_file.h"
 #include "kinegraph/rendering/camera_renderer.h"
-#include "kinegraph/scene/frame_shapes.h"
+#include "kinegraph/scene/frame_setters.h"
 #include "kinegraph/scene/loading/reader.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"

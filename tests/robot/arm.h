@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kinegraph/robot/recorded_driver.h"
+#include "kinegraph/robot/drivers.h"
 
 namespace kinegraph {
 

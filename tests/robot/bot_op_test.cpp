@@ -5,8 +5,7 @@
 #include <atomic>
 #include <fstream>
 
-#include "kinegraph/robot/kinematic_driver.h"
-#include "kinegraph/robot/simulated_driver.h"
+#include "kinegraph/robot/drivers.h"
 #include "tests/robot/arm.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/temporary_folder.h"

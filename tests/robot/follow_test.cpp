@@ -3,10 +3,9 @@
 #include <cmath>
 
 #include "kinegraph/robot/bot_op.h"
-#include "kinegraph/robot/kinematic_driver.h"
-#include "kinegraph/robot/simulated_driver.h"
+#include "kinegraph/robot/drivers.h"
 #include "kinegraph/trajectories/retime.h"
-#include "kinegraph/trajectories/spline_trajectory.h"
+#include "kinegraph/trajectories/trajectory.h"
 #include "tests/robot/arm.h"
 #include "tests/support/expect_error.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/trajectories/b_spline.h"
+#include "kinegraph/trajectories/trajectory.h"
 #include "tests/robot/arm.h"
 
 using namespace kinegraph;

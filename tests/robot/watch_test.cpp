@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/robot/bot_op.h"
-#include "kinegraph/robot/kinematic_driver.h"
+#include "kinegraph/robot/drivers.h"
 #include "tests/robot/arm.h"
 #include "tests/support/expect_error.h"
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/api/model_path.h"
+#include "kinegraph/api/names.h"
 
 namespace kinegraph {
 namespace {

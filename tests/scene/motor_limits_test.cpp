@@ -1,4 +1,4 @@
-#include "kinegraph/scene/motor_limits.h"
+#include "kinegraph/scene/dynamics.h"
 
 #include <gtest/gtest.h>
 

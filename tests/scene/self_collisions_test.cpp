@@ -1,4 +1,4 @@
-#include "kinegraph/scene/self_collisions.h"
+#include "kinegraph/scene/collisions.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/simulation/simulation.h"
-#include "kinegraph/simulation/simulation_batch.h"
 
 namespace kinegraph {
 namespace {

@@ -1,9 +1,8 @@
-#include "kinegraph/solvers/explanation.h"
+#include "kinegraph/solvers/nlp_solver.h"
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/nlp/callback_nlp.h"
-#include "kinegraph/solvers/nlp_solver.h"
+#include "kinegraph/nlp/problems.h"
 #include "tests/solvers/numbers.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/near.h"

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/nlp/callback_nlp.h"
+#include "kinegraph/nlp/problems.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 #include "tests/support/expect_error.h"
 

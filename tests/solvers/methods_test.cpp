@@ -1,4 +1,4 @@
-#include "kinegraph/solvers/methods.h"
+#include "kinegraph/solvers/nlp_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "kinegraph/nlp/callback_nlp.h"
+#include "kinegraph/nlp/problems.h"
 #include "tests/solvers/hock_schittkowski.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/near.h"

@@ -1,4 +1,4 @@
-#include "kinegraph/solvers/solve_many.h"
+#include "kinegraph/solvers/nlp_solver.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <thread>
 #include <utility>
 
-#include "kinegraph/nlp/test_problems.h"
+#include "kinegraph/nlp/problems.h"
 #include "tests/solvers/hock_schittkowski.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/near.h"

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kinegraph/solvers/methods.h"
+#include "kinegraph/solvers/nlp_solver.h"
 #include "tests/solvers/hock_schittkowski.h"
 #include "tests/support/near.h"
 

@@ -1,11 +1,11 @@
-#include "kinegraph/nlp/test_problems.h"
+#include "kinegraph/nlp/problems.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
 #include "kinegraph/nlp/finite_difference_nlp.h"
-#include "kinegraph/solvers/methods.h"
+#include "kinegraph/solvers/nlp_solver.h"
 #include "tests/solvers/numbers.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/near.h"

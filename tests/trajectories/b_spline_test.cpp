@@ -1,4 +1,4 @@
-#include "kinegraph/trajectories/b_spline.h"
+#include "kinegraph/trajectories/trajectory.h"
 
 #include <gtest/gtest.h>
 

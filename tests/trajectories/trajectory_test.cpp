@@ -9,8 +9,6 @@
 
 #include "kinegraph/common/random.h"
 #include "kinegraph/trajectories/retime.h"
-#include "kinegraph/trajectories/sampled_trajectory.h"
-#include "kinegraph/trajectories/spline_trajectory.h"
 #include "tests/support/expect_error.h"
 
 using namespace kinegraph;

@@ -4,7 +4,7 @@
 #include "kinegraph/nlp/initial_guesses.h"
 #include "kinegraph/scene/config.h"
 #include "kinegraph/solvers/nlp_solver.h"
-#include "kinegraph/trajectory_optimization/spline_motion.h"
+#include "kinegraph/trajectory_optimization/motion_problems.h"
 #include "tests/support/coal_distance.h"
 #include "tests/support/expect_error.h"
 #include "tests/support/planar_arm.h"

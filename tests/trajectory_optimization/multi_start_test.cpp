@@ -1,4 +1,4 @@
-#include "kinegraph/trajectory_optimization/multi_start.h"
+#include "kinegraph/trajectory_optimization/motion_problems.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "kinegraph/trajectory_optimization/spline_motion.h"
+#include "kinegraph/trajectory_optimization/motion_problems.h"
 
 #include <gtest/gtest.h>
 

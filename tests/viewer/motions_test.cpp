@@ -1,4 +1,4 @@
-#include "kinegraph/viewer/motions.h"
+#include "kinegraph/viewer/config_viewer.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include "bindings.h"
 #include "control/control.h"
 #include "control/streams_docs.h"
-#include "kinegraph/api/servo.h"
+#include "kinegraph/api/robot_motion.h"
 #include "kinegraph/common/text.h"
 
 namespace kinegraph::python {

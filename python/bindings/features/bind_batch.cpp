@@ -9,7 +9,6 @@
 #include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/features/batch.h"
 #include "kinegraph/features/eval.h"
 #include "kinegraph/features/make_residual.h"
 #include "kinegraph/geometry/distance/proximity.h"

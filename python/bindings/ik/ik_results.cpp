@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "ik/ik_objects.h"
-#include "kinegraph/api/solution_parameters.h"
+#include "kinegraph/api/solutions.h"
 #include "kinegraph/common/text.h"
 #include "python_names.h"
 #include "solvers/sensitivity.h"

@@ -14,7 +14,7 @@
 #include "kinegraph/perception/calibrate_camera.h"
 #include "kinegraph/perception/occupancy_map.h"
 #include "kinegraph/perception/register_scene.h"
-#include "kinegraph/scene/frame_cells.h"
+#include "kinegraph/scene/collisions.h"
 #include "perception/calibration_docs.h"
 #include "perception/perception_docs.h"
 #include "perception/scene_observer_object.h"

@@ -8,7 +8,7 @@
 #include "ik/ik_targets.h"
 #include "kinegraph/api/plan_view.h"
 #include "kinegraph/common/stopwatch.h"
-#include "kinegraph/planning/refine_path.h"
+#include "kinegraph/planning/path_finder.h"
 #include "kinegraph/planning/steering/joint_space.h"
 #include "planning/path_lines_docs.h"
 #include "planning/plan_arguments.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kinegraph/planning/plan_motions.h"
+#include "kinegraph/planning/plan_motion.h"
 #include "option_class.h"
 
 namespace kinegraph::python {

@@ -9,7 +9,7 @@
 #include "defaults.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/rendering/depth_image.h"
+#include "kinegraph/rendering/camera_renderer.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 #include "rendering/images.h"
 #include "rendering/rendering_docs.h"

@@ -6,9 +6,7 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/robot/kinematic_driver.h"
-#include "kinegraph/robot/recorded_driver.h"
-#include "kinegraph/robot/simulated_driver.h"
+#include "kinegraph/robot/drivers.h"
 #include "robot/robot_docs.h"
 #include "robot/robot_objects.h"
 

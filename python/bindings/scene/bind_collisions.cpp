@@ -5,8 +5,7 @@
 
 #include "bindings.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/scene/ignored_contacts.h"
-#include "kinegraph/scene/self_collisions.h"
+#include "kinegraph/scene/collisions.h"
 #include "scene/collisions_docs.h"
 
 namespace kinegraph::python {

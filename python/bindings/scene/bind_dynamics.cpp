@@ -2,7 +2,7 @@
 
 #include "bindings.h"
 #include "defaults.h"
-#include "kinegraph/scene/config_dynamics.h"
+#include "kinegraph/scene/dynamics.h"
 #include "scene/dynamics_docs.h"
 
 namespace kinegraph::python {

@@ -4,7 +4,7 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "kinegraph/scene/frame_attributes.h"
+#include "kinegraph/scene/frame_setters.h"
 #include "kinegraph/scene/loading/reader.h"
 #include "kinegraph/scene/tree/tree_edits.h"
 #include "scene/frame_docs.h"

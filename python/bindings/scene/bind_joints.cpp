@@ -8,7 +8,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/kinematics/unit_guesses.h"
-#include "kinegraph/scene/motor_limits.h"
+#include "kinegraph/scene/dynamics.h"
 #include "scene/joints_docs.h"
 
 namespace kinegraph::python {

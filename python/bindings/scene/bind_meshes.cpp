@@ -11,7 +11,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/convex_hull.h"
 #include "kinegraph/scene/convex_parts.h"
-#include "kinegraph/scene/frame_shapes.h"
+#include "kinegraph/scene/frame_setters.h"
 #include "scene/meshes_docs.h"
 #include "scene/point_arguments.h"
 

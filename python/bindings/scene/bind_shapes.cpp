@@ -10,7 +10,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
-#include "kinegraph/scene/frame_shapes.h"
+#include "kinegraph/scene/frame_setters.h"
 #include "kinegraph/scene/loading/unit_questions.h"
 #include "scene/shapes_docs.h"
 

@@ -4,7 +4,7 @@
 
 #include "arrays.h"
 #include "bindings.h"
-#include "kinegraph/simulation/contact.h"
+#include "kinegraph/simulation/simulation_data.h"
 
 namespace kinegraph::python {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bindings.h"
-#include "kinegraph/scene/frame_shapes.h"
+#include "kinegraph/scene/frame_setters.h"
 
 namespace kinegraph::python {
 

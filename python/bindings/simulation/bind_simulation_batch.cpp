@@ -6,7 +6,6 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/simulation/simulation.h"
-#include "kinegraph/simulation/simulation_batch.h"
 #include "simulation/simulation_batch_docs.h"
 #include "simulation/simulation_objects.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kinegraph/rendering/depth_image.h"
+#include "kinegraph/rendering/camera_renderer.h"
 
 namespace kinegraph::python {
 

@@ -1,7 +1,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "kinegraph/api/solution_parameters.h"
+#include "kinegraph/api/solutions.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "python_names.h"

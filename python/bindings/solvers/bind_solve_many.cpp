@@ -12,7 +12,7 @@
 #include "kinegraph/common/stopwatch.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/komo/path/path.h"
-#include "kinegraph/trajectory_optimization/multi_start.h"
+#include "kinegraph/trajectory_optimization/motion_problems.h"
 #include "komo/py_komo.h"
 #include "python_names.h"
 #include "solvers/nlp_objects.h"

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "bindings.h"
-#include "kinegraph/solvers/explanation.h"
+#include "kinegraph/solvers/nlp_solver.h"
 
 namespace kinegraph::python {
 

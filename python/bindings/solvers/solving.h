@@ -4,7 +4,6 @@
 #include <functional>
 
 #include "bindings.h"
-#include "kinegraph/solvers/explanation.h"
 #include "kinegraph/solvers/nlp_solver.h"
 
 namespace kinegraph::python {

@@ -5,8 +5,8 @@
 
 #include "arguments.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/logic/fol_reader.h"
-#include "kinegraph/task_planning/search/check_task_plan.h"
+#include "kinegraph/logic/domain.h"
+#include "kinegraph/task_planning/search/plan_task.h"
 #include "task_planning/py_manipulation.h"
 #include "task_planning/task_objects.h"
 #include "task_planning/tasks_docs.h"

@@ -6,7 +6,7 @@
 #include "arguments.h"
 #include "kinegraph/api/task_view.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/logic/fol_reader.h"
+#include "kinegraph/logic/domain.h"
 #include "python_names.h"
 #include "task_planning/task_objects.h"
 #include "task_planning/task_plan_docs.h"

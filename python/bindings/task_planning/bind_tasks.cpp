@@ -8,7 +8,7 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "kinegraph/task_planning/scene_facts.h"
+#include "kinegraph/task_planning/task_actions.h"
 #include "task_planning/py_manipulation.h"
 #include "task_planning/task_objects.h"
 #include "task_planning/tasks_docs.h"

@@ -4,7 +4,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include "kinegraph/logic/fol_reader.h"
+#include "kinegraph/logic/domain.h"
 #include "pickling.h"
 #include "task_planning/task_objects.h"
 

@@ -6,10 +6,10 @@
 
 #include "arguments.h"
 #include "bindings.h"
-#include "kinegraph/api/retime_robot.h"
+#include "kinegraph/api/robot_motion.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/tool_paths/nearest_limit.h"
+#include "kinegraph/tool_paths/plan_tool_path.h"
 #include "kinegraph/trajectories/path_curve.h"
 #include "kinegraph/trajectories/time_scaling.h"
 #include "python_names.h"

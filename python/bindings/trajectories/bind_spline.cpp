@@ -3,8 +3,7 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/trajectories/b_spline.h"
-#include "kinegraph/trajectories/spline_trajectory.h"
+#include "kinegraph/trajectories/trajectory.h"
 #include "trajectories/spline_docs.h"
 #include "trajectories/trajectory_docs.h"
 

@@ -6,7 +6,6 @@
 #include "bindings.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/trajectories/sampled_trajectory.h"
 #include "kinegraph/trajectories/trajectory.h"
 #include "trajectories/trajectory_docs.h"
 

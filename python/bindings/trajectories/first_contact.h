@@ -5,7 +5,7 @@
 #include <tuple>
 
 #include "bindings.h"
-#include "kinegraph/tool_paths/free_curve.h"
+#include "kinegraph/tool_paths/plan_tool_path.h"
 
 namespace kinegraph::python {
 

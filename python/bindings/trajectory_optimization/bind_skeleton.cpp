@@ -7,7 +7,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/komo/path/sub_problem.h"
-#include "kinegraph/trajectory_optimization/skeleton.h"
+#include "kinegraph/trajectory_optimization/motion_problems.h"
 #include "komo/py_komo.h"
 #include "trajectory_optimization/skeleton_docs.h"
 

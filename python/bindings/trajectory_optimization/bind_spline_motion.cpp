@@ -3,7 +3,7 @@
 
 #include "bindings.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/trajectory_optimization/spline_motion.h"
+#include "kinegraph/trajectory_optimization/motion_problems.h"
 #include "komo/py_komo.h"
 #include "trajectory_optimization/spline_motion_docs.h"
 

@@ -8,7 +8,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/file_paths.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/rendering/framing.h"
+#include "kinegraph/rendering/camera_renderer.h"
 #include "kinegraph/rendering/letters.h"
 #include "kinegraph/viewer/draw_quad.h"
 #include "rendering/images.h"

@@ -9,9 +9,8 @@
 #include "defaults.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/viewer/motions.h"
+#include "kinegraph/viewer/config_viewer.h"
 #include "kinegraph/viewer/recorded_page.h"
-#include "kinegraph/viewer/watch_file.h"
 #include "viewer/py_viewer.h"
 #include "viewer/viewer_docs.h"
 

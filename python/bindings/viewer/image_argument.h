@@ -9,7 +9,7 @@
 #include "bindings.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/viewer/messages/appearance.h"
+#include "kinegraph/viewer/messages/shown.h"
 
 namespace kinegraph::python {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/features/batch.h"
+#include "kinegraph/features/eval.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph {

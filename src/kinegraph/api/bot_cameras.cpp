@@ -4,8 +4,8 @@
 #include "kinegraph/api/bot_stage.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/rendering/depth_image.h"
-#include "kinegraph/robot/simulated_driver.h"
+#include "kinegraph/rendering/camera_renderer.h"
+#include "kinegraph/robot/drivers.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {

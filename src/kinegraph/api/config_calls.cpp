@@ -3,8 +3,6 @@
 #include "kinegraph/features/eval.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/viewer/config_viewer.h"
-#include "kinegraph/viewer/motions.h"
-#include "kinegraph/viewer/watch_file.h"
 
 namespace kinegraph {
 

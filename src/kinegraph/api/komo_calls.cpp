@@ -1,9 +1,9 @@
 // The methods of Komo that need the upper rooms.
 #include "kinegraph/api/komo_motion.h"
-#include "kinegraph/api/solve_all.h"
+#include "kinegraph/api/solutions.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/komo/path/path.h"
-#include "kinegraph/trajectory_optimization/multi_start.h"
+#include "kinegraph/trajectory_optimization/motion_problems.h"
 #include "kinegraph/viewer/config_viewer.h"
 
 namespace kinegraph {

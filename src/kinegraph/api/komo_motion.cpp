@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "kinegraph/komo/komo.h"
 #include "kinegraph/komo/objective.h"
 #include "kinegraph/komo/objective_list.h"
-#include "kinegraph/komo/report.h"
 #include "kinegraph/viewer/scene_items.h"
 
 namespace kinegraph {

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kinegraph/komo/komo.h"
-#include "kinegraph/viewer/messages/shown_motion.h"
+#include "kinegraph/viewer/messages/shown.h"
 
 namespace kinegraph {
 

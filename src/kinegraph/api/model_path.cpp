@@ -1,4 +1,4 @@
-#include "kinegraph/api/model_path.h"
+#include "kinegraph/api/names.h"
 
 #include <dlfcn.h>
 
@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <vector>
 
-#include "kinegraph/api/names.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 

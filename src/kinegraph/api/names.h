@@ -1,14 +1,24 @@
 #pragma once
 
-#include "kinegraph/api/model_path.h"
-#include "kinegraph/features/registry.h"
+#include <string>
+
+#include "kinegraph/features/feature_source.h"
 #include "kinegraph/komo/komo.h"
+#include "kinegraph/solvers/nlp_solver.h"
 #include "kinegraph/solvers/sampling/sampler.h"
-#include "kinegraph/solvers/solve_many.h"
 #include "kinegraph/task_planning/lgp/lgp_tool.h"
 #include "kinegraph/task_planning/manipulation_helper.h"
 
+#ifndef KINEGRAPH_MODELS  // set by the package of a static library, which cannot know its own location
+#define KINEGRAPH_MODELS ""
+#endif
+
 namespace kinegraph {
+
+/// Returns the absolute path of a shipped model, as in modelPath("scenarios/pandaSingle.g"), or the folder of all
+/// models: modelPath(""). Searches the folder in the environment variable RAI_PATH, the (relocatable) installation
+/// prefix of this library (share/kinegraph/models), and `shipped`. Throws FileError with similar names.
+std::string modelPath(const std::string& path, const std::string& shipped = KINEGRAPH_MODELS);
 
 class PathFinder;
 

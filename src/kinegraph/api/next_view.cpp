@@ -7,8 +7,8 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/ik/solve_ik.h"
-#include "kinegraph/perception/observed_views.h"
-#include "kinegraph/rendering/camera.h"
+#include "kinegraph/perception/occupancy_map.h"
+#include "kinegraph/rendering/camera_renderer.h"
 
 namespace kinegraph {
 

@@ -10,7 +10,7 @@
 #include "kinegraph/geometry/shapes/cells.h"
 #include "kinegraph/logic/domain.h"
 #include "kinegraph/robot/scene_grippers.h"
-#include "kinegraph/scene/frame_cells.h"
+#include "kinegraph/scene/collisions.h"
 #include "kinegraph/simulation/scene_bodies.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/task_doors.h"

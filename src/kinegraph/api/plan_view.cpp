@@ -6,7 +6,6 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/planning/path_finder.h"
 #include "kinegraph/viewer/config_viewer.h"
-#include "kinegraph/viewer/motions.h"
 
 namespace kinegraph {
 

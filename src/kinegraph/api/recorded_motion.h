@@ -1,7 +1,7 @@
 #pragma once
 
-#include "kinegraph/simulation/recording.h"
-#include "kinegraph/viewer/messages/shown_motion.h"
+#include "kinegraph/simulation/simulation_data.h"
+#include "kinegraph/viewer/messages/shown.h"
 
 namespace kinegraph {
 

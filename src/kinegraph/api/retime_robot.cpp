@@ -1,11 +1,11 @@
-#include "kinegraph/api/retime_robot.h"
+#include "kinegraph/api/robot_motion.h"
 
 #include <limits>
 #include <memory>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/scene/motor_limits.h"
+#include "kinegraph/scene/dynamics.h"
 #include "kinegraph/trajectories/path_curve.h"
 
 namespace kinegraph {

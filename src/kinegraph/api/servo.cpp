@@ -1,4 +1,4 @@
-#include "kinegraph/api/servo.h"
+#include "kinegraph/api/robot_motion.h"
 
 #include <chrono>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "kinegraph/api/solution_parameters.h"
+#include "kinegraph/api/solutions.h"
 
 #include <algorithm>
 #include <limits>

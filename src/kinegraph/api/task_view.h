@@ -4,7 +4,7 @@
 #include <string>
 
 #include "kinegraph/task_planning/search/task_plan.h"
-#include "kinegraph/viewer/messages/shown_motion.h"
+#include "kinegraph/viewer/messages/shown.h"
 
 namespace kinegraph {
 

@@ -10,7 +10,6 @@
 #include "kinegraph/tool_paths/tool_curve.h"
 #include "kinegraph/tool_paths/tool_kinematics.h"
 #include "kinegraph/viewer/config_viewer.h"
-#include "kinegraph/viewer/motions.h"
 
 namespace kinegraph {
 

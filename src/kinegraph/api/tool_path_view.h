@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "kinegraph/tool_paths/plan_tool_path.h"
-#include "kinegraph/viewer/messages/shown_motion.h"
+#include "kinegraph/viewer/messages/shown.h"
 #include "kinegraph/viewer/programmable_viewer.h"
 
 namespace kinegraph {

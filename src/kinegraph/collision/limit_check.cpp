@@ -1,4 +1,4 @@
-#include "kinegraph/collision/limit_check.h"
+#include "kinegraph/collision/edge_check.h"
 
 #include <algorithm>
 

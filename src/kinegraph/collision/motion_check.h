@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "kinegraph/collision/displacement_bound.h"
-#include "kinegraph/collision/motion_contact.h"
+#include "kinegraph/collision/edge_check.h"
 #include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/geometry/distance/box_tree.h"
 

@@ -9,7 +9,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/distance.h"
 #include "kinegraph/features/make_residual.h"
-#include "kinegraph/scene/motor_limits.h"
+#include "kinegraph/scene/dynamics.h"
 #include "kinegraph/solvers/algebra/dual_active_set.h"
 
 namespace kinegraph {

@@ -2,7 +2,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/exporters/mesh_export.h"
+#include "kinegraph/exporters/writers.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 #include "kinegraph/parsers/xml.h"
 #include "kinegraph/scene/tree/scene_tree.h"

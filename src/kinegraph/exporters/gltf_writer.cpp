@@ -1,4 +1,4 @@
-#include "kinegraph/exporters/gltf_writer.h"
+#include "kinegraph/exporters/writers.h"
 
 #include <algorithm>
 #include <array>

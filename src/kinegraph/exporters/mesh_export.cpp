@@ -1,4 +1,4 @@
-#include "kinegraph/exporters/mesh_export.h"
+#include "kinegraph/exporters/writers.h"
 
 #include <cmath>
 #include <cstring>

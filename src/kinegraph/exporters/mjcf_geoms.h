@@ -4,7 +4,7 @@
 #include <set>
 #include <string>
 
-#include "kinegraph/exporters/mjcf_writer.h"
+#include "kinegraph/exporters/writers.h"
 
 namespace kinegraph {
 

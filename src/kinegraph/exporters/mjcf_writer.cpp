@@ -1,4 +1,4 @@
-#include "kinegraph/exporters/mjcf_writer.h"
+#include "kinegraph/exporters/writers.h"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -4,9 +4,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/file_paths.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/exporters/mjcf_writer.h"
-#include "kinegraph/exporters/scene_writer.h"
-#include "kinegraph/exporters/urdf_writer.h"
+#include "kinegraph/exporters/writers.h"
 
 namespace kinegraph {
 

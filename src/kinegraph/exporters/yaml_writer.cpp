@@ -4,7 +4,7 @@
 #include <set>
 
 #include "kinegraph/common/text.h"
-#include "kinegraph/exporters/scene_writer.h"
+#include "kinegraph/exporters/writers.h"
 
 namespace kinegraph {
 

@@ -1,10 +1,9 @@
-#include "kinegraph/features/batch.h"
+#include "kinegraph/features/eval.h"
 
 #include <algorithm>
 
 #include "kinegraph/collision/edge_check.h"
 #include "kinegraph/collision/edge_checkers.h"
-#include "kinegraph/collision/limit_check.h"
 #include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/parallel.h"

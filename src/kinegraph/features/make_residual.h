@@ -5,7 +5,6 @@
 
 #include "kinegraph/features/feature_source.h"
 #include "kinegraph/features/residual.h"
-#include "kinegraph/features/scale.h"
 
 namespace kinegraph {
 

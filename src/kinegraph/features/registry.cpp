@@ -1,4 +1,4 @@
-#include "kinegraph/features/registry.h"
+#include "kinegraph/features/feature_source.h"
 
 #include <numeric>
 

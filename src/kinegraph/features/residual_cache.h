@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/features/registry.h"
+#include "kinegraph/features/feature_source.h"
 #include "kinegraph/features/residual.h"
 
 namespace kinegraph {

@@ -8,7 +8,6 @@
 #include "kinegraph/common/parallel.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/ik/ik_lanes.h"
-#include "kinegraph/ik/ik_nlp.h"
 
 namespace kinegraph {
 

@@ -4,8 +4,8 @@
 #include <optional>
 
 #include "kinegraph/ik/closed_form.h"
-#include "kinegraph/ik/ik_nlp.h"
 #include "kinegraph/ik/ik_search.h"
+#include "kinegraph/ik/solve_ik.h"
 
 namespace kinegraph {
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "kinegraph/kinematics/inertia.h"
+#include "kinegraph/kinematics/joint.h"
 #include "kinegraph/kinematics/state.h"
 
 namespace kinegraph {

@@ -4,10 +4,76 @@
 #include <string_view>
 #include <vector>
 
-#include "kinegraph/kinematics/motion_kind.h"
 #include "kinegraph/math/pose.h"
 
 namespace kinegraph {
+
+/// The elementary motions; see MotionStep. This header contains no functions, because kernels for wide registers
+/// include it and must not share inline functions.
+enum class MotionKind : unsigned char {
+  translate,    ///< 1 dof: along coordinate axis `axis`, m
+  rotate,       ///< 1 dof: about coordinate axis `axis`, rad
+  rotateAbout,  ///< 1 dof: about the joint's unit axis, rad
+  quaternion,   ///< 4 dofs: w x y z, normalized
+  circle,       ///< 2 dofs: rotation about z by the quaternion (c, 0, 0, s), normalized
+  time,         ///< 1 dof without motion
+};
+
+/// Properties of the elementary motions, the only part of the code beside the formulas that depends on the kind. The
+/// formulas are in place_links.h (poses and velocities, for all scalars) and joint.cpp (a single pose, and the dofs of
+/// a pose).
+struct MotionFacts {
+  MotionKind kind;
+  int dofs;
+  enum class Effect : unsigned char {
+    translates,  ///< the dof is a length along a fixed axis
+    rotates,     ///< the dof is an angle about a fixed axis
+    orients,     ///< the direction of the dofs is a rotation; their norm is normalized to 1, and the identity is (1, 0,
+                 ///< ...)
+    none,
+  } effect;
+};
+
+/// In the order of MotionKind.
+constexpr MotionFacts kMotionFacts[] = {
+    {MotionKind::translate, 1, MotionFacts::Effect::translates},
+    {MotionKind::rotate, 1, MotionFacts::Effect::rotates},
+    {MotionKind::rotateAbout, 1, MotionFacts::Effect::rotates},
+    {MotionKind::quaternion, 4, MotionFacts::Effect::orients},
+    {MotionKind::circle, 2, MotionFacts::Effect::orients},
+    {MotionKind::time, 1, MotionFacts::Effect::none},
+};
+
+/// Inertial parameters of a link. Link 0 is the world; its inertia has no effect.
+struct LinkInertia {
+  double mass = 0.;                    ///< kg
+  Vector3d com = Vector3d::Zero();     ///< center of mass in the link, m
+  Matrix3d matrix = Matrix3d::Zero();  ///< about the center of mass, in the link's axes, kg m^2
+
+  /// Adds a rigidly attached part; `X_LF` is its pose in the link.
+  void add(const LinkInertia& part, const RigidTransform& X_LF);
+};
+
+inline const Vector3d kGravity{0., 0., -9.81};  ///< m/s^2
+
+/// The equation of motion u = M(q) ddq + F(q, dq), with generalized forces u (N m, N).
+struct EquationOfMotion {
+  MatrixXd M;  ///< n x n
+  VectorXd F;  ///< n: Coriolis, centrifugal and gravity terms
+};
+
+/// Dynamics in velocities v instead of dq. They equal dq except for quaternions: these 4 dofs, of which 3 are free,
+/// have an angular velocity (3 numbers, rad/s) in the axes of the moved link. A free joint has 6 velocities: the linear
+/// one in the axes of its parent, m/s, and the angular one in its own axes. Mass matrices are regular then.
+///
+///     dq = T(q) v                                   velocityMap, n x nv
+///     M(q) dv + C(q, v) v + g(q) = u                rigidBodyDynamics
+///     h = A(q) v                                    centroidalMomentum
+struct RigidBodyDynamics {
+  MatrixXd M;  ///< nv x nv, kg, kg m, kg m^2
+  MatrixXd C;  ///< nv x nv; dM/dt - 2 C is skew
+  VectorXd g;  ///< nv: generalized forces that balance gravity, N m, N
+};
 
 /// Types of joints. The numbers are those of the Python enum `ry.JT`.
 enum class JointType : int {

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "kinegraph/kinematics/kinematic_model.h"
-#include "kinegraph/math/jacobian_rows.h"
+#include "kinegraph/math/eigen.h"
 
 namespace kinegraph {
 

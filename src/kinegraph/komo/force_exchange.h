@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/komo/path/switch_mode.h"
+#include "kinegraph/komo/path/path_records.h"
 
 namespace kinegraph {
 

@@ -6,14 +6,13 @@
 #include <vector>
 
 #include "kinegraph/common/cancellation.h"
-#include "kinegraph/common/held.h"
+#include "kinegraph/common/errors.h"
 #include "kinegraph/common/random.h"
 #include "kinegraph/features/feature_source.h"
-#include "kinegraph/features/scale.h"
 #include "kinegraph/kinematics/joint.h"
 #include "kinegraph/komo/path/path_records.h"
-#include "kinegraph/komo/path/switch_mode.h"
 #include "kinegraph/nlp/nlp.h"
+#include "kinegraph/nlp/parameter.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph {
@@ -197,5 +196,62 @@ std::shared_ptr<Nlp> makeNlp(std::shared_ptr<Komo> komo);
 
 /// Returns the Komo from which a problem was made; null for other problems.
 std::shared_ptr<Komo> komoOf(const Nlp& nlp);
+
+struct Objective;
+
+/// Residuals of a trajectory optimization problem at its present path, summed by objective and slice.
+struct PathErrors {
+  std::vector<double> per_objective;  ///< sum over its slices
+  MatrixXd per_slice;                 ///< T x objectives
+  ErrorSums totals;                   ///< see sumErrors
+};
+
+/// Computes the errors of the present path. A residual counts with its square (sos, and ineqP if positive), its
+/// absolute value (eq), its positive part (ineq, ineqB), or its value (f).
+PathErrors measurePath(const Komo& komo);
+
+/// Returns a short name such as "F_qItself/acc[#14]" or "F_PositionDiff[l_gripper,target]".
+std::string objectiveTag(const Komo& komo, const Objective& objective);
+
+/// Returns the tag of the objective of each residual.
+std::vector<std::string> residualTags(const Komo& komo);
+
+/// Lists the objectives with an error above 1e-4 in a slice, largest first, one per line. `per_slice` as in PathErrors.
+std::string sliceErrors(const Komo& komo, int slice, const MatrixXd& per_slice);
+
+/// Lists the pairs of shapes closer than `margin` (m) in a slice, one per line.
+std::string sliceCollisions(const Komo& komo, int slice, double margin);
+
+class Komo;
+
+/// Limits the motion of each joint between consecutive slices to `step` (rad, m), in the slices that `times` selects.
+/// Adds two inequalities per dof, in rad or m. Throws ValueError for a step that is not positive, and for a Komo of
+/// order 0.
+void addStepLimit(Komo& komo, double step, const std::vector<double>& times = {});
+
+// Parameters of a trajectory optimization problem, for sensitivities. `nlp` must be made from a Komo; otherwise the
+// functions throw ValueError.
+
+/// Returns the number of an objective, in the order of addition, from its name ("positionDiff") or its name with frames
+/// ("positionDiff of l_gripper, target"). Throws NameError unless exactly one matches.
+int objectiveNumber(const Nlp& nlp, const std::string& name);
+
+/// The target of an objective: one number per component of the feature, the same in all slices; for pairCollisions one
+/// number for all pairs. Throws ValueError for an objective that does not exist, selects no slice, or has no target.
+std::shared_ptr<NlpParameter> objectiveTarget(const Nlp& nlp, int objective);
+
+/// The scale of an objective: one number, or one per component, as it was specified. Throws ValueError for an objective
+/// that does not exist or selects no slice, for a matrix, and for a scale of zero.
+std::shared_ptr<NlpParameter> objectiveScale(const Nlp& nlp, int objective);
+
+/// The position or pose of a frame relative to its parent, or in the world if it has none: x y z (m); for a pose also a
+/// rotation vector r (rad) about its own origin, along axes of the parent: R <- exp(r) R. Throws FrameNotFound, and
+/// ValueError for frames that a joint moves; name their parent instead.
+std::shared_ptr<NlpParameter> framePosition(const Nlp& nlp, const std::string& frame);
+std::shared_ptr<NlpParameter> framePose(const Nlp& nlp, const std::string& frame);
+
+/// The q from which the motion starts, at rest. Throws ValueError for problems of order 0, which have no slices before
+/// the first.
+std::shared_ptr<NlpParameter> motionStart(const Nlp& nlp);
 
 }  // namespace kinegraph

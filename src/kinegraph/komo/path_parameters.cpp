@@ -1,11 +1,10 @@
-#include "kinegraph/komo/path_parameters.h"
+#include "kinegraph/komo/komo.h"
 
 #include <algorithm>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/residual.h"
-#include "kinegraph/komo/komo.h"
 #include "kinegraph/komo/path_components.h"
 #include "kinegraph/komo/path_description.h"
 #include "kinegraph/scene/tree/scene_tree.h"

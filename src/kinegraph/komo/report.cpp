@@ -1,4 +1,4 @@
-#include "kinegraph/komo/report.h"
+#include "kinegraph/komo/komo.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,10 +1,9 @@
-#include "kinegraph/komo/step_limit.h"
+#include "kinegraph/komo/komo.h"
 
 #include <cmath>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/komo/komo.h"
 
 namespace kinegraph {
 

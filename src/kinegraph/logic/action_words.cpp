@@ -1,4 +1,4 @@
-#include "kinegraph/logic/action_words.h"
+#include "kinegraph/logic/grounding.h"
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"

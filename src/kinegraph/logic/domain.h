@@ -116,4 +116,56 @@ struct LogicProblem {
   bool minimize_cost = false;  ///< the sum of the actions' costs; false: the number of actions
 };
 
+/// Reads a domain in the language of `.fol` files:
+///
+///     on  busy  is_gripper                     # symbols
+///     START_STATE { (busy left) }
+///     DecisionRule pick { Obj, From, Hand,
+///       { (is_gripper Hand) (on From Obj) (busy Hand)! }
+///       { (on From Obj)! (on Hand Obj) (busy Hand) } }
+///     Rule chain { A, B, { (on A B) (moves A) } { (moves B) } }
+///
+/// Commas and line breaks are spaces; `pre:` and `eff:` may precede the blocks. ANY matches any constant: some fact in
+/// a precondition, all facts in a delete. `Include = 'words.g'` reads a file relative to this one. `(height cup)=2` is
+/// a fact with a value, and an effect replaces the value. Facts of one predicate with different numbers of arguments
+/// are different facts. FOL_World and REWARD are read and ignored. Throws ParseError with file:line:column, the
+/// expectation and similar names: for undeclared words, for variables that no positive literal of the precondition
+/// binds, and for probabilities and `aggregate`, which are not supported.
+LogicDomain readFol(std::string_view text, const std::string& file = {});
+
+/// Reads a domain from a file; also throws FileError.
+LogicDomain readFolFile(const std::string& path);
+
+/// Reads a list of literals, as a goal: `(on tray cup) (busy left)!`
+std::vector<Literal> readLiterals(std::string_view text, const std::string& file = {});
+
+/// Adds an action, with its precondition and effects as lists of literals. Unknown words become symbols. Throws
+/// ParseError as readFol does.
+///
+///     addAction(domain, "show", {"Obj", "Hand"}, "(is_gripper Hand) (on Hand Obj)", "(shown Obj)");
+void addAction(LogicDomain& domain, const std::string& name, const std::vector<std::string>& variables,
+               std::string_view pre, std::string_view eff);
+
+/// Writes a domain in the same language. Throws ValueError for conditions and effects of PDDL that it lacks.
+std::string writeFol(const LogicDomain& domain);
+
+/// Reads a domain in PDDL: types, constants, `either`; and, or, not, imply, forall, exists and = in conditions; and,
+/// not, when, forall and (increase (total-cost) ...) in effects; derived predicates. Requirements do not matter. Names
+/// are compared without case and keep their first spelling. A type is a unary predicate; if a predicate has its name,
+/// it begins with kTypePrefix. The text may contain the problem, too. Throws ParseError with file:line:column, the
+/// expectation and similar names: for unknown predicates and types, variables that are no parameters, wrong numbers of
+/// arguments, effects on derived predicates, and other parts of the language (numbers besides costs, durations,
+/// preferences).
+LogicDomain readPddlDomain(std::string_view text, const std::string& file = {});
+
+/// Reads a problem of a domain, with (:metric minimize (total-cost)). Throws ParseError, also for unknown objects and
+/// for the problem of another domain.
+LogicProblem readPddlProblem(std::string_view text, const LogicDomain& domain, const std::string& file = {});
+
+/// Write domains and problems in PDDL, so that they are read as the same. ANY becomes a quantifier. A predicate with
+/// several numbers of arguments gets a name for each, `on` and `on-3`. Throw ValueError for automatic rules, and for
+/// names that differ in case alone.
+std::string writePddlDomain(const LogicDomain& domain);
+std::string writePddlProblem(const LogicProblem& problem);
+
 }  // namespace kinegraph

@@ -1,4 +1,4 @@
-#include "kinegraph/logic/fol_reader.h"
+#include "kinegraph/logic/domain.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,7 +1,7 @@
 #include <algorithm>
 
 #include "kinegraph/common/text.h"
-#include "kinegraph/logic/pddl.h"
+#include "kinegraph/logic/domain.h"
 #include "kinegraph/logic/pddl_conditions.h"
 #include "kinegraph/logic/pddl_names.h"
 

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "kinegraph/common/text.h"
-#include "kinegraph/logic/pddl.h"
+#include "kinegraph/logic/domain.h"
 #include "kinegraph/logic/pddl_expression.h"
 
 namespace kinegraph {

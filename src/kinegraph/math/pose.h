@@ -56,4 +56,7 @@ inline Vector4d wxyz(const Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}
 /// Returns the rotation about a coordinate axis (0 x, 1 y, 2 z) by `angle` rad.
 Matrix3d axisRotation(int axis, double angle);
 
+/// Returns the pose of an upright camera at `position` that faces `target`: x right, y down, z forward.
+Pose lookAt(const Vector3d& position, const Vector3d& target);
+
 }  // namespace kinegraph

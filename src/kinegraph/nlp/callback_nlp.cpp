@@ -1,4 +1,4 @@
-#include "kinegraph/nlp/callback_nlp.h"
+#include "kinegraph/nlp/problems.h"
 
 #include <limits>
 

@@ -2,6 +2,9 @@
 
 #include <exception>
 #include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -9,11 +12,79 @@
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/common/random.h"
 #include "kinegraph/math/pose.h"
-#include "kinegraph/nlp/row_description.h"
-#include "kinegraph/nlp/separation.h"
-#include "kinegraph/nlp/validity_report.h"
 
 namespace kinegraph {
+
+/// The kind of quantity that a residual or variable measures.
+enum class Measure {
+  number,      ///< no unit
+  length,      ///< m
+  angle,       ///< rad
+  quaternion,  ///< component of the difference of two unit quaternions
+  axis,        ///< component of the difference of two unit vectors
+  cosine,      ///< cos(angle) - cos(target)
+};
+
+/// Describes a residual in terms of the user: phi = scale * (quantity of kind `measure`).
+struct RowDescription {
+  std::string objective;  ///< "positionDiff of l_gripper, target"
+  int group = -1;         ///< residuals of one group are one requirement of the user, which holds as a whole or not
+  std::vector<std::string> frames;
+  int slice = -1;  ///< of a path; -1: no path
+  Measure measure = Measure::number;
+  double scale = 1.;
+  double target = 0.;  ///< of a cosine
+  int time_order = 0;  ///< 1: per s, 2: per s^2
+};
+
+/// Describes a variable in terms of the user.
+struct VariableDescription {
+  std::string name;   ///< "panda_joint4"
+  std::string frame;  ///< frame of the joint; may be empty
+  int slice = -1;     ///< of a path; -1: no path
+  Measure measure = Measure::number;
+};
+
+class Nlp;
+
+/// An equivalent form of a problem, in which separate inequalities c_i <= 0 replace sums phi = sum_i max(0, c_i). It
+/// has the same solutions, and a solver sees each term and how close it is to its bound. Variables and all other
+/// residuals are the same.
+struct Separation {
+  std::shared_ptr<Nlp> problem;  ///< null if there are no such sums
+  std::vector<int> row_of;       ///< per residual of `problem`: the residual of the original that it belongs to
+  std::vector<bool> is_term;     ///< per residual of `problem`: whether it is a c_i
+
+  /// Returns the `rows` residuals of the original.
+  VectorXd joined(const VectorXd& phi, Eigen::Index rows) const;
+
+  /// Returns the multipliers of the original; that of a sum is the largest of its terms.
+  VectorXd joinedDual(const VectorXd& dual, Eigen::Index rows) const;
+};
+
+/// The result of a check that goes beyond the constraints: whether a solution is valid between the points that the
+/// constraints sample.
+struct ValidityReport {
+  bool valid = true;
+  std::string message{};  ///< if not valid: the place and size of the violation
+};
+
+/// A validity report that is computed when it is requested first. Safe to use from several threads.
+class LazyValidity {
+ public:
+  /// If the check throws, as it may if it is cancelled, the next request starts it again.
+  using Check = std::function<ValidityReport(const CancellationToken& cancellation)>;
+
+  explicit LazyValidity(Check check) : check_(std::move(check)) {}
+  explicit LazyValidity(ValidityReport known) : known_(std::move(known)) {}
+
+  const ValidityReport& get(const CancellationToken& cancellation = {}) const;
+
+ private:
+  mutable std::mutex mutex_;
+  mutable Check check_;
+  mutable std::optional<ValidityReport> known_;
+};
 
 /// The role of a residual phi_i in the problem. The numbers are those of the Python enum `ry.OT`.
 enum class ObjectiveType : int {

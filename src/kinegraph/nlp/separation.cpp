@@ -1,4 +1,4 @@
-#include "kinegraph/nlp/separation.h"
+#include "kinegraph/nlp/nlp.h"
 
 #include <algorithm>
 

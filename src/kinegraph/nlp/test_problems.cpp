@@ -1,4 +1,4 @@
-#include "kinegraph/nlp/test_problems.h"
+#include "kinegraph/nlp/problems.h"
 
 #include <Eigen/QR>
 

@@ -1,4 +1,4 @@
-#include "kinegraph/nlp/validity_report.h"
+#include "kinegraph/nlp/nlp.h"
 
 namespace kinegraph {
 

@@ -1,4 +1,4 @@
-#include "kinegraph/perception/depth_view.h"
+#include "kinegraph/perception/register_scene.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "kinegraph/perception/observed_views.h"
+#include "kinegraph/perception/occupancy_map.h"
 
 namespace kinegraph {
 

@@ -1,4 +1,4 @@
-#include "kinegraph/perception/observed_views.h"
+#include "kinegraph/perception/occupancy_map.h"
 
 #include <algorithm>
 #include <cmath>

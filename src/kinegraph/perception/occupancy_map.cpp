@@ -8,7 +8,7 @@
 #include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/geometry/shapes/cells.h"
 #include "kinegraph/perception/free_depth.h"
-#include "kinegraph/scene/frame_cells.h"
+#include "kinegraph/scene/collisions.h"
 
 namespace kinegraph {
 

@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "kinegraph/perception/observed_views.h"
+#include "kinegraph/perception/occupancy_map.h"
 #include "kinegraph/perception/visible_shape.h"
 
 namespace kinegraph {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "kinegraph/common/errors.h"
-#include "kinegraph/perception/observed_views.h"
+#include "kinegraph/perception/occupancy_map.h"
 
 namespace kinegraph {
 

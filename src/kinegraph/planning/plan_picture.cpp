@@ -8,7 +8,7 @@
 #include "kinegraph/planning/motion_plan.h"
 #include "kinegraph/planning/roadmap.h"
 #include "kinegraph/planning/steering/joint_space.h"
-#include "kinegraph/scene/frame_shapes.h"
+#include "kinegraph/scene/frame_setters.h"
 
 namespace kinegraph {
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "kinegraph/collision/displacement_bound.h"
-#include "kinegraph/scene/motor_limits.h"
+#include "kinegraph/scene/dynamics.h"
 #include "kinegraph/trajectories/curve_part.h"
 
 namespace kinegraph {

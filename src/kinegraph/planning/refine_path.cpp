@@ -1,4 +1,4 @@
-#include "kinegraph/planning/refine_path.h"
+#include "kinegraph/planning/path_finder.h"
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"

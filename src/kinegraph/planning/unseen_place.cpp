@@ -10,7 +10,7 @@
 #include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/geometry/shapes/cells.h"
 #include "kinegraph/kinematics/state.h"
-#include "kinegraph/scene/frame_cells.h"
+#include "kinegraph/scene/collisions.h"
 
 namespace kinegraph {
 

@@ -2,13 +2,57 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
-#include "kinegraph/rendering/camera.h"
+#include "kinegraph/common/random.h"
+#include "kinegraph/math/pose.h"
 #include "kinegraph/rendering/camera_image.h"
 #include "kinegraph/scene/config.h"
+#include "kinegraph/scene/frame.h"
 
 namespace kinegraph {
+
+/// A pinhole or orthographic camera. Its axes: x to the right of the image, y down, z forward.
+/// The center of the image is on the z axis; pixels are square.
+struct Camera {
+  Pose pose;        ///< in the world
+  int width = 640;  ///< pixels
+  int height = 480;
+  double focal_length = 2.41421356;  ///< in image heights: fx = fy = focal_length * height pixels
+  double ortho_height = 0.;          ///< if > 0: orthographic, this many m high
+  double near = .1, far = 10.;       ///< visible range, m along z
+  bool has_range = false;            ///< `near` and `far` were set explicitly: pages are limited to them, too
+
+  /// fx, fy, cx, cy in pixels.
+  Vector4d fxycxy() const { return {focal_length * height, focal_length * height, .5 * width, .5 * height}; }
+
+  /// Throws ValueError for invalid sizes, focal lengths and ranges.
+  void validate() const;
+};
+
+/// Reads a camera from a frame's attributes, at the frame's pose: `focalLength`, `heightAngle` (the image's vertical
+/// angle, degrees) or `orthoAbsHeight` / `heightAbs` (m); `width`, `height`, `zRange` [near far]. The defaults are
+/// those of Camera. Throws ValueError for invalid attributes.
+Camera cameraOf(const Frame& frame);
+
+/// Tells whether a frame describes a camera: its shape is `camera`, or it has one of these attributes.
+bool isCamera(const Frame& frame);
+
+/// The initial camera of a viewer: 600 x 500 pixels, from (2, 5, 1.7) towards (0, 0, 1).
+Camera defaultViewCamera();
+
+struct ShownBall {
+  Vector3d center;  ///< m, in the world
+  double radius;    ///< m
+};
+
+/// Returns a ball around all visible surfaces, or nothing without any.
+std::optional<ShownBall> shownBall(const Config& config);
+
+/// Returns the camera, moved along its line of sight so that the visible scene just fills the image, with a suitable
+/// range. Returns it unchanged for an empty scene.
+Camera fitted(Camera camera, const Config& config);
 
 struct Letters;
 
@@ -56,5 +100,31 @@ class CameraRenderer {
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };
+
+/// Converts a depth image to points in the camera's frame, height x width x 3: X = (column - cx) d / fx,
+/// Y = (row - cy) d / fy, Z = d. Negative depths give zero. `fxycxy` is fx fy cx cy in pixels.
+std::vector<double> depthToPoints(const float* depth, int height, int width, const Vector4d& fxycxy);
+
+/// Parameters of the errors of a stereo camera.
+struct DepthNoise {
+  double baseline = .03;  ///< distance of its two eyes, m
+  double overall = .02;   ///< scale of the noise, relative to depth squared, 1/m
+  double wide = 4.;       ///< share of the noise that is smooth over 10 pixels
+  double local = .4;      ///< share over 3 pixels
+  double pixel = .04;     ///< share of independent pixels
+  double no_depth = 3.;   ///< m, assumed depth of the background
+
+  /// Throws ValueError for numbers that are negative or not finite.
+  void validate() const;
+};
+
+/// Adds the errors of a stereo camera to `depth`, an image of `camera`. `other_eye` is the depth from `noise.baseline`
+/// to the right. Pixels visible to one eye only (the depths differ by more than 5 cm) become -1; the others get noise
+/// that grows with the square of the depth.
+void addDepthNoise(std::vector<float>& depth, const std::vector<float>& other_eye, const Camera& camera,
+                   const DepthNoise& noise, Rng& rng);
+
+/// Returns the camera of the other eye.
+Camera otherEye(const Camera& camera, const DepthNoise& noise);
 
 }  // namespace kinegraph

@@ -1,4 +1,4 @@
-#include "kinegraph/rendering/framing.h"
+#include "kinegraph/rendering/camera_renderer.h"
 
 #include <algorithm>
 #include <limits>

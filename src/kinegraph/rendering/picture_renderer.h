@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "kinegraph/rendering/camera.h"
 #include "kinegraph/rendering/camera_image.h"
+#include "kinegraph/rendering/camera_renderer.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph {

@@ -3,7 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "kinegraph/rendering/camera.h"
+#include "kinegraph/rendering/camera_renderer.h"
 
 namespace kinegraph {
 

@@ -6,8 +6,7 @@
 #include <vector>
 
 #include "kinegraph/robot/robot_driver.h"
-#include "kinegraph/trajectories/b_spline.h"
-#include "kinegraph/trajectories/sampled_trajectory.h"
+#include "kinegraph/trajectories/trajectory.h"
 
 namespace kinegraph {
 

@@ -1,4 +1,4 @@
-#include "kinegraph/robot/kinematic_driver.h"
+#include "kinegraph/robot/drivers.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include <optional>
 
 #include "kinegraph/robot/robot_driver.h"
-#include "kinegraph/trajectories/b_spline.h"
 #include "kinegraph/trajectories/trajectory.h"
 
 namespace kinegraph {

@@ -1,4 +1,4 @@
-#include "kinegraph/robot/recorded_driver.h"
+#include "kinegraph/robot/drivers.h"
 
 namespace kinegraph {
 

@@ -3,8 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "kinegraph/trajectories/b_spline.h"
-#include "kinegraph/trajectories/sampled_trajectory.h"
+#include "kinegraph/trajectories/trajectory.h"
 
 namespace kinegraph {
 

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "kinegraph/common/text.h"
-#include "kinegraph/scene/motor_limits.h"
+#include "kinegraph/scene/dynamics.h"
 
 namespace kinegraph {
 

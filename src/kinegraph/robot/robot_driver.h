@@ -5,7 +5,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/scene/config.h"
-#include "kinegraph/simulation/contact.h"
+#include "kinegraph/simulation/simulation_data.h"
 
 namespace kinegraph {
 

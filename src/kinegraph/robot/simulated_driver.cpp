@@ -1,4 +1,4 @@
-#include "kinegraph/robot/simulated_driver.h"
+#include "kinegraph/robot/drivers.h"
 
 #include <cmath>
 

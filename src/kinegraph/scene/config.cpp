@@ -1,5 +1,5 @@
 #include "kinegraph/scene/config.h"
-#include "kinegraph/collision/limit_check.h"
+#include "kinegraph/collision/edge_check.h"
 #include "kinegraph/scene/tree/contact_warnings.h"
 
 #include <algorithm>

@@ -7,10 +7,10 @@
 #include <tuple>
 #include <vector>
 
-#include "kinegraph/collision/motion_contact.h"
-#include "kinegraph/common/held.h"
+#include "kinegraph/collision/edge_check.h"
+#include "kinegraph/common/errors.h"
 #include "kinegraph/common/random.h"
-#include "kinegraph/kinematics/inertia.h"
+#include "kinegraph/kinematics/joint.h"
 #include "kinegraph/scene/frame.h"
 #include "kinegraph/scene/loading/file_options.h"
 

@@ -1,4 +1,4 @@
-#include "kinegraph/scene/config_dynamics.h"
+#include "kinegraph/scene/dynamics.h"
 
 #include "kinegraph/kinematics/state.h"
 #include "kinegraph/kinematics/velocity_dynamics.h"

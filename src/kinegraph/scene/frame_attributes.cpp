@@ -1,4 +1,4 @@
-#include "kinegraph/scene/frame_attributes.h"
+#include "kinegraph/scene/frame_setters.h"
 
 #include <cmath>
 #include <utility>

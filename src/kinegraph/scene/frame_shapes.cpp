@@ -1,4 +1,4 @@
-#include "kinegraph/scene/frame_shapes.h"
+#include "kinegraph/scene/frame_setters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,7 @@
 #include "kinegraph/geometry/shapes/scale_mesh.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/textured_surface.h"
-#include "kinegraph/scene/frame_cells.h"
+#include "kinegraph/scene/collisions.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {

@@ -1,4 +1,4 @@
-#include "kinegraph/scene/ignored_contacts.h"
+#include "kinegraph/scene/collisions.h"
 
 #include "kinegraph/scene/tree/scene_tree.h"
 

@@ -1,4 +1,4 @@
-#include "kinegraph/simulation/recording.h"
+#include "kinegraph/simulation/simulation_data.h"
 
 #include <algorithm>
 #include <cstring>

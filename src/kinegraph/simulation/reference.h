@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "kinegraph/simulation/scene_model.h"
-#include "kinegraph/trajectories/b_spline.h"
+#include "kinegraph/trajectories/trajectory.h"
 
 namespace kinegraph {
 

@@ -8,7 +8,7 @@
 #include "kinegraph/scene/hand_fingers.h"
 #include "kinegraph/simulation/physics.h"
 #include "kinegraph/simulation/scene_bodies.h"
-#include "kinegraph/simulation/simulation_options.h"
+#include "kinegraph/simulation/simulation_data.h"
 
 namespace kinegraph {
 

@@ -1,4 +1,4 @@
-#include "kinegraph/simulation/simulation_batch.h"
+#include "kinegraph/simulation/simulation.h"
 
 #include <algorithm>
 #include <cmath>

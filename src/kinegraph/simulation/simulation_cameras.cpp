@@ -2,7 +2,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/rendering/depth_image.h"
+#include "kinegraph/rendering/camera_renderer.h"
 #include "kinegraph/simulation/simulation_impl.h"
 
 namespace kinegraph {

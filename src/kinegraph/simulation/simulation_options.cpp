@@ -1,4 +1,4 @@
-#include "kinegraph/simulation/simulation_options.h"
+#include "kinegraph/simulation/simulation_data.h"
 
 namespace kinegraph {
 

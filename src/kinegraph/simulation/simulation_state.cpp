@@ -1,4 +1,4 @@
-#include "kinegraph/simulation/simulation_state.h"
+#include "kinegraph/simulation/simulation_data.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "kinegraph/solvers/methods.h"
+#include "kinegraph/solvers/nlp_solver.h"
 
 #include <algorithm>
 

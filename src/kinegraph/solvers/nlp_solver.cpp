@@ -8,7 +8,6 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/solvers/interface/best_so_far.h"
 #include "kinegraph/solvers/interface/requirements.h"
-#include "kinegraph/solvers/methods.h"
 #include "kinegraph/solvers/problems/relaxed_nlp.h"
 
 namespace kinegraph {

@@ -1,4 +1,4 @@
-#include "kinegraph/solvers/solve_many.h"
+#include "kinegraph/solvers/nlp_solver.h"
 
 #include <algorithm>
 #include <atomic>

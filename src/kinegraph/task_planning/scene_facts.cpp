@@ -1,4 +1,4 @@
-#include "kinegraph/task_planning/scene_facts.h"
+#include "kinegraph/task_planning/task_actions.h"
 
 #include <algorithm>
 #include <set>

@@ -5,7 +5,6 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/task_planning/place_frames.h"
-#include "kinegraph/task_planning/scene_facts.h"
 #include "kinegraph/task_planning/shape_points.h"
 #include "kinegraph/task_planning/task_actions.h"
 #include "kinegraph/task_planning/task_doors.h"

@@ -7,7 +7,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/logic/fol_reader.h"
+#include "kinegraph/logic/domain.h"
 
 namespace kinegraph {
 

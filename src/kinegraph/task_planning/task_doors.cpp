@@ -5,8 +5,7 @@
 
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/scene/tree/scene_tree.h"
-#include "kinegraph/task_planning/scene_facts.h"
-#include "kinegraph/task_planning/task_rules.h"
+#include "kinegraph/task_planning/task_actions.h"
 
 namespace kinegraph {
 

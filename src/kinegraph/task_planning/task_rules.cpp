@@ -1,4 +1,4 @@
-#include "kinegraph/task_planning/task_rules.h"
+#include "kinegraph/task_planning/task_actions.h"
 
 #include <algorithm>
 #include <array>

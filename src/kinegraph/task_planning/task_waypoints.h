@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "kinegraph/task_planning/manipulation_helper.h"
-#include "kinegraph/task_planning/task_rules.h"
+#include "kinegraph/task_planning/task_actions.h"
 
 namespace kinegraph {
 

@@ -5,7 +5,7 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/komo/path/path.h"
-#include "kinegraph/solvers/explanation.h"
+#include "kinegraph/solvers/nlp_solver.h"
 #include "kinegraph/task_planning/task_actions.h"
 
 namespace kinegraph {

@@ -7,7 +7,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/tool_paths/cubic_pieces.h"
+#include "kinegraph/tool_paths/plan_tool_path.h"
 #include "kinegraph/tool_paths/tool_curve.h"
 
 namespace kinegraph {

@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "kinegraph/collision/limit_check.h"
+#include "kinegraph/collision/edge_check.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/kinematics/kinematic_model.h"
 

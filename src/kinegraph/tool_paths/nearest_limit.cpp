@@ -1,4 +1,4 @@
-#include "kinegraph/tool_paths/nearest_limit.h"
+#include "kinegraph/tool_paths/plan_tool_path.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/tool_paths/free_curve.h"
 #include "kinegraph/tool_paths/joint_curve.h"
 #include "kinegraph/tool_paths/plan_tool_path.h"
 #include "kinegraph/tool_paths/strands.h"

@@ -6,14 +6,50 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/collision/edge_check.h"
 #include "kinegraph/common/cancellation.h"
-#include "kinegraph/common/progress.h"
+#include "kinegraph/math/pose.h"
 #include "kinegraph/planning/motion_plan.h"
 #include "kinegraph/scene/config.h"
 #include "kinegraph/tool_paths/tool_path.h"
 #include "kinegraph/trajectories/retime.h"
 
 namespace kinegraph {
+
+/// A curve y(s) of cubic pieces. Smooth sections follow each other; between two sections the direction may jump, at a
+/// *corner*.
+struct CubicPieces {
+  std::vector<double> begin;          ///< (m,): s at the start of each piece, ascending
+  std::vector<MatrixXd> coefficient;  ///< per piece (d, 4): of 1, (s - begin), (s - begin)^2, (s - begin)^3
+  std::vector<char> is_corner;        ///< per piece: a corner is at its start
+  double length = 0.;                 ///< s at the end
+
+  int pieces() const { return int(begin.size()); }
+  double end(int piece) const { return piece + 1 < pieces() ? begin[std::size_t(piece) + 1] : length; }
+
+  /// The piece at s; at a knot, the later one.
+  int pieceAt(double s) const;
+
+  /// y, or a derivative of it, at s by the polynomial of a piece.
+  VectorXd eval(int piece, double s, int order = 0) const;
+  VectorXd eval(double s, int order = 0) const { return eval(pieceAt(s), s, order); }
+
+  /// The least and the largest value of each row of y on a piece.
+  struct Range {
+    VectorXd least, largest;  ///< (d,)
+  };
+  Range range(int piece) const;
+
+  /// Appends a smooth section: the cubic spline with continuous second derivatives and not-a-knot ends through the
+  /// columns of y (d, K) at s (K,). Three columns give a parabola, two a line. `corner`: one is at its start.
+  void addSpline(const std::vector<double>& s, const MatrixXd& y, bool corner);
+
+  /// Appends Hermite pieces, with derivatives (d, K).
+  void addHermite(const std::vector<double>& s, const MatrixXd& y, const MatrixXd& slope, bool corner);
+
+ private:
+  void addPiece(double from, double to, const MatrixXd& coefficients, bool is_corner);
+};
 
 /// Settings of planToolPath.
 struct ToolPathOptions {
@@ -146,5 +182,49 @@ class ToolPathPlan final : public Trajectory {
 /// for invalid arguments, and FrameNotFound.
 ToolPathPlan planToolPath(const Config& config, const std::vector<ToolPath>& paths, const ToolPathOptions& options = {},
                           const CancellationToken& cancellation = {}, const ProgressCallback& progress = {});
+
+/// A place at which a curve is not collision-free.
+struct CurveContact {
+  double place = 0.;  ///< s, to within the part of a piece that was checked
+  MotionContact contact;
+};
+
+/// Finds the first place at which a curve of configurations is not provably free: all pairs keep the checker's margin
+/// continuously along chords, by as much more as the curve may deviate from them. Parts that are not free are divided,
+/// up to `max_divisions` times. None if the whole curve is free.
+std::optional<CurveContact> firstContactAlong(EdgeChecker& checker, const CubicPieces& curve, int max_divisions = 6);
+
+/// The first contact of a motion.
+struct MotionTouch {
+  double t = 0.;         ///< s
+  std::string a, b;      ///< frames
+  double distance = 0.;  ///< m; negative: they overlap
+};
+
+/// Finds the first time at which a timed path is not provably free: all pairs keep `margin` (m) at all times, not only
+/// at samples. None if the whole motion is free. Throws ValueError if there is no motion, for another number of dofs,
+/// and for a margin below 0.
+std::optional<MotionTouch> firstContact(const Config& config, const TimedPath& motion, double margin = 0.);
+
+/// The same for all parts of a plan. Frames of its `touching` touch here, too, unless the scene excludes the pairs.
+std::optional<MotionTouch> firstContact(const Config& config, const ToolPathPlan& plan, double margin = 0.);
+
+struct ScalingState;
+
+/// The limit that is the nearest one at a time of a motion.
+struct NearestLimit {
+  enum class Kind { velocity, acceleration, jerk };
+  double share = 0.;  ///< of the limit; 1: it is reached
+  Kind kind = Kind::acceleration;
+  int dof = -1;  ///< -1: nothing moves
+};
+
+std::string nearestLimitName(NearestLimit::Kind kind);  ///< "velocity", "acceleration" or "jerk"
+
+/// Returns the limit of which a motion uses the largest share at a state of its time scaling, or at time t (s, clamped
+/// to the duration): the reason why it is not faster there. Throws ValueError if there is no motion, for limits of
+/// another size, and if t is NaN.
+NearestLimit nearestLimit(const PathCurve& curve, int piece, const ScalingState& state, const MotionLimits& limits);
+NearestLimit nearestLimit(const TimedPath& motion, double t, const MotionLimits& limits);
 
 }  // namespace kinegraph

@@ -7,7 +7,7 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/planning/steering/joint_space.h"
-#include "kinegraph/tool_paths/nearest_limit.h"
+#include "kinegraph/tool_paths/plan_tool_path.h"
 #include "kinegraph/trajectories/path_curve.h"
 #include "kinegraph/trajectories/time_scaling.h"
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/tool_paths/cubic_pieces.h"
+#include "kinegraph/tool_paths/plan_tool_path.h"
 #include "kinegraph/tool_paths/tool_path.h"
 
 namespace kinegraph {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "kinegraph/math/pose.h"
-#include "kinegraph/trajectories/path_limits.h"
+#include "kinegraph/trajectories/retime.h"
 
 namespace kinegraph {
 

@@ -5,7 +5,7 @@
 
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/trajectories/path_curve.h"
-#include "kinegraph/trajectories/path_limits.h"
+#include "kinegraph/trajectories/retime.h"
 
 namespace kinegraph {
 

@@ -1,4 +1,4 @@
-#include "kinegraph/trajectories/spline_trajectory.h"
+#include "kinegraph/trajectories/trajectory.h"
 
 #include <algorithm>
 #include <cmath>

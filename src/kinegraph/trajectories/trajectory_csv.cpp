@@ -7,7 +7,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/trajectories/sampled_trajectory.h"
+#include "kinegraph/trajectories/trajectory.h"
 
 namespace kinegraph {
 

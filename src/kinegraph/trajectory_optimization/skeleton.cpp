@@ -1,4 +1,4 @@
-#include "kinegraph/trajectory_optimization/skeleton.h"
+#include "kinegraph/trajectory_optimization/motion_problems.h"
 
 #include <algorithm>
 #include <cmath>

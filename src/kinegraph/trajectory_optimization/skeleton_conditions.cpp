@@ -7,7 +7,7 @@
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/komo/force_exchange.h"
 #include "kinegraph/komo/path/path.h"
-#include "kinegraph/trajectory_optimization/skeleton.h"
+#include "kinegraph/trajectory_optimization/motion_problems.h"
 
 namespace kinegraph {
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "kinegraph/trajectory_optimization/spline_motion.h"
+#include "kinegraph/trajectory_optimization/motion_problems.h"
 
 namespace kinegraph {
 

@@ -5,7 +5,7 @@
 
 #include "kinegraph/komo/path/path.h"
 #include "kinegraph/nlp/mapped_nlp.h"
-#include "kinegraph/trajectories/b_spline.h"
+#include "kinegraph/trajectories/trajectory.h"
 
 namespace kinegraph {
 

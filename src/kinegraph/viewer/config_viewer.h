@@ -1,11 +1,14 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "kinegraph/common/cancellation.h"
+#include "kinegraph/scene/config.h"
+#include "kinegraph/viewer/messages/shown.h"
 #include "kinegraph/viewer/programmable_viewer.h"
 
 namespace kinegraph {
@@ -119,5 +122,28 @@ bool isPatient();
 
 /// Returns whether Enter was pressed on the terminal since the last call.
 bool enterWasPressed();
+
+/// Samples joint values uniformly within the limits, without limits within .5 of the present; quaternions have norm
+/// one.
+VectorXd randomJointState(const Config& config, Rng& rng);
+
+/// Returns the motion through the rows of `path` (T x n) with equal time steps. Throws ValueError for another width.
+ShownMotion motionAlong(const Config& config, const MatrixXd& path, double seconds);
+
+/// Returns a motion that sweeps every dof, from the last to the first, through its limits and back in one second; dofs
+/// without limits by .5 around their present value. Texts name the dof.
+ShownMotion jointSweep(const Config& config);
+
+/// Returns a smooth motion of points + 1 seconds that starts and ends at the present q: a cubic B-spline whose control
+/// points are `points` random joint states. It stays within the limits, because it stays in the hull of its control
+/// points.
+ShownMotion randomSpline(const Config& config, int points, Rng& rng);
+
+/// Loads a scene file into `config`, shows it, and reloads it whenever the file or an included one changes, until q or
+/// Escape is pressed in the browser, or Enter on the terminal. Other keys: see WatchKeys. With an invalid file, the
+/// last valid scene stays; the message appears in the browser and is passed to `report`. `cancellation` is checked
+/// every 20 ms and ends the call. If KINEGRAPH_HEADLESS is set, so that no key can be pressed, it loads and shows once.
+void watchFile(Config& config, ConfigViewer& viewer, const std::string& path,
+               const std::function<void(const std::string&)>& report, const CancellationToken& cancellation);
 
 }  // namespace kinegraph

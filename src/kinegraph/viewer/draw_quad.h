@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kinegraph/viewer/messages/appearance.h"
+#include "kinegraph/viewer/messages/shown.h"
 
 namespace kinegraph {
 

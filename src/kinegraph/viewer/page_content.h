@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "kinegraph/math/pose.h"
-#include "kinegraph/viewer/messages/appearance.h"
+#include "kinegraph/viewer/messages/shown.h"
 #include "kinegraph/viewer/outgoing.h"
 
 namespace kinegraph {

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/viewer/messages/appearance.h"
+#include "kinegraph/viewer/messages/shown.h"
 
 namespace kinegraph {
 

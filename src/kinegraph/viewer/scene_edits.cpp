@@ -4,7 +4,7 @@
 
 #include "kinegraph/kinematics/kinematic_model.h"
 #include "kinegraph/scene/tree/scene_tree.h"
-#include "kinegraph/viewer/motions.h"
+#include "kinegraph/viewer/config_viewer.h"
 #include "kinegraph/viewer/scene_items.h"
 
 namespace kinegraph {

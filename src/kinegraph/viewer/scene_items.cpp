@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "kinegraph/common/text.h"
-#include "kinegraph/exporters/scene_writer.h"
+#include "kinegraph/exporters/writers.h"
 #include "kinegraph/gfile/writer.h"
 #include "kinegraph/kinematics/kinematic_model.h"
 #include "kinegraph/kinematics/state.h"

@@ -8,12 +8,11 @@
 
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/geometry/shapes/geometry.h"
-#include "kinegraph/viewer/messages/appearance.h"
 #include "kinegraph/viewer/messages/commands.h"
 #include "kinegraph/viewer/messages/near_lines.h"
 #include "kinegraph/viewer/messages/run_requests.h"
 #include "kinegraph/viewer/messages/scene_warnings.h"
-#include "kinegraph/viewer/messages/shown_motion.h"
+#include "kinegraph/viewer/messages/shown.h"
 #include "kinegraph/viewer/messages/shown_run.h"
 
 namespace kinegraph {

@@ -1,4 +1,4 @@
-#include "kinegraph/viewer/watch_file.h"
+#include "kinegraph/viewer/config_viewer.h"
 
 #include <thread>
 

@@ -2,11 +2,9 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/exporters/mesh_export.h"
-#include "kinegraph/exporters/scene_writer.h"
-#include "kinegraph/exporters/urdf_writer.h"
+#include "kinegraph/exporters/writers.h"
 #include "kinegraph/scene/tree/scene_tree.h"
-#include "kinegraph/viewer/motions.h"
+#include "kinegraph/viewer/config_viewer.h"
 #include "kinegraph/viewer/scene_items.h"
 #include "kinegraph/viewer/server.h"
 

@@ -4,7 +4,7 @@
 #include <Eigen/LU>
 
 #include "kinegraph/common/text.h"
-#include "kinegraph/nlp/callback_nlp.h"
+#include "kinegraph/nlp/problems.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 #include "tests/solvers/numbers.h"
 #include "tests/support/near.h"

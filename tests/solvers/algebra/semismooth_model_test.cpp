@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/nlp/callback_nlp.h"
+#include "kinegraph/nlp/problems.h"
 #include "kinegraph/solvers/algebra/band_algebra.h"
 #include "kinegraph/solvers/algebra/dense_algebra.h"
 #include "tests/support/near.h"

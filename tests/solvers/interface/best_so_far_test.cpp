@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "kinegraph/common/text.h"
-#include "kinegraph/nlp/callback_nlp.h"
-#include "kinegraph/solvers/methods.h"
+#include "kinegraph/nlp/problems.h"
 #include "kinegraph/solvers/nlp_solver.h"
 #include "kinegraph/solvers/sampling/sampler.h"
 

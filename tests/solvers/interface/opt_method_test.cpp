@@ -1,10 +1,10 @@
-#include "kinegraph/solvers/interface/opt_method.h"
+#include "kinegraph/solvers/interface/options.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "kinegraph/solvers/methods.h"
+#include "kinegraph/solvers/nlp_solver.h"
 
 using namespace kinegraph;
 

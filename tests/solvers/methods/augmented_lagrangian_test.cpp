@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/nlp/callback_nlp.h"
+#include "kinegraph/nlp/problems.h"
 #include "tests/solvers/hock_schittkowski.h"
 #include "tests/solvers/numbers.h"
 #include "tests/support/expect_error.h"

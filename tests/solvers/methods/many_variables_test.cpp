@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "kinegraph/nlp/callback_nlp.h"
+#include "kinegraph/nlp/problems.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 
 // Tests of the augmented Lagrangian on large problems, such as paths.

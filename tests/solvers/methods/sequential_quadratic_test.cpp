@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/common/errors.h"
-#include "kinegraph/solvers/methods.h"
+#include "kinegraph/solvers/nlp_solver.h"
 #include "tests/solvers/hock_schittkowski.h"
 #include "tests/solvers/numbers.h"
 #include "tests/support/near.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "kinegraph/nlp/callback_nlp.h"
+#include "kinegraph/nlp/problems.h"
 #include "tests/support/expect_error.h"
 
 using namespace kinegraph;

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "kinegraph/nlp/callback_nlp.h"
+#include "kinegraph/nlp/problems.h"
 #include "kinegraph/solvers/methods/augmented_lagrangian.h"
 #include "tests/solvers/hock_schittkowski.h"
 #include "tests/solvers/numbers.h"

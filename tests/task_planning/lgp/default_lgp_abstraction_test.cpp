@@ -1,4 +1,4 @@
-#include "kinegraph/task_planning/lgp/default_lgp_abstraction.h"
+#include "kinegraph/task_planning/lgp/lgp_abstraction.h"
 
 #include "tests/support/expect_error.h"
 #include "tests/task_planning/lgp/lgp_scenes.h"

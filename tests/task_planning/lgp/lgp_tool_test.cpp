@@ -1,6 +1,6 @@
 #include "kinegraph/task_planning/lgp/lgp_tool.h"
 
-#include "kinegraph/komo/report.h"
+#include "kinegraph/komo/komo.h"
 #include "tests/support/expect_error.h"
 #include "tests/task_planning/lgp/lgp_scenes.h"
 

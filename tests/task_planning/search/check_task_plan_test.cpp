@@ -1,4 +1,4 @@
-#include "kinegraph/task_planning/search/check_task_plan.h"
+#include "kinegraph/task_planning/search/plan_task.h"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "kinegraph/api/model_path.h"
-#include "kinegraph/logic/fol_reader.h"
-#include "kinegraph/task_planning/search/check_task_plan.h"
+#include "kinegraph/api/names.h"
+#include "kinegraph/logic/domain.h"
 #include "kinegraph/task_planning/task_tools.h"
 #include "tests/support/expect_error.h"
 #include "tests/task_planning/task_scenes.h"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/geometry/shapes/image.h"
+#include "kinegraph/geometry/shapes/geometry.h"
 
 namespace kinegraph {
 

@@ -6,10 +6,15 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/geometry/shapes/image.h"
 #include "kinegraph/math/pose.h"
 
 namespace kinegraph {
+
+/// A picture as the bytes of a PNG or JPEG file.
+struct Image {
+  std::string bytes;
+  std::string path = {};  ///< of its file; empty if embedded in another file
+};
 
 /// Kinds of shapes. The numbers are those of the Python enum `ry.ST`.
 enum class ShapeType : int {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "kinegraph/komo/path/switch_mode.h"
+#include "kinegraph/komo/path/path_records.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph {

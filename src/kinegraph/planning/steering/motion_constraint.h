@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "kinegraph/features/feature_source.h"
-#include "kinegraph/features/scale.h"
 #include "kinegraph/nlp/nlp.h"
 
 namespace kinegraph {

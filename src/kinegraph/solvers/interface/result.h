@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -7,6 +8,9 @@
 #include "kinegraph/nlp/nlp.h"
 
 namespace kinegraph {
+
+/// Receives every evaluated point of a solver. The solver ends if it returns false.
+using EvaluationCallback = std::function<bool(const VectorXd& x, const VectorXd& phi)>;
 
 /// The reason why a solver stopped.
 enum class SolverStatus {

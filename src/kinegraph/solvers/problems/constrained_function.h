@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "kinegraph/nlp/lazy_constraints.h"
-#include "kinegraph/solvers/interface/evaluation_callback.h"
 #include "kinegraph/solvers/interface/options.h"
 #include "kinegraph/solvers/interface/result.h"
 

@@ -1,10 +1,9 @@
 #pragma once
 
 #include "kinegraph/common/random.h"
-#include "kinegraph/solvers/interface/evaluation_callback.h"
 #include "kinegraph/solvers/interface/options.h"
 #include "kinegraph/solvers/interface/result.h"
-#include "kinegraph/solvers/sampling/sampler_options.h"
+#include "kinegraph/solvers/sampling/sampler.h"
 
 namespace kinegraph {
 

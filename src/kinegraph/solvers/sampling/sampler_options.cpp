@@ -1,4 +1,4 @@
-#include "kinegraph/solvers/sampling/sampler_options.h"
+#include "kinegraph/solvers/sampling/sampler.h"
 
 namespace kinegraph {
 

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/nlp/nlp.h"
 #include "kinegraph/nlp/parameter.h"
-#include "kinegraph/nlp/separation.h"
 #include "kinegraph/solvers/interface/result.h"
 
 namespace kinegraph {

@@ -1,4 +1,4 @@
-#include "kinegraph/task_planning/lgp/default_lgp_abstraction.h"
+#include "kinegraph/task_planning/lgp/lgp_abstraction.h"
 
 #include <cmath>
 #include <filesystem>
@@ -8,10 +8,10 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/gfile/parser.h"
-#include "kinegraph/logic/action_words.h"
-#include "kinegraph/logic/fol_reader.h"
+#include "kinegraph/logic/domain.h"
+#include "kinegraph/logic/grounding.h"
 #include "kinegraph/task_planning/lgp/lgp_actions.h"
-#include "kinegraph/task_planning/scene_facts.h"
+#include "kinegraph/task_planning/task_actions.h"
 
 namespace kinegraph {
 

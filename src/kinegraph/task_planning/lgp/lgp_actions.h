@@ -1,6 +1,6 @@
 #pragma once
 
-#include "kinegraph/task_planning/lgp/default_lgp_abstraction.h"
+#include "kinegraph/task_planning/lgp/lgp_abstraction.h"
 
 namespace kinegraph {
 

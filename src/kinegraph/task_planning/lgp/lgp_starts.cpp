@@ -1,4 +1,4 @@
-#include "kinegraph/task_planning/lgp/lgp_starts.h"
+#include "kinegraph/task_planning/lgp/lgp_tool.h"
 
 #include "kinegraph/common/log.h"
 #include "kinegraph/common/ordered_parallel.h"

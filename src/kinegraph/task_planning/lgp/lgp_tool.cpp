@@ -5,8 +5,8 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/random.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/komo/komo.h"
 #include "kinegraph/komo/path/sub_problem.h"
-#include "kinegraph/komo/report.h"
 #include "kinegraph/task_planning/lgp/lgp_waypoints.h"
 
 namespace kinegraph {

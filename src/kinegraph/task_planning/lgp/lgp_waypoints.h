@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "kinegraph/task_planning/lgp/lgp_abstraction.h"
-#include "kinegraph/task_planning/lgp/lgp_starts.h"
+#include "kinegraph/task_planning/lgp/lgp_tool.h"
 
 namespace kinegraph {
 

@@ -4,8 +4,8 @@
 #include <atomic>
 
 #include "kinegraph/common/text.h"
-#include "kinegraph/task_planning/search/check_task_plan.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
+#include "kinegraph/task_planning/search/plan_task.h"
 #include "kinegraph/task_planning/search/step_tolerance.h"
 
 namespace kinegraph {

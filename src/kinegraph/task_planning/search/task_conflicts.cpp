@@ -4,7 +4,7 @@
 #include <set>
 
 #include "kinegraph/common/text.h"
-#include "kinegraph/logic/action_words.h"
+#include "kinegraph/logic/grounding.h"
 #include "kinegraph/logic/plan_search.h"
 #include "kinegraph/task_planning/task_doors.h"
 

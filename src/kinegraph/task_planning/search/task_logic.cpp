@@ -1,6 +1,6 @@
 #include "kinegraph/task_planning/search/task_logic.h"
 
-#include "kinegraph/logic/action_words.h"
+#include "kinegraph/logic/grounding.h"
 #include "kinegraph/task_planning/search/task_conflicts.h"
 
 namespace kinegraph {

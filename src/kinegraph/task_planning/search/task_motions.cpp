@@ -7,12 +7,12 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/eval.h"
-#include "kinegraph/ik/ik_options.h"
+#include "kinegraph/ik/ik_target.h"
 #include "kinegraph/ik/solve_ik.h"
-#include "kinegraph/scene/motor_limits.h"
+#include "kinegraph/scene/dynamics.h"
 #include "kinegraph/task_planning/search/guided_motion.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
-#include "kinegraph/task_planning/task_rules.h"
+#include "kinegraph/task_planning/task_actions.h"
 #include "kinegraph/trajectories/retime.h"
 
 namespace kinegraph {

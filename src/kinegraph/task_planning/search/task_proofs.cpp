@@ -11,8 +11,8 @@
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/task_planning/grasps.h"
 #include "kinegraph/task_planning/shape_points.h"
+#include "kinegraph/task_planning/task_actions.h"
 #include "kinegraph/task_planning/task_doors.h"
-#include "kinegraph/task_planning/task_rules.h"
 #include "kinegraph/task_planning/task_tools.h"
 
 namespace kinegraph {

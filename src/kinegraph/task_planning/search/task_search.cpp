@@ -7,7 +7,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/logic/fol_reader.h"
+#include "kinegraph/logic/domain.h"
 #include "kinegraph/task_planning/gripper_frames.h"
 #include "kinegraph/task_planning/open_hands.h"
 #include "kinegraph/task_planning/search/crowded_places.h"

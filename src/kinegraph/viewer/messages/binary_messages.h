@@ -5,9 +5,8 @@
 
 #include "kinegraph/geometry/shapes/geometry.h"
 #include "kinegraph/math/pose.h"
-#include "kinegraph/viewer/messages/appearance.h"
 #include "kinegraph/viewer/messages/messages.h"
-#include "kinegraph/viewer/messages/shown_motion.h"
+#include "kinegraph/viewer/messages/shown.h"
 
 namespace kinegraph {
 

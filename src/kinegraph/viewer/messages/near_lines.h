@@ -4,7 +4,7 @@
 
 #include "kinegraph/kinematics/state.h"
 #include "kinegraph/scene/config.h"
-#include "kinegraph/viewer/messages/shown_motion.h"
+#include "kinegraph/viewer/messages/shown.h"
 
 namespace kinegraph {
 

@@ -4,9 +4,24 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/gfile/value.h"
 #include "kinegraph/scene/frame.h"
 
 namespace kinegraph {
+
+/// Sets attributes of a frame with the effect that they have in a .g file: `contact`, `mass`, `color`, `q` and `limits`
+/// change the frame; words that the library reads when they are needed (`friction`, `logical`, `ctrl_limits`, ...), and
+/// unknown words, are stored. Returns warnings: one for each unknown word that is a near miss of a known one. Throws
+/// ValueError, before anything changes, for words that only a file can interpret (`joint`, `shape`, `pose`, ...); the
+/// message names the method instead.
+std::vector<std::string> setAttributes(Frame& frame, const Graph& attributes);
+
+/// The same for attributes as a .g file writes them:
+///
+///     setAttributes(drawer, "logical: { is_drawer }, friction: .5");
+///
+/// Throws ParseError.
+std::vector<std::string> setAttributes(Frame& frame, const std::string& text);
 
 /// Colors of points, rgba in 0..255: one per point, one for all, or none.
 using PointColors = std::vector<std::array<std::uint8_t, 4>>;

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "kinegraph/ik/ik_nlp.h"
-#include "kinegraph/komo/path_parameters.h"
+#include "kinegraph/ik/solve_ik.h"
+#include "kinegraph/komo/komo.h"
+#include "kinegraph/solvers/nlp_solver.h"
 #include "kinegraph/solvers/sensitivity/sensitivity.h"
 
 namespace kinegraph {
@@ -24,5 +26,10 @@ MatrixXd ikGradients(const std::vector<IkResult>& results, const MatrixXd& v, in
 
 /// Returns one parameter per target of a solution of solveIk.
 NlpParameters ikTargets(const Nlp& nlp);
+
+/// Solves independent motion problems, each from its present path, and stores each result in its problem; `chosen` is
+/// the best. The result does not depend on the number of threads. Throws ValueError without problems or threads.
+
+SolveManyResult solveAll(std::span<Komo> problems, const SolveManyOptions& options = {});
 
 }  // namespace kinegraph

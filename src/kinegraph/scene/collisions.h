@@ -5,8 +5,14 @@
 #include <vector>
 
 #include "kinegraph/scene/config.h"
+#include "kinegraph/scene/frame.h"
 
 namespace kinegraph {
+
+/// Excludes all pairs closer than `margin` (m) at the current q from collision, as `contact_exclude` of a scene file
+/// does, and returns them with their distances. Useful for models with overlapping parts at their joints. A shape that
+/// is fixed to its parent excludes the parent's shapes, too.
+std::vector<Config::NearPair> ignoreCollisionsNow(Config& config, double margin = 0.);
 
 struct SelfCollisionOptions {
   int samples = 10000;     ///< configurations sampled within the limits
@@ -53,5 +59,10 @@ SelfCollisionMatrix selfCollisionMatrix(const Config& config, const SelfCollisio
 /// Excludes all pairs from collision except those of class `sometimes`, as `contact_exclude` of a scene file does. The
 /// matrix must belong to this scene.
 void ignoreSelfCollisions(Config& config, const SelfCollisionMatrix& matrix);
+
+/// Sets the shape to the solid cubes of a grid of cells, in a box of that size (m). A value of 0 is a free cell, 1 an
+/// occupied one, 2 one that no camera has seen (CellKind); the last two are solid. Throws ValueError for an invalid
+/// grid or size, and for cells that are not cubes.
+void setCells(Frame& frame, Grid grid, const Vector3d& size);
 
 }  // namespace kinegraph
