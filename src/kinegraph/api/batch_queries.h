@@ -11,8 +11,8 @@ namespace kinegraph {
 // Questions about joint vectors of a scene; its own q does not matter. All throw ValueError if they have another number
 // of dofs, or numbers that are not finite.
 
-/// Returns for each row of Q, (N, n), whether it is within the limits (up to 1e-5 rad or m) and all pairs that joints
-/// move relative to each other are at least `margin` (m) apart.
+/// Returns which rows of Q, (N, n), are valid: within the limits (up to 1e-5 rad or m), and with all pairs that joints
+/// move relative to each other at least `margin` (m) apart.
 std::vector<bool> isValid(const Config& C, const RowMatrix& Q, double margin = 0., int threads = 1);
 
 /// The same for one joint vector, (n,).
@@ -22,8 +22,8 @@ requires(Vector::ColsAtCompileTime == 1) bool isValid(const Config& C, const Eig
   return isValid(C, RowMatrix(q.transpose()), margin, 1)[0];
 }
 
-/// Returns for the linear motions from the rows of `start` to those of `end`, (N, n), whether they are within the limits
-/// and continuously collision-free. Pairs that come within margin + tolerance (m) may count as contacts.
+/// Returns which linear motions from the rows of `start` to those of `end`, (N, n), are within the limits and
+/// continuously collision-free. Pairs that come within margin + tolerance (m) may count as contacts.
 std::vector<bool> isMotionFree(const Config& C, const RowMatrix& start, const RowMatrix& end, double margin = 0.,
                                double tolerance = 1e-5, int threads = 1);
 
