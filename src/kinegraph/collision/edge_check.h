@@ -34,7 +34,7 @@ bool withinLimits(const KinematicModel& model, const double* q);
 /// The first dof that exceeds its limits by more than kLimitTolerance along the edge between two q.
 std::optional<LimitPassed> firstLimitPassed(const KinematicModel& model, const double* from, const double* to);
 
-/// The frame of the joint of a dof.
+/// The frame of the joint of a dof; -1 if there is none.
 int frameOfDof(const KinematicModel& model, int dof);
 
 class EdgeEngine;

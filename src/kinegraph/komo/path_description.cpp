@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinegraph/collision/edge_check.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/komo/path/path_motion.h"
 
@@ -23,14 +24,6 @@ std::vector<Measure> measuresOfDofs(const KinematicModel& model) {
     }
   }
   return measures;
-}
-
-std::string frameOfDof(const KinematicModel& model, int dof) {
-  for (std::size_t frame = 0; frame < model.frame_dofs.size(); ++frame) {
-    const auto [first, count] = model.frame_dofs[frame];
-    if (dof >= first && dof < first + count) return model.frame_name[frame];
-  }
-  return {};
 }
 
 /// Returns the unit that all components of a joint objective have; number if they differ.
@@ -132,7 +125,8 @@ VariableDescription describePathVariable(const Path& path, int variable) {
     }
   }
   if (dof < 0) return out;
-  out.frame = frameOfDof(*model, dof);
+  const int frame = frameOfDof(*model, dof);
+  if (frame >= 0) out.frame = model->frame_name[std::size_t(frame)];
   out.name = cat("joint of ", out.frame);
   out.measure = measuresOfDofs(*model)[dof];
   return out;

@@ -168,6 +168,7 @@ class World {
   void moveGrippers(double h);
   void activate(std::size_t slot);
   void followReferences(double h);
+  bool diverges() const;
   void checkNumbers(double time);
 
   std::shared_ptr<const SceneModel> model_;

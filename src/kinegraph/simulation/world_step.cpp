@@ -68,6 +68,12 @@ void World::step(const VectorXd& u, double tau, ControlMode mode, const Cancella
     setState(before_);
     throw;
   }
+  if (perturbation_.body != 0 && diverges()) {  // a user on the page pulls too much: the pull ends
+    setState(before_);
+    contact_search_ = ContactSearch(*physics_);
+    perturb({});
+    return step(u, tau, mode, cancellation);
+  }
   checkNumbers(data_->time);
   is_computed_ = !is_kinematic_;
   copy_is_computed_ = false;
@@ -283,12 +289,15 @@ void World::moveGrippers(double h) {
   }
 }
 
+bool World::diverges() const {
+  const auto& warning = data_->warning;
+  return warning[mjWARN_BADQPOS].number > 0 || warning[mjWARN_BADQVEL].number > 0 || warning[mjWARN_BADQACC].number > 0;
+}
+
 void World::checkNumbers(double time) {
   const auto& warning = data_->warning;
   const bool full = warning[mjWARN_CONTACTFULL].number > 0 || warning[mjWARN_CNSTRFULL].number > 0;
-  const bool bad =
-      warning[mjWARN_BADQPOS].number > 0 || warning[mjWARN_BADQVEL].number > 0 || warning[mjWARN_BADQACC].number > 0;
-  if (!full && !bad) return;
+  if (!full && !diverges()) return;
   setState(before_);
   contact_search_ = ContactSearch(*physics_);
   if (full) throw Error("Simulation.step: the contacts exceed the memory; the state before the step is restored");
