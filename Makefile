@@ -10,12 +10,13 @@
 #                     ARGS=--quick takes a small sample of each
 # make release        makes and checks sdist, wheels, the C++ package and checksums in dist/ (docs/releases.md);
 #                     ARGS="--python python3.12 --dirty" takes other interpreters, and an untagged commit
+# make check-macos    compiles all sources for macOS on ARM, with the compiler of the package ziglang (never run as a whole)
 # PYTHON=...          the Python to use (3.11 or newer)
 
 PYTHON ?= python3
 VENV := .venv
 
-.PHONY: demo install test docs docs-serve test-models test-ros test-lerobot test-franka tidy nightly release clean
+.PHONY: check-macos demo install test docs docs-serve test-models test-ros test-lerobot test-franka tidy nightly release clean
 
 demo: install
 	$(VENV)/bin/kinegraph demo $(ARGS)
@@ -52,6 +53,9 @@ nightly:
 
 release:
 	PYTHON="$(PYTHON)" bash tools/release.sh $(ARGS)
+
+check-macos:
+	PYTHON="$(PYTHON)" bash tools/check_macos.sh
 
 $(VENV)/bin/python:
 	bash tools/make_venv.sh "$(PYTHON)" $(VENV)
