@@ -1,7 +1,7 @@
 #pragma once
 
 #include "kinegraph/kinematics/constant_rotation.h"
-#include "kinegraph/kinematics/joint.h"
+#include "kinegraph/kinematics/motion_kind.h"
 
 namespace kinegraph {
 

@@ -4,7 +4,7 @@
 // file that includes it. State and the kernels in lanes use it.
 
 #include "kinegraph/kinematics/constant_rotation.h"
-#include "kinegraph/kinematics/joint.h"
+#include "kinegraph/kinematics/motion_kind.h"
 #include "kinegraph/math/lane_math.h"
 
 namespace kinegraph::lanes {

@@ -1,4 +1,4 @@
-#include "kinegraph/rendering/camera_image.h"
+#include "kinegraph/rendering/camera_renderer.h"
 
 #include <algorithm>
 #include <cstddef>

@@ -7,11 +7,23 @@
 
 #include "kinegraph/common/random.h"
 #include "kinegraph/math/pose.h"
-#include "kinegraph/rendering/camera_image.h"
 #include "kinegraph/scene/config.h"
 #include "kinegraph/scene/frame.h"
 
 namespace kinegraph {
+
+/// An image of a camera. Rows run from top to bottom.
+struct CameraImage {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;  ///< height x width x 3
+  std::vector<float> depth;       ///< height x width, m along the camera's z; -1 for the background
+};
+
+/// Averages the colors of factor x factor pixels; the depth is that of their middle pixel.
+CameraImage shrunk(const CameraImage& fine, int factor);
+
+/// Reverses the order of the rows: those of OpenGL run from bottom to top.
+void flipRows(CameraImage& image);
 
 /// A pinhole or orthographic camera. Its axes: x to the right of the image, y down, z forward.
 /// The center of the image is on the z axis; pixels are square.

@@ -4,7 +4,6 @@
 #include <optional>
 #include <vector>
 
-#include "kinegraph/rendering/camera_image.h"
 #include "kinegraph/rendering/camera_renderer.h"
 #include "kinegraph/scene/config.h"
 
