@@ -263,7 +263,8 @@ void bindSceneObserver(nb::module_& m) {
       .def_prop_ro(
           "seen", [](const PySceneObserver& self) { return self.observer->seen(); },
           "The SeenScene of the last images: what they showed of the things.")
-      .def_ro("map", &PySceneObserver::map, "The OccupancyMap, or None.");
+      .def_ro("map", &PySceneObserver::map, nb::for_getter(nb::sig("def map(self, /) -> OccupancyMap | None")),
+              "The OccupancyMap, or None.");
 }
 
 void bindOccupancyMap(nb::module_& m) {

@@ -165,7 +165,17 @@ void requireGrippers(const TaskPlan& plan, const std::map<std::string, int>& gri
 
 Config worldOf(BotOp& bot, const TaskPlan& plan, bool is_observed) {
   plan.requireScenes("execute");
-  if (is_observed && !plan.scenes.empty()) return plan.scenes.front();
+  if (is_observed && !plan.scenes.empty()) {
+    Config believed = plan.scenes.front();
+    std::vector<std::string> names = believed.getFrameNames();
+    std::ranges::reverse(names);             // children first
+    for (const std::string& name : names) {  // frames of the plan's grasps and places
+      const Frame frame = std::as_const(believed).getFrame(name);
+      const bool is_slot = name.starts_with("grasp_") || name.starts_with("place_");
+      if (is_slot && frame.getChildren().empty() && frame.getShapeType() == ShapeType::none) believed.delFrame(name);
+    }
+    return believed;
+  }
   Config world = bot.getWorld();
   if (bot.isSimulated() || plan.scenes.empty()) return world;
   for (const std::string& obj : wordsOf(plan.start, "is_object")) {

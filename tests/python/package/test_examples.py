@@ -60,7 +60,7 @@ FOUND = {
     "17_pick_and_place": [r"-- feasible: pick and place", r"-- feasible: sub_motion 1"],
     "18_plan_a_task": [
         r"^solved: 4 actions, \d+\.\d+ s",
-        r"infeasible: 'far' is at least 3\.86 m beyond the reach",
+        r"infeasible: 'far' is at least 3\.85 m beyond the reach",
     ],
     "19_own_action": [r"^solved: 2 actions, \d+\.\d+ s", r"\(show cup l_gripper\)"],
     "10_many_problems": [r"taken by r_gripper", r"6 of 6 feasible", r"\b10 configurations"],

@@ -16,6 +16,7 @@ NOT_RUN = {
     "everyday_objects",
     "everyday_scenes",
     "komo_family",
+    "look_features",
     "look",
     "aligator_horizon",
 }

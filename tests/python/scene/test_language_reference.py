@@ -130,7 +130,7 @@ def named_in(module):
 
 def test_the_reference_of_urdf_names_the_words_that_the_reader_reads():
     text = (PARSERS / "parsers" / "urdf_model.cpp").read_text()
-    calls = r'(?:text|number|vector|limitOf)\(\*?\w+, "(\w+)"|(?:attribute|child|all)\("(\w+)"\)|\.name == "(\w+)"'
+    calls = r'(?:text|number|vector|limitOf)\(\*?\w+, "(\w+)"|ofMotor\("(\w+)"\)|(?:attribute|child|all)\("(\w+)"\)|\.name == "(\w+)"'
     read = {word for words in re.findall(calls, text) for word in words if word}
     assert len(read) > 40
     assert named_in(urdf) == read | {"quat_xyzw", "parent", "child"} - {"robot"}

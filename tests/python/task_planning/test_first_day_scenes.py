@@ -387,9 +387,9 @@ def test_a_gripper_inside_of_the_palm_is_told() -> None:
     box(C, "red", "table", (0.3, 0.3, TOP))
     C.getFrame("l_gripper").setPosition(C.getFrame("l_palm").getPosition())
     plan = ry.planTask(C, "(on tray red)", time_limit=5)
-    assert not plan.feasible
-    assert "'l_gripper' lies 70 mm inside 'l_palm', where" in plan.message
-    assert "its place is between the fingertips" in plan.message
+    told = " ".join([plan.message, *plan.warnings])
+    assert "'l_gripper' lies 70 mm inside 'l_palm', where" in told
+    assert "its place is between the fingertips" in told
 
 
 @pytest.mark.parametrize("file", ["pandaSingle.g", "pandasTable.g", "panda_fixRobotiq.g", "panda_fixGripper.g"])
