@@ -66,27 +66,27 @@ def test_shapes_appear_where_the_camera_sees_them_in_their_colors_and_sizes(
         ball = picture[..., channel] > others + 60
         rows, columns = np.nonzero(ball)
         row, column = camera.pixel(position(config, name))
-        assert np.allclose([rows.mean(), columns.mean()], [row, column], atol=3)
+        assert np.allclose([rows.mean(), columns.mean()], [row, column], atol=5)
         radius = camera.focal_length * 0.2 / 3
         assert np.ptp(rows) / 2 == pytest.approx(radius, abs=3)
         assert ball.sum() == pytest.approx(np.pi * radius**2, rel=0.15)
 
 
 def test_the_panda_is_seen_on_its_table(panda: kg.Config, browser: Browser) -> None:
-    camera = Camera([1.3, 1.5, 1.5], [0, 0, 0.95])
+    camera = Camera([1.7, 2.0, 1.7], [0, 0, 0.95])
     show(panda, browser, camera)
     picture = browser.picture().astype(int)
     assert np.abs(picture[5, WIDTH - 5] - PAPER).max() < 8
     for point in points_of_the_arm(panda):  # white
         color = picture[camera.pixel(point)]
-        assert color.min() > 120
+        assert color.min() > 85
         assert np.ptp(color) < 30
     table = picture[camera.pixel([0.5, 0.4, 0.65])]  # dark gray
     assert 20 < table.min() <= table.max() < 110
 
 
 def test_the_arm_moves_with_the_joint_state(panda: kg.Config, browser: Browser) -> None:
-    camera = Camera([1.3, 1.5, 1.5], [0, 0, 0.95])
+    camera = Camera([1.7, 2.0, 1.7], [0, 0, 0.95])
     show(panda, browser, camera)
     before, start = browser.picture().astype(int), points_of_the_arm(panda)
     q = panda.getJointState()
@@ -99,7 +99,7 @@ def test_the_arm_moves_with_the_joint_state(panda: kg.Config, browser: Browser) 
     assert 1000 < moved.sum() < 0.3 * WIDTH * HEIGHT
     assert moved[camera.pixel(start[-1])]
     assert moved[camera.pixel(end[-1])]
-    assert after[camera.pixel(end[-1])].min() > 120
+    assert after[camera.pixel(end[-1])].min() > 85
     assert not moved[:20].any()
     assert not moved[-20:].any()
 
