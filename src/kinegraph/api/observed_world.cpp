@@ -172,7 +172,8 @@ Config worldOf(BotOp& bot, const TaskPlan& plan, bool is_observed) {
     for (const std::string& name : names) {  // frames of the plan's grasps and places
       const Frame frame = std::as_const(believed).getFrame(name);
       const bool is_slot = name.starts_with("grasp_") || name.starts_with("place_");
-      if (is_slot && frame.getChildren().empty() && frame.getShapeType() == ShapeType::none) believed.delFrame(name);
+      const bool is_body = frame.getShapeType() != ShapeType::none && frame.getShapeType() != ShapeType::marker;
+      if (is_slot && !is_body && frame.getChildren().empty()) believed.delFrame(name);
     }
     return believed;
   }
