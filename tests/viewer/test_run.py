@@ -120,7 +120,7 @@ print('highest', recording.freePos[:, 0, 2].max())
     browser.mouse("mouseMoved", x, y)
     browser.mouse("mousePressed", x, y, button="left")
     for i in range(1, 9):
-        browser.mouse("mouseMoved", x, y - 10 * i, button="left", buttons=1)
+        browser.mouse("mouseMoved", x, y - 14 * i, button="left", buttons=1)
     browser.wait_for("kinegraph.position('box')[2] > 0.75")
     force = browser.evaluate("document.querySelector('.force').textContent")
     assert 10 < float(force.split()[0]) < 400, force

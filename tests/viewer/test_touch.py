@@ -68,7 +68,7 @@ def test_a_tap_selects_and_the_handle_follows_a_finger(page: Browser, config: kg
     page.wait_for("kinegraph.idle()")
     x, y = page.pixel([0, 0, 0.5])
     up = page.pixel([0, 0, 0.8])
-    handle = (x + 0.8 * (up[0] - x), y + 0.8 * (up[1] - y))  # the arrow along z
+    handle = (x + 0.6 * (up[0] - x), y + 0.6 * (up[1] - y))  # the arrow along z
     before = camera(page)
     move(page, (handle, (handle[0], handle[1] - 60)))
     page.wait_for("kinegraph.position('box')[2] > 0.55")
