@@ -85,6 +85,9 @@ def test_shadows_and_floor_are_seen_to_be_missing(
     red, green, blue = browser.picture()[5, 5].astype(int)  # the floor ends at the horizon, above the picture
     assert abs(red - 119) < 12 and abs(green - 129) < 12 and abs(blue - 141) < 12
     assert difference(browser.picture(), "shapes", tmp_path)
+    config.viewer().setCamera([0.6, -2.4, 1.7], [0, 0.2, 1.9])
+    browser.wait_for("kinegraph.idle()")
+    assert browser.picture()[5, 5].min() > 248  # the tone curve bends below white
 
 
 def test_things_far_from_the_origin_cast_shadows(config: kg.Config, browser: Browser) -> None:
