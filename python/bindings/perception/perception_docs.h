@@ -32,8 +32,8 @@ Args:
     config: The scene. Frames that are seen are moved.
     views: A DepthView, or a list of them. The scene must have the joint angles at which they were taken.
     frames: The names of the frames to look for.
-    support: The frame on whose top the things rest; None: they may be anywhere. Frames with a joint of their own and
-        frames in a hand never rest.
+    support: The frame on whose top the things rest, or on level boxes below it, such as a tray; None: they may be
+        anywhere. Frames with a joint of their own and frames in a hand never rest.
     search_radius: How far a thing may have moved since its last pose, m.
 Returns:
     A SeenScene with a SeenFrame for each frame.

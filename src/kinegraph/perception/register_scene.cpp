@@ -8,6 +8,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/perception/pose_certainty.h"
+#include "kinegraph/perception/resting_heights.h"
 
 namespace kinegraph {
 
@@ -39,6 +40,7 @@ struct Thing {
   VisibleShape shape;
   PoseFreedom freedom;
   RigidTransform last;
+  std::vector<double> heights;  ///< m: of the tops on which it may rest
   Candidate best = {};
   std::vector<Candidate> others = {};
   double score = -2.;
@@ -70,8 +72,8 @@ PoseFreedom freedomOf(const Frame& frame, bool may_rest) {
 class Registration {
  public:
   Registration(std::vector<Thing>& things, const std::vector<ObservedView>& views,
-               const std::vector<ObservedPoint>& points, const double* height, double search_radius)
-      : things_(things), views_(views), points_(points), height_(height), search_(search_radius) {}
+               const std::vector<ObservedPoint>& points, double search_radius)
+      : things_(things), views_(views), points_(points), search_(search_radius) {}
 
   void run() {
     std::vector<int> free_for_all(points_.size(), -1);
@@ -239,10 +241,15 @@ class Registration {
     FitPoints coarse{{}, fine.keep_out};
     const std::size_t step = std::max<std::size_t>(1, fine.measured.size() / kCoarsePoints);
     for (std::size_t i = 0; i < fine.measured.size(); i += step) coarse.measured.push_back(fine.measured[i]);
-    for (RigidTransform X : starts(thing, wide)) {
-      if (thing.freedom.kind == PoseFreedom::Kind::resting) X = restingPose(thing.shape, X, *height_);
+    const auto tryStart = [&](RigidTransform X) {
       fitPose(thing.shape, thing.freedom, coarse, views_, kCoarseWidths, kCoarseSamples, X);
       candidates.push_back({X, valueOf(thing, index, fine, X)});
+    };
+    for (const RigidTransform& X : starts(thing, wide)) {
+      if (thing.freedom.kind != PoseFreedom::Kind::resting)
+        tryStart(X);
+      else
+        for (const double height : thing.heights) tryStart(restingPose(thing.shape, X, height));
     }
   }
 
@@ -284,7 +291,6 @@ class Registration {
   std::vector<Thing>& things_;
   const std::vector<ObservedView>& views_;
   const std::vector<ObservedPoint>& points_;
-  const double* height_;
   double search_;
 };
 
@@ -372,12 +378,8 @@ SeenScene registerScene(Config& config, std::span<const DepthView> given, const 
   std::set<int> looked_for;
   if (!options.support.empty()) {
     const Frame support = config.getFrame(options.support);
-    std::set<int> on_it;  // a robot may be fixed to a table
-    for (const Frame& child : support.getChildren()) {
-      if (support.getShapeType() != ShapeType::none) on_it.insert(child.id());
-    }
-    const VisibleShape top(support, on_it);
-    height = support.getPosition().z() + top.extent(support.getRotationMatrix().transpose() * Vector3d::UnitZ());
+    const VisibleShape top = placeOf(support);
+    height = heightOf(support, top);
     looked_for.insert(top.frames().begin(), top.frames().end());
   }
   std::set<int> listed;
@@ -388,7 +390,11 @@ SeenScene registerScene(Config& config, std::span<const DepthView> given, const 
     const Frame frame = config.getFrame(name);
     if (std::any_of(things.begin(), things.end(), [&](const Thing& thing) { return thing.name == name; }))
       throw ValueError(cat("registerScene: frame '", name, "' is listed twice"));
-    Thing thing{name, VisibleShape(frame, listed), freedomOf(frame, height.has_value()), frame.getPose().transform()};
+    Thing thing{
+        name, VisibleShape(frame, listed), freedomOf(frame, height.has_value()), frame.getPose().transform(), {}};
+    if (height)
+      thing.heights = heightsUnder(frame, config.getFrame(options.support), *height,
+                                   thing.shape.radius() + options.search_radius, listed);
     looked_for.insert(thing.shape.frames().begin(), thing.shape.frames().end());
     balls.push_back({thing.last.p, thing.shape.radius() + 2. * options.search_radius});
     things.push_back(std::move(thing));
@@ -402,7 +408,7 @@ SeenScene registerScene(Config& config, std::span<const DepthView> given, const 
 
   SeenScene seen;
   warnOfViews(views, support_height, options.support, seen.warnings);
-  Registration registration(things, views, points, support_height, options.search_radius);
+  Registration registration(things, views, points, options.search_radius);
   registration.run();
   const std::vector<int> owners = registration.ownersOfPoints();
   for (std::size_t i = 0; i < things.size(); ++i) {

@@ -62,8 +62,8 @@ struct SeenScene {
 };
 
 struct RegisterOptions {
-  /// The frame on whose top the things rest; "": they may be anywhere in the air. Frames with a joint of their own and
-  /// frames in a hand never rest.
+  /// The frame on whose top the things rest, or on the level boxes below it, such as a tray on a table; "": they may be
+  /// anywhere in the air. Frames with a joint of their own and frames in a hand never rest.
   std::string support = {};
 
   double search_radius = .05;  ///< how far a thing may have moved since its last pose, m

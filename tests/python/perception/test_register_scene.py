@@ -45,6 +45,24 @@ def test_a_moved_box_is_found_and_its_frame_moved(scene):
     assert "box: seen at" in repr(seen)
 
 
+@pytest.mark.parametrize("believed", ["tray", "table"])
+@pytest.mark.parametrize("standing", ["tray", "table"])
+def test_a_thing_rests_on_the_place_of_the_scene_or_on_the_support(scene, believed, standing):
+    scene.delFrame("can")
+    tray = scene.addFrame("tray", "table").setShape(ry.ST.ssBox, [0.3, 0.3, 0.03, 0.005])
+    tray.setRelativePosition([-0.05, 0.05, 0.065]).setContact(1)
+    box = scene.getFrame("box")
+    at, height = ([-0.05, 0.05], 0.72) if standing == "tray" else ([0.2, 0.05], 0.69)
+    box.setPosition([*at, height])
+    truth = box.getPose()
+    depth, fxycxy = look(scene)
+    box.setParent(scene.getFrame(believed), True)
+    box.setPose(moved(truth, [0.02, -0.02, 0.03 if believed == "tray" else -0.01]))
+    seen = ry.registerScene(scene, ry.DepthView(depth, fxycxy, "cam"), ["box"], support="table")
+    assert seen["box"].status == ry.SeenStatus.seen
+    assert seen["box"].pose == pytest.approx(truth, abs=1e-3)
+
+
 def test_millimeters_in_integers_and_a_pose_give_the_same_result_as_meters_and_a_frame(scene):
     depth, fxycxy = look(scene)
     camera = scene.getFrame("cam").getPose()
