@@ -93,7 +93,7 @@ std::string flawOfPlace(const SceneTree& scene, const State& state, const FrameD
   }
   if (!around) return "";
   return cat("'", hand.name, "' lies ", fixed(1e3 * deepest, 0), " mm inside '", around->name,
-             "', where the hand can hold nothing; its place is between the fingertips");
+             "'; its place is between the fingertips");
 }
 
 }  // namespace

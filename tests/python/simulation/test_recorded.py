@@ -171,8 +171,7 @@ def test_an_inverse_kinematics_problem_has_the_recorded_residuals_and_a_solution
 def test_the_equation_of_motion_of_a_double_pendulum_is_as_recorded():
     numbers = recorded("tutorial_arm")["dynamics"]
     C = ry.Config()
-    with pytest.warns(ry.KinegraphWarning, match="point mass"):
-        C.addText(numbers["scene"])
+    C.addText(numbers["scene"])
     C.setJointState(numbers["q"])
     M, F = C.dyn_MF(numbers["qdot"])
     assert np.allclose(M, numbers["M"], rtol=1e-6) and np.allclose(F, numbers["F"], rtol=1e-6)

@@ -388,8 +388,9 @@ def test_a_gripper_inside_of_the_palm_is_told() -> None:
     C.getFrame("l_gripper").setPosition(C.getFrame("l_palm").getPosition())
     plan = ry.planTask(C, "(on tray red)", time_limit=5)
     told = " ".join([plan.message, *plan.warnings])
-    assert "'l_gripper' lies 70 mm inside 'l_palm', where" in told
-    assert "its place is between the fingertips" in told
+    assert "'l_gripper' lies 70 mm inside 'l_palm'; its place is between the fingertips" in told
+    if plan.feasible:  # fingers that reach beyond the frame hold the box all the same
+        executed(C, plan)
 
 
 @pytest.mark.parametrize("file", ["pandaSingle.g", "pandasTable.g", "panda_fixRobotiq.g", "panda_fixGripper.g"])

@@ -222,7 +222,8 @@ void AttributeReader::applyInertia(FrameData& frame) {
       error(*node, cat("expected 3 (diagonal), 6 (xx xy xz yy yz zz) or 9 numbers, got ", m.size()));
     }
     if (!inertia.matrix.allFinite()) return error(*node, "an inertia has finite numbers, in kg m^2");
-    judgeInertia(*node, inertia, of_shape);
+    // Three zeros are a point mass on purpose; the readers of URDF and MJCF give six numbers.
+    if (m.size() != 3 || !inertia.matrix.isZero(0.)) judgeInertia(*node, inertia, of_shape);
   }
   if (const Node* node = find({"com"})) inertia.com = vector3(*node).value_or(inertia.com);
   frame.inertia = inertia;
