@@ -6,8 +6,8 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/random.h"
 #include "kinegraph/geometry/shapes/cells.h"
-#include "kinegraph/rendering/camera_renderer.h"
 #include "kinegraph/scene/collisions.h"
+#include "tests/perception/camera_above_table.h"
 
 namespace kinegraph {
 namespace {
@@ -19,24 +19,8 @@ Config mapScene() {
     table: { shape: ssBox, size: [1.2, 1.2, .1, .005], pose: [0, 0, .6], contact: 1 }
     cam: { pose: [0, -.8, 1.3], focalLength: 1., width: 320, height: 240 }
   )");
-  const Vector3d eye(0., -.8, 1.3), z = (Vector3d(0., .05, .65) - eye).normalized();
-  const Vector3d x = z.cross(Vector3d::UnitZ()).normalized();
-  Matrix3d R;
-  R << x, z.cross(x), z;
-  C.getFrame("cam").setPose(Pose(eye, Quaterniond(R)));
+  aimCamera(C);
   return C;
-}
-
-DepthView imageOf(Config& C) {
-  CameraRenderer renderer;
-  const Camera from = cameraOf(C.getFrame("cam"));
-  DepthView view;
-  view.depth = renderer.render(*C.scene(), from, true).depth;
-  view.width = from.width;
-  view.height = from.height;
-  view.fxycxy = from.fxycxy();
-  view.camera = "cam";
-  return view;
 }
 
 TEST(OccupancyMap, ABoxThatTheSceneDoesNotHaveIsOccupiedAndHidesWhatIsBehind) {

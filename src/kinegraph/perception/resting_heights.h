@@ -14,8 +14,8 @@ VisibleShape placeOf(const Frame& frame);
 /// The height of the top of a frame's shapes in the world, m.
 double heightOf(const Frame& frame, const VisibleShape& place);
 
-/// The heights at which a thing may rest, m, without repetitions: on the support, whose top is at `height`; on the frame
-/// below which the thing hangs in the scene; and on level boxes below the support, such as trays, that come within
+/// The heights at which a thing may rest, m, without repetitions: on the support, whose top is at `height`; on the
+/// frame below which the thing hangs in the scene; and on level boxes below the support, such as trays, that come within
 /// `reach` (m) of the thing. `things` (ids) are not places.
 std::vector<double> heightsUnder(const Frame& thing, const Frame& support, double height, double reach,
                                  const std::set<int>& things);

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import kinegraph as ry
+from executed_plans import executed
 
 TOP = 0.65  # m: height of the table
 
@@ -22,18 +23,6 @@ def box(C, name, parent, position, size=(0.05, 0.05, 0.07)) -> ry.Frame:
 def tray(C, size=(0.2, 0.2, 0.01)) -> ry.Frame:
     frame = C.addFrame("tray", "table").setPosition([-0.3, 0.3, TOP + 0.5 * size[2]])
     return frame.setShape(ry.ST.ssBox, [*size, 0.004]).setContact(1)
-
-
-def executed(C, plan) -> ry.Config:
-    """The simulated world 2 s after the execution of a plan."""
-    assert plan.feasible, plan
-    assert ry.checkTaskPlan(C, plan) == []
-    bot = ry.BotOp(C)
-    run = plan.execute(bot, repairs=0)
-    assert run.feasible, run
-    world = C.copy()
-    bot.sync(world, 2.0)
-    return world
 
 
 def stands(world, name, place, top, radius) -> bool:

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import kinegraph as ry
+from executed_plans import executed
 
 TOP = 0.65  # m: height of the table
 LYING = [np.sqrt(0.5), 0.0, np.sqrt(0.5), 0.0]  # z along x
@@ -35,18 +36,6 @@ def walls(C, name, sides, height, thick=0.005) -> None:
         at = [0.5 * a * (x - thick), 0.5 * b * (y - thick), 0.5 * height]
         size = [thick, y, height] if a else [x - 2 * thick, thick, height]
         part(C, f"{name}{k}", name, at, ry.ST.ssBox, [*size, 0.001])
-
-
-def executed(C, plan) -> ry.Config:
-    """The simulated world 2 s after the execution of a plan."""
-    assert plan.feasible, plan
-    assert ry.checkTaskPlan(C, plan) == []
-    bot = ry.BotOp(C)
-    run = plan.execute(bot, repairs=0)
-    assert run.feasible, run
-    world = C.copy()
-    bot.sync(world, 2.0)
-    return world
 
 
 def is_on_tray(before, world, name, height) -> bool:
