@@ -140,7 +140,7 @@ class Simulation {
 
   /// Moves a point of a frame's link (in the frame's axes, m) to a target (world, m) by a damped spring until
   /// endPerturbation: f = m (w^2 (target - p) - 2 w dp/dt), with w = 10 rad/s. m is the mass of the link and all links
-  /// below it, at most ten times the inertia that the point resists with. A target beyond 10 m pulls as from 10 m. At
+  /// below it, at most ten times the inertia that the point resists with. A target beyond 1 m pulls as from 1 m. At
   /// most one perturbation is active. Throws FrameNotFound, and ValueError for a frame fixed to the world.
   void perturb(const std::string& frame, const Vector3d& point, const Vector3d& target);
   void endPerturbation();
