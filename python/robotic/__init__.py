@@ -5,6 +5,7 @@ A thin layer over kinegraph with the same classes and functions under the same n
 - `feasible` of a solve follows the reference's rule; see `SolverReturn`.
 - A simulated `BotOp` moves beyond its limits and into obstacles, with a warning; `kinegraph.BotOp` is strict.
 - `Config.getFrame` returns None for an unknown frame, and a frame with an unknown parent has none, with a warning.
+- `SimulationEngine.bullet` simulates by MuJoCo, with a warning.
 - States of a `Simulation` unpack as (X, q, V, qDot), and solvers keep their trace.
 - Names and arguments of earlier versions (0.1.10, 0.2.3, 0.2.9) are there, too.
 - Names of the reference without an implementation here exist, and raise an explaining error when used.
@@ -42,6 +43,9 @@ if TYPE_CHECKING:
 from .earlier_words import acceptEarlierWords as _acceptEarlierWords
 from .exported_values import exportedValue as _exportedValue
 from .not_yet import (
+    CtrlSet,
+    CtrlSolver,
+    ImpType,
     KOMO_Objective,
     MujocoLoader,
     SRRT_PathFinder,
@@ -60,7 +64,10 @@ _acceptEarlierWords()
 __all__ = [
     *kinegraph.__all__,
     "Actions2KOMO_Translator",
+    "CtrlSet",
+    "CtrlSolver",
     "DataGen",
+    "ImpType",
     "KOMO_ManipulationHelper",
     "KOMO_Objective",
     "Logic2KOMO_Translator",
