@@ -42,6 +42,7 @@ if TYPE_CHECKING:
 
 from .earlier_words import acceptEarlierWords as _acceptEarlierWords
 from .exported_values import exportedValue as _exportedValue
+from .log_level import setLogLevel
 from .not_yet import (
     CtrlSet,
     CtrlSolver,
@@ -87,6 +88,7 @@ __all__ = [
     "rai_path",
     "render",
     "ry",
+    "setLogLevel",
 ]
 
 

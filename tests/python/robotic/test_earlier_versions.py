@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 import sys
 from pathlib import Path
 
@@ -239,7 +240,7 @@ def test_scenes_of_slices_are_poses_of_a_scene() -> None:
     assert np.allclose(C.getFrame("box").getPosition(), [0, 0.3, 1.0], atol=1e-3)
     assert np.allclose(C.getJointState(), komo.getPath()[9], atol=1e-9)
     before = C.getFrameState()
-    C.setFrameState(before[:1] + [0, 0, 1, 0, 0, 0, 0], ["world"])
+    C.setFrameState(before[:1] + np.array([0, 0, 1, 0, 0, 0, 0]), ["world"])
     assert C.getFrame("world").getPosition()[2] == pytest.approx(before[0, 2] + 1)
     with pytest.raises(ry.ArgumentError, match="one pose x y z qw qx qy qz per frame"):
         C.setFrameState(arm())  # it lacks the box
@@ -265,3 +266,17 @@ def test_mujoco_takes_the_place_of_bullet() -> None:
 def test_what_only_libry_had_says_what_to_call(name: str) -> None:
     with pytest.raises(ry.NotFound, match=f"robotic.{name}.*; (DiffIk|Simulation.applyForce)"):
         getattr(ry, name)()
+
+
+def test_messages_are_silenced_and_heard_again(capsys: pytest.CaptureFixture[str]) -> None:
+    komo = ry.KOMO(arm(), 1, 1, 0, False)
+    try:
+        ry.setLogLevel(-1)
+        ry.NLP_Solver(komo.nlp(), verbose=1).solve()
+        assert capsys.readouterr().out == ""
+    finally:
+        ry.setLogLevel(0)
+    if not logging.getLogger("kinegraph").hasHandlers():  # a runner of tests may have its own
+        ry.NLP_Solver(komo.nlp(), verbose=1).solve()
+        assert "==nlp==" in capsys.readouterr().out
+    assert logging.getLogger("kinegraph").propagate
