@@ -69,6 +69,8 @@ FOUND = {
         r"^line: <ToolPathPlan solved",
         r"^level: <MotionPlan solved",
         r"^0\.57 s, 3\.75 s$",
+        r"^planned: [1-9]",
+        r"^planMotion: option optimize is 'speed'; expected one of time, length, clearance$",
     ],
     "features": [
         r"<SelfCollisionMatrix: \d+ pairs of frames in 2000 configurations: \d+ adjacent, \d+ always in collision, \d+ never",
