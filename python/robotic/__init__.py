@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from . import DataGen, algo, calib, manipulation, nlp, render
     from .keywords import arg
     from .manipulation import KOMO_ManipulationHelper, LGP_Tool, ManipulationModelling
+    from .tools.mujoco_io import MujocoLoader
 
 from .earlier_words import acceptEarlierWords as _acceptEarlierWords
 from .exported_values import exportedValue as _exportedValue
@@ -48,7 +49,6 @@ from .not_yet import (
     CtrlSolver,
     ImpType,
     KOMO_Objective,
-    MujocoLoader,
     SRRT_PathFinder,
 )
 from .operation import BotOp
@@ -104,6 +104,7 @@ _LAZY = {
     ),
     "robotic.manipulation": ("KOMO_ManipulationHelper", "LGP_Tool", "ManipulationModelling"),
     "robotic.keywords": ("arg",),
+    "robotic.tools.mujoco_io": ("MujocoLoader",),
 }
 _MODULE_OF = {name: module for module, names in _LAZY.items() for name in names}
 _SUBMODULES = ("DataGen", "algo", "calib", "manipulation", "nlp", "render", "src", "test", "tools")

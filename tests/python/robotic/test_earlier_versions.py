@@ -197,6 +197,9 @@ def test_helper_modules_cover_what_kinegraph_has(tmp_path: Path) -> None:
     xml = tmp_path / "b.xml"
     xml.write_text(mujoco_io.MujocoWriter(C).str())
     assert "ball" in mujoco_io.MujocoLoader(str(xml), basePos=[0.0, 0.0, 1.0]).C.getFrameNames()
+    M = ry.MujocoLoader(str(xml), visualsOnly=True, processMeshes=True)
+    M.base.setPosition([1.0, 0.0, 0.0])
+    assert M.C.getFrame("ball").getPosition()[0] == pytest.approx(1.0)
     mesh = tmp_path / "t.tri"
     mesh.write_text("TRI\n3\n1\n0 0 0\n1 0 0\n0 1 0\n0 1 2\n")
     assert mesh_tool.MeshTool(str(mesh)).points.shape == (3, 3)
