@@ -226,7 +226,8 @@ class SimulationBatch {
   SimulationState getState(int environment) const;
   void setState(int environment, const SimulationState& state);
 
-  /// Resets environments (all if not given) to the initial Config. This and all calls below throw ValueError for unknown environments.
+  /// Resets environments (all if not given) to the initial Config. This and all calls below throw ValueError for
+  /// unknown environments.
   void reset(const std::optional<std::vector<int>>& environments = std::nullopt);
 
   /// Sets joints (a row of `q` each) and free frames (a row of `poses`, 7F; empty: unchanged) of environments (all for
