@@ -23,7 +23,7 @@ EXAMPLES = [  # captions, and the numbers of the examples below
 HOW_TO = [
     ("Scenes and robots", ["scenes", "robots", "other_simulators", "ik", "features"]),
     ("Motions", ["motion", "planning", "timing", "tool_paths"]),
-    ("Tasks", ["tasks"]),
+    ("Tasks", ["tasks", "logic"]),
     ("Cameras", ["perception"]),
     ("Robots that move", ["control", "operation", "mcap", "simulation", "dynamics"]),
     ("Arms", ["ros2", "franka", "trossen", "ur", "lerobot_robots"]),
@@ -70,8 +70,8 @@ NAMES = {
     ),
     "planning": (
         "Motion planning",
-        "planMotion planMotions MotionPlan MotionPlans MotionConstraint MotionContact PlanStatus PlanSearch "
-        "PlanSearchStatus shortcut smooth Roadmap RoadmapPath PathFinder RRT_PathFinder PathReturn PathContact",
+        "planMotion planMotions MotionPlan MotionPlans MotionConstraint MotionContact PlanStatus "
+        "shortcut smooth Roadmap RoadmapPath PathFinder RRT_PathFinder PathReturn PathContact",
     ),
     "timing": (
         "Trajectories",
@@ -81,8 +81,9 @@ NAMES = {
     "tasks": (
         "Tasks",
         "planTask planTasks TaskPlan TaskPlans TaskStatus TaskBranch TaskRun TaskEvent TaskEventKind TaskExecution "
-        "checkTaskPlan Domain TaskRule TaskWaypoints defaultDomain doorStates sceneFacts ArgWord LogicProblem LGP_Tool "
-        "LgpStatus LGP_TAMP_Abstraction default_LGP_TAMP_Abstraction KOMO_ManipulationHelper ManipulationModelling",
+        "checkTaskPlan Domain TaskRule TaskWaypoints defaultDomain doorStates sceneFacts ArgWord LogicProblem PlanSearch "
+        "PlanSearchStatus LGP_Tool LgpStatus LGP_TAMP_Abstraction default_LGP_TAMP_Abstraction KOMO_ManipulationHelper "
+        "ManipulationModelling",
     ),
     "control": ("Control", "DiffIk DiffIkStatus Mpc MpcResult TargetFile Gamepad"),
     "simulation": (

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import enum
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from types import MethodType
 from typing import Any
 
 import numpy as np
@@ -153,6 +154,14 @@ def _near(name: str, names: list[str]) -> str:
     return f"; similar names: {', '.join(near)}" if near else ""
 
 
+# How objects are read from files.
+_READERS: dict[str, Callable[[str], str]] = {
+    "Config": lambda file: f"C = Config(); C.addFile({file!r})",
+    "Domain": lambda file: f"Domain.from{'Pddl' if file.endswith('.pddl') else 'Fol'}({file!r})",
+    "LogicProblem": lambda file: f"LogicProblem.fromPddl(domain, {file!r})",
+}
+
+
 def _memberHint(value: str, kind: type[enum.Enum]) -> str:
     names = list(kind.__members__)
     if value in names:
@@ -160,8 +169,14 @@ def _memberHint(value: str, kind: type[enum.Enum]) -> str:
     return _near(value, names) or f"; as in {kind.__name__}.{names[0]}"
 
 
+def _isMethod(value: Any) -> bool:
+    return isinstance(value, MethodType) or type(value).__name__ == "nb_bound_method"
+
+
 def _hint(value: Any, type_text: str) -> str:
     """Suggests a correction, if one is known."""
+    if _isMethod(value):
+        return f"; call it: {value.__name__}()"
     for name in map(readable, split(type_text, "|")):
         kind = getattr(_core, name, None)
         if isinstance(value, str) and isinstance(kind, type) and issubclass(kind, enum.Enum):
@@ -174,6 +189,8 @@ def _hint(value: Any, type_text: str) -> str:
             return f"; write [{value!r}]"
         if isinstance(value, _core.KOMO) and name == "NLP":
             return "; write komo.nlp()"
+        if isinstance(value, str) and name in _READERS:
+            return f"; read a file by {_READERS[name](value)}"
     return ""
 
 
@@ -181,6 +198,8 @@ def _shown(value: Any) -> str:
     text = " ".join(repr(value).split())
     if isinstance(value, type):
         return f"the class {value.__name__}"
+    if _isMethod(value):
+        return f"the method {value.__name__}"
     if len(text) > 60:
         text = text[:57] + "..."
     return text if value is None or isinstance(value, enum.Enum) else f"{text} ({type(value).__name__})"
@@ -208,6 +227,14 @@ def _wrong(value: Any, parameter: _Parameter) -> str:
     return reasons + (hint or (_place(value) if "ArrayLike" in parameter.type else ""))
 
 
+def _surplusHint(takes: Sequence[_Parameter], given: Sequence[Any]) -> str:
+    """Suggests a list for numbers that are given one by one."""
+    one_by_one = all(isinstance(value, (int, float, np.number)) for value in given)
+    if one_by_one and len(given) > 1 and len(takes) == 1 and "ArrayLike" in takes[0].type:
+        return f"; write one list: [{', '.join(f'{value:g}' for value in given)}]"
+    return ""
+
+
 class _Misfit:
     """The reasons why a signature does not match the arguments."""
 
@@ -230,7 +257,8 @@ class _Misfit:
             names = [each.name for each in by_place if each.name != "self"]
             count = len(positional) - (len(by_place) - len(names))
             takes = f"it takes at most {len(names)}: {', '.join(names)}" if names else "it takes no positional ones"
-            self.reasons.append(f"{count} argument{'s are' if count > 1 else ' is'} given; {takes}")
+            hint = _surplusHint([each for each in by_place if each.name != "self"], positional[-count:])
+            self.reasons.append(f"{count} argument{'s are' if count > 1 else ' is'} given; {takes}{hint}")
         self.reasons += [f"it has no argument '{name}'{_near(name, [*by_name])}" for name in unknown]
         if missing:
             self.reasons.append(f"missing: {', '.join(f'{each.name} ({_expected(each.type)})' for each in missing)}")
@@ -264,5 +292,7 @@ def explain(function: Any, positional: Sequence[Any], named: Mapping[str, Any]) 
     misfits = [_Misfit(form, positional, named) for form in forms]
     nearest = min((each for each in misfits if each.reasons), key=lambda each: each.rank, default=misfits[0])
     reasons = "; ".join(nearest.reasons[:2]) or "no signature matches these arguments"
+    if title in _READERS and len(positional) == 2 and isinstance(positional[1], str):
+        reasons += f"; read a file by {_READERS[title](positional[1])}"
     written = [f"{short}({', '.join(str(each) for each in form if each.name != 'self')})" for form in forms]
     return ArgumentTypeError("\n  ".join([f"{title}: {reasons}", *written]))

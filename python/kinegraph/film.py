@@ -10,9 +10,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from ._core import Config
-from .errors import ArgumentError, NotFound
+from ._core import Config, TaskPlan, Trajectory
+from .errors import ArgumentError, ArgumentTypeError, NotFound
 from .progress import drawProgress
 
 _CODECS = {  # with their speed settings
@@ -48,11 +49,28 @@ def _states(config: Config, path: np.ndarray, count: int) -> np.ndarray:
     return np.asarray((1 - share) * path[before] + share * after)
 
 
+def _rows(config: Config, motion: Trajectory, count: int) -> Any:
+    """Evaluates a motion at equal steps; a TaskPlan gives poses of frames, with held objects in the hands."""
+    if isinstance(motion, TaskPlan):
+        return motion.frames(config, max(25.0, count / motion.duration))
+    return [motion.eval(t)[0] for t in np.linspace(0, motion.duration, count)]
+
+
+def _require(file: Any, config: Any, size: Any) -> None:
+    """Raises ArgumentTypeError for arguments in another order or of another kind."""
+    if not isinstance(file, (str, os.PathLike)):
+        raise ArgumentTypeError(f"saveFilm: file is {file!r}; expected a file's name; write saveFilm(file, C, path)")
+    if not isinstance(config, Config):
+        raise ArgumentTypeError(f"saveFilm: config is {config!r}; expected Config; write saveFilm(file, C, path)")
+    if size is not None and (np.shape(size) != (2,) or not np.all(np.greater(size, 0))):
+        raise ArgumentTypeError(f"saveFilm: size is {size!r}; expected width and height in pixels, as in (1280, 720)")
+
+
 def saveFilm(
     file: str | os.PathLike[str],
     config: Config,
-    path: np.ndarray,
-    seconds: float = 3.0,
+    path: ArrayLike | Trajectory,
+    seconds: float | None = None,
     rate: float = 25.0,
     size: tuple[int, int] | None = None,
 ) -> Path:
@@ -63,25 +81,33 @@ def saveFilm(
     Args:
         file: The file's name, which ends in .mp4 or .webm. A missing folder is created.
         config: The scene.
-        path: Joint vectors, shape (T, n), or poses of all frames, shape (T, frames, 7), like `komo.getPathFrames()`, at
-            equal time steps.
-        seconds: Duration of the film, s.
+        path: A plan or another Trajectory; joint vectors, shape (T, n), or poses of all frames, shape (T, frames, 7),
+            like `komo.getPathFrames()`, at equal time steps. In a TaskPlan, held objects move along.
+        seconds: Duration of the film, s; None: that of the Trajectory, or 3.
         rate: Pictures per second.
         size: Width and height, pixels; by default those of the viewer's camera. Odd numbers are made even.
     Returns:
         The file's path.
     Raises:
-        ArgumentError: The path, the name or a number is invalid.
+        ArgumentError: The path, the name or a number is invalid, or a plan has no motion.
+        ArgumentTypeError: The file's name, the scene or the size is of another type.
         NotFound: The package av (extra `film`) is not installed.
         OSError: The file cannot be written.
     """
+    _require(file, config, size)
+    motion = path if isinstance(path, Trajectory) else None
+    if motion is not None and motion.duration <= 0:
+        raise ArgumentError(f"saveFilm: {motion!r} has no motion")
+    if seconds is None:
+        seconds = motion.duration if motion is not None else 3.0
     target = Path(file)
     if target.suffix not in _CODECS:
         raise ArgumentError(f"saveFilm: the file is '{target}'; expected a name that ends in {' or '.join(_CODECS)}")
     if not (0 < seconds < float("inf") and 0 < rate < float("inf")):
         raise ArgumentError(f"saveFilm: seconds is {seconds} and rate is {rate}; expected numbers > 0")
     av = _encoder()
-    states = _states(config, np.asarray(path, float), max(2, round(seconds * rate)))
+    count = max(2, round(seconds * rate))
+    states = _states(config, np.asarray(path if motion is None else _rows(config, motion, count), float), count)
     viewer = config.viewer()
     config.view(False, None, offscreen=True)
     if size is not None:

@@ -5,6 +5,7 @@ A thin layer over kinegraph with the same classes and functions under the same n
 - `feasible` of a solve follows the reference's rule; see `SolverReturn`.
 - A simulated `BotOp` moves beyond its limits and into obstacles, with a warning; `kinegraph.BotOp` is strict.
 - `Config.getFrame` returns None for an unknown frame, and a frame with an unknown parent has none, with a warning.
+- `SimulationEngine.bullet` simulates by MuJoCo, with a warning.
 - States of a `Simulation` unpack as (X, q, V, qDot), and solvers keep their trace.
 - Names and arguments of earlier versions (0.1.10, 0.2.3, 0.2.9) are there, too.
 - Names of the reference without an implementation here exist, and raise an explaining error when used.
@@ -38,12 +39,16 @@ if TYPE_CHECKING:
     from . import DataGen, algo, calib, manipulation, nlp, render
     from .keywords import arg
     from .manipulation import KOMO_ManipulationHelper, LGP_Tool, ManipulationModelling
+    from .tools.mujoco_io import MujocoLoader
 
 from .earlier_words import acceptEarlierWords as _acceptEarlierWords
 from .exported_values import exportedValue as _exportedValue
+from .log_level import setLogLevel
 from .not_yet import (
+    CtrlSet,
+    CtrlSolver,
+    ImpType,
     KOMO_Objective,
-    MujocoLoader,
     SRRT_PathFinder,
 )
 from .operation import BotOp
@@ -60,7 +65,10 @@ _acceptEarlierWords()
 __all__ = [
     *kinegraph.__all__,
     "Actions2KOMO_Translator",
+    "CtrlSet",
+    "CtrlSolver",
     "DataGen",
+    "ImpType",
     "KOMO_ManipulationHelper",
     "KOMO_Objective",
     "Logic2KOMO_Translator",
@@ -80,6 +88,7 @@ __all__ = [
     "rai_path",
     "render",
     "ry",
+    "setLogLevel",
 ]
 
 
@@ -95,6 +104,7 @@ _LAZY = {
     ),
     "robotic.manipulation": ("KOMO_ManipulationHelper", "LGP_Tool", "ManipulationModelling"),
     "robotic.keywords": ("arg",),
+    "robotic.tools.mujoco_io": ("MujocoLoader",),
 }
 _MODULE_OF = {name: module for module, names in _LAZY.items() for name in names}
 _SUBMODULES = ("DataGen", "algo", "calib", "manipulation", "nlp", "render", "src", "test", "tools")

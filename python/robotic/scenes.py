@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Sequence
 from typing import Any
 
 import kinegraph
@@ -72,6 +73,20 @@ class Config(kinegraph.Config):
             super().delFrame(frame)
         except FrameNotFound as error:
             warnings.warn(str(error), KinegraphWarning, stacklevel=2)
+
+    def setFrameState(self, X: Any, frames: Sequence[str] = ()) -> None:
+        """Sets the poses of frames, as kinegraph.Config.setFrameState, or those of all frames as in another scene.
+
+        Args:
+            X: World poses, shape (number of frames, 7), or a scene with the same frames, such as
+                komo.getConfiguration(t), whose result was poses in libry.
+            frames: Names; none: all frames.
+        Raises:
+            ArgumentError: X has another number of frames, or invalid quaternions.
+        """
+        if isinstance(X, kinegraph.Config):
+            X = X.getFrameState()[: self.getFrameDimension()]  # frames of mode switches come last
+        super().setFrameState(X, [*frames])
 
     def simulation(self, engine: Any = kinegraph.SimulationEngine.physx, verbose: int = 2) -> Any:
         """Returns a simulation of this scene, like Simulation(C, engine, verbose), as in scripts for libry.

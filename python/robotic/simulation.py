@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Iterator
 from typing import Any
 
@@ -40,8 +41,26 @@ class SimulationState(kinegraph.SimulationState):
 class Simulation(kinegraph.Simulation):
     """Like kinegraph.Simulation; getState unpacks, and selectSensor adds the sensor of a camera frame."""
 
-    def __init__(self, C: kinegraph.Config, *args: Any, **kwargs: Any) -> None:
-        super().__init__(C, *args, **kwargs)
+    def __init__(
+        self, C: kinegraph.Config, engine: Any = kinegraph.SimulationEngine.physx, *args: Any, **kwargs: Any
+    ) -> None:
+        """Creates a simulation, as kinegraph.Simulation; MuJoCo takes the place of Bullet, with a warning.
+
+        Args:
+            C: The scene, which the simulation moves.
+            engine: A SimulationEngine.
+            args, kwargs: verbose and options, as in kinegraph.Simulation.
+        Raises:
+            ArgumentError: The engine does not exist, or an option is invalid.
+        """
+        if engine == kinegraph.SimulationEngine.bullet:
+            warnings.warn(
+                "Simulation: there is no engine bullet; physx (MuJoCo) simulates the scene",
+                kinegraph.KinegraphWarning,
+                stacklevel=2,
+            )
+            engine = kinegraph.SimulationEngine.physx
+        super().__init__(C, engine, *args, **kwargs)
         self._scene = C
         self._widths: dict[str, float] = {}  # of grippers, as commanded
         self._holders: dict[str, str] = {}  # of attached frames

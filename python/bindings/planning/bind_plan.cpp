@@ -45,8 +45,8 @@ MotionGoal goalOf(const PyConfig& config, nb::handle goal) {
   if (readNumbers(goal, numbers) && (numbers.rank == 1 || numbers.rank == 2) && numbers.values.size() > 0)
     return MotionGoal(configurationsOf(numbers));
   throw ValueError(cat("planMotion: the goal is ", nb::cast<std::string>(nb::repr(goal)),
-                       "; expected a joint vector or several, a dict of targets as for solveIk, the name of a joint "
-                       "state, or MotionConstraints"));
+                       "; expected a joint vector or several, such as result.q of solveIk, a dict of targets as for "
+                       "solveIk, the name of a joint state, or MotionConstraints"));
 }
 
 PyMotionPlan plan(const PyConfig& config, nb::handle goal, const std::optional<Numbers>& start, nb::kwargs arguments) {

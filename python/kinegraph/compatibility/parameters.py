@@ -49,7 +49,8 @@ def params_add(values: dict[str, Any] | None = None, **more: Any) -> None:
     """Sets parameters, from a dict or from keyword arguments.
 
     Those named 'opt/<field>' are defaults of NLP_SolverOptions. Scripts may keep parameters of their own. A name that
-    no call reads, but that is close to one or of its group ('botsim/...'), causes a KinegraphWarning.
+    no call reads, but that is close to one or of its group ('botsim/...'), causes a KinegraphWarning. The page
+    "Conventions" lists all with their values.
 
     Args:
         values: A dict from names to values.

@@ -20,6 +20,7 @@ from ..errors import ArgumentError, Error
 from ..fleets import map as mapItems
 from .layout import SHARDS, shardFolder, writeText
 from .rehearsal import sentence, stateNames, stateOf
+from .video import CODECS
 from .writer import LeRobotWriter, finishedShards, mergeShards
 
 KEEP = ("success", "clean", "all")
@@ -170,7 +171,8 @@ def demonstrate(
         Numbers of episodes, frames and attempts, and reasons of failures.
     Raises:
         ArgumentError: An argument is invalid, or the folder has a data set of other arguments.
-        NotFound: A package or a camera is not found.
+        NotFound: A package is not installed.
+        FrameNotFound: There is no such camera.
         Error: No attempt of a shard succeeds.
     """
     if episodes < 1 or shard < 1:
@@ -179,6 +181,10 @@ def demonstrate(
         raise ArgumentError(f"demonstrate: keep is {keep!r}; expected one of {', '.join(KEEP)}")
     if fps < 1 or 100 % fps:
         raise ArgumentError(f"demonstrate: fps is {fps}; expected a divisor of the control rate, 100 Hz, such as 20")
+    if codec not in CODECS:
+        raise ArgumentError(f"demonstrate: codec is {codec!r}; expected one of {', '.join(CODECS)}")
+    for camera in cameras if isinstance(scene, Config) else ():
+        Config.getFrame(scene, camera)  # a name that is not there is told before anything is written
     height, width = (size, size) if isinstance(size, int) else size
     vary = Randomization() if randomize is None else randomize
     job = _Job(scene, goal, tuple(cameras), (height, width), fps, seed, keep, vary, task or sentence(goal))
@@ -221,16 +227,21 @@ def demonstrate(
 
 
 def _requireSame(folder: Path, settings: dict[str, Any]) -> None:
+    """Writes the settings of a new data set, or raises ArgumentError if there are episodes of other ones."""
     path = folder / SHARDS / "settings.json"
-    if not path.exists():
+    if not path.exists() or not finishedShards(folder):
         writeText(path, json.dumps(settings, indent=1))
         return
     known = json.loads(path.read_text())
     other = [key for key in settings if known.get(key) != settings[key]]
     if other:
-        raise ArgumentError(
-            f"demonstrate: '{folder}' has demonstrations with another {', '.join(other)}; choose another folder"
-        )
+        theirs = ", ".join(f"{key} {_short(known.get(key))} instead of {_short(settings[key])}" for key in other)
+        raise ArgumentError(f"demonstrate: '{folder}' has demonstrations with {theirs}; choose another folder")
+
+
+def _short(value: Any) -> str:
+    text = repr(value)
+    return text if len(text) < 60 else text[:57] + "..."
 
 
 def _requireCount(folder: Path, number: int, count: int, is_done: bool) -> None:

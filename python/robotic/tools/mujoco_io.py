@@ -18,11 +18,12 @@ class MujocoLoader:
 
     Args:
         file: The file.
-        verbose, visualsOnly, defaultConType: Not used.
+        verbose, visualsOnly, defaultConType, options: Not used.
         basePos: Position of a frame above the file's frames, (3,), m.
         baseQuat: Its orientation, (4,).
     Attributes:
         C: The scene.
+        base: The frame above the file's frames.
     Raises:
         FileError: The file cannot be read.
         ParseError: It is invalid.
@@ -36,13 +37,14 @@ class MujocoLoader:
         defaultConType: str = "0",
         basePos: ArrayLike = (0.0, 0.0, 0.0),
         baseQuat: ArrayLike = (1.0, 0.0, 0.0, 0.0),
+        **options: Any,
     ) -> None:
         self.C = Config()
         self.C.addFile(str(file))
         roots = [frame for frame in self.C.getFrames() if frame.getParent() is None]
-        base = self.C.addFrame("mujoco_base").setPosition(basePos).setQuaternion(baseQuat)
+        self.base = self.C.addFrame("mujoco_base").setPosition(basePos).setQuaternion(baseQuat)
         for frame in roots:
-            frame.setParent(base, keepAbsolutePose_and_adaptRelativePose=False)
+            frame.setParent(self.base, keepAbsolutePose_and_adaptRelativePose=False)
 
 
 class MujocoWriter:

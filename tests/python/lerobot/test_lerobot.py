@@ -190,8 +190,21 @@ def test_demonstrations_continue_where_they_ended(tmp_path: Path) -> None:
     parts = ry.demonstrate(scene(), "(on tray box)", 2, tmp_path / "parts", **SMALL)
     assert (tmp_path / "parts/shards/000000/frames.parquet").stat().st_mtime_ns == stamp
     assert tables(parts.folder) == tables(whole.folder)
-    with pytest.raises(ry.ArgumentError, match="has demonstrations with another seed"):
+    with pytest.raises(ry.ArgumentError, match="has demonstrations with seed 0 instead of 1; choose another folder"):
         ry.demonstrate(scene(), "(on tray box)", 2, tmp_path / "parts", seed=1, **SMALL)
+
+
+def test_a_call_that_fails_at_once_leaves_the_folder_to_the_next_one(tmp_path: Path) -> None:
+    for wrong, message in (
+        ({"cameras": ["cameraTpo"]}, "cameraTpo.*similar names: cameraTop"),
+        ({"codec": "hevc"}, "codec is 'hevc'; expected one of h264, av1"),
+    ):
+        with pytest.raises(ry.Error, match=message):
+            ry.demonstrate(scene(), "(on tray box)", 1, tmp_path / "set", **{**SMALL, **wrong})
+    assert not (tmp_path / "set").exists()
+    with pytest.raises(ry.ParseError, match="unknown symbol 'trya'.*similar names: tray"):
+        ry.demonstrate(scene(), "(on trya box)", 1, tmp_path / "set", **SMALL)
+    assert ry.demonstrate(scene(), "(on tray box)", 1, tmp_path / "set", **SMALL).episodes == 1
 
 
 def test_failures_are_kept_if_asked(tmp_path: Path) -> None:

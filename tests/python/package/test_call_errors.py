@@ -35,7 +35,10 @@ MISTAKES = [
     ),
     (lambda C, k: C["table"].setMass("1"), r"Frame.setMass: mass is '1' \(str\); expected float"),
     (lambda C, k: C["table"].setPosition(None), r"Frame.setPosition: position is None; expected numbers"),
-    (lambda C, k: C["table"].setPosition(1, 2, 3), r"3 arguments are given; it takes at most 1: position"),
+    (
+        lambda C, k: C["table"].setPosition(1, 2, 0.5),
+        r"3 arguments are given; it takes at most 1: position; write one list: \[1, 2, 0.5\]",
+    ),
     (lambda C, k: C["table"].setShape(ry.ST.box), r"Frame.setShape: missing: size \(numbers\)"),
     (
         lambda C, k: C.setJointState([0, 1, "a"]),
@@ -66,6 +69,15 @@ MISTAKES = [
     (lambda C, k: ry.CameraView(3), r"CameraView: config is 3 \(int\); expected Config"),
     (lambda C, k: ry.SimulationBatch("C", 2), r"SimulationBatch: \w+ is 'C' \(str\); expected Config"),
     (lambda C, k: ry.planTask(C, 3), r"planTask: goal is 3 \(int\); expected str"),
+    (lambda C, k: C.setJointState(C.getJointState), r"q is the method getJointState; .* call it: getJointState\(\)"),
+    (lambda C, k: ry.NLP_Solver(k.nlp), r"problem is the method nlp; expected NLP; call it: nlp\(\)"),
+    (lambda C, k: C["table"].setQuaternion(1, 0, 0, 0), r"at most 1: quaternion; write one list: \[1, 0, 0, 0\]"),
+    (lambda C, k: ry.Config("arm.urdf"), r"read a file by C = Config\(\); C.addFile\('arm.urdf'\)"),
+    (lambda C, k: ry.Domain("own.fol"), r"read a file by Domain.fromFol\('own.fol'\)"),
+    (
+        lambda C, k: ry.LogicProblem.fromPddl("domain.pddl", "problem.pddl"),
+        r"domain is 'domain.pddl' \(str\); expected Domain; read a file by Domain.fromPddl\('domain.pddl'\)",
+    ),
 ]
 
 

@@ -69,6 +69,8 @@ FOUND = {
         r"^line: <ToolPathPlan solved",
         r"^level: <MotionPlan solved",
         r"^0\.57 s, 3\.75 s$",
+        r"^planned: [1-9]",
+        r"^planMotion: option optimize is 'speed'; expected one of time, length, clearance$",
     ],
     "features": [
         r"<SelfCollisionMatrix: \d+ pairs of frames in 2000 configurations: \d+ adjacent, \d+ always in collision, \d+ never",
@@ -145,6 +147,12 @@ FOUND = {
         r"^collisions: [1-9]",
         r"q is beyond the limits; did you mean radians\?",
         r"^\[1\. 0\. 0\. 0\.\]$",
+    ],
+    "logic": [
+        r"^\[\['pick', 'cup', 'table', 'hand'\], \['place', 'cup', 'hand', 'tray'\]\]$",
+        r"^None PlanSearchStatus\.exhausted\n\['\(on cup tray\)'\] \['",
+        r"^\(pick-up b\) \(stack b c\) \(pick-up a\) \(stack a b\)$",
+        r"^move\.fol:2:28: unknown predicate 'onn' in \(onn X Y\); declare it in a line of its own; similar names: on",
     ],
     "tasks": [
         r"^solved: 4 actions",
@@ -242,6 +250,13 @@ def test_the_page_on_scenes_names_all_shapes_and_joints():
 
 def test_the_page_on_features_names_all_features():
     assert {feature.name for feature in ry.FS} <= words((DOCS / "features.md").read_text())
+
+
+def test_the_pages_on_conventions_and_the_viewer_name_all_parameters():
+    from kinegraph.compatibility import parameters
+
+    named = set(re.findall(r"`([\w/]+)`", (DOCS / "conventions.md").read_text() + (DOCS / "viewer.md").read_text()))
+    assert set(parameters._KNOWN) <= named
 
 
 def test_the_page_on_motions_names_all_types():

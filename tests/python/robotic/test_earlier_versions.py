@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import logging
 import sys
 from pathlib import Path
 
@@ -196,6 +197,9 @@ def test_helper_modules_cover_what_kinegraph_has(tmp_path: Path) -> None:
     xml = tmp_path / "b.xml"
     xml.write_text(mujoco_io.MujocoWriter(C).str())
     assert "ball" in mujoco_io.MujocoLoader(str(xml), basePos=[0.0, 0.0, 1.0]).C.getFrameNames()
+    M = ry.MujocoLoader(str(xml), visualsOnly=True, processMeshes=True)
+    M.base.setPosition([1.0, 0.0, 0.0])
+    assert M.C.getFrame("ball").getPosition()[0] == pytest.approx(1.0)
     mesh = tmp_path / "t.tri"
     mesh.write_text("TRI\n3\n1\n0 0 0\n1 0 0\n0 1 0\n0 1 2\n")
     assert mesh_tool.MeshTool(str(mesh)).points.shape == (3, 3)
@@ -223,3 +227,59 @@ def test_a_viewer_is_made_before_the_scene_it_shows_and_a_scene_makes_its_simula
     q = S.get_q()
     S.step(q, 0.01, ry.ControlMode.position)
     assert np.allclose(S.get_q(), q, atol=1e-3)
+
+
+def test_scenes_of_slices_are_poses_of_a_scene() -> None:
+    C = arm()
+    C.addFrame("box", "table").setJoint(ry.JT.rigid).setShape(ry.ST.ssBox, [0.1, 0.1, 0.1, 0.01])
+    C.getFrame("box").setRelativePosition([0.3, 0.3, 0.1])
+    komo = ry.KOMO(C, 2, 5, 2, False)
+    komo.addControlObjective([], 2, 1.0)
+    komo.addModeSwitch([1, 2], ry.SY.stable, ["l_gripper", "box"])
+    komo.addObjective([1], ry.FS.positionDiff, ["l_gripper", "box"], ry.OT.eq, [1e1])
+    komo.addObjective([2], ry.FS.position, ["box"], ry.OT.eq, [1e1], [0, 0.3, 1.0])
+    komo.optimize()
+    C.setFrameState(komo.getConfiguration(9))
+    assert np.allclose(C.getFrame("box").getPosition(), [0, 0.3, 1.0], atol=1e-3)
+    assert np.allclose(C.getJointState(), komo.getPath()[9], atol=1e-9)
+    before = C.getFrameState()
+    C.setFrameState(before[:1] + np.array([0, 0, 1, 0, 0, 0, 0]), ["world"])
+    assert C.getFrame("world").getPosition()[2] == pytest.approx(before[0, 2] + 1)
+    with pytest.raises(ry.ArgumentError, match="one pose x y z qw qx qy qz per frame"):
+        C.setFrameState(arm())  # it lacks the box
+
+
+def test_mujoco_takes_the_place_of_bullet() -> None:
+    C = arm()
+    ball = C.addFrame("ball").setShape(ry.ST.sphere, [0.05]).setPosition([2, 0, 1]).setMass(0.1)
+    for make in (
+        lambda: ry.Simulation(C, ry.SimulatorEngine.bullet, 0),
+        lambda: C.simulation(ry.SimulatorEngine.bullet, 0),
+    ):
+        with pytest.warns(ry.KinegraphWarning, match="there is no engine bullet; physx"):
+            S = make()
+    for _ in range(20):
+        S.step([], 0.01, ry.ControlMode.none)
+    assert ball.getPosition()[2] < 0.9
+    with pytest.raises(kinegraph.ArgumentError, match="there is no engine bullet"):
+        kinegraph.Simulation(C, kinegraph.SimulationEngine.bullet)
+
+
+@pytest.mark.parametrize("name", ["CtrlSet", "CtrlSolver", "ImpType"])
+def test_what_only_libry_had_says_what_to_call(name: str) -> None:
+    with pytest.raises(ry.NotFound, match=f"robotic.{name}.*; (DiffIk|Simulation.applyForce)"):
+        getattr(ry, name)()
+
+
+def test_messages_are_silenced_and_heard_again(capsys: pytest.CaptureFixture[str]) -> None:
+    komo = ry.KOMO(arm(), 1, 1, 0, False)
+    try:
+        ry.setLogLevel(-1)
+        ry.NLP_Solver(komo.nlp(), verbose=1).solve()
+        assert capsys.readouterr().out == ""
+    finally:
+        ry.setLogLevel(0)
+    if not logging.getLogger("kinegraph").hasHandlers():  # a runner of tests may have its own
+        ry.NLP_Solver(komo.nlp(), verbose=1).solve()
+        assert "==nlp==" in capsys.readouterr().out
+    assert logging.getLogger("kinegraph").propagate
