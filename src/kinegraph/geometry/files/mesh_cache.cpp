@@ -1,12 +1,13 @@
 #include "kinegraph/geometry/files/mesh_cache.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <functional>
 #include <list>
+#include <map>
 #include <mutex>
 #include <optional>
 
+#include "kinegraph/common/file_stamp.h"
 #include "kinegraph/geometry/files/mesh_file.h"
 #include "kinegraph/geometry/shapes/scale_mesh.h"
 
@@ -14,34 +15,13 @@ namespace kinegraph {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::size_t kMaxCachedBytes = std::size_t(256) << 20;
-
-/// Size and time of a file; equal stamps of a missing file are equal, too.
-struct FileStamp {
-  std::string path;
-  std::uintmax_t size = 0;
-  fs::file_time_type time;
-
-  explicit FileStamp(std::string file) : path(std::move(file)) {
-    std::error_code error;
-    size = fs::file_size(path, error);
-    if (error) size = 0;
-    time = fs::last_write_time(path, error);
-    if (error) time = {};
-  }
-  bool isCurrent() const {
-    const FileStamp now(path);
-    return now.size == size && now.time == time;
-  }
-};
 
 struct CachedMesh {
   std::string path;
   Vector3d scale;
-  std::size_t hash;               ///< of the file's bytes: times of files are too coarse for quick successions
-  std::vector<FileStamp> beside;  ///< files that it refers to
+  std::size_t hash;  ///< of the file's bytes: times of files are too coarse for quick successions
+  std::map<std::string, FileStamp> beside;  ///< stamps of files that it refers to
   std::shared_ptr<const Mesh> mesh;
   std::size_t bytes;
 };
@@ -58,8 +38,8 @@ class MeshCache {
   std::optional<CachedMesh> find(const std::string& path, const Vector3d& scale, std::size_t hash) {
     const std::lock_guard lock(mutex_);
     const auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const CachedMesh& e) {
-      return e.hash == hash && e.path == path && e.scale == scale &&
-             std::all_of(e.beside.begin(), e.beside.end(), [](const FileStamp& stamp) { return stamp.isCurrent(); });
+      const auto is_current = [](const auto& file) { return stampOf(file.first) == file.second; };
+      return e.hash == hash && e.path == path && e.scale == scale && std::ranges::all_of(e.beside, is_current);
     });
     if (entry == entries_.end()) return std::nullopt;
     entries_.splice(entries_.begin(), entries_, entry);
@@ -105,7 +85,7 @@ std::shared_ptr<const Mesh> sharedMeshFile(const std::string& path, const Vector
     const auto mesh = std::make_shared<const Mesh>(readMeshFile(path, &files));
     entry = CachedMesh{path, one, hash, {}, mesh, bytesOf(*mesh)};
     for (std::string& file : files) {
-      if (file != path) entry->beside.emplace_back(std::move(file));
+      if (file != path) entry->beside[file] = stampOf(file);
     }
   }
   if (scale != one) {
