@@ -190,6 +190,9 @@ def test_files_with_macros_load_with_their_arguments(tmp_path: Path) -> None:
     C = ry.Config()
     C.addFile(tmp_path / "arm.urdf.xacro", xacro={"name": "ur5e"})
     assert C.getFrameNames() == ["ur5e_base"]
+    with pytest.raises(ry.FileError, match="has no xacro argument 'nmae'; it has: name"):
+        C.addFile(tmp_path / "arm.urdf.xacro", xacro={"nmae": "ur5e"})
+    assert C.getFrameNames() == ["ur5e_base"]
 
 
 def test_without_the_extra_the_error_names_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -198,6 +201,16 @@ def test_without_the_extra_the_error_names_it(tmp_path: Path, monkeypatch: pytes
     (tmp_path / "arm.urdf.xacro").write_text(XACRO)
     with pytest.raises(ry.FileError, match=r"pip install kinegraph\[xacro\]"):
         ry.Config().addFile(tmp_path / "arm.urdf.xacro")
+
+
+def test_a_ros_package_has_the_name_of_its_package_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = tmp_path / "arm-main"
+    folder.mkdir()
+    (folder / "package.xml").write_text('<package format="3">\n  <name> arm_description </name></package>')
+    (folder / "arm7.urdf").write_text('<robot name="arm7"><link name="base"/></robot>')
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    assert ry.robotPath("arm_description/arm7") == str(folder / "arm7.urdf")
+    assert "arm-main/arm7" not in ry.robotNames()
 
 
 def test_robots_of_ros_packages_are_found_by_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
