@@ -6,6 +6,7 @@ import difflib
 import importlib
 import importlib.util
 import os
+import re
 import sys
 from collections.abc import Iterator
 from pathlib import Path
@@ -105,7 +106,13 @@ def _rosPackages(entry: Path) -> Iterator[tuple[str, Path]]:
         inner[:] = sorted(name for name in inner if not name.startswith("."))
         if "package.xml" in files:
             inner.clear()  # packages hold no packages
-            yield Path(folder).name, Path(folder)
+            yield _packageName(Path(folder)), Path(folder)
+
+
+def _packageName(folder: Path) -> str:
+    """The <name> in package.xml, as rospack reads it; without one, the name of the folder."""
+    named = re.search(r"<name>\s*([^<\s]+)\s*</name>", (folder / "package.xml").read_text(errors="replace"))
+    return named[1] if named else folder.name
 
 
 def _files(root: Path) -> Iterator[Path]:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import difflib
 import io
+import re
 from collections.abc import Mapping
 from contextlib import redirect_stderr
 from importlib import import_module
@@ -10,6 +12,8 @@ from pathlib import Path
 
 from . import _core
 from .errors import FileError
+
+_ARGUMENT = r"""<xacro:arg\b[^>]*?\bname\s*=\s*["']([^"']+)["']|\$\(arg\s+([^)\s]+)\s*\)"""
 
 
 def expand(path: str, arguments: Mapping[str, str]) -> str:
@@ -23,7 +27,7 @@ def expand(path: str, arguments: Mapping[str, str]) -> str:
     Returns:
         The text without macros.
     Raises:
-        FileError: xacrodoc is not installed, or the macros have an error.
+        FileError: xacrodoc is not installed, the macros have an error, or no file has an argument of that name.
     """
     try:
         xacro, xacrodoc = import_module("xacro"), import_module("xacrodoc")
@@ -40,7 +44,7 @@ def expand(path: str, arguments: Mapping[str, str]) -> str:
             xacro.init_stacks(path)  # relative includes
             with redirect_stderr(said):
                 doc = xacrodoc.XacroDoc.from_file(path, subargs=dict(arguments), resolve_packages=False)
-            return str(doc.dom.toprettyxml(indent="  "))
+            break
         except Exception as error:
             missing = _missingPackage(error)
             folder = ""
@@ -51,6 +55,19 @@ def expand(path: str, arguments: Mapping[str, str]) -> str:
                 packages.update_package_cache({missing: folder})
                 continue
             raise FileError(f"'{path}' cannot be expanded: {_oneLine(error, said.getvalue())}") from error
+    _checkArguments(path, arguments, [path, *xacro.all_includes])
+    return str(doc.dom.toprettyxml(indent="  "))
+
+
+def _checkArguments(path: str, arguments: Mapping[str, str], files: list[str]) -> None:
+    """Refuses arguments that none of the files names: xacro ignores them."""
+    text = "".join(Path(file).read_text(errors="replace") for file in files if Path(file).is_file())
+    known = {first or second for first, second in re.findall(_ARGUMENT, text)}
+    for name in arguments:
+        if name not in known:
+            near = difflib.get_close_matches(name, known, 3, 0.5) or sorted(known)
+            hint = f"; it has: {', '.join(near)}" if near else "; it has none"
+            raise FileError(f"'{path}' has no xacro argument '{name}'{hint}")
 
 
 def _missingPackage(error: BaseException | None) -> str:

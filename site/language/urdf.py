@@ -88,6 +88,14 @@ ROBOT = [
         + f'<joint name="k" type="continuous"><parent link="base"/><child link="b"/></joint><joint name="j" type="prismatic">{ENDS}<limit lower="-9" upper="9"/><mimic joint="k" multiplier="2" offset=".5"/></joint>',
         "(C.setJointState([1]), C.getJointDimension() == 1 and equal(a.getPosition(), [2.5, 0, 0]))[1]",
     ),
+    E(
+        "mujoco compiler meshdir",
+        "path",
+        "none",
+        "Extension of MuJoCo: the folder of meshes that are not where their names say.",
+        '<mujoco><compiler meshdir="."/></mujoco><link name="b"><visual><geometry><mesh filename="other/tetra.obj"/></geometry></visual></link>',
+        "C.getFrame('b_0').getShapeType() == ry.ST.mesh",
+    ),
 ]
 
 LINKS = [

@@ -57,6 +57,12 @@ TEST(HorizonTrajectory, BrakingFromTheLimitStaysAtIt) {
   }
 }
 
+TEST(HorizonTrajectory, PointsThatDoNotFitTheTimesAreRefused) {
+  expectError<ValueError>([] { HorizonTrajectory({}, MatrixXd(2, 0), VectorXd::Zero(2)); }, {"0 times"});
+  expectError<ValueError>([] { HorizonTrajectory({0., 1.}, MatrixXd::Ones(2, 1), VectorXd::Zero(2)); }, {"(2, 1)"});
+  expectError<ValueError>([] { HorizonTrajectory({0.}, MatrixXd::Ones(2, 1), VectorXd()); }, {"0 velocities"});
+}
+
 TEST(HorizonTrajectory, ATimeThatIsNoNumberIsRefused) {
   const HorizonTrajectory motion({0.}, MatrixXd::Ones(2, 1), VectorXd::Zero(2));
   EXPECT_EQ(motion.eval(3.).q, VectorXd::Ones(2));

@@ -4,6 +4,8 @@
 
 #include <random>
 
+#include "tests/support/expect_error.h"
+
 namespace kinegraph {
 namespace {
 
@@ -31,6 +33,16 @@ TEST(CubicPieces, TheRangeOfAPieceIsThatOfDenseSamples) {
       EXPECT_NEAR(range.largest[row], largest[row], 1e-5);
     }
   }
+}
+
+TEST(CubicPieces, APieceThatIsNotThereIsRefused) {
+  const CubicPieces none;
+  expectError<ValueError>([&] { none.eval(0.); }, {"no piece 0", "0 pieces"});
+  expectError<ValueError>([&] { none.range(0); }, {"no piece 0"});
+  CubicPieces one;
+  one.addHermite({0., 1.}, MatrixXd::Zero(1, 2), MatrixXd::Zero(1, 2), false);
+  expectError<ValueError>([&] { one.eval(1, .5); }, {"no piece 1"});
+  expectError<ValueError>([&] { one.eval(-1, .5); }, {"no piece -1"});
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 #include "kinegraph/control/mpc.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 #include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 
 namespace kinegraph {
 
@@ -75,7 +75,9 @@ void HorizonTrajectory::assign(std::span<const double> times, const Eigen::Ref<c
 
 void HorizonTrajectory::findVelocities(const Eigen::Ref<const VectorXd>& velocity) {
   const auto last = int(times_.size()) - 1;
-  assert(last >= 0 && q_.cols() == last + 1 && velocity.size() == q_.rows());
+  if (last < 0 || q_.cols() != last + 1 || velocity.size() != q_.rows())
+    throw ValueError(cat("HorizonTrajectory: got ", times_.size(), " times, q of shape (", q_.rows(), ", ", q_.cols(),
+                         ") and ", velocity.size(), " velocities; expected K >= 1 times, (n, K) and n"));
   velocity_.resize(q_.rows(), q_.cols());
   velocity_.col(0) = velocity;
   for (int k = 1; k <= last; ++k) {

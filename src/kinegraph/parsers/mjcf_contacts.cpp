@@ -41,7 +41,7 @@ class ContactCollector {
       for (const std::string& other : others) excluded_.insert(ordered(frame, other));
     }
     collectPairs();
-    warnOfParents();
+    warnOfFlags();
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       for (std::size_t j = i + 1; j < bodies_.size(); ++j) addBodies(bodies_[i], bodies_[j]);
     }
@@ -110,12 +110,17 @@ class ContactCollector {
     }
   }
 
-  /// `<flag filterparent="disable">`: neighbors collide in MuJoCo.
-  void warnOfParents() {
+  /// `<flag filterparent="disable">`: neighbors collide in MuJoCo. `<flag contact="disable">`: nothing does.
+  void warnOfFlags() {
     for (const XmlElement* flag : document_.inSections("option", "flag")) {
-      const XmlAttribute* filter = flag->attribute("filterparent");
-      if (filter && filter->value == "disable")
+      const auto disabled = [&](const char* name) {
+        const XmlAttribute* attribute = flag->attribute(name);
+        return attribute && attribute->value == "disable" ? attribute : nullptr;
+      };
+      if (const XmlAttribute* filter = disabled("filterparent"))
         findings_.warn(filter->where, "filterparent=\"disable\": bodies that one joint connects do not collide here");
+      if (const XmlAttribute* contact = disabled("contact"))
+        findings_.warn(contact->where, "contact=\"disable\": shapes collide here, by their contype and conaffinity");
     }
   }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "kinegraph/common/text.h"
 
@@ -12,9 +13,9 @@ namespace {
 /// Half the width of a symmetric range that contains the element's range; nullopt if it has none in force.
 std::optional<double> reachOf(const MjcfElement& element, const char* range, const char* limited, MjcfValues& values) {
   if (values.keyword(element, limited, {"auto", "true", "false"}, "auto") == "false") return std::nullopt;
-  const std::vector<double> r = values.numbers(element, range, 2);
-  if (r.empty()) return std::nullopt;
-  return std::max(std::abs(r[0]), std::abs(r[1]));
+  const std::vector<double> r = values.limits(element, range);
+  const double reach = r.empty() ? 0. : std::max(std::abs(r[0]), std::abs(r[1]));
+  return r.empty() || std::isinf(reach) ? std::nullopt : std::optional(reach);
 }
 
 /// First number of a list attribute.
@@ -154,6 +155,15 @@ void warnOfMjcfDynamics(const MjcfDocument& document, Findings& findings) {
       if (is_default) continue;
       if (!where.known()) where = attribute->where;
       ++counts[cat("option ", name)];
+    }
+  }
+  for (const XmlElement* flags : document.inSections("option", "flag")) {
+    for (const XmlAttribute& flag : flags->attributes) {
+      static const std::set<std::string> unread = {"constraint", "frictionloss", "limit",   "spring",
+                                                   "damper",     "passive",      "gravity", "actuation"};
+      if (flag.value != "disable" || !unread.contains(flag.name)) continue;
+      if (!where.known()) where = flag.where;
+      ++counts[cat("flag ", flag.name, "=disable")];
     }
   }
   std::vector<std::string> list;

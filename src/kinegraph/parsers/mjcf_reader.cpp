@@ -394,7 +394,7 @@ class MjcfReader {
 
   void addLimits(const MjcfElement& element, bool slides, FrameAttributes& attributes) {
     const std::string limited = values_.keyword(element, "limited", {"auto", "true", "false"}, "auto");
-    const std::vector<double> range = values_.numbers(element, "range", 2);
+    const std::vector<double> range = values_.limits(element, "range");
     const bool by_range = document_.settingsAt(element.where()).limited_by_range && !range.empty();
     if (limited == "false" || (limited == "auto" && !by_range) || range.empty()) return;
     if (!(range[0] < range[1])) {

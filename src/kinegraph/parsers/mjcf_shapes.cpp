@@ -236,7 +236,12 @@ void MjcfShapes::addInlineMesh(const MjcfElement& mesh, const VertexMap& map, Pl
     return numbers.value_or(std::vector<double>{});
   };
   std::vector<double> points = list("vertex"), faces = list("face");
-  if (points.empty()) return findings_.warn(mesh.where(), cat(mesh.describe(), " has neither 'file' nor 'vertex'"));
+  if (points.empty()) {
+    const char* const why = mesh.own("builtin")
+                                ? " has the attribute 'builtin', whose meshes are not made; the geoms have no shape"
+                                : " has neither 'file' nor 'vertex'";
+    return findings_.warn(mesh.where(), cat(mesh.describe(), why));
+  }
   addVertices(std::move(points), std::move(faces), map, placed);
 }
 

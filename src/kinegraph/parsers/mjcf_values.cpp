@@ -76,6 +76,12 @@ std::vector<double> MjcfValues::numbers(const MjcfElement& element, const char* 
   return attribute ? parse(element, *attribute, count, count).value_or(std::vector<double>{}) : std::vector<double>{};
 }
 
+std::vector<double> MjcfValues::limits(const MjcfElement& element, const char* name) {
+  const XmlAttribute* attribute = element.attribute(name);
+  const auto found = attribute ? limitsIn(attribute->value) : std::nullopt;
+  return found && found->size() == 2 ? *found : numbers(element, name, 2);
+}
+
 std::vector<double> MjcfValues::color(const MjcfElement& element) {
   const XmlAttribute* attribute = element.attribute("rgba");
   if (!attribute) return {};

@@ -44,6 +44,9 @@ class MjcfValues {
   /// Returns `count` numbers, or none.
   std::vector<double> numbers(const MjcfElement& element, const char* name, std::size_t count);
 
+  /// Returns lower and upper limit, which may be infinite, or none.
+  std::vector<double> limits(const MjcfElement& element, const char* name);
+
   /// Returns the 4 numbers of `rgba`, or none. Other counts are read with a warning: looks are no reason to refuse.
   std::vector<double> color(const MjcfElement& element);
 

@@ -35,6 +35,8 @@ class UrdfParser {
         readLink(element);
       } else if (element.name == "joint") {
         readJoint(element);
+      } else if (element.name == "mujoco") {
+        readExtension(element);
       } else {
         checkElement(element);
       }
@@ -70,6 +72,14 @@ class UrdfParser {
     }
   }
 
+  /// MuJoCo's settings for its compiler.
+  void readExtension(const XmlElement& element) {
+    model_.mesh_folder.emplace();
+    for (const XmlElement* compiler : element.all("compiler")) {
+      if (const XmlAttribute* folder = compiler->attribute("meshdir")) model_.mesh_folder = folder->value;
+    }
+  }
+
   void checkElement(const XmlElement& element) {
     if (element.name.starts_with("xacro:"))
       return warn(element.where,
@@ -101,14 +111,11 @@ class UrdfParser {
     return fallback.value_or(0.);
   }
 
-  /// A limit, 0 by default; "inf" and "Infinity" become `unlimited`, with a minus its negative.
+  /// A limit, 0 by default. An infinite one becomes `unlimited`, with its sign.
   double limitOf(const XmlElement& limit, const char* name, double unlimited) {
     const XmlAttribute* attribute = limit.attribute(name);
-    std::string word = attribute ? attribute->value : "";
-    std::ranges::transform(word, word.begin(), [](unsigned char c) { return char(std::tolower(c)); });
-    const bool is_signed = word.starts_with('-') || word.starts_with('+'), is_negative = word.starts_with('-');
-    const std::string size = word.substr(is_signed ? 1 : 0);
-    if (size == "inf" || size == "infinity") return is_negative ? -unlimited : unlimited;
+    const auto given = attribute ? limitsIn(attribute->value) : std::nullopt;
+    if (given && given->size() == 1 && std::isinf(given->front())) return std::copysign(unlimited, given->front());
     return number(limit, name, 0.);
   }
 
@@ -338,6 +345,8 @@ class UrdfParser {
     if (const XmlElement* axis = element.child("axis"); axis && joint.type != UrdfJointType::fixed &&
                                                         joint.type != UrdfJointType::floating &&
                                                         joint.type != UrdfJointType::spherical) {
+      if (!axis->attribute("xyz"))
+        warn(axis->where, cat(context_, "<axis> has no attribute 'xyz'; it is read as 1 0 0"));
       const Vector3d direction = vector(*axis, "xyz", Vector3d::UnitX());
       if (!(direction.norm() > 1e-10)) {
         error(axis->where, cat(context_, "its axis is zero"));
@@ -368,7 +377,7 @@ class UrdfParser {
     joint.limit_where = limit->where;
     const auto ofMotor = [&](const char* name) {  // 0: unknown
       const double value = limitOf(*limit, name, 0.);
-      return value < kUrdfUnlimited ? value : 0.;
+      return value > 0. && value < kUrdfUnlimited ? value : 0.;
     };
     joint.effort = ofMotor("effort");
     joint.velocity = ofMotor("velocity");
@@ -386,15 +395,17 @@ class UrdfParser {
     }
   }
 
-  /// Exporters write 0 where they know no limits of motors. Warns once per file.
+  /// Exporters write 0 or -1 where they know no limits of motors. Warns once per file.
   void sayThatZeroIsNoLimit(const XmlElement& limit, const XmlElement& joint) {
     if (said_that_zero_is_no_limit_ || joint.child("mimic")) return;
-    const auto isZero = [&](const char* name) { return limit.attribute(name) && limitOf(limit, name, 1.) == 0.; };
-    const bool effort = isZero("effort"), velocity = isZero("velocity");
+    const auto isNone = [&](const char* name) { return limit.attribute(name) && limitOf(limit, name, 1.) <= 0.; };
+    const bool effort = isNone("effort"), velocity = isNone("velocity");
     if (!effort && !velocity) return;
     const char* what = effort && velocity ? "effort and velocity are" : effort ? "effort is" : "velocity is";
-    warn(limit.where, cat(context_, "its ", what, " 0, which is read as no limit, here and at other joints; write the ",
-                          "motor's ", effort && velocity ? "limits" : "limit"));
+    const bool negative = limitOf(limit, effort ? "effort" : "velocity", 1.) < 0.;
+    warn(limit.where, cat(context_, "its ", what, negative ? " negative" : " 0",
+                          ", which is read as no limit, here and at other joints; write the ", "motor's ",
+                          effort && velocity ? "limits" : "limit"));
     said_that_zero_is_no_limit_ = true;
   }
 

@@ -71,6 +71,7 @@ struct UrdfModel {
   std::string name;
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
+  std::optional<std::string> mesh_folder;  ///< `meshdir` of MuJoCo's extension <mujoco>; "" if that gives none
 };
 
 /// Parses a URDF text as far as possible and appends errors and warnings to `found`. A flaw of a shape, a material or

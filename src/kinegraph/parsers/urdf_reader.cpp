@@ -222,9 +222,22 @@ class UrdfReader {
     for (const UrdfJoint* joint : joints_below_[link.name]) addJoint(*joint);
   }
 
+  /// Finds a mesh file. With the extension <mujoco>, a missing one is searched in its `meshdir`, also by name alone.
+  LocatedFile locateMesh(const std::string& name) const {
+    namespace fs = std::filesystem;
+    const LocatedFile file = locateFile(name, folder_);
+    std::error_code ignored;
+    if (!model_.mesh_folder || fs::is_regular_file(file.path, ignored)) return file;
+    for (const fs::path& tail : {fs::path(name), fs::path(name).filename()}) {
+      const LocatedFile next = locateFile((fs::path(*model_.mesh_folder) / tail).string(), folder_);
+      if (fs::is_regular_file(next.path, ignored)) return next;
+    }
+    return file;
+  }
+
   /// Returns the path of a mesh file that can be read, or "" after a warning.
   std::string findMesh(const UrdfShape& shape, const std::string& link) {
-    const LocatedFile file = locateFile(shape.mesh, folder_);
+    const LocatedFile file = locateMesh(shape.mesh);
     const std::string who = cat("link '", link, "': mesh '", shape.mesh, "' ");
     if (file.path.empty()) {
       warn(shape.where, cat(who,

@@ -174,7 +174,7 @@ std::string xmlRootName(std::string_view text) {
   return "";
 }
 
-std::optional<std::vector<double>> numbersIn(std::string_view text) {
+std::optional<std::vector<double>> limitsIn(std::string_view text) {
   std::vector<double> numbers;
   const char* at = text.data();
   const char* end = at + text.size();
@@ -183,14 +183,19 @@ std::optional<std::vector<double>> numbersIn(std::string_view text) {
     if (at == end) return numbers;
     if (*at == '+') ++at;
     double number = 0.;
-    const auto [behind, error] = std::from_chars(at, end, number);
-    if (error == std::errc::invalid_argument) return std::nullopt;
+    const auto [behind, error] = std::from_chars(at, end, number);  // reads inf and nan, too
+    if (error == std::errc::invalid_argument || std::isnan(number)) return std::nullopt;
     if (error != std::errc{}) number = readNumber(std::string(at, behind).c_str());  // out of range
-    if (!std::isfinite(number)) return std::nullopt;
     if (behind != end && std::string_view(" \t\r\n").find(*behind) == std::string_view::npos) return std::nullopt;
     numbers.push_back(number);
     at = behind;
   }
+}
+
+std::optional<std::vector<double>> numbersIn(std::string_view text) {
+  auto numbers = limitsIn(text);
+  if (numbers && !std::ranges::all_of(*numbers, [](double x) { return std::isfinite(x); })) return std::nullopt;
+  return numbers;
 }
 
 std::string xmlEscaped(std::string_view text) {

@@ -152,6 +152,7 @@ class Divider {
     for (const auto& frame : scene_.frames()) addMass(*frame);
     for (std::size_t b = 1; b < result_.bodies.size(); ++b) completeMass(int(b));
     warnOfHangingRobots();
+    warnOfWhatFallsThrough();
     return std::move(result_);
   }
 
@@ -228,6 +229,30 @@ class Divider {
           " m above the ground. To let the robot fall, load its file with the option `floating`, or give the base"
           " `multibody_fixedBase: false`; `multibody_fixedBase: true` silences this warning"));
     }
+  }
+
+  /// Warns of free bodies that collide with nothing, in scenes in which other things do.
+  void warnOfWhatFallsThrough() {
+    std::vector<bool> solid(result_.bodies.size(), false);
+    bool others = false;
+    for (const auto& frame : scene_.frames()) {
+      const PlacedFrame& placed = result_.frames[std::size_t(frame->id)];
+      if (placed.collides) solid[std::size_t(placed.body)] = others = true;
+    }
+    if (!others) return;
+    for (std::size_t b = result_.bodies.size() - 1; b > 0; --b) {
+      if (solid[b]) solid[std::size_t(result_.bodies[b].parent)] = true;
+    }
+    std::vector<std::string> names;
+    for (std::size_t b = 1; b < result_.bodies.size(); ++b) {
+      const SceneBody& body = result_.bodies[b];
+      if (body.kind == Kind::free && body.has_gravity && !solid[b]) names.push_back(body.frame->name);
+    }
+    if (names.empty()) return;
+    result_.warnings.push_back(cat("Simulation: frame '", names.front(), "'",
+                                   names.size() > 1 ? cat(" and ", names.size() - 1, " more") : "",
+                                   " can fall, but no shape collides: nothing stops the fall. Give shapes `contact: 1`"
+                                   " (URDF: <collision>, MJCF: contype and conaffinity)"));
   }
 
   static double lowestPoint(const FrameData& frame) {

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
+
 namespace kinegraph {
 
 namespace {
@@ -34,6 +37,13 @@ MatrixXd secondDerivatives(const std::vector<double>& s, const MatrixXd& y) {
   return second;
 }
 
+/// Throws unless the curve has the piece.
+void checkPiece(const CubicPieces& curve, int piece) {
+  if (piece < 0 || piece >= curve.pieces() || curve.coefficient.size() != curve.begin.size())
+    throw ValueError(cat("CubicPieces: there is no piece ", piece, "; the curve has ", curve.pieces(), " pieces and ",
+                         curve.coefficient.size(), " coefficient matrices"));
+}
+
 }  // namespace
 
 int CubicPieces::pieceAt(double s) const {
@@ -42,6 +52,7 @@ int CubicPieces::pieceAt(double s) const {
 }
 
 CubicPieces::Range CubicPieces::range(int piece) const {
+  checkPiece(*this, piece);
   const double from = begin[std::size_t(piece)], h = end(piece) - from;
   const MatrixXd& c = coefficient[std::size_t(piece)];
   const VectorXd last = eval(piece, end(piece));
@@ -62,6 +73,7 @@ CubicPieces::Range CubicPieces::range(int piece) const {
 }
 
 VectorXd CubicPieces::eval(int piece, double s, int order) const {
+  checkPiece(*this, piece);
   const double x = s - begin[std::size_t(piece)];
   const MatrixXd& c = coefficient[std::size_t(piece)];
   switch (order) {

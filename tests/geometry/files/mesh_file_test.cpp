@@ -10,6 +10,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/geometry/files/mesh_cache.h"
+#include "kinegraph/geometry/shapes/scale_mesh.h"
 #include "tests/support/mesh_laws.h"
 #include "tests/support/temporary_folder.h"
 
@@ -157,6 +158,21 @@ TEST_F(MeshFile, AChangedMaterialFileIsReadAgain) {
   EXPECT_EQ(sharedMeshFile(path)->colors.at(0)[0], 255);
   write("t.mtl", "newmtl a\nKd 0 1 0 \n");
   EXPECT_EQ(sharedMeshFile(path)->colors.at(0)[0], 0);
+}
+
+TEST_F(MeshFile, AScaledMeshIsSharedPerScale) {
+  const std::string path = write("scaled.obj", kTetrahedron);
+  const Vector3d scale(2., 1., -1.);
+  const std::shared_ptr<const Mesh> scaled = sharedMeshFile(path, scale), whole = sharedMeshFile(path);
+  EXPECT_EQ(sharedMeshFile(path, scale), scaled);
+  EXPECT_EQ(sharedMeshFile(path), whole);
+  EXPECT_NE(scaled, whole);
+  Mesh expected = *whole;
+  scaleMesh(expected, scale);
+  EXPECT_EQ(scaled->vertices, expected.vertices);
+  EXPECT_EQ(scaled->triangles, expected.triangles);
+  write("scaled.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  EXPECT_EQ(sharedMeshFile(path, scale)->vertices.size(), 3u);
 }
 
 TEST_F(MeshFile, FilesWithoutVerticesAreRefused) {

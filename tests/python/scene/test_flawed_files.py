@@ -190,6 +190,9 @@ def test_files_with_macros_load_with_their_arguments(tmp_path: Path) -> None:
     C = ry.Config()
     C.addFile(tmp_path / "arm.urdf.xacro", xacro={"name": "ur5e"})
     assert C.getFrameNames() == ["ur5e_base"]
+    with pytest.raises(ry.FileError, match="has no xacro argument 'nmae'; it has: name"):
+        C.addFile(tmp_path / "arm.urdf.xacro", xacro={"nmae": "ur5e"})
+    assert C.getFrameNames() == ["ur5e_base"]
 
 
 def test_without_the_extra_the_error_names_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -198,6 +201,16 @@ def test_without_the_extra_the_error_names_it(tmp_path: Path, monkeypatch: pytes
     (tmp_path / "arm.urdf.xacro").write_text(XACRO)
     with pytest.raises(ry.FileError, match=r"pip install kinegraph\[xacro\]"):
         ry.Config().addFile(tmp_path / "arm.urdf.xacro")
+
+
+def test_a_ros_package_has_the_name_of_its_package_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    folder = tmp_path / "arm-main"
+    folder.mkdir()
+    (folder / "package.xml").write_text('<package format="3">\n  <name> arm_description </name></package>')
+    (folder / "arm7.urdf").write_text('<robot name="arm7"><link name="base"/></robot>')
+    monkeypatch.setenv("ROS_PACKAGE_PATH", str(tmp_path))
+    assert ry.robotPath("arm_description/arm7") == str(folder / "arm7.urdf")
+    assert "arm-main/arm7" not in ry.robotNames()
 
 
 def test_robots_of_ros_packages_are_found_by_name(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -317,3 +330,79 @@ def test_a_missing_include_names_similar_files(name: str, hint: str, tmp_path: P
     if name.startswith("scenarios"):
         with pytest.raises(ry.FileError, match=hint):
             ry.Config().addFile(name)
+
+
+@pytest.mark.parametrize("kind, effort", [("revolute", "-1"), ("continuous", "-1"), ("prismatic", "0")])
+def test_motors_without_positive_limits_have_none(kind: str, effort: str, tmp_path: Path) -> None:
+    limit = f'<axis xyz="0 0 1"/><limit lower="0" upper="1" effort="{effort}" velocity="-2"/>'
+    with pytest.warns(ry.KinegraphWarning, match=r"r.urdf:1:\d+: joint 'j': its effort and velocity are .*no limit"):
+        C = urdf(tmp_path, "", limit, kind)
+    assert C.getEffortLimits().tolist() == C.getVelocityLimits().tolist() == [np.inf]
+
+
+def test_an_axis_without_numbers_is_told(tmp_path: Path) -> None:
+    with pytest.warns(ry.KinegraphWarning, match="joint 'j': <axis> has no attribute 'xyz'; it is read as 1 0 0"):
+        C = urdf(tmp_path, "", "<axis/>")
+    C.setJointState([np.pi / 2])
+    np.testing.assert_allclose(C.eval(ry.FS.vectorY, ["b"])[0], [0, 0, 1], atol=1e-12)
+
+
+def test_a_text_of_triangles_that_ends_within_one_is_truncated(tmp_path: Path) -> None:
+    corner = "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+    facet = f"facet normal 0 0 1\nouter loop\n{corner}endloop\nendfacet\n"
+    (tmp_path / "v.stl").write_text(f"solid x\n{facet}facet normal 0")
+    with pytest.warns(ry.KinegraphWarning, match="truncated"):
+        C = urdf(tmp_path, mesh("v.stl"))
+    assert C.getFrame("a_0").getShapeType() == ry.ST.none
+    (tmp_path / "v.stl").write_text(f"solid x\n{facet}")  # without its last word
+    assert urdf(tmp_path, mesh("v.stl")).fileWarnings() == []
+
+
+@pytest.mark.parametrize("name", ["package://some_description/meshes/visual/v.stl", "v.stl", "/home/me/v.stl"])
+def test_meshes_of_robots_for_mujoco_are_in_its_folder(name: str, tmp_path: Path) -> None:
+    """MuJoCo drops folders from the names of meshes in URDF files, and reads them from `meshdir`."""
+    (tmp_path / "assets").mkdir()
+    (tmp_path / "assets" / "v.stl").write_bytes(STL)
+    file = tmp_path / "r.urdf"
+    shapes = ARM.format(shape=mesh(name), type="continuous", joint="")
+    for folder, shape in [("assets", ry.ST.mesh), ("elsewhere", ry.ST.none)]:
+        file.write_text(f'<robot name="r"><mujoco><compiler meshdir="{folder}"/></mujoco>{shapes}</robot>')
+        C = ry.Config()
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ry.KinegraphWarning)
+            C.addFile(file)
+        assert C.getFrame("a_0").getShapeType() == shape
+        assert bool(C.fileWarnings()) == (folder == "elsewhere")
+
+
+def mjcf(folder: Path, body: str, more: str = "") -> ry.Config:
+    file = folder / "m.xml"
+    file.write_text(f"<mujoco>{more}<worldbody>{body}</worldbody></mujoco>")
+    C = ry.Config()
+    C.addFile(file)
+    return C
+
+
+def test_ranges_of_mjcf_files_may_be_infinite(tmp_path: Path) -> None:
+    body = '<body><joint name="j" type="slide" range="{}"/><geom size="1"/></body>'
+    motor = '<actuator><motor joint="j" forcerange="-inf inf"/></actuator>'
+    for text, limits in [("-inf inf", [-np.inf, np.inf]), ("-1 Infinity", [-1, np.inf])]:
+        C = mjcf(tmp_path, body.format(text), motor)
+        assert C.getJointLimits().ravel().tolist() == limits
+        assert C.getEffortLimits().tolist() == [np.inf] and C.fileWarnings() == []
+    with pytest.raises(ry.ParseError, match="expected 2 numbers"):
+        mjcf(tmp_path, body.format("nan 1"))
+
+
+@pytest.mark.parametrize(
+    "more, told",
+    [
+        ('<option><flag contact="disable"/></option>', 'contact="disable": shapes collide here'),
+        ('<option><flag gravity="disable"/></option>', "not part of the simulation: flag gravity=disable"),
+        ('<asset><mesh name="m" builtin="cone"/></asset>', "'builtin', whose meshes are not made"),
+    ],
+)
+def test_settings_of_mujoco_without_a_counterpart_are_told(more: str, told: str, tmp_path: Path) -> None:
+    geom = '<geom type="mesh" mesh="m" mass="1"/>' if "asset" in more else '<geom size=".1"/>'
+    with pytest.warns(ry.KinegraphWarning, match=rf"m.xml:1:\d+: .*{told}"):
+        mjcf(tmp_path, f'<body name="b"><joint/>{geom}</body>', more)

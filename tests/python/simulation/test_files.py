@@ -153,6 +153,18 @@ def test_a_floating_base_falls(tmp_path):
     assert len(q) == 11
 
 
+def test_a_robot_without_collision_shapes_that_falls_through_the_floor_says_so(tmp_path):
+    C = load(tmp_path, f'<robot name="w"><link name="ball">{INERTIA}{box("visual", 0.1)}</link></robot>', floating=True)
+    ry.Simulation(C)  # nothing is there to fall through
+    C.addText("floor: { shape: box, size: [4 4 .1], X: [0 0 -.3], contact: 1 }")
+    with pytest.warns(ry.KinegraphWarning, match="frame 'ball' can fall, but no shape collides: nothing stops the"):
+        ry.Simulation(C)
+    C.getFrame("ball_0").setContact(1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ry.Simulation(C)
+
+
 def test_an_attribute_lets_the_base_fall_without_a_joint(tmp_path):
     C = load(tmp_path, walker())
     base = C.getFrame("base").setPosition([0, 0, 0.6])

@@ -5,9 +5,11 @@
 #include <list>
 #include <map>
 #include <mutex>
+#include <optional>
 
 #include "kinegraph/common/file_stamp.h"
 #include "kinegraph/geometry/files/mesh_file.h"
+#include "kinegraph/geometry/shapes/scale_mesh.h"
 
 namespace kinegraph {
 
@@ -17,6 +19,7 @@ constexpr std::size_t kMaxCachedBytes = std::size_t(256) << 20;
 
 struct CachedMesh {
   std::string path;
+  Vector3d scale;
   std::size_t hash;  ///< of the file's bytes: times of files are too coarse for quick successions
   std::map<std::string, FileStamp> beside;  ///< stamps of files that it refers to
   std::shared_ptr<const Mesh> mesh;
@@ -32,22 +35,21 @@ std::size_t bytesOf(const Mesh& mesh) {
 
 class MeshCache {
  public:
-  std::shared_ptr<const Mesh> find(const std::string& path, std::size_t hash) {
+  std::optional<CachedMesh> find(const std::string& path, const Vector3d& scale, std::size_t hash) {
     const std::lock_guard lock(mutex_);
     const auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const CachedMesh& e) {
-      return e.hash == hash && e.path == path && std::all_of(e.beside.begin(), e.beside.end(), [](const auto& file) {
-               return stampOf(file.first) == file.second;
-             });
+      const auto is_current = [](const auto& file) { return stampOf(file.first) == file.second; };
+      return e.hash == hash && e.path == path && e.scale == scale && std::ranges::all_of(e.beside, is_current);
     });
-    if (entry == entries_.end()) return nullptr;
+    if (entry == entries_.end()) return std::nullopt;
     entries_.splice(entries_.begin(), entries_, entry);
-    return entry->mesh;
+    return *entry;
   }
 
   void add(CachedMesh entry) {
     const std::lock_guard lock(mutex_);
     const auto is_older = [&](const CachedMesh& e) {
-      if (e.path != entry.path) return false;
+      if (e.path != entry.path || (e.hash == entry.hash && e.scale != entry.scale)) return false;
       bytes_ -= e.bytes;
       return true;
     };
@@ -73,17 +75,27 @@ MeshCache& meshCache() {
 
 }  // namespace
 
-std::shared_ptr<const Mesh> sharedMeshFile(const std::string& path) {
+std::shared_ptr<const Mesh> sharedMeshFile(const std::string& path, const Vector3d& scale) {
+  const Vector3d one = Vector3d::Ones();
   const std::size_t hash = std::hash<std::string>()(readMeshBytes(path));
-  if (auto mesh = meshCache().find(path, hash)) return mesh;
-  std::vector<std::string> files;
-  auto mesh = std::make_shared<const Mesh>(readMeshFile(path, &files));
-  CachedMesh entry{path, hash, {}, mesh, bytesOf(*mesh)};
-  for (std::string& file : files) {
-    if (file != path) entry.beside[file] = stampOf(file);
+  if (const auto known = meshCache().find(path, scale, hash)) return known->mesh;
+  auto entry = scale == one ? std::nullopt : meshCache().find(path, one, hash);
+  if (!entry) {
+    std::vector<std::string> files;
+    const auto mesh = std::make_shared<const Mesh>(readMeshFile(path, &files));
+    entry = CachedMesh{path, one, hash, {}, mesh, bytesOf(*mesh)};
+    for (std::string& file : files) {
+      if (file != path) entry->beside[file] = stampOf(file);
+    }
   }
-  meshCache().add(std::move(entry));
-  return mesh;
+  if (scale != one) {
+    Mesh scaled = *entry->mesh;
+    scaleMesh(scaled, scale);
+    entry->mesh = std::make_shared<const Mesh>(std::move(scaled));
+    entry->scale = scale;
+  }
+  meshCache().add(*entry);
+  return entry->mesh;
 }
 
 }  // namespace kinegraph

@@ -74,7 +74,7 @@ Mesh readStlText(std::string_view text, const std::string& path) {
   const auto skipBlanks = [&] {
     while (at != end && std::isspace(static_cast<unsigned char>(*at))) ++at;
   };
-  int corners = 0;
+  int corners = 0, facets = 0;
   for (;;) {
     skipBlanks();
     if (at == end) break;
@@ -96,11 +96,14 @@ Mesh readStlText(std::string_view text, const std::string& path) {
       }
       builder.addCorner(p);
       ++corners;
+    } else if (token.size() == 5 && startsWithWord(token, "facet")) {
+      ++facets;
     } else if (token.size() == 5 && startsWithWord(token, "solid")) {
       while (at != end && *at != '\n') ++at;  // the name
     }
   }
-  if (corners % 3 != 0) throw FileError(cat("mesh file '", path, "' is truncated: its last triangle is incomplete"));
+  if (corners % 3 != 0 || corners < 3 * facets)
+    throw FileError(cat("mesh file '", path, "' is truncated: its last triangle is incomplete"));
   return builder.take();
 }
 

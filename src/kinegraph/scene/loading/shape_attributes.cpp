@@ -71,24 +71,27 @@ bool AttributeReader::readMesh(Geometry& geometry) {
   const Node* node = find({"mesh", "mesh_decomp", "mesh_points"});
   return guarded(*node, [&] {
     const std::string file = path(*node);
-    std::shared_ptr<const Mesh> mesh;
-    try {
-      if (node->key == "mesh") mesh = sharedMeshFile(file);
-      if (!mesh) mesh = std::make_shared<Mesh>(readH5Mesh(file, node->key == "mesh_decomp" ? "decomp" : "points"));
-    } catch (const FileError& e) {
-      throw FileError(cat(e.what(), std::string(e.what()).ends_with("does not exist") ? similarFilesHint(file) : ""));
-    }
+    Vector3d factors = Vector3d::Ones();
     if (const Node* scale = find({"meshscale"})) {
       const auto s = numbers(*scale).value_or(std::vector<double>{1.});
       if (s.size() == 1 || s.size() == 3) {
-        const Vector3d factors = s.size() == 3 ? Vector3d(s[0], s[1], s[2]) : Vector3d::Constant(s[0]).eval();
-        Mesh scaled = *mesh;
-        scaleMesh(scaled, factors);
-        mesh = std::make_shared<Mesh>(std::move(scaled));
+        factors = s.size() == 3 ? Vector3d(s[0], s[1], s[2]) : Vector3d::Constant(s[0]).eval();
         geometry.mesh_scale = factors;
       } else {
         error(*scale, cat("expected 1 or 3 numbers, got ", s.size()));
       }
+    }
+    std::shared_ptr<const Mesh> mesh;
+    try {
+      if (node->key == "mesh") mesh = sharedMeshFile(file, factors);
+      if (!mesh) mesh = std::make_shared<Mesh>(readH5Mesh(file, node->key == "mesh_decomp" ? "decomp" : "points"));
+    } catch (const FileError& e) {
+      throw FileError(cat(e.what(), std::string(e.what()).ends_with("does not exist") ? similarFilesHint(file) : ""));
+    }
+    if (node->key != "mesh" && factors != Vector3d::Ones()) {
+      Mesh scaled = *mesh;
+      scaleMesh(scaled, factors);
+      mesh = std::make_shared<Mesh>(std::move(scaled));
     }
     geometry.type = mesh->triangles.empty() ? ShapeType::pointCloud : ShapeType::mesh;
     if (node->key == "mesh") geometry.mesh_file = file;

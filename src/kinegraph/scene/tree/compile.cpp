@@ -2,12 +2,31 @@
 #include <limits>
 #include <utility>
 
+#include "kinegraph/common/parallel.h"
+#include "kinegraph/geometry/distance/shared_body.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 
 namespace {
+
+constexpr std::size_t kLargeMesh = 2000;  ///< vertices: the hull takes about a millisecond
+constexpr int kHullThreads = 8;
+
+/// Builds the bodies of large meshes that have none yet, on several threads: a robot may have a hundred.
+void buildLargeBodies(const SceneTree& scene) {
+  std::vector<const Shape*> large;
+  for (const auto& frame : scene.frames()) {
+    const Geometry* geometry = frame->shape ? frame->shape->geometry.get() : nullptr;
+    if (geometry && geometry->mesh && geometry->mesh->vertices.size() >= kLargeMesh && !hasSharedBody(*geometry))
+      large.push_back(&*frame->shape);
+  }
+  if (large.size() < 2) return;
+  parallelFor(int(large.size()), 1, kHullThreads, [&](int, int from, int to) {
+    for (int i = from; i < to; ++i) large[std::size_t(i)]->body();
+  });
+}
 
 /// Returns whether the frame has a joint with dofs in q.
 bool isLinkFrame(const FrameData& frame) { return frame.moves() && dofSource(frame).joint->active; }
@@ -88,6 +107,7 @@ std::shared_ptr<const KinematicModel> compileModel(const SceneTree& scene) {
   connectChains(*model);
   model->geometry.resize(count);
   model->body.resize(count);
+  buildLargeBodies(scene);
   for (const auto& frame : scene.frames()) {
     if (!frame->shape) continue;
     model->geometry[frame->id] = frame->shape->geometry;

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "kinegraph/geometry/distance/collision_body.h"
+#include "kinegraph/geometry/distance/shared_body.h"
 
 namespace kinegraph {
 
@@ -15,7 +15,7 @@ std::shared_ptr<const CollisionBody> Shape::body() const {
   {
     const std::lock_guard lock(body_cache_->mutex);
     if (!body_cache_->of) {
-      body_cache_->body = makeCollisionBody(*geometry);
+      body_cache_->body = sharedCollisionBody(*geometry);
       body_cache_->of = geometry;
     }
     if (body_cache_->of == geometry) return body_cache_->body;
