@@ -7,6 +7,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/ik/solve_ik.h"
 #include "kinegraph/komo/path/path.h"
+#include "kinegraph/task_planning/facing.h"
 #include "kinegraph/task_planning/grasps.h"
 #include "kinegraph/task_planning/pull_start.h"
 #include "kinegraph/task_planning/task_doors.h"
@@ -58,8 +59,8 @@ VectorXd near(const Config& C, const std::string& hand, const Vector3d& target, 
               const HandGuess& guess = {}) {
   Config all = C;
   all.setJointState(q);
-  const std::vector<TaskDoor> doors = doorsOf(all);
-  StillDoors still = withStillDoors(all, doors);
+  all.setJointState(facing(all, hand, target));
+  StillDoors still = withStillDoors(all, doorsOf(all));
   IkOptions options;
   options.collisions = false;
   options.attempts = 10;
@@ -142,6 +143,7 @@ VectorXd takesPart(const Config& C, const std::string& hand, const std::string& 
   const Vector3d target = position + R * guess.at, x = R * guess.closing, z = R * guess.back;
   Config all = C;
   all.setJointState(q);
+  all.setJointState(facing(all, hand, target));
   StillDoors still = withStillDoors(all, doorsOf(all));
   IkOptions options;
   options.collisions = false;

@@ -168,7 +168,8 @@ std::optional<TaskPlan> TaskSearch::nextPlan() {
         plan.times = VectorXd::Zero(1);
         return plan;
       }
-      if (!standsOnItselfIn(*actions)) trial_.emplace(Trial{*actions, logic_.statesAlong(*actions)});
+      if (!standsOnItselfIn(*actions) && !learner_.learnHandThatFails(*actions))
+        trial_.emplace(Trial{*actions, logic_.statesAlong(*actions)});
     }
     while (trial_ && !has_ended_) {
       std::optional<TaskPlan> plan = nextOf(*trial_);
