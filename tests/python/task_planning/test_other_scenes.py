@@ -86,3 +86,16 @@ def test_a_box_is_taken_out_of_a_shelf() -> None:
     body(C, "tray", "table", [-0.4, 0.1, 0.056], [0.18, 0.18, 0.012])
     world = executed(C, ry.planTask(C, "(on tray box)", max_evaluations=QUICK))
     assert stands(world, "box", "tray")
+
+
+def test_what_makes_way_is_put_on_the_table_and_not_onto_another_object() -> None:
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    for name, pad, x in (("a", "pad0", -0.3), ("b", "pad1", 0.3)):
+        body(C, pad, "table", [x, 0.25, 0.055], [0.11, 0.11, 0.01])
+        body(C, name, pad, [0, 0, 0.055], [0.05, 0.06, 0.1], 0.1)
+    body(C, "block", "table", [0, 0.4, 0.075], [0.06, 0.05, 0.05], 0.1)
+    plan = ry.planTask(C, "(on pad0 b) (on pad1 a)", max_evaluations=QUICK)
+    assert next(action[3] for action in plan.actions if action[0] == "place") == "table"
+    world = executed(C, plan)
+    assert stands(world, "a", "pad1") and stands(world, "b", "pad0")
