@@ -140,7 +140,7 @@ class Simulation {
 
   /// Moves a point of a frame's link (in the frame's axes, m) to a target (world, m) by a damped spring until
   /// endPerturbation: f = m (w^2 (target - p) - 2 w dp/dt), with w = 10 rad/s. m is the mass of the link and all links
-  /// below it, at most ten times the inertia that the point resists with. A target beyond 10 m pulls as from 10 m. At
+  /// below it, at most ten times the inertia that the point resists with. A target beyond 1 m pulls as from 1 m. At
   /// most one perturbation is active. Throws FrameNotFound, and ValueError for a frame fixed to the world.
   void perturb(const std::string& frame, const Vector3d& point, const Vector3d& target);
   void endPerturbation();
@@ -226,11 +226,12 @@ class SimulationBatch {
   SimulationState getState(int environment) const;
   void setState(int environment, const SimulationState& state);
 
-  /// Resets environments to the initial Config. This and all calls below throw ValueError for unknown environments.
-  void reset(const std::vector<int>& environments);
+  /// Resets environments (all if not given) to the initial Config. This and all calls below throw ValueError for unknown environments.
+  void reset(const std::optional<std::vector<int>>& environments = std::nullopt);
 
-  /// Sets joints (a row of `q` each) and free frames (a row of `poses`, 7F; empty: unchanged) at rest.
-  void place(const std::vector<int>& environments, const MatrixXd& q, const MatrixXd& poses = {});
+  /// Sets joints (a row of `q` each) and free frames (a row of `poses`, 7F; empty: unchanged) of environments (all for
+  /// nullopt), at rest.
+  void place(const std::optional<std::vector<int>>& environments, const MatrixXd& q, const MatrixXd& poses = {});
 
   /// Like Simulation::closeGripper, with a width (m) per environment.
   void closeGrippers(const std::string& gripper, const VectorXd& widths, double speed = .3, double force = 20.);
