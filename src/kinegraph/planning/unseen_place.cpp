@@ -128,6 +128,14 @@ class EnteredCells {
   std::optional<UnseenPlace> place_;
 };
 
+/// A point of a path without times; all of its edges count the same.
+VectorXd alongPath(const MatrixXd& path, double share) {
+  const double at = share * double(path.rows() - 1);
+  const Eigen::Index first = std::clamp<Eigen::Index>(Eigen::Index(at), 0, std::max<Eigen::Index>(path.rows() - 2, 0));
+  const Eigen::Index last = std::min(first + 1, path.rows() - 1);
+  return path.row(first) + (at - double(first)) * (path.row(last) - path.row(first));
+}
+
 }  // namespace
 
 std::string UnseenPlace::str() const {
@@ -147,7 +155,10 @@ std::optional<UnseenPlace> findUnseenPlace(const Config& config, double margin,
   const MotionPlan plan = plan_in(seen);
   if (!plan.feasible()) return std::nullopt;
   EnteredCells entered(config, maps, margin);
-  for (int i = 0; i <= kUnseenSamples; ++i) entered.visit(plan.eval(plan.duration() * i / kUnseenSamples).q);
+  for (int i = 0; i <= kUnseenSamples; ++i) {
+    const double share = double(i) / kUnseenSamples;
+    entered.visit(plan.options.timing ? plan.eval(share * plan.duration()).q : alongPath(plan.path, share));
+  }
   return entered.take();
 }
 

@@ -240,6 +240,7 @@ void TaskWaypoints::put(double time, const std::string& obj, const std::string& 
   if (placement) slots_.back().placement = *placement;
   const Footprint footprint = footprintOf(C.getFrame(obj), rotation);
   const Eigen::Vector2d half = .5 * placeSides(C.getFrame(to));
+  slots_.back().half = half;
   const bool is_whole =
       placement ? placement->is_whole : (half - Eigen::Vector2d::Constant(footprint.radius)).minCoeff() > kRim;
   const auto keepInside = [&](const std::string& what, const Eigen::Vector2d& room) {

@@ -73,7 +73,7 @@ class TaskWaypoints : public std::enable_shared_from_this<TaskWaypoints> {
   VectorXd startOf(std::size_t action, const VectorXd& before, std::map<std::string, Vector3d>& at,
                    const std::map<std::string, Vector3d>& offsets, int angles) const;
   void switchTo(double time, const std::string& frame, const std::string& obj);
-  Vector3d startSlot(const Slot& slot, const Nlp& nlp, VectorXd& x, Rng* rng, bool grasps) const;
+  Vector3d startSlot(const Slot& slot, VectorXd& x, Rng* rng, bool grasps) const;
 
   const std::vector<TaskDoor> doors_;
   const std::vector<std::optional<Placement>> placements_;  ///< of each action

@@ -17,6 +17,7 @@ struct TaskWaypoints::Slot {
   std::string frame;
   std::string face = {};                    ///< of `lay`
   std::optional<Placement> placement = {};  ///< of `place`
+  Eigen::Vector2d half = {0., 0.};          ///< of `place`: half of the sides of the place, m
 };
 
 }  // namespace kinegraph

@@ -7,6 +7,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/ik/solve_ik.h"
 #include "kinegraph/komo/path/path.h"
+#include "kinegraph/task_planning/facing.h"
 #include "kinegraph/task_planning/grasps.h"
 #include "kinegraph/task_planning/pull_start.h"
 #include "kinegraph/task_planning/task_doors.h"
@@ -58,8 +59,8 @@ VectorXd near(const Config& C, const std::string& hand, const Vector3d& target, 
               const HandGuess& guess = {}) {
   Config all = C;
   all.setJointState(q);
-  const std::vector<TaskDoor> doors = doorsOf(all);
-  StillDoors still = withStillDoors(all, doors);
+  all.setJointState(facing(all, hand, target));
+  StillDoors still = withStillDoors(all, doorsOf(all));
   IkOptions options;
   options.collisions = false;
   options.attempts = 10;
@@ -142,6 +143,7 @@ VectorXd takesPart(const Config& C, const std::string& hand, const std::string& 
   const Vector3d target = position + R * guess.at, x = R * guess.closing, z = R * guess.back;
   Config all = C;
   all.setJointState(q);
+  all.setJointState(facing(all, hand, target));
   StillDoors still = withStillDoors(all, doorsOf(all));
   IkOptions options;
   options.collisions = false;
@@ -189,11 +191,11 @@ VectorXd nearWithTool(const Config& C, const TaskAction& action, const Vector3d&
 }  // namespace
 
 /// Initializes a slot. Returns the offset from the center of the place, for placements.
-Vector3d TaskWaypoints::startSlot(const Slot& slot, const Nlp& nlp, VectorXd& x, Rng* rng, bool grasps) const {
+Vector3d TaskWaypoints::startSlot(const Slot& slot, VectorXd& x, Rng* rng, bool grasps) const {
   const int first = slot.first;
   const auto sample = [&](double low, double high) { return rng ? rng->uniform(low, high) : 0.; };
   if (slot.kind == SlotKind::place) {
-    for (int i = first; i < first + 2; ++i) x[i] = sample(.9 * nlp.lower()[i], .9 * nlp.upper()[i]);
+    for (int i = 0; i < 2; ++i) x[first + i] = sample(-.9 * slot.half[i], .9 * slot.half[i]);
     x[first + 2] = sample(-kMaxRotation, kMaxRotation);
     if (!rng && slot.placement) x.segment<3>(first) << slot.placement->at, slot.placement->angle;
   } else if (slot.kind == SlotKind::lay) {
@@ -214,10 +216,9 @@ Vector3d TaskWaypoints::startSlot(const Slot& slot, const Nlp& nlp, VectorXd& x,
 
 VectorXd TaskWaypoints::start(Rng* rng, bool grasps) const {
   VectorXd x = m->komo->path().variables();
-  const std::shared_ptr<Nlp> nlp = makeNlp(m->komo);
   std::map<std::string, Vector3d> offsets;
   for (const Slot& slot : slots_) {
-    const Vector3d offset = startSlot(slot, *nlp, x, rng, grasps);
+    const Vector3d offset = startSlot(slot, x, rng, grasps);
     if (slot.kind == SlotKind::place || slot.kind == SlotKind::lay) offsets[slot.frame] = offset;
   }
   std::optional<PullStart> pulls;

@@ -1,6 +1,7 @@
 #include "kinegraph/task_planning/search/conflict_learner.h"
 
 #include <algorithm>
+#include <set>
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/task_planning/search/task_conflicts.h"
@@ -10,6 +11,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double kOpenedEarlier = .9;  ///< share of its range at which a door is assumed that was opened before
+constexpr std::size_t kShort = 2;      ///< actions: shorter sequences are solved at once
 
 /// "while (closed drawer): "; "" without facts.
 std::string whileText(const std::vector<Literal>& facts) {
@@ -40,6 +42,26 @@ std::vector<double> doorsIn(const Config& C, const std::vector<TaskDoor>& doors,
 ConflictLearner::ConflictLearner(SpeculativeExecutor& executor, const Config& scene, std::vector<TaskDoor> doors,
                                  TaskLogic& logic, WaypointCache& waypoints, BranchLog& log)
     : executor_(executor), scene_(scene), doors_(std::move(doors)), logic_(logic), waypoints_(waypoints), log_(log) {}
+
+bool ConflictLearner::learnHandThatFails(const Actions& actions) {
+  const std::vector<Literal>& start = logic_.start();
+  if (wordsOf(start, "is_gripper").size() < 2 || actions.size() <= kShort || !doors_.empty()) return false;
+  std::set<std::string> moved;  // objects that are not where they were
+  for (std::size_t i = 0; i < actions.size(); ++i) {
+    const TaskAction& action = actions[i];
+    if (action[0] != "pick" && action[0] != "place") return false;
+    const Actions prefix(actions.begin(), actions.begin() + std::ptrdiff_t(i) + 1);
+    const Actions alone = actionsAlone(prefix).actions;
+    const std::string& place = action[0] == "pick" ? action[2] : action[3];
+    const bool is_as_at_start = startsWithPick(alone, start) && !moved.contains(place);
+    if (is_as_at_start && waypoints_.failureOf(alone, {objectsWithout(alone, start), {}})) {
+      learnLast(prefix, nullptr);
+      return true;
+    }
+    moved.insert(action[1]);
+  }
+  return false;
+}
 
 void ConflictLearner::learnMotionFailure(const Actions& actions, const TaskFailure& failure) {
   const auto known = std::make_shared<FutureFailure::element_type>(

@@ -26,6 +26,10 @@ class ConflictLearner {
   /// The same if it is known that the first `feasible` actions have waypoints, and for what cause the next one fails.
   void learnWaypointFailure(const Actions& actions, std::size_t feasible, const FutureFailure& failure);
 
+  /// With several hands, tests each pick and place of a sequence alone, without other objects: the logic chooses hands
+  /// without geometry, and a short problem fails soon. Learns from the first that fails, and returns true then.
+  bool learnHandThatFails(const Actions& actions);
+
   /// Learns from a sequence whose motions failed.
   void learnMotionFailure(const Actions& actions, const TaskFailure& failure);
 

@@ -221,12 +221,13 @@ std::vector<TimedRows> SequenceEvaluator::planMotions(const Config& C, const std
     return std::max(most + 1 - *left, 1);
   };
   for (std::size_t i = 0; i < parts->size(); ++i) {
-    later.push_back(executor_.defer<TaskMotions::Found>(
-        [motions = motions_, parts, i, stopped, left, threads](const CancellationToken& unwanted) {
+    later.push_back(
+        executor_.defer<TaskMotions::Found>([motions = motions_, parts, i, stopped, left, threads,
+                                             is_late = settings_.is_late](const CancellationToken& unwanted) {
           const Motion& motion = (*parts)[i];
           TaskMotions::Found found = motions.between(
               motion.part.config, motion.part.start, motion.part.end, motion.action, motion.before,
-              [stopped, unwanted] { return stopped() || unwanted(); }, threads);
+              [&] { return stopped() || unwanted() || (is_late && is_late()); }, threads);
           --*left;
           return found;
         }));

@@ -24,11 +24,17 @@ constexpr int kSampled = 8;        ///< configurations
 
 Config withoutGivenContacts(const Config& C, double margin) {
   const std::vector<Literal> facts = taskFacts(C);
-  FramePairs pairs = wedgedPairs(C, wordsOf(facts, "is_gripper"), wordsOf(facts, "is_object"), kOverlap);
+  const std::vector<std::string> objects = wordsOf(facts, "is_object");
+  FramePairs pairs = wedgedPairs(C, wordsOf(facts, "is_gripper"), objects, kOverlap);
+  const auto isCarried = [&](int id) {  // its neighbors change, although no joint moves it
+    const std::string name = C.getFrame(id).getName();
+    return std::ranges::find(objects, name) != objects.end() || !holderOf(C, name, objects).empty();
+  };
   Config scene = C;
   std::map<std::pair<int, int>, double> near;
   for (const Config::NearPair& pair : scene.getCollisions(kFarther * margin))
-    if (pair.distance > 0.) near[std::minmax(pair.a, pair.b)] = pair.distance;
+    if (pair.distance > 0. && !isCarried(pair.a) && !isCarried(pair.b))
+      near[std::minmax(pair.a, pair.b)] = pair.distance;
   Rng rng(1);
   for (int k = 0; k < kSampled && !near.empty(); ++k) {
     scene.setRandom(rng);

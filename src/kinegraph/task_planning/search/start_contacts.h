@@ -7,9 +7,9 @@
 
 namespace kinegraph {
 
-/// Returns a scene without the contacts that no plan changes: held objects may overlap the robot as they do now, until
-/// they are put down, and pairs that are equally close in all configurations, such as a base and its floor, do not
-/// collide. `margin`: of motions, m.
+/// Returns a scene without the contacts that no plan changes. Held objects may overlap the robot as they do now, until
+/// they are put down. Pairs without objects that are equally close in all configurations, such as a base and its floor,
+/// do not collide. `margin`: of motions, m.
 Config withoutGivenContacts(const Config& C, double margin);
 
 /// Returns the overlaps at the start of robots with hands, as "the start collides: 'a' and 'b' overlap by 3.0 mm"; ""

@@ -10,9 +10,9 @@
 #include "kinegraph/logic/domain.h"
 #include "kinegraph/task_planning/gripper_frames.h"
 #include "kinegraph/task_planning/open_hands.h"
-#include "kinegraph/task_planning/search/crowded_places.h"
 #include "kinegraph/task_planning/search/goal_flaw.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
+#include "kinegraph/task_planning/search/poor_placements.h"
 #include "kinegraph/task_planning/search/start_contacts.h"
 #include "kinegraph/task_planning/search/step_tolerance.h"
 #include "kinegraph/task_planning/search/task_conflicts.h"
@@ -27,7 +27,7 @@ using Clock = std::chrono::steady_clock;
 constexpr int kSeeds = 3;           ///< sets of waypoints that are tried for the first plan of a sequence
 constexpr int kRobustSeeds = 10;    ///< the same if it has a plan that is not robust
 constexpr int kBetterSeeds = 16;    ///< sets of waypoints that are tried for better plans
-constexpr int kWithRoom = 8;        ///< sequences without crowded placements that are tried before others
+constexpr int kWithoutPoor = 8;     ///< sequences without poor placements that are tried before others
 constexpr long kForRobust = 60000;  ///< evaluations; after more, no plan is searched that is more robust
 constexpr double kNoPlan = std::numeric_limits<double>::infinity();
 
@@ -142,9 +142,9 @@ std::optional<TaskPlan> TaskSearch::begin() {
     logic_.exclude(
         impossibleActions(C_, logic_.allActions(), options_.domain ? std::vector<Literal>() : logic_.start()));
   if (!options_.domain && options_.rules.empty()) {
-    for (const ImpossibleAction& crowded : crowdedPlacements(C_, logic_.allActions(), logic_.start(), logic_.goal())) {
-      logic_.forbid(crowded.action, crowded.facts);
-      has_room_ = true;
+    for (const ImpossibleAction& poor : poorPlacements(C_, logic_.allActions(), logic_.start(), logic_.goal())) {
+      logic_.forbid(poor.action, poor.facts);
+      avoids_poor_ = true;
     }
   }
   return std::nullopt;
@@ -168,7 +168,8 @@ std::optional<TaskPlan> TaskSearch::nextPlan() {
         plan.times = VectorXd::Zero(1);
         return plan;
       }
-      if (!standsOnItselfIn(*actions)) trial_.emplace(Trial{*actions, logic_.statesAlong(*actions)});
+      if (!standsOnItselfIn(*actions) && !learner_.learnHandThatFails(*actions))
+        trial_.emplace(Trial{*actions, logic_.statesAlong(*actions)});
     }
     while (trial_ && !has_ended_) {
       std::optional<TaskPlan> plan = nextOf(*trial_);
@@ -189,13 +190,13 @@ std::optional<TaskPlan> TaskSearch::nextPlan() {
   return std::nullopt;
 }
 
-/// The next sequence in logic. If those that leave room on places fail, all are tried; if all fail, objects may also be
+/// The next sequence in logic. If those without poor placements fail, all are tried; if all fail, objects may also be
 /// put down to be grasped differently.
 std::optional<TaskSearch::Actions> TaskSearch::nextActions() {
-  auto actions = has_room_ && tried_ == kWithRoom ? std::nullopt : logic_.next();
+  auto actions = avoids_poor_ && tried_ == kWithoutPoor ? std::nullopt : logic_.next();
   ++tried_;
-  if (!actions && !hasPlan() && has_room_) {
-    has_room_ = false;
+  if (!actions && !hasPlan() && avoids_poor_) {
+    avoids_poor_ = false;
     logic_.startOver();
     actions = logic_.next();
   }

@@ -73,7 +73,7 @@ class TaskSearch {
   const WaypointSolver::Settings settings_;
   bool has_begun_ = false, has_ended_ = false;
   bool may_regrasp_ = false;                   ///< regrasps are left to be tried
-  bool has_room_ = false;                      ///< placements that leave no room on a place are excluded
+  bool avoids_poor_ = false;                   ///< poor placements are excluded
   int tried_ = 0;                              ///< sequences
   bool needs_seeds_ = false;                   ///< a sequence with waypoints had no motion
   double best_;                                ///< duration of the last plan, s

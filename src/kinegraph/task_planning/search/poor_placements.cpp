@@ -1,4 +1,4 @@
-#include "kinegraph/task_planning/search/crowded_places.h"
+#include "kinegraph/task_planning/search/poor_placements.h"
 
 #include <algorithm>
 #include <map>
@@ -57,12 +57,21 @@ bool fitsBeside(const Frame& obj, const Frame& other, const Frame& place) {
 
 }  // namespace
 
-std::vector<ImpossibleAction> crowdedPlacements(const Config& C, const std::vector<TaskAction>& actions,
-                                                const std::vector<Literal>& start, const std::vector<Literal>& goal) {
+std::vector<ImpossibleAction> poorPlacements(const Config& C, const std::vector<TaskAction>& actions,
+                                             const std::vector<Literal>& start, const std::vector<Literal>& goal) {
   std::map<std::string, std::set<std::string>> onto;
   for (const TaskAction& action : actions)
     if (action[0] == "place") onto[action[3]].insert(action[1]);
-  std::vector<ImpossibleAction> crowded;
+  std::vector<ImpossibleAction> poor;
+  const std::vector<std::string> all = wordsOf(start, "is_object"), carriers = wordsOf(start, "is_carrier");
+  const auto isOneOf = [](const std::vector<std::string>& names, const std::string& name) {
+    return std::ranges::find(names, name) != names.end();
+  };
+  for (const TaskAction& action : actions) {
+    if (action[0] != "place" || !isOneOf(all, action[3]) || isOneOf(carriers, action[3])) continue;
+    if (!contains(goal, {"on", {action[3], action[1]}}))
+      poor.push_back({action, {}, cat("the goal does not want '", action[1], "' on '", action[3], "'")});
+  }
   for (const auto& [name, objects] : onto) {
     const Frame place = C.getFrame(name);
     if (!hasTop(place)) continue;
@@ -78,10 +87,10 @@ std::vector<ImpossibleAction> crowdedPlacements(const Config& C, const std::vect
         if (contains(start, {"on", {name, b}}) ? fitsBeside(one, other, place) : fitBoth(one, other, sides)) continue;
         for (const TaskAction& action : actions)
           if (action[0] == "place" && action[1] == a && action[3] == name)
-            crowded.push_back({action, {Literal{"on", {name, b}}}, cat("'", name, "' has no room for both")});
+            poor.push_back({action, {Literal{"on", {name, b}}}, cat("'", name, "' has no room for both")});
       }
   }
-  return crowded;
+  return poor;
 }
 
 }  // namespace kinegraph
