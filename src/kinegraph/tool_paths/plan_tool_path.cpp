@@ -27,6 +27,7 @@ constexpr int kLeastTimingIntervals = 100;
 constexpr int kMostTimingIntervals = 500, kFinest = 2;  // the latter per piece of the joint curve
 constexpr double kIdle = .02, kMuchIdle = .03;          // share of the duration without a limit that is reached
 constexpr int kSolutionsPerPath = 3;                    // for transfers and orders
+constexpr double kLeastTolerance = 1e-6, kLeastRotationTolerance = 4e-6;  // m and rad that splines of joints keep
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr const char* kPlanToolPath = "planToolPath";
 
@@ -37,6 +38,10 @@ void requirePositive(const char* name, double value) {
 void requireNotNegative(const char* name, double value) {
   if (!(value >= 0.) || !std::isfinite(value))
     throw ValueError(cat(kPlanToolPath, ": ", name, " is ", value, "; expected a finite number >= 0"));
+}
+
+void requireAtLeast(const char* name, double value, double least) {
+  if (!(value >= least)) throw ValueError(cat(kPlanToolPath, ": ", name, " is ", value, "; expected at least ", least));
 }
 
 bool mayCollide(const Config& scene, const Frame& frame) {
@@ -152,8 +157,11 @@ class ToolPathPlanner {
       tools_.push_back(std::make_unique<ToolKinematics>(touching_, paths_[k]));
       ToolKinematics& tool = *tools_.back();
       const VectorXd present = config_.getJointState();
-      curves_.emplace_back(paths_[k], Pose(tool.pose(present)), kFitShare * options_.tolerance,
-                           tool.side() * options_.approach, tool.side() * options_.retract);
+      const Pose now(tool.pose(present));
+      const std::optional<ToolWaypoint>& first = paths_[k].first();
+      const double side = tool.side(first ? Pose{first->p, first->rotation.value_or(now.q)} : now);
+      curves_.emplace_back(paths_[k], now, kFitShare * options_.tolerance, side * options_.approach,
+                           side * options_.retract);
       for (const std::string& warning : paths_[k].warnings()) plan_.warnings.push_back(warning);
       for (const std::string& warning : curves_.back().warnings())
         plan_.warnings.push_back(cat("path ", k, ": ", warning));
@@ -179,6 +187,9 @@ class ToolPathPlanner {
                       free_start.curves[0].pieces.eval(0.).transpose().format(
                           Eigen::IOFormat(4, Eigen::DontAlignCols, ", ", ", ")),
                       ") there is a motion");
+        const double off = tool.miss(*options_.start, curves_.back().at(0.)).p.norm();
+        if (off > options_.tolerance)
+          other = cat("; at `start`, the tool is ", numberText(off, 3), " m from the beginning of the path", other);
       }
       return failPath(int(k), other);
     }
@@ -339,8 +350,8 @@ void ToolPathOptions::validate(int dofs) const {
   requireNotNegative("approach", approach);
   requireNotNegative("retract", retract);
   requireNotNegative("margin", margin);
-  requirePositive("tolerance", tolerance);
-  requirePositive("rotation_tolerance", rotation_tolerance);
+  requireAtLeast("tolerance", tolerance, kLeastTolerance);
+  requireAtLeast("rotation_tolerance", rotation_tolerance, kLeastRotationTolerance);
   const std::pair<const char*, const VectorXd*> limits[] = {
       {"velocity", &velocity}, {"acceleration", &acceleration}, {"jerk", &jerk}};
   for (const auto& [name, values] : limits) {

@@ -180,10 +180,99 @@ def test_rows_are_read_from_a_file(scene, tmp_path):
     x = poses(scene, samples(plan)[1])[:, :3]
     assert distance_from_line(x, rows[0], rows[-1]).max() <= 2e-5
     file.write_text("0,0,0\n0,0,a\n")
-    with pytest.raises(ry.ParseError, match=r"seam.csv:2:5: not a number"):
+    with pytest.raises(ry.ParseError, match=r"seam.csv:2:5: 'a' is not a number"):
         ry.ToolPath.read(file)
     with pytest.raises(ry.FileError, match="nothing.csv"):
         ry.ToolPath.read(tmp_path / "nothing.csv")
+
+
+ROWS = np.c_[np.linspace([0.0, 0.3, 0.85], [0.1, 0.3, 0.85], 11), np.tile([0.0, 0.0, 1.0], (11, 1))]
+POSES = np.c_[ROWS[:, :3], np.tile([1.0, 0, 0, 0], (11, 1))]  # x y z qw qx qy qz
+
+
+def table(rows, separator=","):
+    return "\n".join(separator.join(map(repr, map(float, row))) for row in rows)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "\ufeff" + table(ROWS),  # with the byte order mark of spreadsheets
+        '\ufeff"X";"Y";"Z";"NX";"NY";"NZ"\r\n' + table(ROWS, ";").replace("\n", "\r\n"),
+        "nx,ny,nz,x,y,z\n" + table(ROWS[:, [3, 4, 5, 0, 1, 2]]),
+        "x y z qx qy qz qw\n" + table(POSES[:, [0, 1, 2, 4, 5, 6, 3]], " "),  # as ROS has it
+        "point on the seam\n" + table(ROWS, "\t").replace("\n", "  # a comment\n"),
+        table(ROWS).replace("\n", ",\n"),
+    ],
+)
+def test_rows_of_many_tables_are_the_same(scene, tmp_path, text):
+    file = tmp_path / "seam.csv"
+    file.write_bytes(text.encode("utf-16") if "qx" in text else text.encode())
+    path = ry.ToolPath.read(file).free()
+    plan = ry.planToolPath(scene, path, speed=0.1)
+    assert plan, plan.message
+    x = poses(scene, plan.eval(np.array([0.0, plan.duration]))[0])
+    np.testing.assert_allclose(x[:, :3], ROWS[[0, -1], :3], atol=3e-5)
+    z = scene.evalBatch(ry.FS.vectorZ, ["tool"], plan.eval(np.array([0.0]))[0])[0]
+    np.testing.assert_allclose(z, [[0, 0, 1]], atol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("0.1,0.2,O.3\n0,0,0\n0,0,1\n", r"1:9: 'O.3' is not a number"),  # a letter, and no column name
+        ("0,4;0,1;0,15\n0,5;0,1;0,15\n", r"1:2: the row has commas and semicolons"),
+        ("0,0,0\n0,,1\n", r"2:3: the field is empty"),
+        ("x,y,z,rx,ry,rz\n0,0,0,0,0,0\n", r"1:7: the column 'rx' is an angle; expected a normal"),
+        ("x,y,z\n0,0,0,1\n0,0,1,1\n", r"2:7: the row has 4 numbers"),
+        ("z,y,x\n0,0,0,0,0,1\n", r"2:11: the row has 6 numbers; there are 3 names"),
+        ("nan,nan,nan\n0,0,0\n0,0,1\n", r"1:1: 'nan' is not a number"),
+    ],
+)
+def test_tables_that_are_not_read_are_explained(tmp_path, text, message):
+    file = tmp_path / "seam.csv"
+    file.write_text(text)
+    with pytest.raises(ry.ParseError, match=r"seam\.csv:" + message):
+        ry.ToolPath.read(file)
+
+
+def test_blends_that_overlap_shrink_and_the_robot_moves():
+    C = ry.Config()
+    C.addFile(ry.raiPath("ur5e/ur5e.g"))
+    p = C.getFrame("tool0").getPosition()
+    bot = ry.BotOp(C, driver=ry.KinematicDriver(C))
+    square = p + 0.05 * np.array([[1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 0]])
+    plan = bot.moveSequence("tool0", square, blend=0.5, speed=0.1)
+    assert plan, plan.message
+    assert [warning[:38] for warning in plan.warnings] == [
+        f"path 0: the blend of 0.5 m at element {k}"[:38] for k in (1, 2, 3)
+    ]
+    x = poses(C, samples(plan)[1], "tool0")[:, :3] - p
+    assert ((x > -1e-4) & (x < 0.05 + 1e-4))[:, :2].all() and np.abs(x[:, 2]).max() < 2e-5
+    inside = np.minimum(np.minimum(x[:, 0], x[:, 1]), np.minimum(0.05 - x[:, 0], 0.05 - x[:, 1]))
+    assert 1e-3 < inside.max() < 0.0245  # corners are cut within the radius
+
+
+def test_a_start_away_from_the_path_is_told_with_its_distance(scene):
+    C = ry.Config()
+    C.addFile(ry.raiPath("irb120/irb120.g"))
+    q = np.zeros(6)
+    C.setJointState(q)
+    first = np.array([0.4, -0.2, 0.3])
+    path = ry.ToolPath("tool0").start(np.r_[first, 0, 1, 0, 0]).line([0.4, 0.2, 0.3])
+    plan = ry.planToolPath(C, path, start=q)
+    off = np.linalg.norm(C.getFrame("tool0").getPosition() - first)
+    assert f"at `start`, the tool is {off:.3f} m from the beginning of the path; from the start (" in plan.message
+
+
+def test_arguments_that_no_plan_can_keep_are_explained(scene):
+    C = scene
+    start = C.getFrame("tool").getPose()
+    path = ry.ToolPath("tool").start(start).line(start[:3] + 0.1 * X)
+    with pytest.raises(ValueError, match="tolerance is 1e-07; expected at least 1e-06"):
+        ry.planToolPath(C, path, tolerance=1e-7)
+    with pytest.raises(ValueError, match="element 0 ends at its start; expected another end, or a circle"):
+        ry.planToolPath(C, ry.ToolPath("tool").start(start).arc(start[:3] + 0.1 * X, start))
 
 
 def test_a_simulated_robot_follows_the_plan(scene):
