@@ -62,13 +62,14 @@ class ToolPath {
   /// ParseError with line and column for other content.
   static ToolPath read(const std::string& file, std::string frame, std::string relative_to = {});
 
-  /// Reads a program of G-code: G0 to G3 with the planes G17 to G19, arcs and helices by I J K or R. Units are mm (G21,
-  /// the default) or inch (G20), F is per minute. It also knows G90 and G91, G90.1 (absolute centers), G61 and G64 P.
-  /// The tool keeps its rotation. Moves with G0, and those before the first F, have the speed of planToolPath. Corners
-  /// have a blend with the radius `blend` (m) until G64 P or G61 sets another one. The path starts where the first moves
-  /// that name all axes end; axes that are named later start at 0. Moves to places of the machine (G28, G30, G53), tool
-  /// lengths (G43), and spindle, coolant, tool and dwell commands are ignored with a line in `warnings`. Throws
-  /// FileError if it cannot be read, and ParseError with line and column for words that it does not know.
+  /// Reads a program of G-code: G0 to G3 with the planes G17 to G19, arcs and helices by I J K or R. Units are mm
+  /// (G21, the default) or inch (G20), F is per minute. It also knows G90 and G91, G90.1 (absolute centers), G61 and
+  /// G64 P. The tool keeps its rotation. Moves with G0, and those before the first F, have the speed of planToolPath.
+  /// Corners have a blend with the radius `blend` (m) until G64 P or G61 sets another one. The path starts where the
+  /// first moves that name all axes end; axes that are named later start at 0. Moves to places of the machine (G28,
+  /// G30, G53), tool lengths (G43), and spindle, coolant, tool and dwell commands are ignored with a line in
+  /// `warnings`. Throws FileError if it cannot be read, and ParseError with line and column for words that it does not
+  /// know.
   static ToolPath readGcode(const std::string& file, std::string frame, std::string relative_to = {},
                             double blend = 0.);
 

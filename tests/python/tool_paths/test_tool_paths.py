@@ -1,5 +1,6 @@
 """Tool paths: distances from the curve by samples, limits by differences, failures with place and pair."""
 
+import functools
 import pickle
 import struct
 import zlib
@@ -121,6 +122,62 @@ def test_segments_follow_each_other_without_jumps(scene):
     assert max(shares(scene, q, t[1])) <= 1.001
     assert scene.isValid(q).all()
     np.testing.assert_allclose(q[0], scene.getJointState(), atol=1e-9)
+
+
+def test_the_order_of_seams_is_the_best_of_all_orders_and_branches():
+    """Brute force over orders, directions and inverse solutions, with transfers that planMotion plans one by one."""
+    C = ry.Config()
+    C.addFile(ry.raiPath("irb120/irb120.g"))
+    home = C.getJointState()
+    down = [0, 1, 0, 0]
+    ends = np.array(
+        [
+            [[0.3, -0.25, 0.15], [0.38, -0.3, 0.15]],
+            [[0.42, 0.25, 0.25], [0.36, 0.3, 0.25]],
+            [[0.3, 0.1, 0.3], [0.4, 0.1, 0.3]],
+            [[0.25, -0.1, 0.2], [0.25, -0.02, 0.22]],
+        ]
+    )
+    seams = [ry.ToolPath("tool0").start(np.r_[a, down]).line(b) for a, b in ends]
+    plan = ry.planToolPath(C, seams, order="free", transfer_from=home, **LIMITS)
+    assert plan, plan.message
+    ways = []  # (seam, first, last, duration)
+    for number, seam in enumerate(seams):
+        for solution in ry.solveIk(C, {"tool0": np.r_[ends[number][0], down]}, all=True):
+            one = ry.planToolPath(C, seam, start=solution.q, **LIMITS)
+            if one:
+                q = one.eval(np.array([0.0, one.duration]))[0]
+                ways += [(number, q[0], q[1], one.duration), (number, q[1], q[0], one.duration)]
+
+    @functools.cache
+    def transfer(a, b):  # -1 is home
+        from_, to = home if a < 0 else ways[a][2], ways[b][1]
+        motion = ry.planMotion(C, to, start=from_, max_evaluations=20000, **LIMITS)
+        return motion.duration if motion.feasible else np.inf
+
+    def least(at, left):
+        if not left:
+            return 0.0
+        return min(transfer(at, k) + way[3] + least(k, left - {way[0]}) for k, way in enumerate(ways) if way[0] in left)
+
+    assert plan.duration <= 1.001 * least(-1, frozenset(range(len(seams))))
+
+
+def test_a_branch_that_no_transfer_leads_to_is_left_out():
+    """The branch that is nearest to where the robot is cannot be reached from there: the upper arm is in the way."""
+    C = ry.Config()
+    C.addFile(ry.raiPath("ur10e/ur10e.g"))
+    C.addFrame("tool", "tool0").setRelativePosition([0, 0, 0.1])
+    start = np.array([0.6412, -0.1773, 0.1851, 0.1861, -0.3623, -0.9133, 0.0])
+    q = np.array([0.412, -1.754, 4.179, -0.894, -4.567, -2.518])
+    branches = np.array([solution.q for solution in ry.solveIk(C, {"tool": start}, all=True)])
+    nearest = branches[np.argmin(np.max(np.abs(branches - q) / C.getVelocityLimits(), axis=1))]
+    assert not ry.planMotion(C, nearest, start=q, max_evaluations=20000).feasible
+    path = ry.ToolPath("tool").start(start).line(start[:3] + 0.05 * X)
+    plan = ry.planToolPath(C, path, transfer_from=q, **LIMITS)
+    assert plan, plan.message
+    np.testing.assert_allclose(plan.eval(0.0)[0], q, atol=1e-6)
+    assert C.isValid(samples(plan)[1]).all()
 
 
 def test_without_a_limit_that_is_reached_the_tool_is_never_slow(scene):
