@@ -28,6 +28,7 @@ constexpr int kMostTimingIntervals = 500, kFinest = 2;  // the latter per piece 
 constexpr double kIdle = .02, kMuchIdle = .03;          // share of the duration without a limit that is reached
 constexpr int kSolutionsPerPath = 3, kBranches = 8;     // for transfers and orders; the latter of arms without freedom
 constexpr std::int64_t kQuickEvaluations = 20000;       // for transfers between which there is a choice
+constexpr double kLeastTime = 1e-3;                     // s, of a transfer
 constexpr double kSamePosture = 1e-6;                   // rad or m: no transfer
 constexpr double kLeastTolerance = 1e-6, kLeastRotationTolerance = 4e-6;  // m and rad that splines of joints keep
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
@@ -136,6 +137,10 @@ class ToolPathPlanner {
   ToolPathPlan run() {
     if (!solveAll()) return std::move(plan_);
     const PathSequence sequence = sequenceOf();
+    if (!sequence.feasible && isLate()) {
+      failLate(0);
+      return std::move(plan_);
+    }
     for (std::size_t k = 0; k < sequence.order.size(); ++k)
       if (!addPath(sequence, k)) return std::move(plan_);
     plan_.status = ToolPathStatus::solved;
@@ -148,8 +153,7 @@ class ToolPathPlanner {
     const bool several = paths_.size() > 1 || options_.transfer_from.has_value();
     for (std::size_t k = 0; k < paths_.size(); ++k) {
       if (progress_) progress_({int(k), int(paths_.size())});
-      if (clock_.seconds() > options_.time_limit)
-        return fail(ToolPathStatus::out_of_time, int(k), 0., "the time limit ended the search");
+      if (isLate()) return failLate(int(k));
       tools_.push_back(std::make_unique<ToolKinematics>(touching_, paths_[k]));
       ToolKinematics& tool = *tools_.back();
       const VectorXd present = config_.getJointState();
@@ -200,6 +204,10 @@ class ToolPathPlanner {
     return false;
   }
 
+  bool isLate() const { return clock_.seconds() > options_.time_limit; }
+  bool failLate(int path) { return fail(ToolPathStatus::out_of_time, path, 0., "the time limit ended the search"); }
+  double timeLeft() const { return std::max(kLeastTime, options_.time_limit - clock_.seconds()); }
+
   bool failPath(int path, const std::string& more) {
     const PathFailure& failure = solutions_.back().failure;
     plan_.frames = failure.frames;
@@ -226,6 +234,7 @@ class ToolPathPlanner {
     quick.max_evaluations = kQuickEvaluations;
     return orderWithTransfers(std::move(variants), options_.free_order, options_.transfer_from, limits_,
                               [&](const VectorXd& from, const VectorXd& to) {
+                                quick.time_limit = timeLeft();
                                 // Ends of paths may touch what the paths touch.
                                 return planMotion(touching_, MotionGoal(to), quick, from, cancellation_);
                               });
@@ -244,7 +253,9 @@ class ToolPathPlanner {
     if (sequence.feasible) {
       if (sequence.transfers[position]) addTransfer(*sequence.transfers[position], path);
     } else if (from && (start - *from).cwiseAbs().maxCoeff() >= kSamePosture) {
+      transfer_.time_limit = timeLeft();
       const MotionPlan plan = planMotion(touching_, MotionGoal(start), transfer_, from, cancellation_);
+      if (!plan.feasible() && isLate()) return failLate(path);
       if (!plan.feasible())
         return fail(ToolPathStatus::no_transfer, path, 0., cat("there is no transfer to its start: ", plan.message));
       addTransfer(plan, path);

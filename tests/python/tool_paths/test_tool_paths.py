@@ -3,6 +3,7 @@
 import functools
 import pickle
 import struct
+import time
 import zlib
 
 import numpy as np
@@ -178,6 +179,10 @@ def test_a_branch_that_no_transfer_leads_to_is_left_out():
     assert plan, plan.message
     np.testing.assert_allclose(plan.eval(0.0)[0], q, atol=1e-6)
     assert C.isValid(samples(plan)[1]).all()
+    begin = time.monotonic()
+    plan = ry.planToolPath(C, path, start=nearest, transfer_from=q, time_limit=0.1)
+    assert plan.status == ry.ToolPathStatus.out_of_time, plan.message
+    assert time.monotonic() - begin < 4  # without the limit, the search for a transfer takes longer
 
 
 def test_without_a_limit_that_is_reached_the_tool_is_never_slow(scene):
