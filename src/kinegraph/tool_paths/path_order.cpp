@@ -11,7 +11,7 @@ namespace kinegraph {
 namespace {
 
 constexpr int kMaxImprovements = 200;
-constexpr int kMaxRounds = 30;               // orders whose transfers are planned
+constexpr int kMaxRounds = 12;               // orders whose transfers are planned
 constexpr double kSameConfiguration = 1e-6;  // rad or m
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
