@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plans tool paths of seven families and judges them: deviation, limits, speed, places of failures, and processor time.
 
-    python benchmarks/tool_paths.py [--seeds 0 1] [--families abcdefg] [--robots panda ur10] [--peers]
+    python benchmarks/tool_paths.py [--seeds 0 1] [--families abcdefg] [--robots panda ur10] [--peers] [--orders]
 
 Robots: a Panda with a pen and a UR10 with a rod. tool_path_problems/families.py draws the families by a seed; lines,
 circles and rasters are dense rows of poses, .5 mm apart. The judge samples motions every ms. Its kinematics come from a
@@ -15,6 +15,9 @@ is within 1 % of it, and the share that `plan.slow` lists; processor time of the
 
 --peers adds roboplan, MPlib and Descartes of tesseract-robotics (tool_path_problems/peers.py) on families a to d,
 judged alike, without collisions. A motion counts as solved if it gets to the end with a deviation below 10 mm.
+
+--orders compares instead the durations of seven seams in any order with the best of all orders, directions and branches
+(tool_path_problems/orders.py), for a UR10e and an IRB 120. A plan is wrong if it takes more than 5 % longer.
 """
 
 import argparse
@@ -22,7 +25,7 @@ import statistics
 from time import process_time
 
 import numpy as np
-from tool_path_problems import families, judge, peers
+from tool_path_problems import families, judge, orders, peers
 
 import kinegraph as ry
 
@@ -156,13 +159,33 @@ def rows_length(rows):
     return np.linalg.norm(np.diff(rows[:, :3], axis=0), axis=1).sum()
 
 
+def order_table(seeds):
+    """Compares orders of seams with the best ones; returns the names of those that take more than 5 % longer."""
+    wrong = []
+    for robot in orders.MODELS:
+        for seed in seeds:
+            duration, best, ways = orders.compare(robot, seed)
+            print(
+                f"{robot}-{seed}: {duration:.3f} s, best {best:.3f} s, ratio {duration / best:.4f}, {ways} ways",
+                flush=True,
+            )
+            if duration > 1.05 * best:
+                wrong.append(f"{robot}-{seed}")
+    return wrong
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seeds", type=int, nargs="+", default=[0, 1])
     parser.add_argument("--families", default="abcdefg", help="their letters")
     parser.add_argument("--robots", nargs="+", default=["panda", "ur10"], choices=["panda", "ur10"])
     parser.add_argument("--peers", action="store_true", help="a table with roboplan, MPlib and Descartes")
+    parser.add_argument("--orders", action="store_true", help="orders of seven seams beside the best ones")
     options = parser.parse_args()
+    if options.orders:
+        wrong = order_table(options.seeds)
+        print("wrong:", ", ".join(wrong) or "none")
+        return 1 if wrong else 0
     times, wrong, results = {}, [], {}
 
     def row(name, family, result):

@@ -246,11 +246,29 @@ part (turntable): { Q: [.1 0 0] }
   }
 }
 
+TEST(PlanToolPath, ApproachesAPartInTheHandFromOutside) {
+  Config C = planarArm(R"(
+part (j3): { shape: box, size: [.1 .1 .1], Q: [.1 0 0], contact: -1 }
+wheel (base): { shape: sphere, size: [.03], Q: [.65 .25 0] }
+)");
+  for (const double angle : {0., 3.141592653589793}) {  // the axis of the fixed tool leads out of the part, or into it
+    const Pose start{Vector3d(.051, -.01, 0.), Quaterniond(Eigen::AngleAxisd(angle, Vector3d::UnitZ()))};
+    const ToolPath path = ToolPath("wheel", "part").start(start).line(Vector3d(.051, .01, 0.)).free(0);
+    const ToolPathPlan plan = planToolPath(C, {path}, {.approach = .02});
+    ASSERT_TRUE(plan.feasible()) << plan.message;
+    C.setJointState(plan.eval(0.).q);
+    const Pose X = C.getFrame("part").getPose().inverse() * C.getFrame("wheel").getPose();
+    EXPECT_NEAR(X.p[0], .071, 3e-5);
+  }
+}
+
 TEST(PlanToolPath, RejectsInvalidArguments) {
   Config C = planarArm();
   const ToolPath path = ToolPath("tool").line(Vector3d(.6, 0., 0.));
   EXPECT_THROW(planToolPath(C, {}), ValueError);
   EXPECT_THROW(planToolPath(C, {path}, {.speed = 0.}), ValueError);
+  EXPECT_THROW(planToolPath(C, {path}, {.tolerance = 1e-7}), ValueError);
+  EXPECT_THROW(planToolPath(C, {path}, {.rotation_tolerance = 1e-6}), ValueError);
   EXPECT_THROW(planToolPath(C, {path}, {.velocity = VectorXd{{1., 1.}}}), ValueError);
   EXPECT_THROW(planToolPath(C, {path}, {.touching = {"nobody"}}), FrameNotFound);
   EXPECT_THROW(planToolPath(C, {ToolPath("too").line(Vector3d(.6, 0., 0.))}), FrameNotFound);

@@ -73,9 +73,29 @@ TEST(ReadGcode, ReadsInchesIncrementsPlanesAndHelices) {
 
 TEST(ReadGcode, BlendsAreThoseOfG64) {
   const ToolPath path = gcode("G0 X0 Y0 Z0\nG1 X10 F600\nG64 P2\nY10\nG61\nX0\n", .001);
-  EXPECT_DOUBLE_EQ(path.elements()[0].blend, .001);
+  EXPECT_DOUBLE_EQ(path.elements()[0].blend, 0.);  // no corner at its start
   EXPECT_DOUBLE_EQ(path.elements()[1].blend, .002);
   EXPECT_DOUBLE_EQ(path.elements()[2].blend, 0.);
+  EXPECT_DOUBLE_EQ(gcode("G0 X0 Y0 Z0\nG1 X10 F600\nY10\n", .001).elements()[1].blend, .001);
+}
+
+/// The head and the end that programs for mills with automatic tool changers have.
+TEST(ReadGcode, MovesOfTheMachineAreNotPartOfThePath) {
+  const std::string moves = "G0 X0 Y0\nG43 Z5 H1\nG1 Z0 F600\nX10\n";
+  const ToolPath path = gcode("G21 G90 G94\nG28 G91 Z0\nG90\nT1 M6\n" + moves + "G53 G0 Z0\nG91 G28 X0 Y0\nM30\n");
+  ASSERT_EQ(path.elements().size(), 2u);
+  EXPECT_TRUE(path.first()->p.isApprox(Vector3d(0., 0., .005)));
+  EXPECT_TRUE(path.elements()[1].waypoints[0].p.isApprox(Vector3d(.01, 0., 0.)));
+  ASSERT_EQ(path.warnings().size(), 7u);
+  EXPECT_NE(path.warnings()[0].find(".nc:2:1: the move with G28 is ignored"), std::string::npos) << path.warnings()[0];
+  EXPECT_NE(path.warnings()[3].find(".nc:6:1: G43 (tool length) is ignored"), std::string::npos) << path.warnings()[3];
+}
+
+TEST(ReadGcode, CentersAreRelativeUnlessG90Point1) {
+  const ToolCurve curve(gcode("\xef\xbb\xbfG90.1\nG0 X10 Y10 Z0\nG2 X30 Y10 I20 J10 F600\n"), Pose(), 1e-6);
+  EXPECT_LT((curve.at(.5 * curve.length()).p - Vector3d(.02, .02, 0.)).norm(), 1e-6);
+  const ToolCurve same(gcode("G90.1\nG91.1\nG0 X10 Y10 Z0\nG2 X30 Y10 I10 J0 F600\n"), Pose(), 1e-6);
+  EXPECT_LT((same.at(.5 * same.length()).p - Vector3d(.02, .02, 0.)).norm(), 1e-6);
 }
 
 TEST(ReadGcode, NamesWhatItIgnoresAndWhatItDoesNotKnow) {

@@ -83,8 +83,22 @@ TEST(ToolCurve, BlendsThatOverlapShrinkWithAWarning) {
       .line(poseAt(.1, .03, 0.), .05)
       .line(poseAt(.2, .03, 0.), .05);
   const ToolCurve curve = curveOfPath(path);
-  EXPECT_EQ(curve.warnings().size(), 2u);
+  ASSERT_EQ(curve.warnings().size(), 2u);
+  EXPECT_NE(curve.warnings()[1].find("at element 2 is reduced to 0.0147 m"), std::string::npos) << curve.warnings()[1];
   EXPECT_TRUE(curve.corners().empty());
+  for (int piece = 0; piece < curve.pieces().pieces(); ++piece)  // some of the short line remains
+    EXPECT_GT(curve.pieces().end(piece) - curve.pieces().begin[std::size_t(piece)], 1e-5);
+}
+
+TEST(ToolCurve, BlendsWithoutEffectAreReported) {
+  ToolPath path("tool");
+  path.start(poseAt(0., 0., 0.)).line(poseAt(.1, 0., 0.), .01).spline({poseAt(.2, .1, 0.), poseAt(.3, 0., 0.)});
+  path.line(poseAt(.4, 0., 0.), .02);
+  const ToolCurve curve(path, Pose(), 5e-6, .05);
+  ASSERT_EQ(curve.warnings().size(), 2u);
+  EXPECT_EQ(curve.warnings()[0].find("the blend of 0.01 m at element 0 has no effect"), 0u) << curve.warnings()[0];
+  EXPECT_EQ(curve.warnings()[1].find("the blend of 0.02 m at element 2 has no effect"), 0u) << curve.warnings()[1];
+  EXPECT_LT(curve.at(curve.approachEnd()).p.norm(), kExact);  // the approach does not cut the start
 }
 
 TEST(ToolCurve, RowsWithRoundingGiveASmoothCurve) {

@@ -41,8 +41,9 @@ inline constexpr char read[] =
     R"(Reads a path from a text file with one row per line.
 
 Rows have 3 numbers (x y z, m), 6 (with a normal) or 7 (x y z qw qx qy qz), separated by commas, semicolons or spaces.
-Lines that begin with # and one line of column names are skipped. Files with the extension .nc, .ngc, .gcode, .gc, .tap
-or .cnc are read by readGcode.
+Columns are in this order, unless a first line names them: x y z, and nx ny nz or qw qx qy qz, in any order. Other first
+lines without numbers are skipped, and so is the text behind #. Files with the extension .nc, .ngc, .gcode, .gc, .tap or
+.cnc are read by readGcode.
 
 Args:
     file: Path of the file.
@@ -59,9 +60,10 @@ inline constexpr char readGcode[] =
 
 It knows G0 to G3 in the planes G17 to G19, with arcs and helices by I J K or R. Units are mm (G21, the default) or inch
 (G20), coordinates absolute (G90, the default) or relative (G91), and F is per minute. G64 P sets the radius of blends,
-and G61 ends them. Moves with G0, and those before the first F,
-have the speed of planToolPath. The path starts where the first moves that name all axes end; axes that are named later
-start at 0. Spindle, coolant, tool and dwell commands are ignored, each with a line in `warnings`.
+and G61 ends them. G90.1 makes centers of arcs absolute. Moves with G0, and those before the first F, have the speed of
+planToolPath. The path starts where the first moves that name all axes end; axes that are named later start at 0. Moves
+to places of the machine (G28, G30, G53), tool lengths (G43), and spindle, coolant, tool and dwell commands are ignored,
+each with a line in `warnings`.
 
 Args:
     file: Path of the file.
@@ -91,7 +93,8 @@ inline constexpr char line[] =
 Args:
     pose: Its end, shape (7,), or (3,) to keep the rotation.
     blend: Radius (m) of the sphere around the corner at its start, within which a curve with continuous curvature
-        replaces the corner; 0: the tool stops at the corner. Radii that overlap are reduced, with a warning.
+        replaces the corner; 0: the tool stops at the corner. Radii that overlap are reduced, with a warning. Corners
+        beside splines and rows are not blended, with a warning.
 Returns:
     The path itself.
 Raises:

@@ -82,7 +82,9 @@ class ToolPathDrawing {
     if (tool_.cone() == 0.) return;
     options = options_;
     options.color = kConeColor, options.width = 1.;
-    viewer_.line(cat(name_, ", cone"), coneLines(curve_.at(0.), tool_.freeAxis(), tool_.cone(), tool_.side()), options);
+    const ToolTarget start = curve_.at(0.);
+    viewer_.line(cat(name_, ", cone"), coneLines(start, tool_.freeAxis(), tool_.cone(), tool_.side(start.pose())),
+                 options);
   }
 
   /// The way of the tool on segments of this path.

@@ -126,13 +126,17 @@ std::vector<double> CurvePrimitive::allKnots() const {
 
 void PrimitiveList::append(CurvePrimitive primitive, double blend) {
   primitive.speed = speed_;
-  if (blend > 0. && !all.empty() && all.back().may_blend && primitive.may_blend) {
-    const double room = kLargestBlendShare * primitive.to;
-    const double left = all.back().to - std::max(all.back().from, kLargestBlendShare * all.back().to);
-    const double radius = std::min({blend, room, left});
-    if (radius < blend)
-      warnings.push_back(cat("the blend of ", blend, " m at element ", all.size(), " is reduced to ", radius,
-                             " m, because its elements are short"));
+  const auto warn = [&](const std::string& what) {
+    warnings.push_back(cat("the blend of ", blend, " m at element ", number_, " ", what));
+  };
+  if (blend > 0. && is_first_) {
+    warn("has no effect: the path starts there; the radius is that of the corner at the start of an element");
+  } else if (blend > 0. && !all.back().may_blend) {
+    warn("has no effect: splines and rows are not blended");
+  } else if (blend > 0.) {
+    // Each end of an element may have a blend.
+    const double radius = std::min({blend, kLargestBlendShare * primitive.to, kLargestBlendShare * all.back().to});
+    if (radius < blend) warn(cat("is reduced to ", radius, " m, because its elements are short"));
     CurvePrimitive corner = blendOf(all.back(), primitive, radius);
     corner.speed = slower(all.back().speed, speed_);
     all.back().to -= radius;
@@ -140,6 +144,7 @@ void PrimitiveList::append(CurvePrimitive primitive, double blend) {
     all.push_back(std::move(corner));
   }
   all.push_back(std::move(primitive));
+  is_first_ = false;
 }
 
 void PrimitiveList::lineTo(const Pose& to, double blend) {
@@ -169,11 +174,13 @@ void PrimitiveList::circular(const ToolPathElement& element, const Vector3d& axi
   now_ = {foot + element.advance * axis + Eigen::AngleAxisd(angle, axis) * r, to};
 }
 
-void PrimitiveList::arc(const ToolPathElement& element, std::size_t number) {
+void PrimitiveList::arc(const ToolPathElement& element) {
   const Vector3d a = now_.p, b = element.waypoints[0].p, c = element.waypoints[1].p;
   const Vector3d u = b - a, v = c - a, n = u.cross(v);
+  if (v.norm() < kSamePlace)
+    throw ValueError(cat("ToolPath.arc: element ", number_, " ends at its start; expected another end, or a circle"));
   if (n.norm() < 1e-9 * std::max(u.norm() * v.norm(), 1e-12))
-    throw ValueError(cat("ToolPath.arc: the three points of element ", number, " are on a line; expected a circle"));
+    throw ValueError(cat("ToolPath.arc: the three points of element ", number_, " are on a line; expected a circle"));
   const Vector3d center = a + (v.squaredNorm() * n.cross(u) + u.squaredNorm() * v.cross(n)) / (2. * n.squaredNorm());
   const Vector3d axis = n.normalized(), r = a - center, end = c - center;
   double angle = std::atan2(axis.dot(r.cross(end)), r.dot(end));
@@ -203,6 +210,7 @@ void PrimitiveList::spline(const ToolPathElement& element) {
   for (std::size_t k = 1; k < t.size(); ++k) least = std::min(least, t[k] - t[k - 1]);
   primitive.spacing = std::min(.005, least / 8.);
   all.push_back(std::move(primitive));
+  is_first_ = false;
 }
 
 void PrimitiveList::fit(const std::vector<double>& t, const MatrixXd& y, double tolerance) {
@@ -290,11 +298,12 @@ void PrimitiveList::rows(const ToolPathElement& element) {
 
 void PrimitiveList::add(const ToolPathElement& element, std::size_t number) {
   speed_ = element.speed;
+  number_ = number;
   switch (element.kind) {
     case ToolPathElement::Kind::line:
       return lineTo(resolved(element.waypoints[0]), element.blend);
     case ToolPathElement::Kind::arc:
-      return arc(element, number);
+      return arc(element);
     case ToolPathElement::Kind::circle:
       return circular(element, element.axis, element.angle, now_.q);
     case ToolPathElement::Kind::spline:

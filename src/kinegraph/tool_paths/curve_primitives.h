@@ -27,6 +27,10 @@ class PrimitiveList {
 
   void add(const ToolPathElement& element, std::size_t number);
   void lineTo(const Pose& to, double blend = 0.);
+
+  /// Marks the start of the path proper, behind an approach.
+  void startPath() { is_first_ = true; }
+
   const Pose& now() const { return now_; }
 
   std::vector<CurvePrimitive> all;
@@ -39,14 +43,16 @@ class PrimitiveList {
   Pose resolved(const ToolWaypoint& waypoint) const { return {waypoint.p, waypoint.rotation.value_or(now_.q)}; }
   void append(CurvePrimitive primitive, double blend);
   void circular(const ToolPathElement& element, const Vector3d& axis, double angle, const Quaterniond& to);
-  void arc(const ToolPathElement& element, std::size_t number);
+  void arc(const ToolPathElement& element);
   void spline(const ToolPathElement& element);
   void rows(const ToolPathElement& element);
   void fit(const std::vector<double>& t, const MatrixXd& y, double tolerance);
 
   Pose now_;
   double tolerance_;
-  double speed_ = 0.;  // of the present element
+  double speed_ = 0.;       // of the present element
+  std::size_t number_ = 0;  // of the present element
+  bool is_first_ = true;    // the path proper has no primitive yet
 };
 
 }  // namespace kinegraph

@@ -1,10 +1,12 @@
 #pragma once
 
-#include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "kinegraph/math/pose.h"
+#include "kinegraph/planning/motion_plan.h"
+#include "kinegraph/trajectories/retime.h"
 
 namespace kinegraph {
 
@@ -15,22 +17,44 @@ struct PathVariant {
   VectorXd first, last;
 };
 
+/// Paths to be ordered, and how long transfers between their variants take. Variants are counted over all paths.
 struct OrderProblem {
   std::vector<std::vector<PathVariant>> variants;  ///< per path, at least one each
-  VectorXd velocity;                               ///< limits of the joints; transfers take max |dq / velocity|
   bool free_order = false;
-  std::optional<VectorXd> from = {};  ///< where the motion begins
-  std::uint64_t seed = 0;
+  MatrixXd transfer;            ///< (m, m): s, from the end of a variant to the start of another one
+  VectorXd begin;               ///< (m,): s, from where the robot is
+  std::vector<int> near_order;  ///< an order to be improved; empty: orders of nearest neighbors
 };
 
 struct OrderedPath {
   int path = 0, solution = 0;
   bool reversed = false;
+  int variant = 0;
 };
 
 /// Orders paths so that the transfers between them are short, and chooses a variant of each. The choice of variants is
 /// the best one for an order (dynamic programming). Orders are improved from the nearest neighbors by reversing and
 /// moving parts.
 std::vector<OrderedPath> orderPaths(const OrderProblem& problem);
+
+/// The least duration of a motion from rest to rest, s: each joint alone within its limits.
+double leastTransfer(const VectorXd& from, const VectorXd& to, const MotionLimits& limits);
+
+/// Paths in their order, with the transfer that leads to each of them.
+struct PathSequence {
+  std::vector<OrderedPath> order;
+  std::vector<std::optional<MotionPlan>> transfers;  ///< none: the robot is there
+  bool feasible = false;                             ///< false: a transfer of each order that was tried is not feasible
+};
+
+/// Plans a transfer between two configurations with a small budget.
+using TransferPlanner = std::function<MotionPlan(const VectorXd& from, const VectorXd& to)>;
+
+/// Orders paths by the durations of planned transfers. The transfers of the best order by least durations are planned;
+/// where they take longer, or do not exist, the order is looked for again, until its transfers are all planned. `from`
+/// is where the motion begins; none: at the first path.
+PathSequence orderWithTransfers(std::vector<std::vector<PathVariant>> variants, bool free_order,
+                                const std::optional<VectorXd>& from, const MotionLimits& limits,
+                                const TransferPlanner& plan);
 
 }  // namespace kinegraph

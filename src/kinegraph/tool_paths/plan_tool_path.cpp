@@ -26,7 +26,11 @@ constexpr double kFitShare = .25;  // of the tolerance, for fitting rows
 constexpr int kLeastTimingIntervals = 100;
 constexpr int kMostTimingIntervals = 500, kFinest = 2;  // the latter per piece of the joint curve
 constexpr double kIdle = .02, kMuchIdle = .03;          // share of the duration without a limit that is reached
-constexpr int kSolutionsPerPath = 3;                    // for transfers and orders
+constexpr int kSolutionsPerPath = 3, kBranches = 8;     // for transfers and orders; the latter of arms without freedom
+constexpr std::int64_t kQuickEvaluations = 20000;       // for transfers between which there is a choice
+constexpr double kLeastTime = 1e-3;                     // s, of a transfer
+constexpr double kSamePosture = 1e-6;                   // rad or m: no transfer
+constexpr double kLeastTolerance = 1e-6, kLeastRotationTolerance = 4e-6;  // m and rad that splines of joints keep
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr const char* kPlanToolPath = "planToolPath";
 
@@ -37,6 +41,10 @@ void requirePositive(const char* name, double value) {
 void requireNotNegative(const char* name, double value) {
   if (!(value >= 0.) || !std::isfinite(value))
     throw ValueError(cat(kPlanToolPath, ": ", name, " is ", value, "; expected a finite number >= 0"));
+}
+
+void requireAtLeast(const char* name, double value, double least) {
+  if (!(value >= least)) throw ValueError(cat(kPlanToolPath, ": ", name, " is ", value, "; expected at least ", least));
 }
 
 bool mayCollide(const Config& scene, const Frame& frame) {
@@ -128,32 +136,32 @@ class ToolPathPlanner {
 
   ToolPathPlan run() {
     if (!solveAll()) return std::move(plan_);
-    const std::vector<OrderedPath> order = orderOf();
-    for (std::size_t k = 0; k < order.size(); ++k)
-      if (!addPath(order[k], k)) return std::move(plan_);
+    const PathSequence sequence = sequenceOf();
+    if (!sequence.feasible && isLate()) {
+      failLate(0);
+      return std::move(plan_);
+    }
+    for (std::size_t k = 0; k < sequence.order.size(); ++k)
+      if (!addPath(sequence, k)) return std::move(plan_);
     plan_.status = ToolPathStatus::solved;
     plan_.setParts(std::move(parts_), config_.getJointDimension());
     return std::move(plan_);
   }
 
  private:
-  /// A solution of a path in one direction.
-  struct Variant {
-    int solution;
-    bool reversed;
-  };
-
   bool solveAll() {
     const bool several = paths_.size() > 1 || options_.transfer_from.has_value();
     for (std::size_t k = 0; k < paths_.size(); ++k) {
       if (progress_) progress_({int(k), int(paths_.size())});
-      if (clock_.seconds() > options_.time_limit)
-        return fail(ToolPathStatus::out_of_time, int(k), 0., "the time limit ended the search");
+      if (isLate()) return failLate(int(k));
       tools_.push_back(std::make_unique<ToolKinematics>(touching_, paths_[k]));
       ToolKinematics& tool = *tools_.back();
       const VectorXd present = config_.getJointState();
-      curves_.emplace_back(paths_[k], Pose(tool.pose(present)), kFitShare * options_.tolerance,
-                           tool.side() * options_.approach, tool.side() * options_.retract);
+      const Pose now(tool.pose(present));
+      const std::optional<ToolWaypoint>& first = paths_[k].first();
+      const double side = tool.side(first ? Pose{first->p, first->rotation.value_or(now.q)} : now);
+      curves_.emplace_back(paths_[k], now, kFitShare * options_.tolerance, side * options_.approach,
+                           side * options_.retract);
       for (const std::string& warning : paths_[k].warnings()) plan_.warnings.push_back(warning);
       for (const std::string& warning : curves_.back().warnings())
         plan_.warnings.push_back(cat("path ", k, ": ", warning));
@@ -161,7 +169,8 @@ class ToolPathPlanner {
       settings.limits = {limits_.velocity, limits_.acceleration, curves_.back().largestSpeed(options_.speed)};
       settings.tolerance = {options_.tolerance, options_.rotation_tolerance};
       settings.seed = options_.seed;
-      settings.wanted = several ? kSolutionsPerPath : 1;
+      const bool is_free = tool.rows() != ToolRows::pose || tool.movingDofs() > 6;
+      settings.wanted = !several ? 1 : is_free ? kSolutionsPerPath : kBranches;
       settings.cancellation = cancellation_;
       settings.first = {present};
       if (k == 0 && options_.start) settings.first = {*options_.start}, settings.only_first = true;
@@ -179,6 +188,9 @@ class ToolPathPlanner {
                       free_start.curves[0].pieces.eval(0.).transpose().format(
                           Eigen::IOFormat(4, Eigen::DontAlignCols, ", ", ", ")),
                       ") there is a motion");
+        const double off = tool.miss(*options_.start, curves_.back().at(0.)).p.norm();
+        if (off > options_.tolerance)
+          other = cat("; at `start`, the tool is ", numberText(off, 3), " m from the beginning of the path", other);
       }
       return failPath(int(k), other);
     }
@@ -192,6 +204,10 @@ class ToolPathPlanner {
     return false;
   }
 
+  bool isLate() const { return clock_.seconds() > options_.time_limit; }
+  bool failLate(int path) { return fail(ToolPathStatus::out_of_time, path, 0., "the time limit ended the search"); }
+  double timeLeft() const { return std::max(kLeastTime, options_.time_limit - clock_.seconds()); }
+
   bool failPath(int path, const std::string& more) {
     const PathFailure& failure = solutions_.back().failure;
     plan_.frames = failure.frames;
@@ -202,26 +218,30 @@ class ToolPathPlanner {
     return fail(failure.status, path, failure.place - curves_.back().approachEnd(), failure.text + more);
   }
 
-  std::vector<OrderedPath> orderOf() {
-    OrderProblem problem;
-    problem.velocity = limits_.velocity;
-    problem.free_order = options_.free_order;
-    problem.from = options_.transfer_from;
-    problem.seed = options_.seed;
+  PathSequence sequenceOf() {
     const bool both = options_.free_order && options_.approach == options_.retract;
+    std::vector<std::vector<PathVariant>> variants;
     for (const PathSolutions& solutions : solutions_) {
-      problem.variants.emplace_back();
+      variants.emplace_back();
       for (int k = 0; k < int(solutions.curves.size()); ++k) {
         const CubicPieces& pieces = solutions.curves[std::size_t(k)].pieces;
         const VectorXd first = pieces.eval(0.), last = pieces.eval(pieces.length);
-        problem.variants.back().push_back({k, false, first, last});
-        if (both) problem.variants.back().push_back({k, true, last, first});
+        variants.back().push_back({k, false, first, last});
+        if (both) variants.back().push_back({k, true, last, first});
       }
     }
-    return orderPaths(problem);
+    PlanOptions quick = transfer_;
+    quick.max_evaluations = kQuickEvaluations;
+    return orderWithTransfers(std::move(variants), options_.free_order, options_.transfer_from, limits_,
+                              [&](const VectorXd& from, const VectorXd& to) {
+                                quick.time_limit = timeLeft();
+                                // Ends of paths may touch what the paths touch.
+                                return planMotion(touching_, MotionGoal(to), quick, from, cancellation_);
+                              });
   }
 
-  bool addPath(const OrderedPath& choice, std::size_t position) {
+  bool addPath(const PathSequence& sequence, std::size_t position) {
+    const OrderedPath& choice = sequence.order[position];
     const int path = choice.path;
     ToolKinematics& tool = *tools_[std::size_t(path)];
     const JointCurve& solved = solutions_[std::size_t(path)].curves[std::size_t(choice.solution)];
@@ -230,7 +250,16 @@ class ToolPathPlanner {
     const VectorXd start = joints.pieces.eval(0.);
     std::optional<VectorXd> from = options_.transfer_from;
     if (position > 0) from = last_;
-    if (from && !addTransfer(*from, start, path)) return false;
+    if (sequence.feasible) {
+      if (sequence.transfers[position]) addTransfer(*sequence.transfers[position], path);
+    } else if (from && (start - *from).cwiseAbs().maxCoeff() >= kSamePosture) {
+      transfer_.time_limit = timeLeft();
+      const MotionPlan plan = planMotion(touching_, MotionGoal(start), transfer_, from, cancellation_);
+      if (!plan.feasible() && isLate()) return failLate(path);
+      if (!plan.feasible())
+        return fail(ToolPathStatus::no_transfer, path, 0., cat("there is no transfer to its start: ", plan.message));
+      addTransfer(plan, path);
+    }
     TimedPath timed;
     if (!time(tool, curve, joints, timed))
       return fail(ToolPathStatus::too_fast, path, 0., cat("there is no timing: ", timed.message));
@@ -251,16 +280,10 @@ class ToolPathPlanner {
     return true;
   }
 
-  bool addTransfer(const VectorXd& from, const VectorXd& to, int path) {
-    if ((to - from).cwiseAbs().maxCoeff() < 1e-6) return true;
-    // Ends of paths may touch what the paths touch.
-    const MotionPlan plan = planMotion(touching_, MotionGoal(to), transfer_, from, cancellation_);
-    if (!plan.feasible())
-      return fail(ToolPathStatus::no_transfer, path, 0., cat("there is no transfer to its start: ", plan.message));
+  void addTransfer(const MotionPlan& plan, int path) {
     const double begin = parts_.empty() ? 0. : parts_.back().begin + parts_.back().timed.duration();
     plan_.segments.push_back({ToolSegment::Kind::transfer, path, false, begin, begin + plan.duration()});
     parts_.push_back({begin, path, 0., true, plan.timed_path});
-    return true;
   }
 
   /// The limits of the joints, and of the tool's way as one more dof.
@@ -339,8 +362,8 @@ void ToolPathOptions::validate(int dofs) const {
   requireNotNegative("approach", approach);
   requireNotNegative("retract", retract);
   requireNotNegative("margin", margin);
-  requirePositive("tolerance", tolerance);
-  requirePositive("rotation_tolerance", rotation_tolerance);
+  requireAtLeast("tolerance", tolerance, kLeastTolerance);
+  requireAtLeast("rotation_tolerance", rotation_tolerance, kLeastRotationTolerance);
   const std::pair<const char*, const VectorXd*> limits[] = {
       {"velocity", &velocity}, {"acceleration", &acceleration}, {"jerk", &jerk}};
   for (const auto& [name, values] : limits) {

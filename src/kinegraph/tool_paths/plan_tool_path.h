@@ -57,10 +57,11 @@ struct ToolPathOptions {
   double tool_acceleration = 2.;           ///< along the path, m/s^2
   double tool_jerk = 40.;                  ///< along the path, m/s^3; counts if `jerk` is given
   double approach = 0.;                    ///< length of a straight approach along the tool's axis before each path, m,
-                                           ///< on the side of the tool's own link
+                                           ///< on the side of the tool's own link, or away from the origin of the
+                                           ///< part if no joint moves the tool
   double retract = 0.;                     ///< length of a straight retract after each path, m
-  double tolerance = 2e-5;                 ///< largest distance of the tool from the curve, m
-  double rotation_tolerance = 8e-5;        ///< largest rotation of the tool (or of its axis) from the curve, rad
+  double tolerance = 2e-5;                 ///< largest distance of the tool from the curve, m, >= 1e-6
+  double rotation_tolerance = 8e-5;        ///< largest rotation of the tool or its axis, rad, >= 4e-6
   double margin = 0.;                      ///< distance that all pairs keep, m
   bool free_order = false;                 ///< paths may be done in any order and from either end
   VectorXd velocity = {};                  ///< limits of |dq/dt|, per dof or one for all; empty: the model's

@@ -3,11 +3,14 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <numbers>
+#include <sstream>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/common/utf8.h"
 #include "kinegraph/tool_paths/tool_path.h"
 
 namespace kinegraph {
@@ -78,7 +81,14 @@ class GcodeProgram {
   bool addLine(const std::vector<GcodeWord>& words) {
     std::map<char, const GcodeWord*> values;
     bool is_end = false, dwells = false, sets_blend = false;
+    // Moves to places of the machine, such as its home, are not part of the path.
+    const auto leaving = std::find_if(words.begin(), words.end(), [](const GcodeWord& word) {
+      return word.letter == 'G' && (word.number == 28. || word.number == 30. || word.number == 53.);
+    });
+    const bool leaves = leaving != words.end();
+    if (leaves) ignore(leaving->where, cat("the move with ", codeName('G', codeOf(*leaving))));
     for (const GcodeWord& word : words) {
+      if (leaves && &word == &*leaving) continue;
       if (word.letter == 'G')
         addCode(word, dwells, sets_blend);
       else if (word.letter == 'M')
@@ -104,6 +114,7 @@ class GcodeProgram {
         throw ParseError(p->where, "P has no meaning here; expected it after G64 or G4");
     }
     std::array<const GcodeWord*, 3> axes{take('X'), take('Y'), take('Z')}, center{take('I'), take('J'), take('K')};
+    if (leaves) return !is_end;
     if (axes[0] || axes[1] || axes[2] || center[0] || center[1] || center[2] || take('R'))
       move(words.front().where, axes, center, take('R'));
     return !is_end;
@@ -144,20 +155,26 @@ class GcodeProgram {
       case 640:
         sets_blend = true;
         return;
+      case 430:
+        return ignore(word.where, "G43 (tool length)");
       case 900:
       case 910:
         is_absolute_ = code == 900;
         return;
-      case 400:  // states that are always given: no offsets, no canned cycle, feed per minute, centers relative
+      case 901:
+      case 911:
+        has_absolute_centers_ = code == 901;
+        return;
+      case 400:  // states that are always given: no offsets, no canned cycle, feed per minute
       case 490:
       case 540:
       case 800:
-      case 911:
       case 940:
         return;
       default:
         throw ParseError(word.where, cat("unknown code ", codeName('G', code),
-                                         "; expected G0-G4, G17-G21, G40, G49, G54, G61, G64, G80, G90, G91 or G94"));
+                                         "; expected G0-G4, G17-G21, G28, G30, G40, G43, G49, G53, G54, G61, G64, G80, "
+                                         "G90, G90.1, G91, G91.1 or G94"));
     }
   }
 
@@ -204,7 +221,7 @@ class GcodeProgram {
       path_.start(now_);
     }
     if (motion_ < 2) {
-      path_.line(to, blend_);
+      path_.line(to, blend());
     } else {
       if (has_center == bool(radius)) throw ParseError(where, "an arc needs either I, J, K or R");
       radius ? arcOfRadius(*radius, to) : arcAround(where, center, to);
@@ -218,7 +235,8 @@ class GcodeProgram {
       if (!center[k]) continue;
       if (int(k) == normal_)
         throw ParseError(center[k]->where, cat(center[k]->letter, " is not in the plane G", 19 - normal_));
-      c[Eigen::Index(k)] += unit_ * center[k]->number;
+      const double from = has_absolute_centers_ ? 0. : now_[Eigen::Index(k)];
+      c[Eigen::Index(k)] = from + unit_ * center[k]->number;
     }
     const auto in_plane = [&](Vector3d r) {
       r[normal_] = 0.;
@@ -254,13 +272,16 @@ class GcodeProgram {
     const bool is_full = (a - b).norm() < kRadiusError;
     if (motion_ == 3) angle = is_full ? kFull : angle < 0. ? angle + kFull : angle;
     if (motion_ == 2) angle = is_full ? -kFull : angle > 0. ? angle - kFull : angle;
-    path_.circle(c, axis, angle, blend_, (to - now_)[normal_]);
+    path_.circle(c, axis, angle, blend(), (to - now_)[normal_]);
   }
+
+  /// The first element has no corner at its start.
+  double blend() const { return path_.elements().empty() ? 0. : blend_; }
 
   ToolPath path_;
   double blend_, feed_ = 0., unit_ = kMillimeter;
   int motion_ = 0, normal_ = 2;
-  bool is_absolute_ = true;
+  bool is_absolute_ = true, has_absolute_centers_ = false;
   Vector3d now_ = Vector3d::Zero();
   std::array<bool, 3> known_{};
 };
@@ -269,11 +290,12 @@ class GcodeProgram {
 
 ToolPath ToolPath::readGcode(const std::string& file, std::string frame, std::string relative_to, double blend) {
   if (!(blend >= 0.)) throw ValueError(cat("ToolPath.readGcode: blend is ", blend, "; expected a radius >= 0 in m"));
-  std::ifstream in(file);
+  std::ifstream in(file, std::ios::binary);
   if (!in) throw FileError(cat(file, ": cannot open the file"));
+  std::istringstream text(toUtf8(std::string(std::istreambuf_iterator<char>(in), {})));
   GcodeProgram program(ToolPath(std::move(frame), std::move(relative_to)), blend);
   std::string line;
-  for (int number = 1; std::getline(in, line); ++number)
+  for (int number = 1; std::getline(text, line); ++number)
     if (!program.addLine(wordsOf(line, file, number))) break;
   ToolPath path = program.finish(file);
   path.warnings_ = std::move(program.warnings);

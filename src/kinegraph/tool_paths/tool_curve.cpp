@@ -70,6 +70,7 @@ ToolCurve::ToolCurve(const ToolPath& path, const Pose& present, double tolerance
   const Vector3d axis = Vector3d::Unit(path.freeAxis() < 0 ? 2 : path.freeAxis());
   PrimitiveList list({start.p + approach * (start.q * axis), start.q}, tolerance);
   if (approach != 0.) list.lineTo(start);
+  list.startPath();
   const std::size_t before = list.all.size();
   for (std::size_t k = 0; k < path.elements().size(); ++k) list.add(path.elements()[k], k);
   if (list.all.size() == before) throw ValueError(cat("ToolPath: the path of '", path.frame(), "' has no length"));

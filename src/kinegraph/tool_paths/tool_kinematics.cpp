@@ -154,10 +154,11 @@ double ToolKinematics::twistRate(const VectorXd& rates, double target_rate, doub
   return rate / std::cos(.5 * lean);
 }
 
-double ToolKinematics::side() const {
-  if (state_.link(tool_) == 0) return 1.;
+double ToolKinematics::side(const Pose& start) const {
+  const int axis = free_axis_ < 0 ? 2 : free_axis_;
+  if (state_.link(tool_) == 0) return (start.q * Vector3d::Unit(axis)).dot(start.p) < -1e-9 ? -1. : 1.;
   const RigidTransform X(state_.parameters().frame_offset[std::size_t(tool_)]);
-  return X.R.col(free_axis_ < 0 ? 2 : free_axis_).dot(X.p) > 1e-9 ? -1. : 1.;
+  return X.R.col(axis).dot(X.p) > 1e-9 ? -1. : 1.;
 }
 
 VectorXd ToolKinematics::difference(const VectorXd& from, const VectorXd& to) const {

@@ -63,9 +63,10 @@ class ToolKinematics {
   /// per s), if the axis leans by at most `lean` rad.
   double twistRate(const VectorXd& rates, double target_rate, double lean) const;
 
-  /// The side of the tool's origin on which its link lies, along the free axis or z: 1, or -1 against the axis. Axes
-  /// point into the work or out of it. 1 for tools that no joint moves.
-  double side() const;
+  /// The side of the tool's origin on which there is no work, along the free axis or z: 1, or -1 against the axis. Axes
+  /// point into the work or out of it. It is the side of the tool's link, or, for a tool that no joint moves, the one
+  /// away from the origin of the path's coordinates, the part, at the path's start.
+  double side(const Pose& start) const;
 
   struct Projection {
     bool met = false;

@@ -56,17 +56,20 @@ class ToolPath {
                         std::string relative_to = {});
 
   /// Reads rows of 3 (x y z), 6 (with a normal) or 7 numbers (x y z qw qx qy qz) from a file, separated by commas,
-  /// semicolons or spaces. Lines that begin with # and one line of column names are skipped. Files with the extension
-  /// .nc, .ngc, .gcode, .gc, .tap or .cnc are read by `readGcode`. Throws FileError if it cannot be read, and
+  /// semicolons or spaces. Columns are in this order, unless a first line names them: x y z, and nx ny nz or qw qx qy
+  /// qz, in any order. Other first lines without numbers are skipped, and so is the text behind #. Files with the
+  /// extension .nc, .ngc, .gcode, .gc, .tap or .cnc are read by `readGcode`. Throws FileError if it cannot be read, and
   /// ParseError with line and column for other content.
   static ToolPath read(const std::string& file, std::string frame, std::string relative_to = {});
 
-  /// Reads a program of G-code: G0 to G3 with the planes G17 to G19, arcs and helices by I J K or R, G20 (inch) and G21
-  /// (mm, the default), G90 and G91, F (per minute), G61 and G64 P. The tool keeps its rotation. Moves with G0, and
-  /// those before the first F, have the speed of planToolPath. Corners have a blend with the radius `blend` (m) until
-  /// G64 P or G61 sets another one. The path starts where the first moves that name all axes end; axes that are named
-  /// later start at 0. Spindle, coolant, tool and dwell commands are ignored with a line in `warnings`. Throws
-  /// FileError if it cannot be read, and ParseError with line and column for words that it does not know.
+  /// Reads a program of G-code: G0 to G3 with the planes G17 to G19, arcs and helices by I J K or R. Units are mm
+  /// (G21, the default) or inch (G20), F is per minute. It also knows G90 and G91, G90.1 (absolute centers), G61 and
+  /// G64 P. The tool keeps its rotation. Moves with G0, and those before the first F, have the speed of planToolPath.
+  /// Corners have a blend with the radius `blend` (m) until G64 P or G61 sets another one. The path starts where the
+  /// first moves that name all axes end; axes that are named later start at 0. Moves to places of the machine (G28,
+  /// G30, G53), tool lengths (G43), and spindle, coolant, tool and dwell commands are ignored with a line in
+  /// `warnings`. Throws FileError if it cannot be read, and ParseError with line and column for words that it does not
+  /// know.
   static ToolPath readGcode(const std::string& file, std::string frame, std::string relative_to = {},
                             double blend = 0.);
 
@@ -74,7 +77,8 @@ class ToolPath {
   ToolPath& start(const ToolWaypoint& pose);
 
   /// Appends a straight line. `blend` (m) is the radius of the sphere around the corner at its start within which a
-  /// curve with continuous curvature replaces the corner; 0 stops there.
+  /// curve with continuous curvature replaces the corner; 0 stops there. Radii that overlap are reduced, and corners
+  /// beside splines and rows are not blended, each with a line in the `warnings` of the plan.
   ToolPath& line(const ToolWaypoint& to, double blend = 0.);
 
   /// Appends a circular arc through `via` to a pose. Throws ValueError when planned if the points are on a line.

@@ -1,7 +1,9 @@
 """Tool paths: distances from the curve by samples, limits by differences, failures with place and pair."""
 
+import functools
 import pickle
 import struct
+import time
 import zlib
 
 import numpy as np
@@ -123,6 +125,66 @@ def test_segments_follow_each_other_without_jumps(scene):
     np.testing.assert_allclose(q[0], scene.getJointState(), atol=1e-9)
 
 
+def test_the_order_of_seams_is_the_best_of_all_orders_and_branches():
+    """Brute force over orders, directions and inverse solutions, with transfers that planMotion plans one by one."""
+    C = ry.Config()
+    C.addFile(ry.raiPath("irb120/irb120.g"))
+    home = C.getJointState()
+    down = [0, 1, 0, 0]
+    ends = np.array(
+        [
+            [[0.3, -0.25, 0.15], [0.38, -0.3, 0.15]],
+            [[0.42, 0.25, 0.25], [0.36, 0.3, 0.25]],
+            [[0.3, 0.1, 0.3], [0.4, 0.1, 0.3]],
+            [[0.25, -0.1, 0.2], [0.25, -0.02, 0.22]],
+        ]
+    )
+    seams = [ry.ToolPath("tool0").start(np.r_[a, down]).line(b) for a, b in ends]
+    plan = ry.planToolPath(C, seams, order="free", transfer_from=home, **LIMITS)
+    assert plan, plan.message
+    ways = []  # (seam, first, last, duration)
+    for number, seam in enumerate(seams):
+        for solution in ry.solveIk(C, {"tool0": np.r_[ends[number][0], down]}, all=True):
+            one = ry.planToolPath(C, seam, start=solution.q, **LIMITS)
+            if one:
+                q = one.eval(np.array([0.0, one.duration]))[0]
+                ways += [(number, q[0], q[1], one.duration), (number, q[1], q[0], one.duration)]
+
+    @functools.cache
+    def transfer(a, b):  # -1 is home
+        from_, to = home if a < 0 else ways[a][2], ways[b][1]
+        motion = ry.planMotion(C, to, start=from_, max_evaluations=20000, **LIMITS)
+        return motion.duration if motion.feasible else np.inf
+
+    def least(at, left):
+        if not left:
+            return 0.0
+        return min(transfer(at, k) + way[3] + least(k, left - {way[0]}) for k, way in enumerate(ways) if way[0] in left)
+
+    assert plan.duration <= 1.001 * least(-1, frozenset(range(len(seams))))
+
+
+def test_a_branch_that_no_transfer_leads_to_is_left_out():
+    """The branch that is nearest to where the robot is cannot be reached from there: the upper arm is in the way."""
+    C = ry.Config()
+    C.addFile(ry.raiPath("ur10e/ur10e.g"))
+    C.addFrame("tool", "tool0").setRelativePosition([0, 0, 0.1])
+    start = np.array([0.6412, -0.1773, 0.1851, 0.1861, -0.3623, -0.9133, 0.0])
+    q = np.array([0.412, -1.754, 4.179, -0.894, -4.567, -2.518])
+    branches = np.array([solution.q for solution in ry.solveIk(C, {"tool": start}, all=True)])
+    nearest = branches[np.argmin(np.max(np.abs(branches - q) / C.getVelocityLimits(), axis=1))]
+    assert not ry.planMotion(C, nearest, start=q, max_evaluations=20000).feasible
+    path = ry.ToolPath("tool").start(start).line(start[:3] + 0.05 * X)
+    plan = ry.planToolPath(C, path, transfer_from=q, **LIMITS)
+    assert plan, plan.message
+    np.testing.assert_allclose(plan.eval(0.0)[0], q, atol=1e-6)
+    assert C.isValid(samples(plan)[1]).all()
+    begin = time.monotonic()
+    plan = ry.planToolPath(C, path, start=nearest, transfer_from=q, time_limit=0.1)
+    assert plan.status == ry.ToolPathStatus.out_of_time, plan.message
+    assert time.monotonic() - begin < 4  # without the limit, the search for a transfer takes longer
+
+
 def test_without_a_limit_that_is_reached_the_tool_is_never_slow(scene):
     plan = ry.planToolPath(scene, ry.ToolPath("tool").line(scene.getFrame("tool").getPosition() + 0.2 * Y), speed=2.0)
     assert plan, plan.message
@@ -180,10 +242,99 @@ def test_rows_are_read_from_a_file(scene, tmp_path):
     x = poses(scene, samples(plan)[1])[:, :3]
     assert distance_from_line(x, rows[0], rows[-1]).max() <= 2e-5
     file.write_text("0,0,0\n0,0,a\n")
-    with pytest.raises(ry.ParseError, match=r"seam.csv:2:5: not a number"):
+    with pytest.raises(ry.ParseError, match=r"seam.csv:2:5: 'a' is not a number"):
         ry.ToolPath.read(file)
     with pytest.raises(ry.FileError, match="nothing.csv"):
         ry.ToolPath.read(tmp_path / "nothing.csv")
+
+
+ROWS = np.c_[np.linspace([0.0, 0.3, 0.85], [0.1, 0.3, 0.85], 11), np.tile([0.0, 0.0, 1.0], (11, 1))]
+POSES = np.c_[ROWS[:, :3], np.tile([1.0, 0, 0, 0], (11, 1))]  # x y z qw qx qy qz
+
+
+def table(rows, separator=","):
+    return "\n".join(separator.join(map(repr, map(float, row))) for row in rows)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "\ufeff" + table(ROWS),  # with the byte order mark of spreadsheets
+        '\ufeff"X";"Y";"Z";"NX";"NY";"NZ"\r\n' + table(ROWS, ";").replace("\n", "\r\n"),
+        "nx,ny,nz,x,y,z\n" + table(ROWS[:, [3, 4, 5, 0, 1, 2]]),
+        "x y z qx qy qz qw\n" + table(POSES[:, [0, 1, 2, 4, 5, 6, 3]], " "),  # as ROS has it
+        "point on the seam\n" + table(ROWS, "\t").replace("\n", "  # a comment\n"),
+        table(ROWS).replace("\n", ",\n"),
+    ],
+)
+def test_rows_of_many_tables_are_the_same(scene, tmp_path, text):
+    file = tmp_path / "seam.csv"
+    file.write_bytes(text.encode("utf-16") if "qx" in text else text.encode())
+    path = ry.ToolPath.read(file).free()
+    plan = ry.planToolPath(scene, path, speed=0.1)
+    assert plan, plan.message
+    x = poses(scene, plan.eval(np.array([0.0, plan.duration]))[0])
+    np.testing.assert_allclose(x[:, :3], ROWS[[0, -1], :3], atol=3e-5)
+    z = scene.evalBatch(ry.FS.vectorZ, ["tool"], plan.eval(np.array([0.0]))[0])[0]
+    np.testing.assert_allclose(z, [[0, 0, 1]], atol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("text", "message"),
+    [
+        ("0.1,0.2,O.3\n0,0,0\n0,0,1\n", r"1:9: 'O.3' is not a number"),  # a letter, and no column name
+        ("0,4;0,1;0,15\n0,5;0,1;0,15\n", r"1:2: the row has commas and semicolons"),
+        ("0,0,0\n0,,1\n", r"2:3: the field is empty"),
+        ("x,y,z,rx,ry,rz\n0,0,0,0,0,0\n", r"1:7: the column 'rx' is an angle; expected a normal"),
+        ("x,y,z\n0,0,0,1\n0,0,1,1\n", r"2:7: the row has 4 numbers"),
+        ("z,y,x\n0,0,0,0,0,1\n", r"2:11: the row has 6 numbers; there are 3 names"),
+        ("nan,nan,nan\n0,0,0\n0,0,1\n", r"1:1: 'nan' is not a number"),
+    ],
+)
+def test_tables_that_are_not_read_are_explained(tmp_path, text, message):
+    file = tmp_path / "seam.csv"
+    file.write_text(text)
+    with pytest.raises(ry.ParseError, match=r"seam\.csv:" + message):
+        ry.ToolPath.read(file)
+
+
+def test_blends_that_overlap_shrink_and_the_robot_moves():
+    C = ry.Config()
+    C.addFile(ry.raiPath("ur5e/ur5e.g"))
+    p = C.getFrame("tool0").getPosition()
+    bot = ry.BotOp(C, driver=ry.KinematicDriver(C))
+    square = p + 0.05 * np.array([[1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 0]])
+    plan = bot.moveSequence("tool0", square, blend=0.5, speed=0.1)
+    assert plan, plan.message
+    assert [warning[:38] for warning in plan.warnings] == [
+        f"path 0: the blend of 0.5 m at element {k}"[:38] for k in (1, 2, 3)
+    ]
+    x = poses(C, samples(plan)[1], "tool0")[:, :3] - p
+    assert ((x > -1e-4) & (x < 0.05 + 1e-4))[:, :2].all() and np.abs(x[:, 2]).max() < 2e-5
+    inside = np.minimum(np.minimum(x[:, 0], x[:, 1]), np.minimum(0.05 - x[:, 0], 0.05 - x[:, 1]))
+    assert 1e-3 < inside.max() < 0.0245  # corners are cut within the radius
+
+
+def test_a_start_away_from_the_path_is_told_with_its_distance(scene):
+    C = ry.Config()
+    C.addFile(ry.raiPath("irb120/irb120.g"))
+    q = np.zeros(6)
+    C.setJointState(q)
+    first = np.array([0.4, -0.2, 0.3])
+    path = ry.ToolPath("tool0").start(np.r_[first, 0, 1, 0, 0]).line([0.4, 0.2, 0.3])
+    plan = ry.planToolPath(C, path, start=q)
+    off = np.linalg.norm(C.getFrame("tool0").getPosition() - first)
+    assert f"at `start`, the tool is {off:.3f} m from the beginning of the path; from the start (" in plan.message
+
+
+def test_arguments_that_no_plan_can_keep_are_explained(scene):
+    C = scene
+    start = C.getFrame("tool").getPose()
+    path = ry.ToolPath("tool").start(start).line(start[:3] + 0.1 * X)
+    with pytest.raises(ValueError, match="tolerance is 1e-07; expected at least 1e-06"):
+        ry.planToolPath(C, path, tolerance=1e-7)
+    with pytest.raises(ValueError, match="element 0 ends at its start; expected another end, or a circle"):
+        ry.planToolPath(C, ry.ToolPath("tool").start(start).arc(start[:3] + 0.1 * X, start))
 
 
 def test_a_simulated_robot_follows_the_plan(scene):
