@@ -124,7 +124,7 @@ def taskFilms(folder: Path) -> None:
 
     taskFilm(folder / "task_tower.mp4", *_scene(panda_tasks.tower(0, 4)), [1.1, 1.3, 1.5], [0.0, 0.2, 0.75])
     taskFilm(folder / "task_sort.mp4", *_scene(panda_tasks.sort(0, 4)), [0.9, 1.5, 1.6], [0.0, 0.2, 0.7])
-    taskFilm(folder / "task_turn.mp4", *_scene(tasks.turn(0)), [1.2, -1.4, 1.5], [0.0, 0.0, 0.7])
+    taskFilm(folder / "task_turn.mp4", *_scene(tasks.turn(0)), [0.6, -0.7, 1.15], [0.0, 0.0, 0.68])
     taskFilm(folder / "task_drawer.mp4", *_scene(panda_tasks.stow(0)), [-0.9, -0.9, 1.7], [0.0, 0.3, 0.75])
     taskFilm(folder / "task_carry.mp4", *_scene(tasks.carry(0)), [0.3, -1.7, 1.9], [0.0, 0.0, 0.6])
 

@@ -52,7 +52,7 @@ def play(batch: ry.SimulationBatch, weights: Array, finger: Array, box: Array) -
     center, m."""
     poses = np.tile([0, 0, 0.03, 1, 0, 0, 0], (len(box), 1, 1))
     poses[:, 0, :2] = box
-    batch.place([], finger, poses)
+    batch.place(None, finger, poses)
     total = np.zeros(len(weights))
     for _ in range(STEPS):
         batch.step(policy(weights, finger, box), TAU, ry.ControlMode.velocity)

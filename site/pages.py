@@ -105,7 +105,7 @@ NAMES = {
     "lerobot": ("Data sets of LeRobot", "demonstrate LeRobotWriter Randomization checkDataset mergeShards"),
     "errors": (
         "Errors",
-        "Error ArgumentError ArgumentTypeError FileError FrameDeleted FrameNotFound NotFound ParseError RobotFault "
+        "Error ArgumentError ArgumentTypeError DivergenceError FileError FrameDeleted FrameNotFound NotFound ParseError RobotFault "
         "KinegraphWarning",
     ),
 }

@@ -2,7 +2,7 @@
 """Checks the layers of src/kinegraph: every room includes, and links to, only the rooms that BELOW allows it.
 
     check_layers.py                reads the includes of all sources, the members that a room defines for a class of
-                                   another one, and the table in docs/architecture.md
+                                   another one, names of types, and the table in docs/architecture.md
     check_layers.py BUILD          also reads the undefined symbols of the objects in a build folder, because a function
                                    that is declared in a room but defined above it is an upward dependency, too
     check_layers.py --write-docs   writes the table in docs/architecture.md
@@ -217,6 +217,26 @@ def door_problems() -> list[str]:
     return problems
 
 
+def name_problems() -> list[str]:
+    """Returns the types with one name: two of namespace kinegraph, or one of it and one of an unnamed namespace. All
+    rooms share the namespace, and CMake compiles files of a room together."""
+    shared: dict[str, set[str]] = defaultdict(set)
+    local: dict[str, set[str]] = defaultdict(set)
+    for file in sorted(SOURCE.rglob("*.[ch]*")):
+        text = file.read_text()
+        if not re.search(r"^namespace kinegraph \{", text, re.MULTILINE):
+            continue  # of a namespace of its own, such as kinegraph::lanes
+        unnamed = False
+        for line in text.splitlines():
+            unnamed = (unnamed or line == "namespace {") and line != "}  // namespace"
+            if match := re.match(r"(?:struct|class|enum(?: class)?) (\w+)(?: final)?(?: : [^:].*)? \{", line):
+                (local if unnamed else shared)[match[1]].add(file.relative_to(SOURCE.parent.parent).as_posix())
+    problems = [f"{name}: types in {' and '.join(sorted(files))}" for name, files in shared.items() if len(files) > 1]
+    for name in sorted(shared.keys() & local.keys()):
+        problems.append(f"{name}: a type in {', '.join(shared[name])} and in {', '.join(local[name])}")
+    return [f"{problem}; rename one" for problem in problems]
+
+
 def room_list(rooms: list[str]) -> str:
     """Returns a list of rooms for people: the largest group of GROUPS that is contained, and the rooms beyond it."""
     if rooms == EVERYTHING:
@@ -304,7 +324,7 @@ def symbol_problems(build: Path) -> tuple[list[str], int]:
 
 def main() -> int:
     arguments = sys.argv[1:]
-    problems = include_problems() + door_problems() + docs_problems(write="--write-docs" in arguments)
+    problems = include_problems() + door_problems() + name_problems() + docs_problems(write="--write-docs" in arguments)
     doors = sum(map(len, DOORS.values()))
     done = f"layers: {len(BELOW)} rooms, all includes point down, {doors} members defined above their class"
     for build in (a for a in arguments if not a.startswith("--")):

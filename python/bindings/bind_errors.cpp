@@ -10,6 +10,7 @@
 #include "kinegraph/common/utf8.h"
 #include "kinegraph/robot/robot_driver.h"
 #include "kinegraph/scene/tree/contact_warnings.h"
+#include "kinegraph/simulation/simulation_data.h"
 #include "python_names.h"
 
 namespace kinegraph::python {
@@ -52,6 +53,8 @@ void translate(const std::exception_ptr& pointer, void*) {
     raise("FileError", error);
   } catch (const RobotFault& error) {
     raise("RobotFault", error);
+  } catch (const DivergenceError& error) {
+    raise("DivergenceError", error);
   } catch (const Error& error) {
     raise("Error", error);
   } catch (const std::filesystem::filesystem_error& error) {

@@ -164,6 +164,7 @@ from .enums import teach
 from .errors import (
     ArgumentError,
     ArgumentTypeError,
+    DivergenceError,
     Error,
     FileError,
     FrameDeleted,
@@ -282,6 +283,7 @@ __all__ = [
     "DepthView",
     "DiffIk",
     "DiffIkStatus",
+    "DivergenceError",
     "Domain",
     "Error",
     "Feature",

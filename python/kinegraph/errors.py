@@ -29,6 +29,10 @@ class FileError(Error, OSError):
     """A file that is missing or cannot be read."""
 
 
+class DivergenceError(Error):
+    """A step of a simulation after which positions or velocities would be infinite or huge."""
+
+
 class RobotFault(Error):
     """A robot that cannot be moved: it reports an error, or a safety limit has stopped it."""
 

@@ -53,12 +53,14 @@ void stepSimulation(PySimulation& s, const Numbers& u, double tau, ControlMode m
   while (observer && !observer->mayStep(s.simulation)) observer->rest();
   s.simulation.update();
   warn(s);
-  {
+  try {
     const nb::gil_scoped_release unlock;
     CheckInterrupts check;
     CancellationToken cancellation;
     if (tau > kLong) cancellation = [&] { check(); };
     s.simulation.advance(u.values, tau, mode, cancellation);
+  } catch (const DivergenceError&) {
+    if (!observer || !observer->replaceStep(s.simulation, tau)) throw;
   }
   s.simulation.publish();
   if (observer) observer->afterStep(s.simulation);

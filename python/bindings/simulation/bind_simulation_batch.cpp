@@ -15,11 +15,9 @@ namespace {
 
 using Batch = SimulationBatch;
 
-std::vector<int> environmentList(const Batch& batch, const Numbers& given) {
-  std::vector<int> all;
-  for (const double number : given.values) all.push_back(int(number));
-  for (int i = 0; given.values.size() == 0 && i < batch.size(); ++i) all.push_back(i);
-  return all;
+std::optional<std::vector<int>> environmentList(const std::optional<Numbers>& given) {
+  if (!given) return std::nullopt;
+  return std::vector<int>(given->values.begin(), given->values.end());
 }
 
 /// Expands one number to all environments, or checks one per environment.
@@ -53,9 +51,9 @@ MatrixXd posesOf(const Batch& batch, const Numbers& given, std::size_t rows) {
       given.values.data(), long(rows), long(columns));
 }
 
-void place(Batch& batch, const Numbers& ids, const Numbers& q, const Numbers& poses) {
-  const std::vector<int> list = environmentList(batch, ids);
-  batch.place(list, q.matrix(), posesOf(batch, poses, list.size()));
+void place(Batch& batch, const std::optional<Numbers>& ids, const Numbers& q, const Numbers& poses) {
+  const std::optional<std::vector<int>> list = environmentList(ids);
+  batch.place(list, q.matrix(), posesOf(batch, poses, list ? list->size() : std::size_t(batch.size())));
 }
 
 }  // namespace
@@ -91,9 +89,9 @@ void bindSimulationBatch(nb::module_& m) {
       .def("getState", &Batch::getState, "environment"_a, docs::simulation_batch::getState)
       .def("setState", &Batch::setState, "environment"_a, "state"_a, docs::simulation_batch::setState)
       .def(
-          "reset", [](Batch& b, const Numbers& ids) { b.reset(environmentList(b, ids)); },
-          "environments"_a = nb::list(), docs::simulation_batch::reset)
-      .def("place", place, "environments"_a, "q"_a, "freePos"_a = nb::list(), docs::simulation_batch::place)
+          "reset", [](Batch& b, const std::optional<Numbers>& ids) { b.reset(environmentList(ids)); },
+          "environments"_a = nb::none(), docs::simulation_batch::reset)
+      .def("place", place, "environments"_a.none(), "q"_a, "freePos"_a = nb::list(), docs::simulation_batch::place)
       .def(
           "closeGrippers",
           [](Batch& b, const std::string& frame, const Numbers& widths, double speed, double force) {

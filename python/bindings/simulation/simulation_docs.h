@@ -144,8 +144,8 @@ inline constexpr char perturb[] =
     R"(Moves a point of a link to a target by a damped spring, until endPerturbation.
 
 The force is m (w^2 (target - p) - 2 w dp/dt): p is the point, m the mass of the frame's link and all links below it,
-and w = 10 rad/s. m is at most ten times the inertia that the point resists with, and a target beyond 10 m pulls as from
-10 m. At most one perturbation is active.
+and w = 10 rad/s. m is at most ten times the inertia that the point resists with, and a target beyond 0.3 m pulls as
+from 0.3 m. The force is at most 60 m/s^2 m. At most one perturbation is active.
 
 Args:
     frame: A frame of the link, or its name.

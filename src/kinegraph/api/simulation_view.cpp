@@ -8,6 +8,7 @@
 #include "kinegraph/api/bot_stage.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/scene/dynamics.h"
 #include "kinegraph/simulation/simulation_impl.h"
 
 namespace kinegraph {
@@ -16,10 +17,13 @@ namespace {
 
 using Seconds = std::chrono::duration<double>;
 
-constexpr double kRest = .02;      ///< s
-constexpr Seconds kPatience(5.);   ///< without a browser; then a paused simulation continues
-constexpr Seconds kMeasure(.25);   ///< averaging window of the real-time factor
-constexpr Seconds kMaxDelay(.05);  ///< larger delays are not caught up
+constexpr double kRest = .02;                            ///< s
+constexpr Seconds kPatience(5.);                         ///< without a browser; then a paused simulation continues
+constexpr Seconds kMeasure(.25);                         ///< averaging window of the real-time factor
+constexpr Seconds kMaxDelay(.05);                        ///< larger delays are not caught up
+constexpr double kAftermath = 1.;                        ///< s after an edit or a pull in which its effects are bounded
+constexpr double kBeyond = .05;                          ///< rad or m by which they may move a joint beyond its limits
+constexpr double kMostOfVelocity = 10., kFastest = 50.;  ///< times a joint's limit; rad/s or m/s
 constexpr int kEscapeKey = 27;
 
 bool endsRun(int key) { return key == kEscapeKey || key == 'q'; }
@@ -57,6 +61,8 @@ bool SimulationView::mayStep(Simulation& simulation) {
     changed = true;
   }
   changed = perturb(simulation, requests.perturbation) || changed;
+  const double aftermath = simulation.get_t() + kAftermath;  // resetTime may have set back the time
+  disturbed_until_ = changed || simulation.getPerturbation() ? aftermath : std::min(disturbed_until_, aftermath);
   const bool pauses = requests.paused && viewer_->waits() && isWatched(), waits = pauses && requests.steps == 0;
   if (requests.paused && !pauses) viewer_->server().endRunRequests();
   if (std::exchange(is_paused_, pauses) != pauses) {
@@ -64,6 +70,7 @@ bool SimulationView::mayStep(Simulation& simulation) {
     changed = true;
   }
   if (waits && changed) show(simulation);
+  if (!waits && simulation.get_t() <= disturbed_until_) before_ = simulation.getState();
   return !waits;
 }
 
@@ -77,6 +84,7 @@ void SimulationView::afterStep(Simulation& simulation) {
   const std::uint64_t structure = simulation.config().scene()->structureRevision();
   if (std::exchange(structure_, structure) != structure) start_ = simulation.getState();  // of the changed scene
   measureSpeed(simulation.get_t());
+  if (simulation.get_t() <= disturbed_until_ && isBeyondLimits(simulation)) standStill(simulation, simulation.get_t());
   show(simulation);
 }
 
@@ -97,6 +105,36 @@ bool SimulationView::takeEdits(Simulation& simulation) {
   const MatrixXd frames = simulation.get_frameVelocities();
   const VectorXd joints = simulation.get_qDot();
   simulation.pushConfigToSim(frames, joints);
+  return true;
+}
+
+/// Joints are springs at their limits, and integration is unreliable at speeds far above those of robots.
+bool SimulationView::isBeyondLimits(const Simulation& simulation) const {
+  const Config config(simulation.config().scene());
+  const MatrixXd limits = config.getJointLimits();
+  const VectorXd q = simulation.get_q(), fastest = (kMostOfVelocity * getVelocityLimits(config)).cwiseMin(kFastest);
+  return (q.array() < limits.row(0).transpose().array() - kBeyond).any() ||
+         (q.array() > limits.row(1).transpose().array() + kBeyond).any() ||
+         (simulation.get_qDot().array().abs() > fastest.array()).any();
+}
+
+/// Ends the pull and stops everything where it was before the step, with joints within their limits.
+void SimulationView::standStill(Simulation& simulation, double time) {
+  SimulationState state = before_;
+  const MatrixXd limits = Config(simulation.config().scene()).getJointLimits();
+  state.q = state.q.cwiseMax(limits.row(0).transpose()).cwiseMin(limits.row(1).transpose());
+  state.qDot.setZero();
+  state.freeVel.setZero();
+  state.time = time;
+  simulation.setState(state);
+  simulation.endPerturbation();
+  disturbed_until_ = time + kAftermath;
+}
+
+/// Edits of users, such as an obstacle that is moved into a robot, may leave no step that does not diverge.
+bool SimulationView::replaceStep(Simulation& simulation, double tau) {
+  if (simulation.get_t() > disturbed_until_) return false;
+  standStill(simulation, simulation.get_t() + tau);
   return true;
 }
 

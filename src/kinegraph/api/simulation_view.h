@@ -37,6 +37,7 @@ class SimulationView : public SimulationObserver {
 
   bool mayStep(Simulation& simulation) override;
   void rest() override;
+  bool replaceStep(Simulation& simulation, double tau) override;
   void afterStep(Simulation& simulation) override;
 
   /// Implement the calls of Simulation. `message` appears in the corner.
@@ -50,6 +51,8 @@ class SimulationView : public SimulationObserver {
   using Clock = std::chrono::steady_clock;
 
   bool takeEdits(Simulation& simulation);
+  bool isBeyondLimits(const Simulation& simulation) const;
+  void standStill(Simulation& simulation, double time);
   bool perturb(Simulation& simulation, const std::optional<RunRequests::Perturbation>& request);
   bool isWatched();
   void measureSpeed(double time);
@@ -58,8 +61,10 @@ class SimulationView : public SimulationObserver {
   std::shared_ptr<ConfigViewer> viewer_;
   Check check_;
   SimulationState start_;
+  SimulationState before_;   ///< the step, if it is disturbed
   std::uint64_t structure_;  ///< of the scene in `start_`
   bool is_paused_ = false;
+  double disturbed_until_ = -1.;                           ///< s: a second after the last edit or pull of a user
   std::optional<RunRequests::Perturbation> perturbation_;  ///< by a user on the page
   Clock::time_point last_seen_ = Clock::now(), due_{}, measured_{};
   double measured_time_ = 0., factor_ = 0.;

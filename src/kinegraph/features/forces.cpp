@@ -26,10 +26,10 @@ double signFor(const ContactForce& contact, const State& state, int frame) {
 }
 
 /// Sum of the forces on a frame and of their torques about its center of mass.
-struct Wrench {
+struct ContactWrench {
   Vector3d force = Vector3d::Zero(), torque = Vector3d::Zero();
 
-  Wrench(const std::vector<ContactForce>& contacts, const State& state, int frame) {
+  ContactWrench(const std::vector<ContactForce>& contacts, const State& state, int frame) {
     const Vector3d center = frameCenterOfMass(state, frame);
     for (const ContactForce& contact : contacts) {
       const double sign = signFor(contact, state, frame);
@@ -101,7 +101,7 @@ void TotalForce::eval(std::span<const State* const> states, double, Eigen::Ref<V
     throw ValueError(
         cat("totalForce: '", state.model().frame_name[frame_], "' has no mass; give it `mass: ..` or call setMass"));
   }
-  const Wrench wrench(contacts_, state, frame_);
+  const ContactWrench wrench(contacts_, state, frame_);
   y.head<3>() = -mass * kGravity - wrench.force;
   y.tail<3>() = wrench.torque;
   if (!J) return;
@@ -121,7 +121,7 @@ Matrix3d inverseInertia(const Matrix3d& inertia) {
 void subtractAccelerations(const std::vector<ContactForce>& contacts, const State& state, int frame,
                            const Matrix3d& inverse_inertia, double seconds, Eigen::Ref<VectorXd> y, JacobianRows* J) {
   const double known = state.parameters().frame_mass[frame].mass, mass = known > 0. ? known : 1.;
-  const Wrench wrench(contacts, state, frame);
+  const ContactWrench wrench(contacts, state, frame);
   const Matrix3d R = state.pose(frame).R, inverse_inertia_W = R * inverse_inertia * R.transpose();
   y.head<3>() -= seconds / mass * wrench.force;
   y.tail<3>() -= seconds * inverse_inertia_W * wrench.torque;

@@ -121,7 +121,11 @@ void Simulation::step(const VectorXd& u, double tau, ControlMode mode) {
   SimulationObserver* observer = impl_->observer.get();
   while (observer && !observer->mayStep(*this)) observer->rest();
   update();
-  advance(u, tau, mode);
+  try {
+    advance(u, tau, mode);
+  } catch (const DivergenceError&) {
+    if (!observer || !observer->replaceStep(*this, tau)) throw;
+  }
   publish();
   if (observer) observer->afterStep(*this);
 }

@@ -40,7 +40,7 @@ class Simulation {
 
   /// Advances the simulation by `tau` seconds. `u` has an entry per dof of the Config's q (2n for positionVelocity,
   /// none for none and spline). Throws ValueError for a vector of wrong size or not finite, before any change. Throws
-  /// Error if the simulation diverges, and restores the state before the call.
+  /// DivergenceError if the simulation diverges, and restores the state before the call.
   void step(const VectorXd& u = {}, double tau = .01, ControlMode mode = ControlMode::none);
 
   /// The parts of `step`, for callers that lock the Config: `advance` does not touch it. `cancellation` is checked
@@ -140,8 +140,9 @@ class Simulation {
 
   /// Moves a point of a frame's link (in the frame's axes, m) to a target (world, m) by a damped spring until
   /// endPerturbation: f = m (w^2 (target - p) - 2 w dp/dt), with w = 10 rad/s. m is the mass of the link and all links
-  /// below it, at most ten times the inertia that the point resists with. A target beyond 10 m pulls as from 10 m. At
-  /// most one perturbation is active. Throws FrameNotFound, and ValueError for a frame fixed to the world.
+  /// below it, at most ten times the inertia that the point resists with. A target beyond .3 m pulls as from .3 m, and
+  /// |f| is at most 60 m/s^2 m. At most one perturbation is active. Throws FrameNotFound, and ValueError for a frame
+  /// fixed to the world.
   void perturb(const std::string& frame, const Vector3d& point, const Vector3d& target);
   void endPerturbation();
   std::optional<Perturbation> getPerturbation() const;
@@ -226,11 +227,13 @@ class SimulationBatch {
   SimulationState getState(int environment) const;
   void setState(int environment, const SimulationState& state);
 
-  /// Resets environments to the initial Config. This and all calls below throw ValueError for unknown environments.
-  void reset(const std::vector<int>& environments);
+  /// Resets environments (all if not given) to the initial Config. This and all calls below throw ValueError for
+  /// unknown environments.
+  void reset(const std::optional<std::vector<int>>& environments = std::nullopt);
 
-  /// Sets joints (a row of `q` each) and free frames (a row of `poses`, 7F; empty: unchanged) at rest.
-  void place(const std::vector<int>& environments, const MatrixXd& q, const MatrixXd& poses = {});
+  /// Sets joints (a row of `q` each) and free frames (a row of `poses`, 7F; empty: unchanged) of environments (all for
+  /// nullopt), at rest.
+  void place(const std::optional<std::vector<int>>& environments, const MatrixXd& q, const MatrixXd& poses = {});
 
   /// Like Simulation::closeGripper, with a width (m) per environment.
   void closeGrippers(const std::string& gripper, const VectorXd& widths, double speed = .3, double force = 20.);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <numeric>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/parallel.h"
@@ -21,11 +22,16 @@ struct SimulationBatch::Impl {
   World& world(int i) const { return *environments[std::size_t(i)]->impl_->world; }
   const Simulation::Impl& first() const { return *environments.front()->impl_; }
 
-  void check(const std::vector<int>& numbers, const char* call) const {
-    for (const int i : numbers) {
+  /// Returns the given environments, or all without a list.
+  std::vector<int> chosen(const std::optional<std::vector<int>>& numbers, const char* call) const {
+    for (const int i : numbers.value_or(std::vector<int>())) {
       if (i < 0 || i >= int(environments.size()))
         throw ValueError(cat(call, ": there is no environment ", i, "; they are 0 to ", environments.size() - 1));
     }
+    if (numbers) return *numbers;
+    std::vector<int> all(environments.size());
+    std::iota(all.begin(), all.end(), 0);
+    return all;
   }
   void checkSize(const char* call, const char* what, const VectorXd& values, double minimum, bool inclusive) const {
     if (values.size() != long(environments.size()))
@@ -139,24 +145,25 @@ MatrixXd SimulationBatch::freeVelocities() const {
 }
 
 SimulationState SimulationBatch::getState(int environment) const {
-  impl_->check({environment}, "SimulationBatch.getState");
+  impl_->chosen({{environment}}, "SimulationBatch.getState");
   return impl_->environments[std::size_t(environment)]->getState();
 }
 
 void SimulationBatch::setState(int environment, const SimulationState& state) {
-  impl_->check({environment}, "SimulationBatch.setState");
+  impl_->chosen({{environment}}, "SimulationBatch.setState");
   impl_->environments[std::size_t(environment)]->restore(state);
 }
 
-void SimulationBatch::reset(const std::vector<int>& environments) {
-  impl_->check(environments, "SimulationBatch.reset");
-  for (const int i : environments) impl_->world(i).setState(impl_->start);
+void SimulationBatch::reset(const std::optional<std::vector<int>>& environments) {
+  for (const int i : impl_->chosen(environments, "SimulationBatch.reset")) impl_->world(i).setState(impl_->start);
 }
 
-void SimulationBatch::place(const std::vector<int>& environments, const MatrixXd& q, const MatrixXd& poses) {
+void SimulationBatch::place(const std::optional<std::vector<int>>& environments, const MatrixXd& q,
+                            const MatrixXd& poses) {
   const char* call = "SimulationBatch.place";
-  impl_->check(environments, call);
-  const auto rows = long(environments.size());
+  const std::vector<int> chosen = impl_->chosen(environments, call);
+  if (chosen.empty()) return;
+  const auto rows = long(chosen.size());
   const auto free = long(impl_->world(0).scene().free_frames.size());
   if (q.rows() != rows || q.cols() != dofs() || !q.allFinite())
     throw ValueError(cat(call, ": q has shape (", q.rows(), ", ", q.cols(), "); expected finite numbers (", rows, ", ",
@@ -165,7 +172,7 @@ void SimulationBatch::place(const std::vector<int>& environments, const MatrixXd
     throw ValueError(cat(call, ": poses has shape (", poses.rows(), ", ", poses.cols(), "); expected finite numbers (",
                          rows, ", ", 7 * free, ")"));
   for (long i = 0; i < rows; ++i) {
-    Simulation::Impl& s = *impl_->environments[std::size_t(environments[std::size_t(i)])]->impl_;
+    Simulation::Impl& s = *impl_->environments[std::size_t(chosen[std::size_t(i)])]->impl_;
     World& world = *s.world;
     s.setJoints(q.row(i).transpose(), nullptr);
     for (long f = 0; f < (poses.size() > 0 ? free : 0); ++f)

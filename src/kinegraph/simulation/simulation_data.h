@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/common/errors.h"
 #include "kinegraph/common/option_table.h"
 #include "kinegraph/math/pose.h"
 
@@ -31,6 +32,12 @@ struct SimulationState {
 
 class Simulation;
 
+/// A step would diverge: positions, velocities or accelerations become infinite or huge.
+class DivergenceError : public Error {
+ public:
+  using Error::Error;
+};
+
 /// Observes the steps of a simulation, and may delay them or change the simulation in between.
 struct SimulationObserver {
   virtual ~SimulationObserver() = default;
@@ -40,6 +47,10 @@ struct SimulationObserver {
 
   /// Waits for at most 20 ms. May throw to prevent the step.
   virtual void rest() = 0;
+
+  /// Called if a step of `tau` s would diverge, at the state before it. Returns true if it set the state after the step
+  /// itself, or false for the error.
+  virtual bool replaceStep(Simulation& simulation, double tau) = 0;
 
   /// Called after each step, when the Config is up to date.
   virtual void afterStep(Simulation& simulation) = 0;

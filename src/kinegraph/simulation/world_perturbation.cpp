@@ -10,7 +10,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double kPerturbationFrequency = 10.;  ///< rad/s
-constexpr double kFarthest = 1.;          ///< m: a target farther away pulls as from there, with at most 100 m/s^2
+constexpr double kFarthest = .3;                ///< m: a target farther away pulls as from there, with at most 30 m/s^2
 constexpr double kMostOfPointMass = 10.;  ///< largest mass of the spring over the inertia that the point resists with
 
 using Vector = Eigen::Map<const Vector3d>;
@@ -70,6 +70,8 @@ void World::addPerturbation() {
   const Vector3d offset = perturbation_.target - point;
   const Vector3d towards = offset * std::min(1., kFarthest / std::max(offset.norm(), kFarthest));
   perturbation_force_ = mass * (w * w * towards - 2. * w * velocity);
+  const double most = 2. * mass * w * w * kFarthest;  // the damping of fast points, with an explicit step
+  perturbation_force_ *= std::min(1., most / std::max(perturbation_force_.norm(), most));
   Eigen::Map<Vector6d> applied(d.xfrc_applied + 6 * id);
   force_before_perturbation_ = applied;
   applied.head<3>() += perturbation_force_;

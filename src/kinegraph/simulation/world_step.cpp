@@ -301,7 +301,7 @@ void World::checkNumbers(double time) {
   setState(before_);
   contact_search_ = ContactSearch(*physics_);
   if (full) throw Error("Simulation.step: the contacts exceed the memory; the state before the step is restored");
-  throw Error(
+  throw DivergenceError(
       cat("Simulation.step: the simulation diverges before ", time,
           " s; the state before the step is restored. Possible causes: tiny masses, deep overlaps, large torques"));
 }

@@ -4,20 +4,11 @@
 
 namespace kinegraph {
 
-namespace fs = std::filesystem;
 using std::chrono::milliseconds;
 
 FileStamps stampsOf(const std::vector<std::string>& files) {
   FileStamps stamps;
-  for (const std::string& file : files) {
-    std::error_code error;
-    FileStamp stamp;
-    const auto written = fs::last_write_time(file, error);
-    if (!error) stamp.written = written;
-    const auto size = fs::file_size(file, error);
-    if (!error) stamp.size = size;
-    stamps[file] = stamp;
-  }
+  for (const std::string& file : files) stamps[file] = stampOf(file);
   return stamps;
 }
 

@@ -1,20 +1,13 @@
 #pragma once
 
+#include "kinegraph/common/file_stamp.h"
+
 #include <chrono>
-#include <cstdint>
-#include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 namespace kinegraph {
-
-/// Time of the last write and size of a file; a missing file has neither.
-struct FileStamp {
-  std::filesystem::file_time_type written = std::filesystem::file_time_type::min();
-  std::uintmax_t size = 0;
-  bool operator==(const FileStamp&) const = default;
-};
 
 using FileStamps = std::map<std::string, FileStamp>;
 

@@ -53,6 +53,13 @@ def step(C):
     ry.Simulation(C).step([1.0, 2.0], 0.01, ry.ControlMode.position)
 
 
+def diverge(C):
+    C.addFrame("box").setShape(ry.ST.box, [0.1, 0.1, 0.1]).setPosition([0, 0, 3]).setMass(0.001)
+    S = ry.Simulation(C)
+    S.applyForce("box", [1e12, 0, 0])
+    S.step()
+
+
 def deleted(C):
     frame = C.addFrame("a")
     C.delFrame("a")
@@ -150,6 +157,7 @@ CASES = {
         (ry.NotFound, lambda C: ry.planMotion(C, "reddy")),
         (ry.NotFound, lambda C: ry.solveIk(C, {"l_gripper": [0.3, 0.4, 1.0]}).sensitivity("box")),
     ],
+    "DivergenceError": [(ry.DivergenceError, diverge)],
     "FrameDeleted": [(ry.FrameDeleted, deleted)],
     "FileError": [
         (ry.FileError, lambda C: C.addFile("nope.g")),

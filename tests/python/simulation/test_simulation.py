@@ -334,6 +334,11 @@ def test_environments_of_a_batch_are_simulations_at_any_number_of_threads():
     assert np.array_equal(S.get_q(), results[0][0][2])
     batch.reset([2])
     assert np.allclose(batch.times(), [0.25, 0.25, 0, 0.25])
+    batch.reset([])  # such as np.flatnonzero(done) while none is done
+    batch.place(np.empty(0, int), np.empty((0, len(C.getJointState()))))
+    assert np.allclose(batch.times(), [0.25, 0.25, 0, 0.25])
+    batch.reset()
+    assert np.allclose(batch.times(), 0)
 
 
 def test_masses_and_frictions_of_a_batch_may_differ():

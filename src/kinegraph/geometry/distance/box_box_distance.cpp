@@ -15,7 +15,7 @@ namespace {
 constexpr double kExact = 1e-11;  ///< sine of the angle below which directions are equal up to rounding
 
 /// A unit normal from b to a, in the frame of a, and the gap between the boxes along it.
-struct Axis {
+struct SeparatingAxis {
   Vector3d normal;
   double gap = -std::numeric_limits<double>::infinity();
 };
@@ -40,14 +40,14 @@ double gapAlong(const BoxPair& pair, const Vector3d& normal) {
 }
 
 /// The axis with the widest gap. An axis across two edges must exceed the face normals by more than rounding.
-Axis widestGap(const BoxPair& pair) {
+SeparatingAxis widestGap(const BoxPair& pair) {
   const Matrix3d &R = pair.R, absolute = R.cwiseAbs();
   const Vector3d t = -pair.p, t_b = R.transpose() * t;
   const Vector3d gap_a = t.cwiseAbs() - pair.a - absolute * pair.b;
   const Vector3d gap_b = t_b.cwiseAbs() - pair.b - absolute.transpose() * pair.a;
   int i, j;
   const double best_a = gap_a.maxCoeff(&i), best_b = gap_b.maxCoeff(&j), margin = 1e-14 * pair.scale();
-  Axis best{signOf(t[i]) * Vector3d::Unit(i), best_a};
+  SeparatingAxis best{signOf(t[i]) * Vector3d::Unit(i), best_a};
   if (best_b > best_a + margin) best = {signOf(t_b[j]) * R.col(j), best_b};
   int edge_a = -1, edge_b = -1;
   double best_gap = best.gap + margin;
@@ -75,14 +75,14 @@ Axis widestGap(const BoxPair& pair) {
 }
 
 /// The farthest feature of a box along a direction: a corner, an edge (`free` lists its axis) or a face (two axes).
-struct Feature {
+struct BoxFeature {
   Vector3d center;  ///< in the box's own frame
   std::array<int, 2> free = {-1, -1};
   int dimension = 0;
 };
 
-Feature farthest(const Vector3d& half, const Vector3d& direction) {
-  Feature feature;
+BoxFeature farthest(const Vector3d& half, const Vector3d& direction) {
+  BoxFeature feature;
   int own;
   direction.cwiseAbs().maxCoeff(&own);
   for (int i = 0; i < 3; ++i) {
@@ -139,7 +139,7 @@ struct ClippedFace {
 
 /// The middle of the part of `feature` above the face of another box; nullopt if no part is. `feature` belongs to a box
 /// with half sides `half` at R, p; the other box has half sides `face`, and its face lies across axis `normal_axis`.
-std::optional<Vector3d> aboveFace(const Feature& feature, const Vector3d& half, const Matrix3d& R, const Vector3d& p,
+std::optional<Vector3d> aboveFace(const BoxFeature& feature, const Vector3d& half, const Matrix3d& R, const Vector3d& p,
                                   const Vector3d& face, int normal_axis) {
   const int u = (normal_axis + 1) % 3, v = (normal_axis + 2) % 3;
   const Vector3d center = p + R * feature.center;
@@ -163,17 +163,17 @@ std::optional<Vector3d> aboveFace(const Feature& feature, const Vector3d& half, 
 }
 
 /// The contact of two boxes along their axis of the widest gap.
-struct Contact {
+struct BoxContact {
   Vector3d point_a;  ///< in the frame of a
   bool inside =
       true;  ///< false if the features miss each other along the axis; the axis is then not the nearest direction
 };
 
-Contact contactAlong(const BoxPair& pair, const Axis& axis) {
-  const Feature on_a = farthest(pair.a, -axis.normal), on_b = farthest(pair.b, pair.R.transpose() * axis.normal);
+BoxContact contactAlong(const BoxPair& pair, const SeparatingAxis& axis) {
+  const BoxFeature on_a = farthest(pair.a, -axis.normal), on_b = farthest(pair.b, pair.R.transpose() * axis.normal);
   const Vector3d center_b = pair.p + pair.R * on_b.center;
-  const auto across = [](const Feature& face) { return 3 - face.free[0] - face.free[1]; };
-  Contact contact{on_a.center, false};
+  const auto across = [](const BoxFeature& face) { return 3 - face.free[0] - face.free[1]; };
+  BoxContact contact{on_a.center, false};
   if (on_a.dimension == 2) {
     const auto found = aboveFace(on_b, pair.b, pair.R, pair.p, pair.a, across(on_a));
     contact.inside = found.has_value();
@@ -247,8 +247,8 @@ Vector3d nearestEdgeGap(const BoxPair& pair, Vector3d gap) {
 NearestPoints boxToBox(const BoxCore& a, const BoxCore& b) {
   const Matrix3d R_AW = a.X_WB.R.transpose();
   const BoxPair pair{a.half, b.half, R_AW * b.X_WB.R, R_AW * (b.X_WB.p - a.X_WB.p)};
-  Axis axis = widestGap(pair);
-  Contact contact = contactAlong(pair, axis);
+  SeparatingAxis axis = widestGap(pair);
+  BoxContact contact = contactAlong(pair, axis);
   const bool ill_conditioned = nearlyParallel(pair);
   if (axis.gap > 0. && (!contact.inside || ill_conditioned)) {
     const CornerGap corner = nearestCorners(pair);

@@ -1,44 +1,24 @@
 #include "kinegraph/geometry/files/mesh_cache.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <functional>
 #include <list>
+#include <map>
 #include <mutex>
 
+#include "kinegraph/common/file_stamp.h"
 #include "kinegraph/geometry/files/mesh_file.h"
 
 namespace kinegraph {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr std::size_t kMaxCachedBytes = std::size_t(256) << 20;
-
-/// Size and time of a file; equal stamps of a missing file are equal, too.
-struct FileStamp {
-  std::string path;
-  std::uintmax_t size = 0;
-  fs::file_time_type time;
-
-  explicit FileStamp(std::string file) : path(std::move(file)) {
-    std::error_code error;
-    size = fs::file_size(path, error);
-    if (error) size = 0;
-    time = fs::last_write_time(path, error);
-    if (error) time = {};
-  }
-  bool isCurrent() const {
-    const FileStamp now(path);
-    return now.size == size && now.time == time;
-  }
-};
 
 struct CachedMesh {
   std::string path;
-  std::size_t hash;               ///< of the file's bytes: times of files are too coarse for quick successions
-  std::vector<FileStamp> beside;  ///< files that it refers to
+  std::size_t hash;  ///< of the file's bytes: times of files are too coarse for quick successions
+  std::map<std::string, FileStamp> beside;  ///< stamps of files that it refers to
   std::shared_ptr<const Mesh> mesh;
   std::size_t bytes;
 };
@@ -55,8 +35,9 @@ class MeshCache {
   std::shared_ptr<const Mesh> find(const std::string& path, std::size_t hash) {
     const std::lock_guard lock(mutex_);
     const auto entry = std::find_if(entries_.begin(), entries_.end(), [&](const CachedMesh& e) {
-      return e.hash == hash && e.path == path &&
-             std::all_of(e.beside.begin(), e.beside.end(), [](const FileStamp& stamp) { return stamp.isCurrent(); });
+      return e.hash == hash && e.path == path && std::all_of(e.beside.begin(), e.beside.end(), [](const auto& file) {
+               return stampOf(file.first) == file.second;
+             });
     });
     if (entry == entries_.end()) return nullptr;
     entries_.splice(entries_.begin(), entries_, entry);
@@ -99,7 +80,7 @@ std::shared_ptr<const Mesh> sharedMeshFile(const std::string& path) {
   auto mesh = std::make_shared<const Mesh>(readMeshFile(path, &files));
   CachedMesh entry{path, hash, {}, mesh, bytesOf(*mesh)};
   for (std::string& file : files) {
-    if (file != path) entry.beside.emplace_back(std::move(file));
+    if (file != path) entry.beside[file] = stampOf(file);
   }
   meshCache().add(std::move(entry));
   return mesh;
