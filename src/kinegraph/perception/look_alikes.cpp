@@ -23,7 +23,7 @@ class LookAlikes {
       : things_(things), is_seen_(is_seen), anywhere_(anywhere), poses_(things.size() * things.size()) {
     for (std::size_t place = 0; place < things.size(); ++place) {
       if (!is_seen[place]) continue;
-      std::optional<Candidate>& own = pose(int(place), int(place));
+      std::optional<PoseCandidate>& own = pose(int(place), int(place));
       own = things[place].best;
       bool is_compared = false;
       for (std::size_t k = 0; k < things.size(); ++k) {
@@ -31,7 +31,7 @@ class LookAlikes {
         const Vector3d middle = things[place].best.X * things[place].middle();
         const double moved = (middle - things[k].last * things[k].middle()).norm();
         if (!anywhere && moved > things[k].search + kSlack) continue;
-        const Candidate there = registration.atPlaceOf(things[k], things[place]);
+        const PoseCandidate there = registration.atPlaceOf(things[k], things[place]);
         if (!is_compared) own = registration.atPlaceOf(things[place], things[place]);
         is_compared = true;
         if (there.value > own->value - kSimilarScore && there.misfit < own->misfit + kSureMisfit)
@@ -41,7 +41,7 @@ class LookAlikes {
   }
 
   int count() const { return int(things_.size()); }
-  const std::optional<Candidate>& pose(int place, int thing) const { return poses_[index(place, thing)]; }
+  const std::optional<PoseCandidate>& pose(int place, int thing) const { return poses_[index(place, thing)]; }
 
   /// The squared movement of a thing to the place of another one, m^2; infinite if it cannot be there.
   double movement(int place, int thing) const {
@@ -98,7 +98,7 @@ class LookAlikes {
  private:
   static constexpr double kSlack = .005;  // m
 
-  std::optional<Candidate>& pose(int place, int thing) { return poses_[index(place, thing)]; }
+  std::optional<PoseCandidate>& pose(int place, int thing) { return poses_[index(place, thing)]; }
   std::size_t index(int place, int thing) const { return std::size_t(place) * things_.size() + std::size_t(thing); }
 
   static double sizeOf(const Thing& thing) {
@@ -115,7 +115,7 @@ class LookAlikes {
   const std::vector<Thing>& things_;
   const std::vector<bool>& is_seen_;
   bool anywhere_;
-  std::vector<std::optional<Candidate>> poses_;
+  std::vector<std::optional<PoseCandidate>> poses_;
 };
 
 /// For each thing, the others that may be at its place.
@@ -152,7 +152,7 @@ void moveThings(const LookAlikes& alike, const std::vector<int>& place_of, std::
   struct Result {
     RigidTransform X;
     double score;
-    std::vector<Candidate> others;
+    std::vector<PoseCandidate> others;
   };
   std::vector<Result> results;
   for (const Thing& thing : things) results.push_back({thing.best.X, thing.score, thing.others});
@@ -171,7 +171,8 @@ void moveThings(const LookAlikes& alike, const std::vector<int>& place_of, std::
     thing.best = *alike.pose(place, int(k));
     thing.score = there.score;
     const RigidTransform change = there.X.inverse() * thing.best.X;
-    for (const Candidate& other : there.others) thing.others.push_back({other.X * change, other.value, other.misfit});
+    for (const PoseCandidate& other : there.others)
+      thing.others.push_back({other.X * change, other.value, other.misfit});
   }
 }
 

@@ -20,13 +20,13 @@ constexpr std::size_t kBeam = 300;                   // partial assignments
 constexpr double kFound = 1.9;                       // least value, of at most 3
 constexpr double kLeastSurface = .3;                 // share of the surface that has to agree
 
-bool isNewPose(const std::vector<Candidate>& known, const Thing& thing, const RigidTransform& X) {
-  return std::none_of(known.begin(), known.end(), [&](const Candidate& other) {
+bool isNewPose(const std::vector<PoseCandidate>& known, const Thing& thing, const RigidTransform& X) {
+  return std::none_of(known.begin(), known.end(), [&](const PoseCandidate& other) {
     return (other.X.p - X.p).norm() < .02 && looksTheSame(thing.shape, other.X, X);
   });
 }
 
-void keepBest(std::vector<Candidate>& candidates, std::size_t most) {
+void keepBest(std::vector<PoseCandidate>& candidates, std::size_t most) {
   std::stable_sort(candidates.begin(), candidates.end(), [](auto& a, auto& b) { return a.value > b.value; });
   if (candidates.size() > most) candidates.resize(most);
 }
@@ -101,9 +101,9 @@ double Registration::localValue(const Thing& thing, const std::vector<int>& owne
   return surface + 2. * explained / near;
 }
 
-std::vector<Candidate> Registration::candidatesAnywhere(const Thing& thing, const std::vector<int>& owners) const {
+std::vector<PoseCandidate> Registration::candidatesAnywhere(const Thing& thing, const std::vector<int>& owners) const {
   const int index = int(&thing - things_.data());
-  std::vector<Candidate> all;
+  std::vector<PoseCandidate> all;
   Vector3d eye = Vector3d::Zero();
   for (const ObservedView& view : views_) eye += view.X_WC.p / double(views_.size());
   const Vector3d middle = thing.middle();
@@ -118,7 +118,7 @@ std::vector<Candidate> Registration::candidatesAnywhere(const Thing& thing, cons
       highest = std::max(highest, point.p.z());
       if ((point.p - place).head<2>().norm() < .3 * radius) in_middle = std::max(in_middle, point.p.z());
     }
-    std::vector<Candidate> here;
+    std::vector<PoseCandidate> here;
     for (const Matrix3d& R : thing.rotations) {
       for (const double height : thing.heights) {
         RigidTransform X = restingPose(thing.shape, {R, place + behind - R * middle}, height);
@@ -130,7 +130,7 @@ std::vector<Candidate> Registration::candidatesAnywhere(const Thing& thing, cons
       }
     }
     keepBest(here, kPerPlace);
-    for (Candidate& candidate : here) {
+    for (PoseCandidate& candidate : here) {
       fitPose(thing.shape, thing.freedom, coarse, views_, kCoarseWidths, kCoarseSamples, candidate.X);
       fitPose(thing.shape, thing.freedom, coarse, views_, kFineWidths, kCoarseSamples, candidate.X);
       candidate.value = localValue(thing, owners, candidate.X);
@@ -151,16 +151,16 @@ void Registration::findLost() {
     const std::vector<int> owners = ownersOfPoints();
     struct Assignment {
       double value = 0.;
-      std::vector<std::pair<Thing*, const Candidate*>> found = {};
+      std::vector<std::pair<Thing*, const PoseCandidate*>> found = {};
     };
-    std::vector<std::vector<Candidate>> candidates(things_.size());
+    std::vector<std::vector<PoseCandidate>> candidates(things_.size());
     std::vector<Assignment> beam(1);
     for (std::size_t i = 0; i < things_.size(); ++i) {
       if (!things_[i].is_lost) continue;
       candidates[i] = candidatesAnywhere(things_[i], owners);
       std::vector<Assignment> next = beam;  // without this thing
       for (const Assignment& partial : beam) {
-        for (const Candidate& candidate : candidates[i]) {
+        for (const PoseCandidate& candidate : candidates[i]) {
           const bool is_free = std::none_of(partial.found.begin(), partial.found.end(), [&](const auto& other) {
             return overlap(*other.first, other.second->X, things_[i], candidate.X);
           });

@@ -267,7 +267,7 @@ SeenScene registerScene(Config& config, std::span<const DepthView> given, const 
       PoseCertainty certainty = poseCertainty(thing.shape, thing.freedom, near.measured, thinning, views, thing.best.X);
       result.covariance = std::move(certainty.covariance);
       result.free_directions = std::move(certainty.free_directions);
-      for (const Candidate& other : thing.others) result.alternatives.push_back(Pose(other.X).canonical());
+      for (const PoseCandidate& other : thing.others) result.alternatives.push_back(Pose(other.X).canonical());
     } else {
       thing.score = -2.;
     }

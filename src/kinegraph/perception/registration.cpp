@@ -175,7 +175,7 @@ double Registration::misfit(const Thing& thing, const FitPoints& points, const R
 /// Adds the best pose with other rotations: those in which the shape is nearly the same, and if the last pose tells
 /// nothing, all rotations about the vertical.
 void Registration::addTurned(const Thing& thing, int index, const std::vector<int>& owners,
-                             std::vector<Candidate>& candidates) const {
+                             std::vector<PoseCandidate>& candidates) const {
   constexpr double kRight = 1.5707963267948966;
   if (thing.freedom.hasJoint() || thing.heights.empty()) return;
   const RigidTransform& best = thing.best.X;
@@ -210,8 +210,8 @@ double Registration::valueOf(const Thing& thing, int index, const FitPoints& poi
 
 /// Looks again for a thing that overlaps another one, without the points of the other. Whether it is elsewhere.
 bool Registration::moveAway(Thing& thing, const Thing& other, double least_score) {
-  const Candidate best = thing.best;
-  const std::vector<Candidate> others = thing.others;
+  const PoseCandidate best = thing.best;
+  const std::vector<PoseCandidate> others = thing.others;
   const double score = thing.score;
   thing.score = -2.;
   find(thing, int(&thing - things_.data()), ownersOfPoints());
@@ -281,7 +281,7 @@ std::vector<RigidTransform> Registration::starts(const Thing& thing, bool wide) 
 }
 
 void Registration::find(Thing& thing, int index, const std::vector<int>& owners) {
-  std::vector<Candidate> candidates;
+  std::vector<PoseCandidate> candidates;
   const bool again = index >= 0;
   if (again) {
     const FitPoints near =
@@ -300,7 +300,7 @@ void Registration::find(Thing& thing, int index, const std::vector<int>& owners)
 }
 
 void Registration::tryStarts(const Thing& thing, int index, const std::vector<int>& owners, bool wide,
-                             std::vector<Candidate>& candidates) const {
+                             std::vector<PoseCandidate>& candidates) const {
   const FitPoints fine =
       pointsNear(thing, index, owners, thing.start.p, thing.shape.radius() + thing.search, kFinePoints);
   FitPoints coarse{{}, fine.keep_out};
@@ -330,29 +330,29 @@ void Registration::tryStarts(const Thing& thing, int index, const std::vector<in
 
 /// Refines the best candidates that differ; `thing.others` are those about as good that look different.
 void Registration::refine(Thing& thing, int index, const std::vector<int>& owners,
-                          const std::vector<Candidate>& candidates) {
+                          const std::vector<PoseCandidate>& candidates) {
   const std::size_t most = thing.anywhere ? 5 : 3;
   constexpr double kApart = .12, kGiveUp = .6, kTurned = .3;  // rad; value below that of the best; rad
-  std::vector<Candidate> refined;
-  for (const Candidate& candidate : candidates) {
+  std::vector<PoseCandidate> refined;
+  for (const PoseCandidate& candidate : candidates) {
     if (candidate.value < candidates[0].value - kGiveUp || refined.size() == most) break;
-    const bool is_new = std::none_of(refined.begin(), refined.end(), [&](const Candidate& other) {
+    const bool is_new = std::none_of(refined.begin(), refined.end(), [&](const PoseCandidate& other) {
       return Quaterniond(other.X.R).angularDistance(Quaterniond(candidate.X.R)) < kApart &&
              (other.X.p - candidate.X.p).norm() < .01;
     });
     if (!is_new) continue;
-    Candidate fine = candidate;
+    PoseCandidate fine = candidate;
     const FitPoints points = pointsNear(thing, index, owners, candidate.X.p, thing.shape.radius() + .02, kFinePoints);
     fitPose(thing.shape, thing.freedom, points, views_, kFineWidths, kFineSamples, fine.X);
     fine.value = valueOf(thing, index, points, fine.X);
     refined.push_back(fine);
   }
   std::stable_sort(refined.begin(), refined.end(), [](auto& a, auto& b) { return a.value > b.value; });
-  const auto rotation = [&](const Candidate& c) {
+  const auto rotation = [&](const PoseCandidate& c) {
     return Quaterniond(c.X.R).angularDistance(Quaterniond(thing.last.R));
   };
   const FitPoints points = pointsNear(thing, index, owners, refined[0].X.p, thing.shape.radius() + .02, kFinePoints);
-  for (Candidate& other : refined) {  // of the poses of a symmetric shape, the one nearest to the last
+  for (PoseCandidate& other : refined) {  // of the poses of a symmetric shape, the one nearest to the last
     if (other.value <= refined[0].value - kSimilarScore) continue;
     const bool is_same = looksTheSame(thing.shape, refined[0].X, other.X);
     const double angle = Quaterniond(refined[0].X.R).angularDistance(Quaterniond(other.X.R));
@@ -372,7 +372,7 @@ void Registration::refine(Thing& thing, int index, const std::vector<int>& owner
   }
 }
 
-Candidate Registration::atPlaceOf(const Thing& thing, const Thing& other) const {
+PoseCandidate Registration::atPlaceOf(const Thing& thing, const Thing& other) const {
   const int index = int(&other - things_.data());
   const FitPoints points = pointsNear(thing, index, ownersOfPoints(), other.best.X.p,
                                       std::max(thing.shape.radius(), other.shape.radius()) + .02, kFinePoints);
@@ -389,7 +389,7 @@ Candidate Registration::atPlaceOf(const Thing& thing, const Thing& other) const 
   FitPoints coarse{{}, points.keep_out};
   const std::size_t step = std::max<std::size_t>(1, points.measured.size() / kCoarsePoints);
   for (std::size_t i = 0; i < points.measured.size(); i += step) coarse.measured.push_back(points.measured[i]);
-  Candidate best;
+  PoseCandidate best;
   for (const Matrix3d& R : rotations) {
     for (const double height : thing.heights.empty() ? std::vector{0.} : thing.heights) {
       RigidTransform X{R, at - R * middle};

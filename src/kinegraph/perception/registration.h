@@ -14,7 +14,7 @@ inline const std::vector<double> kCoarseWidths{.015, .012, .009, .006, .004, .00
 inline const std::vector<double> kFineWidths{.003, .002, .002, .002};
 
 /// A pose of a thing; a larger value explains the images better, up to 3.
-struct Candidate {
+struct PoseCandidate {
   RigidTransform X;
   double value = -2.;
   double misfit = 0.;  ///< mean squared distance of points, over their noise; only of Registration::atPlaceOf
@@ -33,8 +33,8 @@ struct Thing {
   bool anywhere = false;                 ///< its last pose tells nothing
   bool is_lost = anywhere;               ///< it was not found yet
   RigidTransform start = last;           ///< where it is looked for
-  Candidate best = {start, -2., 0.};
-  std::vector<Candidate> others = {};  ///< other poses that are about as good
+  PoseCandidate best = {start, -2., 0.};
+  std::vector<PoseCandidate> others = {};  ///< other poses that are about as good
   double score = -2.;
 
   Vector3d middle() const;  ///< of its surface, in the coordinates of the frame
@@ -71,7 +71,7 @@ class Registration {
   bool overlap(const Thing& a, const RigidTransform& of_a, const Thing& b, const RigidTransform& of_b) const;
 
   /// The pose in which one thing explains the images best at the place of another one, instead of it.
-  Candidate atPlaceOf(const Thing& thing, const Thing& other) const;
+  PoseCandidate atPlaceOf(const Thing& thing, const Thing& other) const;
 
   /// Points near a pose that no other thing owns, at most `most`. `index` < 0: other things do not count.
   FitPoints pointsNear(const Thing& thing, int index, const std::vector<int>& owners, const Vector3d& center,
@@ -86,19 +86,19 @@ class Registration {
                      const RigidTransform& of_other) const;
   double misfit(const Thing& thing, const FitPoints& points, const RigidTransform& X) const;
   void addTurned(const Thing& thing, int index, const std::vector<int>& owners,
-                 std::vector<Candidate>& candidates) const;
+                 std::vector<PoseCandidate>& candidates) const;
   double explained(const Thing& thing, const FitPoints& points, const RigidTransform& X) const;
   double valueOf(const Thing& thing, int index, const FitPoints& points, const RigidTransform& X) const;
   double localValue(const Thing& thing, const std::vector<int>& owners, const RigidTransform& X) const;
-  std::vector<Candidate> candidatesAnywhere(const Thing& thing, const std::vector<int>& owners) const;
+  std::vector<PoseCandidate> candidatesAnywhere(const Thing& thing, const std::vector<int>& owners) const;
   std::vector<Vector3d> placesOfPoints(const std::vector<int>& owners, double radius) const;
   bool moveAway(Thing& thing, const Thing& other, double least_score);
   void separate();
   std::vector<RigidTransform> starts(const Thing& thing, bool wide) const;
   void find(Thing& thing, int index, const std::vector<int>& owners);
   void tryStarts(const Thing& thing, int index, const std::vector<int>& owners, bool wide,
-                 std::vector<Candidate>& candidates) const;
-  void refine(Thing& thing, int index, const std::vector<int>& owners, const std::vector<Candidate>& candidates);
+                 std::vector<PoseCandidate>& candidates) const;
+  void refine(Thing& thing, int index, const std::vector<int>& owners, const std::vector<PoseCandidate>& candidates);
 
   std::vector<Thing>& things_;
   const std::vector<ObservedView>& views_;
