@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "kinegraph/common/errors.h"
 #include "kinegraph/rendering/camera_renderer.h"
 #include "kinegraph/scene/tree/scene_tree.h"
@@ -192,6 +194,134 @@ TEST(RegisterScene, InvalidViewsAreErrorsThatNameTheCause) {
   EXPECT_THROW(registerScene(C, std::vector{view}, {"cam"}), ValueError);
   EXPECT_THROW(registerScene(C, std::vector{view}, {"bax"}), FrameNotFound);
   EXPECT_THROW(registerScene(C, std::vector{view}, {"box", "box"}), ValueError);
+}
+
+/// A box on the table, of the size of "box" unless another one is given.
+void addBox(Config& C, const std::string& name, double x, double y, std::vector<double> size = {.06, .1, .08, .002}) {
+  const double height = .65 + .5 * size[2];
+  C.addFrame(name).setShape(ShapeType::ssBox, std::move(size)).setPosition({x, y, height});
+}
+
+RegisterOptions within(double radius) {
+  RegisterOptions options = onTable();
+  options.search_radius = radius;
+  return options;
+}
+
+TEST(RegisterScene, EqualThingsThatMayBeExchangedAreNamed) {
+  Config C = tableScene();
+  for (const char* name : {"box", "can"}) C.delFrame(name);
+  addBox(C, "a", 0., .05);
+  addBox(C, "b", .12, .05);
+  const std::vector<DepthView> views{look(C)};
+  displace(C, "a", {.05, -.05, 0.}, 0.);
+  displace(C, "b", {-.05, .05, 0.}, 0.);
+  const SeenScene seen = registerScene(C, views, {"a", "b"}, within(.1));
+  EXPECT_NEAR(seen.frames.at("a").pose.p.x(), 0., .001) << seen.str();
+  EXPECT_NEAR(seen.frames.at("b").pose.p.x(), .12, .001) << seen.str();
+  EXPECT_EQ(seen.frames.at("a").may_be, std::vector<std::string>{"b"});
+  EXPECT_EQ(seen.frames.at("b").may_be, std::vector<std::string>{"a"});
+  ASSERT_EQ(seen.warnings.size(), 1u) << seen.str();
+  EXPECT_NE(seen.warnings[0].find("look alike and may be exchanged"), std::string::npos) << seen.warnings[0];
+}
+
+TEST(RegisterScene, EqualThingsGetThePlacesThatDemandTheLeastMovements) {
+  Config C = tableScene();
+  for (const char* name : {"box", "can"}) C.delFrame(name);
+  addBox(C, "a", 0., .05);
+  addBox(C, "b", .12, .05, {.1, .06, .08, .002});  // the same box with other axes
+  displace(C, "b", {0., 0., 0.}, 90.);
+  const std::vector<DepthView> views{look(C)};
+  displace(C, "a", {.07, 0., 0.}, 0.);  // now closer to the place of b than to its own
+  displace(C, "b", {.07, 0., 0.}, 0.);
+  const SeenScene seen = registerScene(C, views, {"a", "b"}, within(.1));
+  EXPECT_NEAR(seen.frames.at("a").pose.p.x(), 0., .001) << seen.str();
+  EXPECT_NEAR(seen.frames.at("b").pose.p.x(), .12, .001) << seen.str();
+  EXPECT_TRUE(seen.frames.at("a").may_be.empty()) << "b would have moved 19 cm";
+}
+
+TEST(RegisterScene, OneOfTwoEqualThingsThatIsSeenMayBeTheOther) {
+  Config C = tableScene();
+  for (const char* name : {"box", "can"}) C.delFrame(name);
+  addBox(C, "a", .05, .05);
+  const std::vector<DepthView> views{look(C)};
+  C.getFrame("a").setPosition({0., .05, .69});
+  addBox(C, "b", .12, .05);
+  const SeenScene seen = registerScene(C, views, {"b", "a"}, within(.1));
+  EXPECT_EQ(seen.frames.at("a").status, SeenStatus::seen) << seen.str();
+  EXPECT_NE(seen.frames.at("b").status, SeenStatus::seen) << seen.str();
+  EXPECT_EQ(seen.frames.at("a").may_be, std::vector<std::string>{"b"});
+  EXPECT_EQ(seen.frames.at("b").may_be, std::vector<std::string>{"a"});
+  EXPECT_EQ(seen.warnings.size(), 1u) << seen.str();
+}
+
+TEST(RegisterScene, ThingsOfOtherSizesAndFarOnesAreNotExchanged) {
+  Config C = tableScene();
+  addBox(C, "far", -.3, .05);
+  addBox(C, "tall", .02, .05, {.06, .1, .095, .002});
+  const std::vector<DepthView> views{look(C)};
+  const SeenScene seen = registerScene(C, views, {"box", "far", "tall", "can"}, within(.1));
+  for (const auto& [name, frame] : seen.frames) EXPECT_TRUE(frame.may_be.empty()) << seen.str();
+  EXPECT_TRUE(seen.warnings.empty()) << seen.str();
+}
+
+TEST(RegisterScene, ANearlySquareBoxIsNotTurnedByARightAngleSilently) {
+  Config C = tableScene();
+  addBox(C, "square", .0, .2, {.06, .0618, .09, .002});
+  const std::vector<DepthView> views{look(C)};
+  displace(C, "square", {.02, .01, 0.}, 25.);
+  const SeenFrame near = registerScene(C, views, {"square"}, onTable()).frames.at("square");
+  EXPECT_LT(near.pose.q.angularDistance(Quaterniond::Identity()), 1. * kDegree) << near.str();
+  C.getFrame("square").setPosition({3., 3., 3.});
+  RegisterOptions options = onTable();
+  options.prior = Prior::anywhere;
+  const SeenFrame found = registerScene(C, views, {"square"}, options).frames.at("square");
+  ASSERT_EQ(found.status, SeenStatus::seen) << found.str();
+  ASSERT_FALSE(found.alternatives.empty()) << found.str();
+  const bool is_turned = std::any_of(found.alternatives.begin(), found.alternatives.end(), [&](const Pose& other) {
+    return std::abs(other.q.angularDistance(found.pose.q) - 90. * kDegree) < 2. * kDegree;
+  });
+  EXPECT_TRUE(is_turned) << found.str();
+}
+
+TEST(RegisterScene, WithoutAPriorThingsAreFoundWhereverTheyRest) {
+  Config C = tableScene();
+  const Quaterniond fallen(Eigen::AngleAxisd(90. * kDegree, Vector3d::UnitX()));
+  C.getFrame("box").setPose(Pose(Vector3d(.2, -.1, .7), fallen));
+  C.getFrame("can").setPose(Pose(Vector3d(-.25, .15, .68), fallen));
+  addBox(C, "flat", 0., .2, {.12, .08, .03, .002});
+  const std::vector<std::string> names{"box", "can", "flat", "ball"};
+  const std::vector<DepthView> views{look(C)};
+  std::map<std::string, Pose> truth;
+  for (const char* name : {"box", "can", "flat"}) {
+    truth[name] = C.getFrame(name).getPose();
+    C.getFrame(name).setPose(Pose(Vector3d(3., 3., 3.), Quaterniond::Identity()));
+  }
+  C.addFrame("ball").setShape(ShapeType::sphere, {.04}).setPosition({3., 4., 3.});  // is not on the table
+  RegisterOptions options = onTable();
+  options.prior = Prior::anywhere;
+  const SeenScene seen = registerScene(C, views, names, options);
+  for (const auto& [name, pose] : truth) {
+    EXPECT_EQ(seen.frames.at(name).status, SeenStatus::seen) << seen.str();
+    EXPECT_LT((seen.frames.at(name).pose.p - pose.p).norm(), .001) << seen.str();
+  }
+  EXPECT_EQ(seen.frames.at("ball").status, SeenStatus::not_found) << seen.str();
+  EXPECT_EQ(C.getFrame("ball").getPosition(), Vector3d(3., 4., 3.));
+  options.support = "";
+  EXPECT_THROW(registerScene(C, views, names, options), ValueError);
+  EXPECT_THROW(priorFromName("nowhere"), ValueError);
+}
+
+TEST(RegisterScene, ACameraUpsideDownLooksThroughTheSupport) {
+  Config C = tableScene();
+  DepthView view = look(C);
+  view.pose.q = view.pose.q * Quaterniond(Eigen::AngleAxisd(180. * kDegree, Vector3d::UnitZ()));
+  const SeenScene seen = registerScene(C, std::vector{view}, {"box"}, onTable());
+  ASSERT_EQ(seen.warnings.size(), 1u) << seen.str();
+  EXPECT_NE(seen.warnings[0].find("of the surface of 'table'"), std::string::npos) << seen.warnings[0];
+  EXPECT_THROW(registerScene(C, std::vector{view}, {"table"}, onTable()), ValueError);
+  for (float& d : view.depth) d *= .001f;
+  EXPECT_THROW(registerScene(C, std::vector{view}, {"box"}, onTable()), ValueError);
 }
 
 }  // namespace

@@ -79,9 +79,10 @@ std::vector<DepthView> depthViews(nb::handle views) {
 Array seenPose(const Pose& pose) { return toNumpy(VectorXd(pose.numbers())); }
 
 SeenScene registerFrames(PyConfig& config, nb::handle views, const std::vector<std::string>& frames,
-                         const std::optional<std::string>& support, double search_radius) {
+                         const std::optional<std::string>& support, double search_radius, const std::string& prior) {
   const std::vector<DepthView> given = depthViews(views);
   RegisterOptions options;
+  options.prior = priorFromName(prior);
   options.support = support.value_or("");
   options.search_radius = search_radius;
   SeenScene seen;
@@ -106,7 +107,9 @@ void bindSeenFrame(nb::module_& m) {
       .value("seen", SeenStatus::seen, "The pose is measured, and the frame was moved to it.")
       .value("occluded", SeenStatus::occluded, "Something is in front of it; `by` names it.")
       .value("not_in_view", SeenStatus::not_in_view, "It is outside of all images, or nothing was measured.")
-      .value("not_there", SeenStatus::not_there, "The cameras looked through its place.");
+      .value("not_there", SeenStatus::not_there, "The cameras looked through its place.")
+      .value("not_found", SeenStatus::not_found,
+             "It is nowhere in the images, or too little of it: only with prior=\"anywhere\".");
   nb::class_<SeenFrame>(m, "SeenFrame", "How registerScene saw a frame.")
       .def_ro("status", &SeenFrame::status, "A SeenStatus: whether it was seen, or why not.")
       .def_prop_ro(
@@ -131,6 +134,9 @@ void bindSeenFrame(nb::module_& m) {
               "The share of the surface, seen if the thing were alone, that the cameras measured, 0..1.")
       .def_ro("score", &SeenFrame::score,
               "1: all measurements at its surface agree with it; -1.5: the cameras looked through all of it.")
+      .def_ro("may_be", &SeenFrame::may_be,
+              "Names of frames that look alike and may be the one seen here, while this one is at their place or not\n"
+              "seen. Nothing but the distances from the last poses tells them apart.")
       .def_ro("by", &SeenFrame::by, "If occluded, the name of the frame in front; \"\" for something unknown.")
       .def("__repr__", [](const SeenFrame& f) { return cat("<SeenFrame ", f.str(), ">"); });
 }
@@ -411,10 +417,10 @@ void bindPerception(nb::module_& m) {
       .def_ro("warnings", &SeenScene::warnings, "Sentences about views without depth, doubtful cameras and overlaps.")
       .def("__repr__", [](const SeenScene& s) { return cat("<SeenScene\n", inPython(s.str()), ">"); });
   m.def("registerScene", registerFrames, "config"_a, "views"_a, "frames"_a, nb::kw_only(), "support"_a = nb::none(),
-        "search_radius"_a = RegisterOptions().search_radius,
+        "search_radius"_a = RegisterOptions().search_radius, "prior"_a = "last",
         nb::sig("def registerScene(config: Config, views: DepthView | collections.abc.Sequence[DepthView], frames: "
-                "collections.abc.Sequence[str], *, support: str | None = None, search_radius: float = 0.05) -> "
-                "SeenScene"),
+                "collections.abc.Sequence[str], *, support: str | None = None, search_radius: float = 0.05, "
+                "prior: str = 'last') -> SeenScene"),
         docs::perception::registerScene);
   bindOccupancyMap(m);
   bindSceneObserver(m);

@@ -25,8 +25,9 @@ inline constexpr char registerScene[] = R"(Moves frames to where depth images sh
 Each frame starts at its present pose. A robust fit minimizes the distances of measured points from the exact surfaces
 that face the camera. A thing on a support has x, y and the rotation about z as variables, a frame with a hinge or slide
 its dof, all others six directions. Measurements of the robot and other shapes of the scene are left out, and a point
-belongs to one thing only. Frames that are not seen keep their poses. The shape of a frame includes the frames that are
-fixed to it. Warnings of the result are also given as Python warnings.
+belongs to one thing only. Each of several things that look alike is taken to be the one that had to move least, in sum;
+`may_be` and a warning name those that may be confused. Frames that are not seen keep their poses. The shape of a frame
+has those of frames that are fixed to it. Warnings of the result are also given as Python warnings.
 
 Args:
     config: The scene. Frames that are seen are moved.
@@ -35,11 +36,14 @@ Args:
     support: The frame on whose top the things rest, or on level boxes below it, such as a tray; None: they may be
         anywhere. Frames with a joint of their own and frames in a hand never rest.
     search_radius: How far a thing may have moved since its last pose, m.
+    prior: "last": things are near their last poses. "anywhere": they rest anywhere on the support, on any stable face.
+        Frames with a joint are then looked for within its limits, frames in a hand near their last poses.
 Returns:
     A SeenScene with a SeenFrame for each frame.
 Raises:
     FrameNotFound: A frame, a camera or the support is unknown.
-    ArgumentError: There is no view, a view is invalid, a frame is listed twice or has no visible shape.)";
+    ArgumentError: There is no view, a view is invalid, a frame is listed twice or has no visible shape, `prior` is
+        another word, or "anywhere" without a support.)";
 
 inline constexpr char setCells[] = R"(Gives the frame the solid ones among equal cubes that fill a box, as an obstacle.
 

@@ -10,7 +10,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kFarthest = 50.;  // m; a median depth beyond is not in meters
+constexpr double kNearest = .005, kFarthest = 50.;  // m; a median depth beyond is not in meters
 
 }  // namespace
 
@@ -35,6 +35,7 @@ void DepthView::validate(const std::string& where) const {
   std::nth_element(measured.begin(), middle, measured.end());
   if (*middle > kFarthest)
     fail(cat("the median depth is ", *middle, " m. If depths are in millimeters, pass unit=0.001"));
+  if (*middle < kNearest) fail(cat("the median depth is ", *middle, " m. If depths are in meters, pass unit=1"));
 }
 
 Pose DepthView::cameraPose(const Config& config) const {

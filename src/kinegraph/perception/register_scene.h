@@ -33,6 +33,7 @@ enum class SeenStatus {
   occluded,     ///< something is in front of it
   not_in_view,  ///< it is outside of all images, or nothing was measured
   not_there,    ///< the cameras looked through its place
+  not_found,    ///< it is nowhere in the images, or too little of it: only with Prior::anywhere
 };
 
 /// The enumerator's spelling: "not_there".
@@ -49,6 +50,9 @@ struct SeenFrame {
   double visible = 0.;  ///< the share of the surface, seen if it were alone, that the cameras measured
   double score = 0.;    ///< 1: all measurements at its surface agree; below 0: it is not there
   std::string by;       ///< occluded: the frame in front of it; "" for something unknown
+  /// Other frames that look alike and may be the one seen here, while this one is at their place or not seen. Nothing
+  /// but the distances from the last poses tells them apart.
+  std::vector<std::string> may_be = {};
 
   std::string str() const;
 };
@@ -61,6 +65,15 @@ struct SeenScene {
   std::string str() const;
 };
 
+/// The knowledge of the places of things.
+enum class Prior {
+  last,      ///< they are within `search_radius` of their last poses
+  anywhere,  ///< nothing: they rest anywhere on the support, on any stable face
+};
+
+/// Reads "last" or "anywhere". Throws ValueError for another name.
+Prior priorFromName(const std::string& name);
+
 struct RegisterOptions {
   /// The frame on whose top the things rest, or on the level boxes below it, such as a tray on a table; "": they may be
   /// anywhere in the air. Frames with a joint of their own and frames in a hand never rest.
@@ -68,7 +81,11 @@ struct RegisterOptions {
 
   double search_radius = .05;  ///< how far a thing may have moved since its last pose, m
 
-  /// Throws ValueError for an invalid radius.
+  /// With `anywhere`, `support` is required. Frames with a joint are looked for within its limits, frames in a hand
+  /// near their last poses.
+  Prior prior = Prior::last;
+
+  /// Throws ValueError for an invalid radius, and for `anywhere` without a support.
   void validate() const;
 };
 
@@ -77,7 +94,9 @@ struct RegisterOptions {
 /// Each frame starts at its present pose. A robust fit minimizes the distances of measured points from the exact
 /// surfaces that face the camera. A thing on a support has x, y and the rotation about z as variables, a frame with a
 /// hinge or slide its dof, all others six directions. Measurements of the robot and other shapes of the scene are left
-/// out, and a point belongs to one thing only. Frames that are not seen keep their poses. Deterministic.
+/// out, and a point belongs to one thing only. Of things that look alike, each is taken to be the one that had to move
+/// least in sum; `may_be` and a warning name those that may be confused. Frames that are not seen keep their poses.
+/// Deterministic.
 ///
 /// Throws FrameNotFound, and ValueError for invalid views and frames without a visible shape; the scene is then
 /// unchanged.

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/perception/register_scene.h"
 
@@ -13,9 +14,17 @@ std::string seenStatusName(SeenStatus status) {
       return "occluded";
     case SeenStatus::not_in_view:
       return "not_in_view";
-    default:
+    case SeenStatus::not_there:
       return "not_there";
+    default:
+      return "not_found";
   }
+}
+
+Prior priorFromName(const std::string& name) {
+  if (name == "last") return Prior::last;
+  if (name == "anywhere") return Prior::anywhere;
+  throw ValueError(cat("registerScene: prior is '", name, "'; expected 'last' or 'anywhere'"));
 }
 
 std::string SeenFrame::str() const {
@@ -27,6 +36,7 @@ std::string SeenFrame::str() const {
     if (free_directions.rows() > 0) text += cat(", ", free_directions.rows(), " free directions");
     if (!alternatives.empty()) text += cat(", ", alternatives.size(), " alternatives");
   }
+  if (!may_be.empty()) text += cat(", may be exchanged with '", join(may_be, "', '"), "'");
   return text;
 }
 

@@ -156,3 +156,40 @@ def test_unknown_frames_and_an_empty_view_are_told(scene):
     assert seen["box"].status == ry.SeenStatus.not_in_view
     with pytest.raises(ry.FrameNotFound, match="was not looked for"):
         seen["can"]
+
+
+def test_without_a_prior_things_are_found_anywhere_on_the_support(scene):
+    view = ry.DepthView(*look(scene), "cam")
+    truth = {name: scene.getFrame(name).getPose() for name in ("box", "can")}
+    for name in truth:
+        scene.getFrame(name).setPosition([3, 3, 3])
+    scene.addFrame("ball").setShape(ry.ST.sphere, [0.04]).setPosition([3, 4, 3])
+    seen = ry.registerScene(scene, view, ["box", "can", "ball"], support="table", prior="anywhere")
+    for name, pose in truth.items():
+        assert seen[name].pose[:3] == pytest.approx(pose[:3], abs=1e-3)
+    assert seen["ball"].status == ry.SeenStatus.not_found
+    assert seen.poses()["ball"] is None
+    with pytest.raises(ry.ArgumentError, match="'anywhere' without a support"):
+        ry.registerScene(scene, view, ["box"], prior="anywhere")
+    with pytest.raises(ry.ArgumentError, match="expected 'last' or 'anywhere'"):
+        ry.registerScene(scene, view, ["box"], support="table", prior="near")
+
+
+def test_equal_things_that_may_be_exchanged_are_named(scene):
+    scene.getFrame("can").setShape(ry.ST.ssBox, [0.06, 0.1, 0.08, 0.002]).setPosition([0.0, 0.05, 0.69])
+    view = ry.DepthView(*look(scene), "cam")
+    scene.getFrame("box").setPosition([0.07, 0.1, 0.69])
+    scene.getFrame("can").setPosition([0.05, -0.01, 0.69])
+    with pytest.warns(ry.KinegraphWarning, match="look alike and may be exchanged"):
+        seen = ry.registerScene(scene, view, ["box", "can"], support="table", search_radius=0.1)
+    assert seen["box"].may_be == ["can"] and seen["can"].may_be == ["box"]
+    assert seen["box"].pose[0] == pytest.approx(0.12, abs=1e-3)
+    assert "may be exchanged with 'can'" in repr(seen["box"])
+
+
+def test_a_camera_upside_down_and_a_wrong_unit_are_told(scene):
+    depth, fxycxy = look(scene)
+    with pytest.warns(ry.KinegraphWarning, match="looks through .* of the surface of 'table'"):
+        ry.registerScene(scene, ry.DepthView(depth[::-1, ::-1], fxycxy, "cam"), ["box"], support="table")
+    with pytest.raises(ry.ArgumentError, match="pass unit=1"):
+        ry.DepthView(depth, fxycxy, "cam", unit=0.001)
