@@ -161,6 +161,7 @@ CASES = {
     "FrameDeleted": [(ry.FrameDeleted, deleted)],
     "FileError": [
         (ry.FileError, lambda C: C.addFile("nope.g")),
+        (ry.FileError, file("cup.obj", "v 0 0 0\n")),
         (ry.FileError, lambda C: ry.robotPath("pandda")),
         (ry.FileError, lambda C: ry.CommandLog.load("nothing.log")),
     ],

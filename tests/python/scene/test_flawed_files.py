@@ -406,3 +406,25 @@ def test_settings_of_mujoco_without_a_counterpart_are_told(more: str, told: str,
     geom = '<geom type="mesh" mesh="m" mass="1"/>' if "asset" in more else '<geom size=".1"/>'
     with pytest.warns(ry.KinegraphWarning, match=rf"m.xml:1:\d+: .*{told}"):
         mjcf(tmp_path, f'<body name="b"><joint/>{geom}</body>', more)
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("cup.OBJ", "is a mesh; scenes are .* setMeshFile"),
+        ("room.sdf", "is SDFormat, .* Convert it to URDF"),
+        ("room.usda", "is USD, .* Convert it to MJCF or URDF"),
+        ("arm.mjb", "is a compiled model of MuJoCo, .* load the .xml file"),
+    ],
+)
+def test_files_of_other_kinds_are_named(name: str, told: str, tmp_path: Path) -> None:
+    (tmp_path / name).write_text(TETRAHEDRON)
+    C = ry.Config()
+    with pytest.raises(ry.FileError, match=f"{name}' {told}"):
+        C.addFile(tmp_path / name)
+    with pytest.raises(ry.FileError, match="does not exist"):
+        C.addFile(f"no{name}")
+    (tmp_path / "scene.g").write_text(f"a: {{ shape: box, size: [1 1 1] }}\nInclude: <{name}>\n")
+    with pytest.raises(ry.ParseError, match=f"scene.g:2:.*{name}' {told}"):
+        C.addFile(tmp_path / "scene.g")
+    assert C.getFrameNames() == []

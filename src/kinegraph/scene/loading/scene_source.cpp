@@ -22,6 +22,21 @@ namespace {
 // Limits for all files of one scene together, against runaway includes.
 constexpr std::size_t kMaxNesting = 50, kMaxFiles = 2000, kMaxBytes = std::size_t(64) << 20;
 
+/// Returns why a file with an extension of meshes or of other programs is no scene, as the end of a sentence, or "".
+std::string noSceneFile(const std::string& extension) {
+  static const std::set<std::string> meshes{".obj", ".stl", ".dae", ".ply", ".glb", ".gltf", ".msh", ".off"};
+  const char* const scenes = "scenes are .g, .urdf, .xacro and .xml (MJCF) files";
+  if (meshes.contains(extension))
+    return cat("is a mesh; ", scenes,
+               ". A frame shows it by setMeshFile, or by the attribute mesh: <file> in a .g file");
+  if (extension == ".sdf" || extension == ".world")
+    return cat("is SDFormat, which is not read; ", scenes, ". Convert it to URDF");
+  if (extension.starts_with(".usd")) return cat("is USD, which is not read; ", scenes, ". Convert it to MJCF or URDF");
+  if (extension == ".mjb")
+    return "is a compiled model of MuJoCo, which is not read; load the .xml file (MJCF) that it was made of";
+  return "";
+}
+
 /// Reads scene files one after the other and applies their special keys.
 class SourceReader {
  public:
@@ -47,6 +62,8 @@ class SourceReader {
       return refuse(cat("scene file '", path, "' ", fs::exists(absolute, error) ? "is not a file" : "does not exist",
                         similarFilesHint(absolute.string()), shippedFilesHint(given)));
     }
+    if (const std::string otherwise = noSceneFile(lowerExtension(path)); !otherwise.empty())
+      return refuse(cat("'", path, "' ", otherwise));
     if (std::find(open_.begin(), open_.end(), absolute.string()) != open_.end())
       return refuse(cat("'", path, "' includes itself"));
     if (open_.size() == kMaxNesting) return refuse(cat("files are included deeper than ", kMaxNesting, " levels"));
