@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <numeric>
+#include <optional>
 
 using namespace kinegraph;
 using Weights = Eigen::Matrix<double, 10, 1>;
@@ -58,7 +59,7 @@ std::vector<Episode> play(SimulationBatch& batch, const std::vector<Weights>& we
     q.row(i) = starts[i].finger.head<2>().transpose();
     poses.row(i) << starts[i].box.x(), starts[i].box.y(), .03, 1, 0, 0, 0;
   }
-  batch.place({}, q, poses);
+  batch.place(std::nullopt, q, poses);
   std::vector<Episode> episodes(count);
   for (int step = 0; step < kSteps; ++step) {
     for (int i = 0; i < count; ++i) {

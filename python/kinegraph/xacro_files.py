@@ -42,6 +42,7 @@ def expand(path: str, arguments: Mapping[str, str]) -> str:
         said = io.StringIO()  # xacro prints the file and the macro of an error
         try:
             xacro.init_stacks(path)  # relative includes
+            xacro.all_includes.clear()  # of files loaded before
             with redirect_stderr(said):
                 doc = xacrodoc.XacroDoc.from_file(path, subargs=dict(arguments), resolve_packages=False)
             break

@@ -6,6 +6,8 @@ import warnings
 from collections.abc import Sequence
 from typing import Any
 
+import numpy as np
+
 import kinegraph
 from kinegraph import Frame, FrameNotFound, KinegraphWarning
 
@@ -85,8 +87,9 @@ class Config(kinegraph.Config):
             ArgumentError: X has another number of frames, or invalid quaternions.
         """
         if isinstance(X, kinegraph.Config):
-            X = X.getFrameState()[: self.getFrameDimension()]  # frames of mode switches come last
-        super().setFrameState(X, [*frames])
+            poses = X.getFrameState()[: self.getFrameDimension()]  # frames of mode switches come last
+            X = np.array([X.getFrame(name).getPose() for name in frames]) if frames else poses
+        super().setFrameState(X, frames)
 
     def simulation(self, engine: Any = kinegraph.SimulationEngine.physx, verbose: int = 2) -> Any:
         """Returns a simulation of this scene, like Simulation(C, engine, verbose), as in scripts for libry.

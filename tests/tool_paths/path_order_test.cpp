@@ -68,6 +68,10 @@ TEST(PathOrder, LeavesOutVariantsThatNoTransferLeadsTo) {
   EXPECT_EQ(sequence.transfers.size(), 2u);
   EXPECT_LE(calls, 6);
   EXPECT_FALSE(orderWithTransfers({{variant(0, 1., 9.)}}, false, from, limits, plan).feasible);
+  for (const bool free_order : {false, true}) {  // a wall between the two
+    EXPECT_FALSE(
+        orderWithTransfers({{variant(0, 1., 0.)}, {variant(0, 2., 9.)}}, free_order, from, limits, plan).feasible);
+  }
 }
 
 }  // namespace

@@ -15,9 +15,17 @@ namespace {
 
 using Batch = SimulationBatch;
 
-std::optional<std::vector<int>> environmentList(const std::optional<Numbers>& given) {
-  if (!given) return std::nullopt;
-  return std::vector<int>(given->values.begin(), given->values.end());
+/// Indices; a mask of booleans is refused, as its numbers would be indices.
+std::vector<int> environmentList(const nb::handle given, const char* call) {
+  const std::string what = "expected indices of environments, or None for all";
+  if (nb::hasattr(given, "dtype") && nb::cast<std::string>(given.attr("dtype").attr("kind")) == "b")
+    throw ValueError(cat(call, ": environments is a mask; ", what, ": np.flatnonzero(mask)"));
+  Numbers numbers;
+  if (!readNumbers(given, numbers)) throw nb::type_error(cat(call, ": environments has no numbers; ", what).c_str());
+  for (const double number : numbers.values) {
+    if (number != std::floor(number)) throw ValueError(cat(call, ": environments has ", number, "; ", what));
+  }
+  return {numbers.values.begin(), numbers.values.end()};
 }
 
 /// Expands one number to all environments, or checks one per environment.
@@ -51,9 +59,16 @@ MatrixXd posesOf(const Batch& batch, const Numbers& given, std::size_t rows) {
       given.values.data(), long(rows), long(columns));
 }
 
-void place(Batch& batch, const std::optional<Numbers>& ids, const Numbers& q, const Numbers& poses) {
-  const std::optional<std::vector<int>> list = environmentList(ids);
-  batch.place(list, q.matrix(), posesOf(batch, poses, list ? list->size() : std::size_t(batch.size())));
+void reset(Batch& batch, const nb::object& environments) {
+  if (environments.is_none()) return batch.reset();
+  batch.reset(environmentList(environments, "SimulationBatch.reset"));
+}
+
+void place(Batch& batch, const nb::object& environments, const Numbers& q, const Numbers& poses) {
+  if (environments.is_none())
+    return batch.place(std::nullopt, q.matrix(), posesOf(batch, poses, std::size_t(batch.size())));
+  const std::vector<int> list = environmentList(environments, "SimulationBatch.place");
+  batch.place(list, q.matrix(), posesOf(batch, poses, list.size()));
 }
 
 }  // namespace
@@ -88,10 +103,13 @@ void bindSimulationBatch(nb::module_& m) {
       .def("freeFrames", &Batch::freeFrames, "Names of the free frames.")
       .def("getState", &Batch::getState, "environment"_a, docs::simulation_batch::getState)
       .def("setState", &Batch::setState, "environment"_a, "state"_a, docs::simulation_batch::setState)
-      .def(
-          "reset", [](Batch& b, const std::optional<Numbers>& ids) { b.reset(environmentList(ids)); },
-          "environments"_a = nb::none(), docs::simulation_batch::reset)
-      .def("place", place, "environments"_a.none(), "q"_a, "freePos"_a = nb::list(), docs::simulation_batch::place)
+      .def("reset", reset, "environments"_a = nb::none(),
+           nb::sig("def reset(self, environments: numpy.typing.ArrayLike | None = None) -> None"),
+           docs::simulation_batch::reset)
+      .def("place", place, "environments"_a.none(), "q"_a, "freePos"_a = nb::list(),
+           nb::sig("def place(self, environments: numpy.typing.ArrayLike | None, q: numpy.typing.ArrayLike, "
+                   "freePos: numpy.typing.ArrayLike = ...) -> None"),
+           docs::simulation_batch::place)
       .def(
           "closeGrippers",
           [](Batch& b, const std::string& frame, const Numbers& widths, double speed, double force) {

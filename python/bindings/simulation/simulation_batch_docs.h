@@ -53,14 +53,14 @@ Raises:
 inline constexpr char reset[] = R"(Resets environments to the initial Config.
 
 Args:
-    environments: Their indices; all for None.
+    environments: Their indices, such as np.flatnonzero(done); all for None.
 Raises:
     ArgumentError: There is no such environment.)";
 
 inline constexpr char place[] = R"(Sets joints and free frames, at rest. Motors hold the new joint values.
 
 Args:
-    environments: Their indices; all for None.
+    environments: Their indices, such as np.flatnonzero(done); all for None.
     q: (K, n), one joint state per environment.
     freePos: (K, F, 7), poses of the free frames; if empty, they do not change.
 Raises:

@@ -22,7 +22,7 @@ constexpr Seconds kPatience(5.);                         ///< without a browser;
 constexpr Seconds kMeasure(.25);                         ///< averaging window of the real-time factor
 constexpr Seconds kMaxDelay(.05);                        ///< larger delays are not caught up
 constexpr double kAftermath = 1.;                        ///< s after an edit or a pull in which its effects are bounded
-constexpr double kBeyond = .05;                          ///< rad or m by which they may move a joint beyond its limits
+constexpr double kBeyondLimits = .05;                    ///< rad or m by which they may move a joint beyond its limits
 constexpr double kMostOfVelocity = 10., kFastest = 50.;  ///< times a joint's limit; rad/s or m/s
 constexpr int kEscapeKey = 27;
 
@@ -62,7 +62,7 @@ bool SimulationView::mayStep(Simulation& simulation) {
   }
   changed = perturb(simulation, requests.perturbation) || changed;
   const double aftermath = simulation.get_t() + kAftermath;  // resetTime may have set back the time
-  disturbed_until_ = changed || simulation.getPerturbation() ? aftermath : std::min(disturbed_until_, aftermath);
+  disturbed_until_ = changed || perturbation_ ? aftermath : std::min(disturbed_until_, aftermath);
   const bool pauses = requests.paused && viewer_->waits() && isWatched(), waits = pauses && requests.steps == 0;
   if (requests.paused && !pauses) viewer_->server().endRunRequests();
   if (std::exchange(is_paused_, pauses) != pauses) {
@@ -113,8 +113,8 @@ bool SimulationView::isBeyondLimits(const Simulation& simulation) const {
   const Config config(simulation.config().scene());
   const MatrixXd limits = config.getJointLimits();
   const VectorXd q = simulation.get_q(), fastest = (kMostOfVelocity * getVelocityLimits(config)).cwiseMin(kFastest);
-  return (q.array() < limits.row(0).transpose().array() - kBeyond).any() ||
-         (q.array() > limits.row(1).transpose().array() + kBeyond).any() ||
+  return (q.array() < limits.row(0).transpose().array() - kBeyondLimits).any() ||
+         (q.array() > limits.row(1).transpose().array() + kBeyondLimits).any() ||
          (simulation.get_qDot().array().abs() > fastest.array()).any();
 }
 

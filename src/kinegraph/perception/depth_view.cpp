@@ -10,7 +10,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kNearest = .005, kFarthest = 50.;  // m; a median depth beyond is not in meters
+constexpr double kNearest = .005, kFarthest = 50.;  // m; another median depth is not in meters
 
 }  // namespace
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <optional>
 
@@ -14,6 +13,47 @@ constexpr double kSameSize = .004;     // m, of the farthest points from the mid
 constexpr double kSureMisfit = .5;     // a thing that fits the points so much worse is another one
 constexpr double kMisfitWeight = 20.;  // number of independent points
 constexpr double kClearRatio = .25;    // of squared movements
+
+constexpr double kImpossible = 1e9;
+
+/// Returns a column for each row, each at most once, with the least sum of entries. There are at least as many columns.
+/// Source: Jonker & Volgenant, A shortest augmenting path algorithm for linear assignment problems, 1987.
+std::vector<int> leastAssignment(const MatrixXd& costs) {
+  const int rows = int(costs.rows()), columns = int(costs.cols());
+  VectorXd of_row = VectorXd::Zero(rows), of_column = VectorXd::Zero(columns);  // dual prices
+  std::vector<int> row_of(std::size_t(columns), -1), column_of(std::size_t(rows), -1);
+  for (int first = 0; first < rows; ++first) {
+    VectorXd distance = VectorXd::Constant(columns, std::numeric_limits<double>::infinity());
+    std::vector<int> before(std::size_t(columns), -1);  // the column before, on the shortest path to a column
+    std::vector<char> done(std::size_t(columns), 0);
+    int row = first, last = -1;
+    for (double length = 0.; row >= 0;) {
+      int nearest = -1;
+      for (int k = 0; k < columns; ++k) {
+        if (done[std::size_t(k)]) continue;
+        const double through = length + costs(row, k) - of_row[row] - of_column[k];
+        if (through < distance[k]) distance[k] = through, before[std::size_t(k)] = last;
+        if (nearest < 0 || distance[k] < distance[nearest]) nearest = k;
+      }
+      last = nearest;
+      length = distance[last];
+      done[std::size_t(last)] = 1;
+      row = row_of[std::size_t(last)];
+    }
+    of_row[first] += distance[last];
+    for (int k = 0; k < columns; ++k) {
+      if (!done[std::size_t(k)] || k == last) continue;
+      of_row[row_of[std::size_t(k)]] += distance[last] - distance[k];
+      of_column[k] -= distance[last] - distance[k];
+    }
+    for (int k = last; k >= 0; k = before[std::size_t(k)]) {
+      const int previous = before[std::size_t(k)];
+      row_of[std::size_t(k)] = previous < 0 ? first : row_of[std::size_t(previous)];
+      column_of[std::size_t(row_of[std::size_t(k)])] = k;
+    }
+  }
+  return column_of;
+}
 
 /// The poses in which things may be seen at the places of others.
 class LookAlikes {
@@ -61,38 +101,17 @@ class LookAlikes {
 
   /// The things at each place, -1 for places of things that are not seen.
   std::vector<int> assign() const {
-    std::vector<int> best, now(things_.size(), -1);
-    double least = std::numeric_limits<double>::infinity();
-    std::vector<bool> used(things_.size(), false);
-    std::vector<double> rest(things_.size() + 1, 0.);  // a lower bound of what the places from here on add
-    for (int place = count() - 1; place >= 0; --place) {
-      double nearest = std::numeric_limits<double>::infinity();
-      for (int k = 0; k < count(); ++k) nearest = std::min(nearest, cost(place, k));
-      rest[std::size_t(place)] = rest[std::size_t(place) + 1] + (std::isfinite(nearest) ? nearest : 0.);
+    std::vector<int> places, at(things_.size(), -1);
+    for (int place = 0; place < count(); ++place) {
+      if (is_seen_[std::size_t(place)]) places.push_back(place);
     }
-    const std::function<void(int, double)> next = [&](int place, double sum) {
-      if (sum + rest[std::size_t(place)] >= least) return;
-      if (place == count()) {
-        least = sum;
-        best = now;
-        return;
-      }
-      if (!is_seen_[std::size_t(place)]) return next(place + 1, sum);
-      std::vector<std::pair<double, int>> choices;
-      for (int k = 0; k < count(); ++k) {
-        if (!used[std::size_t(k)] && pose(place, k)) choices.emplace_back(cost(place, k), k);
-      }
-      std::sort(choices.begin(), choices.end());
-      for (const auto& [added, k] : choices) {
-        used[std::size_t(k)] = true;
-        now[std::size_t(place)] = k;
-        next(place + 1, sum + added);
-        used[std::size_t(k)] = false;
-      }
-      now[std::size_t(place)] = -1;
-    };
-    next(0, 0.);
-    return best;
+    MatrixXd costs(Eigen::Index(places.size()), count());
+    for (Eigen::Index i = 0; i < costs.rows(); ++i) {
+      for (int k = 0; k < count(); ++k) costs(i, k) = std::min(kImpossible, cost(places[std::size_t(i)], k));
+    }
+    const std::vector<int> least = leastAssignment(costs);
+    for (std::size_t i = 0; i < places.size(); ++i) at[std::size_t(places[i])] = least[i];
+    return at;
   }
 
  private:

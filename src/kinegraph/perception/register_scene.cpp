@@ -49,6 +49,29 @@ SeenStatus statusOf(const SurfaceCounts& counts, double score) {
   return counts.none == counts.inView() ? SeenStatus::not_in_view : SeenStatus::occluded;
 }
 
+/// `is_taken`: another thing is where this one was found. The last pose of a thing that may be anywhere tells nothing.
+SeenStatus statusOf(const Thing& thing, const SurfaceCounts& counts, bool is_taken) {
+  if (thing.is_lost) return SeenStatus::not_found;
+  const SeenStatus status = statusOf(counts, counts.score());
+  if (status == SeenStatus::seen && !is_taken) return status;
+  if (thing.anywhere) return SeenStatus::not_found;
+  return status == SeenStatus::seen ? SeenStatus::not_there : status;
+}
+
+/// Sets the pose of a seen thing, its covariance and its alternatives.
+void describePose(const std::vector<Thing>& things, std::size_t index, const Registration& registration,
+                  const std::vector<int>& owners, const std::vector<ObservedView>& views, SeenFrame& result) {
+  const Thing& thing = things[index];
+  result.pose = Pose(thing.best.X).canonical();
+  int thinning = 1;
+  const FitPoints near = registration.pointsNear(thing, int(index), owners, thing.best.X.p, thing.shape.radius() + .02,
+                                                 kFinePoints, &thinning);
+  PoseCertainty certainty = poseCertainty(thing.shape, thing.freedom, near.measured, thinning, views, thing.best.X);
+  result.covariance = std::move(certainty.covariance);
+  result.free_directions = std::move(certainty.free_directions);
+  for (const PoseCandidate& other : thing.others) result.alternatives.push_back(Pose(other.X).canonical());
+}
+
 /// The frame whose shape explains most of the points in front of a thing.
 std::string whatIsBefore(const std::vector<Vector3d>& points, const std::vector<Thing>& things, std::size_t own,
                          const std::vector<KnownShape>& known, const Config& config) {
@@ -156,7 +179,7 @@ std::vector<Thing> thingsOf(const Config& config, const std::vector<std::string>
       if (freedom.hasJoint() && std::isfinite(range))
         thing.search = freedom.kind == PoseFreedom::Kind::sliding ? range : 2. * thing.shape.radius();
     }
-    if (support) {
+    if (support && freedom.kind == PoseFreedom::Kind::resting) {
       const double reach = thing.is_lost ? kAnyPlace : thing.shape.radius() + thing.search;
       thing.heights = heightsUnder(frame, config.getFrame(support->name), support->height, reach, listed);
     }
@@ -179,14 +202,17 @@ std::vector<SearchBall> searchBalls(const std::vector<Thing>& things, const Supp
   return balls;
 }
 
-/// Leaves out points that are not above the support, if there are lost things.
-void keepAboveSupport(const Support& support, std::vector<ObservedPoint>& points) {
+/// Leaves out points that are neither above the support nor near a thing whose place is known.
+void keepPlausible(const Support& support, const std::vector<Thing>& things, std::vector<ObservedPoint>& points) {
   constexpr double kBeside = .05;  // m
   Eigen::AlignedBox3d box;
   for (const Vector3d& sample : support.shape.samples()) box.extend(support.X * sample);
   std::erase_if(points, [&](const ObservedPoint& point) {
-    return (point.p.head<2>() - box.min().head<2>()).minCoeff() < -kBeside ||
-           (box.max().head<2>() - point.p.head<2>()).minCoeff() < -kBeside;
+    const bool is_beside = (point.p.head<2>() - box.min().head<2>()).minCoeff() < -kBeside ||
+                           (box.max().head<2>() - point.p.head<2>()).minCoeff() < -kBeside;
+    return is_beside && std::none_of(things.begin(), things.end(), [&](const Thing& thing) {
+             return !thing.is_lost && (point.p - thing.last.p).norm() < thing.shape.radius() + 2. * thing.search;
+           });
   });
 }
 
@@ -231,21 +257,17 @@ SeenScene registerScene(Config& config, std::span<const DepthView> given, const 
   SeenScene seen;
   warnOfViews(views, on, seen.warnings);
   const bool anywhere = options.prior == Prior::anywhere;
-  if (anywhere) keepAboveSupport(*support, points);
+  if (anywhere) keepPlausible(*support, things, points);
   Registration registration(things, views, points);
   registration.run();
   if (anywhere) registration.findLost();
 
-  const auto statusOfThing = [&](const Thing& thing, const SurfaceCounts& counts) {
-    if (thing.is_lost) return SeenStatus::not_found;
-    const SeenStatus status = statusOf(counts, counts.score());
-    return thing.is_displaced && status == SeenStatus::seen ? SeenStatus::not_there : status;
-  };
   const auto countsOf = [&](const Thing& thing) {
     return countSurface(thing.shape, thing.best.X, views, int(thing.shape.samples().size()), true);
   };
   std::vector<bool> is_seen;
-  for (const Thing& thing : things) is_seen.push_back(statusOfThing(thing, countsOf(thing)) == SeenStatus::seen);
+  for (const Thing& thing : things)
+    is_seen.push_back(statusOf(thing, countsOf(thing), thing.is_displaced) == SeenStatus::seen);
   std::vector<std::pair<int, int>> unclear;
   const std::vector<std::vector<int>> may_be = tellApart(things, registration, anywhere, is_seen, unclear);
   const std::vector<int> owners = registration.ownersOfPoints();
@@ -255,22 +277,13 @@ SeenScene registerScene(Config& config, std::span<const DepthView> given, const 
     SeenFrame result;
     result.score = counts.score();
     result.visible = double(counts.agree) / std::max(1, counts.total());
-    result.status = is_seen[i] ? SeenStatus::seen : statusOfThing(thing, counts);
-    if (result.status == SeenStatus::seen && !is_seen[i]) result.status = SeenStatus::not_there;
+    result.status = is_seen[i] ? SeenStatus::seen : statusOf(thing, counts, true);
     result.pose = Pose(thing.last);
     for (const int other : may_be[i]) result.may_be.push_back(things[std::size_t(other)].name);
-    if (result.status == SeenStatus::seen) {
-      result.pose = Pose(thing.best.X).canonical();
-      int thinning = 1;
-      const FitPoints near = registration.pointsNear(thing, int(i), owners, thing.best.X.p, thing.shape.radius() + .02,
-                                                     kFinePoints, &thinning);
-      PoseCertainty certainty = poseCertainty(thing.shape, thing.freedom, near.measured, thinning, views, thing.best.X);
-      result.covariance = std::move(certainty.covariance);
-      result.free_directions = std::move(certainty.free_directions);
-      for (const PoseCandidate& other : thing.others) result.alternatives.push_back(Pose(other.X).canonical());
-    } else {
+    if (is_seen[i])
+      describePose(things, i, registration, owners, views, result);
+    else
       thing.score = -2.;
-    }
     if (result.status == SeenStatus::occluded) result.by = whatIsBefore(counts.before, things, i, known, config);
     seen.frames[thing.name] = std::move(result);
   }

@@ -21,7 +21,7 @@ struct DepthView {
   double bias = .0019;                 ///< the same for an error that all pixels of an object share, 1/m
 
   /// Throws ValueError for an image of another size, for a center outside of it, focal lengths that do not fit, depths
-  /// that look like millimeters, and invalid poses. `where` names the view.
+  /// whose median is not that of meters, and invalid poses. `where` names the view.
   void validate(const std::string& where) const;
 
   /// The camera's pose in the world; throws FrameNotFound for an unknown frame.

@@ -227,13 +227,15 @@ class SimulationBatch {
   SimulationState getState(int environment) const;
   void setState(int environment, const SimulationState& state);
 
-  /// Resets environments (all if not given) to the initial Config. This and all calls below throw ValueError for
-  /// unknown environments.
-  void reset(const std::optional<std::vector<int>>& environments = std::nullopt);
+  /// Resets all environments, or some, to the initial Config. This and all calls below throw ValueError for unknown
+  /// environments.
+  void reset();
+  void reset(const std::vector<int>& environments);
 
-  /// Sets joints (a row of `q` each) and free frames (a row of `poses`, 7F; empty: unchanged) of environments (all for
-  /// nullopt), at rest.
-  void place(const std::optional<std::vector<int>>& environments, const MatrixXd& q, const MatrixXd& poses = {});
+  /// Sets joints (a row of `q` each) and free frames (a row of `poses`, 7F; empty: unchanged) of all environments
+  /// (std::nullopt), or of some, at rest.
+  void place(std::nullopt_t all, const MatrixXd& q, const MatrixXd& poses = {});
+  void place(const std::vector<int>& environments, const MatrixXd& q, const MatrixXd& poses = {});
 
   /// Like Simulation::closeGripper, with a width (m) per environment.
   void closeGrippers(const std::string& gripper, const VectorXd& widths, double speed = .3, double force = 20.);

@@ -22,16 +22,16 @@ struct SimulationBatch::Impl {
   World& world(int i) const { return *environments[std::size_t(i)]->impl_->world; }
   const Simulation::Impl& first() const { return *environments.front()->impl_; }
 
-  /// Returns the given environments, or all without a list.
-  std::vector<int> chosen(const std::optional<std::vector<int>>& numbers, const char* call) const {
-    for (const int i : numbers.value_or(std::vector<int>())) {
+  void check(const std::vector<int>& numbers, const char* call) const {
+    for (const int i : numbers) {
       if (i < 0 || i >= int(environments.size()))
         throw ValueError(cat(call, ": there is no environment ", i, "; they are 0 to ", environments.size() - 1));
     }
-    if (numbers) return *numbers;
-    std::vector<int> all(environments.size());
-    std::iota(all.begin(), all.end(), 0);
-    return all;
+  }
+  std::vector<int> all() const {
+    std::vector<int> numbers(environments.size());
+    std::iota(numbers.begin(), numbers.end(), 0);
+    return numbers;
   }
   void checkSize(const char* call, const char* what, const VectorXd& values, double minimum, bool inclusive) const {
     if (values.size() != long(environments.size()))
@@ -145,25 +145,29 @@ MatrixXd SimulationBatch::freeVelocities() const {
 }
 
 SimulationState SimulationBatch::getState(int environment) const {
-  impl_->chosen({{environment}}, "SimulationBatch.getState");
+  impl_->check({environment}, "SimulationBatch.getState");
   return impl_->environments[std::size_t(environment)]->getState();
 }
 
 void SimulationBatch::setState(int environment, const SimulationState& state) {
-  impl_->chosen({{environment}}, "SimulationBatch.setState");
+  impl_->check({environment}, "SimulationBatch.setState");
   impl_->environments[std::size_t(environment)]->restore(state);
 }
 
-void SimulationBatch::reset(const std::optional<std::vector<int>>& environments) {
-  for (const int i : impl_->chosen(environments, "SimulationBatch.reset")) impl_->world(i).setState(impl_->start);
+void SimulationBatch::reset() { reset(impl_->all()); }
+
+void SimulationBatch::reset(const std::vector<int>& environments) {
+  impl_->check(environments, "SimulationBatch.reset");
+  for (const int i : environments) impl_->world(i).setState(impl_->start);
 }
 
-void SimulationBatch::place(const std::optional<std::vector<int>>& environments, const MatrixXd& q,
-                            const MatrixXd& poses) {
+void SimulationBatch::place(std::nullopt_t, const MatrixXd& q, const MatrixXd& poses) { place(impl_->all(), q, poses); }
+
+void SimulationBatch::place(const std::vector<int>& environments, const MatrixXd& q, const MatrixXd& poses) {
   const char* call = "SimulationBatch.place";
-  const std::vector<int> chosen = impl_->chosen(environments, call);
-  if (chosen.empty()) return;
-  const auto rows = long(chosen.size());
+  impl_->check(environments, call);
+  if (environments.empty()) return;
+  const auto rows = long(environments.size());
   const auto free = long(impl_->world(0).scene().free_frames.size());
   if (q.rows() != rows || q.cols() != dofs() || !q.allFinite())
     throw ValueError(cat(call, ": q has shape (", q.rows(), ", ", q.cols(), "); expected finite numbers (", rows, ", ",
@@ -172,7 +176,7 @@ void SimulationBatch::place(const std::optional<std::vector<int>>& environments,
     throw ValueError(cat(call, ": poses has shape (", poses.rows(), ", ", poses.cols(), "); expected finite numbers (",
                          rows, ", ", 7 * free, ")"));
   for (long i = 0; i < rows; ++i) {
-    Simulation::Impl& s = *impl_->environments[std::size_t(chosen[std::size_t(i)])]->impl_;
+    Simulation::Impl& s = *impl_->environments[std::size_t(environments[std::size_t(i)])]->impl_;
     World& world = *s.world;
     s.setJoints(q.row(i).transpose(), nullptr);
     for (long f = 0; f < (poses.size() > 0 ? free : 0); ++f)

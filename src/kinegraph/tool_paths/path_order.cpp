@@ -11,8 +11,7 @@ namespace kinegraph {
 namespace {
 
 constexpr int kMaxImprovements = 200;
-constexpr int kMaxRounds = 12;               // orders whose transfers are planned
-constexpr double kSameConfiguration = 1e-6;  // rad or m
+constexpr int kMaxRounds = 12;  // orders whose transfers are planned
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// The best choice of variants for an order, and orders.
@@ -70,7 +69,7 @@ class OrderSearch {
                                         first_[std::size_t(order.back()) + 1] - first_[std::size_t(order.back())],
                                         first_[std::size_t(k) + 1] - first_[std::size_t(k)])
                                  .minCoeff();
-        if (least < best) best = least, next = k;
+        if (next < 0 || least < best) best = least, next = k;
       }
       order.push_back(next);
       done[std::size_t(next)] = 1;

@@ -29,7 +29,6 @@ constexpr double kIdle = .02, kMuchIdle = .03;          // share of the duration
 constexpr int kSolutionsPerPath = 3, kBranches = 8;     // for transfers and orders; the latter of arms without freedom
 constexpr std::int64_t kQuickEvaluations = 20000;       // for transfers between which there is a choice
 constexpr double kLeastTime = 1e-3;                     // s, of a transfer
-constexpr double kSamePosture = 1e-6;                   // rad or m: no transfer
 constexpr double kLeastTolerance = 1e-6, kLeastRotationTolerance = 4e-6;  // m and rad that splines of joints keep
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 constexpr const char* kPlanToolPath = "planToolPath";
@@ -252,7 +251,7 @@ class ToolPathPlanner {
     if (position > 0) from = last_;
     if (sequence.feasible) {
       if (sequence.transfers[position]) addTransfer(*sequence.transfers[position], path);
-    } else if (from && (start - *from).cwiseAbs().maxCoeff() >= kSamePosture) {
+    } else if (from && (start - *from).cwiseAbs().maxCoeff() >= kSameConfiguration) {
       transfer_.time_limit = timeLeft();
       const MotionPlan plan = planMotion(touching_, MotionGoal(start), transfer_, from, cancellation_);
       if (!plan.feasible() && isLate()) return failLate(path);

@@ -24,6 +24,12 @@ struct RowWord {
   int column;  ///< of its first character, from 1
 };
 
+std::optional<double> rowNumber(const RowWord& word) {
+  const char* rest = nullptr;
+  const double number = readNumber(word.text.c_str(), &rest);
+  return *rest == '\0' ? std::optional(number) : std::nullopt;
+}
+
 /// Splits a line, without a comment behind #, at commas or semicolons, and at spaces.
 std::vector<RowWord> rowWords(const std::string& all, const std::string& file, int number) {
   const std::string line = all.substr(0, all.find('#'));
@@ -41,18 +47,17 @@ std::vector<RowWord> rowWords(const std::string& all, const std::string& file, i
       throw ParseError({file, number, int(begin) + 1}, "the field is empty; expected a number");
     while (at < end) {
       const std::size_t after = std::min(line.find_first_of(" \t\r", at), end);
-      words.push_back({line.substr(at, after - at), int(at) + 1});
+      const RowWord word{line.substr(at, after - at), int(at) + 1};
+      const bool is_second = (has_commas || has_semicolons) && !words.empty() && words.back().column > int(begin);
+      if (is_second && rowNumber(word) && rowNumber(words.back()))
+        throw ParseError({file, number, word.column},
+                         "the field has two numbers; expected one separator, and points before decimals");
+      words.push_back(word);
       at = line.find_first_not_of(" \t\r", after);
     }
     begin = end + 1;
   }
   return words;
-}
-
-std::optional<double> rowNumber(const RowWord& word) {
-  const char* rest = nullptr;
-  const double number = readNumber(word.text.c_str(), &rest);
-  return *rest == '\0' ? std::optional(number) : std::nullopt;
 }
 
 /// Which column has each of the numbers x y z, and nx ny nz or qw qx qy qz; none if a name is not one of these.

@@ -16,7 +16,7 @@ constexpr double kTurnOfJoint = 2. * std::numbers::pi;
 constexpr double kRotationOfStep = .15;  // rad between places
 constexpr int kLeastIntervals = 4;       // between corners
 constexpr int kSeedSteps = 30, kFollowSteps = 6;
-constexpr double kSamePosture = .03;      // rad or m
+constexpr double kSameStrand = .03;       // rad or m
 constexpr double kLargestSurprise = .12;  // rad or m, between the extrapolation and the configuration
 constexpr double kLargestAdvance = .5;    // rad or m per step
 constexpr int kDivisionsOfStep = 7;
@@ -128,7 +128,7 @@ std::vector<StrandTracker::Seed> StrandTracker::seeds(int index, const std::vect
       if (tool_.isWide(j) && number >= 0) candidate.q[j] -= kTurnOfJoint * std::round(candidate.q[j] / kTurnOfJoint);
     const auto add = [&](const Seed& one) {
       const bool known = std::any_of(found.begin(), found.end(), [&](const Seed& other) {
-        return tool_.difference(other.q, one.q).cwiseAbs().maxCoeff() < kSamePosture;
+        return tool_.difference(other.q, one.q).cwiseAbs().maxCoeff() < kSameStrand;
       });
       if (!known) found.push_back(one);
     };

@@ -193,3 +193,45 @@ def test_a_camera_upside_down_and_a_wrong_unit_are_told(scene):
         ry.registerScene(scene, ry.DepthView(depth[::-1, ::-1], fxycxy, "cam"), ["box"], support="table")
     with pytest.raises(ry.ArgumentError, match="pass unit=1"):
         ry.DepthView(depth, fxycxy, "cam", unit=0.001)
+
+
+def test_things_beside_the_support_keep_their_prior(scene):
+    scene.addFrame("cabinet").setPosition([0.75, 0.05, 0.6])
+    drawer = scene.addFrame("drawer", "cabinet").setJoint(ry.JT.transX, [0.0, 0.2])
+    drawer.setShape(ry.ST.ssBox, [0.1, 0.2, 0.1, 0.004]).setJointState([0.08])
+    view = ry.DepthView(*look(scene), "cam")
+    truth = drawer.getPose()
+    drawer.setJointState([0.03])
+    seen = ry.registerScene(scene, view, ["drawer", "box"], support="table", prior="anywhere")
+    assert seen["drawer"].status == ry.SeenStatus.seen
+    assert seen["drawer"].pose == pytest.approx(truth, abs=2e-3)
+
+
+@pytest.mark.parametrize("names", [["box", "twin"], ["twin", "box"]])
+def test_of_equal_things_without_a_prior_one_is_not_found(scene, names):
+    view = ry.DepthView(*look(scene), "cam")
+    twin = scene.addFrame("twin").setShape(ry.ST.ssBox, [0.06, 0.1, 0.08, 0.002])
+    twin.setPosition([0.2, 0.1, 0.69])
+    scene.getFrame("box").setPosition([-0.3, -0.2, 0.69])
+    with pytest.warns(ry.KinegraphWarning, match="look alike"):
+        seen = ry.registerScene(scene, view, names, support="table", prior="anywhere")
+    assert {seen[name].status for name in names} == {ry.SeenStatus.seen, ry.SeenStatus.not_found}
+    assert seen["twin"].status == ry.SeenStatus.seen  # it moved less
+
+
+def test_many_equal_things_are_told_apart():
+    C = ry.Config()
+    C.addText("\n".join(line for line in SCENE.splitlines() if not line.startswith(("box", "can"))))
+    rng = np.random.default_rng(3)
+    places = [(0.11 * i - 0.33, 0.12 * j - 0.12) for i in range(7) for j in range(2)]
+    names = [f"cube{k}" for k in range(len(places))]
+    for name, (x, y) in zip(names, places, strict=True):
+        C.addFrame(name).setShape(ry.ST.ssBox, [0.05, 0.05, 0.05, 0.002]).setPosition([x, y, 0.675]).setContact(1)
+    view = ry.DepthView(*look(C), "cam")
+    truth = {name: C.getFrame(name).getPosition() for name in names}
+    for name in names:
+        C.getFrame(name).setPosition(truth[name] + [*rng.uniform(-0.02, 0.02, 2), 0])
+    with pytest.warns(ry.KinegraphWarning, match="look alike"):
+        seen = ry.registerScene(C, view, names, support="table", prior="anywhere")
+    for name in names:
+        assert seen[name].pose[:3] == pytest.approx(truth[name], abs=3e-3)

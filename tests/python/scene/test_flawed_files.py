@@ -192,6 +192,13 @@ def test_files_with_macros_load_with_their_arguments(tmp_path: Path) -> None:
     assert C.getFrameNames() == ["ur5e_base"]
     with pytest.raises(ry.FileError, match="has no xacro argument 'nmae'; it has: name"):
         C.addFile(tmp_path / "arm.urdf.xacro", xacro={"nmae": "ur5e"})
+    empty = (tmp_path / "part.xacro").read_text()
+    (tmp_path / "none.xacro").write_text(empty)
+    (tmp_path / "part.xacro").write_text(empty.replace("/>", '><xacro:arg name="speed" default="1"/></robot>'))
+    (tmp_path / "other.xacro").write_text(XACRO.replace("part.", "none."))
+    ry.Config().addFile(tmp_path / "arm.urdf.xacro", xacro={"speed": "2"})
+    with pytest.raises(ry.FileError, match="has no xacro argument 'speed'; it has: name"):
+        C.addFile(tmp_path / "other.xacro", xacro={"speed": "2"})
     assert C.getFrameNames() == ["ur5e_base"]
 
 

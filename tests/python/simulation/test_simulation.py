@@ -337,6 +337,11 @@ def test_environments_of_a_batch_are_simulations_at_any_number_of_threads():
     batch.reset([])  # such as np.flatnonzero(done) while none is done
     batch.place(np.empty(0, int), np.empty((0, len(C.getJointState()))))
     assert np.allclose(batch.times(), [0.25, 0.25, 0, 0.25])
+    with pytest.raises(ry.ArgumentError, match=r"environments is a mask; .*np.flatnonzero"):
+        batch.reset(np.array([True, False, False, True]))
+    with pytest.raises(ry.ArgumentError, match=r"environments has 0\.5; expected indices"):
+        batch.reset([0.5])
+    assert np.allclose(batch.times(), [0.25, 0.25, 0, 0.25])
     batch.reset()
     assert np.allclose(batch.times(), 0)
 

@@ -284,6 +284,8 @@ def test_rows_of_many_tables_are_the_same(scene, tmp_path, text):
     [
         ("0.1,0.2,O.3\n0,0,0\n0,0,1\n", r"1:9: 'O.3' is not a number"),  # a letter, and no column name
         ("0,4;0,1;0,15\n0,5;0,1;0,15\n", r"1:2: the row has commas and semicolons"),
+        ("0,5\t0,2\t0,1\n0,5\t0,2\t0,2\n", r"1:5: the field has two numbers"),
+        ("0,5 0,2 0,1\n0,5 0,2 0,2\n", r"1:5: the field has two numbers"),
         ("0,0,0\n0,,1\n", r"2:3: the field is empty"),
         ("x,y,z,rx,ry,rz\n0,0,0,0,0,0\n", r"1:7: the column 'rx' is an angle; expected a normal"),
         ("x,y,z\n0,0,0,1\n0,0,1,1\n", r"2:7: the row has 4 numbers"),
