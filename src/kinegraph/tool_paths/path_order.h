@@ -10,6 +10,8 @@
 
 namespace kinegraph {
 
+inline constexpr double kSameConfiguration = 1e-6;  // rad or m: no transfer between two configurations
+
 /// A way to do a path: a solution in one direction, with its first and last configuration.
 struct PathVariant {
   int solution = 0;
