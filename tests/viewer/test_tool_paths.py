@@ -40,9 +40,9 @@ while key not in (0, ord('q')):
     handle = (foot[0], foot[1] + 0.8 * (tip[1] - foot[1]))
     browser.drag(handle, (handle[0], handle[1] - 20))
     browser.wait_for(f"kinegraph.position('goal')[2] > {z} + 0.02")
-    there = browser.evaluate("kinegraph.position('goal')")
     browser.press("n")
     browser.wait_for("kinegraph.message().includes('plan 1: drag the goal')")
+    there = browser.evaluate("kinegraph.position('goal')")  # now that the last step of the drag has arrived
     browser.press("q")
     first, second, goal = (np.array(program.line(name).split(), float) for name in ("end0", "end1", "goal1"))
     assert np.abs(first - [x, y, z]).max() < 1e-4

@@ -76,8 +76,8 @@ void HorizonTrajectory::assign(std::span<const double> times, const Eigen::Ref<c
 void HorizonTrajectory::findVelocities(const Eigen::Ref<const VectorXd>& velocity) {
   const auto last = int(times_.size()) - 1;
   if (last < 0 || q_.cols() != last + 1 || velocity.size() != q_.rows())
-    throw ValueError(cat("HorizonTrajectory: got ", times_.size(), " times, q of shape (", q_.rows(), ", ", q_.cols(),
-                         ") and ", velocity.size(), " velocities; expected K >= 1 times, (n, K) and n"));
+    throw ValueError(cat("Mpc: got ", times_.size(), " times, q of shape (", q_.rows(), ", ", q_.cols(), ") and ",
+                         velocity.size(), " velocities; expected K >= 1 times, (n, K) and n"));
   velocity_.resize(q_.rows(), q_.cols());
   velocity_.col(0) = velocity;
   for (int k = 1; k <= last; ++k) {

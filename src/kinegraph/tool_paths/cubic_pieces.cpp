@@ -40,7 +40,7 @@ MatrixXd secondDerivatives(const std::vector<double>& s, const MatrixXd& y) {
 /// Throws unless the curve has the piece.
 void checkPiece(const CubicPieces& curve, int piece) {
   if (piece < 0 || piece >= curve.pieces() || curve.coefficient.size() != curve.begin.size())
-    throw ValueError(cat("CubicPieces: there is no piece ", piece, "; the curve has ", curve.pieces(), " pieces and ",
+    throw ValueError(cat("Trajectory: there is no piece ", piece, "; the curve has ", curve.pieces(), " pieces and ",
                          curve.coefficient.size(), " coefficient matrices"));
 }
 
