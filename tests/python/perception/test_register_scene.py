@@ -196,12 +196,13 @@ def test_a_camera_upside_down_and_a_wrong_unit_are_told(scene):
 
 
 def test_things_beside_the_support_keep_their_prior(scene):
-    scene.addFrame("cabinet").setPosition([0.75, 0.05, 0.6])
-    drawer = scene.addFrame("drawer", "cabinet").setJoint(ry.JT.transX, [0.0, 0.2])
-    drawer.setShape(ry.ST.ssBox, [0.1, 0.2, 0.1, 0.004]).setJointState([0.08])
+    scene.getFrame("table").setShape(ry.ST.ssBox, [0.5, 0.5, 0.1, 0.005])
+    scene.addFrame("cabinet").setPosition([0.32, 0.05, 0.7])
+    drawer = scene.addFrame("drawer", "cabinet").setJoint(ry.JT.transX, [0.0, 0.1])
+    drawer.setShape(ry.ST.ssBox, [0.08, 0.2, 0.1, 0.004]).setJointState([0.06])
     view = ry.DepthView(*look(scene), "cam")
     truth = drawer.getPose()
-    drawer.setJointState([0.03])
+    drawer.setJointState([0.02])
     seen = ry.registerScene(scene, view, ["drawer", "box"], support="table", prior="anywhere")
     assert seen["drawer"].status == ry.SeenStatus.seen
     assert seen["drawer"].pose == pytest.approx(truth, abs=2e-3)
