@@ -245,6 +245,7 @@ def test_robots_of_example_robot_data_are_found_by_name() -> None:
 
 INERTIAS = [
     ((0.0, 0.0, 0.0), "its inertia is zero although its mass is 2.5 kg; it is read as a point mass"),
+    ((-1e-20, 0.0, 1e-20), "its inertia is zero although its mass is 2.5 kg"),  # as iCub has, by rounding
     ((-0.1, 0.1, 0.1), "its inertia has a negative principal moment .*it is left out"),
     ((1.0, 0.01, 0.01), "its principal moments of inertia .* are impossible: one exceeds the sum of the other two"),
     ((0.1, 0.1, 0.1), ""),

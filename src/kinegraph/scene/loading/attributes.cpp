@@ -40,6 +40,7 @@ constexpr std::pair<std::string_view, std::string_view> kForeignNames[] = {
     {"quaternion", "pose"}, {"rgba", "color"},    {"rgb", "color"}, {"geometry", "shape"}, {"filename", "mesh"}};
 
 constexpr double kLeastJudgedMass = 1e-3;  ///< kg: markers in robot files have tiny masses and any inertia
+constexpr double kPointInertia = 1e-12;    // m^2, per mass: that of a body of a micrometer
 constexpr double kRounding = .01;          ///< share of the largest moment by which rounded numbers may miss the rule
 
 bool isKnown(const std::string& key) {
@@ -235,12 +236,13 @@ void AttributeReader::judgeInertia(const Node& node, Inertia& inertia, const Mat
   const Vector3d moments =
       Eigen::SelfAdjointEigenSolver<Matrix3d>(inertia.matrix, Eigen::EigenvaluesOnly).eigenvalues();
   const std::string listed = cat(moments[0], ", ", moments[1], ", ", moments[2], " kg m^2");
-  const double largest = moments[2];
-  if (moments[0] < -1e-6 * std::abs(largest)) {
+  const double largest = moments[2], rounding = kPointInertia * inertia.mass;
+  if (moments[0] < -std::max(1e-6 * std::abs(largest), rounding)) {
     inertia.matrix = otherwise;
     warning(node, cat("its inertia has a negative principal moment (", listed, "); it is left out, and the mass of ",
                       inertia.mass, " kg alone counts"));
-  } else if (largest <= 0.) {
+  } else if (largest <= rounding) {
+    inertia.matrix.setZero();
     warning(node, cat("its inertia is zero although its mass is ", inertia.mass,
                       " kg; it is read as a point mass at its center of mass, which MuJoCo refuses"));
   } else if (moments[0] + moments[1] < (1. - kRounding) * largest) {
