@@ -189,6 +189,12 @@ class Browser:
         """Returns the place of a point of the scene on the page: x and y."""
         return tuple(self.evaluate(f"kinegraph.pixel(...{json.dumps(list(point))})"))
 
+    def upper_handle(self, frame: str) -> tuple[float, float]:
+        """Returns the place of the handle above a selected frame, which moves it upwards."""
+        x, y, z = self.evaluate(f"kinegraph.position({json.dumps(frame)})")
+        foot, tip = self.pixel([x, y, z]), self.pixel([x, y, z + 0.15])
+        return foot[0], foot[1] + 0.8 * (tip[1] - foot[1])
+
     def is_visible(self, selector: str) -> bool:
         return self.evaluate(f"document.querySelector({json.dumps(selector)}).checkVisibility()")
 

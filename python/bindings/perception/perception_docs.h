@@ -62,7 +62,7 @@ inline constexpr char occupancyMap[] = R"(A map of the space that depth images s
 
     map = ry.OccupancyMap(C, region=[[-0.5, -0.1, 0.65], [0.5, 0.8, 1.25]], cell=0.01)
     map.update(C, views)
-    map.attach(C)  # now ry.planMotion(C, ...) avoids what was measured and what was not seen
+    map.attach(C)  # now ry.planMotion(C, ...) avoids occupied and unseen cells
 
 Points of the robot and of all shapes of the scene are left out: the shapes themselves are the obstacles. A cell is free
 if a camera looked through the whole of it, occupied if points were measured in it. The last such image counts: cells of

@@ -26,9 +26,9 @@ struct Thing {
   VisibleShape shape;
   PoseFreedom freedom;
   RigidTransform last;
-  std::vector<double> heights;           ///< m: of the tops on which it may rest; empty unless it rests
+  std::vector<double> heights;           ///< m, of the tops on which a resting thing may rest
   double search;                         ///< how far from `start` it may be, m
-  std::vector<Matrix3d> rotations = {};  ///< in which it rests, if its last pose tells nothing
+  std::vector<Matrix3d> rotations = {};  ///< resting ones, for a thing that may be anywhere
   bool is_displaced = false;             ///< another thing is at the only place where it may be
   bool anywhere = false;                 ///< its last pose tells nothing
   bool is_lost = anywhere;               ///< it was not found yet

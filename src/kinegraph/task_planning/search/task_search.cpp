@@ -303,7 +303,7 @@ TaskPlan TaskSearch::unsolved(const std::string& reason) {
   const TaskStatus status = isLate() ? TaskStatus::timeout : TaskStatus::no_plan_found;
   const std::string cause = log_.mainCause();
   std::vector<std::string> parts = {reason, cause};
-  for (const ImpossibleAction& proof : logic_.proofs()) {  // what is in the way, and cannot be moved
+  for (const ImpossibleAction& proof : logic_.proofs()) {  // obstacles that cannot be moved
     const bool is_in_way = cause.starts_with("while ") && isPick(proof.action) &&
                            cause.substr(0, cause.find(':')).ends_with(cat(" ", objectOf(proof.action), ")"));
     if (is_in_way && std::ranges::find(parts, proof.cause) == parts.end()) parts.push_back(proof.cause);
