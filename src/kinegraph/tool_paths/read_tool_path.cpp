@@ -99,17 +99,19 @@ ToolPath ToolPath::read(const std::string& file, std::string frame, std::string 
   if (!in) throw FileError(cat(file, ": cannot open the file"));
   std::istringstream text(toUtf8(std::string(std::istreambuf_iterator<char>(in), {})));
   std::vector<std::vector<double>> rows;
+  std::vector<RowWord> names;
   std::vector<std::size_t> columns;
   std::string line;
-  bool has_names = false;
+  int line_of_names = 0;
   for (int number = 1; std::getline(text, line); ++number) {
     const std::vector<RowWord> words = rowWords(line, file, number);
     if (words.empty()) continue;
     const bool is_names =
-        rows.empty() && !has_names &&
+        rows.empty() && names.empty() &&
         std::none_of(words.begin(), words.end(), [](const RowWord& word) { return rowNumber(word).has_value(); });
     if (is_names) {
-      has_names = true;
+      names = words;
+      line_of_names = number;
       columns = namedColumns(words, file, number);
       continue;
     }
@@ -127,6 +129,10 @@ ToolPath ToolPath::read(const std::string& file, std::string frame, std::string 
       throw ParseError(end, cat("the row has ", row.size(), " numbers; the rows before have ", rows[0].size()));
     if (!columns.empty() && row.size() != columns.size())
       throw ParseError(end, cat("the row has ", row.size(), " numbers; there are ", columns.size(), " names"));
+    if (columns.empty() && row.size() == names.size() && row.size() > 3)
+      throw ParseError({file, line_of_names, names[0].column},
+                       "the names of the columns are not x y z, and nx ny nz or qw qx qy qz, in any order; a line of "
+                       "text begins with #");
     rows.push_back(row);
     for (std::size_t k = 0; k < columns.size(); ++k) rows.back()[k] = row[columns[k]];
   }
