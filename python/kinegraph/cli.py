@@ -4,35 +4,28 @@ from __future__ import annotations
 
 import argparse
 import logging
-import math
 import re
 import sys
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from . import __version__
 from ._core import (
-    FS,
     Config,
     ConfigurationViewer,
-    ToolPath,
-    ToolPathPlan,
     Trajectory,
     checkFile,
     planMotion,
-    planToolPath,
 )
 from .compatibility.parameters import params_get
 from .demonstrate_command import addDemonstrate, demonstrateCommand
 from .errors import ArgumentError, Error, FileError
-from .film import saveFilm
 from .model_paths import raiPath, similarModels
 from .robot_files import robotNames, robotPath
 from .run_player import playRuns
 from .scene_overview import describeActuators, describeScene
+from .tool_path_command import addToolPath, toolPathCommand
 
 _MESHES = (".h5", ".ply", ".obj", ".stl", ".dae", ".glb")
 
@@ -116,28 +109,7 @@ def _parser() -> argparse.ArgumentParser:
     plan.add_argument("--rate", type=float, default=100.0, help="rows of the output file per second (default: 100)")
     plan.add_argument("--no-view", action="store_true", help="print only")
 
-    tool = commands.add_parser(
-        "toolpath", help="plan the motion of a tool along rows of points or poses; exit status 1 if there is none"
-    )
-    tool.add_argument("file")
-    tool.add_argument("--frame", default="tool", help="the frame that moves along the path (default: tool)")
-    tool.add_argument("--points", required=True, metavar="CSV", help="rows x y z, with a normal, or with a quaternion")
-    tool.add_argument("--relative-to", metavar="FRAME", help="frame in whose coordinates rows are given")
-    tool.add_argument("--free", choices=["x", "y", "z"], help="axis of the tool about which it may rotate")
-    tool.add_argument("--travel", type=float, default=0.0, help="lean of the tool's z axis along the path, degrees")
-    tool.add_argument("--work", type=float, default=0.0, help="lean of the tool's z axis to the left, degrees")
-    tool.add_argument("--tilt", type=float, default=0.0, help="half angle of a cone around the free axis, degrees")
-    tool.add_argument("--speed", type=float, default=0.1, help="m/s (default: 0.1)")
-    tool.add_argument("--tolerance", type=float, default=2e-5, help="distance from the path, m (default: 2e-5)")
-    tool.add_argument("--margin", type=float, default=0.0, help="distance to obstacles, m (default: 0)")
-    tool.add_argument("--approach", type=float, default=0.0, help="length of an approach and a retract, m")
-    tool.add_argument(
-        "-o", "--output", metavar="CSV", help="output file: rows of time, joint values, velocities, accelerations"
-    )
-    tool.add_argument("--rate", type=float, default=100.0, help="rows of the output file per second (default: 100)")
-    tool.add_argument("--picture", metavar="PNG", help="picture of the scene with the path, colored by speed")
-    tool.add_argument("--film", metavar="FILE", help="film of the motion: .mp4 or .webm")
-    tool.add_argument("--no-view", action="store_true", help="print only")
+    addToolPath(commands)
 
     reach = commands.add_parser(
         "reachability", help="compute the reachable cells of a robot, within limits and without collisions"
@@ -252,56 +224,6 @@ def _jointValues(config: Config, words: list[str], option: str) -> Any:
 
 def _saveMotion(config: Config, motion: Trajectory, path: str, rate: float) -> None:
     motion.writeCsv(path, rate, config.getJointNames()[: config.getJointDimension()])
-
-
-def _addToolCurve(config: Config, plan: ToolPathPlan, rows: np.ndarray, frame: str) -> None:
-    """Adds the curve of the tool: green at its largest speed, over yellow to red at rest; gray on transfers."""
-    points = config.evalBatch(FS.position, [frame], rows)[0]
-    times = np.linspace(0.0, plan.duration, len(rows))
-    share = np.array([plan.speed(t) for t in times])
-    share = np.clip(share / max(share.max(), 1e-9), 0.0, 1.0)
-    colors = 255.0 * np.stack([np.minimum(1, 2 - 2 * share), np.minimum(1, 2 * share), 0 * share], axis=1)
-    colors[[plan.way(t)[0] < 0 for t in times]] = 128.0
-    config.addFrame("tool_path_curve").setLines(points, colors, True)
-
-
-def _toolPath(options: argparse.Namespace) -> int:
-    config = _load(options.file)
-    path = ToolPath.read(options.points, frame=options.frame, relativeTo=options.relative_to)
-    if options.free:
-        path.free(options.free)
-    if options.travel or options.work:
-        path.lean(math.radians(options.travel), math.radians(options.work))
-    if options.tilt:
-        path.tilt(math.radians(options.tilt))
-    plan = planToolPath(
-        config,
-        path,
-        speed=options.speed,
-        tolerance=options.tolerance,
-        margin=options.margin,
-        approach=options.approach,
-        retract=options.approach,
-    )
-    if not plan:
-        print(f"{plan.status.name}: {plan.message}")
-        return 1
-    print(f"solved: {plan.duration:.2f} s, within {1e3 * plan.deviation[0]:.4f} mm of the path")
-    for _, begin, end, speed, cause in plan.slow:
-        print(f"{begin:.3f} to {end:.3f} m: down to {speed:.4f} m/s, {cause}")
-    if options.output:
-        _saveMotion(config, plan, options.output, options.rate)
-    rows = plan.sample(50.0)[1]
-    _addToolCurve(config, plan, rows, options.frame)
-    if options.picture:
-        config.setJointState(rows[0])
-        config.viewer().fit()
-        print(config.viewer().savePng(options.picture))
-    if options.film:
-        print(saveFilm(options.film, config, rows, max(1.0, plan.duration)))
-    if not options.no_view:
-        config.view_path(rows, max(1.0, plan.duration), True, "the motion")
-    return 0
 
 
 def _plan(options: argparse.Namespace) -> int:
@@ -452,7 +374,7 @@ def main(arguments: list[str] | None = None) -> int:
         if options.command == "plan":
             return _plan(options)
         if options.command == "toolpath":
-            return _toolPath(options)
+            return toolPathCommand(_load(options.file), options)
         if options.command == "reachability":
             _reachability(options)
         if options.command == "selfcollisions":

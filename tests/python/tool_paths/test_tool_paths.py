@@ -365,6 +365,27 @@ def test_the_command_line_writes_the_motion(scene, tmp_path):
     assert distance_from_line(x, start, start + 0.1 * Y).max() <= 2e-5
 
 
+def test_the_command_line_does_several_paths_from_where_the_robot_is(scene, tmp_path, capsys):
+    file, motion = tmp_path / "scene.g", tmp_path / "motion.csv"
+    scene.write(file)
+    home = scene.getFrame("tool").getPosition()
+    seams = []
+    for i, offset in enumerate(([0.0, 0.2, 0.0], [0.05, -0.1, 0.0])):
+        seams.append(str(tmp_path / f"seam{i}.csv"))
+        np.savetxt(seams[-1], home + offset + np.linspace(0, 0.05, 51)[:, None] * Y, delimiter=",")
+    command = ["toolpath", str(file), "--points", *seams, "--order", "free", "--transfer", "--jerk", "200", "--no-view"]
+    assert main([*command, "-o", str(motion)]) == 0
+    table = np.loadtxt(motion, delimiter=",", skiprows=1)
+    n = scene.getJointDimension()
+    assert np.abs(table[0, 1 : n + 1] - scene.getJointState()).max() < 1e-6
+    x = poses(scene, table[:, 1 : n + 1])[:, :3]
+    for seam in seams:
+        ends = np.loadtxt(seam, delimiter=",")[[0, -1]]
+        assert all(np.linalg.norm(x - end, axis=1).min() < 2e-3 for end in ends)
+    assert main([*command, "--touching", "tabel"]) == 1
+    assert "tabel" in capsys.readouterr().err
+
+
 def test_a_torch_leans_by_its_travel_and_work_angles(scene):
     """On a line along x, travel leans z to +x, and work to the left, seen along the path with z up."""
     s = np.linspace(-0.1, 0.1, 41)
