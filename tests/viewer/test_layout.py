@@ -87,6 +87,23 @@ def test_the_axes_in_the_corner_leave_the_time_slider_free(config: kg.Config, pa
         assert 0 <= left < right <= page.evaluate("innerWidth") and bottom <= bar
 
 
+def test_the_card_of_a_frame_covers_neither_axes_nor_messages(config: kg.Config, page: Browser) -> None:
+    fill(config)
+    config.view_path([[0.0], [0.5]], 0.05, message="a message")
+    page.open(config.viewer().url)
+    page.press_alt("T")
+    page.evaluate("[...document.querySelectorAll('#tree .frame')].find((x) => x.textContent === 'arm').click()")
+    for _ in range(2):
+        page.wait_for("kinegraph.idle()")
+        covered = page.evaluate("""((card, parts) => parts.map((name) => document.querySelector(name)).filter((part) => {
+          const [a, b] = [card, part].map((x) => x.getBoundingClientRect());
+          const apart = a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+          return card.checkVisibility() && part.checkVisibility() && !apart;
+        }).map((part) => part.id))(document.querySelector("#card"), ["#gizmo", "#message", "#motion", "#toolbar", "#panel"])""")
+        assert covered == []
+        page.press_alt("T")  # without the panel
+
+
 @pytest.mark.parametrize("page", ["frame on a phone"], indirect=True)
 def test_a_page_within_another_on_a_phone_shows_the_scene(config: kg.Config, page: Browser) -> None:
     fill(config)
