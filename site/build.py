@@ -28,6 +28,7 @@ import result_plots
 import robot_gallery
 from language.pages import writePages as writeLanguagePages
 from member_texts import MemberTexts
+from search_words import withSearchWords
 
 SITE = Path(__file__).resolve().parent
 REPOSITORY = SITE.parent
@@ -54,12 +55,17 @@ def copyPages(out: Path) -> None:
             text = file.read_text()
             for source, page in (("../CHANGELOG.md", "changes.md"), ("../SECURITY.md", "security.md")):
                 text = text.replace(f"]({source}", f"]({page}").replace(f"](../{source}", f"](../{page}")
-            target.write_text(text)
+            for words, link in pages.SITE_LINKS.get(file.stem, {}).items():
+                if words not in text:
+                    raise SystemExit(f"site/pages.py: SITE_LINKS: {file.name} has no '{words}'")
+                text = text.replace(words, link)
+            target.write_text(withSearchWords(file.stem, text) if target.parent == out else text)
     for source, page in (("CHANGELOG.md", "changes.md"), ("SECURITY.md", "security.md")):
         text = (REPOSITORY / source).read_text().replace("](docs/", "](")
         (out / page).write_text(text)
-    for page in ("index.md", "install.md", "conf.py"):
+    for page in ("index.md", "conf.py"):
         shutil.copy(SITE / page, out / page)
+    (out / "install.md").write_text(withSearchWords("install", (SITE / "install.md").read_text()))
     shutil.copytree(SITE / "static", out / "_static")
 
 

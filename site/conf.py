@@ -18,6 +18,7 @@ html_theme = "pydata_sphinx_theme"
 html_title = "Kinegraph"
 html_static_path = ["_static"]
 html_css_files = ["site.css"]
+html_sidebars = {page: [] for page in ("install", "changes", "gallery/index")}  # pages without others beside them
 html_extra_path = ["_extra"]
 html_theme_options = {
     "header_links_before_dropdown": 7,

@@ -314,7 +314,8 @@ def writePage(features: Path, out: Path) -> None:
         image = f"![{name}](features/{name}.svg)"
         size = f"{dimension}, {unit}" if unit != "-" else dimension
         named = f"{feature} <br> {image}"
-        formulas = f"{{math}}`y = {y}` <br> {value} <br> {{math}}`J_i = {column}`"
+        in_words = f"{value} <br> " if re.search("[a-z]{3}", value) else ""  # not the same formula again
+        formulas = f"{{math}}`y = {y}` <br> {in_words}{{math}}`J_i = {column}`"
         cells = [named, roles, size, order, formulas]
         lines.append(f"| {' | '.join(cells)} |")
     out.write_text("\n".join([*lines, ""]))

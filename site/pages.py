@@ -8,6 +8,12 @@ SCENES = {
     "first_pick_and_place": ("C.view()\nplan.view(C)\n", "The last lines that it prints"),
 }
 
+# Texts of docs/ that become links on the site.
+SITE_LINKS = {
+    "scenes": {"The site's reference (`make docs`)": "[The reference](reference/scene_attributes.md)"},
+    "faq": {"the reference of the site": "the [reference](reference/index.md)"},
+}
+
 EXAMPLES = [  # captions, and the numbers of the examples below
     ("Scenes, features and inverse kinematics", "01 02 03 04 05 06 07 08 09"),
     ("A motion that is free, timed and followed", "11 13 28 29"),

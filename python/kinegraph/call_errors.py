@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 
 from . import _core
+from .enums import foreignHint
 from .errors import ArgumentTypeError
 
 
@@ -166,11 +167,24 @@ def _memberHint(value: str, kind: type[enum.Enum]) -> str:
     names = list(kind.__members__)
     if value in names:
         return f"; write {kind.__name__}.{value}"
-    return _near(value, names) or f"; as in {kind.__name__}.{names[0]}"
+    return foreignHint(kind.__name__, value) or _near(value, names) or f"; as in {kind.__name__}.{names[0]}"
 
 
 def _isMethod(value: Any) -> bool:
     return isinstance(value, MethodType) or type(value).__name__ == "nb_bound_method"
+
+
+def _resultHint(value: Any, parameter: _Parameter) -> str:
+    """Suggests the numbers of a result, or the timing of a path."""
+    kind = readable(parameter.type)
+    if "ArrayLike" in kind and isinstance(value, _core.IkResult):
+        return "; write result.q"
+    if "ArrayLike" in kind and isinstance(value, _core.Trajectory):
+        has_path = hasattr(value, "path") and "path" in parameter.name.lower()
+        return "; write plan.path" if has_path else "; plan.eval(t)[0] is its configuration at the time t"
+    if kind == "Trajectory" and _isNumbers(value):
+        return "; ry.retime(path, velocity, acceleration) times a path"
+    return ""
 
 
 def _hint(value: Any, type_text: str) -> str:
@@ -223,15 +237,16 @@ def _expected(type_text: str) -> str:
 
 def _wrong(value: Any, parameter: _Parameter) -> str:
     reasons = f"{parameter.name} is {_shown(value)}; expected {_expected(parameter.type)}"
-    hint = _hint(value, parameter.type)
+    hint = _hint(value, parameter.type) or _resultHint(value, parameter)
     return reasons + (hint or (_place(value) if "ArrayLike" in parameter.type else ""))
 
 
 def _surplusHint(takes: Sequence[_Parameter], given: Sequence[Any]) -> str:
-    """Suggests a list for numbers that are given one by one."""
-    one_by_one = all(isinstance(value, (int, float, np.number)) for value in given)
-    if one_by_one and len(given) > 1 and len(takes) == 1 and "ArrayLike" in takes[0].type:
-        return f"; write one list: [{', '.join(f'{value:g}' for value in given)}]"
+    """Suggests a list for numbers that are given one by one, as the last argument."""
+    numbers = given[max(0, len(takes) - 1) :]
+    one_by_one = len(numbers) > 1 and all(isinstance(value, (int, float, np.number)) for value in numbers)
+    if one_by_one and takes and "ArrayLike" in takes[-1].type:
+        return f"; write one list: [{', '.join(f'{value:g}' for value in numbers)}]"
     return ""
 
 
@@ -254,10 +269,11 @@ class _Misfit:
         self.rank = (surplus + len(unknown) + len(wrong), len(missing), -len(form))
         self.reasons = []
         if surplus:
-            names = [each.name for each in by_place if each.name != "self"]
+            own = [each for each in by_place if each.name != "self"]
+            names = [each.name for each in own]
             count = len(positional) - (len(by_place) - len(names))
             takes = f"it takes at most {len(names)}: {', '.join(names)}" if names else "it takes no positional ones"
-            hint = _surplusHint([each for each in by_place if each.name != "self"], positional[-count:])
+            hint = _surplusHint(own, positional[-count:])
             self.reasons.append(f"{count} argument{'s are' if count > 1 else ' is'} given; {takes}{hint}")
         self.reasons += [f"it has no argument '{name}'{_near(name, [*by_name])}" for name in unknown]
         if missing:

@@ -6,6 +6,7 @@ import argparse
 import logging
 import re
 import sys
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -350,9 +351,20 @@ def _render(options: argparse.Namespace) -> None:
     print(viewer.savePng(output))
 
 
+def _printWarning(message: Warning | str, *_: object, **__: object) -> None:
+    """Prints a warning without the line of this file that called the library."""
+    print(f"kinegraph: warning: {message}", file=sys.stderr)
+
+
 def main(arguments: list[str] | None = None) -> int:
     """Runs the command. Returns its exit status: 0, 1 for an error in a file, 2 for one in the arguments."""
     options = _parser().parse_args(arguments)
+    with warnings.catch_warnings():
+        warnings.showwarning = _printWarning
+        return _run(options)
+
+
+def _run(options: argparse.Namespace) -> int:
     logging.basicConfig(level=logging.INFO, format="%(message)s", stream=sys.stdout)
     try:
         if options.command == "demo":

@@ -12,7 +12,8 @@ import kinegraph as kg
 from .browser import Browser
 from .camera import HEIGHT, WIDTH
 
-SIZES = {"small window": (800, 600), "phone": (390, 844), "phone on its side": (844, 390), "small phone": (320, 568)}
+WINDOWS = {"small window": (800, 600), "phone": (390, 844), "phone on its side": (844, 390), "small phone": (320, 568)}
+SIZES = {**WINDOWS, "frame on a phone": (366, 366)}
 PARTS = ["#panel", "#motion", "#run", "#message", "#error", "#panel-button", "#help-button"]
 RECTANGLES = f"""Object.fromEntries({PARTS}.map((name) => [name, document.querySelector(name)])
   .filter(([, part]) => part.checkVisibility())
@@ -27,7 +28,7 @@ COVERED = """[...document.querySelectorAll(".transport *, .round, #tabs button")
   }).map((x) => x.ariaLabel || x.textContent || x.closest("label").textContent)"""
 
 
-@pytest.fixture(params=SIZES)
+@pytest.fixture(params=WINDOWS)
 def page(request: pytest.FixtureRequest, browser: Browser) -> Iterator[Browser]:
     width, height = SIZES[request.param]
     mobile = "phone" in request.param
@@ -72,6 +73,46 @@ def test_panels_and_messages_leave_the_time_slider_free(config: kg.Config, page:
     page.open(config.viewer().url)
     page.wait_for("!kinegraph.playing()")
     check_nothing_overlaps(page)
+
+
+def test_the_axes_in_the_corner_leave_the_time_slider_free(config: kg.Config, page: Browser) -> None:
+    fill(config)
+    config.view_path([[0.0], [0.5]], 0.05)
+    page.open(config.viewer().url)
+    for letter in "NJ":  # names of frames, then the panel
+        page.press_alt(letter)
+        page.wait_for("kinegraph.idle()")
+        left, right, bottom, bar = page.evaluate("""((axes, bar) => [axes.left, axes.right, axes.bottom, bar.top])(
+          ...["#gizmo", "#motion"].map((name) => document.querySelector(name).getBoundingClientRect()))""")
+        assert 0 <= left < right <= page.evaluate("innerWidth") and bottom <= bar
+
+
+def test_the_card_of_a_frame_covers_neither_axes_nor_messages(config: kg.Config, page: Browser) -> None:
+    fill(config)
+    config.view_path([[0.0], [0.5]], 0.05, message="a message")
+    page.open(config.viewer().url)
+    page.press_alt("T")
+    page.evaluate("[...document.querySelectorAll('#tree .frame')].find((x) => x.textContent === 'arm').click()")
+    for _ in range(2):
+        page.wait_for("kinegraph.idle()")
+        covered = page.evaluate("""((card, parts) => parts.map((name) => document.querySelector(name)).filter((part) => {
+          const [a, b] = [card, part].map((x) => x.getBoundingClientRect());
+          const apart = a.right <= b.left || b.right <= a.left || a.bottom <= b.top || b.bottom <= a.top;
+          return card.checkVisibility() && part.checkVisibility() && !apart;
+        }).map((part) => part.id))(document.querySelector("#card"), ["#gizmo", "#message", "#motion", "#toolbar", "#panel"])""")
+        assert covered == []
+        page.press_alt("T")  # without the panel
+
+
+@pytest.mark.parametrize("page", ["frame on a phone"], indirect=True)
+def test_a_page_within_another_on_a_phone_shows_the_scene(config: kg.Config, page: Browser) -> None:
+    fill(config)
+    config.view_path([[0.0], [0.5]], 0.05)
+    page.open(config.viewer().url)
+    left, top, right, bottom = page.evaluate(RECTANGLES)["#motion"]
+    assert 0 <= left < right <= 366 and 0.8 * 366 <= top < bottom <= 366
+    assert page.evaluate(COVERED) == []
+    assert not page.is_visible("#gizmo")
 
 
 def test_panels_and_messages_leave_the_buttons_of_a_simulation_free(config: kg.Config, page: Browser) -> None:

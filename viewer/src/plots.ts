@@ -110,7 +110,8 @@ export class Plots {
 
   private make({ message, element }: Plot, width: number): uPlot {
     const ink = getComputedStyle(document.body).color;
-    const axis = { stroke: ink, font: "10px system-ui", grid: { stroke: "rgba(128,128,128,.2)", width: 1 }, ticks: { show: false } };
+    const values = (_: uPlot, ticks: number[]): string[] => ticks.map((x) => String(Number(x.toPrecision(6))));
+    const axis = { stroke: ink, font: "10px system-ui", grid: { stroke: "rgba(128,128,128,.2)", width: 1 }, ticks: { show: false }, values };
     const chart = new uPlot(
       {
         width,

@@ -1,10 +1,12 @@
-"""Names of earlier years that Kinegraph lacks: access raises an error that suggests a replacement."""
+"""Names of earlier years that Kinegraph lacks, and those that users of other libraries try first (`guessed`): access
+raises an error that suggests a replacement."""
 
 from __future__ import annotations
 
 from typing import NoReturn
 
 from .._core import KOMO, BotOp, Config, Frame, NLP_Solver, Simulation
+from .guessed import GUESSED
 
 _FORCES = (
     "KOMO.getForceInteractions() has those of a motion problem, Simulation.getContacts() those of a simulated world"
@@ -85,7 +87,7 @@ class Absent:
 
 def addAbsentNames() -> None:
     """Adds the absent names to the classes."""
-    for owner, names in ABSENT.items():
+    for owner, names in [*ABSENT.items(), *GUESSED.items()]:
         for name, advice in names.items():
             if not hasattr(owner, name):
                 setattr(owner, name, Absent(f"{owner.__name__}.{name}", advice))

@@ -21,6 +21,10 @@ def komo(C) -> ry.KOMO:
     return ry.KOMO(C, 1, 1, 0, False)
 
 
+def still(C) -> ry.MotionPlan:
+    return ry.planMotion(C, C.getJointState())
+
+
 MISTAKES = [
     (lambda C, k: C.addFrame(), r"Config.addFrame: missing: name \(str\)"),
     (lambda C, k: C.addFrame(3), r"Config.addFrame: name is 3 \(int\); expected str"),
@@ -72,6 +76,15 @@ MISTAKES = [
     (lambda C, k: C.setJointState(C.getJointState), r"q is the method getJointState; .* call it: getJointState\(\)"),
     (lambda C, k: ry.NLP_Solver(k.nlp), r"problem is the method nlp; expected NLP; call it: nlp\(\)"),
     (lambda C, k: C["table"].setQuaternion(1, 0, 0, 0), r"at most 1: quaternion; write one list: \[1, 0, 0, 0\]"),
+    (
+        lambda C, k: C["table"].setShape(ry.ST.box, 0.1, 0.2, 0.3),
+        r"takes at most 2: type, size; write one list: \[0.1, 0.2, 0.3\]",
+    ),
+    (lambda C, k: C["table"].setJoint("revolute"), r"expected JT; here it is hingeX, hingeY or hingeZ"),
+    (lambda C, k: C.setJointState(still(C)), r"expected numbers; plan.eval\(t\)\[0\] is its configuration"),
+    (lambda C, k: C.view_path(still(C)), r"expected numbers; write plan.path"),
+    (lambda C, k: C.setJointState(ry.solveIk(C, {"l_gripper": "table"})), r"expected numbers; write result.q"),
+    (lambda C, k: ry.BotOp(C).follow(still(C).path), r"expected Trajectory; ry.retime\(path, .* times a path"),
     (lambda C, k: ry.Config("arm.urdf"), r"read a file by C = Config\(\); C.addFile\('arm.urdf'\)"),
     (lambda C, k: ry.Domain("own.fol"), r"read a file by Domain.fromFol\('own.fol'\)"),
     (

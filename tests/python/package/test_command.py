@@ -101,6 +101,16 @@ def test_check_gives_status_0_for_warnings_unless_strict(tmp_path):
     assert kinegraph("check", str(tmp_path / "missing.g")).returncode == 1
 
 
+def test_warnings_of_commands_are_lines_without_the_code_that_calls(tmp_path):
+    scene = tmp_path / "scene.g"
+    scene.write_text("a: { shpae: 3 }\n")
+    program = kinegraph("info", str(scene))
+    assert (
+        program.stderr
+        == f"kinegraph: warning: {scene}:1:6: frame 'a': unknown attribute 'shpae'; did you mean 'shape'?\n"
+    )
+
+
 def test_view_shows_scenes_and_meshes_and_ends_without_a_display(tmp_path):
     mesh = tmp_path / "triangle.obj"
     mesh.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")

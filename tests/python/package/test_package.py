@@ -159,6 +159,10 @@ def test_a_misspelt_symbol_names_those_that_are_near():
         ry.FS.postion  # noqa: B018
     with pytest.raises(AttributeError, match="OT has no 'eqq'; similar names: eq"):
         ry.OT.eqq  # noqa: B018
+    with pytest.raises(AttributeError, match="JT has no 'prismatic'; here it is transX, transY or transZ"):
+        ry.JT.prismatic  # noqa: B018
+    with pytest.raises(AttributeError, match="ST has no 'cube'; here it is box"):
+        ry.ST.cube  # noqa: B018
     assert not hasattr(ry.FS, "__wrapped__")
     assert ry.FS.position == ry.FS["position"] and ry.FS.position in list(ry.FS)
     assert pickle.loads(pickle.dumps(ry.FS.position)) is ry.FS.position

@@ -136,6 +136,18 @@ def test_members_without_a_docstring_are_described():
         assert not missing, enum
 
 
+def test_words_that_people_search_lead_to_headings_that_exist():
+    from search_words import WORDS, withSearchWords
+
+    for page in WORDS:
+        file = ROOT / ("site" if page == "install" else "docs") / f"{page}.md"
+        assert withSearchWords(page, file.read_text()).count("```{index} !") == len(WORDS[page])
+    words = [word for places in WORDS.values() for text in places.values() for word in text.split(", ")]
+    assert len(set(words)) == len(words) and all(word == word.lower() for word in words)
+    with pytest.raises(SystemExit, match="conventions.md has no heading 'Grippers'"):
+        withSearchWords("conventions", "# Conventions\n\n## Numbers\n")
+
+
 def test_links_of_the_site_are_resolved(tmp_path):
     import checks
 

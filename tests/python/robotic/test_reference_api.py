@@ -14,6 +14,7 @@ import kinegraph
 import robotic as ry
 from conftest import recorded
 from kinegraph.compatibility.absent import ABSENT
+from kinegraph.compatibility.guessed import GUESSED
 
 NAMES: dict[str, list[list[str]] | None] = recorded("reference_api")["names"]
 
@@ -93,15 +94,23 @@ def test_modules_of_helpers_are_there(module: str) -> None:
 
 
 WHAT_CALLS_GIVE = [kinegraph.ConfigurationViewer, kinegraph.CameraView, kinegraph.NLP]
-OWNERS = {"C": kinegraph.Config, "komo": kinegraph.KOMO, "frame": kinegraph.Frame, "ry": kinegraph}
+OWNERS = {
+    "C": kinegraph.Config,
+    "komo": kinegraph.KOMO,
+    "frame": kinegraph.Frame,
+    "plan": kinegraph.MotionPlan,
+    "bot": kinegraph.BotOp,
+    "ry": kinegraph,
+}
+ADVICE = {(owner, name): text for table in (ABSENT, GUESSED) for owner in table for name, text in table[owner].items()}
 
 
-@pytest.mark.parametrize(("owner", "name"), [(owner, name) for owner, names in ABSENT.items() for name in names])
+@pytest.mark.parametrize(("owner", "name"), ADVICE)
 def test_what_is_absent_says_what_to_call_and_that_is_there(owner: type, name: str) -> None:
     assert not hasattr(owner, name)
     with pytest.raises(AttributeError, match=rf"{owner.__name__}\.{name}: .* instead: "):
         getattr(owner, name)
-    advice = ABSENT[owner][name]
+    advice = ADVICE[owner, name]
     calls = re.findall(r"(?:(\w+)\.)?(\w+)\(", advice)
     for where, call in calls:
         known = OWNERS.get(where) or getattr(kinegraph, where, None)
