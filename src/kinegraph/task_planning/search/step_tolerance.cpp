@@ -42,6 +42,10 @@ StepTolerance toleranceOf(const Config& C, const Surroundings& around, const Mat
         if (part.data().shape->contact)
           lower(tolerance, std::max(gapOf(end, finger, part.getName()), 0.),
                 cat("'", finger, "' meets '", part.getName(), "'"));
+    const Frame obj = end.getFrame(action[1]), hand = end.getFrame(action[3]);
+    if (opening(end, action[3]))
+      lower(tolerance, std::max(leverOf(obj) - leverIn(hand, obj), 0.),
+            cat("'", action[1], "' turns in '", action[3], "'"));
   } else if (action[0] == "place" && end.findFrame(action[3])) {
     const Frame obj = end.getFrame(action[1]);
     lower(tolerance, std::max(supportOf(obj, end.getFrame(action[3])), 0.),
