@@ -30,6 +30,7 @@ constexpr double kNearOff = .008;                ///< m: tolerance of objects an
 const double kUpright = cosineOfDegrees(10.);    ///< objects that tilt more have fallen
 const double kNearTurned = cosineOfDegrees(4.);  ///< tolerance of the rotation of objects that come next
 constexpr double kLeastLever = .01;              ///< m: of objects that slipped because they turned
+constexpr double kCloser = .8;                   ///< factor on levers that another grasp may have
 constexpr double kTouch = 5e-3;                  ///< m: objects that are closer touch
 constexpr double kJointOff = .05;                ///< rad or m: tolerance of joints
 constexpr double kBeyond = 1e-3;                 ///< rad or m: joints that are not farther beyond a limit are at it
@@ -334,7 +335,9 @@ Words ObservedWorld::shortenLevers() {
     Config taken = seen_;
     taken.getFrame(obj).setPose(seen_.getFrame(hand).getPose() * grips_.at(obj));
     const double lever = std::min(leverIn(taken.getFrame(hand), taken.getFrame(obj)), leverOf(taken.getFrame(obj)));
-    if (lever < kLeastLever) continue;  // its weight does not turn it
+    const Node* said = seen_.getFrame(obj).attributes().find("lever");
+    const double* before = said ? said->value.as<double>() : nullptr;
+    if (lever < kLeastLever || (before && lever > kCloser * *before)) continue;  // another grasp would be no better
     seen_.getFrame(obj).editAttributes().set({"lever", {}, {}, {lever, {}}, {}});
     turned.push_back(obj);
   }
