@@ -67,6 +67,14 @@ def test_an_object_that_turned_in_the_hand_is_held_closer_to_its_center_of_mass(
     assert abs(gripOf(C, ry.planTask(C, "(on tray bar)")) - 0.095 * 0.6 / 0.7) < 0.012
 
 
+def test_an_object_that_is_too_heavy_for_the_fingers_is_told() -> None:
+    C = scene()
+    tray(C)
+    box(C, "red", "table", (0.3, 0.3, TOP)).setMass(12.0)
+    plan = ry.planTask(C, "(on tray red)")
+    assert "'red' (12.0 kg) slips out of 'l_gripper', which lifts 4.1 kg" in plan.explain()
+
+
 def test_hands_open_less_where_wide_ones_have_no_room() -> None:
     C = scene()
     tray(C)
