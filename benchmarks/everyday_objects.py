@@ -221,6 +221,30 @@ def atTheEdge(rng: Generator) -> Scene:
     return t.scene("(on tray block)")
 
 
+def heavyBar(rng: Generator) -> Scene:
+    """A bar with a weight hidden in one of its ends goes to a tray."""
+    t = Household(rng)
+    t.tray((0.3, 0.3))
+    t.body("bar", 0.13, 0.045, 0.15).setShape(ry.ST.ssBox, [0.24, 0.045, 0.045, 0.004]).setContact(1)
+    weight = t.C.addFrame("weight", "bar").setRelativePosition([0.095, 0, 0])
+    weight.setShape(ry.ST.ssBox, [0.03, 0.03, 0.03, 0.004]).setMass(t.uniform(0.3, 0.8))
+    return t.scene("(on tray bar)")
+
+
+def corner(rng: Generator) -> Scene:
+    """A box 2 cm from two ledges of its own height goes to a tray."""
+    t = Household(rng)
+    t.tray((0.2, 0.2))
+    size, gap, thick = t.cube(), 0.02, 0.02
+    box = t.C.getFrame(t.box("box", size, t.spot(0.12)))
+    for name, k in (("ledge0", 0), ("ledge1", 1)):
+        sides, beside = [0.2, 0.2, size[2]], np.zeros(3)
+        sides[k], beside[k] = thick, 0.5 * size[k] + gap + 0.5 * thick
+        ledge = t.C.addFrame(name, "table").setPosition(box.getPosition() + box.getRotationMatrix() @ beside)
+        ledge.setQuaternion(box.getQuaternion()).setShape(ry.ST.ssBox, [*sides, 0.004]).setContact(1)
+    return t.scene("(on tray box)")
+
+
 OBJECT_GENERATORS: dict[str, Callable[[Generator], Scene]] = {
     "mug": mug,
     "bowl": bowl,
@@ -232,4 +256,6 @@ OBJECT_GENERATORS: dict[str, Callable[[Generator], Scene]] = {
     "lid": lid,
     "tools": tools,
     "at the edge": atTheEdge,
+    "heavy bar": heavyBar,
+    "corner": corner,
 }

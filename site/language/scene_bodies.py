@@ -253,6 +253,14 @@ TASKS = [
         "'(is_gripper a)' in map(str, ry.sceneFacts(C))",
     ),
     E(
+        "lever",
+        "m",
+        "by the mass",
+        "Level distance of the center of mass of an object from the fingers from which on it turns in the hand.",
+        "a: { lever: .03 }",
+        "a.getAttributes()['lever'] == 0.03",
+    ),
+    E(
         "opening",
         "m",
         "of the fingers",

@@ -8,10 +8,11 @@ import kinegraph as ry
 
 sys.path.insert(0, str(Path(__file__).parent.parent.parent / "benchmarks"))
 
+import everyday_scenes
 import panda_tasks
 import tasks as families
 
-__all__ = ["families", "panda_tasks", "planned"]
+__all__ = ["everyday_scenes", "families", "panda_tasks", "planned"]
 
 
 def planned(problem: Any) -> tuple[ry.Config, ry.TaskPlan]:

@@ -40,6 +40,22 @@ TEST(Grasps, FingersReachToTheirTips) {
   EXPECT_EQ(fingerReach(handAboveATable(), "hand"), 0.) << "without fingers";
 }
 
+TEST(Grasps, FingersThatFollowAnotherJointReachToTheirTips) {
+  Config C = handAboveATable();
+  C.addFrame("slide", "hand", "joint: transX, joint_active: False, limits: [0 .04], q: .04");
+  C.addFrame("other_slide", "hand", "joint: transX, mimic: slide, scale: -1");
+  for (const char* name : {"slide", "other_slide"})
+    C.addFrame(std::string("finger of ") + name, name, "shape: box, size: [.016 .02 .02], contact: -1");
+  EXPECT_EQ(fingerShapes(C, "hand").size(), 2U);
+  EXPECT_NEAR(fingerReach(C, "hand"), .01, 1e-12);
+}
+
+TEST(Grasps, FingersAboveAndBelowAnObjectAreTriedLast) {
+  Config C = handWithFingers();
+  lying(C, "card", {.06, .07, .008});
+  EXPECT_EQ(graspVariants(C, "card", "hand"), std::vector<std::string>({"x", "y", "z"}));
+}
+
 TEST(Grasps, TheTipsOfFingersHoldWhatIsLow) {
   Config C = handWithFingers();
   lying(C, "card", {.06, .09, .008});
@@ -75,7 +91,7 @@ TEST(Grasps, ABodyIsHeldByPartsThatFingersGetAround) {
 TEST(Grasps, OneShapeIsHeldAlongItsNarrowAxes) {
   Config C = handWithFingers();
   lying(C, "box", {.06, .1, .04});
-  EXPECT_EQ(graspVariants(C, "box", "hand"), (std::vector<std::string>{"z", "x"}));
+  EXPECT_EQ(graspVariants(C, "box", "hand"), (std::vector<std::string>{"x", "z"})) << "no finger gets below it";
   EXPECT_FALSE(graspGuess(C, "box", "hand", "x")) << "one shape needs no search for a part";
 }
 

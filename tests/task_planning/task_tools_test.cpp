@@ -20,6 +20,21 @@ TEST(TaskTools, TheCenterOfABodyIsThatOfItsPartsMasses) {
   EXPECT_FALSE(isCentered(centerOfBody(stick)));
 }
 
+TEST(TaskTools, HeavyObjectsTurnInTheHandFarFromTheirCenter) {
+  Config C = stickAndBox(.3);
+  Frame stick = C.getFrame("stick");
+  EXPECT_TRUE(std::isinf(leverOf(stick))) << "without a mass";
+  stick.setMass(1.);
+  EXPECT_NEAR(leverOf(stick), .3 / 9.81, 1e-12);
+  C.getFrame("hook").setMass(1.);
+  EXPECT_NEAR(leverOf(stick), .15 / 9.81, 1e-12);
+  stick.editAttributes().set({"lever", {}, {}, {.01, {}}, {}});
+  EXPECT_EQ(leverOf(stick), .01);
+  const Vector3d center = stick.getPose().transform() * centerOfBody(stick);
+  C.addFrame("fingers").setPosition(center + Vector3d(.02, .03, .04));
+  EXPECT_NEAR(leverIn(C.getFrame("fingers"), stick), .03, 1e-9) << "across the axis of the fingers, and level";
+}
+
 TEST(TaskTools, WithoutMassesSurfacesWeigh) {
   Config C = stickAndBox(.3);
   const auto surface = [](double a, double b, double c) { return 2. * (a * b + b * c + c * a); };

@@ -14,6 +14,7 @@
 #include "kinegraph/simulation/scene_bodies.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/task_doors.h"
+#include "kinegraph/task_planning/task_tools.h"
 
 namespace kinegraph {
 
@@ -28,6 +29,8 @@ constexpr double kOff = .03;                     ///< m: tolerance of standing o
 constexpr double kNearOff = .008;                ///< m: tolerance of objects and places that come next
 const double kUpright = cosineOfDegrees(10.);    ///< objects that tilt more have fallen
 const double kNearTurned = cosineOfDegrees(4.);  ///< tolerance of the rotation of objects that come next
+constexpr double kLeastLever = .01;              ///< m: of objects that slipped because they turned
+constexpr double kCloser = .8;                   ///< factor on levers that another grasp may have
 constexpr double kTouch = 5e-3;                  ///< m: objects that are closer touch
 constexpr double kJointOff = .05;                ///< rad or m: tolerance of joints
 constexpr double kBeyond = 1e-3;                 ///< rad or m: joints that are not farther beyond a limit are at it
@@ -161,6 +164,19 @@ void requireGrippers(const TaskPlan& plan, const std::map<std::string, int>& gri
                          names.empty() ? std::string("no gripper") : cat("the grippers ", join(names, ", ")),
                          "; list its grippers in RobotInfo.grippers, in the order of the scene's hands"));
   }
+}
+
+double plannedOpening(const TaskPlan& plan, const std::string& hand, int number, double most) {
+  constexpr double kSame = 1e-3;  // m
+  if (plan.scenes.empty()) return most;
+  const Config& scene = plan.scenes.front();
+  const std::vector<HandFingers> hands = handFingersOf(scene);
+  if (number < 0 || std::size_t(number) >= hands.size()) return most;
+  const HandFingers& fingers = hands[std::size_t(number)];
+  const double wide = fingers.widthAt(scene.getFrame(fingers.joint).data().joint->q[0]);
+  const bool is_narrower =
+      wide < fingers.maxWidth() - kSame && std::abs(wide - opening(scene, hand).value_or(0.)) < kSame;
+  return is_narrower ? std::min(wide, most) : most;
 }
 
 Config worldOf(BotOp& bot, const TaskPlan& plan, bool is_observed) {
@@ -301,11 +317,31 @@ double ObservedWorld::gripForce(const std::string& hand, const std::string& obj)
 
 std::string ObservedWorld::slipped() const {
   for (const auto& [obj, hand] : held_) {
-    const Pose now = seen_.getFrame(hand).getPose().inverse() * seen_.getFrame(obj).getPose();
-    const double off = (now.p - grips_.at(obj).p).norm();
+    const double off = slipOf(obj);
     if (off > kSlipped) return cat("'", obj, "' is not in '", hand, "': it is ", fixed(off, 3), " m off");
   }
   return "";
+}
+
+double ObservedWorld::slipOf(const std::string& obj) const {
+  const Pose now = seen_.getFrame(held_.at(obj)).getPose().inverse() * seen_.getFrame(obj).getPose();
+  return (now.p - grips_.at(obj).p).norm();
+}
+
+Words ObservedWorld::shortenLevers() {
+  Words turned;
+  for (const auto& [obj, hand] : held_) {
+    if (slipOf(obj) <= kSlipped || !touches(hand, obj)) continue;
+    Config taken = seen_;
+    taken.getFrame(obj).setPose(seen_.getFrame(hand).getPose() * grips_.at(obj));
+    const double lever = std::min(leverIn(taken.getFrame(hand), taken.getFrame(obj)), leverOf(taken.getFrame(obj)));
+    const Node* said = seen_.getFrame(obj).attributes().find("lever");
+    const double* before = said ? said->value.as<double>() : nullptr;
+    if (lever < kLeastLever || (before && lever > kCloser * *before)) continue;  // another grasp would be no better
+    seen_.getFrame(obj).editAttributes().set({"lever", {}, {}, {lever, {}}, {}});
+    turned.push_back(obj);
+  }
+  return turned;
 }
 
 VectorXd ObservedWorld::jointErrors(const VectorXd& q) const { return (bot_.get_q() - q).cwiseAbs()(driven_); }

@@ -20,6 +20,10 @@ std::map<std::string, int> grippersOf(const BotOp& bot, const Config& scene);
 /// fingers are joints of q are refused: nothing closes those, and hands without fingers hold objects by touch.
 void requireGrippers(const TaskPlan& plan, const std::map<std::string, int>& grippers, const Config* simulated);
 
+/// Returns the width to which a plan opens a hand, the gripper of a number, m: `most`, unless wide fingers have no
+/// room.
+double plannedOpening(const TaskPlan& plan, const std::string& hand, int number, double most);
+
 /// The world during an execution as it is observed, the objects in hands, and its deviations from a plan.
 class ObservedWorld {
  public:
@@ -44,6 +48,10 @@ class ObservedWorld {
   double gripForce(const std::string& hand, const std::string& obj) const;
   std::string slipped() const;  ///< the first held object that has moved in its hand since it was taken, or ""
 
+  /// Notes in the scene that objects whose weight has turned them in the hand are to be held closer to their centers of
+  /// mass: the attribute `lever` of their frames. Returns these objects.
+  std::vector<std::string> shortenLevers();
+
   // --- the plan
   const std::map<std::string, Eigen::Index>& doors() const { return doors_; }  ///< indices in q
   VectorXd jointErrors(const VectorXd& q) const;                               ///< |q - robot|, without doors
@@ -65,6 +73,7 @@ class ObservedWorld {
  private:
   void placeBelieved();
   void takeCells(const Config& scene);
+  double slipOf(const std::string& obj) const;
   std::string objectDeviation(const std::string& obj, const Config& planned) const;
 
   BotOp& bot_;

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 
+#include "kinegraph/api/action_motion.h"
 #include "kinegraph/api/observed_world.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
@@ -30,24 +31,6 @@ constexpr double kBlocked = .5;                               ///< rad or m: of 
 constexpr double kOpenEnough = .9;                            ///< share of the widest opening
 constexpr double kReverseSlowdown = 3.;                       ///< factor on the time of a motion for its reversal
 constexpr double kStartMargin = 5e-3, kStartInContact = .02;  ///< m: of the motion to the start; depth that it resolves
-
-/// The motion of one action of a plan.
-class ActionMotion : public Trajectory {
- public:
-  ActionMotion(const TaskPlan& plan, const RowRange& rows)
-      : plan_(plan), begin_(plan.times[rows.begin]), end_(plan.times[rows.end - 1]) {}
-  int dimension() const override { return plan_.dimension(); }
-  double duration() const override { return end_ - begin_; }
-  void evalTo(double t, double* q, double* velocity, double* acceleration) const override {
-    plan_.evalTo(std::clamp(begin_ + t, begin_, end_), q, velocity, acceleration);
-    if (t > 0. && t < duration()) return;
-    std::fill_n(velocity, dimension(), 0.);
-  }
-
- private:
-  const TaskPlan& plan_;
-  double begin_, end_;
-};
 
 bool isClear(Config& C, const VectorXd& q) {
   C.setJointState(q);
@@ -157,8 +140,9 @@ class TaskRun::Impl {
     const bool is_action = index_ < plan_.actions.size();  // else before the first one, or after the last one
     failure_ = is_action ? cat(planText({plan_.actions[index_]}), ": ", message) : message;
     step_ = Step::fail;
+    const Words turned = world_.shortenLevers();
     try {
-      if (is_action) backOut(index_);
+      if (is_action) backOut(index_, turned);
     } catch (const RobotFault&) {
       recovers();
     }
@@ -278,8 +262,8 @@ class TaskRun::Impl {
   }
 
   /// After a failure: opens hands that have lost their objects, and reverses the motion until the robot is
-  /// collision-free.
-  void backOut(std::size_t i) {
+  /// collision-free. Objects that have turned in the hand that has just taken them are put back.
+  void backOut(std::size_t i, const Words& turned) {
     const std::map<std::string, std::string> held = world_.held(), handles = handles_;
     for (const auto& [obj, hand] : held) {
       if (world_.touches(hand, obj)) continue;
@@ -295,10 +279,11 @@ class TaskRun::Impl {
     for (Eigen::Index row = 1; row < path.rows(); ++row)
       if (world_.jointErrors(path.row(row)).maxCoeff() <= world_.jointErrors(path.row(at)).maxCoeff()) at = row;
     if (isGuided(plan_.actions[i]) || world_.jointErrors(path.row(at)).maxCoeff() > kBlocked) return;
+    const bool is_put_back = i > 0 && isPick(plan_.actions[i - 1]) && turned == Words{plan_.actions[i - 1][1]};
     Config C = world_.scene();
-    if (isClear(C, q)) return;
-    Eigen::Index free = at;
-    while (free >= 0 && !isClear(C, path.row(free))) --free;
+    if (!is_put_back && isClear(C, q)) return;
+    Eigen::Index free = is_put_back ? 0 : at;
+    while (free >= 0 && !is_put_back && !isClear(C, path.row(free))) --free;
     if (free < 0) return;
     const Eigen::Index count = std::max<Eigen::Index>(at - free, 1);
     const VectorXd back =
@@ -309,6 +294,11 @@ class TaskRun::Impl {
       return;  // beyond limits: a new plan starts here
     }
     while (bot_.getTimeToEnd() > 0.) world_.advance(kQueryInterval);
+    if (!is_put_back) return;
+    world_.advance(kComesToRest);
+    open(plan_.actions[i - 1][3], turned[0]);
+    world_.release(turned[0]);
+    world_.advance(kComesToRest);
   }
 
   // --- hands
@@ -318,7 +308,9 @@ class TaskRun::Impl {
   void openEmptyHands() {
     for (const auto& [hand, number] : grippers_) {
       const bool holds = std::ranges::any_of(world_.held(), [&](const auto& pair) { return pair.second == hand; });
-      if (!holds && bot_.getGripperPos(number) < kOpenEnough * infoOf(number).max_width) open(hand);
+      const double most = infoOf(number).max_width, wanted = plannedOpening(plan_, hand, number, most);
+      const double off = bot_.getGripperPos(number) - wanted;
+      if (!holds && (off < (kOpenEnough - 1.) * most || (wanted < most && off > kEmpty))) open(hand);
     }
   }
 
@@ -366,7 +358,8 @@ class TaskRun::Impl {
   void open(const std::string& hand, const std::string& obj = {}) {
     const auto gripper = grippers_.find(hand);
     if (gripper != grippers_.end()) {
-      bot_.gripperMove(gripper->second, infoOf(gripper->second).max_width);
+      bot_.gripperMove(gripper->second,
+                       plannedOpening(plan_, hand, gripper->second, infoOf(gripper->second).max_width));
       waitFor(gripper->second);
     } else if (!obj.empty() && world_.isSimulated()) {
       bot_.detach(hand, obj);

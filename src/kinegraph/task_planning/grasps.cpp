@@ -27,6 +27,8 @@ constexpr double kThinnest = .004;         ///< m: fingertips do not hold lower 
 constexpr double kFreeShare = .25;         ///< share of the height of a low object that fingertips leave free
 constexpr double kNoShift = 1e-4;          ///< m: smaller shifts are none
 constexpr std::size_t kMostGrasps = 6;     ///< by parts of a body
+constexpr double kTurns = 1e2;             ///< per m, of a center of mass that is too far away
+constexpr double kEasyShare = .5;          ///< of the lever that a hand withstands
 
 /// The sizes of a box, or of the box around a mesh, along x, y, z, m.
 Vector3d widthsOf(const Frame& frame) {
@@ -141,6 +143,18 @@ void nearCenter(TaskWaypoints& w, double time, const std::string& grip, const st
     w.komo().addObjective({time}, F::positionRel, {grip, obj}, O::sos, 3e0, center);
 }
 
+/// A grasp is preferred so close to the center of mass that the weight does not turn the object between the fingers.
+void withinLever(TaskWaypoints& w, double time, const std::string& grip, const std::string& obj) {
+  const Frame body = w.C.getFrame(obj);
+  const double lever = kEasyShare * leverOf(body);
+  if (!std::isfinite(lever) || body.getJointType() != JointType::rigid) return;  // hinges carry doors
+  const Matrix3d R = body.getRotationMatrix();
+  const MatrixXd level = kTurns * R.topRows<2>();
+  const Vector3d center = centerOfBody(body), away = R.transpose() * Vector3d(lever, lever, 0.);
+  w.komo().addObjective({time}, F::positionRel, {grip, obj}, O::ineqP, level, Vector3d(center + away));
+  w.komo().addObjective({time}, F::positionRel, {grip, obj}, O::ineqP, -level, Vector3d(center - away));
+}
+
 /// The box in a disk, in whose sides fingers hold its rim.
 Eigen::AlignedBox3d boxInDisk(const Frame& disk) {
   const double half = disk.getSize()[1] / std::sqrt(2.), thick = .5 * disk.getSize()[0];
@@ -151,7 +165,7 @@ Eigen::AlignedBox3d boxInDisk(const Frame& disk) {
 
 std::vector<std::string> fingerShapes(const Config& C, const std::string& hand) {
   const auto headOf = [](Frame frame, bool& is_finger) {
-    while (!frame.data().moves() || !frame.data().joint->active) {
+    while (!frame.data().moves() || !dofSource(frame.data()).joint->active) {
       is_finger = is_finger || frame.data().moves();
       const std::optional<Frame> parent = frame.getParent();
       if (!parent) break;
@@ -202,6 +216,7 @@ void addGrasp(TaskWaypoints& w, double time, const std::string& hand, const std:
   const std::string grip = w.C.findFrame(shifted) ? shifted : hand;
   const GraspWords words = graspWords(obj, variant);
   if (!palm.empty()) nearCenter(w, time, grip, obj);
+  if (!palm.empty()) withinLever(w, time, grip, obj);
   if (words.isOfAllParts()) {
     graspBox(w, time, grip, obj, boxOfBody(w.C.getFrame(obj)), words.axis(), "");
     return;
@@ -279,7 +294,11 @@ Variants graspVariants(const Config& C, const std::string& obj, const std::strin
   const std::optional<double> wide = opening(C, hand);
   if (!wide) return {"touch"};
   const Frame frame = C.getFrame(obj);
-  return isCompound(frame) ? waysOfBody(C, obj, hand, *wide) : waysOf(frame, *wide);
+  if (isCompound(frame)) return waysOfBody(C, obj, hand, *wide);
+  Variants ways = waysOf(frame, *wide);
+  const std::string up = upOf(C, obj).substr(0, 1);  // a finger would have to be below the object
+  std::ranges::stable_partition(ways, [&](const std::string& way) { return way != up; });
+  return ways;
 }
 
 bool isTooWideAcross(const Config& C, const std::string& obj, const std::string& hand) {

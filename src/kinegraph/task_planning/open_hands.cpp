@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <vector>
+#include <optional>
 
 #include "kinegraph/scene/hand_fingers.h"
+#include "kinegraph/task_planning/held_shapes.h"
 #include "kinegraph/task_planning/task_actions.h"
 
 namespace kinegraph {
@@ -13,6 +14,9 @@ namespace {
 
 constexpr double kNewOverlap = 1e-3;                ///< m: overlaps up to this depth do not count
 constexpr std::array kShares = {1., .75, .5, .25};  ///< of the opening, in the order in which they are tried
+
+constexpr std::array kRooms = {.007, .0025};  ///< m: between an object and each finger of a hand that is narrower
+constexpr double kNarrower = .95;             ///< share of the widest opening
 
 /// The joint of the fingers of a hand, and all joints that move with it.
 struct Fingers {
@@ -42,7 +46,7 @@ void setFingers(Config& C, const Fingers& fingers, double q) {
 
 }  // namespace
 
-Config withOpenHands(const Config& C) {
+Config withOpenHands(const Config& C, double most) {
   Config scene = C;
   const std::vector<HandFingers> openings = handFingersOf(C);
   for (const std::string& hand : wordsOf(taskFacts(C), "is_gripper")) {
@@ -52,7 +56,8 @@ Config withOpenHands(const Config& C) {
     const double lower = fingers.joint->joint->lower[0], upper = fingers.joint->joint->upper[0];
     const auto opening = std::ranges::find(openings, fingers.joint->name, &HandFingers::joint);
     if (opening == openings.end()) continue;
-    const double open = opening->widthAt(upper) > opening->widthAt(lower) ? upper : lower;
+    const double wide = opening->widthAt(upper) > opening->widthAt(lower) ? upper : lower;
+    const double open = opening->maxWidth() > most ? opening->positionAt(most) : wide;
     const std::size_t overlaps = scene.getCollisions(-kNewOverlap).size();
     for (const double share : kShares) {
       setFingers(scene, fingers, now + share * (open - now));
@@ -61,6 +66,41 @@ Config withOpenHands(const Config& C) {
     }
   }
   return scene;
+}
+
+Config withFingersOf(const Config& C, const Config& other) {
+  Config scene = C;
+  for (const HandFingers& fingers : handFingersOf(C)) {
+    const std::optional<Frame> same = other.findFrame(fingers.joint);
+    if (!same || !same->data().joint || same->data().joint->q.size() != 1) continue;
+    const FrameData& joint = scene.getFrame(fingers.joint).data();
+    if (joint.joint->active) continue;
+    scene.setJointState(VectorXd::Constant(1, same->data().joint->q[0]), {fingers.joint});
+  }
+  return scene;
+}
+
+std::vector<double> narrowerOpenings(const Config& C, const std::vector<Literal>& goal) {
+  const std::vector<HandFingers> all = handFingersOf(C);
+  const std::vector<std::string> hands = wordsOf(taskFacts(C), "is_gripper");
+  if (all.empty() || hands.empty()) return {};
+  const Config scene = withOpenings(C, hands);
+  double needed = 0.;
+  for (const std::string& obj : wordsOf(taskFacts(C), "is_object")) {
+    const auto names = [&](const Literal& literal) {
+      return std::ranges::find(literal.arguments, obj) != literal.arguments.end();
+    };
+    if (std::ranges::none_of(goal, names) || scene.getFrame(obj).getShapeType() == ShapeType::none) continue;
+    const std::vector<std::string> ways = graspVariants(scene, obj, hands[0]);
+    if (ways.empty()) continue;
+    const GraspWords words = graspWords(obj, ways[0]);
+    const Vector3d sizes = heldShape(scene, obj, words).box.sizes();
+    needed = std::max(needed, words.axis() >= 0 ? sizes[words.axis()] : sizes.head<2>().minCoeff());
+  }
+  std::vector<double> openings;
+  for (const double room : kRooms)
+    if (needed > 0. && needed + 2. * room < kNarrower * all[0].maxWidth()) openings.push_back(needed + 2. * room);
+  return openings;
 }
 
 }  // namespace kinegraph

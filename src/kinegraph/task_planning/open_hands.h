@@ -1,12 +1,24 @@
 #pragma once
 
+#include <limits>
+#include <vector>
+
+#include "kinegraph/logic/domain.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph {
 
 /// Returns the scene with the fingers of its hands as far open as their limits allow, also around held objects. A hand
 /// opens less if its fingers would overlap something else. Fingers are joints that are no part of q: one joint with one
-/// dof and limits, and those that mimic it, on the link of the hand.
-Config withOpenHands(const Config& C);
+/// dof and limits, and those that mimic it, on the link of the hand. `most`:
+/// the opening of hands that open wider, m.
+Config withOpenHands(const Config& C, double most = std::numeric_limits<double>::infinity());
+
+/// Returns a scene with the fingers of hands as in another one.
+Config withFingersOf(const Config& C, const Config& other);
+
+/// Returns openings of hands, m, that have room for the objects of a goal and are less than the widest one, wide ones
+/// first: for objects next to which open fingers have no room.
+std::vector<double> narrowerOpenings(const Config& C, const std::vector<Literal>& goal);
 
 }  // namespace kinegraph

@@ -17,7 +17,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kFine = 1e-3;  ///< m
+constexpr double kFine = 1e-3;      ///< m
+constexpr double kGripTorque = .3;  ///< N m: fingers that press with 40 N hold it, with pads of 2 cm
 
 /// Returns the frames fixed to a body, the body first.
 std::vector<Frame> fixedTo(const Frame& body) {
@@ -85,6 +86,25 @@ Vector3d centerOfBody(const Frame& body) {
     if (all.mass > 0.) return all.at / all.mass;
   }
   return Vector3d::Zero();
+}
+
+double massOfBody(const Frame& body) {
+  double mass = 0.;
+  for (const Frame& part : fixedTo(body)) mass += saidMass(part).mass;
+  return mass;
+}
+
+double leverOf(const Frame& body) {
+  const double mass = massOfBody(body);
+  const double usual = mass > 0. ? kGripTorque / (mass * kGravity.norm()) : std::numeric_limits<double>::infinity();
+  const Node* said = body.attributes().find("lever");
+  const double* lever = said ? said->value.as<double>() : nullptr;
+  return lever ? std::min(*lever, usual) : usual;
+}
+
+double leverIn(const Frame& hand, const Frame& body) {
+  const Vector3d center = body.getPose().transform() * centerOfBody(body) - hand.getPosition();
+  return std::abs(center.cross(Vector3d::UnitZ()).dot(hand.getRotationMatrix().col(0)));
 }
 
 FramePairs wedgedPairs(const Config& C, const std::vector<std::string>& hands, const std::vector<std::string>& objects,

@@ -27,6 +27,18 @@ bool isBall(const Frame& obj);
 /// place.
 double supportOf(const Frame& obj, const Frame& place);
 
+/// Returns the mass of a body with all parts fixed to it, kg; 0 if none is said.
+double massOfBody(const Frame& body);
+
+/// Returns the level distance of a center of mass from the fingers from which on the weight of the object turns it in
+/// the hand, m: the attribute `lever` of its frame, or what usual fingers withstand, whichever is less. Infinite
+/// without a mass.
+double leverOf(const Frame& body);
+
+/// Returns the level distance of the center of mass of a body from a hand, across the axis along which its fingers
+/// close, m.
+double leverIn(const Frame& hand, const Frame& body);
+
 /// Returns the pairs of frames, one of a held object and one of the robot, that overlap by more than `depth` (m). Such
 /// overlaps occur because models of hands are wider than hands, and held objects rotate or slip.
 using FramePairs = std::vector<std::pair<std::string, std::string>>;

@@ -5,6 +5,7 @@ import pytest
 
 import kinegraph as ry
 from executed_plans import executed
+from task_scenes import everyday_scenes
 
 TOP = 0.65  # m: height of the table
 
@@ -30,6 +31,86 @@ def stands(world, name, place, top, radius) -> bool:
     at, center = world.getFrame(name).getPosition(), world.getFrame(place).getPosition()
     upright = world.getFrame(name).getRotationMatrix()[2, 2] > 0.99
     return bool(upright and abs(at[2] - top) < 4e-3 and np.linalg.norm((at - center)[:2]) < radius)
+
+
+def barWithAWeight(mass: float) -> ry.Config:
+    C = scene()
+    tray(C, (0.3, 0.3, 0.01))
+    box(C, "bar", "table", (0.25, 0.25, TOP), (0.24, 0.045, 0.045))
+    weight = C.addFrame("weight", "bar").setRelativePosition([0.095, 0, 0])
+    weight.setShape(ry.ST.ssBox, [0.03, 0.03, 0.03, 0.004]).setMass(mass)
+    return C
+
+
+def gripOf(C: ry.Config, plan: ry.TaskPlan) -> float:
+    """Where along the bar the hand takes it, m."""
+    C = C.copy()
+    C.setJointState(plan.waypoints[0])
+    bar = C.getFrame("bar")
+    return float(((C.getFrame("l_gripper").getPosition() - bar.getPosition()) @ bar.getRotationMatrix())[0])
+
+
+def test_a_heavy_object_is_held_close_to_its_center_of_mass() -> None:
+    C = barWithAWeight(0.6)
+    plan = ry.planTask(C, "(on tray bar)")
+    assert abs(gripOf(C, plan) - 0.095 * 0.6 / 0.7) < 0.025
+    assert stands(executed(C, plan), "bar", "tray", TOP + 0.01 + 0.0225, 0.15)
+
+
+def test_an_object_that_turned_in_the_hand_is_held_closer_to_its_center_of_mass() -> None:
+    plan = ry.planTask(barWithAWeight(0.01), "(on tray bar)")
+    C = barWithAWeight(0.6)  # nobody has told the plan of it
+    bot = ry.BotOp(C)
+    run = plan.execute(bot)
+    assert run.feasible and run.repairs >= 1, run
+    C.getFrame("bar").setAttributes({"lever": 0.01})
+    assert abs(gripOf(C, ry.planTask(C, "(on tray bar)")) - 0.095 * 0.6 / 0.7) < 0.012
+
+
+def test_an_object_that_is_too_heavy_for_the_fingers_is_told() -> None:
+    C = scene()
+    tray(C)
+    box(C, "red", "table", (0.3, 0.3, TOP)).setMass(12.0)
+    plan = ry.planTask(C, "(on tray red)")
+    assert "'red' (12.0 kg) slips out of 'l_gripper', which lifts 4.1 kg" in plan.explain()
+
+
+def test_hands_open_less_where_wide_ones_have_no_room() -> None:
+    C = scene()
+    tray(C)
+    box(C, "red", "table", (0.3, 0.3, TOP))
+    for name, at, size in (("wall", (0.355, 0.3), (0.02, 0.2, 0.07)), ("other", (0.3, 0.355), (0.2, 0.02, 0.07))):
+        wall = C.addFrame(name, "table").setPosition([*at, TOP + 0.035])
+        wall.setShape(ry.ST.ssBox, [*size, 0.004]).setContact(1)
+    plan = ry.planTask(C, "(on tray red)")
+    assert "hands open to 55 mm only: wider ones have no room at the objects" in plan.warnings, plan
+    assert stands(executed(C, plan), "red", "tray", TOP + 0.01 + 0.035, 0.1)
+
+
+def test_a_robotiq_takes_a_low_bar_with_its_fingertips() -> None:
+    C = everyday_scenes.urRobotiq(np.random.default_rng(0)).C
+    low = C.getFrame("box0").setShape(ry.ST.ssBox, [0.12, 0.03, 0.02, 0.004])
+    low.setPosition([*low.getPosition()[:2], TOP + 0.01])
+    plan = ry.planTask(C, "(on gripper box0)")
+    assert plan.feasible, plan
+    executed(C, plan)  # pressed by the fingers
+
+
+def test_an_object_that_is_held_and_stands_still_is_lifted_first() -> None:
+    C = scene()
+    tray(C)
+    box(C, "red", "table", (0.3, 0.3, TOP))
+    C.setJointState(ry.planTask(C, "(on l_gripper red)").path[-1])
+    red = C.getFrame("red")
+    red.setPosition(red.getPosition() - [0, 0, 2e-6])  # as it stands in a simulation
+    red.setParent(C.getFrame("l_gripper"), True).setJoint(ry.JT.rigid)
+    plan = ry.planTask(C, "(on tray red)")
+    assert plan.feasible and len(plan.actions) == 1, plan
+    heights = []
+    for q in plan.path[:: len(plan.path) // 20]:
+        C.setJointState(q)
+        heights.append(red.getPosition()[2])
+    assert max(heights) > heights[0] + 0.03
 
 
 def test_objects_hang_below_any_frame() -> None:

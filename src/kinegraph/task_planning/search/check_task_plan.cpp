@@ -381,7 +381,9 @@ std::vector<std::string> checkTaskPlan(const Config& C, const TaskPlan& plan,
                                        const std::vector<std::vector<Literal>>& states, std::optional<double> margin) {
   requirePlan(C, plan);
   Lines wrong = states.empty() ? Lines() : unmetGoals(plan.goal, states.back());
-  const Lines more = PlanPlayer(withOpenHands(C), plan, margin.value_or(plan.margin)).violations();
+  const Config open = withOpenHands(C);
+  const Config scene = plan.scenes.empty() ? open : withFingersOf(open, plan.scenes.front());
+  const Lines more = PlanPlayer(scene, plan, margin.value_or(plan.margin)).violations();
   wrong.insert(wrong.end(), more.begin(), more.end());
   return wrong;
 }

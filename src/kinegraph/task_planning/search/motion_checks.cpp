@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/features/eval.h"
@@ -18,6 +19,12 @@ constexpr double kStraight = 1e-10;  ///< rad or m: deviation up to which three 
 
 /// The cosine of the angle of the rotation between two orientations.
 double turnCosine(const Matrix3d& a, const Matrix3d& b) { return .5 * ((a.transpose() * b).trace() - 1.); }
+
+bool movesWithJoints(const Frame& frame) {
+  for (std::optional<Frame> up = frame; up; up = up->getParent())
+    if (up->data().moves() && dofSource(up->data()).joint->active) return true;
+  return false;
+}
 
 double lengthOf(const Vector3d& v) { return std::sqrt(v.x() * v.x() + v.y() * v.y() + v.z() * v.z()); }
 
@@ -48,6 +55,24 @@ double handGap(const Config& scene, const std::string& obj, const std::string& h
 void hang(Config& scene, const std::string& obj, const std::string& parent) {
   scene.getFrame(obj).setParent(scene.getFrame(parent), true);
   scene.getFrame(obj).setJoint(JointType::rigid);
+}
+
+std::vector<std::string> pickBefore(const Config& scene, const std::vector<std::string>& hands,
+                                    const std::vector<std::string>& objects) {
+  for (const std::string& obj : objects) {
+    const std::string hand = holderOf(scene, obj, hands);
+    if (hand.empty()) continue;
+    const std::vector<Frame> parts = shapesOf(scene.getFrame(obj));
+    const auto isPart = [&](int id) {
+      return std::ranges::any_of(parts, [&](const Frame& part) { return part.id() == id; });
+    };
+    for (const Config::NearPair& pair : scene.getCollisions(kOverlap)) {
+      if (isPart(pair.a) == isPart(pair.b)) continue;
+      const Frame other = scene.getFrame(isPart(pair.a) ? pair.b : pair.a);
+      if (!movesWithJoints(other)) return {"pick", obj, other.getName(), hand};
+    }
+  }
+  return {};
 }
 
 double levelCosine() {

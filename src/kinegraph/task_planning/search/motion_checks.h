@@ -25,6 +25,11 @@ double handGap(const Config& scene, const std::string& obj, const std::string& h
 /// Attaches an object to a frame in its current pose, as a held or standing object.
 void hang(Config& scene, const std::string& obj, const std::string& parent);
 
+/// Returns the action pick after which a hand holds an object that still touches what it stood on at the q of the
+/// scene; empty if there is none.
+std::vector<std::string> pickBefore(const Config& scene, const std::vector<std::string>& hands,
+                                    const std::vector<std::string>& objects);
+
 /// The cosine of half a degree, the tolerance of level axes.
 double levelCosine();
 

@@ -11,6 +11,7 @@ namespace kinegraph {
 
 namespace {
 
+constexpr double kLifted = 40.;     ///< N: fingers that press with 40 N, and half of their friction to spare
 constexpr Eigen::Index kEvery = 8;  ///< rows of a path that are left out between two
 
 /// Some rows of a path, its ends included.
@@ -42,6 +43,15 @@ StepTolerance toleranceOf(const Config& C, const Surroundings& around, const Mat
         if (part.data().shape->contact)
           lower(tolerance, std::max(gapOf(end, finger, part.getName()), 0.),
                 cat("'", finger, "' meets '", part.getName(), "'"));
+    const Frame obj = end.getFrame(action[1]), hand = end.getFrame(action[3]);
+    const double mass = massOfBody(obj), most = kLifted / kGravity.norm();
+    if (opening(end, action[3]) && mass > most)
+      lower(tolerance, 0.,
+            cat("'", action[1], "' (", fixed(mass, 1), " kg) slips out of '", action[3], "', which lifts ",
+                fixed(most, 1), " kg"));
+    if (opening(end, action[3]))
+      lower(tolerance, std::max(leverOf(obj) - leverIn(hand, obj), 0.),
+            cat("'", action[1], "' turns in '", action[3], "'"));
   } else if (action[0] == "place" && end.findFrame(action[3])) {
     const Frame obj = end.getFrame(action[1]);
     lower(tolerance, std::max(supportOf(obj, end.getFrame(action[3])), 0.),

@@ -197,7 +197,7 @@ TaskMotions::Found TaskMotions::planFree(const Config& C, const VectorXd& q0, co
   };
   Speculative<PathResult> direct;  // without retreat and approach
   if (level.empty()) {
-    std::vector<VectorXd> configurations = retreat(C, around, q0, before);
+    std::vector<VectorXd> configurations = retreat(C, around, q0, before.empty() ? pickAtStart(C, q0) : before);
     const std::vector<VectorXd> tail = retreat(C, around, q1, reversedAction(action));
     if (configurations.size() + tail.size() > 2) {
       const MotionPlan found = findPath(C, configurations.back(), tail.back(), {}, [&] {
@@ -301,6 +301,13 @@ Speculative<TaskMotions::PathResult> TaskMotions::pathSpeculatively(const Config
 MotionPlan TaskMotions::countedPlan(PathResult& result) {
   evaluations_ += result.evaluations;
   return std::move(result.plan);
+}
+
+/// The pick before the first action, if a hand holds an object that still stands.
+TaskAction TaskMotions::pickAtStart(const Config& C, const VectorXd& q0) const {
+  Config start = C;
+  start.setJointState(q0);
+  return pickBefore(start, hands_, objects_);
 }
 
 /// The configurations of a straight motion away from q after an action, q first: a hand retreats from a placed object

@@ -58,6 +58,7 @@ class TaskMotions {
   std::vector<double> margins() const;
   Speculative<PathResult> pathSpeculatively(const Config& C, const VectorXd& start, const VectorXd& goal) const;
   MotionPlan countedPlan(PathResult& findPath);
+  TaskAction pickAtStart(const Config& C, const VectorXd& q0) const;
   std::vector<VectorXd> retreat(const Config& C, const Surroundings& around, const VectorXd& q,
                                 const TaskAction& action) const;
   std::vector<VectorXd> straight(const Config& C, const VectorXd& q, const std::string& hand,

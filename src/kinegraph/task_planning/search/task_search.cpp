@@ -8,6 +8,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/logic/domain.h"
+#include "kinegraph/task_planning/grasps.h"
 #include "kinegraph/task_planning/gripper_frames.h"
 #include "kinegraph/task_planning/open_hands.h"
 #include "kinegraph/task_planning/search/goal_flaw.h"
@@ -60,6 +61,28 @@ double robustnessOf(const TaskPlan& plan, double margin) {
   return least + std::min(plan.margin - margin, 0.);
 }
 
+/// The scene with open hands. `most`: the opening of hands that open wider, m.
+Config sceneOf(const Config& C, double most) {
+  const std::vector<std::string> hands = wordsOf(taskFacts(C), "is_gripper");
+  Config scene = withOpenings(withOpenHands(C, most), hands);
+  for (const std::string& hand : hands)
+    if (opening(scene, hand).value_or(0.) > most)
+      scene.getFrame(hand).editAttributes().set({"opening", {}, {}, {most, {}}, {}});
+  return scene;
+}
+
+/// Whether the fingers or the palm of a hand were in the way in some branch of a search.
+bool isInTheWay(const Config& C, const TaskPlan& failed) {
+  for (const std::string& hand : wordsOf(failed.start, "is_gripper")) {
+    std::vector<std::string> parts = fingerShapes(C, hand);
+    if (const std::string palm = palmOf(C, hand); !palm.empty()) parts.push_back(palm);
+    for (const auto& [cause, count] : failed.causes)
+      for (const std::string& part : parts)
+        if (cause.find(part) != std::string::npos) return true;
+  }
+  return false;
+}
+
 int requireThreads(int threads) {
   if (threads < 1) throw ValueError(cat("planTask: threads is ", threads, "; expected 1 or more"));
   return threads;
@@ -72,8 +95,9 @@ double requireTimeLimit(double seconds) {
 
 }  // namespace
 
-TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptions& options)
-    : original_(std::make_shared<const Config>(withOpenings(withOpenHands(C), wordsOf(taskFacts(C), "is_gripper")))),
+TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptions& options, double opening)
+    : opening_(opening),
+      original_(std::make_shared<const Config>(sceneOf(C, opening))),
       C_(withoutGivenContacts(*original_, requireMargin(options.margin))),
       doors_(doorsOf(C)),
       options_(options),
@@ -123,7 +147,34 @@ std::optional<TaskPlan> TaskSearch::next() {
   };
   executor_.cancelAll();
   const Rest rest{*this};
-  return nextPlan();
+  if (narrower_) return narrower_->next();
+  std::optional<TaskPlan> plan = nextPlan();
+  std::optional<TaskPlan> other = plan ? withNarrowerHands(*plan) : std::nullopt;
+  return other ? std::move(other) : std::move(plan);
+}
+
+/// The plan with hands that open less, if fully open ones have no room at objects.
+std::optional<TaskPlan> TaskSearch::withNarrowerHands(const TaskPlan& failed) {
+  if (failed.status != TaskStatus::no_plan_found || std::isfinite(opening_) || !isInTheWay(*original_, failed))
+    return std::nullopt;
+  for (const double opening : narrowerOpenings(*original_, logic_.goal())) {
+    TaskOptions rest = options_;
+    rest.max_evaluations -= evaluations();
+    if (deadline_ != Clock::time_point::max())
+      rest.time_limit = std::chrono::duration<double>(deadline_ - Clock::now()).count();
+    if (rest.max_evaluations <= 0 || !(rest.time_limit > 0.)) break;
+    auto search = std::make_unique<TaskSearch>(*original_, goal_text_, rest, opening);
+    std::optional<TaskPlan> plan = search->next();
+    evaluations_ += search->evaluations();
+    if (!plan || !plan->feasible()) continue;
+    narrower_ = std::move(search);
+    plan->evaluations = evaluations();
+    plan->replanner = replannerTo(goal_text_, options_);
+    plan->warnings.push_back(
+        cat("hands open to ", fixed(1e3 * opening, 0), " mm only: wider ones have no room at the objects"));
+    return plan;
+  }
+  return std::nullopt;
 }
 
 /// Excludes actions that are proved to be impossible. Returns the answer if nothing in logic reaches the goal.

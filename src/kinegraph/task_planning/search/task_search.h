@@ -17,7 +17,9 @@ namespace kinegraph {
 /// constraints of the logic.
 class TaskSearch {
  public:
-  TaskSearch(const Config& C, const std::string& goal, const TaskOptions& options);
+  /// `opening`: of hands that open wider, m.
+  TaskSearch(const Config& C, const std::string& goal, const TaskOptions& options,
+             double opening = std::numeric_limits<double>::infinity());
 
   /// See TaskPlans.
   std::optional<TaskPlan> next();
@@ -42,6 +44,7 @@ class TaskSearch {
   };
 
   std::optional<TaskPlan> begin();
+  std::optional<TaskPlan> withNarrowerHands(const TaskPlan& failed);
   std::optional<TaskPlan> nextPlan();
   std::optional<Actions> nextActions();
   std::optional<TaskPlan> nextOf(Trial& trial);
@@ -61,6 +64,7 @@ class TaskSearch {
   TaskPlan answer(TaskStatus status, std::string message);
   TaskPlan completed(TaskPlan plan);
 
+  const double opening_;  ///< of hands that open wider, m
   const std::shared_ptr<const Config> original_;
   const Config C_;  ///< held objects may overlap the robot as they do at the start
   const std::vector<TaskDoor> doors_;
@@ -85,6 +89,7 @@ class TaskSearch {
   SpeculativeExecutor executor_;
   WaypointCache waypoints_;
   ConflictLearner learner_;
+  std::unique_ptr<TaskSearch> narrower_;  ///< with hands that open less
 };
 
 }  // namespace kinegraph
