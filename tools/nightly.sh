@@ -119,6 +119,7 @@ bench planning "--all --seeds 0 1 2 3 4" "--indices 1"
 bench tasks "--seeds 5 --threads 2" "--families tower --seeds 1"
 bench everyday "--scenes 5 --jobs 2" "--scenes 1 --generators stack,swap"
 bench tamp_problems "--seeds 3" "--problems blocks --seeds 1"
+bench pictures "" "--rounds 1"
 bench seen_then_planned "--looks 4" "--scenes 2"
 stage films "$tests/bin/python" -c \
   "import sys, pathlib; sys.path.insert(0, 'docs'); import make_pictures; make_pictures.everydayFilms(pathlib.Path('$out'))"

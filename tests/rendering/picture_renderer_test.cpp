@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 
 #include "tests/support/expect_error.h"
 
@@ -113,6 +114,74 @@ TEST_F(Pictures, AColoredFloorReachesTheHorizon) {
       renderer.render(config, pictureCamera(), {.floor_color = Vector3d(.5, .1, .1), .distance = .05});
   for (int row = 25; row < 48; ++row)
     EXPECT_LT(channel(image, row, 20, 1), row < 30 ? kPaper[1] + 1 : kPaper[1] - 40) << row;
+}
+
+TEST_F(Pictures, ARepeatedPictureIsThatOfANewRendererAfterAnyMotion) {
+  Config config;
+  config.addText(
+      "roof: { X: [2 0 1.2], shape: box, size: [.5 .5 .05] }\n"
+      "ball: { X: [2 .2 .2], shape: sphere, size: [.15], color: [.2 .6 .3] }");
+  Camera camera = pictureCamera();
+  camera.pose = lookAt({0., 0., 1.5}, {2., 0., .2});
+  for (const double y : {0., .3, .3, -.6}) {
+    config.getFrame("roof").setPosition({2., y, 1.2});
+    PictureRenderer other;
+    EXPECT_EQ(renderer.render(config, camera).rgb, other.render(config, camera).rgb) << y;
+  }
+}
+
+TEST_F(Pictures, AShadowLeavesNothingBehindWhenItsShapeGoes) {
+  Config config;
+  config.addText("roof: { X: [2 0 1], shape: box, size: [.5 .5 .05] }");
+  Camera camera = pictureCamera();
+  camera.pose = lookAt({0., 0., 1.5}, {2., 0., 0.});
+  renderer.render(config, camera);
+  config.delFrame("roof");
+  EXPECT_EQ(renderer.render(config, camera).rgb, renderer.render(config, camera, {.shadows = false}).rgb);
+}
+
+TEST_F(Pictures, DepthsAreLeftOutOnRequest) {
+  Config config;
+  config.addText("wall: { X: [2.5 0 1], shape: box, size: [1 8 8] }");
+  const CameraImage with = renderer.render(config, pictureCamera());
+  const CameraImage without = renderer.render(config, pictureCamera(), {.has_depth = false});
+  EXPECT_EQ(with.rgb, without.rgb);
+  EXPECT_TRUE(without.depth.empty());
+}
+
+TEST_F(Pictures, EdgesAreMixedFromFourSamples) {
+  Config config;
+  config.addText("wall: { X: [2 0 1 .985 .174 0 0], shape: box, size: [.01 1 1], color: [0 0 0] }");
+  const CameraImage image = renderer.render(
+      config, pictureCamera(), {.has_floor = false, .background = Vector3d(1., 1., 1.), .flat_colors = true});
+  std::set<int> seen;
+  for (int i = 0; i < 64 * 48; ++i) seen.insert(image.rgb[std::size_t(3 * i)]);
+  EXPECT_EQ(seen, (std::set<int>{0, 64, 128, 191, 255}));
+}
+
+TEST_F(Pictures, LinesOfTheFloorAreBeforeShapesBelowIt) {
+  Config config;
+  config.addText("pit: { X: [0 0 -.3], shape: box, size: [20 20 .2], color: [1 1 1] }");
+  Camera camera = pictureCamera();
+  camera.pose = lookAt({.5, .5, 3.}, {.5, .51, 0.});
+  const auto darkest = [&](bool has_floor) {
+    const CameraImage image = renderer.render(config, camera, {.has_floor = has_floor, .flat_colors = true});
+    return *std::min_element(image.rgb.begin(), image.rgb.end());
+  };
+  EXPECT_EQ(darkest(false), 255);
+  EXPECT_LT(darkest(true), 230);
+}
+
+TEST_F(Pictures, MoreLightsMakeAWallBrighter) {
+  Config config;
+  config.addText("wall: { X: [2.5 0 1], shape: box, size: [1 8 8], color: [.2 .2 .2] }");
+  int last = 0;
+  for (const std::size_t count : {1, 2, 3, 8}) {
+    const PictureOptions options{.lights = std::vector<Vector3d>(count, Vector3d(-2., 0., 1.))};
+    const int seen = channel(renderer.render(config, pictureCamera(), options), 24, 32, 1);
+    EXPECT_GT(seen, last) << count;
+    last = seen;
+  }
 }
 
 TEST_F(Pictures, WrongOptionsAreRefused) {

@@ -19,8 +19,8 @@ namespace kinegraph::python {
 
 namespace {
 
-/// Renders the viewer's scene, with a text on it.
-CameraImage picture(PyViewer& viewer, const std::string& text) {
+/// Renders the viewer's scene, with a text on it. Without depths, unless asked for.
+CameraImage picture(PyViewer& viewer, const std::string& text, bool has_depth = false) {
   if (!viewer.scene) throw ValueError("this viewer has no scene yet; call view() first");
   const Camera camera = cameraNow(viewer);
   const Appearance appearance = appearanceFromParameters();
@@ -31,7 +31,8 @@ CameraImage picture(PyViewer& viewer, const std::string& text) {
                          .lights = appearance.lights,
                          .flat_colors = appearance.flat_colors,
                          .wireframe = appearance.wireframe,
-                         .distance = viewer.distance};
+                         .distance = viewer.distance,
+                         .has_depth = has_depth};
   if (!viewer.pictures) viewer.pictures.emplace();
   const nb::gil_scoped_release unlock;
   CameraImage image = viewer.pictures->render(*viewer.scene, camera, options, viewer.visuals_only);
@@ -145,7 +146,7 @@ void bindPictures(nb::class_<PyViewer>& viewer) {
       .def(
           "getDepth",
           [](PyViewer& v, bool) {
-            CameraImage image = picture(v, v.message());
+            CameraImage image = picture(v, v.message(), true);
             return depthOf(image);
           },
           "nonThreaded"_a = true, docs::pictures::getDepth)

@@ -34,14 +34,4 @@ CameraImage shrunk(const CameraImage& fine, int factor) {
   return image;
 }
 
-void flipRows(CameraImage& image) {
-  const std::size_t row = std::size_t(image.width);
-  for (std::size_t top = 0, bottom = std::size_t(image.height) - 1; top < bottom; ++top, --bottom) {
-    if (!image.rgb.empty())
-      std::swap_ranges(&image.rgb[3 * row * top], &image.rgb[3 * row * top] + 3 * row, &image.rgb[3 * row * bottom]);
-    if (!image.depth.empty())
-      std::swap_ranges(&image.depth[row * top], &image.depth[row * top] + row, &image.depth[row * bottom]);
-  }
-}
-
 }  // namespace kinegraph

@@ -22,9 +22,6 @@ struct CameraImage {
 /// Averages the colors of factor x factor pixels; the depth is that of their middle pixel.
 CameraImage shrunk(const CameraImage& fine, int factor);
 
-/// Reverses the order of the rows: those of OpenGL run from bottom to top.
-void flipRows(CameraImage& image);
-
 /// A pinhole or orthographic camera. Its axes: x to the right of the image, y down, z forward.
 /// The center of the image is on the z axis; pixels are square.
 struct Camera {

@@ -19,13 +19,14 @@ GlFunctions loadGl() {
   load(functions.AttachShader, "glAttachShader");
   load(functions.BindBuffer, "glBindBuffer");
   load(functions.BindFramebuffer, "glBindFramebuffer");
-  load(functions.BindRenderbuffer, "glBindRenderbuffer");
   load(functions.BindTexture, "glBindTexture");
   load(functions.BindVertexArray, "glBindVertexArray");
   load(functions.BlendFuncSeparate, "glBlendFuncSeparate");
   load(functions.BufferData, "glBufferData");
   load(functions.CheckFramebufferStatus, "glCheckFramebufferStatus");
   load(functions.Clear, "glClear");
+  load(functions.ClearBufferfv, "glClearBufferfv");
+  load(functions.ClearBufferuiv, "glClearBufferuiv");
   load(functions.ClearColor, "glClearColor");
   load(functions.ColorMask, "glColorMask");
   load(functions.CompileShader, "glCompileShader");
@@ -35,7 +36,6 @@ GlFunctions loadGl() {
   load(functions.DeleteBuffers, "glDeleteBuffers");
   load(functions.DeleteFramebuffers, "glDeleteFramebuffers");
   load(functions.DeleteProgram, "glDeleteProgram");
-  load(functions.DeleteRenderbuffers, "glDeleteRenderbuffers");
   load(functions.DeleteShader, "glDeleteShader");
   load(functions.DeleteTextures, "glDeleteTextures");
   load(functions.DeleteVertexArrays, "glDeleteVertexArrays");
@@ -44,14 +44,13 @@ GlFunctions loadGl() {
   load(functions.Disable, "glDisable");
   load(functions.DrawArrays, "glDrawArrays");
   load(functions.DrawBuffer, "glDrawBuffer");
+  load(functions.DrawElements, "glDrawElements");
   load(functions.Enable, "glEnable");
   load(functions.EnableVertexAttribArray, "glEnableVertexAttribArray");
-  load(functions.FramebufferRenderbuffer, "glFramebufferRenderbuffer");
   load(functions.FramebufferTexture2D, "glFramebufferTexture2D");
   load(functions.GenBuffers, "glGenBuffers");
   load(functions.GenerateMipmap, "glGenerateMipmap");
   load(functions.GenFramebuffers, "glGenFramebuffers");
-  load(functions.GenRenderbuffers, "glGenRenderbuffers");
   load(functions.GenTextures, "glGenTextures");
   load(functions.GenVertexArrays, "glGenVertexArrays");
   load(functions.GetProgramInfoLog, "glGetProgramInfoLog");
@@ -64,7 +63,7 @@ GlFunctions loadGl() {
   load(functions.PolygonMode, "glPolygonMode");
   load(functions.ReadBuffer, "glReadBuffer");
   load(functions.ReadPixels, "glReadPixels");
-  load(functions.RenderbufferStorage, "glRenderbufferStorage");
+  load(functions.Scissor, "glScissor");
   load(functions.ShaderSource, "glShaderSource");
   load(functions.TexImage2D, "glTexImage2D");
   load(functions.TexParameteri, "glTexParameteri");

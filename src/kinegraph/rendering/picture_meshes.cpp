@@ -141,6 +141,10 @@ Vector3d linearColor(const Vector3d& rgb) {
   return rgb.unaryExpr([](double x) { return x <= .04045 ? x / 12.92 : std::pow((x + .055) / 1.055, 2.4); });
 }
 
+Vector3d encodedColor(const Vector3d& linear) {
+  return linear.unaryExpr([](double x) { return x <= .0031308 ? 12.92 * x : 1.055 * std::pow(x, 1. / 2.4) - .055; });
+}
+
 PictureMesh pictureMesh(const Geometry& geometry) {
   PictureMesh picture;
   const std::vector<double>& s = geometry.size;

@@ -41,4 +41,7 @@ PictureMesh markerMesh(double length);
 /// Converts a color (rgb in 0..1) from sRGB to a linear scale.
 Vector3d linearColor(const Vector3d& rgb);
 
+/// Converts a color from a linear scale to sRGB.
+Vector3d encodedColor(const Vector3d& linear);
+
 }  // namespace kinegraph

@@ -2,38 +2,44 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "kinegraph/common/text.h"
-#include "kinegraph/geometry/shapes/shape_kinds.h"
-#include "kinegraph/kinematics/state.h"
-#include "kinegraph/rendering/gl_program.h"
-#include "kinegraph/rendering/picture_shaders.h"
-#include "kinegraph/rendering/picture_store.h"
+#include "kinegraph/rendering/gl_frame.h"
+#include "kinegraph/rendering/picture_programs.h"
+#include "kinegraph/rendering/picture_view.h"
 #include "kinegraph/rendering/projection.h"
-#include "kinegraph/rendering/shown_shapes.h"
-#include "kinegraph/scene/tree/scene_tree.h"
+#include "kinegraph/rendering/sun_shadows.h"
 
 namespace kinegraph {
 
 namespace {
 
-// The numbers of the page: viewer/src/lights.ts, floor.ts, stage.ts and viewpoint.ts.
-constexpr int kFiner = 2;  ///< drawn pixels per pixel and direction, against aliasing
-constexpr int kShadowPixels = 2048;
-constexpr double kFogFrom = 9., kFogTo = 28.;       ///< m, for usual scenes
-constexpr double kFloorDepth = .001;                ///< of the lines below z = 0: they hide no bottoms of shapes
 constexpr double kLineWidth = 2., kPointSize = 4.;  ///< pixels
-const Vector3d kSun(-2.5, 2.2, 4.5), kFill(3., -2., 2.5), kCenterOfLights(0., 0., .8);
-const Vector4d kUsualColor(.8, .8, .8, 1.);
-constexpr double kSunlight = 2.35, kSkylight = 1.85;  ///< intensities
 
-/// The page's background in daylight.
-Vector3d paper() { return Vector3d(0xdf, 0xe3, 0xea) / 255.; }
+/// The depths of kinds of pixels: without a shape (0, or where the floor has been drawn), with samples that are alike,
+/// and with others.
+constexpr double kFloorLines = .0625, kFloorShadows = .125, kAlike = .25, kMixed = .5;
+constexpr double kFloorBefore = .3125, kAllButMixed = .375;
 
-/// Converts a color 0xrrggbb, times an intensity.
-Vector3d light(unsigned rgb, double intensity) {
-  return intensity * linearColor(Vector3d(rgb >> 16, rgb >> 8 & 255, rgb & 255) / 255.);
+/// Values of the shaders' parameters `kind` and `shading`.
+constexpr int kLit = 1, kWithoutFog = 2, kFlat = 0, kSymbol = 1, kByLights = 2;
+
+Vector4d linear(Vector4d color) {
+  color.head<3>() = linearColor(color.head<3>());
+  return color;
+}
+
+/// Returns how samples store a color: the square root of a lit color, or the shown color itself.
+Vector4d storedColor(Vector4d color, int shading) {
+  if (shading == kFlat) return color;
+  Vector3d c = linearColor(color.head<3>());
+  constexpr double kBends = .8;  // as in the shader
+  const double peak = c.maxCoeff();
+  if (shading == kSymbol && peak >= kBends) c *= (1. - .04 / (peak - .6)) / peak;
+  color.head<3>() = shading == kSymbol ? encodedColor(c) : Vector3d(c.cwiseSqrt());
+  return color;
 }
 
 }  // namespace
@@ -48,371 +54,314 @@ void PictureOptions::validate() const {
 
 struct PictureRenderer::Impl {
   ~Impl();
-  CameraImage render(SceneTree& tree, Camera camera, const PictureOptions& options, bool visuals_only);
+  CameraImage render(SceneTree& tree, const Camera& camera, const PictureOptions& options, bool visuals_only);
 
   std::optional<GlContext> context;
 
  private:
-  /// A shape at its pose.
-  struct Item {
-    const StoredMesh* stored;
-    Eigen::Matrix4d pose;
-    Vector4d color;
-    bool is_symbol, has_color;
-  };
-  struct Programs {
-    GlProgram surface{shaders::kSurfaceVertex, std::string(shaders::kCommon) + shaders::kSurfaceFragment};
-    GlProgram shadow{shaders::kSurfaceVertex, shaders::kShadowFragment};
-    GlProgram lines{shaders::kLineVertex, std::string(shaders::kCommon) + shaders::kTintFragment};
-    GlProgram points{shaders::kPointVertex, std::string(shaders::kCommon) + shaders::kTintFragment};
-    GlProgram floor{shaders::kFloorVertex, std::string(shaders::kCommon) + shaders::kFloorFragment};
+  /// The contents of the context.
+  struct Drawing {
+    std::optional<PicturePrograms> programs;
     PictureStore store;
+    SunShadows shadows;
+    GlFrame samples{GlFrame::Colors::integers}, glass{GlFrame::Colors::rgba, samples}, pixels{GlFrame::Colors::rgba};
   };
 
-  void prepare(int width, int height);
-  void collect(SceneTree& tree, bool visuals_only);
-  void findBall();
-  void fitRange(Camera& camera, double distance) const;
-  void drawShadows(const PictureOptions& options);
-  void setView(const Camera& camera, const PictureOptions& options);
-  void drawItem(const Item& item, const PictureOptions& options);
-  void drawSurface(const Item& item, const PictureOptions& options);
-  void drawFloor(const Camera& camera, const PictureOptions& options);
-  void drawSolidFloor(const Camera& camera, const PictureOptions& options);
+  GlProgram& use(PictureProgram& program);
+  void drawSamples();
+  void drawGlass();
+  void drawPixels();
+  void drawItem(const PictureItem& item, ShapePrograms& programs);
+  void drawSurface(const PictureItem& item, ShapePrograms& programs);
+  void drawSolidFloor();
+  void drawScreen(PictureProgram& program, double level);
+  void drawFloor();
+  void drawFloorPart(PictureProgram& program, const FloorPart& part, double level);
+  void limitToShapes();
+  void readColors(CameraImage& image) const;
+  void readDepth(CameraImage& image);
 
-  std::optional<Programs> programs;
+  std::optional<Drawing> drawing;
   VisualMeshes visual_meshes;
-  std::vector<Item> items;
-  Vector3d center = Vector3d::Zero();  ///< of a ball around all items
-  double radius = 1.;
-  Vector3d towards_sun;
-  Eigen::Matrix4d to_shadow;
-  double normal_bias = 0.;
-  unsigned frame = 0, color = 0, depth = 0, shadow_frame = 0, shadow_map = 0;
-  int frame_width = 0, frame_height = 0;
+  std::optional<PictureView> view;
+  unsigned pictures = 0;  ///< drawn so far
 };
 
 PictureRenderer::Impl::~Impl() {
   if (!context) return;
   try {
-    const GlContext::Use use(*context);
-    programs.reset();
-    if (!frame) return;
-    const GlFunctions& f = glFunctions();
-    for (const unsigned buffer : {frame, shadow_frame}) f.DeleteFramebuffers(1, &buffer);
-    for (const unsigned buffer : {color, depth}) f.DeleteRenderbuffers(1, &buffer);
-    f.DeleteTextures(1, &shadow_map);
+    const GlContext::Use use_it(*context);
+    drawing.reset();
   } catch (const Error&) {  // the driver has gone, and its memory with it
   }
 }
 
-/// Makes the programs, the shadow map and an image of at least that size.
-void PictureRenderer::Impl::prepare(int width, int height) {
+/// Selects a program, which then knows the view.
+GlProgram& PictureRenderer::Impl::use(PictureProgram& program) {
+  GlProgram& compiled = program.compiled();
+  compiled.use();
+  if (program.described_in != pictures) {
+    view->describe(compiled);
+    drawing->shadows.describe(compiled, view->hasShadows());
+  }
+  program.described_in = pictures;
+  return compiled;
+}
+
+void PictureRenderer::Impl::drawSurface(const PictureItem& item, ShapePrograms& programs) {
   const GlFunctions& f = glFunctions();
-  if (!programs) {
-    programs.emplace();
-    f.GenFramebuffers(1, &frame);
-    f.GenFramebuffers(1, &shadow_frame);
-    f.GenRenderbuffers(1, &color);
-    f.GenRenderbuffers(1, &depth);
-    f.GenTextures(1, &shadow_map);
-    f.BindTexture(gl::kTexture2D, shadow_map);
-    f.TexImage2D(gl::kTexture2D, 0, int(gl::kDepth24), kShadowPixels, kShadowPixels, 0, gl::kDepthComponent, gl::kFloat,
-                 nullptr);
-    for (const unsigned filter : {gl::kMinFilter, gl::kMagFilter})
-      f.TexParameteri(gl::kTexture2D, filter, int(gl::kLinear));
-    for (const unsigned direction : {gl::kWrapS, gl::kWrapT})
-      f.TexParameteri(gl::kTexture2D, direction, int(gl::kClampToEdge));
-    f.TexParameteri(gl::kTexture2D, gl::kCompareMode, int(gl::kCompareToReference));
-    f.TexParameteri(gl::kTexture2D, gl::kCompareFunction, int(gl::kLessOrEqual));
-    f.BindFramebuffer(gl::kFramebuffer, shadow_frame);
-    f.FramebufferTexture2D(gl::kFramebuffer, gl::kDepthAttachment, gl::kTexture2D, shadow_map, 0);
-    f.DrawBuffer(gl::kNone);
-    f.ReadBuffer(gl::kNone);
-  }
-  f.BindFramebuffer(gl::kFramebuffer, frame);
-  if (width <= frame_width && height <= frame_height) return;
-  frame_width = std::max(width, frame_width);
-  frame_height = std::max(height, frame_height);
-  for (const auto& [buffer, format, place] :
-       {std::tuple(color, gl::kRgba8, gl::kColorAttachment), std::tuple(depth, gl::kDepth32F, gl::kDepthAttachment)}) {
-    f.BindRenderbuffer(gl::kRenderbuffer, buffer);
-    f.RenderbufferStorage(gl::kRenderbuffer, format, frame_width, frame_height);
-    f.FramebufferRenderbuffer(gl::kFramebuffer, place, gl::kRenderbuffer, buffer);
-  }
-  if (f.CheckFramebufferStatus(gl::kFramebuffer) != gl::kComplete)
-    throw Error(cat("the OpenGL driver cannot draw pictures of ", width, " x ", height, " pixels"));
-}
-
-void PictureRenderer::Impl::collect(SceneTree& tree, bool visuals_only) {
-  items.clear();
-  const State& state = tree.state();
-  for (const ShownShape& shown : shownShapes(tree, visual_meshes, visuals_only)) {
-    Item item;
-    const std::vector<double>& size = shown.geometry->size;
-    item.is_symbol = shapeKind(shown.geometry->type).is_symbol;
-    item.stored =
-        item.is_symbol ? &programs->store.marker(size.empty() ? .1 : size.back()) : &programs->store.of(shown.geometry);
-    if (item.stored->mesh.parts.empty()) continue;
-    const RigidTransform X_WG = state.pose(shown.frame);
-    item.pose = Eigen::Matrix4d::Identity();
-    item.pose.topLeftCorner<3, 3>() = X_WG.R;
-    item.pose.topRightCorner<3, 1>() = X_WG.p;
-    item.has_color = shown.shape->color.has_value();
-    item.color = shown.shape->color.value_or(kUsualColor);
-    items.push_back(item);
-  }
-  programs->store.tidy();
-}
-
-/// Finds the ball around the box around the boxes of all items, as the page does.
-void PictureRenderer::Impl::findBall() {
-  Vector3d lower(-1., -1., 0.), upper(1., 1., 1.);
-  bool first = true;
-  for (const Item& item : items) {
-    const PictureMesh& mesh = item.stored->mesh;
-    for (int corner = 0; corner < 8; ++corner) {
-      Eigen::Vector4d at(0., 0., 0., 1.);
-      for (int k = 0; k < 3; ++k) at[k] = corner >> k & 1 ? mesh.upper[k] : mesh.lower[k];
-      const Vector3d p = (item.pose * at).head<3>();
-      lower = first ? p : Vector3d(lower.cwiseMin(p));
-      upper = first ? p : Vector3d(upper.cwiseMax(p));
-      first = false;
-    }
-  }
-  center = .5 * (lower + upper);
-  radius = std::max(.5 * (upper - lower).norm(), 1e-4);
-}
-
-void PictureRenderer::Impl::fitRange(Camera& camera, double distance) const {
-  if (camera.has_range) return;
-  const double reach = (camera.pose.p - center).norm() + radius;
-  camera.near = std::min(std::max(.01, .002 * reach), .02 * distance);
-  camera.far = std::max(200., 4. * reach);
-}
-
-/// Draws the depths that the sun sees. Of primitives it draws the backs only, so that their fronts have no shadows by
-/// rounding.
-void PictureRenderer::Impl::drawShadows(const PictureOptions& options) {
-  const GlFunctions& f = glFunctions();
-  const double reach = std::max(1.1 * radius, std::min(1., 8. * radius));
-  normal_bias = .006 * std::min(1., reach) * std::max(1., reach / 12.);
-  Camera sun;
-  sun.pose = lookAt(center + 2. * reach * towards_sun, center);
-  sun.width = sun.height = kShadowPixels;
-  sun.ortho_height = 2. * reach;
-  sun.near = .1 * reach;
-  sun.far = 4. * reach;
-  const Eigen::Matrix4d to_map = projection(sun);
-  Eigen::Matrix4d to_unit = .5 * Eigen::Matrix4d::Identity();
-  to_unit.col(3) = Eigen::Vector4d(.5, .5, .5, 1.);
-  to_shadow = to_unit * to_map;
-  if (!options.shadows || options.flat_colors) return;
-  f.BindFramebuffer(gl::kFramebuffer, shadow_frame);
-  f.Viewport(0, 0, kShadowPixels, kShadowPixels);
-  f.Clear(gl::kDepthBit);
-  programs->shadow.use();
-  programs->shadow.set("to_image", to_map);
-  for (const Item& item : items) {
-    const PictureMesh& mesh = item.stored->mesh;
-    if (item.is_symbol || item.color[3] < 1. || mesh.kind != PictureMesh::Kind::surface) continue;
-    mesh.is_file ? f.Disable(gl::kCullFace) : f.Enable(gl::kCullFace);
-    f.CullFace(gl::kFront);
-    programs->shadow.set("pose", item.pose);
-    f.BindVertexArray(item.stored->array);
-    for (const PictureMesh::Part& part : mesh.parts) f.DrawArrays(gl::kTriangles, part.first, part.count);
-  }
-  f.BindFramebuffer(gl::kFramebuffer, frame);
-}
-
-/// Sets what all programs have in common.
-void PictureRenderer::Impl::setView(const Camera& camera, const PictureOptions& options) {
-  const GlFunctions& f = glFunctions();
-  const Eigen::Matrix4d to_image = projection(camera);
-  const double reach = (camera.pose.p - center).norm() + radius, fog = std::max(kFogFrom, reach);
-  std::vector<Vector3d> towards{towards_sun}, strength{light(0xfff6ea, kSunlight)};
-  for (std::size_t i = 1; i < options.lights.size(); ++i) {
-    towards.push_back((options.lights[i] - kCenterOfLights).normalized());
-    strength.push_back(Vector3d::Constant(1.2));
-  }
-  if (options.lights.empty()) {
-    towards.push_back(kFill.normalized());
-    strength.push_back(light(0xe3ebff, .55));
-  }
-  f.ActiveTexture(gl::kTexture0 + 1);
-  f.BindTexture(gl::kTexture2D, shadow_map);
-  f.ActiveTexture(gl::kTexture0);
-  Programs& p = *programs;
-  for (GlProgram* program : {&p.surface, &p.lines, &p.points, &p.floor}) {
-    program->use();
-    program->set("to_image", to_image);
-    program->set("to_shadow", to_shadow);
-    program->set("shadow_map", 1);
-    program->set("shadow_pixels", options.shadows && !options.flat_colors ? double(kShadowPixels) : 0.);
-    program->set("fog_color", options.background.value_or(paper()));
-    program->set("fog", Eigen::Vector2d(fog, kFogTo / kFogFrom * fog));
-    program->set("eye", camera.pose.p);
-    program->set("forward", Vector3d(camera.pose.q.toRotationMatrix().col(2)));
-    program->set("size", Eigen::Vector2d(camera.width, camera.height));
-  }
-  p.surface.use();
-  p.surface.set("picture", 0);
-  p.surface.set("sky", light(0xf6f9ff, kSkylight));
-  p.surface.set("ground", light(0x7d7b7a, kSkylight));
-  p.surface.set("towards", towards);
-  p.surface.set("strength", strength);
-  p.surface.set("lights", int(towards.size()));
-  p.surface.set("is_orthographic", camera.ortho_height > 0. ? 1. : 0.);
-  p.surface.set("normal_bias", normal_bias);
-}
-
-void PictureRenderer::Impl::drawSurface(const Item& item, const PictureOptions& options) {
-  const GlFunctions& f = glFunctions();
-  GlProgram& program = programs->surface;
   const PictureMesh& mesh = item.stored->mesh;
-  program.set("pose", item.pose);
-  program.set("shading", options.flat_colors ? 0 : item.is_symbol ? 1 : 2);
-  program.set("receives", item.color[3] < 1. ? 0. : 1.);
+  const int shading = view->options.flat_colors ? kFlat : item.is_symbol ? kSymbol : kByLights;
   f.BindVertexArray(item.stored->array);
   for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
     const PictureMesh::Part& part = mesh.parts[i];
     const bool own = part.color && (item.is_symbol || mesh.has_colors || !item.has_color);
     Vector4d shown = own ? *part.color : item.color;
-    shown.head<3>() = linearColor(shown.head<3>());
     shown[3] = item.is_symbol ? 1. : item.color[3];
-    program.set("color", shown);
-    program.set("has_picture", item.stored->textures[i] != 0 ? 1. : 0.);
-    f.BindTexture(gl::kTexture2D, item.stored->textures[i]);
-    f.DrawArrays(gl::kTriangles, part.first, part.count);
+    const unsigned texture = item.stored->textures[i];
+    GlProgram& program = use(texture ? programs.textured : programs.surface);
+    program.set("pose", item.pose);
+    program.set("kind", shading == kByLights ? kLit : 0);
+    program.set("shading", shading);
+    program.set("color", linear(shown));
+    program.set("stored_color", storedColor(shown, shading));
+    program.set("has_picture", texture ? 1. : 0.);
+    f.BindTexture(gl::kTexture2D, texture);
+    drawTriangles(part);
   }
 }
 
-void PictureRenderer::Impl::drawItem(const Item& item, const PictureOptions& options) {
+void PictureRenderer::Impl::drawItem(const PictureItem& item, ShapePrograms& programs) {
   const GlFunctions& f = glFunctions();
   const PictureMesh& mesh = item.stored->mesh;
   if (mesh.kind == PictureMesh::Kind::surface) {
-    programs->surface.use();
     f.Enable(gl::kCullFace);
     if (mesh.is_file && item.color[3] < 1.) {  // both sides of meshes
       f.CullFace(gl::kFront);
-      drawSurface(item, options);
+      drawSurface(item, programs);
     }
     f.CullFace(gl::kBack);
-    drawSurface(item, options);
+    drawSurface(item, programs);
     return;
   }
   const bool is_lines = mesh.kind == PictureMesh::Kind::lines;
-  GlProgram& program = is_lines ? programs->lines : programs->points;
-  Vector4d shown = mesh.has_colors ? Vector4d(1., 1., 1., item.color[3]) : item.color;
-  shown.head<3>() = linearColor(shown.head<3>());
-  program.use();
+  GlProgram& program = use(is_lines ? programs.lines : programs.points);
   program.set("pose", item.pose);
-  program.set("color", shown);
-  program.set("width", kFiner * (is_lines ? kLineWidth : kPointSize));
-  program.set("shading", options.flat_colors ? 0 : 1);
+  program.set("color", linear(mesh.has_colors ? Vector4d(1., 1., 1., item.color[3]) : item.color));
+  program.set("width", PictureView::kFiner * (is_lines ? kLineWidth : kPointSize));
+  program.set("kind", kWithoutFog);
+  program.set("shading", view->options.flat_colors ? kFlat : kSymbol);
   f.Disable(gl::kCullFace);
   f.BindVertexArray(item.stored->array);
   f.DrawArrays(is_lines ? gl::kTriangles : gl::kPoints, 0, mesh.parts[0].count);
 }
 
-void PictureRenderer::Impl::drawSolidFloor(const Camera& camera, const PictureOptions& options) {
-  const double half = 4. * camera.far;
-  Item floor{&programs->store.square(), Eigen::Matrix4d::Identity(), Vector4d::Ones(), false, true};
+void PictureRenderer::Impl::drawSolidFloor() {
+  const double half = 4. * view->camera.far;
+  PictureItem floor{&drawing->store.square(), Eigen::Matrix4d::Identity(), Vector4d::Ones(), false, true};
   floor.pose.diagonal() << half, half, 1., 1.;
-  floor.pose(2, 3) = -2. * kFloorDepth;
-  floor.color.head<3>() = *options.floor_color;
-  drawItem(floor, options);
+  floor.pose(2, 3) = PictureView::kSolidFloor;
+  floor.color.head<3>() = *view->options.floor_color;
+  drawItem(floor, drawing->programs->samples);
 }
 
-/// Draws lines and shadows on the floor.
-void PictureRenderer::Impl::drawFloor(const Camera& camera, const PictureOptions& options) {
+/// Draws the samples of opaque shapes.
+void PictureRenderer::Impl::drawSamples() {
   const GlFunctions& f = glFunctions();
-  const double square = std::pow(10., std::floor(std::log10(std::max(options.distance, 1e-6))));
-  const Vector3d background = linearColor(options.background.value_or(paper()));
-  const bool is_bright = background.dot(Vector3d(.2, .7, .1)) > .2;
-  GlProgram& program = programs->floor;
-  program.use();
-  program.set("square", square);
-  program.set("ink", is_bright ? Vector3d(.17, .2, .24) : Vector3d(.5, .54, .6));
-  program.set("center", Vector3d(camera.pose.p.x(), camera.pose.p.y(), -kFloorDepth * std::min(square, 1.)));
-  program.set("half_width", std::max(30. * square, (camera.pose.p - center).norm() + 1.1 * radius));
-  f.Disable(gl::kCullFace);
-  f.BindVertexArray(programs->store.square().array);
-  f.DrawArrays(gl::kTriangles, 0, 6);
+  drawing->samples.use(view->camera.width, view->camera.height);
+  constexpr unsigned kNothing[] = {0xff000000, 0, 0, 0};  // no shape has this kind
+  constexpr float kFar = 1.f;
+  f.ClearBufferuiv(gl::kColor, 0, kNothing);
+  f.ClearBufferfv(gl::kDepth, 0, &kFar);
+  f.PolygonMode(gl::kFrontAndBack, view->options.wireframe ? gl::kLine : gl::kFill);
+  for (const PictureItem& item : view->scene.items) {
+    if (!item.isTransparent()) drawItem(item, drawing->programs->samples);
+  }
+  f.PolygonMode(gl::kFrontAndBack, gl::kFill);
+  if (view->options.has_floor && view->options.floor_color) drawSolidFloor();
 }
 
-CameraImage PictureRenderer::Impl::render(SceneTree& tree, Camera camera, const PictureOptions& options,
+/// Draws transparent shapes, the farthest first, in front of the opaque ones.
+void PictureRenderer::Impl::drawGlass() {
+  const GlFunctions& f = glFunctions();
+  std::vector<std::pair<double, const PictureItem*>> items;
+  const Vector3d forward = view->camera.pose.q.toRotationMatrix().col(2);
+  for (const PictureItem& item : view->scene.items) {
+    if (item.isTransparent()) items.emplace_back(-forward.dot(item.pose.topRightCorner<3, 1>()), &item);
+  }
+  std::stable_sort(items.begin(), items.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  drawing->glass.use(view->camera.width, view->camera.height);
+  f.ClearColor(0.f, 0.f, 0.f, 0.f);
+  f.Clear(gl::kColorBit);
+  f.Enable(gl::kBlend);
+  f.BlendFuncSeparate(gl::kSourceAlpha, gl::kOneMinusSourceAlpha, gl::kOne, gl::kOneMinusSourceAlpha);
+  f.DepthMask(0);
+  f.PolygonMode(gl::kFrontAndBack, view->options.wireframe ? gl::kLine : gl::kFill);
+  for (const auto& [nearness, item] : items) drawItem(*item, drawing->programs->glass);
+  f.PolygonMode(gl::kFrontAndBack, gl::kFill);
+  f.DepthMask(1);
+  f.Disable(gl::kBlend);
+}
+
+void PictureRenderer::Impl::drawScreen(PictureProgram& program, double level) {
+  use(program).set("level", level);
+  drawTriangles(drawing->store.square().mesh.parts[0]);
+}
+
+void PictureRenderer::Impl::drawFloorPart(PictureProgram& program, const FloorPart& part, double level) {
+  GlProgram& used = use(program);
+  used.set("level", level);
+  used.set("center", part.center);
+  used.set("half_x", part.half_x);
+  used.set("half_y", part.half_y);
+  drawTriangles(drawing->store.square().mesh.parts[0]);
+}
+
+/// Draws shadows and lines where no shapes are. Before shapes below the floor, too, if there are any.
+void PictureRenderer::Impl::drawFloor() {
+  const GlFunctions& f = glFunctions();
+  PicturePrograms& programs = *drawing->programs;
+  const double height = view->floorHeight();
+  f.Enable(gl::kBlend);
+  f.BlendFuncSeparate(gl::kSourceAlpha, gl::kOneMinusSourceAlpha, gl::kOne, gl::kOneMinusSourceAlpha);
+  f.DepthFunc(gl::kGreater);
+  if (view->options.floor_color || view->scene.lowest < height) {
+    drawFloorPart(programs.floor_before, view->wholeFloor(height), kFloorBefore);
+  } else {
+    if (view->hasShadows()) drawFloorPart(programs.floor_shadows, drawing->shadows.shadedFloor(*view), kFloorShadows);
+    drawFloorPart(programs.floor_lines, view->linedFloor(), kFloorLines);
+  }
+  f.Disable(gl::kBlend);
+}
+
+/// Limits drawing to a rectangle around all opaque shapes.
+void PictureRenderer::Impl::limitToShapes() {
+  const GlFunctions& f = glFunctions();
+  if (view->options.floor_color) return;
+  const Eigen::Matrix4d to_image = projection(view->camera);
+  constexpr double kInfinity = std::numeric_limits<double>::infinity(), kMargin = 4.;  // pixels
+  Eigen::Array2d lower = Eigen::Array2d::Constant(kInfinity), upper = -lower;
+  for (const PictureItem& item : view->scene.items) {
+    if (item.isTransparent()) continue;
+    for (const Vector3d& corner : item.corners()) {
+      const Eigen::Vector4d p = to_image * corner.homogeneous();
+      if (p[3] <= 0.) return;  // behind the camera
+      lower = lower.min(p.head<2>().array() / p[3]);
+      upper = upper.max(p.head<2>().array() / p[3]);
+    }
+  }
+  const Eigen::Array2d size(view->camera.width / PictureView::kFiner, view->camera.height / PictureView::kFiner);
+  const Eigen::Array2d from = (.5 * (lower + 1.) * size - kMargin).max(0.).min(size);
+  const Eigen::Array2d to = (.5 * (upper + 1.) * size + kMargin).max(from).min(size);
+  f.Enable(gl::kScissorTest);
+  f.Scissor(int(from[0]), int(from[1]), int(std::ceil(to[0])) - int(from[0]), int(std::ceil(to[1])) - int(from[1]));
+}
+
+/// Lights each pixel.
+void PictureRenderer::Impl::drawPixels() {
+  const GlFunctions& f = glFunctions();
+  PicturePrograms& programs = *drawing->programs;
+  drawing->pixels.use(view->camera.width / PictureView::kFiner, view->camera.height / PictureView::kFiner);
+  for (const auto& [place, texture] : {std::pair(PictureTextures::kShadowMap, drawing->shadows.map()),
+                                       {PictureTextures::kSamples, drawing->samples.color()},
+                                       {PictureTextures::kDepths, drawing->samples.depth()},
+                                       {PictureTextures::kGlass, drawing->glass.color()}}) {
+    f.ActiveTexture(gl::kTexture0 + place);
+    f.BindTexture(gl::kTexture2D, texture);
+  }
+  f.ActiveTexture(gl::kTexture0 + PictureTextures::kPicture);
+  f.Disable(gl::kCullFace);
+  f.BindVertexArray(drawing->store.square().array);
+  const Vector3d background = view->background();
+  f.ClearColor(float(background[0]), float(background[1]), float(background[2]), 1.f);
+  constexpr float kNoShape = 0.f;
+  f.Clear(gl::kColorBit);
+  f.ClearBufferfv(gl::kDepth, 0, &kNoShape);
+
+  limitToShapes();
+  f.ColorMask(0, 0, 0, 0);
+  f.DepthFunc(gl::kAlways);
+  GlProgram& kinds = use(programs.kinds);
+  kinds.set("alike", kAlike);
+  kinds.set("mixed", kMixed);
+  drawScreen(programs.kinds, 0.);
+  f.ColorMask(1, 1, 1, 1);
+  f.DepthFunc(gl::kEqual);
+  drawScreen(programs.alike_surface, kAlike);
+  drawScreen(programs.mixed_surface, kMixed);
+  f.Disable(gl::kScissorTest);
+  if (view->options.has_floor) drawFloor();
+  if (!view->scene.has_transparent) return;
+  f.Enable(gl::kBlend);
+  f.BlendFuncSeparate(gl::kOne, gl::kOneMinusSourceAlpha, gl::kOne, gl::kOneMinusSourceAlpha);
+  f.DepthFunc(gl::kGreater);
+  drawScreen(programs.glass_pixel, kAllButMixed);
+  f.Disable(gl::kBlend);
+}
+
+void PictureRenderer::Impl::readColors(CameraImage& image) const {
+  std::vector<std::uint8_t> read(4 * std::size_t(image.width) * std::size_t(image.height));
+  glFunctions().ReadPixels(0, 0, image.width, image.height, gl::kRgba, gl::kUnsignedByte, read.data());
+  image.rgb.resize(read.size() / 4 * 3);
+  std::uint8_t* to = image.rgb.data();
+  for (int row = image.height - 1; row >= 0; --row) {  // rows of OpenGL run from bottom to top
+    const std::uint8_t* from = &read[4 * std::size_t(row) * std::size_t(image.width)];
+    for (int column = 0; column < image.width; ++column, from += 4, to += 3) std::copy_n(from, 3, to);
+  }
+}
+
+/// Reads the depth of the lower right sample of each pixel, with the floor.
+void PictureRenderer::Impl::readDepth(CameraImage& image) {
+  const GlFunctions& f = glFunctions();
+  drawing->samples.use(view->camera.width, view->camera.height);
+  f.DepthFunc(gl::kLessOrEqual);
+  if (view->options.has_floor) {
+    f.ColorMask(0, 0, 0, 0);
+    f.Enable(gl::kCullFace);
+    f.CullFace(gl::kBack);
+    f.BindVertexArray(drawing->store.square().array);
+    drawFloorPart(drawing->programs->floor_depth, view->wholeFloor(0.), 0.);
+    f.ColorMask(1, 1, 1, 1);
+  }
+  const std::size_t row_length = std::size_t(view->camera.width);
+  std::vector<float> read(row_length * std::size_t(view->camera.height));
+  f.ReadPixels(0, 0, view->camera.width, view->camera.height, gl::kDepthComponent, gl::kFloat, read.data());
+  image.depth.reserve(read.size() / (PictureView::kFiner * PictureView::kFiner));
+  for (int row = image.height - 1; row >= 0; --row) {
+    const float* from = &read[std::size_t(PictureView::kFiner * row) * row_length];
+    for (int column = 0; column < image.width; ++column)
+      image.depth.push_back(from[PictureView::kFiner * column + PictureView::kFiner - 1]);
+  }
+  depthToMeters(image.depth, view->camera);
+}
+
+CameraImage PictureRenderer::Impl::render(SceneTree& tree, const Camera& camera, const PictureOptions& options,
                                           bool visuals_only) {
   const GlFunctions& f = glFunctions();
-  camera.width *= kFiner;
-  camera.height *= kFiner;
-  prepare(camera.width, camera.height);
-  collect(tree, visuals_only);
-  findBall();
-  fitRange(camera, options.distance);
-  towards_sun = (options.lights.empty() ? kSun : Vector3d(options.lights[0] - kCenterOfLights)).normalized();
+  if (!drawing) drawing.emplace();
+  ++pictures;
+  view.emplace(pictureScene(tree, visual_meshes, drawing->store, visuals_only), camera, options);
+  CameraImage image{camera.width, camera.height, {}, {}};
+  if (!drawing->programs || drawing->programs->lights != view->lights()) drawing->programs.emplace(view->lights());
 
   f.Enable(gl::kDepthTest);
   f.Enable(gl::kProgramPointSize);
   f.Disable(gl::kBlend);
+  f.Disable(gl::kScissorTest);
   f.DepthFunc(gl::kLessOrEqual);
   f.DepthMask(1);
   f.ColorMask(1, 1, 1, 1);
   f.PolygonMode(gl::kFrontAndBack, gl::kFill);
-  drawShadows(options);
-  setView(camera, options);
-  f.Viewport(0, 0, camera.width, camera.height);
-  const Vector3d background = options.background.value_or(paper());
-  f.ClearColor(float(background[0]), float(background[1]), float(background[2]), 1.f);
-  f.Clear(gl::kColorBit | gl::kDepthBit);
-
-  std::vector<std::pair<double, const Item*>> transparent;
-  const Vector3d forward = camera.pose.q.toRotationMatrix().col(2);
-  f.PolygonMode(gl::kFrontAndBack, options.wireframe ? gl::kLine : gl::kFill);
-  for (const Item& item : items) {
-    if (item.color[3] < 1. && !item.is_symbol)
-      transparent.emplace_back(-forward.dot(item.pose.topRightCorner<3, 1>()), &item);
-    else
-      drawItem(item, options);
-  }
-  f.PolygonMode(gl::kFrontAndBack, gl::kFill);
-  if (options.has_floor && options.floor_color) drawSolidFloor(camera, options);
-
-  f.Enable(gl::kBlend);
-  f.BlendFuncSeparate(gl::kSourceAlpha, gl::kOneMinusSourceAlpha, gl::kOne, gl::kOneMinusSourceAlpha);
-  f.DepthMask(0);
-  if (options.has_floor) drawFloor(camera, options);
-  std::stable_sort(transparent.begin(), transparent.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  f.PolygonMode(gl::kFrontAndBack, options.wireframe ? gl::kLine : gl::kFill);
-  for (const auto& [depth_of, item] : transparent) drawItem(*item, options);
-  f.PolygonMode(gl::kFrontAndBack, gl::kFill);
-  f.DepthMask(1);
-  f.Disable(gl::kBlend);
-
-  if (options.has_floor) {  // its depth alone
-    f.ColorMask(0, 0, 0, 0);
-    f.Enable(gl::kCullFace);
-    f.CullFace(gl::kBack);
-    programs->floor.use();
-    programs->floor.set("center", Vector3d(camera.pose.p.x(), camera.pose.p.y(), 0.));
-    f.BindVertexArray(programs->store.square().array);
-    f.DrawArrays(gl::kTriangles, 0, 6);
-    f.ColorMask(1, 1, 1, 1);
-  }
-
-  CameraImage image{camera.width, camera.height, {}, {}};
-  image.depth.resize(std::size_t(camera.width) * std::size_t(camera.height));
-  image.rgb.resize(3 * image.depth.size());
   f.PixelStorei(gl::kPackAlignment, 1);
-  f.ReadPixels(0, 0, camera.width, camera.height, gl::kRgb, gl::kUnsignedByte, image.rgb.data());
-  f.ReadPixels(0, 0, camera.width, camera.height, gl::kDepthComponent, gl::kFloat, image.depth.data());
+  if (view->hasShadows()) drawing->shadows.draw(*view);
+  drawSamples();
+  if (view->scene.has_transparent) drawGlass();
+  drawPixels();
+  readColors(image);
+  if (options.has_depth) readDepth(image);
   f.BindFramebuffer(gl::kFramebuffer, 0);
   f.UseProgram(0);
   f.BindVertexArray(0);
-  flipRows(image);
-  image = shrunk(image, kFiner);
-  depthToMeters(image.depth, camera);
   return image;
 }
 

@@ -19,6 +19,7 @@ struct PictureOptions {
   bool flat_colors = false;                  ///< colors without shading
   bool wireframe = false;                    ///< edges of triangles only
   double distance = 1.5;                     ///< m from the camera to its target, for the size of the squares
+  bool has_depth = true;                     ///< computes depths; without, those of the image are empty
   void validate() const;                     ///< throws ValueError
 };
 

@@ -1,6 +1,7 @@
 #include "kinegraph/rendering/picture_store.h"
 
-#include <cstdint>
+#include <cstring>
+#include <functional>
 
 #include "kinegraph/geometry/files/image_file.h"
 
@@ -22,7 +23,38 @@ std::vector<int> attributesOf(PictureMesh::Kind kind) {
   }
 }
 
+/// Vertices without most of their repetitions, and the number of each vertex of the triangles.
+struct IndexedVertices {
+  std::vector<float> vertices;
+  std::vector<unsigned> indices;
+};
+
+/// Finds a repetition if few other vertices are in between, as in surfaces of neighboring triangles.
+IndexedVertices indexed(const std::vector<float>& vertices, std::size_t stride) {
+  constexpr std::size_t kPlaces = 1 << 14;
+  const std::size_t bytes = stride * sizeof(float);
+  IndexedVertices result;
+  std::vector<unsigned> last(kPlaces, 0);  // 1 + the last vertex with that hash
+  result.indices.reserve(vertices.size() / stride);
+  for (std::size_t i = 0; i < vertices.size(); i += stride) {
+    const std::string_view vertex(reinterpret_cast<const char*>(&vertices[i]), bytes);
+    unsigned& place = last[std::hash<std::string_view>()(vertex) % kPlaces];
+    if (place == 0 || std::memcmp(&result.vertices[(place - 1) * stride], vertex.data(), bytes) != 0) {
+      const auto from = vertices.begin() + std::ptrdiff_t(i);
+      result.vertices.insert(result.vertices.end(), from, from + std::ptrdiff_t(stride));
+      place = unsigned(result.vertices.size() / stride);
+    }
+    result.indices.push_back(place - 1);
+  }
+  return result;
+}
+
 }  // namespace
+
+void drawTriangles(const PictureMesh::Part& part) {
+  const std::uintptr_t from = sizeof(unsigned) * std::size_t(part.first);
+  glFunctions().DrawElements(gl::kTriangles, part.count, gl::kUnsignedInt, reinterpret_cast<const void*>(from));
+}
 
 PictureStore::~PictureStore() {
   for (auto& [geometry, mesh] : meshes_) release(*mesh);
@@ -33,7 +65,7 @@ PictureStore::~PictureStore() {
 
 void PictureStore::release(StoredMesh& mesh) {
   gl_.DeleteVertexArrays(1, &mesh.array);
-  gl_.DeleteBuffers(1, &mesh.buffer);
+  for (const unsigned buffer : {mesh.buffer, mesh.indices}) gl_.DeleteBuffers(1, &buffer);
 }
 
 unsigned PictureStore::textureOf(const Image& image) {
@@ -55,11 +87,20 @@ unsigned PictureStore::textureOf(const Image& image) {
 
 std::unique_ptr<StoredMesh> PictureStore::stored(PictureMesh mesh) {
   auto result = std::make_unique<StoredMesh>();
+  result->serial = ++stored_;
   for (const PictureMesh::Part& part : mesh.parts) result->textures.push_back(part.image ? textureOf(*part.image) : 0);
   gl_.GenVertexArrays(1, &result->array);
   gl_.BindVertexArray(result->array);
   gl_.GenBuffers(1, &result->buffer);
   gl_.BindBuffer(gl::kArrayBuffer, result->buffer);
+  if (mesh.kind == PictureMesh::Kind::surface) {
+    IndexedVertices shared = indexed(mesh.vertices, std::size_t(mesh.stride()));
+    mesh.vertices = std::move(shared.vertices);
+    gl_.GenBuffers(1, &result->indices);
+    gl_.BindBuffer(gl::kIndexBuffer, result->indices);
+    gl_.BufferData(gl::kIndexBuffer, std::ptrdiff_t(shared.indices.size() * sizeof(unsigned)), shared.indices.data(),
+                   gl::kStaticDraw);
+  }
   gl_.BufferData(gl::kArrayBuffer, std::ptrdiff_t(mesh.vertices.size() * sizeof(float)), mesh.vertices.data(),
                  gl::kStaticDraw);
   unsigned index = 0;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <set>
@@ -15,8 +16,12 @@ namespace kinegraph {
 struct StoredMesh {
   PictureMesh mesh;                ///< without its vertices
   std::vector<unsigned> textures;  ///< per part; 0: none
-  unsigned array = 0, buffer = 0;
+  unsigned array = 0, buffer = 0, indices = 0;
+  std::uint64_t serial = 0;  ///< of no other shape, even after its release
 };
+
+/// Draws triangles of a surface, whose array is bound.
+void drawTriangles(const PictureMesh::Part& part);
 
 /// The shapes of pictures in the memory of the graphics card. The context must be in use for all calls.
 class PictureStore {
@@ -46,6 +51,7 @@ class PictureStore {
   std::set<std::shared_ptr<const Geometry>> used_;  ///< since the last tidy()
   std::map<double, std::unique_ptr<StoredMesh>> markers_;
   std::unique_ptr<StoredMesh> square_;
+  std::uint64_t stored_ = 0;                               ///< number of shapes so far
   std::map<std::string, unsigned, std::less<>> textures_;  ///< by the bytes of their files
 };
 

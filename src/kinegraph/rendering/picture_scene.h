@@ -1,0 +1,37 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "kinegraph/rendering/picture_store.h"
+#include "kinegraph/rendering/shown_shapes.h"
+#include "kinegraph/scene/tree/scene_tree.h"
+
+namespace kinegraph {
+
+/// A shape at its pose.
+struct PictureItem {
+  const StoredMesh* stored;
+  Eigen::Matrix4d pose;
+  Vector4d color;
+  bool is_symbol, has_color;
+
+  bool isTransparent() const { return color[3] < 1. && !is_symbol; }
+  bool castsShadow() const { return color[3] >= 1. && !is_symbol && stored->mesh.kind == PictureMesh::Kind::surface; }
+  /// Returns the corners of a box around it, m in the world.
+  std::array<Vector3d, 8> corners() const;
+};
+
+/// The visible shapes of a scene, and a ball around them, as the page computes it.
+struct PictureScene {
+  std::vector<PictureItem> items;
+  Vector3d center = Vector3d::Zero();  ///< m
+  double radius = 1.;
+  double lowest = 0.;            ///< z, m
+  bool has_transparent = false;  ///< shapes
+};
+
+/// Collects the shapes of a scene, and stores new ones on the graphics card. Their context must be in use.
+PictureScene pictureScene(SceneTree& tree, VisualMeshes& visual_meshes, PictureStore& store, bool visuals_only);
+
+}  // namespace kinegraph
