@@ -280,6 +280,8 @@ TEST(Mpc, InAHorizonThatEndsModeSwitchesComeNearer) {
   EXPECT_LT(tipTo(C, at_switch, {.9, .8, 0.}), 1e-4);
   EXPECT_LT((mpc.komo().configuration(19).getFrame("box").getPosition() - goal).norm(), 1e-4);
   EXPECT_NEAR(mpc.elapsed(), 20. * tau, 1e-12);
+  mpc.options.receding = true;
+  expectError<ValueError>([&] { mpc.step(q, velocity, tau); }, {"mode switches", "receding=false"});
 }
 
 TEST(Mpc, MistakesAreNamed) {

@@ -34,6 +34,12 @@ STL_TEXT = (
 )
 
 
+GCODE = (
+    "%\nN1 G21 G17 G90 F600\nG0 X10 Y-5 Z5 (down)\nG64 P.5\nG1 Z0 F60\nX40\nG3 Y5 I0 J5\nG2 X10 Y-5 R8\nG91\nG1 X1\n"
+    "G90.1 G18\nG2 X5 Z3 I2 K1\nG4 P2 ; wait\nG28\nM30\n"
+)
+
+
 def meshes() -> dict[str, list[bytes]]:
     vertices = b"".join(struct.pack("<3f3B", *p, 1, 2, 3) for p in [(0, 0, 0), (1, 0, 0), (0, 1, 0)])
     return {
@@ -48,6 +54,11 @@ def meshes() -> dict[str, list[bytes]]:
             b"t, x, y, z, qw, qx, qy, qz\n0, 0, 0, 1, 1, 0, 0, 0\n2, 1, 0, 1, 0, 0, 0, -2\n",
             b"# a\n0,1,2,3\n",
         ],
+        "tool_path_csv": [
+            b"x; y; z; nx; ny; nz\n0;0;0;0;0;1\n1;0;0;0;0;1\n1;1;0;0;1;1\n# end\n",
+            b"0 0 0 1 0 0 0\n.1,0,0,1,0,0,.1\n",
+        ],
+        "tool_path_nc": [GCODE.encode()],
     }
 
 

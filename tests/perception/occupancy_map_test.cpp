@@ -115,6 +115,9 @@ TEST(OccupancyMap, InvalidRegionsAndViewsAreRefused) {
   DepthView view = imageOf(C);
   view.width = 100;
   EXPECT_THROW(map.update(C, std::vector<DepthView>{view}), ValueError);
+  std::vector<CellState> states = map.states();
+  states.back() = CellState(200);
+  EXPECT_THROW(map.setStates(states), ValueError);
 }
 
 /// An arm of two capsules among cubes, as one shape of cells or as a frame for each cube.

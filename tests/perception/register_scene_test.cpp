@@ -255,6 +255,30 @@ TEST(RegisterScene, OneOfTwoEqualThingsThatIsSeenMayBeTheOther) {
   EXPECT_EQ(seen.warnings.size(), 1u) << seen.str();
 }
 
+TEST(RegisterScene, AThingThatMovedMuchFartherThanTheSearchRadiusIsNotTakenForAnother) {
+  Config C = tableScene();
+  const Pose away = C.getFrame("box").getPose();
+  C.getFrame("box").setPosition({.12, .05, -5.});
+  const std::vector<DepthView> views{look(C)};
+  C.getFrame("box").setPose(away);
+  displace(C, "can", {.005, 0., 0.}, 0.);
+  const SeenScene seen = registerScene(C, views, {"box", "can"}, within(1e-9));
+  EXPECT_EQ(seen.frames.at("can").status, SeenStatus::seen) << seen.str();
+  EXPECT_NE(seen.frames.at("box").status, SeenStatus::seen) << seen.str();
+}
+
+TEST(RegisterScene, AShapeWithoutASurfaceIsRefused) {
+  Config C = tableScene();
+  const std::vector<DepthView> views{look(C)};
+  C.addFrame("dust").setShape(ShapeType::box, {1e-8, 1e-8, 1e-8}).setPosition({.1, 0., .66});
+  try {
+    registerScene(C, views, {"dust"}, onTable());
+    FAIL() << "there is nothing to see";
+  } catch (const ValueError& error) {
+    EXPECT_NE(std::string(error.what()).find("'dust' has no surface"), std::string::npos) << error.what();
+  }
+}
+
 TEST(RegisterScene, ThingsOfOtherSizesAndFarOnesAreNotExchanged) {
   Config C = tableScene();
   addBox(C, "far", -.3, .05);

@@ -112,5 +112,9 @@ TEST(ReadGcode, NamesWhatItIgnoresAndWhatItDoesNotKnow) {
   EXPECT_NE(gcodeError("(nothing)\n").find("no move"), std::string::npos);
 }
 
+TEST(ReadGcode, RefusesCodesThatNoNumberHolds) {
+  EXPECT_NE(gcodeError("G99999999999 X1\n").find("is no code"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace kinegraph

@@ -159,5 +159,19 @@ TEST(ToolCurve, RejectsPathsWithoutLengthAndArcsOnALine) {
   EXPECT_THROW(curveOfPath(ToolPath("tool").arc(Vector3d(1., 0., 0.), Vector3d(2., 0., 0.))), ValueError);
 }
 
+TEST(ToolCurve, PathsThatNoMemoryHoldsAreRefused) {
+  const ToolPath start = ToolPath("tool").start(poseAt(.1, 0., 0.));
+  const auto circle = [&](double angle) { return ToolPath(start).circle(Vector3d::Zero(), Vector3d::UnitZ(), angle); };
+  EXPECT_THROW(curveOfPath(ToolPath(start).line(poseAt(1e7, 0., 0.))), ValueError);
+  EXPECT_THROW(curveOfPath(ToolPath(start).line(poseAt(1e300, 0., 0.)).line(poseAt(-1e300, 0., 0.))), ValueError);
+  EXPECT_THROW(curveOfPath(circle(1e300)), ValueError);
+  EXPECT_THROW(curveOfPath(circle(9e4)), ValueError);
+  EXPECT_THROW(curveOfPath(ToolPath(start).spline({poseAt(1e9, 0., 0.), poseAt(0., 1., 0.)})), ValueError);
+  ToolPath many(start);
+  for (int k = 0; k < 20; ++k) many.line(poseAt(k % 2 ? 0. : 999., 0., 0.));
+  EXPECT_THROW(curveOfPath(many), ValueError);
+  EXPECT_NEAR(curveOfPath(circle(100.)).length(), 10., 1e-4);
+}
+
 }  // namespace
 }  // namespace kinegraph

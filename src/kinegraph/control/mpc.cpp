@@ -191,6 +191,7 @@ const MpcResult& Mpc::step(const VectorXd& q, const VectorXd& velocity, std::opt
   const Stopwatch stopwatch;
   const TimeGrid& grid = komo_->path().grid();
   options.validate();
+  requireProblem();  // `receding` may have been changed
   requireJoints("q", q, komo_->dofs());
   requireJoints("velocity", velocity, komo_->dofs());
   if (dt && !(*dt >= 0. && std::isfinite(*dt)))

@@ -14,7 +14,8 @@ constexpr double kSureMisfit = .5;     // a thing that fits the points so much w
 constexpr double kMisfitWeight = 20.;  // number of independent points
 constexpr double kClearRatio = .25;    // of squared movements
 
-constexpr double kImpossible = 1e9;
+constexpr double kMostCost = 1e6;     // of a thing at a place where it may be
+constexpr double kImpossible = 1e15;  // more than the costs of all things together
 
 /// Returns a column for each row, each at most once, with the least sum of entries. There are at least as many columns.
 /// Source: Jonker & Volgenant, A shortest augmenting path algorithm for linear assignment problems, 1987.
@@ -99,6 +100,11 @@ class LookAlikes {
     return movement(place, thing) / (scale * scale) + kMisfitWeight * there->misfit;
   }
 
+  /// The cost as a finite number: an assignment with an impossible pair is worse than any other.
+  double boundedCost(int place, int thing) const {
+    return pose(place, thing) ? std::min(kMostCost, cost(place, thing)) : kImpossible;
+  }
+
   /// The things at each place, -1 for places of things that are not seen.
   std::vector<int> assign() const {
     std::vector<int> places, at(things_.size(), -1);
@@ -107,7 +113,7 @@ class LookAlikes {
     }
     MatrixXd costs(Eigen::Index(places.size()), count());
     for (Eigen::Index i = 0; i < costs.rows(); ++i) {
-      for (int k = 0; k < count(); ++k) costs(i, k) = std::min(kImpossible, cost(places[std::size_t(i)], k));
+      for (int k = 0; k < count(); ++k) costs(i, k) = boundedCost(places[std::size_t(i)], k);
     }
     const std::vector<int> least = leastAssignment(costs);
     for (std::size_t i = 0; i < places.size(); ++i) at[std::size_t(places[i])] = least[i];

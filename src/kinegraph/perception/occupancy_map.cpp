@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
@@ -49,6 +50,17 @@ void forCellsNear(const OccupancyMap& map, const KnownShape& shape, double dista
         visit(row + std::size_t(k), Vector3d(map.lower() + map.cell() * Vector3d(i + .5, j + .5, k + .5)));
     }
   }
+}
+
+/// The index of the cell that holds a point (world); none outside of the map.
+std::optional<std::size_t> cellAt(const OccupancyMap& map, const Vector3d& point) {
+  const Vector3d at = (point - map.lower()) / map.cell();
+  const std::array<int, 3>& counts = map.counts();
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!(at[Eigen::Index(axis)] >= 0. && at[Eigen::Index(axis)] < counts[axis])) return std::nullopt;
+  }
+  return (std::size_t(at[0]) * std::size_t(counts[1]) + std::size_t(at[1])) * std::size_t(counts[2]) +
+         std::size_t(at[2]);
 }
 
 /// The share of some measured points that lie deep inside of shapes that do not move.
@@ -154,16 +166,11 @@ void OccupancyMap::addView(const DepthView& given, const Pose& camera, const std
     warnings.push_back(cat(int(std::lround(100. * share)), " % of the points of ", name,
                            " lie inside of known shapes; check the camera's pose"));
   std::vector<std::uint8_t> hits(states_.size(), 0);
-  const Vector3d top = lower_ + cell_ * Vector3d(count_[0], count_[1], count_[2]);
   for (int row = 0; row < view.height; ++row) {
     for (int column = 0; column < view.width; ++column) {
       if (view.pixels[view.index(row, column)] != ObservedView::Pixel::other) continue;
-      const Vector3d p = view.point(row, column), at = (p - lower_) / cell_;
-      if ((p - lower_).minCoeff() < 0. || (top - p).minCoeff() <= 0.) continue;
-      std::uint8_t& count =
-          hits[(std::size_t(at[0]) * std::size_t(count_[1]) + std::size_t(at[1])) * std::size_t(count_[2]) +
-               std::size_t(at[2])];
-      if (count < 255) ++count;
+      const std::optional<std::size_t> cell = cellAt(*this, view.point(row, column));
+      if (cell && hits[*cell] < 255) ++hits[*cell];
     }
   }
   const FreeDepth depth(view, cell_);
@@ -256,17 +263,16 @@ void OccupancyMap::attach(Config& config, Unseen unseen, const std::string& name
 }
 
 CellState OccupancyMap::state(const Vector3d& point) const {
-  const Vector3d at = (point - lower_) / cell_;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!(at[axis] >= 0. && at[axis] < count_[std::size_t(axis)])) return CellState::free;
-  }
-  return states_[(std::size_t(at[0]) * std::size_t(count_[1]) + std::size_t(at[1])) * std::size_t(count_[2]) +
-                 std::size_t(at[2])];
+  const std::optional<std::size_t> cell = cellAt(*this, point);
+  return cell ? states_[*cell] : CellState::free;
 }
 
 void OccupancyMap::setStates(std::vector<CellState> states) {
   if (states.size() != states_.size())
     throw ValueError(cat("OccupancyMap: ", states.size(), " states; expected ", states_.size()));
+  const auto unknown = std::ranges::find_if(states, [](CellState state) { return state > CellState::undecided; });
+  if (unknown != states.end())
+    throw ValueError(cat("OccupancyMap: a state is ", int(*unknown), "; expected 0 to ", int(CellState::undecided)));
   states_ = std::move(states);
 }
 

@@ -158,6 +158,9 @@ VisibleShape::VisibleShape(const Frame& frame, const std::set<int>& without) {
     throw ValueError(cat("registerScene: frame '", frame.getName(),
                          "' has no visible shape; expected a shape of its own or of a frame fixed to it"));
   sample(surfaces);
+  if (samples_.empty())
+    throw ValueError(cat("registerScene: the shape of frame '", frame.getName(), "' has no surface that cameras see, ",
+                         "only points within ", 1e3 * radius_, " mm; sizes and vertices are in meters"));
   findRestingDirections();
 }
 
@@ -234,6 +237,7 @@ void VisibleShape::sample(const std::vector<Mesh>& surfaces) {
       areas.push_back(areas.back() + normal.norm());
     }
   }
+  if (pieces.empty()) return;
   Rng rng(0);
   for (int tries = 0; tries < 20 * kSamples && int(samples_.size()) < kSamples; ++tries) {
     const auto found = std::upper_bound(areas.begin(), areas.end(), rng.uniform() * areas.back());

@@ -21,6 +21,7 @@ constexpr double kSharper = 2.5;       // than at the rows before and after
 constexpr int kFirstStride = 16;       // rows between the first knots
 constexpr int kMaxFitRounds = 20;
 constexpr double kLargestBlendShare = .49;  // of the shorter element
+constexpr double kMostKnots = 3e5;          // of an element
 
 VectorXd columnsOf(const Pose& X) {
   const Matrix3d R = X.q.toRotationMatrix();
@@ -114,6 +115,17 @@ CurvePrimitive ofPieces(CubicPieces pieces, double to, std::vector<double> knots
 /// The smaller of two speeds, 0 being that of the call, which may be larger or smaller.
 double slower(double a, double b) { return a > 0. && b > 0. ? std::min(a, b) : std::max(a, b); }
 
+/// Refuses an element that would need more memory than there is, such as one in another unit of length.
+void requireSize(const CurvePrimitive& primitive, std::size_t number) {
+  const double length = primitive.to - primitive.from;
+  if (!(length <= ToolCurve::kLongest))
+    throw ValueError(cat("ToolPath: element ", number, " is ", length, " m long; expected at most ",
+                         ToolCurve::kLongest, " m; lengths are in meters"));
+  if (primitive.knots.empty() && !(length <= kMostKnots * primitive.spacing))
+    throw ValueError(cat("ToolPath: element ", number, " needs more than ", kMostKnots, " points on its ", length,
+                         " m; expected fewer turns, and waypoints that are farther apart"));
+}
+
 }  // namespace
 
 std::vector<double> CurvePrimitive::allKnots() const {
@@ -125,6 +137,7 @@ std::vector<double> CurvePrimitive::allKnots() const {
 }
 
 void PrimitiveList::append(CurvePrimitive primitive, double blend) {
+  requireSize(primitive, number_);
   primitive.speed = speed_;
   const auto warn = [&](const std::string& what) {
     warnings.push_back(cat("the blend of ", blend, " m at element ", number_, " ", what));
@@ -209,6 +222,7 @@ void PrimitiveList::spline(const ToolPathElement& element) {
   double least = t.back();
   for (std::size_t k = 1; k < t.size(); ++k) least = std::min(least, t[k] - t[k - 1]);
   primitive.spacing = std::min(.005, least / 8.);
+  requireSize(primitive, number_);
   all.push_back(std::move(primitive));
   is_first_ = false;
 }

@@ -60,8 +60,9 @@ std::vector<GcodeWord> wordsOf(const std::string& line, const std::string& file,
 
 /// The code of a word, such as G64 or M30, in tenths: G90.1 is 901.
 int codeOf(const GcodeWord& word) {
+  constexpr double kMostTenths = 99999.;
   const double tenths = std::round(10. * word.number);
-  if (std::abs(10. * word.number - tenths) > 1e-6 || tenths < 0.)
+  if (std::abs(10. * word.number - tenths) > 1e-6 || !(tenths >= 0. && tenths <= kMostTenths))
     throw ParseError(word.where, cat(word.letter, word.number, " is no code; expected such as ", word.letter, "1"));
   return int(tenths);
 }

@@ -89,6 +89,9 @@ ToolCurve::ToolCurve(const ToolPath& path, const Pose& present, double tolerance
     const bool corner = k > 0 && isCorner(slope, section.slope.col(0));
     pieces_.addHermite(section.s, section.y, section.slope, corner);
     slope = section.slope.rightCols(1);
+    if (!(pieces_.length <= kLongest))
+      throw ValueError(
+          cat("ToolPath: the path of '", path.frame(), "' is longer than ", kLongest, " m; lengths are in meters"));
   }
   if (after == list.all.size()) retract_start_ = pieces_.length;
   fit_error_ = list.fit_error;

@@ -25,11 +25,12 @@ struct ToolTarget {
 class ToolCurve {
  public:
   static constexpr double kOnTheSpot = .1;
+  static constexpr double kLongest = 1e4;  ///< m
 
   /// `present` is the pose of the tool relative to the path's reference frame; the path starts there unless it has a
   /// start. Rows are fitted to within `tolerance` (m, and as much rad per kOnTheSpot). `approach` and `retract` (m) add
   /// lines along the free axis, or z, of the tool to both ends; negative lengths are against the axis. Throws
-  /// ValueError for paths without length and arcs without a center.
+  /// ValueError for paths without length or longer than kLongest, and arcs without a center.
   ToolCurve(const ToolPath& path, const Pose& present, double tolerance, double approach = 0., double retract = 0.);
 
   double length() const { return pieces_.length; }

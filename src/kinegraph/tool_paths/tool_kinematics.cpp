@@ -221,7 +221,7 @@ ToolKinematics::Projection ToolKinematics::project(VectorXd& q, const ToolTarget
         turned *= 1. / std::max(.3, turned.norm());  // more than a quarter turn
       to_rows.setIdentity();
       count = 6;
-    } else {
+    } else if (free_axis_ >= 0) {
       const Vector3d a = X.R.col(free_axis_), b = target.axis(free_axis_);
       const Vector3d n_ab = b.cross(a);
       const double sine = n_ab.norm(), angle = std::atan2(sine, a.dot(b));
