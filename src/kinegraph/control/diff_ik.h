@@ -81,7 +81,7 @@ class DiffIk {
   /// is positive and finite, before anything moves.
   const VectorXd& step(double dt, bool apply = true);
 
-  /// Sets the velocity to zero that the next acceleration starts from.
+  /// Sets the velocity to zero that the next acceleration starts from, and ends the damping of joints.
   void reset() { velocity_.setZero(), before_.setZero(), calm_.setZero(); }
 
   const VectorXd& velocity() const { return velocity_; }
