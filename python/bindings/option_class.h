@@ -53,6 +53,7 @@ class OptionClass {
   void setField(Options& options, const std::string& name, nb::handle value) const {
     if (std::find(more_.names.begin(), more_.names.end(), name) != more_.names.end())
       return more_.set(*this, options, name, value);
+    requireKnown(name);
     const auto& row = table_.row(name, more_.names);
     std::visit(
         [&](auto member) {
@@ -60,6 +61,14 @@ class OptionClass {
           options.*member = optionValue<Value>(cat(table_.place(), ": option ", name), value);
         },
         row.member);
+  }
+
+  /// Throws ValueError with all names for an unknown option that is similar to none.
+  void requireKnown(const std::string& name) const {
+    std::vector<std::string> names = more_.names;
+    for (const auto& row : table_.rows()) names.push_back(row.name);
+    if (std::find(names.begin(), names.end(), name) == names.end() && similarNames(name, names).empty())
+      throw ValueError(cat(table_.place(), ": there is no option '", name, "'; expected one of ", join(names)));
   }
 
   /// Sets all fields, or none if one is invalid.

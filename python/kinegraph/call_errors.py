@@ -270,12 +270,13 @@ class _Misfit:
         self.reasons = []
         if surplus:
             own = [each for each in by_place if each.name != "self"]
-            names = [each.name for each in own]
-            count = len(positional) - (len(by_place) - len(names))
-            takes = f"it takes at most {len(names)}: {', '.join(names)}" if names else "it takes no positional ones"
+            taken = [each.name for each in own]
+            count = len(positional) - (len(by_place) - len(taken))
+            takes = f"it takes at most {len(taken)}: {', '.join(taken)}" if taken else "it takes no positional ones"
             hint = _surplusHint(own, positional[-count:])
             self.reasons.append(f"{count} argument{'s are' if count > 1 else ' is'} given; {takes}{hint}")
-        self.reasons += [f"it has no argument '{name}'{_near(name, [*by_name])}" for name in unknown]
+        names = [name for name in by_name if name != "self"]
+        self.reasons += [f"it has no argument '{name}'{_near(name, names)}" for name in unknown]
         if missing:
             self.reasons.append(f"missing: {', '.join(f'{each.name} ({_expected(each.type)})' for each in missing)}")
         self.reasons += [_wrong(value, each) for each, value in wrong]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import functools
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 import kinegraph
@@ -14,20 +16,66 @@ class KOMO_ManipulationHelper(kinegraph.KOMO_ManipulationHelper):
     """Like kinegraph.KOMO_ManipulationHelper, but `ret.feasible` follows the reference's rule.
 
     Methods of its `komo` (addObjective, getPath ...) can be called on the helper, too, as in the reference's latest
-    scripts.
+    scripts. With the scene given to the constructor, as until 0.1.9, setups and play do not take it.
     """
 
     _solver = NLP_Solver
     _finder = RRT_PathFinder
 
-    def __init__(self, info: str = "") -> None:
+    def __init__(self, *scene_and_info: Any, info: str = "", helpers: Any = ()) -> None:
         """Makes a helper whose `komo` is empty; a setup replaces it, or scripts set it up.
 
         Args:
-            info: Name of the problem in the output of solve.
+            scene_and_info: The name of the problem in the output of solve; before it the scene, and behind it frames
+                that need no preparation, as until 0.1.9.
+            info: The name by keyword.
+            helpers: Not used.
         """
-        super().__init__(info)
+        given = list(scene_and_info)
+        scene = given.pop(0) if given and isinstance(given[0], kinegraph.Config) else None
+        super().__init__(given[0] if given else info)
+        self._scene = scene
         self.komo = kinegraph.KOMO()
+
+    def place_box(
+        self,
+        time: float,
+        obj: Any,
+        table: Any,
+        palm: Any,
+        place_direction: str = "z",
+        margin: float = 0.02,
+        on_table: bool = True,
+    ) -> None:
+        """Places a box, as kinegraph.KOMO_ManipulationHelper.place_box.
+
+        Args:
+            time, obj, table, palm, place_direction, margin: As in kinegraph.KOMO_ManipulationHelper.place_box.
+            on_table: As until 0.1.9; False is not supported.
+        Raises:
+            FrameNotFound: There is no such frame.
+            ArgumentError: on_table is False, or another argument is invalid.
+        """
+        if not on_table:
+            raise kinegraph.ArgumentError(
+                "place_box: on_table is False; expected True; to place a box elsewhere, add objectives to `komo`"
+            )
+        super().place_box(time, obj, table, palm, place_direction, margin)
+
+    def no_collision(self, time_interval: Any, pairs: Any, margin: float = 0.001) -> None:
+        """Keeps pairs of frames apart, like no_collisions.
+
+        Args:
+            time_interval: Start and end, in phases.
+            pairs: Names of frames, two per pair.
+            margin: Least distance, m.
+        Raises:
+            FrameNotFound: There is no such frame.
+            ArgumentError: The names are not in pairs.
+        """
+        self.no_collisions(time_interval, pairs, margin)
+
+    keep_distance = no_collision
 
     if not TYPE_CHECKING:  # otherwise type checkers accept any name
 
@@ -58,3 +106,29 @@ class LGP_Tool(kinegraph.LGP_Tool):
 
 
 ManipulationModelling = KOMO_ManipulationHelper  # its name in older scripts
+
+
+def _withScene(call: Callable[..., Any]) -> Callable[..., Any]:
+    """Lets a method that takes a scene first be called without it, if the constructor got one."""
+
+    @functools.wraps(call)
+    def called(self: KOMO_ManipulationHelper, *args: Any, **kwargs: Any) -> Any:
+        is_given = "C" in kwargs or (args and isinstance(args[0], kinegraph.Config))
+        if self._scene is None or is_given:
+            return call(self, *args, **kwargs)
+        return call(self, self._scene, *args, **kwargs)
+
+    if hasattr(call, "__nb_signature__"):
+        called.__nb_signature__ = call.__nb_signature__  # type: ignore[attr-defined]
+    return called
+
+
+for _name in (
+    "setup_inverse_kinematics",
+    "setup_sequence",
+    "setup_motion",
+    "setup_pick_and_place_waypoints",
+    "setup_point_to_point_motion",
+    "play",
+):
+    setattr(KOMO_ManipulationHelper, _name, _withScene(getattr(KOMO_ManipulationHelper, _name)))

@@ -76,6 +76,23 @@ class Config(kinegraph.Config):
         except FrameNotFound as error:
             warnings.warn(str(error), KinegraphWarning, stacklevel=2)
 
+    def getFrameState(self, frames: Any = ()) -> Any:
+        """Returns the poses of all frames, or of some, as in libry.
+
+        Args:
+            frames: Names, or one name, whose pose alone is returned; none: all frames.
+        Returns:
+            World poses x y z qw qx qy qz, shape (number of frames, 7), m; (7,) for one name.
+        Raises:
+            FrameNotFound: There is no such frame.
+        """
+        if isinstance(frames, str):
+            return kinegraph.Config.getFrame(self, frames).getPose()
+        names = list(frames)
+        if not names:
+            return super().getFrameState()
+        return np.array([kinegraph.Config.getFrame(self, name).getPose() for name in names])
+
     def setFrameState(self, X: Any, frames: Sequence[str] = ()) -> None:
         """Sets the poses of frames, as kinegraph.Config.setFrameState, or those of all frames as in another scene.
 

@@ -121,5 +121,6 @@ TEST(DiffIk, NonsenseIsRefusedAndNothingMoves) {
   for (const double dt : {inf, std::nan(""), -1., 0.})
     expectError<ValueError>([&] { ik.step(dt); }, {"dt is", "finite number > 0"});
   expectError<ValueError>([&] { ik.setPosture(VectorXd::Constant(4, std::nan(""))); }, {"posture", "not finite"});
+  expectError<ValueError>([&] { ik.addTask(FeatureSymbol::position, {"hand"}, -1.); }, {"weight is -1"});
   EXPECT_EQ(C.getJointState(), before);
 }

@@ -58,6 +58,21 @@ TEST(DiffIk, LimitsHoldWhileATargetOutOfReachMoves) {
   }
 }
 
+TEST(DiffIk, AnArmThatATargetOutOfReachStretchesComesToRest) {
+  const Vector3d direction = Vector3d(1., .3, 0.).normalized();
+  for (const double velocity : {1., 10.}) {
+    for (const double distance : {1.6, 5., 100.}) {
+      Config C = planarArm();
+      C.getFrame("obstacle").setContact(0);
+      DiffIk ik(C, withLimits(velocity, 0.));
+      ik.addTask(FeatureSymbol::position, {"tip"}, 1., 1., distance * direction);
+      for (int i = 0; i < 3000; ++i) ik.step(kStep);
+      EXPECT_LT(ik.velocity().lpNorm<Eigen::Infinity>(), 1e-2) << distance << ", " << velocity;
+      EXPECT_LT((C.getFrame("tip").getPosition() - 1.5 * direction).norm(), 1e-3) << distance << ", " << velocity;
+    }
+  }
+}
+
 TEST(DiffIk, PairsKeepTheirMargin) {
   Config C = planarArm();
   C.getFrame("obstacle").setPosition(C.getFrame("target").getPosition());  // the target is within

@@ -297,6 +297,13 @@ TEST(Parser, AMistakeInAHeadDoesNotMakeItsBracesMistakes) {
   EXPECT_EQ(result.diagnostics[1].where.line, 5);
 }
 
+TEST(Parser, AnExcerptOfALongLineIsThePartAroundThePlace) {
+  const std::string line = std::string(500, 'a') + "!" + std::string(500, 'b');
+  EXPECT_EQ(excerpt("\n" + line, {"f.xml", 2, 501}),
+            "    ..." + std::string(60, 'a') + "!" + std::string(59, 'b') + "...\n    " + std::string(63, ' ') + "^");
+  EXPECT_EQ(excerpt("short", {"f.xml", 1, 3}), "    short\n      ^");
+}
+
 TEST(Parser, StopsAtAHundredErrors) {
   std::string text;
   for (int i = 0; i < 100000; ++i) text += "a: { x: 1.2.3 }\n";

@@ -232,7 +232,7 @@ TEST(PddlLanguage, MistakesWithDerivedPredicatesHaveTheirPlace) {
   };
   EXPECT_EQ(error("(:derived (q))"), "d:1:53: expected (:derived (above ?a ?b) (on ?a ?b)), found a list");
   EXPECT_EQ(error("(:derived (r) (q))"), "d:1:63: predicate 'r' has 1 arguments, got 0");
-  EXPECT_EQ(error("(:derived (s) (q))"), "d:1:63: unknown predicate 's'");
+  EXPECT_EQ(error("(:derived (s) (q))"), "d:1:63: unknown predicate 's'; expected one of p, q, r");
   EXPECT_EQ(error("(:derived (r c) (q))"), "d:1:66: parameter 'c' does not begin with '?'");
   EXPECT_EQ(error("(:derived (q) (p)) (:action a :parameters () :effect (not (q)))"),
             "d:1:111: 'q' is derived and cannot be an effect");
@@ -251,6 +251,9 @@ TEST(PddlLanguage, MistakesHaveTheirPlace) {
             "d:1:82: '>' compares numbers, which is not");
   EXPECT_EQ(error("(:predicates (p)) (:action a :parameters () :effect (increase (fuel) 1))").substr(0, 40),
             "d:1:76: 'fuel' increases; only (increase");
+  EXPECT_EQ(
+      error("(:predicates (p)) (:action a :parameters () :effect (increase (total-cost) (* 2 (w))))").substr(0, 34),
+      "d:1:99: '*' in a cost is not suppo");
   EXPECT_EQ(firstPlan(depotDomain(":strips"),
                       "(define (problem p) (:domain depot) (:objects c - cart) (:init) (:goal (is-tool)))"),
             "p:1:72: predicate 'is-tool' has 1 arguments, got 0");
@@ -258,6 +261,30 @@ TEST(PddlLanguage, MistakesHaveTheirPlace) {
                       "(total-cost) (c)))) (:functions (c)))",
                       "(define (problem p) (:domain d) (:init) (:goal (p)) (:metric minimize (total-cost)))"),
             "d:1:104: the cost (c) of action 'a' has no value");
+}
+
+TEST(PddlLanguage, MistakesOfProblemsNameWhatIsKnown) {
+  const std::string domain = depotDomain(":typing"), things = "(:objects c - cart b - bay) ", goal = "(:goal (in c b))";
+  const auto error = [&](const std::string& rest) { return firstPlan(domain, "(define (problem p) " + rest + ")"); };
+  const auto expect = [](const std::string& message, const std::string& part) {
+    EXPECT_NE(message.find(part), std::string::npos) << message;
+  };
+  expect(error("(:domain depto) " + things + goal), "p:1:21: the problem is of the domain 'depto'; expected 'depot'");
+  expect(error(things + "(:init)"), "p:1:1: problem 'p' has no (:goal ...)");
+  expect(error(things + "(:init (in c zz))" + goal), ": unknown object 'zz'; expected one of b, c");
+  expect(error("(:objects c - lorry)" + goal), ": unknown type 'lorry'; expected one of cart, bay");
+  expect(error(things + "(:init (at 5 (in c b)))" + goal), ": facts at a later time are not supported");
+  expect(firstPlan(domain + domain, kSwap), ": a second domain in one file; the first is at d:1:1");
+}
+
+TEST(PddlLanguage, ArgumentsOfAnotherTypeAreTold) {
+  const LogicProblem problem =
+      readPddlProblem("(define (problem p) (:objects c - cart b - bay) (:init (in c b)) (:goal (in b c)))",
+                      readPddlDomain(depotDomain(":typing"), "d"), "p");
+  const std::string told = join(diagnostics(ground(problem)), "; ");
+  EXPECT_NE(told.find("p:1:73: 'b' in (in b c) is not of the type 'cart'; p:1:73: 'c' in (in b c) is not of the type"),
+            std::string::npos)
+      << told;
 }
 
 TEST(PddlLanguage, PredicatesThatNoActionHasAreWrittenAndReadAgain) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "kinegraph/common/text.h"
 #include "kinegraph/kinematics/kinematic_model.h"
 #include "kinegraph/scene/loading/scene_source.h"
 #include "tests/exporters/mujoco_model.h"
@@ -358,6 +359,28 @@ TEST_F(MjcfReader, AttachedModelsKeepTheirSettingsAndStandWhereMujocoPutsThem) {
   EXPECT_TRUE(warnings_.empty()) << warnings_[0];
   EXPECT_EQ(config.getJointNames(), (std::vector<std::string>{"j", "x_j", "x_fj", "y_j", "y_fj"}));
   EXPECT_EQ(config.getFrame("x_j").data().joint->upper[0], 1.);
+}
+
+TEST_F(MjcfReader, ActuatorsWithoutJointAndRangesOfBallsAreTold) {
+  load(
+      "<worldbody><body name='a'><joint name='elbow'/><geom size='.1'/></body><body name='b'><joint name='ball' "
+      "type='ball' range='0 90'/><geom size='.1'/></body></worldbody><actuator><position joint='elbov'/></actuator>");
+  const std::string told = join(warnings_, "\n");
+  EXPECT_NE(told.find("<position>: there is no joint 'elbov'; it is left out; similar names: elbow"), std::string::npos)
+      << told;
+  EXPECT_NE(told.find("the range of a ball joint is not kept"), std::string::npos) << told;
+}
+
+TEST_F(MjcfReader, AnAttachedUrdfModelIsLeftOutWithAWarning) {
+  write("hand.urdf", "<robot name='h'><link name='hand'/></robot>");
+  const Config config = load(
+      "<asset><model name='o' file='hand.urdf'/></asset><worldbody><body name='a'><joint name='j'/><geom size='.1'/>"
+      "<attach model='o' body='hand' prefix='x_'/></body></worldbody>");
+  EXPECT_EQ(config.getJointNames(), std::vector<std::string>{"j"});
+  ASSERT_EQ(warnings_.size(), 1u);
+  EXPECT_NE(warnings_[0].find("model 'hand.urdf' is a URDF file, which <attach> does not read; it is left out"),
+            std::string::npos)
+      << warnings_[0];
 }
 
 TEST_F(MjcfReader, AssetsOfIncludedFilesAreFoundAsMujocoFindsThem) {

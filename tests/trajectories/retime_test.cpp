@@ -101,6 +101,16 @@ TEST(Retime, EqualPointsAreAtTheSameTime) {
   EXPECT_NEAR(timed.duration(), retime(line(2.), limitsOf(1, 1., 1.)).duration(), 1e-12);
 }
 
+TEST(Retime, PointsThatDifferByRoundingAreOne) {
+  MatrixXd path(5, 2), doubled(6, 2);
+  path << 0., 0., .3, .2, .1, .6, .5, .7, .9, .1;
+  doubled << path.topRows(3), path.row(2).array() + 2e-12, path.bottomRows(2);
+  RetimeOptions options;
+  options.corners = Corners::spline;
+  const double duration = retime(path, limitsOf(2, 1., 2., 20.), options).duration();
+  EXPECT_NEAR(retime(doubled, limitsOf(2, 1., 2., 20.), options).duration(), duration, 1e-6);
+}
+
 TEST(Retime, AMotionIsAtEachPointAtItsTime) {
   Rng rng(3);
   for (const Corners corners : {Corners::stop, Corners::spline}) {

@@ -68,7 +68,8 @@ void bindDiffIk(nb::module_& m) {
       .def(
           "step", [](DiffIk& ik, double dt, bool apply) { return toNumpy(ik.step(dt, apply)); }, "dt"_a,
           "apply"_a = true, docs::diff_ik::step)
-      .def("reset", &DiffIk::reset, "Sets the velocity to zero that the next acceleration starts from.")
+      .def("reset", &DiffIk::reset,
+           "Sets the velocity to zero that the next acceleration starts from, and ends the damping of joints.")
       .def_prop_ro(
           "velocity", [](const DiffIk& ik) { return toNumpy(ik.velocity()); },
           "dq/dt of the last step, shape (n,), rad/s or m/s.")

@@ -51,7 +51,7 @@ ABSENT: dict[type, dict[str, str]] = {
         "getScreenshot": _PICTURE,
         "openGripper": "moveGripper(gripper, width)",
         "pushConfigurationToSimulator": "pushConfigToSim()",
-        "getImageAndSegmentation": "getImageAndDepth(); ry.CameraView(C).computeSegmentationID(C) says which frame each pixel shows",
+        "getImageAndSegmentation": "getImageAndDepth(); ry.CameraView(C).computeSegmentationID() says which frame each pixel shows",
         "getGripperIsClose": "gripperIsDone(gripper), getGripperWidth(gripper)",
         "getGripperIsOpen": "gripperIsDone(gripper), getGripperWidth(gripper)",
     },

@@ -8,6 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from .yaml_helper import plainValue
+
 
 def _open(filename: str, mode: str) -> Any:
     try:
@@ -55,13 +57,13 @@ class H5Writer:
             self.write(f"{name}/{i}", array, dtype)
 
     def write_dict(self, name: str, data: dict[str, Any]) -> None:
-        """Writes a dict of numbers, texts and lists as text.
+        """Writes a dict of numbers, texts, lists and arrays as text.
 
         Args:
             name: Path within the file.
             data: The dict.
         """
-        self.fil.create_dataset(name, data=np.frombuffer(json.dumps(data).encode(), dtype=np.int8))
+        self.fil.create_dataset(name, data=np.frombuffer(json.dumps(data, default=plainValue).encode(), dtype=np.int8))
 
 
 class H5Reader:

@@ -25,6 +25,8 @@ constexpr double kStiffer[] = {0., 1e-10,
                                1e-7};       // damping relative to the largest cost, if rounding prevents a solution
 constexpr double kReportedEquality = 1e-6;  // the same of equalities, in units of the feature
 constexpr double kSpanned = 1e-6;           // a gradient with a smaller share in the free directions is fixed already
+constexpr double kChatter = 1e-6;           // smallest step that is damped if it takes back the one before, rad or m
+constexpr double kFirstCalm = 1e-3, kLargestCalm = 1e6;  // damping of chatter, relative to the largest cost
 
 void checkLimits(const char* name, const VectorXd& limits, int dofs) {
   if (limits.size() != 0 && limits.size() != dofs)
@@ -91,6 +93,7 @@ void DiffIk::prepare() {
   velocity_limit_ = options_.velocity.size() ? options_.velocity : getVelocityLimits(config_);
   acceleration_limit_ = options_.acceleration.size() ? options_.acceleration : VectorXd::Constant(n, kNoBound);
   velocity_.setZero(n), change_.setZero(n), low_.resize(n), high_.resize(n);
+  calm_.setZero(n), before_.setZero(n);
   gradient_row_.resize(n), cost_.resize(n, n), slope_.resize(n), direction_.resize(n);
   std::vector<std::pair<int, int>> moving;
   if (options_.collisions)
@@ -114,6 +117,7 @@ void DiffIk::prepare() {
 
 int DiffIk::addTask(const FeatureSource& feature, const std::vector<std::string>& frames, double weight, double gain,
                     const VectorXd& target, int priority) {
+  if (weight < 0.) throw ValueError(cat("DiffIk: weight is ", weight, "; expected a number >= 0"));
   if (priority == kEquality)
     throw ValueError(cat("DiffIk: priority is ", priority, ", which is reserved for equalities"));
   return add({feature, frames, weight, gain, target, priority, {}, {}, {}});
@@ -167,6 +171,22 @@ void DiffIk::addCosts(const VectorXd& q, int priority, bool is_last) {
     eval(config_, task.residual[0], task.y, task.J);
     cost_.noalias() += task.J.transpose() * task.J;
     slope_.noalias() += task.gain * task.J.transpose() * task.y;
+  }
+  if ((calm_.array() > 0.).any()) cost_.diagonal() += cost_.diagonal().maxCoeff() * calm_;
+}
+
+/// Damps joints whose step takes back the one before. Where a target is out of reach, the linear model of a task
+/// promises progress that the curvature of the motion denies, and steps would jump to and fro at the velocity limits.
+void DiffIk::calmChatter() {
+  for (int j = 0; j < change_.size(); ++j) {
+    const double now = change_[j], size = std::abs(now);
+    const bool takes_back = now * before_[j] < 0. && size > kChatter && size > .5 * std::abs(before_[j]);
+    if (takes_back) {
+      calm_[j] = std::min(std::max(kFirstCalm, 4. * calm_[j]), kLargestCalm);
+    } else {
+      calm_[j] = calm_[j] > kFirstCalm ? .7 * calm_[j] : 0.;
+    }
+    if (size > kChatter) before_[j] = now;
   }
 }
 
@@ -384,6 +404,7 @@ const VectorXd& DiffIk::step(double dt, bool apply) {
   addIntervals(q_, dt);
   addDampers(state, dt);
   solve();
+  calmChatter();
   velocity_ = change_ / dt;
   q_ += change_;
   if (apply) config_.setJointState(q_);

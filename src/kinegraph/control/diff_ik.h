@@ -50,7 +50,8 @@ enum class DiffIkStatus {
 /// Each step reads the scene again, so that targets and obstacles may move. A step never throws because of limits: from
 /// beyond a limit the joint returns as fast as velocities allow. If dampers contradict the limits or each other, they
 /// are relaxed by the least sum of squares, and the tasks are followed in the remaining directions. A joint with equal
-/// limits does not move. After the first step nothing allocates.
+/// limits does not move. Joints that would move to and fro, because a target is out of reach, are damped until they
+/// stand still. After the first step nothing allocates.
 class DiffIk {
  public:
   /// Moves this scene, without a copy. Its current q is the posture.
@@ -80,8 +81,8 @@ class DiffIk {
   /// is positive and finite, before anything moves.
   const VectorXd& step(double dt, bool apply = true);
 
-  /// Sets the velocity to zero that the next acceleration starts from.
-  void reset() { velocity_.setZero(); }
+  /// Sets the velocity to zero that the next acceleration starts from, and ends the damping of joints.
+  void reset() { velocity_.setZero(), before_.setZero(), calm_.setZero(); }
 
   const VectorXd& velocity() const { return velocity_; }
   DiffIkStatus status() const { return relaxed_.empty() ? DiffIkStatus::solved : DiffIkStatus::constraints_relaxed; }
@@ -105,6 +106,7 @@ class DiffIk {
   void prepare();
   int add(Task task);
   void addCosts(const VectorXd& q, int priority, bool is_last);
+  void calmChatter();
   void addIntervals(const VectorXd& q, double dt);
   void addDampers(const State& state, double dt);
   void solve();
@@ -123,6 +125,8 @@ class DiffIk {
   std::shared_ptr<const KinematicModel> model_;
   std::vector<Task> tasks_;
   VectorXd posture_, velocity_, q_, change_, low_, high_, velocity_limit_, acceleration_limit_;
+  VectorXd before_;  ///< last steps of the joints that moved
+  VectorXd calm_;    ///< damping of each joint against chatter
   MatrixXd limits_;
   std::unique_ptr<BodyPairs> pairs_;
   std::unique_ptr<PlacedBodies> bodies_;

@@ -26,6 +26,21 @@ Graph parse(std::string_view text, const std::string& file, std::vector<std::str
   return std::move(result.graph);
 }
 
+namespace {
+
+constexpr std::size_t kAround = 60;  ///< characters of a long line that are shown on each side of a place
+
+/// Keeps the part of a long line around a column, such as of a file without line breaks.
+void shorten(std::string& line, std::size_t& column) {
+  const std::string cut = "...";
+  if (line.size() > column + kAround + cut.size()) line = line.substr(0, column + kAround) + cut;
+  if (column <= kAround + cut.size()) return;
+  line = cut + line.substr(std::min(column - kAround, line.size()));
+  column = kAround + cut.size();
+}
+
+}  // namespace
+
 std::string excerpt(std::string_view text, const SourcePosition& where) {
   if (!where.known()) return "";
   std::size_t start = 0;
@@ -36,7 +51,9 @@ std::string excerpt(std::string_view text, const SourcePosition& where) {
   }
   const std::size_t end = std::min(text.find_first_of("\r\n", start), text.size());
   std::string line(text.substr(start, end - start));
-  std::string caret(std::size_t(std::max(where.column - 1, 0)), ' ');
+  std::size_t column = std::size_t(std::max(where.column - 1, 0));
+  shorten(line, column);
+  std::string caret(column, ' ');
   for (std::size_t i = 0; i < caret.size() && i < line.size(); ++i) {
     if (line[i] == '\t') caret[i] = '\t';
   }

@@ -16,6 +16,7 @@ namespace {
 
 using Token = LogicScanner::Token;
 
+const std::vector<std::string> kBlocks = {"START_STATE", "DecisionRule", "Rule", "FOL_World", "REWARD"};
 const std::vector<std::string> kReserved = {"QUIT", "WAIT", "Terminate", "ANY", "INFEASIBLE"};
 
 /// `(p a b)`, `(p a b)!`, `(p a b)=2`; commas are spaces.
@@ -131,14 +132,27 @@ class FolReader {
       readRule(word);
     } else if (word.text == "FOL_World" || word.text == "REWARD") {
       skipBlock();
-    } else if (word.text == "DecisionRules" || scan_.peek().is('{')) {
-      throw ParseError(
-          word.where,
-          cat("unknown block '", word.text, "'; expected START_STATE, DecisionRule, Rule, FOL_World or REWARD",
-              similarHint(word.text, {"START_STATE", "DecisionRule", "Rule", "FOL_World", "REWARD"})));
-    } else if (known_.insert(word.text).second) {
-      domain_.symbols.push_back(word.text);
+    } else if (scan_.peek().is('{') || scan_.peek().is(':')) {
+      refuseBlock(word);
+    } else {
+      if (known_.insert(word.text).second) domain_.symbols.push_back(word.text);
+      last_symbol_ = word;
     }
+  }
+
+  /// Refuses `word {`. In `DecisonRule pick {` the word before it on the line is the misspelled one.
+  [[noreturn]] void refuseBlock(const Token& word) const {
+    const SourcePosition& before = last_symbol_.where;
+    const bool has_name = before.known() && before.file == word.where.file && before.line == word.where.line &&
+                          similarNames(word.text, kBlocks).empty();
+    const Token& kind = has_name ? last_symbol_ : word;
+    if (kind.text.starts_with("BELIEF") || kind.text.starts_with("Belief")) refuseBelief(kind);
+    throw ParseError(kind.where, cat("unknown block '", kind.text, "'; expected one of ", join(kBlocks),
+                                     similarHint(kind.text, kBlocks)));
+  }
+
+  [[noreturn]] static void refuseBelief(const Token& at) {
+    throw ParseError(at.where, "several states with probabilities (beliefs) are not supported; expected one state");
   }
 
   void skipBlock() {
@@ -158,6 +172,7 @@ class FolReader {
     while (!scan_.takeIf('}')) {
       if (scan_.takeIf(',')) continue;
       if (scan_.peek().isWord()) refuseWord();
+      if (scan_.peek().is('{')) refuseBelief(scan_.peek());
       literals.push_back(readLiteral(scan_));
       requireKnown(literals.back(), variables);
     }
@@ -243,6 +258,7 @@ class FolReader {
   LogicScanner scan_{"", "", '#'};
   std::string file_;
   std::vector<std::string> files_;  ///< that are being read
+  Token last_symbol_;
   LogicDomain domain_;
   std::set<std::string> known_;
 };

@@ -152,7 +152,14 @@ void addUnfired(const GroundProblem& ground, std::vector<std::string>& told) {
   }
 }
 
-/// Facts of the start whose number of arguments no rule has, though rules have the predicate.
+std::string placeOf(const Literal& literal) { return literal.where.known() ? literal.where.str() + ": " : ""; }
+
+bool isDeclared(const LogicDomain& domain, const std::string& word) {
+  const auto has = [&](const auto& pair) { return pair.first == word || pair.second == word; };
+  return std::ranges::find(domain.symbols, word) != domain.symbols.end() || std::ranges::any_of(domain.types, has);
+}
+
+/// Facts of the start whose predicate no rule has, or not with their number of arguments.
 void addOddFacts(const GroundProblem& ground, std::vector<std::string>& told) {
   std::map<std::string, std::map<std::size_t, std::string>> in_rules;
   for (const LogicRule& rule : ground.problem.domain.rules) {
@@ -164,11 +171,42 @@ void addOddFacts(const GroundProblem& ground, std::vector<std::string>& told) {
   std::set<Shape> seen;
   for (const Literal& fact : ground.problem.start) {
     const auto known = in_rules.find(fact.predicate);
-    if (known == in_rules.end() || known->second.contains(fact.arguments.size())) continue;
+    if (known != in_rules.end() && known->second.contains(fact.arguments.size())) continue;
     if (!seen.emplace(fact.predicate, fact.arguments.size()).second) continue;
-    told.push_back(cat(fact.where.known() ? fact.where.str() + ": " : "", "no rule has ", fact.str(), " with ",
-                       fact.arguments.size(), " arguments; rules have ", known->second.begin()->second));
+    if (known == in_rules.end()) {
+      if (isDeclared(ground.problem.domain, fact.predicate)) continue;
+      std::vector<std::string> names;
+      for (const auto& [name, arguments] : in_rules) names.push_back(name);
+      const std::string hint = similarHint(fact.predicate, names);  // scenes have facts for other rules, too
+      if (!hint.empty()) told.push_back(cat(placeOf(fact), "no rule has the predicate of ", fact.str(), hint));
+      continue;
+    }
+    told.push_back(cat(placeOf(fact), "no rule has ", fact.str(), " with ", fact.arguments.size(),
+                       " arguments; rules have ", known->second.begin()->second));
   }
+}
+
+/// Arguments of the start and the goal that do not have the type that PDDL declares for the predicate. The first one
+/// of each kind is told: such a fact may have been meant otherwise, and no action matches it.
+void addWrongTypes(const GroundProblem& ground, std::vector<std::string>& told) {
+  const LogicProblem& problem = ground.problem;
+  std::set<std::string> typed;
+  for (const Literal& fact : problem.start) {
+    if (fact.arguments.size() == 1) typed.insert(GroundProblem::keyOf(fact));
+  }
+  std::set<std::pair<std::string, std::size_t>> seen;
+  const auto check = [&](const Literal& literal) {
+    const auto& predicates = problem.domain.predicates;
+    const auto declared = std::ranges::find(predicates, literal.predicate, &Signature::name);
+    if (declared == predicates.end() || declared->types.size() != literal.arguments.size()) return;
+    for (std::size_t i = 0; i < literal.arguments.size(); ++i) {
+      const std::string &type = declared->types[i], &word = literal.arguments[i];
+      if (type.empty() || typed.contains(cat(type, " ", word)) || !seen.emplace(literal.predicate, i).second) continue;
+      told.push_back(cat(placeOf(literal), "'", word, "' in ", literal.str(), " is not of the type '", type, "'"));
+    }
+  };
+  for (const Literal& fact : problem.start) check(fact);
+  for (const Literal& literal : problem.goal) check(literal);
 }
 
 /// Constants of START_STATE that are neither declared nor in another fact.
@@ -198,6 +236,7 @@ std::vector<std::string> diagnostics(const GroundProblem& ground) {
   std::vector<std::string> told;
   addUnfired(ground, told);
   addOddFacts(ground, told);
+  addWrongTypes(ground, told);
   addUnknownConstants(ground, told);
   for (const Literal& literal : ground.unreachable)
     told.push_back(cat("nothing can make ", literal.str(), " of the goal true"));

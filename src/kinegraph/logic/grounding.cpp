@@ -8,6 +8,7 @@
 #include "kinegraph/logic/derived_facts.h"
 #include "kinegraph/logic/ground_conditions.h"
 #include "kinegraph/logic/ground_costs.h"
+#include "kinegraph/logic/known_words.h"
 
 namespace kinegraph {
 
@@ -80,7 +81,9 @@ class Grounder {
     const LogicProblem& problem = out_.problem;
     std::map<std::string, std::map<std::size_t, std::string>> arity;
     std::set<std::string> words(problem.domain.symbols.begin(), problem.domain.symbols.end());
-    words.insert({"QUIT", "WAIT", "Terminate", "INFEASIBLE", std::string(kAny), std::string(kEqual)});
+    const std::set<std::string> reserved = {
+        "QUIT", "WAIT", "Terminate", "INFEASIBLE", std::string(kAny), std::string(kEqual)};
+    words.insert(reserved.begin(), reserved.end());
     words.insert(problem.constants.begin(), problem.constants.end());
     const auto see = [&](const Literal& literal) {
       arity[literal.predicate].try_emplace(literal.arguments.size(), literal.str());
@@ -103,6 +106,11 @@ class Grounder {
       for (const Literal& literal : rule.eff) see(literal);
     }
     for (const Literal& literal : problem.start) see(literal);
+    std::vector<std::string> predicates, constants;
+    for (const auto& [name, arguments] : arity) predicates.push_back(name);
+    for (const std::string& word : words) {
+      if (!arity.contains(word) && !reserved.contains(word)) constants.push_back(word);
+    }
     for (const Literal& literal : problem.goal) {
       std::vector<std::string> all = literal.arguments;
       all.insert(all.begin(), literal.predicate);
@@ -110,7 +118,7 @@ class Grounder {
       for (const std::string& word : all) {
         if (words.contains(word)) continue;
         throw ParseError(literal.where, cat("unknown symbol '", word, "' in the goal ", literal.str(),
-                                            similarHint(word, {words.begin(), words.end()})));
+                                            knownWords(word, &word == &all.front() ? predicates : constants)));
       }
       require(literal);
     }

@@ -198,6 +198,9 @@ void PddlConditions::readCost(const PddlExpression& at, LogicRule& rule, const W
 void PddlConditions::addCost(const PddlExpression& at, LogicRule& rule) {
   if (at.head() == "+") {
     for (std::size_t i = 1; i < at.list.size(); ++i) addCost(at.list[i], rule);
+  } else if (isOneOf(at.head(), {"*", "-", "/"})) {
+    throw ParseError(at.where,
+                     cat("'", at.head(), "' in a cost is not supported; expected a number, a function or a sum"));
   } else if (at.isList() ||
              !(std::isdigit(static_cast<unsigned char>(at.word[0])) || at.word[0] == '-' || at.word[0] == '.')) {
     rule.cost_functions.push_back(names_.literalOf(at, rule.variables, true));

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "kinegraph/common/text.h"
+#include "kinegraph/logic/known_words.h"
 
 namespace kinegraph {
 
@@ -100,7 +101,7 @@ void PddlNames::addTypes(const std::vector<PddlTyped>& types) {
 
 void PddlNames::requireType(const std::string& type, const SourcePosition& where) const {
   if (isType(type)) return;
-  throw ParseError(where, cat("unknown type '", type, "'", similarHint(type, keysOf(domain_.types))));
+  throw ParseError(where, cat("unknown type '", type, "'", knownWords(type, keysOf(domain_.types))));
 }
 
 std::string PddlNames::typeOf(const PddlTyped& thing) {
@@ -164,7 +165,7 @@ std::string PddlNames::argumentOf(const PddlExpression& at, const std::vector<st
   std::vector<std::string> known = variables;
   known.insert(known.end(), constants_.begin(), constants_.end());
   throw ParseError(at.where,
-                   cat("unknown ", word[0] == '?' ? "variable" : "object", " '", word, "'", similarHint(word, known)));
+                   cat("unknown ", word[0] == '?' ? "variable" : "object", " '", word, "'", knownWords(word, known)));
 }
 
 Literal PddlNames::literalOf(const PddlExpression& at, const std::vector<std::string>& variables, bool is_function) {
@@ -191,7 +192,7 @@ void PddlNames::requireArity(const Literal& literal, bool is_function) const {
     const bool is_symbol = std::ranges::find(domain_.symbols, name) != domain_.symbols.end();
     if (!is_function && is_symbol && domain_.predicates.empty() && domain_.types.empty()) return;
     throw ParseError(literal.where, cat("unknown ", is_function ? "function" : "predicate", " '", name, "'",
-                                        similarHint(name, keysOf(known))));
+                                        knownWords(name, keysOf(known))));
   }
   if (!found->second.contains(count)) {
     throw ParseError(literal.where, cat(is_function ? "function" : "predicate", " '", name, "' has ",

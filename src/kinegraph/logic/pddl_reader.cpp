@@ -9,13 +9,18 @@ namespace kinegraph {
 
 namespace {
 
-/// Returns the first definition of a kind, `domain` or `problem`: one file may have both.
+/// Returns the definition of a kind, `domain` or `problem`: one file may have one of each.
 PddlExpression definitionOf(std::string_view text, const std::string& file, const char* kind) {
   const std::vector<PddlExpression> all = readPddlDefinitions(text, file);
-  for (const PddlExpression& definition : all) {
-    if (definition.list.size() > 1 && definition.list[1].head() == kind) return definition;
-  }
-  throw ParseError(all.front().where, cat("expected (define (", kind, " ...) ...)"));
+  const auto isOne = [&](const PddlExpression& definition) {
+    return definition.list.size() > 1 && definition.list[1].head() == kind;
+  };
+  const auto first = std::ranges::find_if(all, isOne);
+  if (first == all.end()) throw ParseError(all.front().where, cat("expected (define (", kind, " ...) ...)"));
+  const auto second = std::find_if(first + 1, all.end(), isOne);
+  if (second != all.end())
+    throw ParseError(second->where, cat("a second ", kind, " in one file; the first is at ", first->where.str()));
+  return *first;
 }
 
 [[noreturn]] void refusePart(const PddlExpression& part, const char* of, const std::vector<std::string>& known) {
@@ -222,6 +227,7 @@ class ProblemReader {
         if (all.list[i].head() == part) readPart(part, all.list[i]);
       }
     }
+    if (!has_goal_) throw ParseError(all.where, cat("problem '", problem_.name, "' has no (:goal ...)"));
     names_.addSupertypes(problem_.start);
     return std::move(problem_);
   }
@@ -232,13 +238,16 @@ class ProblemReader {
       if (part.list.size() == 2) problem_.name = pddlWord(part.list[1], "the problem's name");
     } else if (head == ":domain") {
       if (part.list.size() != 2 || part.list[1].key() != lowerCase(problem_.domain.name))
-        throw ParseError(part.where, cat("the problem is of another domain than '", problem_.domain.name, "'"));
+        throw ParseError(part.where,
+                         cat("the problem is of the domain '", part.list.size() > 1 ? part.list[1].word : std::string(),
+                             "'; expected '", problem_.domain.name, "'"));
     } else if (head == ":objects") {
       readObjects(part);
     } else if (head == ":init") {
       for (std::size_t k = 1; k < part.list.size(); ++k) readFact(part.list[k]);
     } else if (head == ":goal") {
       if (part.list.size() != 2) throw ParseError(part.where, "expected (:goal (and ...))");
+      has_goal_ = true;
       PddlConditions::split(conditions_.read(part.list[1], {}), problem_.goal, problem_.goal_conditions);
     } else if (head == ":metric") {
       readMetric(part);
@@ -268,6 +277,8 @@ class ProblemReader {
       if (name == "total-cost") return void(PddlConditions::numberOf(at.list[2]));
       const Literal function = names_.literalOf(at.list[1], {}, true);
       problem_.values.push_back({function, PddlConditions::numberOf(at.list[2])});
+    } else if (head == "at" && at.list.size() == 3 && at.list[2].isList()) {
+      throw ParseError(at.where, "facts at a later time are not supported; expected facts of the start");
     } else {
       problem_.start.push_back(names_.literalOf(at, {}));
       if (isDerived(problem_.domain, problem_.start.back()))
@@ -294,6 +305,7 @@ class ProblemReader {
   PddlNames names_;
   PddlConditions conditions_;
   std::vector<Literal> denied_;
+  bool has_goal_ = false;
 };
 
 }  // namespace

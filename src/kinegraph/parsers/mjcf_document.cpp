@@ -178,6 +178,7 @@ void MjcfDocument::attach(const XmlElement& element, std::vector<XmlElement>& in
     const XmlAttribute* const name = asset.attribute("name");
     if (name && name->value != reference->value) names.push_back(name->value);
     if (name && name->value != reference->value) continue;
+    if (const XmlAttribute* file = asset.attribute("file"); file && leavesOut(*file)) return;
     std::optional<XmlElement> model = loadModel(asset, element);
     if (findings_.failed()) return;
     if (!model) continue;  // the name in the file is another
@@ -207,6 +208,16 @@ void MjcfDocument::attach(const XmlElement& element, std::vector<XmlElement>& in
   }
   findings_.error(reference->where, cat("<attach>: there is no model '", reference->value, "' in <asset>",
                                         similarHint(reference->value, names)));
+}
+
+/// MuJoCo attaches models of URDF files, too; here a warning says that they are left out.
+bool MjcfDocument::leavesOut(const XmlAttribute& file) {
+  const std::string path = locateAsset(file, "").path;
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored) || xmlRootName(textOfFile(path)) != "robot") return false;
+  findings_.warn(file.where, cat("model '", file.value,
+                                 "' is a URDF file, which <attach> does not read; it is left out; convert it to MJCF"));
+  return true;
 }
 
 /// Reads the file of a <model>; nullopt if the asset has no name and the model in the file has another one than the

@@ -101,6 +101,7 @@ class MjcfDocument {
                std::vector<XmlElement>& into);
   void attachModels(XmlElement& container);
   void attach(const XmlElement& element, std::vector<XmlElement>& into);
+  bool leavesOut(const XmlAttribute& file);
   std::optional<XmlElement> loadModel(const XmlElement& asset, const XmlElement& attach);
   void readSettings();
   void collectClasses(const XmlElement& element, const Class* outer, bool attached = false);

@@ -5,6 +5,7 @@
 #include <set>
 
 #include "kinegraph/common/text.h"
+#include "kinegraph/parsers/mjcf_expansion.h"
 
 namespace kinegraph {
 
@@ -63,11 +64,20 @@ std::map<std::string, MjcfMotor> mjcfMotors(const MjcfDocument& document, MjcfVa
   std::map<std::string, MjcfMotor> motors;
   std::vector<std::string> unread;
   SourcePosition where;
+  std::vector<std::string> joints;
+  for (const auto& [kind, name] : mjcfDefinitions(document.root())) {
+    if (kind == "joint") joints.push_back(name);
+  }
   for (const XmlElement* section : document.root().all("actuator")) {
     for (const XmlElement& xml : section->children) {
       const MjcfElement element = document.element(xml);
       const XmlAttribute* joint = element.attribute("joint");
       if (!joint) continue;
+      if (!std::binary_search(joints.begin(), joints.end(), joint->value)) {
+        findings.warn(joint->where, cat("<", xml.name, ">: there is no joint '", joint->value, "'; it is left out",
+                                        similarHint(joint->value, joints)));
+        continue;
+      }
       if (!where.known()) where = xml.where;
       MjcfMotor motor = motorOf(element, values, unread);
       MjcfMotor& sum = motors[joint->value];

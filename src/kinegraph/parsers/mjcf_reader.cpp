@@ -329,6 +329,8 @@ class MjcfReader {
                       Quaterniond::Identity());
     if (type == "ball") {
       attributes.add("joint", std::string("quatBall"));
+      if (element.attribute("range"))
+        findings_.warn(element.where(), cat(element.describe(), ": the range of a ball joint is not kept"));
       addDynamics(element, attributes);
       place(pose * anchor, anchor.inverse());
       return true;

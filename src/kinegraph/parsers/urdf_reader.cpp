@@ -175,15 +175,18 @@ class UrdfReader {
 
   void followMimic(UrdfJoint& joint) {
     std::set<const UrdfJoint*> seen = {&joint};
+    const std::string mimicked = joint.mimic ? joint.mimic->joint : "";
     while (joint.mimic) {
       const UrdfJoint& source = *findJoint(joint.mimic->joint);
-      const std::string who = cat("joint '", joint.name, "' mimics '", source.name, "', ");
+      const std::string whom = mimicked == joint.name ? "itself" : cat("'", mimicked, "'");
+      const std::string who = cat("joint '", joint.name, "' mimics ", whom);
       const bool impossible = !hasOneDof(joint) || (!hasOneDof(source) && source.type != UrdfJointType::fixed);
       if (impossible || !seen.insert(&source).second) {
         warn(joint.mimic->where,
              cat(who,
-                 impossible ? "but only revolute, continuous and prismatic joints can mimic each other"
-                            : "which mimics it in turn",
+                 impossible               ? ", but only revolute, continuous and prismatic joints can mimic each other"
+                 : mimicked == joint.name ? ""
+                                          : ", which mimics it in turn",
                  "; it is read as an independent joint"));
         joint.mimic.reset();
       } else if (source.mimic) {

@@ -159,7 +159,8 @@ void BotOp::callWatches() {
 void BotOp::advance(double seconds, bool keys_end_it) {
   if (watching_ == std::this_thread::get_id())
     throw ValueError("BotOp: a function of watch cannot wait (sync, wait, home, stop); it may command motions");
-  if (!(seconds >= 0.)) throw ValueError(cat("BotOp: the time to wait is ", seconds, " s; expected 0 or more"));
+  if (!(seconds >= 0. && std::isfinite(seconds)))
+    throw ValueError(cat("BotOp: the time to wait is ", seconds, " s; expected a finite number, 0 or more"));
   checkCancellation();
   if (options_.realtime) {
     waitRealtime(seconds, keys_end_it);

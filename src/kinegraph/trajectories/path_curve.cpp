@@ -93,7 +93,7 @@ class PathCurveBuilder {
 
 namespace {
 
-constexpr double kSamePoint = 1e-12;      // relative to the largest number in the path
+constexpr double kSamePoint = 1e-9;       // relative to the largest number in the path
 constexpr double kSameDirection = 1e-10;  // largest difference of unit vectors without a corner
 constexpr double kLongEnd = 3.;           // largest ratio of the first line to the second with a not-a-knot end
 

@@ -62,6 +62,7 @@ MISTAKES = [
     ),
     (lambda C, k: k.addObjective([], ry.FS.position, ["table"]), r"KOMO.addObjective: missing: type \(OT\)"),
     (lambda C, k: k.addControlObjective([], order=0, scal=1.0), r"it has no argument 'scal'; similar names: scale"),
+    (lambda C, k: ry.BotOp(C, False).setLimits(vel=1.0), r"it has no argument 'vel'; similar names: velocity\n"),
     (lambda C, k: ry.KOMO(C), r"KOMO: missing: phases \(float\), slicesPerPhase \(int\), kOrder \(int\)"),
     (lambda C, k: ry.KOMO("scene.g", 1, 1, 0, False), r"KOMO: config is 'scene.g' \(str\); expected Config"),
     (lambda C, k: ry.NLP_Solver(k), r"NLP_Solver: problem is <KOMO.* expected NLP; write komo.nlp\(\)"),

@@ -57,6 +57,15 @@ def test_suspicious_input_is_a_warning(line: str, tmp_path: Path) -> None:
     assert any(WARNINGS[line] in str(warning.message) for warning in caught)
 
 
+def test_an_option_that_is_similar_to_none_is_answered_with_all() -> None:
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    with pytest.raises(ry.ArgumentError, match="there is no option 'timeout'; expected one of .*margin, "):
+        ry.planMotion(C, goal=C.getJointState(), timeout=3.0)
+    with pytest.raises(ry.ArgumentError, match="there is no option 'margn'; similar names: margin"):
+        ry.planMotion(C, goal=C.getJointState(), margn=3.0)
+
+
 def test_xml_is_no_scene(tmp_path: Path) -> None:
     (tmp_path / "robot.g").write_text('<?xml version="1.0"?>\n<robot name="r"/>')
     with pytest.raises(ry.ParseError, match="the text is XML, not a .g scene; URDF files end in .urdf"):

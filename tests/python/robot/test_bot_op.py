@@ -208,6 +208,8 @@ def test_what_a_robot_cannot_do_is_an_error_with_the_reason(panda: ry.Config, bo
         bot.move([q + 2.0 * np.eye(7)[0]], [1.0])
     with pytest.raises(ry.ArgumentError, match="would go to 9"):
         bot.moveTo(np.full(7, 9.0))
+    with pytest.raises(ry.ArgumentError, match="the time to wait is inf s; expected a finite number"):
+        bot.sync(panda, np.inf)
     with pytest.raises(ry.ArgumentError, match="points have 3 numbers; the robot has 7 joints"):
         bot.move([[0.0, 0.0, 0.0]], [1.0])
     with pytest.raises(ry.ArgumentError, match="there is no gripper 3; the robot has 1: l_gripper"):

@@ -182,6 +182,37 @@ def test_names_of_earlier_versions(tmp_path: Path) -> None:
         C.addFrame("other").setMeshFile(mesh)
 
 
+def test_a_manipulation_helper_of_2024_knows_its_scene() -> None:
+    C = arm()
+    box = C.addFrame("box", "table").setJoint(ry.JT.rigid).setShape(ry.ST.ssBox, [0.06, 0.06, 0.06, 0.005])
+    box.setRelativePosition([-0.25, 0.1, 0.1]).setContact(1)
+    M = ry.ManipulationModelling(C, "carry", ["l_gripper"])
+    M.setup_pick_and_place_waypoints("l_gripper", "box", homing_scale=1e-1, joint_limits=False)
+    M.grasp_top_box(1.0, "l_gripper", "box", "xz")
+    M.place_box(2.0, "box", "table", "l_palm", "z", on_table=True)
+    M.solve(verbose=0)
+    assert M.feasible and M.info == "carry"
+    with pytest.raises(ry.ArgumentError, match="on_table is False; expected True"):
+        M.place_box(2.0, "box", "table", "l_palm", on_table=False)
+    move = ry.ManipulationModelling(C, info="move")
+    move.setup_point_to_point_motion(M.path[0])
+    before = len(move.komo.getFeatureNames())
+    move.no_collision([0.3, 0.7], ["l_palm", "box"])
+    move.keep_distance([0.3, 0.7], ["l_palm", "table"], 0.02)
+    assert len(move.komo.getFeatureNames()) > before
+    move.solve(verbose=0)
+    move.play(0.0)
+    assert np.allclose(C.getJointState(), M.path[0], atol=1e-2)
+
+
+def test_poses_of_some_frames() -> None:
+    C = arm()
+    assert np.array_equal(C.getFrameState("table"), C.getFrame("table").getPose())
+    assert np.array_equal(C.getFrameState(["table", "l_gripper"])[1], C.getFrame("l_gripper").getPose())
+    with pytest.raises(ry.FrameNotFound, match="similar names: table"):
+        C.getFrameState("tabel")
+
+
 def test_helper_modules_cover_what_kinegraph_has(tmp_path: Path) -> None:
     from robotic.src.h5_helper import H5Reader, H5Writer
 
@@ -204,6 +235,7 @@ def test_helper_modules_cover_what_kinegraph_has(tmp_path: Path) -> None:
     mesh.write_text("TRI\n3\n1\n0 0 0\n1 0 0\n0 1 0\n0 1 2\n")
     assert mesh_tool.MeshTool(str(mesh)).points.shape == (3, 3)
     assert yaml_helper.dict_as_yaml({"a": [1, 2]}) == '"a": [1, 2]\n'
+    assert yaml_helper.dict_as_yaml({"a": np.arange(2), "b": np.float64(0.5)}) == '"a": [0, 1]\n"b": 0.5\n'
     with pytest.raises(ry.NotFound, match="trimesh"):
         mesh_tool.MeshTool(str(mesh)).repair()
 
