@@ -43,6 +43,27 @@ TEST(SceneObserver, MovesTheThingsThatItSeesAndAttachesAllElse) {
   EXPECT_EQ(map.state({-.2, .065, .8}), CellState::free);
 }
 
+TEST(SceneObserver, AnErrorLeavesTheLastResultAndTheSceneAsTheyWere) {
+  Config C = observedScene();
+  const Config truth = observedScene();
+  OccupancyMap map(C, {-.4, -.3, .66}, {.4, .4, 1.1}, .02);
+  bool is_broken = false;
+  const auto take = [&] {
+    DepthView view = imageOf(truth);
+    if (is_broken) view.width = 7;
+    return std::vector{view};
+  };
+  SceneObserver observer(take, {"cube"}, {.support = "table"}, &map);
+  observer.observe(C);
+  const std::string before = map.str();
+  const MatrixXd poses = C.getFrameState();
+  is_broken = true;
+  EXPECT_THROW(observer.observe(C), ValueError);
+  EXPECT_EQ(observer.seen().frames.at("cube").status, SeenStatus::seen);
+  EXPECT_EQ(map.str(), before);
+  EXPECT_EQ(C.getFrameState(), poses);
+}
+
 TEST(SceneObserver, WithoutAMapOnlyThingsMove) {
   Config C = observedScene(), truth = observedScene();
   truth.getFrame("cube").setPosition({.13, .02, .68});

@@ -33,13 +33,14 @@ std::map<std::string, std::optional<Pose>> SceneObserver::observe(Config& scene)
     if (!isInHand(scene, name)) standing.push_back(name);
   }
   const std::vector<DepthView> views = take_();
-  seen_ = {};
-  if (!standing.empty()) seen_ = registerScene(scene, views, standing, options_);
+  SeenScene seen;
+  if (!standing.empty()) seen = registerScene(scene, views, standing, options_);
   if (map_) {
-    const std::vector<std::string> warnings = map_->update(scene, views, seen_);
-    for (const std::string& warning : warnings) seen_.warnings.push_back(warning);
+    const std::vector<std::string> warnings = map_->update(scene, views, seen);
+    for (const std::string& warning : warnings) seen.warnings.push_back(warning);
     map_->attach(scene, unseen_);
   }
+  seen_ = std::move(seen);
   std::map<std::string, std::optional<Pose>> poses;
   for (const std::string& name : frames_) {
     const auto found = seen_.frames.find(name);
