@@ -64,6 +64,23 @@ TEST(SceneObserver, AnErrorLeavesTheLastResultAndTheSceneAsTheyWere) {
   EXPECT_EQ(C.getFrameState(), poses);
 }
 
+TEST(SceneObserver, AThingWithAnUnknownPlaceKeepsItsRotationAndIsFoundAgain) {
+  Config C = observedScene(), truth = observedScene();
+  truth.getFrame("cube").setPosition({.13, .02, .68});
+  C.getFrame("cube").setPosition({2., 2., .68});
+  SceneObserver observer([&] { return std::vector{imageOf(truth)}; }, {"cube"},
+                         {.support = "table", .prior = Prior::anywhere});
+  ASSERT_TRUE(observer.observe(C).at("cube"));
+  const Quaterniond quarter(Eigen::AngleAxisd(1.5707963267948966, Vector3d::UnitZ()));
+  const Quaterniond turned = quarter * C.getFrame("cube").getQuaternion();  // looks the same
+  C.getFrame("cube").setQuaternion(turned);
+  ASSERT_TRUE(observer.observe(C).at("cube"));
+  EXPECT_LT(C.getFrame("cube").getQuaternion().angularDistance(turned), .02);
+  truth.getFrame("cube").setPosition({-.25, .2, .68});
+  ASSERT_TRUE(observer.observe(C).at("cube")) << observer.seen().str();
+  EXPECT_LT((C.getFrame("cube").getPosition() - Vector3d(-.25, .2, .68)).norm(), .002);
+}
+
 TEST(SceneObserver, WithoutAMapOnlyThingsMove) {
   Config C = observedScene(), truth = observedScene();
   truth.getFrame("cube").setPosition({.13, .02, .68});

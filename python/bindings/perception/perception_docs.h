@@ -129,7 +129,8 @@ Args:
     frames: The things that registerScene looks for.
     support: As for registerScene.
     search_radius: As for registerScene, m.
-    prior: As for registerScene: "last", or "anywhere" for things with unknown places.
+    prior: As for registerScene: "last", or "anywhere" for things with unknown places. Once one was seen, they are
+        looked for near their last poses, and anywhere else if they are not there.
     map: An OccupancyMap that is updated and attached; None: no map.
     unseen: "blocked", "shadows" or "free", as for OccupancyMap.attach.
 Raises:

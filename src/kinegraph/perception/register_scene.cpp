@@ -229,15 +229,21 @@ SeenScene findThings(Config& config, std::span<const DepthView> given, const std
   const auto countsOf = [&](const Thing& thing) {
     return countSurface(thing.shape, thing.best.X, views, int(thing.shape.samples().size()), true);
   };
+  std::vector<SurfaceCounts> all_counts;
+  std::vector<RigidTransform> counted_at;
   std::vector<bool> is_seen;
-  for (const Thing& thing : things)
-    is_seen.push_back(statusOf(thing, countsOf(thing), thing.is_displaced) == SeenStatus::seen);
+  for (const Thing& thing : things) {
+    all_counts.push_back(countsOf(thing));
+    counted_at.push_back(thing.best.X);
+    is_seen.push_back(statusOf(thing, all_counts.back(), thing.is_displaced) == SeenStatus::seen);
+  }
   std::vector<std::pair<int, int>> unclear;
   const std::vector<std::vector<int>> may_be = tellApart(things, registration, anywhere, is_seen, unclear);
   const std::vector<int> owners = registration.ownersOfPoints();
   for (std::size_t i = 0; i < things.size(); ++i) {
     Thing& thing = things[i];
-    const SurfaceCounts counts = countsOf(thing);
+    const bool has_moved = thing.best.X.p != counted_at[i].p || thing.best.X.R != counted_at[i].R;
+    const SurfaceCounts counts = has_moved ? countsOf(thing) : std::move(all_counts[i]);
     SeenFrame result;
     result.score = counts.score();
     result.visible = double(counts.agree) / std::max(1, counts.total());

@@ -63,16 +63,9 @@ struct VisibleShape::Part {
   Vector3d half = Vector3d::Zero();
   double half_length = 0., core_radius = 0., radius = 0.;
   std::shared_ptr<const TriangleTree> triangles = {};
-  Vector3d center = Vector3d::Zero();  ///< of an axis-parallel box that holds the part
-  Vector3d half_box = Vector3d::Zero();
 
   /// `eye` is in the coordinates of the part.
   SurfaceDistance at(const Vector3d& point, const Vector3d* eye) const;
-
-  /// Squared distance from the box.
-  double squaredGap(const Vector3d& point) const {
-    return ((point - center).cwiseAbs() - half_box).cwiseMax(0.).squaredNorm();
-  }
   SurfaceDistance ofBox(const Vector3d& p, const Vector3d* eye) const;
   SurfaceDistance ofCylinder(const Vector3d& p, const Vector3d* eye) const;
   double extent(const Vector3d& direction) const;
@@ -189,10 +182,11 @@ void VisibleShape::add(const Shape& shape, const RigidTransform& X_FS, const Mes
     part.triangles = std::make_shared<TriangleTree>(surface);
     part.X_FP = {};  // their vertices are in the frame
   }
+  boxes_.conservativeResize(boxes_.rows() + 1, 6);
   for (int axis = 0; axis < 3; ++axis) {
     const double high = part.extent(Vector3d::Unit(axis)), low = -part.extent(-Vector3d::Unit(axis));
-    part.center[axis] = .5 * (high + low);
-    part.half_box[axis] = .5 * (high - low) + kThin;
+    boxes_(boxes_.rows() - 1, axis) = .5 * (high + low);
+    boxes_(boxes_.rows() - 1, 3 + axis) = .5 * (high - low) + kThin;
   }
   for (const Vector3d& vertex : surface.vertices) radius_ = std::max(radius_, vertex.norm());
   addHullPoints(part, surface);
@@ -220,20 +214,33 @@ EyeInParts VisibleShape::eyeInParts(const Vector3d& eye) const {
   return eyes;
 }
 
-/// The distance of least amount with an eye, else the least distance. Starts with the part whose box is nearest.
+/// The distance of least amount with an eye, else the least distance. Boxes around the parts exclude most of them.
 SurfaceDistance VisibleShape::closest(const Vector3d& point, const EyeInParts* eye) const {
-  std::size_t first = 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < parts_.size() && least > 0.; ++i) {
-    if (const double gap = parts_[i].squaredGap(point); gap < least) least = gap, first = i;
-  }
-  const auto at = [&](std::size_t i) { return parts_[i].at(point, eye ? &(*eye)[i] : nullptr); };
-  SurfaceDistance best = at(first);
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    const double bound = eye ? std::abs(best.distance) : std::max(best.distance, 0.), gap = parts_[i].squaredGap(point);
-    if (i == first || (gap > 0. && gap >= bound * bound)) continue;
-    const SurfaceDistance near = at(i);
-    if (eye ? std::abs(near.distance) < bound : near.distance < best.distance) best = near;
+  constexpr Eigen::Index kTogether = 32;
+  using Gaps = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kTogether, 1>;
+  SurfaceDistance best;
+  double bound = best.distance;  // of the distances that matter
+  const auto consider = [&](Eigen::Index i) {
+    const SurfaceDistance near = parts_[std::size_t(i)].at(point, eye ? &(*eye)[std::size_t(i)] : nullptr);
+    if (!(eye ? std::abs(near.distance) < bound : near.distance < best.distance)) return;
+    best = near;
+    bound = eye ? std::abs(best.distance) : std::max(best.distance, 0.);
+  };
+  const Eigen::Index count = Eigen::Index(parts_.size());
+  for (Eigen::Index from = 0; from < count; from += kTogether) {
+    const Eigen::Index size = std::min(kTogether, count - from);
+    Gaps gaps = Gaps::Zero(size);  // squared
+    for (int axis = 0; axis < 3 && count > 1; ++axis)
+      gaps += ((boxes_.col(axis).segment(from, size).array() - point[axis]).abs() -
+               boxes_.col(3 + axis).segment(from, size).array())
+                  .max(0.)
+                  .square();
+    Eigen::Index nearest = 0;
+    gaps.minCoeff(&nearest);
+    consider(from + nearest);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      if (i != nearest && (gaps[i] <= 0. || gaps[i] < bound * bound)) consider(from + i);
+    }
   }
   return best;
 }

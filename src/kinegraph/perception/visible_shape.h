@@ -70,6 +70,7 @@ class VisibleShape {
   void findRestingDirections();
 
   std::vector<Part> parts_;
+  MatrixXd boxes_ = MatrixXd(0, 6);  ///< center and half sides of the box that holds a part, parallel to the axes
   std::vector<int> frames_;
   std::vector<Vector3d> samples_, normals_, resting_, hull_points_;
   double radius_ = 0.;

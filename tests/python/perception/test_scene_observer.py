@@ -67,6 +67,7 @@ def test_with_cameras_the_execution_does_not_know_the_simulated_world():
     plan = ry.planTask(C, "(on tray cube)")
     run = plan.execute(bot, observe=lambda: {"cube": bot.getWorld().getFrame("cube").getPose()})
     assert run.feasible and "bottle" not in run.C.getFrameNames()
+    assert not any(name.startswith(("grasp_", "place_")) for name in run.C.getFrameNames())  # of the plan
 
 
 def test_wrong_arguments_are_named():
