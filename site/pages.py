@@ -106,7 +106,7 @@ NAMES = {
         "Viewer and cameras",
         "ConfigurationViewer CameraView CameraViewSensor ImageViewer saveFilm depthImage2PointCloud getArucoImage",
     ),
-    "perception": ("Perception", "DepthView registerScene SeenScene SeenFrame SeenStatus"),
+    "perception": ("Perception", "DepthView registerScene SeenScene SeenFrame SeenCamera SeenStatus"),
     "fleets": ("Many processes", "imap readResults"),
     "mcap": ("Recordings", "Recording readRecording saveRecording serveFoxglove"),
     "lerobot": ("Data sets of LeRobot", "demonstrate LeRobotWriter Randomization checkDataset mergeShards"),

@@ -121,6 +121,8 @@ bench everyday "--scenes 5 --jobs 2" "--scenes 1 --generators stack,swap"
 bench tamp_problems "--seeds 3" "--problems blocks --seeds 1"
 bench pictures "" "--rounds 1"
 bench seen_then_planned "--looks 4" "--scenes 2"
+bench seen_then_picked "" "--scenes 1"
+bench seen_then_picked "--move" "--scenes 1 --move" seen_then_picked_moved
 stage films "$tests/bin/python" -c \
   "import sys, pathlib; sys.path.insert(0, 'docs'); import make_pictures; make_pictures.everydayFilms(pathlib.Path('$out'))"
 bench panda_tasks "--families tower,sort,drawer,stow,hook --seeds 5" "--seeds 1 --repairs 0"

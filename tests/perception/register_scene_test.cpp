@@ -348,5 +348,20 @@ TEST(RegisterScene, ACameraUpsideDownLooksThroughTheSupport) {
   EXPECT_THROW(registerScene(C, std::vector{view}, {"box"}, onTable()), ValueError);
 }
 
+TEST(RegisterScene, AShapeWithoutASurfaceIsNotVisible) {
+  Config C = tableScene();
+  C.addFrame("field").setShape(ShapeType::tensor, {.1, .1, .1});
+  EXPECT_THROW(registerScene(C, std::vector{look(C)}, {"field"}, onTable()), ValueError);
+}
+
+TEST(RegisterScene, AnImageOfTwiceTheSizeOfItsIntrinsicsIsAnError) {
+  Config C = tableScene();
+  DepthView view = look(C);
+  view.fxycxy *= .5;
+  EXPECT_THROW(registerScene(C, std::vector{view}, {"box"}, onTable()), ValueError);
+  view.fxycxy *= 4.;
+  EXPECT_THROW(registerScene(C, std::vector{view}, {"box"}, onTable()), ValueError);
+}
+
 }  // namespace
 }  // namespace kinegraph

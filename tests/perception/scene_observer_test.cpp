@@ -43,6 +43,44 @@ TEST(SceneObserver, MovesTheThingsThatItSeesAndAttachesAllElse) {
   EXPECT_EQ(map.state({-.2, .065, .8}), CellState::free);
 }
 
+TEST(SceneObserver, AnErrorLeavesTheLastResultAndTheSceneAsTheyWere) {
+  Config C = observedScene();
+  const Config truth = observedScene();
+  OccupancyMap map(C, {-.4, -.3, .66}, {.4, .4, 1.1}, .02);
+  bool is_broken = false;
+  const auto take = [&] {
+    DepthView view = imageOf(truth);
+    if (is_broken) view.width = 7;
+    return std::vector{view};
+  };
+  SceneObserver observer(take, {"cube"}, {.support = "table"}, &map);
+  observer.observe(C);
+  const std::string before = map.str();
+  const MatrixXd poses = C.getFrameState();
+  is_broken = true;
+  EXPECT_THROW(observer.observe(C), ValueError);
+  EXPECT_EQ(observer.seen().frames.at("cube").status, SeenStatus::seen);
+  EXPECT_EQ(map.str(), before);
+  EXPECT_EQ(C.getFrameState(), poses);
+}
+
+TEST(SceneObserver, AThingWithAnUnknownPlaceKeepsItsRotationAndIsFoundAgain) {
+  Config C = observedScene(), truth = observedScene();
+  truth.getFrame("cube").setPosition({.13, .02, .68});
+  C.getFrame("cube").setPosition({2., 2., .68});
+  SceneObserver observer([&] { return std::vector{imageOf(truth)}; }, {"cube"},
+                         {.support = "table", .prior = Prior::anywhere});
+  ASSERT_TRUE(observer.observe(C).at("cube"));
+  const Quaterniond quarter(Eigen::AngleAxisd(1.5707963267948966, Vector3d::UnitZ()));
+  const Quaterniond turned = quarter * C.getFrame("cube").getQuaternion();  // looks the same
+  C.getFrame("cube").setQuaternion(turned);
+  ASSERT_TRUE(observer.observe(C).at("cube"));
+  EXPECT_LT(C.getFrame("cube").getQuaternion().angularDistance(turned), .02);
+  truth.getFrame("cube").setPosition({-.25, .2, .68});
+  ASSERT_TRUE(observer.observe(C).at("cube")) << observer.seen().str();
+  EXPECT_LT((C.getFrame("cube").getPosition() - Vector3d(-.25, .2, .68)).norm(), .002);
+}
+
 TEST(SceneObserver, WithoutAMapOnlyThingsMove) {
   Config C = observedScene(), truth = observedScene();
   truth.getFrame("cube").setPosition({.13, .02, .68});

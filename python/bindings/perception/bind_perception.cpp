@@ -79,9 +79,11 @@ std::vector<DepthView> depthViews(nb::handle views) {
 Array seenPose(const Pose& pose) { return toNumpy(VectorXd(pose.numbers())); }
 
 SeenScene registerFrames(PyConfig& config, nb::handle views, const std::vector<std::string>& frames,
-                         const std::optional<std::string>& support, double search_radius, const std::string& prior) {
+                         const std::optional<std::string>& support, double search_radius, const std::string& prior,
+                         const std::vector<std::string>& estimate) {
   const std::vector<DepthView> given = depthViews(views);
   RegisterOptions options;
+  for (const std::string& name : estimate) options.estimate.push_back(estimateFromName(name));
   options.prior = priorFromName(prior);
   options.support = support.value_or("");
   options.search_radius = search_radius;
@@ -230,9 +232,10 @@ Frame& setCellsOf(Frame& frame, const ArrayArgument& data, const Numbers& size) 
 }
 
 void makeObserver(PySceneObserver* self, const nb::object& take, std::vector<std::string> frames,
-                  const std::optional<std::string>& support, double search_radius, const nb::object& map,
-                  const std::string& unseen) {
+                  const std::optional<std::string>& support, double search_radius, const std::string& prior,
+                  const nb::object& map, const std::string& unseen) {
   RegisterOptions options;
+  options.prior = priorFromName(prior);
   options.support = support.value_or("");
   options.search_radius = search_radius;
   OccupancyMap* cells = map.is_none() ? nullptr : &nb::cast<OccupancyMap&>(map);
@@ -258,10 +261,12 @@ nb::dict observeWith(PySceneObserver& self, PyConfig& config) {
 void bindSceneObserver(nb::module_& m) {
   nb::class_<PySceneObserver>(m, "SceneObserver", docs::perception::sceneObserver)
       .def("__init__", makeObserver, "take"_a, "frames"_a, nb::kw_only(), "support"_a = nb::none(),
-           "search_radius"_a = RegisterOptions().search_radius, "map"_a = nb::none(), "unseen"_a = "shadows",
+           "search_radius"_a = RegisterOptions().search_radius, "prior"_a = "last", "map"_a = nb::none(),
+           "unseen"_a = "shadows",
            nb::sig("def __init__(self, take: collections.abc.Callable[[], DepthView | "
                    "collections.abc.Sequence[DepthView]], frames: collections.abc.Sequence[str], *, support: str | "
-                   "None = None, search_radius: float = 0.05, map: OccupancyMap | None = None, unseen: str = "
+                   "None = None, search_radius: float = 0.05, prior: str = 'last', map: OccupancyMap | None = None, "
+                   "unseen: str = "
                    "'shadows') -> None"),
            docs::perception::makeObserver)
       .def("observe", observeWith, "config"_a, docs::perception::observe,
@@ -398,6 +403,13 @@ void bindPerception(nb::module_& m) {
           "fxycxy", [](const DepthView& v) { return toNumpy(VectorXd(v.fxycxy)); },
           "fx, fy, cx, cy in pixels, shape (4,).");
   bindSeenFrame(m);
+  nb::class_<SeenCamera>(m, "SeenCamera", "A camera whose pose registerScene estimated.")
+      .def_prop_ro(
+          "pose", [](const SeenCamera& c) { return seenPose(c.pose); },
+          "Pose relative to the camera's parent, shape (7,): x y z (m) qw qx qy qz; without a frame, in the world.")
+      .def_prop_ro(
+          "covariance", [](const SeenCamera& c) { return toNumpy(c.covariance); },
+          "Covariance of (x y z in m, rotation vector in rad) in the axes of the parent, shape (6, 6).");
   nb::class_<SeenScene>(m, "SeenScene", "The frames that registerScene looked for: seen[\"cup\"].pose.")
       .def("__getitem__", seenFrameOf, nb::rv_policy::reference_internal, "name"_a, "Returns the SeenFrame of a name.")
       .def("__len__", [](const SeenScene& s) { return s.frames.size(); })
@@ -414,13 +426,22 @@ void bindPerception(nb::module_& m) {
           },
           "Returns the poses, shape (7,), of the frames that were seen, and None for the others; execute(observe=...)\n"
           "takes them.")
+      .def_ro("cameras", &SeenScene::cameras, "The SeenCamera of each view; empty unless cameras were estimated.")
+      .def_ro("joints", &SeenScene::joints, "Names of the joints whose offsets were estimated.")
+      .def_prop_ro(
+          "joint_offsets", [](const SeenScene& s) { return toNumpy(s.joint_offsets); },
+          "What was added to the angles (rad) and lengths (m) of `joints`, shape (n,).")
+      .def_prop_ro(
+          "joint_covariance", [](const SeenScene& s) { return toNumpy(s.joint_covariance); },
+          "Covariance of the offsets, shape (n, n).")
       .def_ro("warnings", &SeenScene::warnings, "Sentences about views without depth, doubtful cameras and overlaps.")
       .def("__repr__", [](const SeenScene& s) { return cat("<SeenScene\n", inPython(s.str()), ">"); });
   m.def("registerScene", registerFrames, "config"_a, "views"_a, "frames"_a, nb::kw_only(), "support"_a = nb::none(),
         "search_radius"_a = RegisterOptions().search_radius, "prior"_a = "last",
+        "estimate"_a = std::vector<std::string>(),
         nb::sig("def registerScene(config: Config, views: DepthView | collections.abc.Sequence[DepthView], frames: "
                 "collections.abc.Sequence[str], *, support: str | None = None, search_radius: float = 0.05, "
-                "prior: str = 'last') -> SeenScene"),
+                "prior: str = 'last', estimate: collections.abc.Sequence[str] = ()) -> SeenScene"),
         docs::perception::registerScene);
   bindOccupancyMap(m);
   bindSceneObserver(m);

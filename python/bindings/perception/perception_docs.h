@@ -38,12 +38,16 @@ Args:
     search_radius: How far a thing may have moved since its last pose, m.
     prior: "last": things are near their last poses. "anywhere": they rest anywhere on the support, on any stable face.
         Frames with a joint are then looked for within its limits, frames in a hand near their last poses.
+    estimate: What is corrected along with the things, by the points on all shapes, also those of the robot. "camera":
+        the poses of the cameras, relative to their parents; expected are 2 cm and .03 rad. "joints": offsets of all
+        active hinges and slides that are not of `frames`; expected are .01 rad and 5 mm. The scene gets the corrected
+        cameras and angles; `cameras`, `joint_offsets` and their covariances are in the result.
 Returns:
     A SeenScene with a SeenFrame for each frame.
 Raises:
     FrameNotFound: A frame, a camera or the support is unknown.
-    ArgumentError: There is no view, a view is invalid, a frame is listed twice or has no visible shape, `prior` is
-        another word, or "anywhere" without a support.)";
+    ArgumentError: There is no view, a view is invalid, or a frame is listed twice or has no visible shape. `prior` or
+        `estimate` has another word, `prior` is "anywhere" without a support, or there is no joint to estimate.)";
 
 inline constexpr char setCells[] = R"(Gives the frame the solid ones among equal cubes that fill a box, as an obstacle.
 
@@ -125,10 +129,12 @@ Args:
     frames: The things that registerScene looks for.
     support: As for registerScene.
     search_radius: As for registerScene, m.
+    prior: As for registerScene: "last", or "anywhere" for things with unknown places. Once one was seen, they are
+        looked for near their last poses, and anywhere else if they are not there.
     map: An OccupancyMap that is updated and attached; None: no map.
     unseen: "blocked", "shadows" or "free", as for OccupancyMap.attach.
 Raises:
-    ArgumentError: `unseen` is another word, or the radius is invalid.)";
+    ArgumentError: `unseen` or `prior` is another word, "anywhere" without a support, or the radius is invalid.)";
 
 inline constexpr char observe[] =
     R"(Takes images, moves the things to where they are seen, and attaches the updated map.

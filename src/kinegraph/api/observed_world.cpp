@@ -179,18 +179,31 @@ double plannedOpening(const TaskPlan& plan, const std::string& hand, int number,
   return is_narrower ? std::min(wide, most) : most;
 }
 
+namespace {
+
+/// Whether a plan added the frame for a grasp, a place or a push.
+bool isSlot(const Frame& frame) {
+  const std::string& name = frame.getName();
+  const bool is_body = frame.getShapeType() != ShapeType::none && frame.getShapeType() != ShapeType::marker;
+  return !is_body && (name.starts_with("grasp_") || name.starts_with("place_") || name.starts_with("push_"));
+}
+
+/// Deletes the frames of a plan's grasps, places and pushes to which nothing else is attached.
+void deleteSlots(Config& C) {
+  std::vector<std::string> slots;
+  for (const Frame& frame : std::as_const(C).getFrames()) {
+    if (isSlot(frame) && std::ranges::all_of(frame.getSubtree(), isSlot)) slots.push_back(frame.getName());
+  }
+  for (const std::string& name : slots) C.delFrame(name);
+}
+
+}  // namespace
+
 Config worldOf(BotOp& bot, const TaskPlan& plan, bool is_observed) {
   plan.requireScenes("execute");
   if (is_observed && !plan.scenes.empty()) {
     Config believed = plan.scenes.front();
-    std::vector<std::string> names = believed.getFrameNames();
-    std::ranges::reverse(names);             // children first
-    for (const std::string& name : names) {  // frames of the plan's grasps and places
-      const Frame frame = std::as_const(believed).getFrame(name);
-      const bool is_slot = name.starts_with("grasp_") || name.starts_with("place_");
-      const bool is_body = frame.getShapeType() != ShapeType::none && frame.getShapeType() != ShapeType::marker;
-      if (is_slot && !is_body && frame.getChildren().empty()) believed.delFrame(name);
-    }
+    deleteSlots(believed);
     return believed;
   }
   Config world = bot.getWorld();

@@ -10,6 +10,7 @@ namespace kinegraph {
 
 namespace {
 
+constexpr double kCenterOff = .2;                   // of the size of an image; half an image has .25 or .5
 constexpr double kNearest = .005, kFarthest = 50.;  // m; another median depth is not in meters
 
 }  // namespace
@@ -20,7 +21,8 @@ void DepthView::validate(const std::string& where) const {
     fail(cat("depth has ", depth.size(), " numbers; expected height x width = ", height, " x ", width));
   if (!fxycxy.allFinite() || fxycxy[0] <= 0. || fxycxy[1] <= 0.)
     fail("fxycxy has invalid focal lengths; expected fx fy cx cy in pixels, fx and fy > 0");
-  if (fxycxy[2] < .25 * width || fxycxy[2] > .75 * width || fxycxy[3] < .25 * height || fxycxy[3] > .75 * height)
+  const auto isOff = [](double center, int size) { return std::abs(center / size - .5) > kCenterOff; };
+  if (isOff(fxycxy[2], width) || isOff(fxycxy[3], height))
     fail(cat("the center (", fxycxy[2], ", ", fxycxy[3], ") of fxycxy does not fit an image of ", width, " x ", height,
              " pixels; expected about (", .5 * width, ", ", .5 * height, "), since fxycxy scales with the image"));
   if (!pose.p.allFinite() || !pose.q.coeffs().allFinite()) fail("the camera's pose has non-finite numbers");

@@ -64,32 +64,38 @@ void markKnown(ObservedView& view, const std::vector<KnownShape>& known, const s
 
 /// Nearest pixel outside of the background, by two sweeps that pass on the offsets of neighbors (Danielsson, 1980).
 void findNearest(ObservedView& view) {
-  view.nearest.assign(view.pixels.size(), -1);
-  for (std::size_t i = 0; i < view.pixels.size(); ++i) {
-    if (view.pixels[i] != Pixel::background) view.nearest[i] = std::int32_t(i);
-  }
-  const auto squared = [&](std::int32_t source, int row, int column) {
-    const int dy = source / view.width - row, dx = source % view.width - column;
-    return dx * dx + dy * dy;
+  struct Offset {
+    std::int32_t y, x;
+    std::int32_t squared() const { return y * y + x * x; }
   };
+  constexpr std::int32_t kFar = 20000, kFound = 10000;  // pixels, more than any image has
+  std::vector<Offset> offsets(view.pixels.size(), {kFar, kFar});
+  for (std::size_t i = 0; i < view.pixels.size(); ++i) {
+    if (view.pixels[i] != Pixel::background) offsets[i] = {0, 0};
+  }
   const auto sweep = [&](int step) {
     for (int n = 0; n < view.height; ++n) {
       const int row = step > 0 ? n : view.height - 1 - n;
-      const auto pass = [&](int column, int from_row, int from_column) {
-        if (from_row < 0 || from_row >= view.height || from_column < 0 || from_column >= view.width) return;
-        const std::int32_t source = view.nearest[view.index(from_row, from_column)];
-        std::int32_t& own = view.nearest[view.index(row, column)];
-        if (source >= 0 && (own < 0 || squared(source, row, column) < squared(own, row, column))) own = source;
+      Offset* own = offsets.data() + view.index(row, 0);
+      const bool has_neighbor = row - step >= 0 && row - step < view.height;
+      const Offset* other = has_neighbor ? offsets.data() + view.index(row - step, 0) : nullptr;
+      const auto pass = [&](const Offset* from, int column, int dy, int dx) {
+        if (column + dx < 0 || column + dx >= view.width) return;
+        const Offset at = {from[column + dx].y + dy, from[column + dx].x + dx};
+        if (at.squared() < own[column].squared()) own[column] = at;
       };
       for (int column = 0; column < view.width; ++column) {
-        for (int side = -1; side <= 1; ++side) pass(column, row - step, column + side);
-        pass(column, row, column - 1);
+        for (int side = -1; side <= 1 && other; ++side) pass(other, column, -step, side);
+        pass(own, column, 0, -1);
       }
-      for (int column = view.width - 1; column >= 0; --column) pass(column, row, column + 1);
+      for (int column = view.width - 1; column >= 0; --column) pass(own, column, 0, 1);
     }
   };
   sweep(1);
   sweep(-1);
+  view.nearest.resize(view.pixels.size());
+  for (std::size_t i = 0; i < offsets.size(); ++i)
+    view.nearest[i] = offsets[i].y > kFound ? -1 : std::int32_t(i) + offsets[i].y * view.width + offsets[i].x;
 }
 
 /// The number of joints that move a frame in the world.

@@ -45,17 +45,23 @@ std::vector<Vector3d> testedAxes(const VisibleShape& shape, const PoseFreedom& f
 PoseCertainty poseCertainty(const VisibleShape& shape, const PoseFreedom& freedom,
                             const std::vector<ObservedPoint>& points, int thinning,
                             const std::vector<ObservedView>& views, const RigidTransform& X) {
-  const auto distanceAt = [&](const RigidTransform& at, const ObservedPoint& point) {
-    const Vector3d eye = at.R.transpose() * (views[std::size_t(point.view)].X_WC.p - at.p);
-    return shape.facing(at.R.transpose() * (point.p - at.p), eye);
+  const auto eyesAt = [&](const RigidTransform& at) {
+    std::vector<EyeInParts> eyes;
+    for (const ObservedView& view : views) eyes.push_back(shape.eyeInParts(at.R.transpose() * (view.X_WC.p - at.p)));
+    return eyes;
   };
+  const auto distanceAt = [&](const RigidTransform& at, const std::vector<EyeInParts>& eyes,
+                              const ObservedPoint& point) {
+    return shape.facing(at.R.transpose() * (point.p - at.p), eyes[std::size_t(point.view)]);
+  };
+  const std::vector<EyeInParts> eyes = eyesAt(X);
   Matrix6d H = Matrix6d::Zero();
   std::vector<Vector6d> pulls(views.size(), Vector6d::Zero());  // of an error common to the pixels of a view
   std::vector<const ObservedPoint*> inliers;
   std::vector<double> distances;
   double residuals = 0.;
   for (const ObservedPoint& point : points) {
-    const SurfaceDistance near = distanceAt(X, point);
+    const SurfaceDistance near = distanceAt(X, eyes, point);
     if (!(std::abs(near.distance) < std::max(kInlier, 3. * point.sigma))) continue;
     inliers.push_back(&point);
     distances.push_back(near.distance);
@@ -95,9 +101,10 @@ PoseCertainty poseCertainty(const VisibleShape& shape, const PoseFreedom& freedo
     for (const double angle : {-kTestAngle, kTestAngle}) {
       const Matrix3d R = Eigen::AngleAxisd(angle, axis).toRotationMatrix();
       const RigidTransform turned{R * X.R, center + R * (X.p - center)};
+      const std::vector<EyeInParts> turned_eyes = eyesAt(turned);
       double pixels = 0.;
       for (std::size_t i = 0; i < inliers.size(); ++i) {
-        if (std::abs(distanceAt(turned, *inliers[i]).distance - distances[i]) > change)
+        if (std::abs(distanceAt(turned, turned_eyes, *inliers[i]).distance - distances[i]) > change)
           pixels += kPixelsOfPoint * thinning;
       }
       changed = std::max(changed, pixels);

@@ -53,27 +53,41 @@ Projection project(const ObservedView& view, const Vector3d& p, const Vector3d& 
   return out;
 }
 
-/// J^T W J and J^T W r of a row.
+using FreedomBasis = Eigen::Matrix<double, 6, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
+using FreedomVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 6, 1>;
+using FreedomMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
+
+/// J^T W J and J^T W r of rows, for displacements along a basis.
 struct NormalEquations {
-  Matrix6d A = Matrix6d::Zero();
-  Vector6d g = Vector6d::Zero();
+  explicit NormalEquations(const FreedomBasis& basis)
+      : B(basis), A(FreedomMatrix::Zero(B.cols(), B.cols())), g(FreedomVector::Zero(B.cols())) {}
+
+  FreedomBasis B;
+  FreedomMatrix A;  ///< its lower triangle
+  FreedomVector g;
 
   /// A residual that falls by `direction` per displacement of a point at `arm` from the origin.
   void add(const Vector3d& direction, const Vector3d& arm, double residual, double weight) {
-    Vector6d J;
-    J << direction, arm.cross(direction);
-    A.selfadjointView<Eigen::Lower>().rankUpdate(J, weight);
+    Vector6d of_pose;
+    of_pose << direction, arm.cross(direction);
+    const FreedomVector J = B.transpose() * of_pose;
+    for (Eigen::Index i = 0; i < J.size(); ++i) {
+      for (Eigen::Index k = 0; k <= i; ++k) A(i, k) += weight * J[i] * J[k];
+    }
     g += weight * residual * J;
   }
 };
 
-double robustWeight(double residual, double width) { return std::pow(1. + std::pow(residual / width, 2), -2); }
+double robustWeight(double residual, double width) {
+  const double ratio = residual / width, spread = 1. + ratio * ratio;
+  return 1. / (spread * spread);
+}
 
 void addPoints(const VisibleShape& shape, const FitPoints& points, const std::vector<ObservedView>& views,
                const RigidTransform& X, double width, NormalEquations& sum) {
   const double reach = std::max(4. * width, .012);
-  std::vector<Vector3d> eyes;
-  for (const ObservedView& view : views) eyes.push_back(X.R.transpose() * (view.X_WC.p - X.p));
+  std::vector<EyeInParts> eyes;
+  for (const ObservedView& view : views) eyes.push_back(shape.eyeInParts(X.R.transpose() * (view.X_WC.p - X.p)));
   for (const ObservedPoint& point : points.measured) {
     const Vector3d arm = point.p - X.p, local = X.R.transpose() * arm;
     if (local.norm() > shape.radius() + reach) continue;
@@ -143,6 +157,29 @@ RigidTransform PoseFreedom::moved(const RigidTransform& X, const Vector6d& displ
   return out;
 }
 
+PoseFreedom freedomOf(const Frame& frame, bool may_rest) {
+  PoseFreedom freedom;
+  freedom.start = frame.getPose().transform();
+  const std::optional<Joint>& joint = frame.data().joint;
+  if (joint && joint->dofs() == 1 && joint->steps.size() == 1 && joint->steps[0].moves()) {
+    const MotionStep& step = joint->steps[0];
+    freedom.kind = step.translates() ? PoseFreedom::Kind::sliding : PoseFreedom::Kind::turning;
+    const double direction = step.sign * joint->scale;
+    freedom.axis = freedom.start.R * step.direction(joint->axis);
+    if (joint->lower.size() == 1) {
+      const double at = frame.getJointState()[0];
+      const double a = direction * (joint->lower[0] - at), b = direction * (joint->upper[0] - at);
+      freedom.lower = std::min(a, b);
+      freedom.upper = std::max(a, b);
+    }
+    return freedom;
+  }
+  const std::optional<Frame> parent = frame.getParent();
+  const bool in_hand = parent && isMoved(*parent);
+  if (may_rest && !in_hand) freedom.kind = PoseFreedom::Kind::resting;
+  return freedom;
+}
+
 RigidTransform restingPose(const VisibleShape& shape, const RigidTransform& X, double height) {
   RigidTransform out = X;
   const Vector3d down = -Vector3d::UnitZ();
@@ -155,29 +192,25 @@ RigidTransform restingPose(const VisibleShape& shape, const RigidTransform& X, d
   return out;
 }
 
-Matrix6d fitPose(const VisibleShape& shape, const PoseFreedom& freedom, const FitPoints& points,
-                 const std::vector<ObservedView>& views, const std::vector<double>& widths, int samples,
-                 RigidTransform& X) {
-  const Eigen::Matrix<double, 6, Eigen::Dynamic> B = freedom.basis();
-  NormalEquations sum;
+void fitPose(const VisibleShape& shape, const PoseFreedom& freedom, const FitPoints& points,
+             const std::vector<ObservedView>& views, const std::vector<double>& widths, int samples,
+             RigidTransform& X) {
+  const FreedomBasis B = freedom.basis();
+  FreedomVector scale(B.cols());
+  for (int i = 0; i < B.cols(); ++i)
+    scale[i] = B.col(i).head<3>().squaredNorm() + std::pow(shape.radius(), 2) * B.col(i).tail<3>().squaredNorm();
   samples = std::min(samples, int(shape.samples().size()));
   for (const double width : widths) {
-    sum = {};
+    NormalEquations sum(B);
     addPoints(shape, points, views, X, width, sum);
     for (const ObservedView& view : views)
       addLookedThrough(shape, view, X, width, samples, double(points.measured.size()), sum);
-    sum.A = Matrix6d(sum.A.selfadjointView<Eigen::Lower>());
-    MatrixXd reduced = B.transpose() * sum.A * B;
-    VectorXd scale(B.cols());
-    for (int i = 0; i < B.cols(); ++i)
-      scale[i] = B.col(i).head<3>().squaredNorm() + std::pow(shape.radius(), 2) * B.col(i).tail<3>().squaredNorm();
-    const double mean = (reduced.diagonal().array() / scale.array()).sum() / double(B.cols());
-    reduced.diagonal() += (kDamping * mean + 1e-6) * scale;
-    Vector6d step = -(B * reduced.ldlt().solve(B.transpose() * sum.g));
+    const double mean = (sum.A.diagonal().array() / scale.array()).sum() / double(B.cols());
+    sum.A.diagonal() += (kDamping * mean + 1e-6) * scale;
+    Vector6d step = -(B * sum.A.ldlt().solve(sum.g));
     step /= std::max({1., step.head<3>().norm() / kLongestStep, step.tail<3>().norm() / kLargestRotation});
     X = freedom.moved(X, step);
   }
-  return sum.A;
 }
 
 double SurfaceCounts::score() const { return (agree - 1.5 * through + .05 * (hidden + none)) / std::max(1, inView()); }

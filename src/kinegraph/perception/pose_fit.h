@@ -27,6 +27,9 @@ struct PoseFreedom {
   bool hasJoint() const { return kind == Kind::sliding || kind == Kind::turning; }
 };
 
+/// How a frame of a scene may move: along its own joint, resting, or in all directions. Frames in a hand do not rest.
+PoseFreedom freedomOf(const Frame& frame, bool may_rest);
+
 /// The nearest pose in which the shape rests on the horizontal plane at `height`.
 RigidTransform restingPose(const VisibleShape& shape, const RigidTransform& X, double height);
 
@@ -38,10 +41,9 @@ struct FitPoints {
 
 /// Minimizes squared distances of measured points from the surface that faces their camera, with a robust weight whose
 /// width falls from `widths.front()` to `widths.back()` (m). Points of the surface in front of the measured depth are
-/// drawn to the nearest pixel that is not background. Changes X; returns J^T W J of the last step, 6 x 6.
-Matrix6d fitPose(const VisibleShape& shape, const PoseFreedom& freedom, const FitPoints& points,
-                 const std::vector<ObservedView>& views, const std::vector<double>& widths, int samples,
-                 RigidTransform& X);
+/// drawn to the nearest pixel that is not background. Changes X.
+void fitPose(const VisibleShape& shape, const PoseFreedom& freedom, const FitPoints& points,
+             const std::vector<ObservedView>& views, const std::vector<double>& widths, int samples, RigidTransform& X);
 
 /// Numbers of surface points that face a camera, by what the camera measured in their direction.
 struct SurfaceCounts {

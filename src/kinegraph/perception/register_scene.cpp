@@ -7,6 +7,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/distance/proximity.h"
+#include "kinegraph/perception/fit_sensors.h"
 #include "kinegraph/perception/look_alikes.h"
 #include "kinegraph/perception/pose_certainty.h"
 #include "kinegraph/perception/registration.h"
@@ -17,29 +18,6 @@ namespace kinegraph {
 namespace {
 
 constexpr int kFewSamples = 12;
-
-PoseFreedom freedomOf(const Frame& frame, bool may_rest) {
-  PoseFreedom freedom;
-  freedom.start = frame.getPose().transform();
-  const std::optional<Joint>& joint = frame.data().joint;
-  if (joint && joint->dofs() == 1 && joint->steps.size() == 1 && joint->steps[0].moves()) {
-    const MotionStep& step = joint->steps[0];
-    freedom.kind = step.translates() ? PoseFreedom::Kind::sliding : PoseFreedom::Kind::turning;
-    const double direction = step.sign * joint->scale;
-    freedom.axis = freedom.start.R * step.direction(joint->axis);
-    if (joint->lower.size() == 1) {
-      const double at = frame.getJointState()[0];
-      const double a = direction * (joint->lower[0] - at), b = direction * (joint->upper[0] - at);
-      freedom.lower = std::min(a, b);
-      freedom.upper = std::max(a, b);
-    }
-    return freedom;
-  }
-  const std::optional<Frame> parent = frame.getParent();
-  const bool in_hand = parent && isMoved(*parent);
-  if (may_rest && !in_hand) freedom.kind = PoseFreedom::Kind::resting;
-  return freedom;
-}
 
 SeenStatus statusOf(const SurfaceCounts& counts, double score) {
   if (counts.total() == 0 || counts.outside > .7 * counts.total()) return SeenStatus::not_in_view;
@@ -223,24 +201,9 @@ void warnOfLookAlikes(const std::vector<Thing>& things, const std::vector<std::p
                            "' look alike and may be exchanged: each is taken to be the one nearer to its last pose"));
 }
 
-}  // namespace
-
-void RegisterOptions::validate() const {
-  if (!(search_radius > 0.) || search_radius > 1.)
-    throw ValueError(cat("registerScene: search_radius is ", search_radius, "; expected m, more than 0 and at most 1"));
-  if (prior == Prior::anywhere && support.empty())
-    throw ValueError("registerScene: prior is 'anywhere' without a support; expected the frame on which things rest");
-}
-
-SeenScene registerScene(Config& config, std::span<const DepthView> given, const std::vector<std::string>& names,
-                        const RegisterOptions& options) {
-  options.validate();
-  if (given.empty()) throw ValueError("registerScene: no views; expected at least one DepthView");
-  std::vector<Pose> cameras;
-  for (std::size_t i = 0; i < given.size(); ++i) {
-    given[i].validate(cat("registerScene: view ", i));
-    cameras.push_back(given[i].cameraPose(config));
-  }
+/// Finds the things with cameras and joints as they are in the scene.
+SeenScene findThings(Config& config, std::span<const DepthView> given, const std::vector<std::string>& names,
+                     const RegisterOptions& options) {
   const std::optional<Support> support = supportOf(config, options);
   const Support* on = support ? &*support : nullptr;
   std::vector<Thing> things = thingsOf(config, names, on, options);
@@ -252,7 +215,8 @@ SeenScene registerScene(Config& config, std::span<const DepthView> given, const 
   std::vector<ObservedPoint> points;
   std::vector<ObservedView> views;
   for (std::size_t i = 0; i < given.size(); ++i)
-    views.push_back(observe(given[i], cameras[i], known, on ? &on->height : nullptr, balls, points, int(i)));
+    views.push_back(
+        observe(given[i], given[i].cameraPose(config), known, on ? &on->height : nullptr, balls, points, int(i)));
 
   SeenScene seen;
   warnOfViews(views, on, seen.warnings);
@@ -265,15 +229,21 @@ SeenScene registerScene(Config& config, std::span<const DepthView> given, const 
   const auto countsOf = [&](const Thing& thing) {
     return countSurface(thing.shape, thing.best.X, views, int(thing.shape.samples().size()), true);
   };
+  std::vector<SurfaceCounts> all_counts;
+  std::vector<RigidTransform> counted_at;
   std::vector<bool> is_seen;
-  for (const Thing& thing : things)
-    is_seen.push_back(statusOf(thing, countsOf(thing), thing.is_displaced) == SeenStatus::seen);
+  for (const Thing& thing : things) {
+    all_counts.push_back(countsOf(thing));
+    counted_at.push_back(thing.best.X);
+    is_seen.push_back(statusOf(thing, all_counts.back(), thing.is_displaced) == SeenStatus::seen);
+  }
   std::vector<std::pair<int, int>> unclear;
   const std::vector<std::vector<int>> may_be = tellApart(things, registration, anywhere, is_seen, unclear);
   const std::vector<int> owners = registration.ownersOfPoints();
   for (std::size_t i = 0; i < things.size(); ++i) {
     Thing& thing = things[i];
-    const SurfaceCounts counts = countsOf(thing);
+    const bool has_moved = thing.best.X.p != counted_at[i].p || thing.best.X.R != counted_at[i].R;
+    const SurfaceCounts counts = has_moved ? countsOf(thing) : std::move(all_counts[i]);
     SeenFrame result;
     result.score = counts.score();
     result.visible = double(counts.agree) / std::max(1, counts.total());
@@ -292,6 +262,37 @@ SeenScene registerScene(Config& config, std::span<const DepthView> given, const 
   for (const Thing& thing : things) {
     const SeenFrame& result = seen.frames[thing.name];
     if (result.status == SeenStatus::seen) config.getFrame(thing.name).setPose(result.pose);
+  }
+  return seen;
+}
+
+}  // namespace
+
+void RegisterOptions::validate() const {
+  if (!(search_radius > 0.) || search_radius > 1.)
+    throw ValueError(cat("registerScene: search_radius is ", search_radius, "; expected m, more than 0 and at most 1"));
+  if (prior == Prior::anywhere && support.empty())
+    throw ValueError("registerScene: prior is 'anywhere' without a support; expected the frame on which things rest");
+}
+
+SeenScene registerScene(Config& config, std::span<const DepthView> views, const std::vector<std::string>& names,
+                        const RegisterOptions& options) {
+  options.validate();
+  if (views.empty()) throw ValueError("registerScene: no views; expected at least one DepthView");
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    views[i].validate(cat("registerScene: view ", i));
+    views[i].cameraPose(config);  // throws FrameNotFound
+  }
+  if (options.estimate.empty()) return findThings(config, views, names, options);
+  Config corrected = config;
+  SensorFit sensors(corrected, views, names, options);
+  sensors.fit({});
+  sensors.fit(findThings(corrected, sensors.views(), names, options));
+  SeenScene seen = findThings(corrected, sensors.views(), names, options);
+  sensors.describe(seen);
+  sensors.correct(config);
+  for (const auto& [name, frame] : seen.frames) {
+    if (frame.status == SeenStatus::seen) config.getFrame(name).setPose(frame.pose);
   }
   return seen;
 }

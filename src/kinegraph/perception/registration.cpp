@@ -164,9 +164,11 @@ double Registration::explained(const Thing& thing, const FitPoints& points, cons
 /// The mean squared distance of points from the surface, over their noise and at most 9.
 double Registration::misfit(const Thing& thing, const FitPoints& points, const RigidTransform& X) const {
   double sum = 0.;
+  std::vector<EyeInParts> eyes;
+  for (const ObservedView& view : views_) eyes.push_back(thing.shape.eyeInParts(X.R.transpose() * (view.X_WC.p - X.p)));
   for (const ObservedPoint& point : points.measured) {
-    const Vector3d eye = X.R.transpose() * (views_[std::size_t(point.view)].X_WC.p - X.p);
-    const double d = thing.shape.facing(X.R.transpose() * (point.p - X.p), eye).distance / point.sigma;
+    const Vector3d local = X.R.transpose() * (point.p - X.p);
+    const double d = thing.shape.facing(local, eyes[std::size_t(point.view)]).distance / point.sigma;
     sum += std::min(d * d, 9.);
   }
   return sum / double(std::max<std::size_t>(points.measured.size(), 1));

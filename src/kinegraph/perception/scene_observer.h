@@ -25,19 +25,23 @@ class SceneObserver {
 
   /// Takes images, moves the things to where they are seen, and attaches the updated map. The scene must have the joint
   /// angles of this moment, and objects in hands attached to these: they are not looked for. Returns the poses (world)
-  /// of the things; nothing for those that were not seen. Throws what registerScene and OccupancyMap::update throw.
+  /// of the things; nothing for those not seen. With Prior::anywhere, later looks search near the last poses first.
+  /// Throws what registerScene and OccupancyMap::update throw.
   std::map<std::string, std::optional<Pose>> observe(Config& scene);
 
   /// Returns the result of registerScene for the last images.
   const SeenScene& seen() const { return seen_; }
 
  private:
+  SeenScene lookFor(Config& scene, const std::vector<DepthView>& views, const std::vector<std::string>& names) const;
+
   std::function<std::vector<DepthView>()> take_;
   std::vector<std::string> frames_;
   RegisterOptions options_;
   OccupancyMap* map_;
   Unseen unseen_;
   SeenScene seen_;
+  bool has_seen_ = false;  ///< one of the things
 };
 
 }  // namespace kinegraph

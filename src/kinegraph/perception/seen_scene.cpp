@@ -27,6 +27,12 @@ Prior priorFromName(const std::string& name) {
   throw ValueError(cat("registerScene: prior is '", name, "'; expected 'last' or 'anywhere'"));
 }
 
+Estimate estimateFromName(const std::string& name) {
+  if (name == "camera") return Estimate::camera;
+  if (name == "joints") return Estimate::joints;
+  throw ValueError(cat("registerScene: estimate has '", name, "'; expected 'camera' or 'joints'"));
+}
+
 std::string SeenFrame::str() const {
   std::string text = seenStatusName(status);
   if (status == SeenStatus::occluded) text += cat(" by ", by.empty() ? "something unknown" : cat("'", by, "'"));
@@ -43,6 +49,15 @@ std::string SeenFrame::str() const {
 std::string SeenScene::str() const {
   std::vector<std::string> lines;
   for (const auto& [name, frame] : frames) lines.push_back(cat(name, ": ", frame.str()));
+  for (std::size_t k = 0; k < cameras.size(); ++k) {
+    const VectorXd variances = cameras[k].covariance.diagonal();
+    lines.push_back(cat("camera of view ", k, " within ", 1e3 * std::sqrt(variances.head(3).sum()), " mm and ",
+                        std::sqrt(variances.tail(3).sum()), " rad"));
+  }
+  for (std::size_t i = 0; i < joints.size(); ++i) {
+    const auto at = Eigen::Index(i);
+    lines.push_back(cat(joints[i], ": offset ", joint_offsets[at], " within ", std::sqrt(joint_covariance(at, at))));
+  }
   for (const std::string& warning : warnings) lines.push_back(cat("warning: ", warning));
   return join(lines, "\n");
 }

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/random.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/geometry/shapes/cells.h"
 #include "kinegraph/geometry/shapes/convex_hull.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/perception/triangle_tree.h"
@@ -33,7 +35,26 @@ std::vector<Frame> rigidSubtree(const Frame& frame, const std::set<int>& without
   return frames;
 }
 
+/// The shape of a frame as cameras see it; none if they do not.
+std::optional<Shape> shownShape(const Frame& frame, VisualMeshes& visuals) {
+  const auto& shape = frame.data().shape;
+  if (!shape || shape->geometry->type == kCells || servesCollisionsOnly(*shape)) return std::nullopt;
+  Shape shown = *shape;
+  if (const auto visual = visuals.of(*shape)) shown.geometry = visual;
+  const Geometry& geometry = *shown.geometry;
+  const ShapeKind& kind = shapeKind(geometry.type);
+  const bool has_surface = kind.surface || (geometry.mesh && !geometry.mesh->triangles.empty());
+  return has_surface && !kind.is_symbol ? std::optional(shown) : std::nullopt;
+}
+
 }  // namespace
+
+bool hasVisibleShape(const Frame& frame, const std::set<int>& without) {
+  VisualMeshes visuals;
+  const std::vector<Frame> parts = rigidSubtree(frame, without);
+  return std::any_of(parts.begin(), parts.end(),
+                     [&](const Frame& part) { return shownShape(part, visuals).has_value(); });
+}
 
 /// A core swept by a ball (`radius`), or triangles.
 struct VisibleShape::Part {
@@ -42,9 +63,8 @@ struct VisibleShape::Part {
   Vector3d half = Vector3d::Zero();
   double half_length = 0., core_radius = 0., radius = 0.;
   std::shared_ptr<const TriangleTree> triangles = {};
-  Vector3d center = Vector3d::Zero();  ///< of a ball that holds the part
-  double reach = 0.;
 
+  /// `eye` is in the coordinates of the part.
   SurfaceDistance at(const Vector3d& point, const Vector3d* eye) const;
   SurfaceDistance ofBox(const Vector3d& p, const Vector3d* eye) const;
   SurfaceDistance ofCylinder(const Vector3d& p, const Vector3d* eye) const;
@@ -93,14 +113,11 @@ SurfaceDistance VisibleShape::Part::ofCylinder(const Vector3d& p, const Vector3d
 SurfaceDistance VisibleShape::Part::at(const Vector3d& point, const Vector3d* eye) const {
   if (triangles) return triangles->nearest(point, eye);
   const Vector3d p = X_FP.R.transpose() * (point - X_FP.p);
-  Vector3d local_eye;
-  if (eye) local_eye = X_FP.R.transpose() * (*eye - X_FP.p);
-  const Vector3d* seen_from = eye ? &local_eye : nullptr;
   SurfaceDistance near;
   if (form == ShapeCore::Form::box) {
-    near = ofBox(p, seen_from);
+    near = ofBox(p, eye);
   } else if (form == ShapeCore::Form::cylinder) {
-    near = ofCylinder(p, seen_from);
+    near = ofCylinder(p, eye);
   } else {
     const Vector3d gap = p - Vector3d(0., 0., std::clamp(p.z(), -half_length, half_length));
     const double length = gap.norm();
@@ -129,29 +146,14 @@ VisibleShape::VisibleShape(const Frame& frame, const std::set<int>& without) {
   std::vector<Mesh> surfaces;
   VisualMeshes visuals;
   for (const Frame& part : rigidSubtree(frame, without)) {
-    const auto& shape = part.data().shape;
-    if (!shape || shapeKind(shape->geometry->type).is_symbol || servesCollisionsOnly(*shape)) continue;
-    Shape shown = *shape;
-    if (const auto visual = visuals.of(*shape)) shown.geometry = visual;
-    const ShapeKind& kind = shapeKind(shown.geometry->type);
-    const bool is_solid = kind.surface || !shown.geometry->size.empty();
-    if (!is_solid && !(shown.geometry->mesh && !shown.geometry->mesh->triangles.empty())) continue;
+    const std::optional<Shape> shown = shownShape(part, visuals);
+    if (!shown) continue;
+    const ShapeKind& kind = shapeKind(shown->geometry->type);
     const RigidTransform X_FS = (X_WF.inverse() * part.getPose()).transform();
-    Mesh surface = kind.surface ? kind.surface(*shown.geometry) : *shown.geometry->mesh;
+    Mesh surface = kind.surface ? kind.surface(*shown->geometry) : *shown->geometry->mesh;
     for (Vector3d& vertex : surface.vertices) vertex = X_FS * vertex;
     surfaces.push_back(std::move(surface));
-    add(shown, X_FS);
-    if (parts_.back().form == ShapeCore::Form::hull)
-      parts_.back().triangles = std::make_shared<TriangleTree>(surfaces.back());
-    Part& added = parts_.back();
-    Eigen::AlignedBox3d box;
-    for (const Vector3d& vertex : surfaces.back().vertices) box.extend(vertex);
-    added.center = box.center();
-    for (const Vector3d& vertex : surfaces.back().vertices) {
-      added.reach = std::max(added.reach, 1.01 * (vertex - added.center).norm());
-      radius_ = std::max(radius_, vertex.norm());
-      hull_points_.push_back(vertex);
-    }
+    add(*shown, X_FS, surfaces.back());
     frames_.push_back(part.id());
   }
   if (parts_.empty())
@@ -167,7 +169,7 @@ VisibleShape::VisibleShape(const Frame& frame, const std::set<int>& without) {
 VisibleShape::~VisibleShape() = default;
 VisibleShape::VisibleShape(VisibleShape&&) noexcept = default;
 
-void VisibleShape::add(const Shape& shape, const RigidTransform& X_FS) {
+void VisibleShape::add(const Shape& shape, const RigidTransform& X_FS, const Mesh& surface) {
   using Form = ShapeCore::Form;
   const ShapeKind& kind = shapeKind(shape.geometry->type);
   const ShapeCore core = kind.core ? kind.core(*shape.geometry) : ShapeCore{};
@@ -179,30 +181,78 @@ void VisibleShape::add(const Shape& shape, const RigidTransform& X_FS) {
   part.half_length = core.half_length;
   part.core_radius = core.core_radius;
   part.radius = core.radius;
+  if (part.form == Form::hull) {
+    part.triangles = std::make_shared<TriangleTree>(surface);
+    part.X_FP = {};  // their vertices are in the frame
+  }
+  boxes_.conservativeResize(boxes_.rows() + 1, 6);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double high = part.extent(Vector3d::Unit(axis)), low = -part.extent(-Vector3d::Unit(axis));
+    boxes_(boxes_.rows() - 1, axis) = .5 * (high + low);
+    boxes_(boxes_.rows() - 1, 3 + axis) = .5 * (high - low) + kThin;
+  }
+  for (const Vector3d& vertex : surface.vertices) radius_ = std::max(radius_, vertex.norm());
+  addHullPoints(part, surface);
   parts_.push_back(std::move(part));
 }
 
-SurfaceDistance VisibleShape::facing(const Vector3d& point, const Vector3d& eye) const {
+/// Adds points whose convex hull has the flat faces of a part. Of rounded edges, one point in between is enough.
+void VisibleShape::addHullPoints(const Part& part, const Mesh& surface) {
+  if (part.form != ShapeCore::Form::box || part.radius <= 0.) {
+    hull_points_.insert(hull_points_.end(), surface.vertices.begin(), surface.vertices.end());
+    return;
+  }
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vector3d side(corner & 1 ? 1. : -1., corner & 2 ? 1. : -1., corner & 4 ? 1. : -1.);
+    for (int axes = 1; axes < 8; ++axes) {
+      const Vector3d out = Vector3d(axes & 1 ? 1. : 0., axes & 2 ? 1. : 0., axes & 4 ? 1. : 0.).normalized();
+      hull_points_.push_back(part.X_FP * side.cwiseProduct(part.half + part.radius * out));
+    }
+  }
+}
+
+EyeInParts VisibleShape::eyeInParts(const Vector3d& eye) const {
+  EyeInParts eyes;
+  for (const Part& part : parts_) eyes.push_back(part.X_FP.R.transpose() * (eye - part.X_FP.p));
+  return eyes;
+}
+
+/// The distance of least amount with an eye, else the least distance. Boxes around the parts exclude most of them.
+SurfaceDistance VisibleShape::closest(const Vector3d& point, const EyeInParts* eye) const {
+  constexpr Eigen::Index kTogether = 32;
+  using Gaps = Eigen::Array<double, Eigen::Dynamic, 1, Eigen::ColMajor, kTogether, 1>;
   SurfaceDistance best;
-  for (const Part& part : parts_) {
-    const double least = std::abs(best.distance) + part.reach;
-    if (std::isfinite(least) && (point - part.center).squaredNorm() >= least * least) continue;
-    const SurfaceDistance near = part.at(point, &eye);
-    if (std::abs(near.distance) < std::abs(best.distance)) best = near;
+  double bound = best.distance;  // of the distances that matter
+  const auto consider = [&](Eigen::Index i) {
+    const SurfaceDistance near = parts_[std::size_t(i)].at(point, eye ? &(*eye)[std::size_t(i)] : nullptr);
+    if (!(eye ? std::abs(near.distance) < bound : near.distance < best.distance)) return;
+    best = near;
+    bound = eye ? std::abs(best.distance) : std::max(best.distance, 0.);
+  };
+  const Eigen::Index count = Eigen::Index(parts_.size());
+  for (Eigen::Index from = 0; from < count; from += kTogether) {
+    const Eigen::Index size = std::min(kTogether, count - from);
+    Gaps gaps = Gaps::Zero(size);  // squared
+    for (int axis = 0; axis < 3 && count > 1; ++axis)
+      gaps += ((boxes_.col(axis).segment(from, size).array() - point[axis]).abs() -
+               boxes_.col(3 + axis).segment(from, size).array())
+                  .max(0.)
+                  .square();
+    Eigen::Index nearest = 0;
+    gaps.minCoeff(&nearest);
+    consider(from + nearest);
+    for (Eigen::Index i = 0; i < size; ++i) {
+      if (i != nearest && (gaps[i] <= 0. || gaps[i] < bound * bound)) consider(from + i);
+    }
   }
   return best;
 }
 
-SurfaceDistance VisibleShape::nearest(const Vector3d& point) const {
-  SurfaceDistance best;
-  for (const Part& part : parts_) {
-    const double least = best.distance + part.reach;
-    if (std::isfinite(least) && least > 0. && (point - part.center).squaredNorm() >= least * least) continue;
-    const SurfaceDistance near = part.at(point, nullptr);
-    if (near.distance < best.distance) best = near;
-  }
-  return best;
+SurfaceDistance VisibleShape::facing(const Vector3d& point, const EyeInParts& eye) const {
+  return closest(point, &eye);
 }
+
+SurfaceDistance VisibleShape::nearest(const Vector3d& point) const { return closest(point, nullptr); }
 
 double VisibleShape::extent(const Vector3d& direction) const {
   double most = -std::numeric_limits<double>::infinity();

@@ -17,6 +17,13 @@ struct SurfaceDistance {
   Vector3d gradient = Vector3d::UnitZ();
 };
 
+/// Whether a frame, or one that is rigidly attached to it, has a shape that cameras see. Leaves out the frames
+/// `without` and what is attached to them.
+bool hasVisibleShape(const Frame& frame, const std::set<int>& without);
+
+/// A camera's position, in the coordinates of each part of a VisibleShape.
+using EyeInParts = std::vector<Vector3d>;
+
 /// The surface of a frame and of what is rigidly attached to it, as cameras see it. Boxes, balls, capsules and
 /// cylinders are exact; other shapes are their triangles. Coordinates of the frame, m.
 class VisibleShape {
@@ -26,9 +33,12 @@ class VisibleShape {
   ~VisibleShape();
   VisibleShape(VisibleShape&&) noexcept;
 
-  /// Distance from the part of the surface that faces `eye`. The nearest surface of a thin wall may be its far side,
+  /// The position of a camera, for `facing`.
+  EyeInParts eyeInParts(const Vector3d& eye) const;
+
+  /// Distance from the part of the surface that faces the eye. The nearest surface of a thin wall may be its far side,
   /// which no camera has measured. The distance is infinite if no surface faces the eye.
-  SurfaceDistance facing(const Vector3d& point, const Vector3d& eye) const;
+  SurfaceDistance facing(const Vector3d& point, const EyeInParts& eye) const;
 
   /// Distance from the surface, negative inside.
   SurfaceDistance nearest(const Vector3d& point) const;
@@ -53,11 +63,14 @@ class VisibleShape {
 
  private:
   struct Part;
-  void add(const Shape& shape, const RigidTransform& X_FS);
+  SurfaceDistance closest(const Vector3d& point, const EyeInParts* eye) const;
+  void add(const Shape& shape, const RigidTransform& X_FS, const Mesh& surface);
+  void addHullPoints(const Part& part, const Mesh& surface);
   void sample(const std::vector<Mesh>& surfaces);
   void findRestingDirections();
 
   std::vector<Part> parts_;
+  MatrixXd boxes_ = MatrixXd(0, 6);  ///< center and half sides of the box that holds a part, parallel to the axes
   std::vector<int> frames_;
   std::vector<Vector3d> samples_, normals_, resting_, hull_points_;
   double radius_ = 0.;

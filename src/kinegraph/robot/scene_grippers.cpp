@@ -1,5 +1,6 @@
 #include "kinegraph/robot/scene_grippers.h"
 
+#include "kinegraph/geometry/shapes/cells.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
@@ -76,6 +77,7 @@ int copyNewFrames(const Config& from, Config& to) {
   SceneTree& tree = *to.scene();
   for (const auto& frame : from.scene()->frames()) {
     if (tree.find(frame->name)) continue;
+    if (frame->shape && frame->shape->geometry->type == kCells) continue;  // a map of beliefs is no body
     FrameData& copy = tree.add(frame->name, frame->parent ? tree.find(frame->parent->name) : nullptr);
     copy.pose = frame->pose;
     copy.joint = frame->joint;

@@ -20,7 +20,7 @@ std::vector<SceneGripper> findGrippers(const Config& config);
 /// another, by name. Frames that only one of them has are skipped.
 void copyMotion(const Config& from, Config& to);
 
-/// Copies the frames of `from` whose names are new to `to`. Returns their number.
+/// Copies the frames of `from` whose names are new to `to`, except for maps of cells. Returns their number.
 int copyNewFrames(const Config& from, Config& to);
 
 /// Returns the first frame of the link: the topmost one without a joint in between.

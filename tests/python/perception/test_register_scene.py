@@ -236,3 +236,59 @@ def test_many_equal_things_are_told_apart():
         seen = ry.registerScene(C, view, names, support="table", prior="anywhere")
     for name in names:
         assert seen[name].pose[:3] == pytest.approx(truth[name], abs=3e-3)
+
+
+def panda_scene():
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    C.addText("box: { shape: ssBox, size: [.06, .1, .08, .002], pose: [.2, .3, .69], contact: 1 }")
+    eye, target = np.array([0.7, 1.0, 1.3]), np.array([0, 0.2, 0.8])
+    z = (target - eye) / np.linalg.norm(target - eye)
+    x = np.cross(z, [0, 0, 1]) / np.linalg.norm(np.cross(z, [0, 0, 1]))
+    cam = C.addFrame("cam").setPosition(eye).setRotationMatrix(np.stack([x, np.cross(z, x), z], 1))
+    cam.setAttributes({"focalLength": 1.1, "width": 640, "height": 480})
+    return C
+
+
+@pytest.mark.filterwarnings("ignore::kinegraph.errors.KinegraphWarning")  # rotations of slender links are hardly seen
+@pytest.mark.parametrize("estimate", [["joints"], ["joints", "camera"]])
+@pytest.mark.parametrize("seed", [1, 4])
+def test_offsets_of_the_joints_and_the_camera_are_estimated_along(seed, estimate):
+    rng = np.random.default_rng(seed)
+    C = panda_scene()
+    truth = C.copy()
+    offsets = rng.uniform(-0.01, 0.01, 7)
+    truth.setJointState(C.getJointState() + offsets)
+    depth, fxycxy = look(truth)
+    depth = depth + 0.0008 * depth**2 * rng.normal(size=depth.shape)
+    if "camera" in estimate:
+        C.getFrame("cam").setPosition(C.getFrame("cam").getPosition() + rng.uniform(-0.01, 0.01, 3))
+    C.getFrame("box").setPosition([0.22, 0.28, 0.69])
+    view = ry.DepthView(depth, fxycxy, "cam", noise=0.0008, bias=0.0004)
+    seen = ry.registerScene(C, view, ["box"], support="table", estimate=estimate)
+    assert seen.joints == C.getJointNames() and len(seen.cameras) == len(estimate) - 1
+    error = seen.joint_offsets - offsets
+    assert error @ np.linalg.solve(seen.joint_covariance, error) < 24  # exceeded by 1 of 1000
+    hand = C.getFrame("l_gripper").getPosition() - truth.getFrame("l_gripper").getPosition()
+    assert np.linalg.norm(hand) < (0.003 if seen.cameras else 0.001)
+    assert "l_panda_joint1: offset" in repr(seen)
+    for camera in seen.cameras:
+        off = camera.pose[:3] - truth.getFrame("cam").getPosition()
+        assert off @ np.linalg.solve(camera.covariance[:3, :3], off) < 17
+        assert C.getFrame("cam").getPosition() == pytest.approx(camera.pose[:3], abs=1e-9)
+    assert C.getFrame("box").getPosition() == pytest.approx([0.2, 0.3, 0.69], abs=3e-3)
+
+
+def test_an_unknown_name_of_what_to_estimate_is_an_error(scene):
+    view = ry.DepthView(*look(scene), "cam")
+    with pytest.raises(ry.ArgumentError, match="estimate has 'arm'; expected 'camera' or 'joints'"):
+        ry.registerScene(scene, view, ["box"], estimate=["arm"])
+    with pytest.raises(ry.ArgumentError, match="no active hinge or slide"):
+        ry.registerScene(scene, view, ["box"], estimate=["joints"])
+
+
+def test_images_of_another_size_than_the_intrinsics_are_errors(scene):
+    depth, fxycxy = look(scene)
+    for image in (depth[::2, ::2], np.repeat(np.repeat(depth, 2, 0), 2, 1)):
+        with pytest.raises(ry.ArgumentError, match="does not fit an image"):
+            ry.DepthView(image, fxycxy, "cam")
