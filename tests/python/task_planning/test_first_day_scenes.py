@@ -216,6 +216,7 @@ def no_hand(C) -> None:
         (None, "(on red red)", "'red' cannot stand on itself"),
         (None, "(on table tray)", "'tray' is no object: it has no rigid joint"),
         (None, "(on red tray)", "'tray' is no object: it has no rigid joint"),
+        (None, "(on red tray)", "did you mean (on tray red)? The place comes first"),
         (None, "(held red)", "no action makes (held red) true; a goal is (on place object), (on hand object)"),
         (None, "(opened tray)", "'tray' is no door or drawer"),
         (None, "(posed red tray)", "'tray' is no pose; label it with"),
@@ -252,6 +253,11 @@ def test_a_scene_without_a_gripper_is_told_so() -> None:
     box(C, "blue", "table", (0.5, -0.25, 0.0))
     plan = ry.planTask(C, "(on blue red)")
     assert plan.status == ry.TaskStatus.infeasible and plan.message.startswith("no frame is a gripper; give the point")
+
+
+def test_an_empty_goal_is_refused() -> None:
+    with pytest.raises(ValueError, match=r"planTask: the goal is empty; expected literals such as \(on tray cup\)"):
+        ry.planTask(scene(), " ")
 
 
 @pytest.mark.parametrize("size", [(0.09, 0.09, 0.07), (0.2, 0.2, 0.02)])

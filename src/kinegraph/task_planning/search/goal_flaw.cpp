@@ -37,6 +37,8 @@ class GoalFlaw {
 
   std::string ofOn(const std::string& place, const std::string& obj) const {
     if (place == obj) return cat("'", obj, "' cannot stand on itself");
+    if (!is("is_object", obj) && is("is_object", place) && is("is_place", obj))
+      return cat(ofObject(obj), "; did you mean (on ", obj, " ", place, ")? The place comes first");
     const std::string flaws[] = {ofObject(obj), is("is_gripper", place) ? "" : ofPlace(place), ofHands()};
     for (const std::string& flaw : flaws)
       if (!flaw.empty()) return flaw;

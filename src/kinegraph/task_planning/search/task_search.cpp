@@ -88,6 +88,12 @@ int requireThreads(int threads) {
   return threads;
 }
 
+std::vector<Literal> goalOf(const std::string& text) {
+  std::vector<Literal> goal = readLiterals(text, "goal");
+  if (goal.empty()) throw ValueError("planTask: the goal is empty; expected literals such as (on tray cup)");
+  return goal;
+}
+
 double requireTimeLimit(double seconds) {
   if (seconds >= 0.) return seconds;
   throw ValueError(cat("planTask: time_limit is ", seconds, " s; expected a number >= 0, or infinity"));
@@ -103,8 +109,8 @@ TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptio
       options_(options),
       goal_text_(goal),
       flaws_(gripperFrameFlaws(C, wordsOf(taskFacts(C), "is_gripper"))),
-      logic_(options.domain ? *options.domain : defaultDomain(), readLiterals(goal, "goal"),
-             taskFacts(C_, readLiterals(goal, "goal")), options.cancellation),
+      logic_(options.domain ? *options.domain : defaultDomain(), goalOf(goal), taskFacts(C_, goalOf(goal)),
+             options.cancellation),
       limits_(taskMotionLimits(C, options.velocity, options.acceleration)),
       deadline_(deadlineAfter(requireTimeLimit(options.time_limit))),
       settings_{rulesWith(options.rules, mentionsFaces(logic_.goal())),
