@@ -5,6 +5,7 @@
 #include <Eigen/LU>
 #include <cmath>
 
+#include "kinegraph/common/random.h"
 #include "kinegraph/features/eval.h"
 #include "tests/control/arm.h"
 #include "tests/support/expect_error.h"
@@ -71,6 +72,23 @@ TEST(DiffIk, AnArmThatATargetOutOfReachStretchesComesToRest) {
       EXPECT_LT((C.getFrame("tip").getPosition() - 1.5 * direction).norm(), 1e-3) << distance << ", " << velocity;
     }
   }
+}
+
+TEST(DiffIk, ATargetThatTremblesIsFollowedAsCloselyAsItTrembles) {
+  constexpr double kTrembling = 1e-3;  // m
+  Config C = planarArm();
+  DiffIk ik(C, withLimits(10., 0.));
+  const Vector3d start = C.getFrame("tip").getPosition();
+  const int task = ik.addTask(FeatureSymbol::position, {"tip"}, 1., 1., start);
+  Rng rng(1);
+  double worst = 0.;
+  for (int i = 0; i < 1000; ++i) {
+    const Vector3d still = start + Vector3d(0., .1 * std::sin(i * kStep), 0.);
+    ik.setTarget(task, still + kTrembling * Vector3d(rng.uniform(-1., 1.), rng.uniform(-1., 1.), 0.));
+    ik.step(kStep);
+    worst = std::max(worst, (C.getFrame("tip").getPosition() - still).norm());
+  }
+  EXPECT_LT(worst, 3. * kTrembling);
 }
 
 TEST(DiffIk, PairsKeepTheirMargin) {

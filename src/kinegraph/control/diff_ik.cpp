@@ -26,7 +26,9 @@ constexpr double kStiffer[] = {0., 1e-10,
 constexpr double kReportedEquality = 1e-6;  // the same of equalities, in units of the feature
 constexpr double kSpanned = 1e-6;           // a gradient with a smaller share in the free directions is fixed already
 constexpr double kChatter = 1e-6;           // smallest step that is damped if it takes back the one before, rad or m
-constexpr double kFirstCalm = 1e-3, kLargestCalm = 1e6;  // damping of chatter, relative to the largest cost
+constexpr double kFirstCalm = 1., kLargestCalm = 16.;  // damping of chatter, relative to the curvature of the tasks
+constexpr double kFading = .99;                        // of that damping, per step
+constexpr double kStuck = .5;                          // a task is stuck if a step leaves more than this share of it
 
 void checkLimits(const char* name, const VectorXd& limits, int dofs) {
   if (limits.size() != 0 && limits.size() != dofs)
@@ -68,6 +70,15 @@ struct DiffIk::Task {
   std::vector<Residual> residual;  ///< one
   VectorXd y;
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J;
+  VectorXd left = {};         ///< what the last step left of it, by its linear model
+  decltype(J) J_before = {};  ///< at the step before
+  double bend = 0.;           ///< change of J per change of q
+  bool is_stuck = false;      ///< the last step left most of it
+
+  void makeRoom(int dofs) {
+    const int rows = residual[0].rows();
+    y.setZero(rows), left.setZero(rows), J.setZero(rows, dofs), J_before.setZero(rows, dofs);
+  }
 };
 
 DiffIk::~DiffIk() = default;
@@ -93,7 +104,7 @@ void DiffIk::prepare() {
   velocity_limit_ = options_.velocity.size() ? options_.velocity : getVelocityLimits(config_);
   acceleration_limit_ = options_.acceleration.size() ? options_.acceleration : VectorXd::Constant(n, kNoBound);
   velocity_.setZero(n), change_.setZero(n), low_.resize(n), high_.resize(n);
-  calm_.setZero(n), before_.setZero(n);
+  calm_.setZero(n), before_.setZero(n), moved_ = 0.;
   gradient_row_.resize(n), cost_.resize(n, n), slope_.resize(n), direction_.resize(n);
   std::vector<std::pair<int, int>> moving;
   if (options_.collisions)
@@ -111,7 +122,7 @@ void DiffIk::prepare() {
   for (Task& task : tasks_) {
     task.residual.clear();
     task.residual.push_back(makeResidual(config_.state(), task.feature, task.frames, task.weight, task.target));
-    task.y.resize(task.residual[0].rows()), task.J.resize(task.residual[0].rows(), n);
+    task.makeRoom(n);
   }
 }
 
@@ -135,8 +146,8 @@ int DiffIk::add(Task task) {
   if (residual.order() > 0)
     throw ValueError(cat("DiffIk: ", residual.name(), " is of order ", residual.order(),
                          "; expected a feature of one configuration"));
-  task.y.resize(residual.rows()), task.J.resize(residual.rows(), config_.getJointDimension());
   task.residual.push_back(std::move(residual));
+  task.makeRoom(config_.getJointDimension());
   const auto place = std::lower_bound(priorities_.begin(), priorities_.end(), task.priority);
   if (place == priorities_.end() || *place != task.priority) priorities_.insert(place, task.priority);
   tasks_.push_back(std::move(task));
@@ -162,29 +173,41 @@ void DiffIk::setPosture(const VectorXd& q) {
 /// Computes the quadratic cost of the tasks of a priority; the last one also has the cost of the posture.
 void DiffIk::addCosts(const VectorXd& q, int priority, bool is_last) {
   const double weight = is_last ? options_.posture * options_.posture : 0.;
+  double curvature = 0.;
   cost_.setZero();
   cost_.diagonal().setConstant(weight + options_.damping);
   slope_ = weight * (q - posture_);
   for (Task& task : tasks_) {
     if (task.priority != priority) continue;
+    task.J_before.swap(task.J);
     task.J.setZero();
     eval(config_, task.residual[0], task.y, task.J);
+    if (moved_ > kChatter) task.bend = (task.J - task.J_before).norm() / moved_;
+    if (task.is_stuck) curvature += task.y.norm() * task.bend;
     cost_.noalias() += task.J.transpose() * task.J;
     slope_.noalias() += task.gain * task.J.transpose() * task.y;
   }
-  if ((calm_.array() > 0.).any()) cost_.diagonal() += cost_.diagonal().maxCoeff() * calm_;
+  cost_.diagonal() += curvature * calm_;
 }
 
 /// Damps joints whose step takes back the one before. Where a target is out of reach, the linear model of a task
 /// promises progress that the curvature of the motion denies, and steps would jump to and fro at the velocity limits.
+/// The damping is the curvature that the model lacks: the residual times the change of its Jacobian. A task that a step
+/// attains, such as a target in reach that trembles, has none.
 void DiffIk::calmChatter() {
+  moved_ = change_.norm();
+  for (Task& task : tasks_) {
+    task.left.noalias() = task.J * change_;
+    task.left += task.gain * task.y;
+    task.is_stuck = task.left.norm() > kStuck * task.gain * task.y.norm();
+  }
   for (int j = 0; j < change_.size(); ++j) {
     const double now = change_[j], size = std::abs(now);
     const bool takes_back = now * before_[j] < 0. && size > kChatter && size > .5 * std::abs(before_[j]);
     if (takes_back) {
       calm_[j] = std::min(std::max(kFirstCalm, 4. * calm_[j]), kLargestCalm);
-    } else {
-      calm_[j] = calm_[j] > kFirstCalm ? .7 * calm_[j] : 0.;
+    } else if (size > kChatter) {
+      calm_[j] *= kFading;  // at rest it stays: the next step would jump again
     }
     if (size > kChatter) before_[j] = now;
   }
