@@ -32,6 +32,7 @@ import numpy as np
 PACKAGE = "vamp-planner==0.6.4"
 SCENES = ["table_pick", "table_under_pick", "box", "bookshelf_small", "bookshelf_tall", "bookshelf_thin", "cage"]
 ROBOTS = ["panda", "ur5", "fetch"]
+SAFELY = {"filter": "data"} if hasattr(tarfile, "data_filter") else {}  # from Python 3.11.4
 
 
 def folder() -> Path:
@@ -44,11 +45,11 @@ def folder() -> Path:
         pip = [sys.executable, "-m", "pip", "download", PACKAGE, "--no-binary", "vamp-planner", "--no-deps", "-q"]
         subprocess.run([*pip, "-d", scratch], check=True)
         with tarfile.open(next(Path(scratch).glob("vamp*.tar.gz"))) as package:
-            package.extractall(scratch, filter="data")
+            package.extractall(scratch, **SAFELY)
         resources = next(Path(scratch).glob("vamp*/resources"))
         for robot in ROBOTS:
             with tarfile.open(resources / robot / "problems.tar.bz2") as problems:
-                problems.extractall(resources / robot, filter="data")
+                problems.extractall(resources / robot, **SAFELY)
             (resources / robot).rename(home / robot)
     return home
 

@@ -91,6 +91,44 @@ TEST(DiffIk, ATargetThatTremblesIsFollowedAsCloselyAsItTrembles) {
   EXPECT_LT(worst, 3. * kTrembling);
 }
 
+TEST(DiffIk, AnArmThatRestedStretchedGoesOnFromAnotherPlace) {
+  for (int rest = 40; rest < 140; rest += 4) {
+    Config C = planarArm();
+    C.getFrame("obstacle").setContact(0);
+    const VectorXd home = C.getJointState();
+    const Vector3d reachable = C.getFrame("target").getPosition();
+    DiffIk ik(C, withLimits(2., 0.));
+    const int task = ik.addTask(FeatureSymbol::position, {"tip"}, 1., 1., Vector3d(5., 1.5, 0.));
+    for (int i = 0; i < rest; ++i) ik.step(.02);
+    C.setJointState(home);
+    ik.setTarget(task, reachable);
+    for (int i = 0; i < 200; ++i) ik.step(.02);
+    EXPECT_LT((C.getFrame("tip").getPosition() - reachable).norm(), 1e-3) << rest;
+  }
+}
+
+/// The root mean square distance of a tip from a target that swings faster than limits allow, at 50 Hz.
+double errorOfSwinging(bool is_damped) {
+  Config C = planarArm();
+  C.getFrame("obstacle").setContact(0);
+  DiffIk ik(C, withLimits(1.5, 0.));
+  const Vector3d start = C.getFrame("tip").getPosition();
+  const int task = ik.addTask(FeatureSymbol::position, {"tip"}, 1., 1., start);
+  double sum = 0.;
+  for (int i = 0; i < 500; ++i) {
+    const Vector3d target = start + Vector3d(0., .1 * std::sin(12.6 * .02 * i), 0.);
+    ik.setTarget(task, target);
+    if (!is_damped) ik.reset();
+    ik.step(.02);
+    sum += (C.getFrame("tip").getPosition() - target).squaredNorm();
+  }
+  return std::sqrt(sum / 500.);
+}
+
+TEST(DiffIk, TargetsThatSwingInReachAreFollowedAsWithoutDamping) {
+  EXPECT_LT(errorOfSwinging(true), 1.1 * errorOfSwinging(false) + 1e-6);
+}
+
 TEST(DiffIk, PairsKeepTheirMargin) {
   Config C = planarArm();
   C.getFrame("obstacle").setPosition(C.getFrame("target").getPosition());  // the target is within

@@ -10,10 +10,10 @@ namespace {
 
 const VectorXd kAngles = (VectorXd(3) << .3, -.5, .8).finished();
 
-/// An arm of three links above a table with a box and a can.
-Config sceneWithArm() {
+/// An arm of three links above a table with a box and a can, after frames of the scene's own.
+Config sceneWithArm(const std::string& before = "", const VectorXd& q = kAngles) {
   Config C;
-  C.addText(R"(
+  C.addText(before + R"(
     table: { shape: ssBox, size: [.9, .7, .1, .005], pose: [0, .05, .6], contact: 1 }
     box: { shape: ssBox, size: [.06, .1, .08, .002], pose: [.15, -.1, .69], contact: 1 }
     can: { shape: cylinder, size: [.12, .03], pose: [-.2, -.1, .71], contact: 1 }
@@ -27,7 +27,7 @@ Config sceneWithArm() {
     cam: { focalLength: 1., width: 640, height: 480 }
   )");
   aimCamera(C);
-  C.setJointState(kAngles);
+  C.setJointState(q);
   return C;
 }
 
@@ -67,6 +67,19 @@ TEST(EstimateSensors, JointOffsetsAreFoundWithinTheirCovariance) {
     EXPECT_EQ(seen.frames.at("box").status, SeenStatus::seen);
     EXPECT_TRUE(seen.cameras.empty());
   }
+}
+
+TEST(EstimateSensors, JointsThatMimicOthersAreNoDofs) {
+  const char* fingers = R"(
+    finger: { joint: transX, shape: sphere, size: [.02], pose: [5, 0, 0] }
+    follower: { joint: transX, mimic: finger, shape: sphere, size: [.02], pose: [5, 1, 0] }
+  )";
+  const VectorXd q = (VectorXd(4) << .02, kAngles).finished(),
+                 offsets = (VectorXd(4) << 0., .012, -.009, .015).finished();
+  Config C = sceneWithArm(fingers, q), truth = sceneWithArm(fingers, q + offsets);
+  const SeenScene seen = registerScene(C, std::vector{noisyImageOf(truth, 0)}, {"box"}, estimating({Estimate::joints}));
+  ASSERT_EQ(seen.joints, (std::vector<std::string>{"finger", "first", "second", "third"}));
+  EXPECT_LT((seen.joint_offsets - offsets).cwiseAbs().maxCoeff(), .003) << seen.str();
 }
 
 TEST(EstimateSensors, ACameraOffBySomeCentimetersReturnsToItsPose) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "kinegraph/common/errors.h"
+#include "kinegraph/perception/visible_shape.h"
 #include "kinegraph/rendering/camera_renderer.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 
@@ -54,6 +55,14 @@ RegisterOptions onTable() {
   RegisterOptions options;
   options.support = "table";
   return options;
+}
+
+TEST(VisibleShape, ABoxWithRoundedEdgesStandsOnItsSixFaces) {
+  Config C;
+  C.addText("box: { shape: ssBox, size: [.056, .045, .116, .003] }");
+  const VisibleShape shape(C.getFrame("box"), {});
+  ASSERT_EQ(shape.restingDirections().size(), 6u);
+  for (const Vector3d& down : shape.restingDirections()) EXPECT_GT(down.cwiseAbs().maxCoeff(), .9999);
 }
 
 TEST(RegisterScene, ADisplacedBoxReturnsToItsPlace) {

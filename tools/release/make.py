@@ -69,7 +69,7 @@ def make_sdist(tools: Path, work: Path, out: Path, page: Path) -> Path:
     sdist = out / f"kinegraph-{VERSION}.tar.gz"
     run(tools, "-m", "twine", "check", "--strict", sdist)
     with tarfile.open(sdist) as archive:
-        archive.extractall(work, filter="data")
+        archive.extractall(work, **({"filter": "data"} if hasattr(tarfile, "data_filter") else {}))  # from 3.11.4
     return work / f"kinegraph-{VERSION}"
 
 

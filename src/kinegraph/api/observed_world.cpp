@@ -170,9 +170,9 @@ double plannedOpening(const TaskPlan& plan, const std::string& hand, int number,
   constexpr double kSame = 1e-3;  // m
   if (plan.scenes.empty()) return most;
   const Config& scene = plan.scenes.front();
-  const std::vector<HandFingers> hands = handFingersOf(scene);
+  const std::vector<SceneGripper> hands = findGrippers(scene);
   if (number < 0 || std::size_t(number) >= hands.size()) return most;
-  const HandFingers& fingers = hands[std::size_t(number)];
+  const HandFingers& fingers = hands[std::size_t(number)].opening;
   const double wide = fingers.widthAt(scene.getFrame(fingers.joint).data().joint->q[0]);
   const bool is_narrower =
       wide < fingers.maxWidth() - kSame && std::abs(wide - opening(scene, hand).value_or(0.)) < kSame;

@@ -320,8 +320,12 @@ class TaskRun::Impl {
     std::string failure;
     if (isPick(action) || action[0] == "handover") {
       failure = close(action[3], obj);
-      if (action[0] == "handover" && failure.empty()) open(action[2], obj);
-      world_.take(obj, action[3]);
+      if (!failure.empty() && isEmpty(action[3], obj)) {
+        open(action[3], obj);
+      } else {
+        if (action[0] == "handover" && failure.empty()) open(action[2], obj);
+        world_.take(obj, action[3]);
+      }
     } else if (isHold(action)) {
       handles_[action[2]] = action[3];
       failure = close(action[3], action[2]);
@@ -349,10 +353,20 @@ class TaskRun::Impl {
     const int number = gripper->second;
     bot_.gripperCloseGrasp(number, obj, std::min(kGripForce, infoOf(number).max_force));
     waitFor(number);
-    if (bot_.getGripperPos(number) < infoOf(number).min_width + kEmpty) return cat("'", hand, "' closed on nothing");
+    if (isShut(number)) return cat("'", hand, "' closed on nothing");
     const double force = world_.gripForce(hand, obj);
     return force < kWeak ? cat("'", hand, "' closed, and presses on '", obj, "' with ", fixed(force, 1), " N only")
                          : "";
+  }
+
+  bool isShut(int number) const { return bot_.getGripperPos(number) < infoOf(number).min_width + kEmpty; }
+
+  /// Whether a hand is shut, and presses on nothing as far as contacts tell.
+  bool isEmpty(const std::string& hand, const std::string& obj) const {
+    const auto gripper = grippers_.find(hand);
+    if (gripper == grippers_.end() || !isShut(gripper->second)) return false;
+    const double force = world_.gripForce(hand, obj);
+    return force < kWeak || !std::isfinite(force);
   }
 
   void open(const std::string& hand, const std::string& obj = {}) {

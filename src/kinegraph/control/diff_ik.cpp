@@ -27,7 +27,7 @@ constexpr double kReportedEquality = 1e-6;  // the same of equalities, in units 
 constexpr double kSpanned = 1e-6;           // a gradient with a smaller share in the free directions is fixed already
 constexpr double kChatter = 1e-6;           // smallest step that is damped if it takes back the one before, rad or m
 constexpr double kFirstCalm = 1., kLargestCalm = 16.;  // damping of chatter, relative to the curvature of the tasks
-constexpr double kFading = .99;                        // of that damping, per step
+constexpr double kFading = .9;                         // of that damping, per step
 constexpr double kStuck = .5;                          // a task is stuck if a step leaves more than this share of it
 
 void checkLimits(const char* name, const VectorXd& limits, int dofs) {
@@ -128,7 +128,7 @@ void DiffIk::prepare() {
 
 int DiffIk::addTask(const FeatureSource& feature, const std::vector<std::string>& frames, double weight, double gain,
                     const VectorXd& target, int priority) {
-  if (weight < 0.) throw ValueError(cat("DiffIk: weight is ", weight, "; expected a number >= 0"));
+  if (!(weight >= 0.)) throw ValueError(cat("DiffIk: weight is ", weight, "; expected a number >= 0"));
   if (priority == kEquality)
     throw ValueError(cat("DiffIk: priority is ", priority, ", which is reserved for equalities"));
   return add({feature, frames, weight, gain, target, priority, {}, {}, {}});
@@ -182,7 +182,8 @@ void DiffIk::addCosts(const VectorXd& q, int priority, bool is_last) {
     task.J_before.swap(task.J);
     task.J.setZero();
     eval(config_, task.residual[0], task.y, task.J);
-    if (moved_ > kChatter) task.bend = (task.J - task.J_before).norm() / moved_;
+    // At most that of a hinge, which turns J: what else moves the scene is no curvature.
+    if (moved_ > kChatter) task.bend = std::min((task.J - task.J_before).norm() / moved_, task.J.norm());
     if (task.is_stuck) curvature += task.y.norm() * task.bend;
     cost_.noalias() += task.J.transpose() * task.J;
     slope_.noalias() += task.gain * task.J.transpose() * task.y;
@@ -410,9 +411,9 @@ void DiffIk::solve() {
   for (int t = 0; t < int(tasks_.size()); ++t) {
     Task& task = tasks_[std::size_t(t)];
     if (task.priority != kEquality) continue;
-    task.y *= task.gain;
-    task.y.noalias() += task.J * change_;
-    const double by = task.y.lpNorm<Eigen::Infinity>();
+    task.left.noalias() = task.J * change_;
+    task.left += task.gain * task.y;
+    const double by = task.left.lpNorm<Eigen::Infinity>();
     if (by > kReportedEquality) relaxed_.push_back({{Source::Kind::equality, t, 0.}, by});
   }
 }

@@ -11,12 +11,15 @@ namespace kinegraph {
 namespace {
 
 constexpr double kCenterOff = .2;                   // of the size of an image; half an image has .25 or .5
+constexpr int kLargest = 8192;                      // pixels
 constexpr double kNearest = .005, kFarthest = 50.;  // m; another median depth is not in meters
 
 }  // namespace
 
 void DepthView::validate(const std::string& where) const {
   const auto fail = [&](const std::string& text) { throw ValueError(cat(where, ": ", text)); };
+  if (width > kLargest || height > kLargest)
+    fail(cat("an image of ", width, " x ", height, " pixels; expected at most ", kLargest, " in each direction"));
   if (width <= 0 || height <= 0 || depth.size() != std::size_t(width) * std::size_t(height))
     fail(cat("depth has ", depth.size(), " numbers; expected height x width = ", height, " x ", width));
   if (!fxycxy.allFinite() || fxycxy[0] <= 0. || fxycxy[1] <= 0.)

@@ -84,13 +84,12 @@ void SensorFit::addCameras() {
 }
 
 void SensorFit::addDofs(const std::set<int>& things) {
-  int index = 0;
   for (const Frame& frame : config_.getJoints()) {
     const Joint& joint = *frame.data().joint;
+    const int index = config_.model()->frame_dofs[std::size_t(frame.id())].first;
     const bool is_single = joint.dofs() == 1 && joint.steps.size() == 1;
     if (is_single && !joint.mimic && joint.steps[0].moves() && !things.contains(frame.id()))
       dofs_.push_back({index, frame.getName(), joint.steps[0].translates() ? kJointLength : kJointAngle});
-    index += joint.dofs();
   }
   if (dofs_.empty())
     throw ValueError(

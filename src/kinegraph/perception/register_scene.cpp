@@ -291,8 +291,10 @@ SeenScene registerScene(Config& config, std::span<const DepthView> views, const 
   SeenScene seen = findThings(corrected, sensors.views(), names, options);
   sensors.describe(seen);
   sensors.correct(config);
-  for (const auto& [name, frame] : seen.frames) {
-    if (frame.status == SeenStatus::seen) config.getFrame(name).setPose(frame.pose);
+  for (const Frame& frame : corrected.getFrames()) {  // parents first
+    const auto found = seen.frames.find(frame.getName());
+    if (found != seen.frames.end() && found->second.status == SeenStatus::seen)
+      config.getFrame(frame.getName()).setPose(found->second.pose);
   }
   return seen;
 }

@@ -30,12 +30,15 @@ SceneObserver::SceneObserver(std::function<std::vector<DepthView>()> take, std::
 }
 
 /// Poses near the last ones come first: a symmetric thing keeps its rotation from look to look.
-SeenScene SceneObserver::lookFor(Config& scene, const std::vector<DepthView>& views,
+SeenScene SceneObserver::lookFor(Config& scene, std::vector<DepthView>& views,
                                  const std::vector<std::string>& names) const {
   if (options_.prior == Prior::last || !has_seen_) return registerScene(scene, views, names, options_);
   RegisterOptions options = options_;
   options.prior = Prior::last;
   SeenScene seen = registerScene(scene, views, names, options);
+  for (std::size_t k = 0; k < seen.cameras.size(); ++k) {
+    if (views[k].camera.empty()) views[k].pose = seen.cameras[k].pose;
+  }
   std::vector<std::string> lost;
   for (const auto& [name, frame] : seen.frames) {
     if (!isSeen(frame)) lost.push_back(name);
@@ -47,6 +50,9 @@ SeenScene SceneObserver::lookFor(Config& scene, const std::vector<DepthView>& vi
   for (auto& [name, frame] : elsewhere.frames) {
     if (isSeen(frame)) seen.frames[name] = std::move(frame);
   }
+  for (const std::string& warning : elsewhere.warnings) {
+    if (std::ranges::find(seen.warnings, warning) == seen.warnings.end()) seen.warnings.push_back(warning);
+  }
   return seen;
 }
 
@@ -55,7 +61,7 @@ std::map<std::string, std::optional<Pose>> SceneObserver::observe(Config& scene)
   for (const std::string& name : frames_) {
     if (!isInHand(scene, name)) standing.push_back(name);
   }
-  const std::vector<DepthView> views = take_();
+  std::vector<DepthView> views = take_();
   SeenScene seen;
   if (!standing.empty()) seen = lookFor(scene, views, standing);
   if (map_) {

@@ -33,7 +33,7 @@ class SceneObserver {
   const SeenScene& seen() const { return seen_; }
 
  private:
-  SeenScene lookFor(Config& scene, const std::vector<DepthView>& views, const std::vector<std::string>& names) const;
+  SeenScene lookFor(Config& scene, std::vector<DepthView>& views, const std::vector<std::string>& names) const;
 
   std::function<std::vector<DepthView>()> take_;
   std::vector<std::string> frames_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "kinegraph/common/errors.h"
@@ -18,8 +19,10 @@ namespace kinegraph {
 
 namespace {
 
-constexpr int kSamples = 500;        // points of a surface
-constexpr double kThin = 1e-9;       // m, lengths that count as zero
+constexpr int kSamples = 500;   // points of a surface
+constexpr double kThin = 1e-9;  // m, lengths that count as zero
+constexpr double kTilt = .1;    // rad, that a shape withstands on a face
+constexpr int kTilts = 8;
 constexpr double kSameFace = .9998;  // cosine between normals of triangles of one face
 
 bool hasJoint(const Frame& frame) { return frame.data().joint && frame.data().joint->dofs() > 0; }
@@ -327,7 +330,19 @@ void VisibleShape::findRestingDirections() {
       same->triangles.push_back(t);
     }
   }
+  const auto height = [&](const Vector3d& down) { return extent(down) - down.dot(middle); };
+  // Facets of rounded edges are small: the shape would tip over at the slightest tilt.
+  const auto keepsStanding = [&](const Vector3d& down) {
+    const Vector3d side = down.unitOrthogonal(), other = down.cross(side);
+    for (int i = 0; i < kTilts; ++i) {
+      const double angle = 2. * std::numbers::pi * i / kTilts;
+      const Vector3d towards = std::cos(angle) * side + std::sin(angle) * other;
+      if (height(std::cos(kTilt) * down + std::sin(kTilt) * towards) < height(down) - 1e-9) return false;
+    }
+    return true;
+  };
   for (const Face& face : faces) {  // stable: the center is above the face
+    if (!keepsStanding(face.normal)) continue;
     const Vector3d foot = middle + (face.offset - face.normal.dot(middle)) * face.normal;
     for (const auto& t : face.triangles) {
       bool inside = true;

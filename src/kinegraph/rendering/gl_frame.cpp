@@ -66,8 +66,9 @@ void GlFrame::use(int width, int height) {
     f.TexImage2D(gl::kTexture2D, 0, int(gl::kDepth32F), width_, height_, 0, gl::kDepthComponent, gl::kFloat, nullptr);
   }
   f.FramebufferTexture2D(gl::kFramebuffer, gl::kDepthAttachment, gl::kTexture2D, depth_, 0);
-  if (f.CheckFramebufferStatus(gl::kFramebuffer) != gl::kComplete)
-    throw Error(cat("the OpenGL driver cannot draw images of ", width, " x ", height, " pixels"));
+  if (f.CheckFramebufferStatus(gl::kFramebuffer) == gl::kComplete) return;
+  width_ = height_ = 0;
+  throw Error(cat("the OpenGL driver cannot draw images of ", width, " x ", height, " pixels"));
 }
 
 }  // namespace kinegraph

@@ -225,7 +225,10 @@ void PictureRenderer::Impl::drawFloor() {
   f.Enable(gl::kBlend);
   f.BlendFuncSeparate(gl::kSourceAlpha, gl::kOneMinusSourceAlpha, gl::kOne, gl::kOneMinusSourceAlpha);
   f.DepthFunc(gl::kGreater);
-  if (view->options.floor_color || view->scene.lowest < height) {
+  const Camera& camera = view->camera;
+  const bool from_below =
+      camera.ortho_height > 0. ? (camera.pose.q * Vector3d::UnitZ()).z() > 0. : camera.pose.p.z() < height;
+  if (view->options.floor_color || view->scene.lowest < height || from_below) {
     drawFloorPart(programs.floor_before, view->wholeFloor(height), kFloorBefore);
   } else {
     if (view->hasShadows()) drawFloorPart(programs.floor_shadows, drawing->shadows.shadedFloor(*view), kFloorShadows);

@@ -149,6 +149,16 @@ def test_cameras_replace_the_state_of_the_simulation(tower) -> None:
         plan.execute(ry.BotOp(C), observe=lambda: {"cup": wrong})
 
 
+def test_a_hand_that_closes_on_nothing_holds_nothing_for_its_repair(tower) -> None:
+    C, plan = tower
+    world = C.copy()
+    block = world.getFrame(plan.actions[0][1])
+    block.setPosition(block.getPosition() + np.array([0.0, -0.25, 0.0]))  # and no camera sees it
+    run = plan.execute(ry.BotOp(world), observe=lambda: {}, repairs=1)
+    assert not run.feasible and run.repairs == 1, run
+    assert "closed on nothing" in run.message
+
+
 def test_a_callback_ends_an_execution(tower) -> None:
     C, plan = tower
     run = plan.execute(ry.BotOp(C), callback=lambda event: event.kind != ry.TaskEventKind.motion)
