@@ -71,8 +71,9 @@ TEST(EstimateSensors, JointOffsetsAreFoundWithinTheirCovariance) {
 
 TEST(EstimateSensors, JointsThatMimicOthersAreNoDofs) {
   const char* fingers = R"(
-    finger: { joint: transX, shape: sphere, size: [.02], pose: [5, 0, 0] }
-    follower: { joint: transX, mimic: finger, shape: sphere, size: [.02], pose: [5, 1, 0] }
+    rail: { pose: [5, 0, 0] }
+    finger (rail): { joint: transX, shape: sphere, size: [.02] }
+    follower (rail): { joint: transX, mimic: finger, shape: sphere, size: [.02] }
   )";
   const VectorXd q = (VectorXd(4) << .02, kAngles).finished(),
                  offsets = (VectorXd(4) << 0., .012, -.009, .015).finished();

@@ -23,6 +23,7 @@ constexpr int kSamples = 500;   // points of a surface
 constexpr double kThin = 1e-9;  // m, lengths that count as zero
 constexpr double kTilt = .1;    // rad, that a shape withstands on a face
 constexpr int kTilts = 8;
+constexpr double kNearFace = .7;     // cosine between a face and the one on which a shape falls
 constexpr double kSameFace = .9998;  // cosine between normals of triangles of one face
 
 bool hasJoint(const Frame& frame) { return frame.data().joint && frame.data().joint->dofs() > 0; }
@@ -331,7 +332,6 @@ void VisibleShape::findRestingDirections() {
     }
   }
   const auto height = [&](const Vector3d& down) { return extent(down) - down.dot(middle); };
-  // Facets of rounded edges are small: the shape would tip over at the slightest tilt.
   const auto keepsStanding = [&](const Vector3d& down) {
     const Vector3d side = down.unitOrthogonal(), other = down.cross(side);
     for (int i = 0; i < kTilts; ++i) {
@@ -341,8 +341,8 @@ void VisibleShape::findRestingDirections() {
     }
     return true;
   };
-  for (const Face& face : faces) {  // stable: the center is above the face
-    if (!keepsStanding(face.normal)) continue;
+  std::vector<Vector3d> stable;
+  for (const Face& face : faces) {  // the center is above the face
     const Vector3d foot = middle + (face.offset - face.normal.dot(middle)) * face.normal;
     for (const auto& t : face.triangles) {
       bool inside = true;
@@ -351,9 +351,16 @@ void VisibleShape::findRestingDirections() {
         inside &= edge.cross(foot - t[std::size_t(i)]).dot(face.normal) > -1e-9;
       }
       if (!inside) continue;
-      resting_.push_back(face.normal);
+      stable.push_back(face.normal);
       break;
     }
+  }
+  // On a facet of a rounded edge, a shape would tip over at the slightest tilt, and lie lower then.
+  for (const Vector3d& down : stable) {
+    const bool may_fall = std::ranges::any_of(stable, [&](const Vector3d& other) {
+      return other.dot(down) > kNearFace && height(other) < height(down) - 1e-6;
+    });
+    if (!may_fall || keepsStanding(down)) resting_.push_back(down);
   }
 }
 
