@@ -192,9 +192,9 @@ void DiffIk::addCosts(const VectorXd& q, int priority, bool is_last) {
 }
 
 /// Damps joints whose step takes back the one before. Where a target is out of reach, the linear model of a task
-/// promises progress that the curvature of the motion denies, and steps would jump to and fro at the velocity limits.
-/// The damping is the curvature that the model lacks: the residual times the change of its Jacobian. A task that a step
-/// attains, such as a target in reach that trembles, has none.
+/// promises progress that the curvature of the motion denies, and steps would jump back and forth at the velocity
+/// limits. The damping is the curvature that the model lacks: the residual times the change of its Jacobian. A task
+/// that a step attains, such as a target in reach that trembles, has none.
 void DiffIk::calmChatter() {
   moved_ = change_.norm();
   for (Task& task : tasks_) {

@@ -50,7 +50,7 @@ enum class DiffIkStatus {
 /// Each step reads the scene again, so that targets and obstacles may move. A step never throws because of limits: from
 /// beyond a limit the joint returns as fast as velocities allow. If dampers contradict the limits or each other, they
 /// are relaxed by the least sum of squares, and the tasks are followed in the remaining directions. A joint with equal
-/// limits does not move. Joints that would move to and fro, because a target is out of reach, are damped until they
+/// limits does not move. Joints that would move back and forth, because a target is out of reach, are damped until they
 /// stand still. After the first step nothing allocates.
 class DiffIk {
  public:
