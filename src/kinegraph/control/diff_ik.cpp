@@ -7,6 +7,8 @@
 #include "kinegraph/collision/near_pairs.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/control/chatter_damping.h"
+#include "kinegraph/control/diff_ik_task.h"
 #include "kinegraph/features/distance.h"
 #include "kinegraph/features/make_residual.h"
 #include "kinegraph/scene/dynamics.h"
@@ -25,10 +27,7 @@ constexpr double kStiffer[] = {0., 1e-10,
                                1e-7};       // damping relative to the largest cost, if rounding prevents a solution
 constexpr double kReportedEquality = 1e-6;  // the same of equalities, in units of the feature
 constexpr double kSpanned = 1e-6;           // a gradient with a smaller share in the free directions is fixed already
-constexpr double kChatter = 1e-6;           // smallest step that is damped if it takes back the one before, rad or m
-constexpr double kFirstCalm = 1., kLargestCalm = 16.;  // damping of chatter, relative to the curvature of the tasks
-constexpr double kFading = .9;                         // of that damping, per step
-constexpr double kStuck = .5;                          // a task is stuck if a step leaves more than this share of it
+constexpr double kStuck = .5;               // a task is stuck if a step leaves more than this share of it
 
 void checkLimits(const char* name, const VectorXd& limits, int dofs) {
   if (limits.size() != 0 && limits.size() != dofs)
@@ -61,26 +60,6 @@ void DiffIkOptions::validate(int dofs) const {
   if (!std::isfinite(margin)) throw ValueError(cat("DiffIk: margin is ", margin, "; expected a finite number (m)"));
 }
 
-struct DiffIk::Task {
-  FeatureSource feature;
-  std::vector<std::string> frames;
-  double weight, gain;
-  VectorXd target;
-  int priority;                    ///< kEquality for an equality
-  std::vector<Residual> residual;  ///< one
-  VectorXd y;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> J;
-  VectorXd left = {};         ///< what the last step left of it, by its linear model
-  decltype(J) J_before = {};  ///< at the step before
-  double bend = 0.;           ///< change of J per change of q
-  bool is_stuck = false;      ///< the last step left most of it
-
-  void makeRoom(int dofs) {
-    const int rows = residual[0].rows();
-    y.setZero(rows), left.setZero(rows), J.setZero(rows, dofs), J_before.setZero(rows, dofs);
-  }
-};
-
 DiffIk::~DiffIk() = default;
 DiffIk::DiffIk(DiffIk&&) noexcept = default;
 DiffIk& DiffIk::operator=(DiffIk&&) noexcept = default;
@@ -104,7 +83,8 @@ void DiffIk::prepare() {
   velocity_limit_ = options_.velocity.size() ? options_.velocity : getVelocityLimits(config_);
   acceleration_limit_ = options_.acceleration.size() ? options_.acceleration : VectorXd::Constant(n, kNoBound);
   velocity_.setZero(n), change_.setZero(n), low_.resize(n), high_.resize(n);
-  calm_.setZero(n), before_.setZero(n), moved_ = 0.;
+  if (!chatter_) chatter_ = std::make_unique<ChatterDamping>();
+  chatter_->reset(n);
   gradient_row_.resize(n), cost_.resize(n, n), slope_.resize(n), direction_.resize(n);
   std::vector<std::pair<int, int>> moving;
   if (options_.collisions)
@@ -183,35 +163,22 @@ void DiffIk::addCosts(const VectorXd& q, int priority, bool is_last) {
     task.J.setZero();
     eval(config_, task.residual[0], task.y, task.J);
     // At most that of a hinge, which turns J: what else moves the scene is no curvature.
-    if (moved_ > kChatter) task.bend = std::min((task.J - task.J_before).norm() / moved_, task.J.norm());
-    if (task.is_stuck) curvature += task.y.norm() * task.bend;
+    const double moved = chatter_->moved();
+    if (moved > 0.) task.curvature.bend = std::min((task.J - task.J_before).norm() / moved, task.J.norm());
+    curvature += task.curvature.of(task.y);
     cost_.noalias() += task.J.transpose() * task.J;
     slope_.noalias() += task.gain * task.J.transpose() * task.y;
   }
-  cost_.diagonal() += curvature * calm_;
+  cost_.diagonal() += curvature * chatter_->damping();
 }
 
-/// Damps joints whose step takes back the one before. Where a target is out of reach, the linear model of a task
-/// promises progress that the curvature of the motion denies, and steps would jump back and forth at the velocity
-/// limits. The damping is the curvature that the model lacks: the residual times the change of its Jacobian. A task
-/// that a step attains, such as a target in reach that trembles, has none.
-void DiffIk::calmChatter() {
-  moved_ = change_.norm();
+/// Learns which tasks the step does not attain, and which joints it moves back.
+void DiffIk::learnChatter() {
   for (Task& task : tasks_) {
-    task.left.noalias() = task.J * change_;
-    task.left += task.gain * task.y;
-    task.is_stuck = task.left.norm() > kStuck * task.gain * task.y.norm();
+    task.findLeft(change_);
+    task.curvature.is_stuck = task.left.norm() > kStuck * task.gain * task.y.norm();
   }
-  for (int j = 0; j < change_.size(); ++j) {
-    const double now = change_[j], size = std::abs(now);
-    const bool takes_back = now * before_[j] < 0. && size > kChatter && size > .5 * std::abs(before_[j]);
-    if (takes_back) {
-      calm_[j] = std::min(std::max(kFirstCalm, 4. * calm_[j]), kLargestCalm);
-    } else if (size > kChatter) {
-      calm_[j] *= kFading;  // at rest it stays: the next step would jump again
-    }
-    if (size > kChatter) before_[j] = now;
-  }
+  chatter_->add(change_);
 }
 
 /// Adds one interval per joint for all of its limits. If they contradict each other, the acceleration limits hold, and
@@ -411,11 +378,15 @@ void DiffIk::solve() {
   for (int t = 0; t < int(tasks_.size()); ++t) {
     Task& task = tasks_[std::size_t(t)];
     if (task.priority != kEquality) continue;
-    task.left.noalias() = task.J * change_;
-    task.left += task.gain * task.y;
+    task.findLeft(change_);
     const double by = task.left.lpNorm<Eigen::Infinity>();
     if (by > kReportedEquality) relaxed_.push_back({{Source::Kind::equality, t, 0.}, by});
   }
+}
+
+void DiffIk::reset() {
+  velocity_.setZero();
+  chatter_->reset(int(velocity_.size()));
 }
 
 const VectorXd& DiffIk::step(double dt, bool apply) {
@@ -428,7 +399,7 @@ const VectorXd& DiffIk::step(double dt, bool apply) {
   addIntervals(q_, dt);
   addDampers(state, dt);
   solve();
-  calmChatter();
+  learnChatter();
   velocity_ = change_ / dt;
   q_ += change_;
   if (apply) config_.setJointState(q_);

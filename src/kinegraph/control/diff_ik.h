@@ -10,6 +10,7 @@
 
 namespace kinegraph {
 
+class ChatterDamping;
 class DualActiveSet;
 class PlacedBodies;
 class State;
@@ -82,7 +83,7 @@ class DiffIk {
   const VectorXd& step(double dt, bool apply = true);
 
   /// Sets the velocity to zero that the next acceleration starts from, and ends the damping of joints.
-  void reset() { velocity_.setZero(), before_.setZero(), calm_.setZero(), moved_ = 0.; }
+  void reset();
 
   const VectorXd& velocity() const { return velocity_; }
   DiffIkStatus status() const { return relaxed_.empty() ? DiffIkStatus::solved : DiffIkStatus::constraints_relaxed; }
@@ -106,7 +107,7 @@ class DiffIk {
   void prepare();
   int add(Task task);
   void addCosts(const VectorXd& q, int priority, bool is_last);
-  void calmChatter();
+  void learnChatter();
   void addIntervals(const VectorXd& q, double dt);
   void addDampers(const State& state, double dt);
   void solve();
@@ -125,9 +126,7 @@ class DiffIk {
   std::shared_ptr<const KinematicModel> model_;
   std::vector<Task> tasks_;
   VectorXd posture_, velocity_, q_, change_, low_, high_, velocity_limit_, acceleration_limit_;
-  VectorXd before_;    ///< last steps of the joints that moved
-  VectorXd calm_;      ///< damping of each joint against chatter, relative to the curvature of stuck tasks
-  double moved_ = 0.;  ///< length of the last step
+  std::unique_ptr<ChatterDamping> chatter_;
   MatrixXd limits_;
   std::unique_ptr<BodyPairs> pairs_;
   std::unique_ptr<PlacedBodies> bodies_;
