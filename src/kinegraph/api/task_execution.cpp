@@ -24,7 +24,6 @@ constexpr double kEmpty = 2e-3;                               ///< m: a gripper 
 constexpr double kWeak = .5;                                  ///< N: fingers that press less hold nothing
 constexpr double kTimeout = 3., kQueryInterval = .05;         ///< s for a gripper, and between queries
 constexpr double kComesToRest = .3;                           ///< s until objects are at rest
-constexpr double kGripForce = 40.;                            ///< N
 constexpr double kThere = 1e-3;                               ///< rad or m: a start that is closer needs no motion
 constexpr double kFar = .05;                                  ///< rad or m: tolerance of joints
 constexpr double kBlocked = .5;                               ///< rad or m: of a robot that was stopped, to its path
@@ -351,7 +350,7 @@ class TaskRun::Impl {
       return "";
     }
     const int number = gripper->second;
-    bot_.gripperCloseGrasp(number, obj, std::min(kGripForce, infoOf(number).max_force));
+    bot_.gripperCloseGrasp(number, obj, std::min(kHoldingForce, infoOf(number).max_force));
     waitFor(number);
     if (isShut(number)) return cat("'", hand, "' closed on nothing");
     const double force = world_.gripForce(hand, obj);

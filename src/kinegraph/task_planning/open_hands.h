@@ -10,8 +10,7 @@ namespace kinegraph {
 
 /// Returns the scene with the fingers of its hands as far open as their limits allow, also around held objects. A hand
 /// opens less if its fingers would overlap something else. Fingers are joints that are no part of q: one joint with one
-/// dof and limits, and those that mimic it, on the link of the hand. `most`:
-/// the opening of hands that open wider, m.
+/// dof and limits, and those that mimic it, on the link of the hand. `most`: the opening of hands that open wider, m.
 Config withOpenHands(const Config& C, double most = std::numeric_limits<double>::infinity());
 
 /// Returns a scene with the fingers of hands as in another one.

@@ -17,8 +17,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kFine = 1e-3;      ///< m
-constexpr double kGripTorque = .3;  ///< N m: fingers that press with 40 N hold it, with pads of 2 cm
+constexpr double kFine = 1e-3;                         ///< m
+constexpr double kGripTorque = .0075 * kHoldingForce;  ///< N m, that pads of 2 cm withstand
 
 /// Returns the frames fixed to a body, the body first.
 std::vector<Frame> fixedTo(const Frame& body) {

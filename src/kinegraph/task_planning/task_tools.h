@@ -27,6 +27,9 @@ bool isBall(const Frame& obj);
 /// place.
 double supportOf(const Frame& obj, const Frame& place);
 
+/// The force with which hands hold objects, as planned and as executed, N.
+inline constexpr double kHoldingForce = 40.;
+
 /// Returns the mass of a body with all parts fixed to it, kg; 0 if none is said.
 double massOfBody(const Frame& body);
 

@@ -11,8 +11,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kLifted = 40.;     ///< N: fingers that press with 40 N, and half of their friction to spare
-constexpr Eigen::Index kEvery = 8;  ///< rows of a path that are left out between two
+constexpr double kLifted = kHoldingForce;  ///< N: half of the friction of both fingers is to spare
+constexpr Eigen::Index kEvery = 8;         ///< rows of a path that are left out between two
 
 /// Some rows of a path, its ends included.
 MatrixXd sampled(const MatrixXd& path) {

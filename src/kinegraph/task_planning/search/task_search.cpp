@@ -153,7 +153,12 @@ std::optional<TaskPlan> TaskSearch::next() {
   };
   executor_.cancelAll();
   const Rest rest{*this};
-  if (narrower_) return narrower_->next();
+  if (narrower_) {
+    const auto before = narrower_->evaluations();
+    std::optional<TaskPlan> plan = narrower_->next();
+    evaluations_ += narrower_->evaluations() - before;
+    return plan ? std::optional(ofNarrowerHands(std::move(*plan))) : std::nullopt;
+  }
   std::optional<TaskPlan> plan = nextPlan();
   std::optional<TaskPlan> other = plan ? withNarrowerHands(*plan) : std::nullopt;
   return other ? std::move(other) : std::move(plan);
@@ -174,13 +179,19 @@ std::optional<TaskPlan> TaskSearch::withNarrowerHands(const TaskPlan& failed) {
     evaluations_ += search->evaluations();
     if (!plan || !plan->feasible()) continue;
     narrower_ = std::move(search);
-    plan->evaluations = evaluations();
-    plan->replanner = replannerTo(goal_text_, options_);
-    plan->warnings.push_back(
-        cat("hands open to ", fixed(1e3 * opening, 0), " mm only: wider ones have no room at the objects"));
-    return plan;
+    return ofNarrowerHands(std::move(*plan));
   }
   return std::nullopt;
+}
+
+/// A plan of the search with hands that open less, as one of this search.
+TaskPlan TaskSearch::ofNarrowerHands(TaskPlan plan) const {
+  plan.evaluations = evaluations();
+  if (!plan.feasible()) return plan;
+  plan.replanner = replannerTo(goal_text_, options_);
+  plan.warnings.push_back(
+      cat("hands open to ", fixed(1e3 * narrower_->opening_, 0), " mm only: wider ones have no room at the objects"));
+  return plan;
 }
 
 /// Excludes actions that are proved to be impossible. Returns the answer if nothing in logic reaches the goal.

@@ -45,6 +45,7 @@ class TaskSearch {
 
   std::optional<TaskPlan> begin();
   std::optional<TaskPlan> withNarrowerHands(const TaskPlan& failed);
+  TaskPlan ofNarrowerHands(TaskPlan plan) const;
   std::optional<TaskPlan> nextPlan();
   std::optional<Actions> nextActions();
   std::optional<TaskPlan> nextOf(Trial& trial);
