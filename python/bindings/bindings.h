@@ -75,6 +75,7 @@ void bindCompatibility(nb::class_<PyConfig>& config);
 void bindFormats(nb::class_<PyConfig>& config, nb::class_<Frame>& frame);
 void bindRendering(nb::module_& m);
 void bindPerception(nb::module_& m);
+void bindSceneObserver(nb::module_& m);
 void bindViewer(nb::module_& m, nb::class_<PyConfig>& config);
 
 /// Reports warnings about a scene through Python's `warnings`.

@@ -16,8 +16,8 @@
 #include "kinegraph/perception/register_scene.h"
 #include "kinegraph/scene/collisions.h"
 #include "perception/calibration_docs.h"
+#include "perception/depth_views.h"
 #include "perception/perception_docs.h"
-#include "perception/scene_observer_object.h"
 #include "planning/plan_objects.h"
 #include "python_names.h"
 
@@ -69,14 +69,6 @@ void makeDepthView(DepthView* self, const ArrayArgument& depth, const Numbers& f
   view.validate("DepthView");
   new (self) DepthView(std::move(view));
 }
-
-/// Reads a DepthView, or a list of them.
-std::vector<DepthView> depthViews(nb::handle views) {
-  if (nb::isinstance<DepthView>(views)) return {nb::cast<DepthView>(views)};
-  return nb::cast<std::vector<DepthView>>(views);
-}
-
-Array seenPose(const Pose& pose) { return toNumpy(VectorXd(pose.numbers())); }
 
 SeenScene registerFrames(PyConfig& config, nb::handle views, const std::vector<std::string>& frames,
                          const std::optional<std::string>& support, double search_radius, const std::string& prior,
@@ -231,53 +223,6 @@ Frame& setCellsOf(Frame& frame, const ArrayArgument& data, const Numbers& size) 
   return frame;
 }
 
-void makeObserver(PySceneObserver* self, const nb::object& take, std::vector<std::string> frames,
-                  const std::optional<std::string>& support, double search_radius, const std::string& prior,
-                  const nb::object& map, const std::string& unseen) {
-  RegisterOptions options;
-  options.prior = priorFromName(prior);
-  options.support = support.value_or("");
-  options.search_radius = search_radius;
-  OccupancyMap* cells = map.is_none() ? nullptr : &nb::cast<OccupancyMap&>(map);
-  const auto views = [take] {
-    const nb::gil_scoped_acquire lock;
-    return depthViews(take());
-  };
-  auto observer = std::make_unique<SceneObserver>(views, std::move(frames), options, cells, unseenFromName(unseen));
-  new (self) PySceneObserver{take, map, std::move(observer)};
-}
-
-nb::dict observeWith(PySceneObserver& self, PyConfig& config) {
-  std::map<std::string, std::optional<Pose>> poses;
-  {
-    const nb::gil_scoped_release unlock;
-    poses = self.observe(config);
-  }
-  nb::dict result;
-  for (const auto& [name, pose] : poses) result[name.c_str()] = pose ? nb::cast(seenPose(*pose)) : nb::none();
-  return result;
-}
-
-void bindSceneObserver(nb::module_& m) {
-  nb::class_<PySceneObserver>(m, "SceneObserver", docs::perception::sceneObserver)
-      .def("__init__", makeObserver, "take"_a, "frames"_a, nb::kw_only(), "support"_a = nb::none(),
-           "search_radius"_a = RegisterOptions().search_radius, "prior"_a = "last", "map"_a = nb::none(),
-           "unseen"_a = "shadows",
-           nb::sig("def __init__(self, take: collections.abc.Callable[[], DepthView | "
-                   "collections.abc.Sequence[DepthView]], frames: collections.abc.Sequence[str], *, support: str | "
-                   "None = None, search_radius: float = 0.05, prior: str = 'last', map: OccupancyMap | None = None, "
-                   "unseen: str = "
-                   "'shadows') -> None"),
-           docs::perception::makeObserver)
-      .def("observe", observeWith, "config"_a, docs::perception::observe,
-           nb::sig("def observe(self, config: Config) -> dict[str, numpy.ndarray | None]"))
-      .def_prop_ro(
-          "seen", [](const PySceneObserver& self) { return self.observer->seen(); },
-          "The SeenScene of the last images: what they showed of the things.")
-      .def_ro("map", &PySceneObserver::map, nb::for_getter(nb::sig("def map(self, /) -> OccupancyMap | None")),
-              "The OccupancyMap, or None.");
-}
-
 void bindOccupancyMap(nb::module_& m) {
   nb::borrow<nb::class_<Frame>>(nb::type<Frame>())
       .def("setCells", setCellsOf, "data"_a, "size"_a, kChain, docs::perception::setCells);
@@ -385,13 +330,6 @@ void bindNextView(nb::module_& m) {
 }
 
 }  // namespace
-
-std::map<std::string, std::optional<Pose>> PySceneObserver::observe(Config& scene) {
-  std::map<std::string, std::optional<Pose>> poses = observer->observe(scene);
-  const nb::gil_scoped_acquire lock;
-  for (const std::string& warning : observer->seen().warnings) emitWarning(cat("SceneObserver: ", inPython(warning)));
-  return poses;
-}
 
 void bindPerception(nb::module_& m) {
   nb::class_<DepthView>(m, "DepthView", "A depth image with the camera that took it.")
