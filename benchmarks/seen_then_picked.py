@@ -17,19 +17,13 @@ import time
 import warnings
 
 import numpy as np
+from stereo_cameras import camera_pose, image
 
 import kinegraph as ry
 
 EYES = ([-0.75, 1.15, 1.35], [0.8, 1.05, 1.3])
 REGION = [[-0.55, -0.05, 0.655], [0.55, 0.8, 1.15]]
 TABLE = 0.65  # m, height of its top
-
-
-def camera_pose(eye, at):
-    z = np.subtract(at, eye) / np.linalg.norm(np.subtract(at, eye))
-    x = np.cross(z, [0, 0, 1]) / np.linalg.norm(np.cross(z, [0, 0, 1]))
-    frame = ry.Config().addFrame("camera").setRotationMatrix(np.stack([x, np.cross(z, x), z], axis=1))
-    return np.concatenate([eye, frame.getQuaternion()])
 
 
 def add_thing(C, name, shape, size, place, turn):
@@ -75,18 +69,6 @@ def draw(rng):
     shape, size = draw_shape(rng)
     add_thing(world, "stranger", shape, [*size[:2], size[2] + 0.08, size[3]] if len(size) > 2 else size, stranger, 0.3)
     return C, world, names, names[: rng.integers(1, 3)]
-
-
-def image(world, camera, rng):
-    view = ry.CameraView(world)
-    view.setCamera(camera)
-    depth = view.computeImageAndDepth()[1].astype(float)
-    edge = np.zeros(depth.shape, bool)
-    edge[:, 1:] |= abs(np.diff(depth, axis=1)) > 0.03
-    edge[1:, :] |= abs(np.diff(depth, axis=0)) > 0.03
-    depth += 0.0027 * depth**2 * rng.normal(size=depth.shape)
-    depth[(edge & (rng.random(depth.shape) < 0.7)) | (rng.random(depth.shape) < 0.01)] = 0
-    return ry.DepthView(depth, view.getFxycxy(), camera)
 
 
 def push(bot, name, rng):

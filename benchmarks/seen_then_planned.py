@@ -16,18 +16,12 @@ import copy
 import time
 
 import numpy as np
+from stereo_cameras import camera_pose, image
 
 import kinegraph as ry
 
 EYES = ([-0.7, 1.1, 1.45], [0.75, 1.0, 1.4])
 REGION = [[-0.55, -0.05, 0.655], [0.55, 0.8, 1.25]]
-
-
-def camera_pose(eye, at):
-    z = np.subtract(at, eye) / np.linalg.norm(np.subtract(at, eye))
-    x = np.cross(z, [0, 0, 1]) / np.linalg.norm(np.cross(z, [0, 0, 1]))
-    frame = ry.Config().addFrame("camera").setRotationMatrix(np.stack([x, np.cross(z, x), z], axis=1))
-    return np.concatenate([eye, frame.getQuaternion()])
 
 
 def draw(rng):
@@ -52,18 +46,6 @@ def draw(rng):
             thing.setShape(ry.ST.box, [*rng.uniform(0.05, 0.12, 2), height])
         thing.setContact(1)
     return C, truth
-
-
-def image(truth, camera, rng):
-    view = ry.CameraView(truth)
-    view.setCamera(camera)
-    depth = view.computeImageAndDepth()[1].astype(float)
-    edge = np.zeros(depth.shape, bool)
-    edge[:, 1:] |= abs(np.diff(depth, axis=1)) > 0.03
-    edge[1:, :] |= abs(np.diff(depth, axis=0)) > 0.03
-    depth += 0.0027 * depth**2 * rng.normal(size=depth.shape)
-    depth[(edge & (rng.random(depth.shape) < 0.7)) | (rng.random(depth.shape) < 0.01)] = 0
-    return ry.DepthView(depth, view.getFxycxy(), camera)
 
 
 def ends(truth, rng):
