@@ -2,36 +2,13 @@
 
 import functools
 import pickle
-import struct
 import time
-import zlib
 
 import numpy as np
 import pytest
 
 import kinegraph as ry
-from kinegraph.cli import main
-
-X, Y, Z = np.eye(3)
-LIMITS = {"acceleration": 6.0, "jerk": 120.0}
-
-
-@pytest.fixture
-def scene():
-    C = ry.Config()
-    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
-    hand = "l_gripper"
-    C.addFrame("pen", hand).setShape(ry.ST.capsule, [0.06, 0.008]).setRelativePosition([0, 0, -0.032]).setContact(-2)
-    C.addFrame("tool", hand).setRelativePosition([0, 0, -0.08])
-    return C
-
-
-def poses(C, q, frame="tool"):
-    return C.evalBatch(ry.FS.pose, [frame], q)[0]
-
-
-def samples(plan, rate=1000.0):
-    return plan.sample(rate)[:2]
+from tool_motion import LIMITS, X, Y, Z, distance_from_line, poses, samples
 
 
 def shares(C, q, h):
@@ -42,12 +19,6 @@ def shares(C, q, h):
         np.abs(a).max() / LIMITS["acceleration"],
         np.abs(j).max() / LIMITS["jerk"],
     )
-
-
-def distance_from_line(p, a, b):
-    u = (b - a) / np.linalg.norm(b - a)
-    s = np.clip((p - a) @ u, 0, np.linalg.norm(b - a))
-    return np.linalg.norm(p - a - s[:, None] * u, axis=1)
 
 
 def test_a_line_is_straight_at_constant_speed_within_all_limits(scene):
@@ -232,75 +203,6 @@ def test_a_failure_names_place_and_pair(scene):
         plan.eval(0.0)
 
 
-def test_rows_are_read_from_a_file(scene, tmp_path):
-    start = scene.getFrame("tool").getPosition()
-    rows = start + np.linspace(0, 0.1, 101)[:, None] * [0, 1, 0]
-    file = tmp_path / "seam.csv"
-    file.write_text("x, y, z\n# a comment\n" + "\n".join(",".join(map(repr, map(float, row))) for row in rows))
-    plan = ry.planToolPath(scene, ry.ToolPath.read(file, frame="tool"), speed=0.1)
-    assert plan, plan.message
-    x = poses(scene, samples(plan)[1])[:, :3]
-    assert distance_from_line(x, rows[0], rows[-1]).max() <= 2e-5
-    file.write_text("0,0,0\n0,0,a\n")
-    with pytest.raises(ry.ParseError, match=r"seam.csv:2:5: 'a' is not a number"):
-        ry.ToolPath.read(file)
-    with pytest.raises(ry.FileError, match="nothing.csv"):
-        ry.ToolPath.read(tmp_path / "nothing.csv")
-
-
-ROWS = np.c_[np.linspace([0.0, 0.3, 0.85], [0.1, 0.3, 0.85], 11), np.tile([0.0, 0.0, 1.0], (11, 1))]
-POSES = np.c_[ROWS[:, :3], np.tile([1.0, 0, 0, 0], (11, 1))]  # x y z qw qx qy qz
-
-
-def table(rows, separator=","):
-    return "\n".join(separator.join(map(repr, map(float, row))) for row in rows)
-
-
-@pytest.mark.parametrize(
-    "text",
-    [
-        "\ufeff" + table(ROWS),  # with the byte order mark of spreadsheets
-        '\ufeff"X";"Y";"Z";"NX";"NY";"NZ"\r\n' + table(ROWS, ";").replace("\n", "\r\n"),
-        "nx,ny,nz,x,y,z\n" + table(ROWS[:, [3, 4, 5, 0, 1, 2]]),
-        "x y z qx qy qz qw\n" + table(POSES[:, [0, 1, 2, 4, 5, 6, 3]], " "),  # as ROS has it
-        "point on the seam\n" + table(ROWS, "\t").replace("\n", "  # a comment\n"),
-        table(ROWS).replace("\n", ",\n"),
-    ],
-)
-def test_rows_of_many_tables_are_the_same(scene, tmp_path, text):
-    file = tmp_path / "seam.csv"
-    file.write_bytes(text.encode("utf-16") if "qx" in text else text.encode())
-    path = ry.ToolPath.read(file).free()
-    plan = ry.planToolPath(scene, path, speed=0.1)
-    assert plan, plan.message
-    x = poses(scene, plan.eval(np.array([0.0, plan.duration]))[0])
-    np.testing.assert_allclose(x[:, :3], ROWS[[0, -1], :3], atol=3e-5)
-    z = scene.evalBatch(ry.FS.vectorZ, ["tool"], plan.eval(np.array([0.0]))[0])[0]
-    np.testing.assert_allclose(z, [[0, 0, 1]], atol=1e-4)
-
-
-@pytest.mark.parametrize(
-    ("text", "message"),
-    [
-        ("0.1,0.2,O.3\n0,0,0\n0,0,1\n", r"1:9: 'O.3' is not a number"),  # a letter, and no column name
-        ("0,4;0,1;0,15\n0,5;0,1;0,15\n", r"1:2: the row has commas and semicolons"),
-        ("0,5\t0,2\t0,1\n0,5\t0,2\t0,2\n", r"1:5: the field has two numbers"),
-        ("0,5 0,2 0,1\n0,5 0,2 0,2\n", r"1:5: the field has two numbers"),
-        ("0,0,0\n0,,1\n", r"2:3: the field is empty"),
-        ("x,y,z,rx,ry,rz\n0,0,0,0,0,0\n", r"1:7: the column 'rx' is an angle; expected a normal"),
-        ("x,y,z\n0,0,0,1\n0,0,1,1\n", r"2:7: the row has 4 numbers"),
-        ("x,y,z,qx,qy,qz,qz\n0,0,0,0,0,0,1\n", r"1:1: the names of the columns are not x y z"),
-        ("z,y,x\n0,0,0,0,0,1\n", r"2:11: the row has 6 numbers; there are 3 names"),
-        ("nan,nan,nan\n0,0,0\n0,0,1\n", r"1:1: 'nan' is not a number"),
-    ],
-)
-def test_tables_that_are_not_read_are_explained(tmp_path, text, message):
-    file = tmp_path / "seam.csv"
-    file.write_text(text)
-    with pytest.raises(ry.ParseError, match=r"seam\.csv:" + message):
-        ry.ToolPath.read(file)
-
-
 def test_blends_that_overlap_shrink_and_the_robot_moves():
     C = ry.Config()
     C.addFile(ry.raiPath("ur5e/ur5e.g"))
@@ -351,41 +253,6 @@ def test_a_simulated_robot_follows_the_plan(scene):
     assert np.linalg.norm(scene.getFrame("tool").getPosition() - end) < 2e-3
 
 
-def test_the_command_line_writes_the_motion(scene, tmp_path):
-    file, rows, motion = tmp_path / "scene.g", tmp_path / "seam.csv", tmp_path / "motion.csv"
-    scene.write(file)
-    start = scene.getFrame("tool").getPosition()
-    np.savetxt(rows, start + np.linspace(0, 0.1, 51)[:, None] * Y, delimiter=",")
-    command = ["toolpath", str(file), "--points", str(rows), "--free", "z", "--speed", "0.05", "-o", str(motion)]
-    assert main([*command, "--no-view"]) == 0
-    table = np.loadtxt(motion, delimiter=",", skiprows=1)
-    n = scene.getJointDimension()
-    assert table.shape[1] == 1 + 3 * n  # time, q, velocities, accelerations
-    x = poses(scene, table[:, 1 : n + 1])[:, :3]
-    assert distance_from_line(x, start, start + 0.1 * Y).max() <= 2e-5
-
-
-def test_the_command_line_does_several_paths_from_where_the_robot_is(scene, tmp_path, capsys):
-    file, motion = tmp_path / "scene.g", tmp_path / "motion.csv"
-    scene.write(file)
-    home = scene.getFrame("tool").getPosition()
-    seams = []
-    for i, offset in enumerate(([0.0, 0.2, 0.0], [0.05, -0.1, 0.0])):
-        seams.append(str(tmp_path / f"seam{i}.csv"))
-        np.savetxt(seams[-1], home + offset + np.linspace(0, 0.05, 51)[:, None] * Y, delimiter=",")
-    command = ["toolpath", str(file), "--points", *seams, "--order", "free", "--transfer", "--jerk", "200", "--no-view"]
-    assert main([*command, "-o", str(motion)]) == 0
-    table = np.loadtxt(motion, delimiter=",", skiprows=1)
-    n = scene.getJointDimension()
-    assert np.abs(table[0, 1 : n + 1] - scene.getJointState()).max() < 1e-6
-    x = poses(scene, table[:, 1 : n + 1])[:, :3]
-    for seam in seams:
-        ends = np.loadtxt(seam, delimiter=",")[[0, -1]]
-        assert all(np.linalg.norm(x - end, axis=1).min() < 2e-3 for end in ends)
-    assert main([*command, "--touching", "tabel"]) == 1
-    assert "tabel" in capsys.readouterr().err
-
-
 def test_a_torch_leans_by_its_travel_and_work_angles(scene):
     """On a line along x, travel leans z to +x, and work to the left, seen along the path with z up."""
     s = np.linspace(-0.1, 0.1, 41)
@@ -410,44 +277,6 @@ def test_lean_refuses_paths_without_normals(scene):
         rows.lean(0.1)
     with pytest.raises(ValueError, match="travel is 2"):
         rows.lean(2.0)
-
-
-def rgb_of(file):
-    """The pixels of a PNG file whose lines have no filter, shape (height, width, 3)."""
-    data = file.read_bytes()
-    width, height = struct.unpack(">II", data[16:24])
-    packed, at = b"", 8
-    while at < len(data):
-        size, kind = struct.unpack(">I4s", data[at : at + 8])
-        packed += data[at + 8 : at + 8 + size] if kind == b"IDAT" else b""
-        at += size + 12
-    lines = np.frombuffer(zlib.decompress(packed), np.uint8).reshape(height, 1 + 3 * width)
-    assert not lines[:, 0].any()
-    return lines[:, 1:].reshape(height, width, 3).astype(int)
-
-
-def test_the_command_line_saves_a_picture_of_the_path_colored_by_speed(tmp_path):
-    rows, picture = tmp_path / "seam.csv", tmp_path / "seam.png"
-    C = ry.Config()
-    C.addFile(ry.raiPath("ur5e/ur5e.g"))
-    np.savetxt(rows, C.getFrame("tool0").getPosition() + np.linspace(0, 0.3, 51)[:, None] * Y, delimiter=",")
-    command = ["toolpath", "ur5e/ur5e.g", "--frame", "tool0", "--points", str(rows), "--speed", "0.05", "--no-view"]
-    assert main([*command, "--picture", str(picture)]) == 0
-    rgb = rgb_of(picture)
-    green = (rgb[..., 1] > rgb[..., 0] + 60) & (rgb[..., 1] > rgb[..., 2] + 60)
-    assert green.sum() > 50
-
-
-def test_the_command_line_saves_a_film(scene, tmp_path):
-    av = pytest.importorskip("av")
-    file, rows, film = tmp_path / "scene.g", tmp_path / "seam.csv", tmp_path / "seam.mp4"
-    scene.write(file)
-    start = scene.getFrame("tool").getPosition()
-    np.savetxt(rows, start + np.linspace(0, 0.05, 51)[:, None] * Y, delimiter=",")
-    command = ["toolpath", str(file), "--points", str(rows), "--free", "z", "--speed", "0.1", "--no-view"]
-    assert main([*command, "--film", str(film)]) == 0
-    with av.open(str(film)) as opened:
-        assert sum(1 for _ in opened.decode(video=0)) >= 25
 
 
 def test_invalid_arguments_are_explained(scene):
@@ -492,34 +321,6 @@ def test_the_free_rotation_keeps_its_range_and_the_preferred_angle(scene):
         ry.ToolPath("tool").free(range=(0.6, 0.2))
     with pytest.raises(ry.errors.ArgumentError, match="prefer is 1"):
         ry.ToolPath("tool").free(range=(0, 0.5), prefer=1)
-
-
-def test_a_program_of_gcode_is_cut_at_its_feeds(scene, tmp_path):
-    C = scene
-    C.addFrame("work", "table").setRelativePosition([0, 0.35, 0.15])
-    file = tmp_path / "slot.nc"
-    file.write_text(
-        "(a slot) G21 G90\nG0 X-40 Y0 Z20\nG1 Z0 F1200\nG1 X40 F6000\nG3 X40 Y20 J10\nG1 X-40\nG3 Y0 J-10\nM5\nM30\n"
-    )
-    path = ry.ToolPath.read(file, relativeTo="work").free()
-    assert path.warnings == [f"{file}:8:1: M5 is ignored"]
-    plan = ry.planToolPath(C, path, speed=0.3, **LIMITS)
-    assert plan, plan.message
-    t, q = samples(plan)
-    p = poses(C, q)[:, :3] - C.getFrame("work").getPosition()
-    way = np.array([plan.way(time)[1] for time in t])
-    speed = np.linalg.norm(np.diff(p, axis=0), axis=1) / t[1]
-    plunge = way[1:] < 0.02 - 1e-4
-    assert speed[plunge].max() <= 0.02 * 1.001
-    assert speed.max() <= 0.1 * 1.001
-    on_slot = p[way > 0.0201]
-    straight = np.abs(on_slot[:, 0]) <= 0.04
-    assert np.minimum(np.abs(on_slot[straight, 1]), np.abs(on_slot[straight, 1] - 0.02)).max() < 2.1e-5
-    round = on_slot[~straight, :2] - np.c_[np.sign(on_slot[~straight, 0]) * 0.04, np.full(np.sum(~straight), 0.01)]
-    assert np.abs(np.linalg.norm(round, axis=1) - 0.01).max() < 2.1e-5
-    file.write_text("G0 X0 Y0 Z0\nG1 X5 Q3\nG83 Z1\n")
-    with pytest.raises(ry.errors.ParseError, match=r"slot\.nc:3:1: unknown code G83"):
-        ry.ToolPath.readGcode(file)
 
 
 def test_each_of_several_speeds_is_kept_within_half_a_percent(scene):
