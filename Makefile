@@ -22,7 +22,7 @@ demo: install
 	$(VENV)/bin/kinegraph demo $(ARGS)
 
 install: $(VENV)/bin/python
-	$(VENV)/bin/python -m pip install --quiet --disable-pip-version-check .
+	PYTHON="$(PYTHON)" bash tools/install.sh $(VENV)
 
 test:
 	PYTHON="$(PYTHON)" bash tools/test.sh

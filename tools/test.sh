@@ -15,9 +15,8 @@ quietly() { "$@" >build/last.log 2>&1 || { tail -80 build/last.log; exit 1; }; }
 step "tools"
 bash tools/apt_install.sh libgtest-dev chromium ccache libegl1 libgl1-mesa-dri valgrind
 tools=$PWD/build/tools_venv
-[ -x "$tools/bin/python" ] || bash tools/make_venv.sh "${PYTHON:-python3}" "$tools"
-"$tools/bin/python" tools/build_requirements.py >build/requirements.txt
-"$tools/bin/python" -m pip install -r build/requirements.txt "cmake>=3.25,<4.4" "ninja>=1.11" ruff==0.17.5 clang-format==14.0.6
+bash tools/build_venv.sh
+"$tools/bin/python" -m pip install ruff==0.17.5 clang-format==14.0.6
 PATH="$tools/bin:$PATH"
 
 step "layers, generated files, lint"
