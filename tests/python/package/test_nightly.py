@@ -13,6 +13,7 @@ NOT_RUN = {
     "control_peers",
     "panda_peers",
     "planning_peers",
+    "stereo_cameras",
     "everyday_objects",
     "everyday_scenes",
     "komo_family",
