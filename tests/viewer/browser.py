@@ -206,8 +206,18 @@ class Browser:
     def picture(self) -> np.ndarray:
         """The page as people see it, without the colored axes in the corner and the toolbar, since tests find shapes by
         their colors: rgb bytes, shape (HEIGHT, WIDTH, 3)."""
-        self.wait_for("kinegraph.idle()")
         self.evaluate(HIDE_TOOLS.format("hidden"))
-        png = self.call("Page.captureScreenshot", format="png")["data"]
+        png = self._still()
         self.evaluate(HIDE_TOOLS.format(""))
         return self.decode(png, HEIGHT)
+
+    def _still(self) -> str:
+        """A picture in full resolution, in base64: one during which the page has drawn nothing, as it does when warnings
+        arrive a second after a change."""
+        drawn = "kinegraph.idle() ? kinegraph.pictures() : -1"
+        while True:
+            self.wait_for("kinegraph.idle()")
+            before = self.evaluate(drawn)
+            png = self.call("Page.captureScreenshot", format="png")["data"]
+            if before != -1 and before == self.evaluate(drawn):
+                return png
