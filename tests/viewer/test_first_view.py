@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gzip
 import json
+import time
 import urllib.request
 
 import numpy as np
@@ -149,3 +150,16 @@ def test_page_and_meshes_are_sent_compressed(config: kg.Config) -> None:
                 pass
             meshes.append(message)
     assert meshes[0] == meshes[1]
+
+
+def test_a_page_without_shapes_does_not_set_the_camera(config: kg.Config, browser: Browser) -> None:
+    config.addFrame("origin")
+    config.view()
+    pose = config.viewer().getCamera_pose()
+    browser.open(config.viewer().url)
+    size = {"deviceScaleFactor": 1, "mobile": False}
+    browser.call("Emulation.setDeviceMetricsOverride", width=WIDTH // 2, height=HEIGHT, **size)
+    browser.wait_for(f"innerWidth === {WIDTH // 2} && kinegraph.idle()")
+    time.sleep(0.3)  # the program would receive the camera
+    browser.call("Emulation.setDeviceMetricsOverride", width=WIDTH, height=HEIGHT, **size)
+    assert np.array_equal(config.viewer().getCamera_pose(), pose)

@@ -196,9 +196,10 @@ export class Stage {
     new THREE.Box3().setFromPoints(corners).getBoundingSphere(this.ball);
     this.lights.fitShadows(this.ball.center, this.ball.radius);
     if (!this.isPlaced) {
-      const meshes = this.visible().filter((object) => object instanceof THREE.Mesh && !(object instanceof WideLines));
+      const seen = this.visible();
+      const meshes = seen.filter((object) => object instanceof THREE.Mesh && !(object instanceof WideLines));
       this.viewpoint.start(firstDirection(meshes as THREE.Mesh[]), corners);
-      this.moves.forEach((move) => move());
+      if (seen.length > 0) this.moves.forEach((move) => move()); // else the program's camera may not have arrived yet
     }
     this.redraw();
   }
