@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -14,17 +13,11 @@ import kinegraph as kg
 
 from .browser import Browser
 from .program import KinematicModel
+from .waiting import wait_until
 
 Start = Callable[..., KinematicModel]
 
 TWO_PICTURES = "new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done(true))))"
-
-
-def wait_until(true: Callable[[], bool]) -> None:
-    deadline = time.monotonic() + 60
-    while not true():
-        assert time.monotonic() < deadline
-        time.sleep(0.02)
 
 
 @pytest.fixture

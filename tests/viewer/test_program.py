@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import time
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +11,7 @@ import pytest
 import kinegraph as kg
 
 from .browser import Browser
+from .waiting import wait_until
 
 CONTROL = "document.querySelector('#tab-program [aria-label=\"{}\"]')"
 
@@ -44,13 +43,6 @@ def test_a_button_is_clicked_once_by_mouse_and_by_key(
     browser.press("p", text="p")
     wait_until(lambda: config.view() == 0 and len(calls) == 2)
     assert button.clicked()
-
-
-def wait_until(condition: Callable[[], object], seconds: float = 20) -> None:
-    deadline = time.monotonic() + seconds
-    while not condition():
-        assert time.monotonic() < deadline, "never true"
-        time.sleep(0.02)
 
 
 def test_values_go_both_ways_and_lie_in_their_folders(

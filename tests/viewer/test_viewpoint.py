@@ -10,6 +10,7 @@ import kinegraph as kg
 from .browser import Browser
 from .camera import HEIGHT, WIDTH
 from .program import KinematicModel
+from .waiting import wait_until
 
 BALLS = {
     "red": ([1, 0, 0], [0.0, 0.0, 0.5]),
@@ -263,8 +264,7 @@ def test_digits_are_keys_like_others_elsewhere(balls: kg.Config, browser: Browse
     browser.open(balls.viewer().url)
     browser.press("7")
     assert not browser.evaluate("document.querySelector('.name')?.checkVisibility()")
-    browser.wait_for("true")
-    assert balls.view() == ord("7")
+    wait_until(lambda: balls.view() == ord("7"))
 
 
 @pytest.mark.parametrize("flat", [False, True])
