@@ -412,3 +412,15 @@ def test_frames_that_are_placed_are_there_in_the_configuration_and_joints_are_re
     assert panda.getFrame("table").getPosition() == pytest.approx([0.1, 0.2, 0.3])
     with pytest.raises(ry.ArgumentError, match="'l_panda_joint3' is a joint of the robot, which moveTo moves"):
         bot.setFramePose("l_panda_joint3", [0, 0, 1, 1, 0, 0, 0])
+
+
+def test_a_robot_whose_base_falls_is_told_that_no_motor_holds_it() -> None:
+    C = ry.Config()
+    C.addText(
+        "world: {}\nbase (world): { joint: free, q: [0 0 2 1 0 0 0], shape: box, size: [.2 .2 .2], mass: 5 }\n"
+        "arm (base): { joint: hingeY, limits: [-1 1], shape: box, size: [.1 .1 .3], mass: 1 }"
+    )
+    bot = ry.BotOp(C, False)
+    bot.moveTo([0, 0, 2, 1, 0, 0, 0, 0.5])
+    with pytest.raises(ry.RobotFault, match="joint 'base:.' is .* or is it the free joint of a base or an object, wh"):
+        bot.wait(C)
