@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "kinegraph/features/eval.h"
 #include "kinegraph/ik/solve_ik.h"
 #include "kinegraph/simulation/simulation.h"
@@ -38,6 +40,15 @@ TEST_F(ConfigCalls, ViewShowsOnAPageOfItsOwn) {
   config = copy;
   EXPECT_EQ(&config.viewer(), page);
   EXPECT_TRUE(page->isOpen());
+}
+
+TEST_F(ConfigCalls, AShownSceneIsSavedAsAPage) {
+  config.view();
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "config_calls_test.html";
+  config.viewer().saveHtml(file.string());
+  EXPECT_EQ(std::filesystem::file_size(file), config.viewer().recording().size());
+  std::filesystem::remove(file);
+  EXPECT_THROW(config.viewer().saveHtml("/does/not/exist.html"), FileError);
 }
 
 TEST_F(ConfigCalls, ASimulationIsShownOnThePageOfItsConfig) {

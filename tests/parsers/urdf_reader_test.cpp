@@ -308,11 +308,12 @@ TEST_F(UrdfReader, ColorsOfThreeOrFiveNumbersAreRead) {
 }
 
 TEST_F(UrdfReader, ReversedLimitsAreNoneAndEqualOnesLock) {
-  Config config = load(joint("revolute", "<limit lower='1' upper='-1'/>"));
+  Config config = load(joint("revolute", "<limit lower='1' upper='-1' effort='1' velocity='1'/>"));
   EXPECT_EQ(config.getFrame("j").data().joint->lower.size(), 0);
   EXPECT_NE(config.fileWarnings().at(0).find("is above its upper limit -1; it is read as unlimited"),
             std::string::npos);
-  config = load(joint("prismatic", "<limit lower='.5' upper='.5'/>"));
+  config = load(joint("prismatic", "<limit lower='.5' upper='.5' effort='1' velocity='1'/>"));
+  EXPECT_EQ(config.getJointState(), VectorXd{{.5}});
   EXPECT_EQ(config.getFrame("j").data().joint->lower[0], .5);
   EXPECT_EQ(config.getFrame("j").data().joint->upper[0], .5);
   EXPECT_NE(config.fileWarnings().at(0).find("the joint cannot move"), std::string::npos);

@@ -38,5 +38,19 @@ TEST(HandFingers, FingersThatTurnHaveAnOpeningInMeters) {
   EXPECT_EQ(hand.positionAt(1.), 0.);
 }
 
+TEST(HandFingers, CarriagesSideBySideOnARailAreNoPads) {
+  Config C;
+  C.addFile(modelPath("trossen/trossen.g"));
+  C.selectJoints({"joint_0", "joint_1", "joint_2", "joint_3", "joint_4", "joint_5"});
+  const std::vector<HandFingers> hands = handFingersOf(C);
+  ASSERT_EQ(hands.size(), 1u);
+  const HandFingers& hand = hands[0];
+  EXPECT_EQ(hand.pads, (std::vector<std::string>{"gripper_right_0", "gripper_left_0"}));
+  EXPECT_NEAR(hand.maxWidth(), .078, 1e-3);
+  EXPECT_EQ(hand.widthAt(.004), 0.);  // the fingers overlap
+  EXPECT_NEAR(hand.widthAt(.02), .03, 1e-3);
+  EXPECT_NEAR(hand.positionAt(.03), .02, 1e-3);
+}
+
 }  // namespace
 }  // namespace kinegraph

@@ -87,10 +87,15 @@ std::vector<std::string> objectiveTags(const PyKomo& komo) {
   return tags;
 }
 
+std::shared_ptr<PyViewer> viewerOf(PyKomo& komo) {
+  if (!komo.viewer) komo.viewer = std::make_shared<PyViewer>();
+  if (!komo.viewer->scene) komo.viewer->scene = komo.configuration(-komo.order()).scene();
+  return komo.viewer;
+}
+
 /// Shows a motion. Pictures (getRgb) show the scene in the slice `pictured`.
 int show(PyKomo& komo, const ShownMotion& motion, bool pause, const std::string& text, int pictured) {
-  if (!komo.viewer) komo.viewer = std::make_shared<PyViewer>();
-  const std::shared_ptr<PyViewer> viewer = komo.viewer;
+  const std::shared_ptr<PyViewer> viewer = viewerOf(komo);
   const Config config = komo.configuration(-komo.order());
   viewer->scene = komo.configuration(pictured).scene();
   if (!viewer->isOpen()) viewer->setTitle("KOMO Viewer");
@@ -117,13 +122,13 @@ int viewSlice(PyKomo& komo, int slice, bool pause) {
 
 /// Saves a picture of each slice as PREFIX000000.png and so on, without a browser, with the page's text for the slice.
 void savePictures(PyKomo& komo, const std::string& prefix, const std::vector<std::string>& texts) {
-  if (!komo.viewer) komo.viewer = std::make_shared<PyViewer>();
+  const std::shared_ptr<PyViewer> viewer = viewerOf(komo);
   nb::module_::import_("kinegraph.png").attr("removeNumbered")(prefix);
   for (int t = -komo.order(); t < komo.slices(); ++t) {
-    komo.viewer->scene = komo.configuration(t).scene();
+    viewer->scene = komo.configuration(t).scene();
     const std::string& text = texts[std::size_t(t + komo.order())];
     const std::string title = cat("slice ", t, "/", komo.slices(), text.empty() ? "" : "\n", text);
-    savePicture(*komo.viewer, prefix, t + komo.order(), title);
+    savePicture(*viewer, prefix, t + komo.order(), title);
     checkInterrupt();
   }
 }
@@ -174,13 +179,8 @@ void bindKomoReports(nb::class_<PyKomo>& komo) {
             if (k.viewer) k.viewer->endPage();
           },
           "Closes the viewer.")
-      .def(
-          "get_viewer",
-          [](PyKomo& k) {
-            if (!k.viewer) k.viewer = std::make_shared<PyViewer>();
-            return k.viewer;
-          },
-          "Returns the viewer of this problem.")
+      .def("viewer", viewerOf, "Returns the viewer of this problem.")
+      .def("get_viewer", viewerOf, "Returns the viewer of this problem, as viewer() does.")
       .def(
           "set_viewer", [](PyKomo& k, std::shared_ptr<PyViewer> viewer) { k.viewer = std::move(viewer); }, "viewer"_a,
           docs::komo_reports::set_viewer);

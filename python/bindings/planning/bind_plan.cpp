@@ -31,9 +31,18 @@ std::vector<VectorXd> configurationsOf(const Numbers& numbers) {
   return rows;
 }
 
+/// A frame is a common mistake for a joint state.
+MotionGoal namedGoal(const Config& config, const std::string& name) {
+  const std::vector<std::string> states = config.getStateNames();
+  if (std::ranges::find(states, name) == states.end() && config.scene()->find(name))
+    throw ValueError(cat("planMotion: the goal '", name, "' is a frame, not a joint state; pass where it should go, {'",
+                         name, "': [x, y, z]} or {'", name, "': [x, y, z, qw, qx, qy, qz]}, or joint values"));
+  return MotionGoal::named(name);
+}
+
 MotionGoal goalOf(const PyConfig& config, nb::handle goal) {
   Numbers numbers;
-  if (nb::isinstance<nb::str>(goal)) return MotionGoal::named(nb::cast<std::string>(goal));
+  if (nb::isinstance<nb::str>(goal)) return namedGoal(config, nb::cast<std::string>(goal));
   if (nb::isinstance<nb::dict>(goal)) {
     IkProblems request = readIkTargets(config, goal);
     if (request.is_batch) throw ValueError("planMotion: the goal has several rows of targets; expected one of each");

@@ -114,7 +114,7 @@ void bindState(nb::class_<PyBotOp>& bot) {
           "Returns the RobotInfo of the robot, with its limits.")
       .def("getFault", call(&BotOp::getFault), "Returns the cause of the fault; empty without one.")
       .def("takeWarning", call(&BotOp::takeWarning),
-           "Returns and clears the warning of a joint that came too far from its command, with strict=False.")
+           "Returns and clears the last warning: a joint that came too far from its command, with strict=False.")
       .def("getMode", call(&BotOp::getMode), "Returns the present control mode.");
 }
 
@@ -273,7 +273,13 @@ void bindTime(nb::class_<PyBotOp>& bot) {
 }
 
 void bindGrippers(nb::class_<PyBotOp>& bot) {
-  bot.def("gripperMove", call(&BotOp::gripperMove), "id"_a, "width"_a = .075, "speed"_a = .2, docs::robot::gripperMove)
+  bot.def(
+         "gripperMove",
+         [](PyBotOp& b, int id, double width, double speed) {
+           call (&BotOp::gripperMove)(b, id, width, speed);
+           if (const std::string warning = b->takeWarning(); !warning.empty()) emitWarning(warning);
+         },
+         "id"_a, "width"_a = .075, "speed"_a = .2, docs::robot::gripperMove)
       .def("gripperClose", call(&BotOp::gripperClose), "id"_a, "force"_a = 10., "width"_a = .05, "speed"_a = .1,
            docs::robot::gripperClose)
       .def(

@@ -219,7 +219,7 @@ inline constexpr char gripperMove[] = R"(Opens or closes a gripper. Does not wai
 
 Args:
     id: Number of the gripper: 0, 1, ... or ArgWord._left, ArgWord._right.
-    width: Target width of the opening, m; clipped to the gripper's range.
+    width: Target width of the opening, m; clipped to the gripper's range, with a KinegraphWarning.
     speed: Speed of the width, m/s, at most the gripper's.
 Raises:
     ArgumentError: There is no such gripper, or a number is invalid.)";

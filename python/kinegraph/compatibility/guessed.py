@@ -11,6 +11,7 @@ _LOAD = "C.addFile(file) reads .g, .urdf, .xacro and .xml (MJCF)"
 _POSE = "C.getFrame(name).getPose()"
 _SHAPE = "C.addFrame(name).setShape(ry.ST.box, [x, y, z])"
 _FREE = "C.isValid(q), C.getCollisions()"
+_SIMULATE = "S = ry.Simulation(C, ry.SimulationEngine.physx), then S.step(q, seconds, ry.ControlMode.position)"
 _TRAJECTORY = "this is a trajectory itself: eval(t), sample(rate), path and times"
 _SAVE = "pickle it, or writeCsv(path, rate)"
 _FEASIBLE = "feasible, and message with the reason"
@@ -25,6 +26,8 @@ GUESSED: dict[type, dict[str, str]] = {
         "setJointPositions": "C.setJointState(q)",
         "getJointValues": _Q,
         "setJointValues": "C.setJointState(q)",
+        "setJointLimits": "C.getFrame(joint).setAttributes({'limits': [lower, upper]})",
+        "nq": "C.getJointDimension()",
         "fk": "C.setJointState(q), then " + _POSE,
         "forwardKinematics": "C.setJointState(q), then " + _POSE,
         "ik": _IK,
@@ -35,10 +38,16 @@ GUESSED: dict[type, dict[str, str]] = {
         "loadURDF": _LOAD,
         "addURDF": _LOAD,
         "addBox": _SHAPE,
+        "addSphere": "C.addFrame(name).setShape(ry.ST.sphere, [radius])",
         "addShape": _SHAPE,
         "removeFrame": "C.delFrame(name)",
+        "deleteFrame": "C.delFrame(name)",
         "getPose": _POSE,
+        "setPose": "C.getFrame(name).setPose(pose)",
         "getPosition": "C.getFrame(name).getPosition()",
+        "getMass": "C.getFrame(name).getMass(); 'kinegraph info' has the sum",
+        "step": _SIMULATE,
+        "simulate": _SIMULATE,
         "jacobian": "C.eval(ry.FS.position, [name]) has value and Jacobian",
         "getJacobian": "C.eval(ry.FS.position, [name]) has value and Jacobian",
         "inCollision": _FREE,
@@ -60,6 +69,13 @@ GUESSED: dict[type, dict[str, str]] = {
         "size": "getSize()",
         "setSize": "setShape(frame.getShapeType(), size)",
         "setLimits": "setAttributes({'limits': [lower, upper]})",
+        "setFriction": "setAttributes({'friction': value})",
+        "setTransform": "setPose(pose), 7 numbers x y z qw qx qy qz",
+        "getMatrix": "getTransform()",
+        "transform": "getTransform()",
+        "delete": "C.delFrame(name)",
+        "remove": "C.delFrame(name)",
+        "attach": "C.attach(hand, object)",
     },
     IkResult: {
         "success": _FEASIBLE,
@@ -96,12 +112,25 @@ GUESSED: dict[type, dict[str, str]] = {
         "followTrajectory": "follow(plan), then wait(C)",
         "gripperPos": "getGripperPos(gripper)",
         "step": "sync(C, seconds)",
+        "sleep": "sync(C, seconds)",
+        "getJointState": "get_q()",
+        "isMoving": "getTimeToEnd() > 0",
+        "goHome": "home(C)",
+        "openGripper": "gripperMove(0, width)",
+        "closeGripper": "gripperClose(0)",
+        "grasp": "gripperClose(0), then wait(C, forTimeToEnd=False, forGripper=True)",
+        "release": "gripperMove(0, width)",
+        "moveToPose": "moveTo(ry.solveIk(C, {name: pose}).q), or moveLinear(name, pose)",
+        "setVelocity": "setLimits(velocity=...)",
     },
     Simulation: {
         "q": "get_q()",
         "follow": "ry.BotOp(C) simulates a robot that follows a plan: bot.follow(plan), then bot.wait(C)",
         "reset": "getState() and setState(state)",
         "time": "get_t()",
+        "getTime": "get_t()",
+        "getImage": "getImageAndDepth()",
+        "addForce": "applyForce(frame, force)",
     },
     ConfigurationViewer: {
         "show": "C.view()",

@@ -15,7 +15,7 @@ constexpr double kRounding = 1e-3;  // rad, beyond a limit
 
 bool looksLikeDegrees(const KinematicModel& model, const VectorXd& q) {
   if (q.size() != model.dofs || q.size() == 0 || q.cwiseAbs().maxCoeff() < kLeastAngle) return false;
-  bool is_suspicious = false;
+  bool is_suspicious = false, is_far = false, is_round = true;
   for (std::size_t l = 1; l < model.links.size(); ++l) {
     const KinematicModel::Link& link = model.links[l];
     int dof = link.dof;
@@ -23,14 +23,15 @@ bool looksLikeDegrees(const KinematicModel& model, const VectorXd& q) {
       if (model.steps[s].rotates()) {
         const double angle = q[dof], radians = angle * std::numbers::pi / 180.;
         const bool is_beyond = angle < model.lower[dof] || angle > model.upper[dof] || std::abs(angle) > kTwoTurns;
-        if (2. * angle != std::round(2. * angle)) return false;  // people write degrees as round numbers
+        is_round &= 2. * angle == std::round(2. * angle);
+        is_far |= std::abs(angle) > kTwoTurns && (angle < model.lower[dof] || angle > model.upper[dof]);
         is_suspicious |= is_beyond && std::abs(angle) >= kLeastAngle;
         if (radians < model.lower[dof] - kRounding || radians > model.upper[dof] + kRounding) return false;
       }
       dof += model.steps[s].dofs();
     }
   }
-  return is_suspicious;
+  return is_suspicious && (is_round || is_far);  // people write degrees as round numbers
 }
 
 }  // namespace kinegraph

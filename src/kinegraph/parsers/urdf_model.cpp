@@ -8,6 +8,7 @@
 
 #include "kinegraph/common/guessed_units.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/parsers/urdf_spelling.h"
 #include "kinegraph/parsers/xml.h"
 
 namespace kinegraph {
@@ -29,6 +30,7 @@ class UrdfParser {
       return {};
     }
     if (const XmlAttribute* name = robot.attribute("name")) model_.name = name->value;
+    askAboutSpelling(robot, found_);
     collectMaterials(robot);
     for (const XmlElement& element : robot.children) {
       if (element.name == "link") {
@@ -37,8 +39,6 @@ class UrdfParser {
         readJoint(element);
       } else if (element.name == "mujoco") {
         readExtension(element);
-      } else {
-        checkElement(element);
       }
     }
     if (model_.links.empty()) {
@@ -77,16 +77,6 @@ class UrdfParser {
     model_.mesh_folder.emplace();
     for (const XmlElement* compiler : element.all("compiler")) {
       if (const XmlAttribute* folder = compiler->attribute("meshdir")) model_.mesh_folder = folder->value;
-    }
-  }
-
-  void checkElement(const XmlElement& element) {
-    if (element.name.starts_with("xacro:"))
-      return warn(element.where,
-                  cat("<", element.name, "> is a macro and is ignored; a file with macros ends in .xacro"));
-    for (const char* known : {"link", "joint", "material"}) {
-      if (element.name != known && editDistance(element.name, known) <= 1.2)
-        warn(element.where, cat("unknown element <", element.name, "> is ignored; did you mean <", known, ">?"));
     }
   }
 
@@ -381,7 +371,10 @@ class UrdfParser {
     };
     joint.effort = ofMotor("effort");
     joint.velocity = ofMotor("velocity");
-    sayThatZeroIsNoLimit(*limit, element);
+    if (!said_that_motors_have_no_limit_ && !element.child("mimic")) {
+      sayThatZeroIsNoLimit(*limit);
+      sayThatLimitsAreMissing(*limit);
+    }
     if (!bounded) return;
     joint.lower = limitOf(*limit, "lower", kUrdfUnlimited);
     joint.upper = limitOf(*limit, "upper", kUrdfUnlimited);
@@ -396,8 +389,7 @@ class UrdfParser {
   }
 
   /// Exporters write 0 or -1 where they know no limits of motors. Warns once per file.
-  void sayThatZeroIsNoLimit(const XmlElement& limit, const XmlElement& joint) {
-    if (said_that_zero_is_no_limit_ || joint.child("mimic")) return;
+  void sayThatZeroIsNoLimit(const XmlElement& limit) {
     const auto isNone = [&](const char* name) { return limit.attribute(name) && limitOf(limit, name, 1.) <= 0.; };
     const bool effort = isNone("effort"), velocity = isNone("velocity");
     if (!effort && !velocity) return;
@@ -406,7 +398,20 @@ class UrdfParser {
     warn(limit.where, cat(context_, "its ", what, negative ? " negative" : " 0",
                           ", which is read as no limit, here and at other joints; write the ", "motor's ",
                           effort && velocity ? "limits" : "limit"));
-    said_that_zero_is_no_limit_ = true;
+    said_that_motors_have_no_limit_ = true;
+  }
+
+  /// URDF requires both limits of a motor. Warns once per file.
+  void sayThatLimitsAreMissing(const XmlElement& limit) {
+    if (said_that_motors_have_no_limit_) return;
+    const bool effort = !limit.attribute("effort"), velocity = !limit.attribute("velocity");
+    if (!effort && !velocity) return;
+    warn(limit.where, cat(context_, "its <limit> has no ",
+                          effort && velocity ? "effort and velocity"
+                          : effort           ? "effort"
+                                             : "velocity",
+                          ", which URDF requires; the motor is read as unlimited, here and at other joints"));
+    said_that_motors_have_no_limit_ = true;
   }
 
   std::vector<Diagnostic>& found_;
@@ -415,7 +420,7 @@ class UrdfParser {
   std::string context_;                  ///< "link 'x': ", for messages
   const char* optional_part_ = nullptr;  ///< element that an error leaves out, or null
   bool part_failed_ = false;
-  bool asked_for_radians_ = false, said_that_zero_is_no_limit_ = false;
+  bool asked_for_radians_ = false, said_that_motors_have_no_limit_ = false;
 };
 
 }  // namespace

@@ -49,6 +49,7 @@ class GoalFinder {
 
   /// Solves inverse kinematics from the start, and from random values of the joints that move the targets.
   void fromTargets(const std::vector<IkTarget>& targets) {
+    steering_.space().requireRanges(kPlanMotion);
     Config scene(config_);
     scene.setJointState(start_);
     IkOptions ik;
@@ -85,6 +86,7 @@ class GoalFinder {
 
   /// Projects the start and random configurations onto the conditions.
   void fromConditions(std::vector<MotionConstraint> conditions) {
+    steering_.space().requireRanges(kPlanMotion);
     conditions.insert(conditions.end(), options_.constraints.begin(), options_.constraints.end());
     Manifold manifold(config_.state(), steering_.space(), conditions, options_.constraint_tolerance);
     Rng rng(options_.seed);

@@ -12,6 +12,12 @@
 
 namespace kinegraph {
 
+namespace {
+
+constexpr double kSameWidth = 1e-3;  ///< m: openings that differ by less are the same
+
+}  // namespace
+
 BotOp::BotOp(const Config& config, std::shared_ptr<RobotDriver> driver, BotOpOptions options)
     : options_(std::move(options)), model_(config), home_(config.getJointState()) {
   last_query_.fill(-1);
@@ -114,7 +120,9 @@ void BotOp::requireGripper(const char* call, int gripper) const {
   std::vector<std::string> names;
   for (const GripperInfo& info : grippers) names.push_back(info.name);
   throw ValueError(cat(call, ": there is no gripper ", gripper, "; the robot has ",
-                       names.empty() ? std::string("none") : cat(names.size(), ": ", join(names))));
+                       names.empty() ? std::string("none: a gripper is a joint that others mimic and that is not "
+                                                   "active (see selectJoints)")
+                                     : cat(names.size(), ": ", join(names))));
 }
 
 void BotOp::gripper(const char* call, GripperCommand command) {
@@ -124,7 +132,11 @@ void BotOp::gripper(const char* call, GripperCommand command) {
   if (!std::isfinite(command.width) || !(command.speed > 0.) || !(command.force > 0.))
     throw ValueError(cat(call, ": width is ", command.width, ", speed ", command.speed, ", force ", command.force,
                          "; expected a finite width, and speed and force above 0"));
-  command.width = std::clamp(command.width, info.min_width, info.max_width);
+  const double width = std::clamp(command.width, info.min_width, info.max_width);
+  if (!command.grasp && std::abs(width - command.width) > kSameWidth)
+    loop_->warn(cat(call, ": a width of ", command.width, " m is beyond the opening of gripper '", info.name, "', ",
+                    info.min_width, " to ", info.max_width, " m; it moves to ", width, " m"));
+  command.width = width;
   command.speed = std::min(command.speed, info.max_speed);
   command.force = std::min(command.force, info.max_force);
   loop_->apply(command);
@@ -200,6 +212,7 @@ void BotOp::update(Config& config) const {
   const Lock lock(mutex_);
   if (SimulatedWorld* world = loop_->driver().world()) {
     world->updateConfig(config);
+    copyRelativePoses(world->config(), config, placed_);
   } else {
     config.setJointState(loop_->state().q);
     moveFingers(config);
@@ -217,8 +230,12 @@ void BotOp::detach(const std::string& from, const std::string& to) {
 }
 
 void BotOp::setFramePose(const std::string& frame, const Pose& pose) {
+  if (const FrameData* moved = model_.scene()->find(frame); moved && moved->moves() && moved->joint->active)
+    throw ValueError(
+        cat("BotOp::setFramePose: '", frame, "' is a joint of the robot, which moveTo moves; expected an object"));
   const Lock lock(mutex_);
   loop_->apply(PlaceFrame{frame, pose});
+  if (!std::ranges::count(placed_, frame)) placed_.push_back(frame);
 }
 
 // --- records

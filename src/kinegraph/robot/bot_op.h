@@ -92,7 +92,8 @@ class BotOp {
   const RobotInfo& getInfo() const;
   LoopMode getMode() const;
   std::string getFault() const;  ///< cause of the fault; empty without one
-  std::string takeWarning();     ///< returns and clears the warning of a lag, without SafetyLimits::lag_stops
+  /// Returns and clears the last warning: of a lag, without SafetyLimits::lag_stops, or of a width beyond a gripper.
+  std::string takeWarning();
 
   // --- motions
   // ---------------------------------------------------------------------------------------------------------
@@ -309,6 +310,7 @@ class BotOp {
   std::shared_ptr<BotCameras> cameras_;  ///< created by the first image
   std::vector<std::shared_ptr<Watch>> watches_;
   std::vector<double> gripper_targets_;    ///< m
+  std::vector<std::string> placed_;        ///< frames of setFramePose
   std::atomic<std::thread::id> watching_;  ///< the thread that calls a function of `watch`
   std::vector<SceneGripper> fingers_;      ///< of the robot's grippers, without a simulated world
   Clock::time_point started_ = Clock::now(), next_ = started_, checked_ = started_;

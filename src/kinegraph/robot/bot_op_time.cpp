@@ -206,9 +206,30 @@ void BotOp::requireRunning(const char* call) const {
         cat(call, ": the robot was stopped: ", loop_->fault(), "; resolve the cause, then call recover()"));
 }
 
+namespace {
+
+/// A scene without the robot would be taken for a scene full of new frames.
+void requireRobot(const Config& C, const Config& robot) {
+  std::vector<std::string> missing;
+  std::size_t joints = 0;
+  for (const auto& frame : robot.scene()->frames()) {
+    if (!frame->moves() || !frame->joint->active || frame->joint->mimic) continue;
+    ++joints;
+    const FrameData* other = C.scene()->find(frame->name);
+    if (!other || !other->moves()) missing.push_back(frame->name);
+  }
+  if (missing.empty()) return;
+  throw ValueError(cat("BotOp: the configuration has ", missing.size() == joints ? "none" : "only a part",
+                       " of the robot's joints; missing: ", join(missing),
+                       "; expected the one that the BotOp was made of, or a copy of it"));
+}
+
+}  // namespace
+
 /// Copies frames that are new in the configuration since its last sync into the world.
 void BotOp::addNewFrames(const Config& C) {
   if (C.scene()->structureRevision() == seen_structure_) return;
+  requireRobot(C, model_);
   seen_structure_ = C.scene()->structureRevision();
   const Lock lock(mutex_);
   if (SimulatedWorld* world = loop_->driver().world()) {

@@ -43,9 +43,10 @@ std::string exceeded(const RobotInfo& robot, Eigen::Index i, double time, const 
 std::string outOfRange(const RobotInfo& robot, Eigen::Index i, double q) {
   constexpr double kLeastDegrees = 4.;
   const double radians = q * std::numbers::pi / 180.;
+  const bool is_degrees = mayBeDegrees(q, kLeastDegrees) || std::abs(q) > 4. * std::numbers::pi;
   const bool is_within = radians > robot.lower[i] - .01 && radians < robot.upper[i] + .01;
   return cat("joint '", robot.joints[std::size_t(i)], "' would go to ", q, "; its limits are ", robot.lower[i], " to ",
-             robot.upper[i], mayBeDegrees(q, kLeastDegrees) && is_within ? cat("; ", askForRadians(q)) : "");
+             robot.upper[i], is_degrees && is_within ? cat("; ", askForRadians(q)) : "");
 }
 
 bool hasEffortLimits(const RobotInfo& robot, const Config& model) {

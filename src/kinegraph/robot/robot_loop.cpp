@@ -106,9 +106,11 @@ std::string RobotLoop::trackingFault() const {
   if (mode_ == LoopMode::floating || mode_ == LoopMode::fault || stiffness_.size() > 0) return {};
   for (Eigen::Index i = 0; i < commanded_.size(); ++i) {
     const double distance = std::abs(commanded_[i] - state_.q[i]);
-    if (distance > safety_.tracking_distance)
-      return cat("joint '", info_.joints[std::size_t(i)], "' is ", distance,
-                 " from its command; does an obstacle block it?");
+    if (distance <= safety_.tracking_distance) continue;
+    const std::string& name = info_.joints[std::size_t(i)];
+    const bool is_part = name.find(':') != std::string::npos;  // of a joint with several dofs
+    return cat("joint '", name, "' is ", distance, " from its command; does an obstacle block it",
+               is_part ? ", or is it the free joint of a base or an object, which no motor moves?" : "?");
   }
   return {};
 }

@@ -33,7 +33,9 @@ class RobotLoop {
   LoopMode mode() const { return mode_; }
   const std::string& fault() const { return fault_; }  ///< cause of the fault; empty without one
 
-  /// Returns and clears the warning of a joint that came too far from its command; empty if none did.
+  void warn(std::string message) { warning_ = std::move(message); }
+
+  /// Returns and clears the last warning, such as of a joint that came too far from its command; empty without one.
   std::string takeWarning() { return std::exchange(warning_, {}); }
   const RobotState& state() const { return state_; }
   const ReferenceMotion& motion() const { return motion_; }  ///< of the modes follow and hold

@@ -72,6 +72,16 @@ void copyMotion(const Config& from, Config& to) {
   }
 }
 
+void copyRelativePoses(const Config& from, Config& to, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    const FrameData* frame = from.scene()->find(name);
+    FrameData* other = to.scene()->find(name);
+    if (!frame || !other || frame->joint || other->joint || !frame->parent || !other->parent) continue;
+    if (frame->parent->name == other->parent->name && differs(frame->pose, other->pose))
+      Frame(to.scene(), *other).setRelativePose(frame->pose);
+  }
+}
+
 int copyNewFrames(const Config& from, Config& to) {
   std::vector<std::pair<const FrameData*, FrameData*>> copies;
   SceneTree& tree = *to.scene();
@@ -81,6 +91,7 @@ int copyNewFrames(const Config& from, Config& to) {
     FrameData& copy = tree.add(frame->name, frame->parent ? tree.find(frame->parent->name) : nullptr);
     copy.pose = frame->pose;
     copy.joint = frame->joint;
+    if (copy.joint) copy.joint->active = false;
     copy.shape = frame->shape;
     copy.inertia = frame->inertia;
     copy.attributes = frame->attributes;

@@ -20,7 +20,11 @@ std::vector<SceneGripper> findGrippers(const Config& config);
 /// another, by name. Frames that only one of them has are skipped.
 void copyMotion(const Config& from, Config& to);
 
-/// Copies the frames of `from` whose names are new to `to`, except for maps of cells. Returns their number.
+/// Copies the poses of named frames without a joint relative to their parents, if both configurations have them.
+void copyRelativePoses(const Config& from, Config& to, const std::vector<std::string>& names);
+
+/// Copies the frames of `from` whose names are new to `to`, except for maps of cells. Their joints are inactive: q of
+/// `to` is that of a robot. Returns their number.
 int copyNewFrames(const Config& from, Config& to);
 
 /// Returns the first frame of the link: the topmost one without a joint in between.

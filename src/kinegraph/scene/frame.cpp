@@ -234,13 +234,14 @@ Frame& Frame::setJoint(JointType type, const std::vector<double>& limits, const 
   }
   Joint joint(type, code);
   const std::size_t dofs = joint.dofs();
+  std::vector<double> given = limits;
   if (!limits.empty()) {
     if (limits.size() != 2 * dofs) {
       throw ValueError(cat("frame '", frame.name, "': limits of a ", jointTypeName(type), " joint are ", 2 * dofs,
                            " numbers (all lower, then all upper), not ", limits.size()));
     }
     std::string in_turn;
-    const std::vector<double> given = limitsInTurn(limits, in_turn).value_or(limits);
+    given = limitsInTurn(limits, in_turn).value_or(limits);
     joint.lower = Eigen::Map<const VectorXd>(given.data(), dofs);
     joint.upper = Eigen::Map<const VectorXd>(given.data() + dofs, dofs);
     if (const std::string why = limitsError(given); !why.empty())
@@ -265,7 +266,11 @@ Frame& Frame::setJoint(JointType type, const std::vector<double>& limits, const 
     }
     joint.mimic = &dofSource(mimic->data());
   }
-  if (dofs > 0 && !joint.mimic) joint.q = joint.home = motionProject(joint.steps, joint.axis, joint.scale, relative);
+  if (dofs > 0 && !joint.mimic) {
+    joint.q = motionProject(joint.steps, joint.axis, joint.scale, relative);
+    moveToEqualLimits(given, {joint.q.data(), dofs});
+    joint.home = joint.q;
+  }
   if (dofs == 0) frame.pose = relative;
   frame.joint = std::move(joint);
   scene_->structureChanged();

@@ -74,6 +74,8 @@ void setLimits(Frame& frame, const Node& node) {
     throw ValueError(cat("frame '", data.name, "': ", why));
   data.joint->lower = Eigen::Map<const VectorXd>(limits.data(), Eigen::Index(dofs));
   data.joint->upper = Eigen::Map<const VectorXd>(limits.data() + dofs, Eigen::Index(dofs));
+  VectorXd q = data.joint->q;
+  if (!data.joint->mimic && moveToEqualLimits(limits, {q.data(), dofs})) frame.setJointState(q);
   frame.scene()->structureChanged();
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
@@ -34,6 +35,8 @@ struct FingerLink {
   Vector3d closed = Vector3d::Zero(), opened = Vector3d::Zero();
   Vector3d motion() const { return opened - closed; }
 };
+
+using ShapePair = std::pair<const FrameData*, const FrameData*>;
 
 class Fingers {
  public:
@@ -88,21 +91,37 @@ class Fingers {
           link.motion().dot(most->motion()) < (other ? other->motion().dot(most->motion()) - 1e-9 : 0.))
         other = &link;
     if (!other) return;
-    hand.q = VectorXd::LinSpaced(all_slide ? 2 : kSamples, lower, upper);
+    const std::vector<ShapePair> pairs = openingPairs(*most, *other, lower, upper);
+    const bool overlaps = std::min(distanceOf(pairs, lower), distanceOf(pairs, upper)) < -kSameOpening;
+    hand.q = VectorXd::LinSpaced(all_slide && !overlaps ? 2 : kSamples, lower, upper);
     hand.widths.resize(hand.q.size());
-    for (Eigen::Index k = 0; k < hand.q.size(); ++k) {
-      setFingers(hand.q[k]);
-      double width = std::numeric_limits<double>::infinity();
-      for (const FrameData* a : most->shapes)
-        for (const FrameData* b : other->shapes) width = std::min(width, distanceOf(*a, *b));
-      hand.widths[k] = std::max(width, 0.);
-    }
+    for (Eigen::Index k = 0; k < hand.q.size(); ++k) hand.widths[k] = std::max(distanceOf(pairs, hand.q[k]), 0.);
     if (hand.widths.maxCoeff() - hand.widths.minCoeff() < kLeastRange) {
       hand.q.resize(0);
       return;
     }
     for (const FingerLink* link : {most, other})
-      for (const FrameData* shape : link->shapes) hand.pads.push_back(shape->name);
+      for (const FrameData* shape : link->shapes)
+        if (std::ranges::any_of(pairs, [&](const auto& pair) { return pair.first == shape || pair.second == shape; }))
+          hand.pads.push_back(shape->name);
+  }
+
+  /// The pairs of shapes between which something is held: their distance changes at least half as much as that of any
+  /// pair. The distance of carriages on a rail, side by side, hardly changes.
+  std::vector<ShapePair> openingPairs(const FingerLink& one, const FingerLink& other, double lower, double upper) {
+    std::vector<std::pair<double, ShapePair>> ranges;
+    double most = 0.;
+    for (const FrameData* a : one.shapes) {
+      for (const FrameData* b : other.shapes) {
+        const double range = std::abs(distanceOf({{a, b}}, upper) - distanceOf({{a, b}}, lower));
+        most = std::max(most, range);
+        ranges.push_back({range, {a, b}});
+      }
+    }
+    std::vector<ShapePair> pairs;
+    for (const auto& [range, pair] : ranges)
+      if (range >= .5 * most) pairs.push_back(pair);
+    return pairs;
   }
 
   void collect(std::map<const FrameData*, FingerLink>& links, bool colliding) const {
@@ -132,9 +151,15 @@ class Fingers {
     }
   }
 
-  double distanceOf(const FrameData& a, const FrameData& b) {
+  /// The least distance of the pairs with the fingers at a joint position; negative for overlaps.
+  double distanceOf(const std::vector<ShapePair>& pairs, double at) {
+    setFingers(at);
     const State& state = scene_.scene()->state();
-    return proximity(*a.shape->body(), state.pose(a.id), *b.shape->body(), state.pose(b.id)).distance;
+    double least = std::numeric_limits<double>::infinity();
+    for (const auto& [a, b] : pairs)
+      least = std::min(least,
+                       proximity(*a->shape->body(), state.pose(a->id), *b->shape->body(), state.pose(b->id)).distance);
+    return least;
   }
 
   void setFingers(double at) { scene_.setJointState(VectorXd::Constant(1, at), {joint_}); }

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "kinegraph/common/text.h"
@@ -18,9 +19,11 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kAligned = .9;   ///< cosine of the angle between the x axis and the motion of the fingers
-constexpr double kInside = 2e-3;  ///< m: a frame this deep in a shape lies inside of it
-constexpr double kNoPart = .01;   ///< smaller parts of a rotation axis are written as 0
+constexpr double kAligned = .9;    ///< cosine of the angle between the x axis and the motion of the fingers
+constexpr double kInside = 2e-3;   ///< m: a frame this deep in a shape lies inside of it
+constexpr double kBackwards = .5;  ///< cosine of the angle between the z axis and the way from the fingers to the palm
+constexpr double kShort = .01;     ///< m: a shorter way has no direction
+constexpr double kNoPart = .01;    ///< smaller parts of a rotation axis are written as 0
 
 const FrameData& headOf(const FrameData& frame) {
   const FrameData* head = &frame;
@@ -78,6 +81,36 @@ std::string flawOfAxes(const Pose& X, const FrameData& hand, const Vector3d& axi
              rounded(about[2]), ") to its Q");
 }
 
+/// The mean of the centers of shapes in the world; none without a shape.
+template <class Selects>
+std::optional<Vector3d> middleOf(const SceneTree& scene, const State& state, const Selects& selects) {
+  Vector3d sum = Vector3d::Zero();
+  int count = 0;
+  for (const auto& frame : scene.frames()) {
+    if (!frame->shape || shapeKind(frame->shape->geometry->type).is_symbol || !selects(*frame)) continue;
+    sum += state.pose(frame->id) * frame->shape->body()->boundCenter();
+    ++count;
+  }
+  return count > 0 ? std::optional<Vector3d>(sum / count) : std::nullopt;
+}
+
+/// Returns what is wrong with the z axis, which points from the fingers to the palm, and the rotation that mends it.
+std::string flawOfDirection(SceneTree& scene, const State& state, const FrameData& hand, const HandFingers& fingers) {
+  const auto isPad = [&](const FrameData& frame) { return std::ranges::count(fingers.pads, frame.name) > 0; };
+  const auto tips = middleOf(scene, state, isPad);
+  const auto palm = middleOf(scene, state, [&](const FrameData& frame) { return &headOf(frame) == &headOf(hand); });
+  if (!tips || !palm) return "";
+  Vector3d back = scene.worldPose(hand).q.conjugate() * Vector3d(*palm - *tips);
+  back[0] = 0.;
+  if (back.norm() < kShort || back[2] > kBackwards * back.norm()) return "";
+  constexpr double kQuarter = 90.;
+  const double degrees = kQuarter * std::round(std::atan2(-back[1], back[2]) * 180. / std::numbers::pi / kQuarter);
+  return cat("the z axis of '", hand.name,
+             "' does not point from the fingers back into the hand, so low objects are "
+             "missed; append d(",
+             std::abs(degrees) > 179. ? 180. : degrees, " 1 0 0) to its Q");
+}
+
 /// Returns in which shape of the hand the frame lies, the deepest.
 std::string flawOfPlace(const SceneTree& scene, const State& state, const FrameData& hand) {
   const RigidTransform X = state.pose(hand.id);
@@ -108,9 +141,9 @@ std::vector<std::string> gripperFrameFlaws(const Config& C, const std::vector<st
     std::ranges::copy_if(all, std::back_inserter(own),
                          [&](const HandFingers& f) { return isBelow(*scene.find(f.joint), headOf(hand)); });
     const Vector3d axis = own.size() == 1 ? motionOfFingers(C, own[0]) : Vector3d(Vector3d::Zero());
-    if (!axis.isZero(0.))
-      if (std::string flaw = flawOfAxes(scene.worldPose(hand), hand, axis); !flaw.empty())
-        flaws.push_back(std::move(flaw));
+    std::string of_axes = axis.isZero(0.) ? "" : flawOfAxes(scene.worldPose(hand), hand, axis);
+    if (of_axes.empty() && own.size() == 1) of_axes = flawOfDirection(scene, scene.state(), hand, own[0]);
+    if (!of_axes.empty()) flaws.push_back(std::move(of_axes));
     if (std::string flaw = flawOfPlace(scene, scene.state(), hand); !flaw.empty()) flaws.push_back(std::move(flaw));
   }
   return flaws;

@@ -7,9 +7,10 @@
 
 namespace kinegraph {
 
-/// Returns sentences about hands whose frame cannot serve for grasps: its x axis is not the direction in which the
-/// fingers move (only hands whose fingers are modeled, see handFingersOf), or it lies inside a colliding shape of the
-/// hand. Each says how to mend the frame. Empty if all hands are as expected.
+/// Returns sentences about hands whose frame cannot serve for grasps. It lies inside a colliding shape of the hand, its
+/// x axis is not the direction in which the fingers move, or its z axis does not point back into the hand. The axes are
+/// known of hands whose fingers are modeled, see handFingersOf. Each sentence says how to mend the frame. Empty if all
+/// hands are as expected.
 std::vector<std::string> gripperFrameFlaws(const Config& C, const std::vector<std::string>& hands);
 
 }  // namespace kinegraph

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <chrono>
 #include <cstdlib>
+#include <fstream>
 #include <mutex>
 #include <utility>
 
@@ -135,6 +136,12 @@ void ConfigViewer::storeMessage(const std::string& text) {
 std::string ConfigViewer::recording(std::size_t largest) {
   server().setWarnings(impl_->edits->warnings());
   return server().recording(largest);
+}
+
+void ConfigViewer::saveHtml(const std::string& path) {
+  std::ofstream file(path, std::ios::binary);
+  file << recording();
+  if (!file.flush()) throw FileError(cat("saveHtml: '", path, "' cannot be written"));
 }
 
 ViewerRecording ConfigViewer::record(const std::string& path) {

@@ -65,6 +65,8 @@ class ConfigViewer : public ProgrammableViewer {
   void select(int frame);  ///< shows the card of a frame, with handles to move it
   /// Returns a self-contained HTML page of everything shown. `largest`: see recordedPage.
   std::string recording(std::size_t largest = 0);
+  /// Saves recording() as a file for any browser. Throws FileError if it cannot be written.
+  void saveHtml(const std::string& path);
   /// Records whatever is shown and logged from now on, until the returned object is stopped or destroyed. The file then
   /// plays on a page: `kinegraph view run.kgr`. Times are those of a shown simulation, else of the clock; a motion
   /// takes its duration. Starts the page if necessary. Throws FileError if the file cannot be written, and ValueError

@@ -210,7 +210,10 @@ CASES = {
         (ry.KinegraphWarning, file("robot.urdf", NO_LIMIT)),
         (
             ry.KinegraphWarning,
-            file("robot.urdf", NO_LIMIT.replace("</joint>", "<limit lower='1' upper='-1'/></joint>")),
+            file(
+                "robot.urdf",
+                NO_LIMIT.replace("</joint>", "<limit lower='1' upper='-1' effort='1' velocity='1'/></joint>"),
+            ),
         ),
         (
             ry.KinegraphWarning,

@@ -359,3 +359,24 @@ def test_obstacles_that_touch_each_other_are_no_collision_of_the_start() -> None
     )  # in both walls
     assert ry.planMotion(C, [-1.0, -1.0, 1.0]).feasible
     assert ry.RRT_PathFinder().setProblem(C).setStartGoal(START, [-1.0, -1.0, 1.0]).solve(0).feasible
+
+
+def test_the_name_of_a_frame_as_goal_is_told_from_that_of_a_state(panda: ry.Config) -> None:
+    with pytest.raises(ry.ArgumentError, match=r"'l_gripper' is a frame, not a joint state; pass .*\{'l_gripper': \[x"):
+        ry.planMotion(panda, "l_gripper")
+    with pytest.raises(ry.NotFound, match="no state 'l_griper'"):
+        ry.planMotion(panda, "l_griper")
+
+
+def test_joints_without_limits_are_named_for_goals_of_frames_too() -> None:
+    C = ry.Config()
+    C.addText("w: {}\nbase (w): { joint: free }\narm (base): { joint: hingeX, limits: [-1 1] }")
+    with pytest.raises(ry.ArgumentError, match="no limits are known for base:0, base:1, base:2"):
+        ry.planMotion(C, {"arm": [1, 1, 1]})
+
+
+def test_joint_values_in_degrees_are_asked_about_if_they_are_no_round_numbers(panda: ry.Config) -> None:
+    goal = np.degrees(panda.getJointState() + 0.01)
+    assert "did you mean radians?" in ry.planMotion(panda, goal).message
+    with pytest.raises(ry.ArgumentError, match=r"did you mean radians\?"):
+        ry.BotOp(panda, False).moveTo(goal)

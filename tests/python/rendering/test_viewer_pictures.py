@@ -70,7 +70,7 @@ def test_pictures_of_a_motion_show_the_slice_that_is_viewed():
     seen = []
     for t in (0, 9):
         komo.view_slice(t)
-        seen.append(komo.get_viewer().getRgb())
+        seen.append(komo.viewer().getRgb())
         D = komo.getConfiguration(t)
         D.view(offscreen=True)
         np.testing.assert_array_equal(reddest(seen[-1]), reddest(D.viewer().getRgb()))

@@ -363,3 +363,64 @@ def test_a_motion_that_takes_the_place_of_another_begins_where_something_holds_t
     bot.move([[-0.2]], [1.5], overwrite=True)
     bot.sync(C, 2.0)
     assert C.getJointState() == pytest.approx([-0.2], abs=1e-3)
+
+
+def test_a_scene_without_the_robot_is_refused(panda: ry.Config, bot: ry.BotOp) -> None:
+    other = ry.Config()
+    other.addFrame("table")
+    with pytest.raises(ry.ArgumentError, match="has none of the robot's joints; missing: l_panda_joint1, l_panda"):
+        bot.sync(other)
+    panda.delFrame("l_panda_joint7")
+    with pytest.raises(ry.ArgumentError, match="has only a part of the robot's joints; missing: l_panda_joint7;"):
+        bot.wait(panda)
+
+
+def test_new_objects_with_joints_do_not_change_the_robot(panda: ry.Config, bot: ry.BotOp) -> None:
+    panda.addFrame("ball", "world").setJoint(ry.JT.free).setShape(ry.ST.sphere, [0.05]).setMass(0.1)
+    panda.getFrame("ball").setJointState([0.3, 0.3, 1.0, 1, 0, 0, 0])
+    bot.moveTo(bot.get_qHome() + 0.1)
+    bot.wait(panda)
+    np.testing.assert_allclose(bot.get_q(), bot.get_qHome() + 0.1, atol=1e-3)
+    assert panda.getFrame("ball").getPosition()[2] < 0.9  # it falls
+
+
+def test_a_width_beyond_the_opening_is_told(panda: ry.Config, bot: ry.BotOp) -> None:
+    with pytest.warns(ry.KinegraphWarning, match="0.5 m is beyond the opening of gripper 'l_gripper', 0 to 0.08 m"):
+        bot.gripperMove(0, 0.5)
+    bot.wait(panda, False, False, True)
+    assert bot.getGripperPos(0) == pytest.approx(0.08, abs=1e-3)
+
+
+def test_the_carriages_of_a_trossen_open_as_far_as_they_are_told() -> None:
+    C = ry.Config()
+    C.addFile(ry.raiPath("trossen/trossen.g"))
+    C.selectJoints([name for name in C.getJointNames() if name.startswith("joint")])
+    bot = ry.BotOp(C, False)
+    for width in (0.06, 0.03):
+        bot.gripperMove(0, width)
+        bot.wait(C, False, False, True)
+        assert bot.getGripperPos(0) == pytest.approx(width, abs=1e-3)
+        distance = -C.eval(ry.FS.negDistance, ["gripper_left_0", "gripper_right_0"])[0][0]
+        assert distance == pytest.approx(width, abs=1e-3)
+
+
+def test_frames_that_are_placed_are_there_in_the_configuration_and_joints_are_refused(
+    panda: ry.Config, bot: ry.BotOp
+) -> None:
+    bot.setFramePose("table", [0.1, 0.2, 0.3, 1, 0, 0, 0])
+    bot.sync(panda)
+    assert panda.getFrame("table").getPosition() == pytest.approx([0.1, 0.2, 0.3])
+    with pytest.raises(ry.ArgumentError, match="'l_panda_joint3' is a joint of the robot, which moveTo moves"):
+        bot.setFramePose("l_panda_joint3", [0, 0, 1, 1, 0, 0, 0])
+
+
+def test_a_robot_whose_base_falls_is_told_that_no_motor_holds_it() -> None:
+    C = ry.Config()
+    C.addText(
+        "world: {}\nbase (world): { joint: free, q: [0 0 2 1 0 0 0], shape: box, size: [.2 .2 .2], mass: 5 }\n"
+        "arm (base): { joint: hingeY, limits: [-1 1], shape: box, size: [.1 .1 .3], mass: 1 }"
+    )
+    bot = ry.BotOp(C, False)
+    bot.moveTo([0, 0, 2, 1, 0, 0, 0, 0.5])
+    with pytest.raises(ry.RobotFault, match="joint 'base:.' is .* or is it the free joint of a base or an object, wh"):
+        bot.wait(C)

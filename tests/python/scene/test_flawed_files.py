@@ -1,6 +1,7 @@
 """Robot files with flaws: a robot with a warning that says what was assumed, or an error under strict=True."""
 
 import os
+import re
 import struct
 import sys
 import types
@@ -105,7 +106,7 @@ def test_a_robot_whose_package_is_somewhere_in_the_workspace_has_its_meshes(
 
 def test_warnings_are_kept_with_the_scene(tmp_path: Path) -> None:
     with pytest.warns(ry.KinegraphWarning) as raised:
-        C = urdf(tmp_path, mesh("lost.stl"), '<limit lower="1" upper="-1"/>', "prismatic")
+        C = urdf(tmp_path, mesh("lost.stl"), '<limit lower="1" upper="-1" effort="1" velocity="1"/>', "prismatic")
     assert C.fileWarnings() == [str(warning.message) for warning in raised]
     assert [w.split("r.urdf:")[1].split(":")[0] for w in C.fileWarnings()] == ["1", "1"]
     assert C.copy().fileWarnings() == C.fileWarnings()
@@ -436,3 +437,39 @@ def test_files_of_other_kinds_are_named(name: str, told: str, tmp_path: Path) ->
     with pytest.raises(ry.ParseError, match=f"scene.g:2:.*{name}' {told}"):
         C.addFile(tmp_path / "scene.g")
     assert C.getFrameNames() == []
+
+
+def test_a_joint_with_equal_limits_starts_there(tmp_path: Path) -> None:
+    with pytest.warns(ry.KinegraphWarning, match="both of its limits are 0.5; the joint cannot move"):
+        C = urdf(tmp_path, joint='<limit lower=".5" upper=".5" effort="1" velocity="1"/>', type="revolute")
+    assert C.getJointState() == [0.5]
+    C = ry.Config()
+    C.addText(
+        "w: {}\na (w): { joint: transXY, limits: [-1 .3 1 .3] }\nb (a): { joint: hingeX, limits: [.5 .5], q: .2 }"
+    )
+    np.testing.assert_array_equal(C.getJointState(), [0, 0.3, 0.2])  # a given q counts
+    C.getFrame("b").setAttributes({"limits": [0.7, 0.7]})
+    assert C.getFrame("b").getJointState() == [0.7]
+    with pytest.warns(ry.KinegraphWarning, match="does not allow this pose"):
+        C.addFrame("c", "b").setJoint(ry.JT.hingeX, limits=[0.4, 0.4])
+    assert C.getFrame("c").getJointState() == [0.4]
+
+
+@pytest.mark.parametrize(
+    "shape, joint, question",
+    [
+        ("", '<origin xzy="1 0 0"/>', "joint 'j': unknown attribute 'xzy' of <origin> is ignored; did you mean 'xyz'?"),
+        ("", '<axes xyz="0 1 0"/>', "joint 'j': unknown element <axes> of <joint> is ignored; did you mean 'axis'?"),
+        ("", '<limits effort="1" velocity="1"/>', "unknown element <limits> of <joint>"),
+        ("<visuals/>", "", "link 'a': unknown element <visuals> of <link>"),
+        ('<inertial><mass value="1"/><inertia iyx="0" ixx="1" iyy="1" izz="1"/></inertial>', "", "did you mean 'ixy'?"),
+    ],
+)
+def test_misspelled_names_in_a_urdf_file_are_asked_about(shape: str, joint: str, question: str, tmp_path: Path) -> None:
+    with pytest.warns(ry.KinegraphWarning, match=re.escape(question)):
+        urdf(tmp_path, shape, joint)
+
+
+def test_extensions_of_a_urdf_file_are_not_asked_about(tmp_path: Path) -> None:
+    shape = '<self_collision_checking/><contact><lateral_friction value="1"/></contact>'
+    urdf(tmp_path, shape, '<origin xyz="1 0 0"/><transmission/><dynamics damping="1" spring_stiffness="2"/>')

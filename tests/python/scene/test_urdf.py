@@ -165,6 +165,8 @@ def test_a_motor_without_effort_or_velocity_has_no_limits_and_the_file_is_named_
         'effort="0" velocity="0"': "its effort and velocity are 0, which is read as no limit, here and at other joints",
         'effort="0." velocity="2"': "its effort is 0",
         'effort="2" velocity="0"': "its velocity is 0",
+        "": "its <limit> has no effort and velocity, which URDF requires; the motor is read as unlimited, here and at",
+        'effort="2"': "its <limit> has no velocity",
     }.items():
         both = joint.format("b", "a", limits, "") + joint.format("c", "b", limits, "")
         file.write_text(f'<robot name="r"><link name="a"/>{both}</robot>')

@@ -457,6 +457,26 @@ def test_a_gripper_whose_x_axis_is_not_that_of_its_fingers_is_told(turn: float, 
     assert plan.feasible or "is not the direction of its fingers" in plan.message
 
 
+def test_a_gripper_whose_z_axis_points_out_of_the_hand_is_told() -> None:
+    C = scene()
+    tray(C)
+    box(C, "red", "table", (0.3, 0.3, TOP), (0.05, 0.05, 0.02))
+    gripper = C.getFrame("l_gripper")
+    w, x, y, z = gripper.getRelativeQuaternion()
+    gripper.setRelativeQuaternion([-x, w, z, -y])  # half a turn about its x axis
+    plan = ry.planTask(C, "(on tray red)", time_limit=20)
+    told = "the z axis of 'l_gripper' does not point from the fingers back into the hand"
+    assert told in plan.warnings[0] and "append d(180 1 0 0) to its Q" in plan.warnings[0]
+
+
+def test_an_object_that_does_not_collide_is_told() -> None:
+    C = scene()
+    tray(C)
+    box(C, "red", "table", (0.3, 0.3, TOP)).setContact(0)
+    plan = ry.planTask(C, "(on tray red)")
+    assert plan.feasible and "'red' does not collide, because its contact is 0" in plan.warnings[0]
+
+
 def test_a_gripper_inside_of_the_palm_is_told() -> None:
     C = scene()
     tray(C)

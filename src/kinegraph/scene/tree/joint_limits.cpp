@@ -54,4 +54,14 @@ std::optional<std::vector<double>> limitsInTurn(std::span<const double> limits, 
   return ordered;
 }
 
+bool moveToEqualLimits(std::span<const double> limits, std::span<double> q) {
+  bool moved = false;
+  for (std::size_t i = 0; i < limits.size() / 2; ++i) {
+    if (limits[i] != limits[q.size() + i] || q[i] == limits[i]) continue;
+    q[i] = limits[i];
+    moved = true;
+  }
+  return moved;
+}
+
 }  // namespace kinegraph

@@ -15,4 +15,8 @@ std::string limitsError(std::span<const double> limits);
 /// it is not valid as it is; `warning` then says so.
 std::optional<std::vector<double>> limitsInTurn(std::span<const double> limits, std::string& warning);
 
+/// Sets each entry of q whose limits are equal to this value: a locked joint is nowhere else. `limits` are all lower,
+/// then all upper ones, or empty. Returns whether q changed.
+bool moveToEqualLimits(std::span<const double> limits, std::span<double> q);
+
 }  // namespace kinegraph

@@ -94,6 +94,21 @@ std::vector<Literal> goalOf(const std::string& text) {
   return goal;
 }
 
+/// Returns sentences about objects of a plan that no motion keeps away from others.
+std::vector<std::string> ghostsOf(const Config& C, const TaskPlan& plan) {
+  std::vector<std::string> warnings;
+  for (const std::string& name : wordsOf(plan.start, "is_object")) {
+    const auto names = [&](const std::vector<std::string>& action) { return std::ranges::count(action, name) > 0; };
+    const std::vector<Frame> shapes = heldShapes(C.getFrame(name));
+    if (shapes.empty() || std::ranges::none_of(plan.actions, names)) continue;
+    if (std::ranges::none_of(shapes, [](const Frame& shape) { return shape.data().shape->contact != 0; }))
+      warnings.push_back(cat("'", name,
+                             "' does not collide, because its contact is 0: it may pass through others; call ",
+                             "setContact(1)"));
+  }
+  return warnings;
+}
+
 double requireTimeLimit(double seconds) {
   if (seconds >= 0.) return seconds;
   throw ValueError(cat("planTask: time_limit is ", seconds, " s; expected a number >= 0, or infinity"));
@@ -379,8 +394,10 @@ TaskPlan TaskSearch::unsolved(const std::string& reason) {
   return answer(status, join(parts, "; "));
 }
 
-/// Adds the record of the search so far, and what is wrong with the frames of the hands.
+/// Adds the record of the search so far, and what is wrong with objects and with the frames of the hands.
 TaskPlan TaskSearch::completed(TaskPlan plan) {
+  const std::vector<std::string> ghosts = ghostsOf(*original_, plan);
+  plan.warnings.insert(plan.warnings.begin(), ghosts.begin(), ghosts.end());
   plan.warnings.insert(plan.warnings.begin(), flaws_.begin(), flaws_.end());
   if (!plan.feasible())
     for (const std::string& flaw : flaws_) plan.message += cat(plan.message.empty() ? "" : "; ", flaw);
