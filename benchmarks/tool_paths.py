@@ -16,6 +16,8 @@ is within 1 % of it, and the share that `plan.slow` lists; processor time of the
 --peers adds roboplan, MPlib and Descartes of tesseract-robotics (tool_path_problems/peers.py) on families a to d,
 judged alike, without collisions. A motion counts as solved if it gets to the end with a deviation below 10 mm.
 
+--flow path lets transfers flow into the seams of family f, --approach into approaches.
+
 --orders compares instead the durations of seven seams in any order with the best of all orders, directions and branches
 (tool_path_problems/orders.py), for a UR10e and an IRB 120. A plan is wrong if it takes more than 5 % longer.
 """
@@ -43,7 +45,7 @@ def paths_of(problem):
     return paths
 
 
-def planned(problem):
+def planned(problem, approach, flow):
     """The scene, the plan, and the processor time in ms."""
     C = families.scene(problem["robot"], problem["boxes"])
     C.setJointState(families.home(C, problem["robot"]))
@@ -58,6 +60,9 @@ def planned(problem):
         velocity=velocity,
         acceleration=acceleration,
         jerk=jerk,
+        approach=approach,
+        retract=approach,
+        flow=flow,
     )
     return C, plan, 1e3 * (process_time() - begin)
 
@@ -181,6 +186,8 @@ def main():
     parser.add_argument("--robots", nargs="+", default=["panda", "ur10"], choices=["panda", "ur10"])
     parser.add_argument("--peers", action="store_true", help="a table with roboplan, MPlib and Descartes")
     parser.add_argument("--orders", action="store_true", help="orders of seven seams beside the best ones")
+    parser.add_argument("--approach", type=float, default=0.0, help="length of approaches and retracts, m")
+    parser.add_argument("--flow", default="approach", help="where transfers end with a velocity")
     options = parser.parse_args()
     if options.orders:
         wrong = order_table(options.seeds)
@@ -192,7 +199,7 @@ def main():
         results.setdefault((family, name), []).append(result)
 
     for problem in families.all_problems(options.seeds, options.families, options.robots):
-        C, plan, ms = planned(problem)
+        C, plan, ms = planned(problem, options.approach, options.flow)
         text, right = line(problem, C, plan, ms)
         print(text, flush=True)
         times.setdefault(problem["family"], []).append(ms)

@@ -34,6 +34,10 @@ def addToolPath(commands: Any) -> None:
     tool.add_argument("--margin", type=float, default=0.0, help="distance to obstacles, m (default: 0)")
     tool.add_argument("--touching", nargs="+", default=[], metavar="FRAME", help="frames that the tool may touch")
     tool.add_argument("--approach", type=float, default=0.0, help="length of an approach and a retract, m")
+    tool.add_argument(
+        "--flow", choices=["none", "approach", "path"], default="approach",
+        help="where transfers end with a velocity (default: approach)",
+    )  # fmt: skip
     tool.add_argument("--transfer", action="store_true", help="begin where the robot of the scene is")
     tool.add_argument("--velocity", type=float, help="limit of all joints, rad/s or m/s (default: the model's)")
     tool.add_argument("--acceleration", type=float, help="limit of all joints, rad/s^2 or m/s^2")
@@ -93,6 +97,7 @@ def _planned(config: Config, options: argparse.Namespace) -> ToolPathPlan:
         touching=options.touching,
         approach=options.approach,
         retract=options.approach,
+        flow=options.flow,
         transfer_from=config.getJointState() if options.transfer else None,
         velocity=options.velocity,
         acceleration=options.acceleration,

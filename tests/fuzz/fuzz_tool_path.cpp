@@ -18,7 +18,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
           .string();
   std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(data), std::streamsize(size));
   try {
-    const ToolCurve curve(ToolPath::read(path, "tool"), Pose(), 1e-4, .05, .05);
+    const ToolCurve curve(ToolPath::read(path, "tool"), Pose(), {1e-4, 1e-3}, .05, .05);
     for (const double share : {0., .3, .7, 1.})
       if (!curve.pieces().eval(share * curve.length()).allFinite()) std::abort();
     if (curve.reversed().pieces().pieces() != curve.pieces().pieces()) std::abort();

@@ -52,5 +52,10 @@ TEST(AccelerationRamp, BernsteinCoefficientsHoldThePiece) {
   }
 }
 
+TEST(AccelerationRamp, ASmallAccelerationTakesItsTime) {
+  const AccelerationRamp ramp = rampDown(kStart, kVelocity, .001 * kAcceleration, kLimits);
+  EXPECT_NEAR(ramp.curve.length() / ramp.velocity.norm(), .02, 1e-9);
+}
+
 }  // namespace
 }  // namespace kinegraph

@@ -74,5 +74,13 @@ TEST(PathOrder, LeavesOutVariantsThatNoTransferLeadsTo) {
   }
 }
 
+TEST(PathOrder, APathThatIsFasterIsWorthALongerTransfer) {
+  OrderProblem problem;
+  const VectorXd at{{0.}};
+  problem.variants = {{{0, false, at, at, 5.}, {1, false, at, at, 2.}}, {{0, false, at, at, 1.}}};
+  problem.begin = VectorXd{{0., 1., 0.}}, problem.transfer = MatrixXd::Constant(3, 3, 1.);
+  EXPECT_EQ(orderPaths(problem)[0].solution, 1);
+}
+
 }  // namespace
 }  // namespace kinegraph

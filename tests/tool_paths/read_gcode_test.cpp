@@ -44,7 +44,7 @@ G1 X1000
   ASSERT_TRUE(path.first());
   EXPECT_TRUE(path.first()->p.isApprox(Vector3d(.01, -.005, .005)));
   ASSERT_EQ(path.elements().size(), 6u);
-  const ToolCurve curve(path, Pose(), 1e-6);
+  const ToolCurve curve(path, Pose(), {1e-6, 1e-5});
   EXPECT_NEAR(curve.length(), .005 + 2. * .03 + 2. * std::numbers::pi * .005 + .005, 1e-7);
   EXPECT_DOUBLE_EQ(curve.speedAt(.001), .01);
   EXPECT_DOUBLE_EQ(curve.speedAt(.02), .02);
@@ -61,13 +61,13 @@ TEST(ReadGcode, ReadsInchesIncrementsPlanesAndHelices) {
   EXPECT_TRUE(inches.elements()[1].waypoints[0].p.isApprox(Vector3d(.0254, -.0508, 0.)));
   EXPECT_NEAR(inches.elements()[0].speed, .0254, 1e-12);
   // G2 about +y seen from +y is clockwise: from +x (10 mm) a quarter turn leads to +z.
-  const ToolCurve side(gcode("G0 X10 Y0 Z0\nG18 G2 X0 Z10 I-10 K0 F600\n"), Pose(), 1e-6);
+  const ToolCurve side(gcode("G0 X10 Y0 Z0\nG18 G2 X0 Z10 I-10 K0 F600\n"), Pose(), {1e-6, 1e-5});
   EXPECT_NEAR(side.length(), .5 * std::numbers::pi * .01, 1e-7);
   EXPECT_LT((side.at(.5 * side.length()).p - .01 * Vector3d(std::sqrt(.5), 0., std::sqrt(.5))).norm(), 1e-6);
-  const ToolCurve helix(gcode("G0 X10 Y0 Z0\nG2 X10 Y0 Z-4 I-10 F600\n"), Pose(), 1e-6);
+  const ToolCurve helix(gcode("G0 X10 Y0 Z0\nG2 X10 Y0 Z-4 I-10 F600\n"), Pose(), {1e-6, 1e-5});
   EXPECT_NEAR(helix.length(), std::hypot(2. * std::numbers::pi * .01, .004), 1e-7);
   EXPECT_LT((helix.at(.25 * helix.length()).p - Vector3d(0., -.01, -.001)).norm(), 1e-6);
-  const ToolCurve large(gcode("G0 X10 Y0 Z0\nG2 X0 Y10 R-10 F600\n"), Pose(), 1e-6);
+  const ToolCurve large(gcode("G0 X10 Y0 Z0\nG2 X0 Y10 R-10 F600\n"), Pose(), {1e-6, 1e-5});
   EXPECT_NEAR(large.length(), 1.5 * std::numbers::pi * .01, 1e-7);
 }
 
@@ -92,9 +92,9 @@ TEST(ReadGcode, MovesOfTheMachineAreNotPartOfThePath) {
 }
 
 TEST(ReadGcode, CentersAreRelativeUnlessG90Point1) {
-  const ToolCurve curve(gcode("\xef\xbb\xbfG90.1\nG0 X10 Y10 Z0\nG2 X30 Y10 I20 J10 F600\n"), Pose(), 1e-6);
+  const ToolCurve curve(gcode("\xef\xbb\xbfG90.1\nG0 X10 Y10 Z0\nG2 X30 Y10 I20 J10 F600\n"), Pose(), {1e-6, 1e-5});
   EXPECT_LT((curve.at(.5 * curve.length()).p - Vector3d(.02, .02, 0.)).norm(), 1e-6);
-  const ToolCurve same(gcode("G90.1\nG91.1\nG0 X10 Y10 Z0\nG2 X30 Y10 I10 J0 F600\n"), Pose(), 1e-6);
+  const ToolCurve same(gcode("G90.1\nG91.1\nG0 X10 Y10 Z0\nG2 X30 Y10 I10 J0 F600\n"), Pose(), {1e-6, 1e-5});
   EXPECT_LT((same.at(.5 * same.length()).p - Vector3d(.02, .02, 0.)).norm(), 1e-6);
 }
 

@@ -17,7 +17,9 @@ Pose poseAt(double x, double y, double z, double about_z = 0.) {
   return {Vector3d(x, y, z), Quaterniond(Eigen::AngleAxisd(about_z, Vector3d::UnitZ()))};
 }
 
-ToolCurve curveOfPath(const ToolPath& path) { return ToolCurve(path, Pose(), 5e-6); }
+constexpr ToolTolerance kFit{5e-6, 5e-5};
+
+ToolCurve curveOfPath(const ToolPath& path) { return ToolCurve(path, Pose(), kFit); }
 
 TEST(ToolCurve, ALineHasItsLengthAndTurnsAtAConstantRate) {
   const ToolCurve curve = curveOfPath(ToolPath("tool").start(poseAt(0., 0., 0.)).line(poseAt(.3, .4, 0., 1.)));
@@ -94,7 +96,7 @@ TEST(ToolCurve, BlendsWithoutEffectAreReported) {
   ToolPath path("tool");
   path.start(poseAt(0., 0., 0.)).line(poseAt(.1, 0., 0.), .01).spline({poseAt(.2, .1, 0.), poseAt(.3, 0., 0.)});
   path.line(poseAt(.4, 0., 0.), .02);
-  const ToolCurve curve(path, Pose(), 5e-6, .05);
+  const ToolCurve curve(path, Pose(), kFit, .05);
   ASSERT_EQ(curve.warnings().size(), 2u);
   EXPECT_EQ(curve.warnings()[0].find("the blend of 0.01 m at element 0 has no effect"), 0u) << curve.warnings()[0];
   EXPECT_EQ(curve.warnings()[1].find("the blend of 0.02 m at element 2 has no effect"), 0u) << curve.warnings()[1];
@@ -117,7 +119,7 @@ TEST(ToolCurve, RowsWithRoundingGiveASmoothCurve) {
     bend = std::max(bend, curve.pieces().eval(s, 2).head<3>().norm());
   }
   EXPECT_LT(bend, 12.);  // the curvature is 10; polylines of the rows would have thousands
-  EXPECT_LT(curve.fitError(), 5e-6);
+  EXPECT_LT(curve.fitError().position, 5e-6);
 }
 
 TEST(ToolCurve, FewRowsAtRightAnglesAreLinesWithCorners) {
@@ -144,7 +146,7 @@ TEST(ToolCurve, TheReversedCurveIsTheSamePlaceByPlace) {
 TEST(ToolCurve, ApproachAndRetractAreAlongTheFreeAxis) {
   ToolPath path("tool");
   path.start(poseAt(0., 0., 0.)).line(poseAt(.1, 0., 0.)).free(2);
-  const ToolCurve curve(path, Pose(), 5e-6, .02, .03);
+  const ToolCurve curve(path, Pose(), kFit, .02, .03);
   EXPECT_NEAR(curve.approachEnd(), .02, kExact);
   EXPECT_NEAR(curve.retractStart(), .12, kExact);
   EXPECT_NEAR(curve.length(), .15, kExact);

@@ -73,5 +73,22 @@ TEST(CurvePart, JoinedCurvesStopWhereTheyMeet) {
   EXPECT_LE(timed.eval(timed.times[1]).velocity.norm(), 1e-9);
 }
 
+TEST(CurvePart, AReversedMotionTakesTheSameWayBack) {
+  for (const bool smooth : {false, true}) {
+    MotionLimits limits{VectorXd::Constant(3, 1.), VectorXd::Constant(3, 2.), {}};
+    if (smooth) limits.jerk = VectorXd::Constant(3, 20.);
+    const TimedPath there = retime(MatrixXd(), someCurve(smooth), limits), back = reversed(there);
+    ASSERT_TRUE(there.feasible());
+    ASSERT_NEAR(back.duration(), there.duration(), 1e-12);
+    for (double t = .0037; t < there.duration(); t += .01) {
+      const MotionState a = there.eval(t), b = back.eval(there.duration() - t);
+      EXPECT_LE((a.q - b.q).norm(), 1e-9) << t;
+      EXPECT_LE((a.velocity + b.velocity).norm(), 1e-7) << t;
+      EXPECT_LE((a.acceleration - b.acceleration).norm(), 1e-5) << t;
+    }
+    EXPECT_TRUE(back.times.isApprox((there.duration() - there.times.reverse().array()).matrix()));
+  }
+}
+
 }  // namespace
 }  // namespace kinegraph

@@ -473,3 +473,10 @@ TEST(Retime, MistakesAreNamed) {
   expectError<ValueError>([&] { retime(line(1.), limits, options); }, {"start_velocity", "along the path"});
   expectError<ValueError>([&] { cornersOfName("splin"); }, {"'splin'", "similar names: spline"});
 }
+
+TEST(Retime, CurvesOfAHigherDegreeThanItBoundsAreRefused) {
+  PathCurve::Parts parts{.dofs = 1, .degree = 5, .length = 1., .begin = {0.}, .marks = {0., 1.}};
+  parts.coefficients = {0., 1., 0., 0., 0., .1}, parts.is_line = {false}, parts.stops = {false};
+  expectError<ValueError>([&] { retime(MatrixXd(), PathCurve::fromParts(parts), limitsOf(1, 1., 1.)); },
+                          {"degree 5", "at most 4"});
+}

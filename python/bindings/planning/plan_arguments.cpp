@@ -4,6 +4,7 @@
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
+#include <map>
 
 #include "planning/plan_objects.h"
 
@@ -29,6 +30,9 @@ constexpr LargeOption kLargeOptions[] = {
     {"start_velocity", kLimit, "None", "Initial dq/dt, shape (n,), rad/s or m/s. None: at rest.", true},
     {"start_acceleration", kLimit, "None", "Initial d2q/dt2, shape (n,). Needs start_velocity and jerk. None: zero.",
      true},
+    {"end_velocity", kLimit, "None",
+     "Final dq/dt, shape (n,). Needs one goal configuration and a start at rest. None: at rest.", true},
+    {"end_acceleration", kLimit, "None", "Final d2q/dt2, shape (n,). Needs end_velocity and jerk. None: zero.", true},
     {"obstacle_trajectories",
      "collections.abc.Mapping[str, tuple[numpy.typing.ArrayLike, numpy.typing.ArrayLike]] | None", "None",
      "Dynamic obstacles: frame -> (times, values). Times have shape (K,), s from the start of the motion; values are "
@@ -102,12 +106,15 @@ void setLargeOption(const OptionClass<PlanOptions>&, PlanOptions& options, const
   } else if (name == "obstacle_trajectories") {
     options.obstacle_trajectories = value.is_none() ? std::vector<ObstacleTrajectory>() : obstaclesOf(value);
   } else if (!value.is_none()) {
-    VectorXd PlanOptions::*const member = name == "velocity"         ? &PlanOptions::velocity
-                                          : name == "acceleration"   ? &PlanOptions::acceleration
-                                          : name == "jerk"           ? &PlanOptions::jerk
-                                          : name == "start_velocity" ? &PlanOptions::start_velocity
-                                                                     : &PlanOptions::start_acceleration;
-    options.*member = limitOf(name.c_str(), value);
+    static const std::map<std::string, VectorXd PlanOptions::*> members = {
+        {"velocity", &PlanOptions::velocity},
+        {"acceleration", &PlanOptions::acceleration},
+        {"jerk", &PlanOptions::jerk},
+        {"start_velocity", &PlanOptions::start_velocity},
+        {"start_acceleration", &PlanOptions::start_acceleration},
+        {"end_velocity", &PlanOptions::end_velocity},
+        {"end_acceleration", &PlanOptions::end_acceleration}};
+    options.*members.at(name) = limitOf(name.c_str(), value);
   }
 }
 
@@ -142,9 +149,9 @@ PlanOptions planOptionsFrom(nb::kwargs arguments, PlanCall call, PlanOptions opt
   nb::dict values;
   for (const auto& [name, value] : arguments) {
     const std::string key = nb::cast<std::string>(name);
-    if (call == PlanCall::replan && (key == "start_velocity" || key == "start_acceleration"))
-      throw ValueError(
-          cat("MotionPlan.replan: there is no option ", key, "; the new motion continues the running one"));
+    if (call == PlanCall::replan && (key.starts_with("start_") || key.starts_with("end_")))
+      throw ValueError(cat("MotionPlan.replan: there is no option ", key,
+                           "; the new motion continues the running one and ends at rest"));
     if (call != PlanCall::replan || !value.is_none()) values[name] = value;
   }
   planOptionClass().setFields(options, values);

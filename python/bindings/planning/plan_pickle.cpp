@@ -33,6 +33,8 @@ nb::dict optionFields(const PlanOptions& options) {
   add("jerk", options.jerk);
   add("start_velocity", options.start_velocity);
   add("start_acceleration", options.start_acceleration);
+  add("end_velocity", options.end_velocity);
+  add("end_acceleration", options.end_acceleration);
   nb::list constraints;
   for (const MotionConstraint& constraint : options.constraints) constraints.append(constraint);
   fields["constraints"] = constraints;

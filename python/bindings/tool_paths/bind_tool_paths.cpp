@@ -265,7 +265,7 @@ void bindToolPaths(nb::module_& m) {
   m.def(
       "planToolPath",
       [](const PyConfig& config, nb::handle paths, double speed, const std::string& order, double approach,
-         double retract, double tolerance, double rotation_tolerance, double margin,
+         double retract, const std::string& flow, double tolerance, double rotation_tolerance, double margin,
          const std::vector<std::string>& touching, const MaybeVector& start, const MaybeVector& transfer_from,
          const MaybeVector& velocity, const MaybeVector& acceleration, const MaybeVector& jerk,
          double tool_acceleration, double tool_jerk, const std::optional<double>& time_limit, std::uint64_t seed) {
@@ -273,6 +273,7 @@ void bindToolPaths(nb::module_& m) {
         if (order != "free" && order != "given")
           throw ValueError(cat("planToolPath: order is '", order, "'; expected 'given' or 'free'"));
         options.free_order = order == "free";
+        options.flow = transferFlowOfName(flow);
         options.speed = speed, options.approach = approach, options.retract = retract;
         options.tolerance = tolerance, options.rotation_tolerance = rotation_tolerance, options.margin = margin;
         options.touching = touching;
@@ -289,10 +290,10 @@ void bindToolPaths(nb::module_& m) {
         return planToolPath(scene, all, options, CheckInterrupts());
       },
       "config"_a, "paths"_a, nb::kw_only(), "speed"_a = .1, "order"_a = "given", "approach"_a = 0., "retract"_a = 0.,
-      "tolerance"_a = 2e-5, "rotation_tolerance"_a = 8e-5, "margin"_a = 0., "touching"_a = std::vector<std::string>(),
-      "start"_a = nb::none(), "transfer_from"_a = nb::none(), "velocity"_a = nb::none(), "acceleration"_a = nb::none(),
-      "jerk"_a = nb::none(), "tool_acceleration"_a = 2., "tool_jerk"_a = 40., "time_limit"_a = nb::none(), "seed"_a = 0,
-      doc::plan);
+      "flow"_a = "approach", "tolerance"_a = 2e-5, "rotation_tolerance"_a = 8e-5, "margin"_a = 0.,
+      "touching"_a = std::vector<std::string>(), "start"_a = nb::none(), "transfer_from"_a = nb::none(),
+      "velocity"_a = nb::none(), "acceleration"_a = nb::none(), "jerk"_a = nb::none(), "tool_acceleration"_a = 2.,
+      "tool_jerk"_a = 40., "time_limit"_a = nb::none(), "seed"_a = 0, doc::plan);
 }
 
 }  // namespace kinegraph::python

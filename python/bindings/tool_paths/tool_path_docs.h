@@ -241,6 +241,8 @@ Args:
     approach: Length (m) of a straight approach along the tool's free axis, or z, before each path. 0: none. It is on
         the side of the tool's own link, whether the axis points into the work or out of it.
     retract: Length (m) of a straight retract after each path. 0: none.
+    flow: Where transfers end with the speed of what follows, if that takes less time: "approach"; "path" also at paths
+        without an approach, whose start the tool then passes without a stop; "none": all start at rest.
     tolerance: Largest distance of the tool from the curve, m.
     rotation_tolerance: Largest rotation of the tool, or of its free axis, from the curve, rad. With a cone, the axis is
         never outside of it.

@@ -64,7 +64,8 @@ class ToolPathDrawing {
   ToolPathDrawing(ProgrammableViewer& viewer, const Config& config, const ToolPath& path, int number)
       : viewer_(viewer),
         tool_(config, path),
-        curve_(path, Pose(tool_.pose(config.getJointState())), kToleranceOfRows),
+        curve_(path, Pose(tool_.pose(config.getJointState())),
+               {kToleranceOfRows, kToleranceOfRows / ToolCurve::kOnTheSpot}),
         options_{.frame = path.relativeTo()},
         name_(cat(kDrawing, " ", number)) {}
 

@@ -8,15 +8,17 @@ namespace kinegraph {
 namespace {
 
 constexpr double kGentle = .5, kMost = .98;  // shares of the jerk limit
+constexpr double kLeastTime = .02;           // s, of a ramp that need not be shorter; timings have coarser grids
 constexpr double kBelow = .999;              // of the velocity limit, which is not exceeded
 constexpr double kHardly = .05;              // of the initial speed: a slower end counts as a stop
 
 /// The share of the jerk limit with which a dof keeps its velocity limit.
 double shareOf(double velocity, double acceleration, double most_velocity, double most_jerk) {
-  if (velocity * acceleration <= 0.) return kGentle;
+  const double gentle = std::min(kGentle, std::abs(acceleration) / (most_jerk * kLeastTime));
+  if (velocity * acceleration <= 0.) return gentle;
   const double slack = kBelow * most_velocity - std::abs(velocity);
   const double needed = slack > 0. ? acceleration * acceleration / (2. * most_jerk * slack) : kMost;
-  return std::clamp(needed, kGentle, kMost);
+  return std::clamp(needed, gentle, kMost);
 }
 
 }  // namespace

@@ -97,7 +97,8 @@ class MotionPlan : public Trajectory {
   /// Plans a motion that continues this one from time t (s), with its velocity at that time, to a goal, in a scene that
   /// may have changed. No goal: the present one. With jerk limits the motion also continues the acceleration. Time 0 of
   /// the new motion is t of this one. If the rest of this motion leads to the goal and is collision-free, it stays. No
-  /// options: optionsAt(t). Throws ValueError if there is no motion.
+  /// options: optionsAt(t). The new motion ends at rest; if this one has an end_velocity, a warning says so. Throws
+  /// ValueError if there is no motion.
   MotionPlan replan(const Config& config, double t, const std::optional<MotionGoal>& goal = std::nullopt,
                     const std::optional<PlanOptions>& options = std::nullopt,
                     const CancellationToken& cancellation = {}) const;

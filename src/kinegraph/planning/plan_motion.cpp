@@ -7,6 +7,7 @@
 #include "kinegraph/planning/plan_among_obstacles.h"
 #include "kinegraph/planning/plan_from_velocity.h"
 #include "kinegraph/planning/plan_timing.h"
+#include "kinegraph/planning/plan_to_velocity.h"
 #include "kinegraph/planning/unseen_place.h"
 #include "kinegraph/trajectories/curve_part.h"
 
@@ -22,6 +23,8 @@ MotionPlan planFromState(const Config& config, const MotionGoal& goal, const Pla
                          const VectorXd& start, const CancellationToken& cancellation, const KnownCurves& known) {
   const auto began = std::chrono::steady_clock::now();
   const auto plan_with = [&](const PlanOptions& by) {
+    if (by.end_velocity.size() > 0 && !by.end_velocity.isZero(0.))
+      return planToVelocity(config, goal, by, start, cancellation);
     return by.obstacle_trajectories.empty() ? planFromVelocity(config, goal, by, start, cancellation, known)
                                             : planAmongObstacles(config, goal, by, start, cancellation, known);
   };
@@ -101,8 +104,9 @@ MotionPlan MotionPlan::replan(const Config& config, double time, const std::opti
   if (!std::isfinite(time)) throw ValueError("MotionPlan.replan: the time is not finite");
   const MotionState now = eval(time);
   PlanOptions next = options_now.value_or(optionsAt(time));
+  const bool ends_at_rest = next.end_velocity.size() == 0 || next.end_velocity.isZero(0.);
   next.start_velocity = now.velocity;
-  next.start_acceleration = {};
+  next.start_acceleration = next.end_velocity = next.end_acceleration = {};
   if (next.jerk.size() > 0 && !now.velocity.isZero(0.)) next.start_acceleration = now.acceleration;
   next.validateFor(config.getJointDimension());
   if (now.q.size() != config.getJointDimension())
@@ -113,10 +117,14 @@ MotionPlan MotionPlan::replan(const Config& config, double time, const std::opti
   const ScalingPhase& phase = scaling.phaseAt(clamped);
   const ScalingState state = phase.at(clamped - phase.time);
   const MotionLimits limits = planLimits(config, next);
-  const KnownCurves known = knownCurves(timed_path, clamped, std::clamp(state.s, phase.begin.s, phase.end), state.speed,
-                                        limits, areSame(limits, planLimits(config, options)), goal.has_value());
-  return planFromState(config, goal ? *goal : MotionGoal(VectorXd(path.bottomRows(1).transpose())), next, now.q,
-                       cancellation, known);
+  KnownCurves known = knownCurves(timed_path, clamped, std::clamp(state.s, phase.begin.s, phase.end), state.speed,
+                                  limits, areSame(limits, planLimits(config, options)), goal.has_value());
+  if (!ends_at_rest) known.to_goal.clear(), known.to_stop.clear();
+  MotionPlan plan = planFromState(config, goal ? *goal : MotionGoal(VectorXd(path.bottomRows(1).transpose())), next,
+                                  now.q, cancellation, known);
+  if (!ends_at_rest && plan.feasible())
+    plan.warnings.push_back("the motion ends at rest, not with the end velocity of the motion before");
+  return plan;
 }
 
 }  // namespace kinegraph

@@ -23,7 +23,8 @@ namespace kinegraph {
 /// Not finding a motion is a status with a message. Throws ValueError for invalid arguments.
 ///
 /// With options.start_velocity, and options.start_acceleration, the motion begins with these and continues straight at
-/// first (planFromVelocity). If nothing can be timed so, it begins without the acceleration, with a warning. Among
+/// first (planFromVelocity); if nothing can be timed so, without the acceleration, with a warning. In the same way, it
+/// ends with options.end_velocity, and options.end_acceleration, at a goal of one configuration. Among
 /// options.obstacle_trajectories, the timing avoids dynamic obstacles and waits if necessary (planAmongObstacles).
 MotionPlan planMotion(const Config& config, const MotionGoal& goal, const PlanOptions& options = {},
                       const std::optional<VectorXd>& start = std::nullopt, const CancellationToken& cancellation = {});
@@ -41,7 +42,7 @@ class Planner;
 /// the first call of `next`, ends the sequence.
 class MotionPlans {
  public:
-  /// Throws ValueError for invalid options, and for dynamic obstacles and start velocities, which only planMotion
+  /// Throws ValueError for invalid options, and for dynamic obstacles, start and end velocities, which only planMotion
   /// takes.
   MotionPlans(const Config& config, MotionGoal goal, PlanOptions options = {},
               const std::optional<VectorXd>& start = std::nullopt);

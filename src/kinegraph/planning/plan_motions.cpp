@@ -19,8 +19,10 @@ MotionPlans::MotionPlans(const Config& config, MotionGoal goal, PlanOptions opti
       user_cancellation_([this] { return cancellation_ && cancellation_(); }) {
   options_.validateFor(config_.getJointDimension());
   if (!options_.obstacle_trajectories.empty() ||
-      (options_.start_velocity.size() > 0 && !options_.start_velocity.isZero(0.)))
-    throw ValueError("planMotions: obstacle_trajectories and start_velocity are not supported; call planMotion");
+      (options_.start_velocity.size() > 0 && !options_.start_velocity.isZero(0.)) ||
+      (options_.end_velocity.size() > 0 && !options_.end_velocity.isZero(0.)))
+    throw ValueError(
+        "planMotions: obstacle_trajectories, start_velocity and end_velocity are not supported; call planMotion");
   if (options_.improvement_evaluations == 0) options_.improvement_evaluations = kDefaultImprovement;
 }
 

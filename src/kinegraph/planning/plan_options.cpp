@@ -17,17 +17,26 @@ void validateLimit(const VectorXd& limit, const char* name, int dofs) {
   }
 }
 
-void validateStartAcceleration(const PlanOptions& options, int dofs) {
-  const VectorXd& acceleration = options.start_acceleration;
-  if (acceleration.size() == 0) return;
-  if (acceleration.size() != dofs)
-    throw ValueError(cat("planMotion: start_acceleration has ", acceleration.size(), " numbers; expected ", dofs));
-  if (!acceleration.allFinite()) throw ValueError("planMotion: start_acceleration has numbers that are not finite");
-  if (acceleration.isZero(0.)) return;
-  if (options.jerk.size() == 0) throw ValueError("planMotion: start_acceleration needs jerk limits; pass jerk");
-  if (options.start_velocity.size() == 0 || options.start_velocity.isZero(0.))
-    throw ValueError(
-        "planMotion: start_acceleration needs a start_velocity; a motion from rest starts with zero acceleration");
+bool isMoving(const VectorXd& velocity) { return velocity.size() > 0 && !velocity.isZero(0.); }
+
+void validateDofs(const VectorXd& numbers, const char* name, int dofs) {
+  if (numbers.size() > 0 && numbers.size() != dofs)
+    throw ValueError(cat("planMotion: ", name, " has ", numbers.size(), " numbers; expected ", dofs));
+  if (!numbers.allFinite()) throw ValueError(cat("planMotion: ", name, " has numbers that are not finite"));
+}
+
+/// `end`: "start" or "end".
+void validateEnd(const PlanOptions& options, const std::string& end, const VectorXd& velocity,
+                 const VectorXd& acceleration, int dofs) {
+  validateDofs(velocity, cat(end, "_velocity").c_str(), dofs);
+  validateDofs(acceleration, cat(end, "_acceleration").c_str(), dofs);
+  if (!isMoving(acceleration)) return;
+  if (options.jerk.size() == 0)
+    throw ValueError(cat("planMotion: ", end, "_acceleration needs jerk limits; pass jerk"));
+  if (!isMoving(velocity))
+    throw ValueError(cat("planMotion: ", end, "_acceleration needs ", end == "start" ? "a " : "an ", end,
+                         "_velocity; a motion ", end == "start" ? "from rest starts" : "to rest ends",
+                         " with zero acceleration"));
 }
 
 }  // namespace
@@ -94,18 +103,19 @@ void PlanOptions::validateFor(int dofs) const {
   validateLimit(velocity, "velocity", dofs);
   validateLimit(acceleration, "acceleration", dofs);
   validateLimit(jerk, "jerk", dofs);
-  if (start_velocity.size() > 0 && start_velocity.size() != dofs)
-    throw ValueError(cat("planMotion: start_velocity has ", start_velocity.size(), " numbers; expected ", dofs));
-  if (!timing && (slices > 0 || !obstacle_trajectories.empty() || start_velocity.size() > 0))
-    throw ValueError("planMotion: slices, obstacle_trajectories and start_velocity need timing");
-  if (slices > 0 &&
-      (optimize != "time" || !constraints.empty() || !obstacle_trajectories.empty() || start_velocity.size() > 0))
+  validateEnd(*this, "start", start_velocity, start_acceleration, dofs);
+  validateEnd(*this, "end", end_velocity, end_acceleration, dofs);
+  const bool has_velocity = start_velocity.size() > 0 || end_velocity.size() > 0;
+  if (!timing && (slices > 0 || !obstacle_trajectories.empty() || has_velocity))
+    throw ValueError("planMotion: slices, obstacle_trajectories, start_velocity and end_velocity need timing");
+  if (slices > 0 && (optimize != "time" || !constraints.empty() || !obstacle_trajectories.empty() || has_velocity))
     throw ValueError(
-        "planMotion: slices needs optimize='time', and no constraints, obstacle_trajectories or start_velocity");
+        "planMotion: slices needs optimize='time', and no constraints, obstacle_trajectories, start_velocity or "
+        "end_velocity");
+  if (isMoving(end_velocity) && (isMoving(start_velocity) || !obstacle_trajectories.empty()))
+    throw ValueError("planMotion: end_velocity needs a start at rest, and no obstacle_trajectories");
   if (slices == 1 || slices > kMostSlices)
     throw ValueError(cat("planMotion: slices is ", slices, "; expected 0, or 2 to ", kMostSlices));
-  if (!start_velocity.allFinite()) throw ValueError("planMotion: start_velocity has numbers that are not finite");
-  validateStartAcceleration(*this, dofs);
   if (!obstacle_trajectories.empty() && !acceleration.allFinite())
     throw ValueError("planMotion: acceleration is infinite; dynamic obstacles need a finite limit");
 }

@@ -60,8 +60,10 @@ struct PlanOptions {
   std::vector<MotionConstraint> constraints = {};  ///< of the whole path
   VectorXd start_velocity = {};                    ///< initial dq/dt, rad/s or m/s; empty: at rest
   VectorXd start_acceleration = {};                ///< initial d2q/dt2; needs start_velocity and jerk; empty: zero
-  bool prove_infeasibility = true;                 ///< if no path is found, searches a proof that there is none
-  bool timing = true;                              ///< computes a time parameterization; else timed_path is empty
+  VectorXd end_velocity = {};       ///< final dq/dt; needs one goal configuration and a start at rest; empty: at rest
+  VectorXd end_acceleration = {};   ///< final d2q/dt2; needs end_velocity and jerk; empty: zero
+  bool prove_infeasibility = true;  ///< if no path is found, searches a proof that there is none
+  bool timing = true;               ///< computes a time parameterization; else timed_path is empty
   std::vector<ObstacleTrajectory> obstacle_trajectories = {};  ///< dynamic obstacles; time 0 is the start of the motion
 
   void validate() const;  ///< throws ValueError that names the first invalid field

@@ -227,7 +227,7 @@ void PrimitiveList::spline(const ToolPathElement& element) {
   is_first_ = false;
 }
 
-void PrimitiveList::fit(const std::vector<double>& t, const MatrixXd& y, double tolerance) {
+void PrimitiveList::fit(const std::vector<double>& t, const MatrixXd& y) {
   const int count = int(t.size());
   std::vector<int> chosen;
   const int stride = std::clamp((count - 1) / 4, 1, kFirstStride);
@@ -243,21 +243,22 @@ void PrimitiveList::fit(const std::vector<double>& t, const MatrixXd& y, double 
     CubicPieces pieces;
     pieces.addSpline(knots, at, false);
     std::vector<int> more;
-    double worst = 0.;
+    ToolTolerance worst{0., 0.};
     for (std::size_t k = 0; k + 1 < chosen.size(); ++k) {
-      double off = 0.;
+      ToolTolerance off{0., 0.};
       for (int row = chosen[k] + 1; row < chosen[k + 1]; ++row) {
         const double x = t[std::size_t(row)] - knots[k];
         const MatrixXd& c = pieces.coefficient[k];
         const Eigen::Matrix<double, 9, 1> miss = c.col(0) + x * (c.col(1) + x * (c.col(2) + x * c.col(3))) - y.col(row);
-        off = std::max({off, miss.head<3>().norm(), ToolCurve::kOnTheSpot * miss.segment<3>(3).norm(),
-                        ToolCurve::kOnTheSpot * miss.tail<3>().norm()});
+        off.position = std::max(off.position, miss.head<3>().norm());
+        off.rotation = std::max({off.rotation, miss.segment<3>(3).norm(), miss.tail<3>().norm()});
       }
-      if (off > tolerance) more.push_back((chosen[k] + chosen[k + 1]) / 2);
-      worst = std::max(worst, off);
+      if (off.position > tolerance_.position || off.rotation > tolerance_.rotation)
+        more.push_back((chosen[k] + chosen[k + 1]) / 2);
+      worst = {std::max(worst.position, off.position), std::max(worst.rotation, off.rotation)};
     }
     if (more.empty() || round == kMaxFitRounds) {
-      fit_error = std::max(fit_error, worst);
+      fit_error = {std::max(fit_error.position, worst.position), std::max(fit_error.rotation, worst.rotation)};
       append(ofPieces(std::move(pieces), t.back(), std::move(knots)), 0.);
       return;
     }
@@ -305,7 +306,7 @@ void PrimitiveList::rows(const ToolPathElement& element) {
       if (j > first) t.push_back(t.back() + step[std::size_t(j)]);
       y.col(j - first) = kept[std::size_t(j)];
     }
-    fit(t, y, tolerance_);
+    fit(t, y);
     first = k;
   }
 }

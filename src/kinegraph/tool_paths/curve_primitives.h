@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/tool_paths/tool_curve.h"
 #include "kinegraph/tool_paths/tool_path.h"
 
 namespace kinegraph {
@@ -23,7 +24,7 @@ struct CurvePrimitive {
 /// Collects the primitives of a ToolPath.
 class PrimitiveList {
  public:
-  PrimitiveList(const Pose& start, double tolerance) : fit_error(kHermiteError), now_(start), tolerance_(tolerance) {}
+  PrimitiveList(const Pose& start, const ToolTolerance& tolerance) : now_(start), tolerance_(tolerance) {}
 
   void add(const ToolPathElement& element, std::size_t number);
   void lineTo(const Pose& to, double blend = 0.);
@@ -35,9 +36,10 @@ class PrimitiveList {
 
   std::vector<CurvePrimitive> all;
   std::vector<std::string> warnings;
-  double fit_error;  ///< bound of the distance of the primitives from the path, m
 
   static constexpr double kHermiteError = 1e-7;  ///< m or rad, of a Hermite piece
+
+  ToolTolerance fit_error{kHermiteError, kHermiteError};  ///< bounds of the deviation of the primitives from the path
 
  private:
   Pose resolved(const ToolWaypoint& waypoint) const { return {waypoint.p, waypoint.rotation.value_or(now_.q)}; }
@@ -46,10 +48,10 @@ class PrimitiveList {
   void arc(const ToolPathElement& element);
   void spline(const ToolPathElement& element);
   void rows(const ToolPathElement& element);
-  void fit(const std::vector<double>& t, const MatrixXd& y, double tolerance);
+  void fit(const std::vector<double>& t, const MatrixXd& y);
 
   Pose now_;
-  double tolerance_;
+  ToolTolerance tolerance_;
   double speed_ = 0.;       // of the present element
   std::size_t number_ = 0;  // of the present element
   bool is_first_ = true;    // the path proper has no primitive yet

@@ -147,8 +147,8 @@ JointCurve jointCurveAlong(ToolKinematics& tool, const ToolCurve& curve, std::ve
     result.place = place, result.blocked = blocked;
     return result;
   };
-  const double position = tolerance.position - curve.fitError();
-  const double rotation = tolerance.rotation - curve.fitError() / ToolCurve::kOnTheSpot * (tool.cone() > 0. ? 0. : 1.);
+  const double position = tolerance.position - curve.fitError().position;
+  const double rotation = tolerance.rotation - (tool.cone() > 0. ? 0. : curve.fitError().rotation);
   std::vector<char> stale(s.size(), 1);  // per piece: it has no bound yet, or the spline changed nearby
   std::vector<PieceBound> bounds(s.size());
   for (std::size_t k = 0; k < s.size(); ++k) {
@@ -217,8 +217,8 @@ JointCurve jointCurveAlong(ToolKinematics& tool, const ToolCurve& curve, std::ve
     result.position_deviation = std::max(result.position_deviation, bound.position);
     result.rotation_deviation = std::max(result.rotation_deviation, bound.rotation);
   }
-  result.position_deviation += curve.fitError();
-  result.rotation_deviation += curve.fitError() / ToolCurve::kOnTheSpot;
+  result.position_deviation += curve.fitError().position;
+  result.rotation_deviation += curve.fitError().rotation;
   return result;
 }
 

@@ -10,12 +10,6 @@
 
 namespace kinegraph {
 
-/// Allowed deviation of the tool from its curve.
-struct ToolTolerance {
-  double position = 2e-5;  ///< m
-  double rotation = 8e-5;  ///< rad
-};
-
 /// Joint values along a tool curve: q(s) in cubic pieces with continuous second derivatives between corners.
 struct JointCurve {
   CubicPieces pieces;

@@ -11,7 +11,7 @@ namespace kinegraph {
 namespace {
 
 constexpr int kMaxImprovements = 200;
-constexpr int kMaxRounds = 12;  // orders whose transfers are planned
+constexpr int kMaxRounds = 13;  // orders whose transfers are planned
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// The best choice of variants for an order, and orders.
@@ -19,19 +19,21 @@ class OrderSearch {
  public:
   explicit OrderSearch(const OrderProblem& problem) : problem_(problem) {
     first_.push_back(0);
-    for (const std::vector<PathVariant>& of_path : problem.variants)
+    for (const std::vector<PathVariant>& of_path : problem.variants) {
       first_.push_back(first_.back() + int(of_path.size()));
+      for (const PathVariant& variant : of_path) duration_.push_back(variant.duration);
+    }
   }
 
   int firstVariant(int path) const { return first_[std::size_t(path)]; }
   int paths() const { return int(problem_.variants.size()); }
 
-  /// The least duration of all transfers in an order; `chosen` receives the variants.
+  /// The least duration of all paths and transfers in an order; `chosen` receives the variants.
   double costOf(const std::vector<int>& order, std::vector<int>* chosen = nullptr) const {
     std::vector<double> cost, next;
     std::vector<std::vector<int>> before(order.size());
     for (int b = first_[std::size_t(order[0])]; b < first_[std::size_t(order[0]) + 1]; ++b)
-      cost.push_back(problem_.begin[b]);
+      cost.push_back(problem_.begin[b] + duration_[std::size_t(b)]);
     for (std::size_t k = 1; k < order.size(); ++k) {
       next.clear();
       const int a0 = first_[std::size_t(order[k - 1])];
@@ -41,7 +43,7 @@ class OrderSearch {
         for (int a = 0; a < int(cost.size()); ++a)
           if (cost[std::size_t(a)] + problem_.transfer(a0 + a, b) < best)
             best = cost[std::size_t(a)] + problem_.transfer(a0 + a, b), from = a;
-        next.push_back(best);
+        next.push_back(best + duration_[std::size_t(b)]);
         before[k].push_back(from);
       }
       cost = next;
@@ -107,7 +109,8 @@ class OrderSearch {
 
  private:
   const OrderProblem& problem_;
-  std::vector<int> first_;  ///< per path: index of its first variant
+  std::vector<int> first_;        ///< per path: index of its first variant
+  std::vector<double> duration_;  ///< per variant, s
 };
 
 /// The least time (s) from rest to rest over a distance within limits of velocity, acceleration and jerk.
@@ -156,14 +159,16 @@ class SequenceSearch {
   PathSequence run() {
     PathSequence best;
     double least = kNever;
+    const bool free_order = problem_.free_order;
     for (int round = 0; round < kMaxRounds; ++round) {
+      problem_.free_order = free_order && round > 0;  // the given order is the first one
       PathSequence sequence{orderPaths(problem_), {}, false};
       bool any_new = false;
       const double total = planTransfers(sequence, any_new);
       if (total < least || best.order.empty()) best = std::move(sequence), least = total;
-      if (!any_new) break;
+      if (!any_new && (round > 0 || !free_order)) break;
       problem_.near_order.clear();
-      if (std::isfinite(total))
+      if (std::isfinite(total) && round > 0)
         for (const OrderedPath& path : best.order) problem_.near_order.push_back(path.path);
     }
     best.feasible = std::isfinite(least);
@@ -172,12 +177,13 @@ class SequenceSearch {
 
  private:
   /// Plans the transfers of a sequence that are not known, up to the first that does not exist. Returns the duration of
-  /// all, s.
+  /// all, with the paths, s.
   double planTransfers(PathSequence& sequence, bool& any_new) {
     double total = 0.;
     int before = -1;
     for (const OrderedPath& path : sequence.order) {
       sequence.transfers.emplace_back();
+      total += all_[std::size_t(path.variant)]->duration;
       if (before >= 0 || from_) {
         const auto [known, is_new] = planned_.try_emplace({before, path.variant});
         if (is_new) {

@@ -17,6 +17,7 @@ struct PathVariant {
   int solution = 0;
   bool reversed = false;
   VectorXd first, last;
+  double duration = 0.;  ///< s, of the path itself; only differences count
 };
 
 /// Paths to be ordered, and how long transfers between their variants take. Variants are counted over all paths.
@@ -34,9 +35,9 @@ struct OrderedPath {
   int variant = 0;
 };
 
-/// Orders paths so that the transfers between them are short, and chooses a variant of each. The choice of variants is
-/// the best one for an order (dynamic programming). Orders are improved from the nearest neighbors by reversing and
-/// moving parts.
+/// Orders paths so that they and the transfers between them are short, and chooses a variant of each. The choice of
+/// variants is the best one for an order (dynamic programming). Orders are improved from the nearest neighbors by
+/// reversing and moving parts.
 std::vector<OrderedPath> orderPaths(const OrderProblem& problem);
 
 /// The least duration of a motion from rest to rest, s: each joint alone within its limits.
@@ -52,9 +53,9 @@ struct PathSequence {
 /// Plans a transfer between two configurations with a small budget.
 using TransferPlanner = std::function<MotionPlan(const VectorXd& from, const VectorXd& to)>;
 
-/// Orders paths by the durations of planned transfers. The transfers of the best order by least durations are planned;
-/// where they take longer, or do not exist, the order is looked for again, until its transfers are all planned. `from`
-/// is where the motion begins; none: at the first path.
+/// Orders paths by their durations and those of planned transfers. The transfers of the given order are planned, then
+/// those of the best order by least durations; where they take longer, or do not exist, the order is looked for again,
+/// until its transfers are all planned. `from` is where the motion begins; none: at the first path.
 PathSequence orderWithTransfers(std::vector<std::vector<PathVariant>> variants, bool free_order,
                                 const std::optional<VectorXd>& from, const MotionLimits& limits,
                                 const TransferPlanner& plan);

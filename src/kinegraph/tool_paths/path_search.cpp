@@ -114,15 +114,22 @@ class PathSearch {
       Strand& strand = strands_[k];
       checkStrand(checker_, strand);
       if (strand.collides >= 0) continue;
-      bool free = true;
-      for (std::size_t i = 1; i < strand.q.size() && free; ++i)
-        free = checker_.isFree(strand.q[i - 1].data(), strand.q[i].data());
-      if (!free) continue;
+      if (!edgesAreFree(strand)) continue;
       ++tries;
       tried_[k] = true;
       double place = 0.;
       finish(places(), strand.q, place);
     }
+  }
+
+  bool edgesAreFree(const Strand& strand) {
+    for (std::size_t i = 1; i < strand.q.size(); ++i) {
+      if (checker_.isFree(strand.q[i - 1].data(), strand.q[i].data())) continue;
+      if (const std::optional<MotionContact> hit = checker_.lastHit())
+        note(ToolPathStatus::in_collision, places()[i - 1], "", {nameOf(hit->a), nameOf(hit->b)}, -1);
+      return false;
+    }
+    return true;
   }
 
   /// Makes a joint curve of configurations at places; adds it to the solutions if it is free.
@@ -270,8 +277,12 @@ class PathSearch {
       end_ = goes_on ? strand.q[std::size_t(last)] : VectorXd();
       end_place_ = places()[std::size_t(last)];
     }
-    if (has_failure_ && failure.place >= farthest - kBeyond && farthest >= curve_.length() - kBeyond)
+    if (has_failure_ && farthest >= curve_.length() - kBeyond) {  // only the proof between the places failed
+      const auto end = std::upper_bound(places().begin(), places().end(), failure.place);
+      const std::size_t reached = std::size_t(std::max<std::ptrdiff_t>(1, end - places().begin()));
+      failure.reached.resize(std::min(failure.reached.size(), reached));
       return finishText();
+    }
     std::vector<VectorXd> reached = std::move(failure.reached);
     if (end_.size() > 0) farthest = std::max(farthest, farthestFrom(end_, end_place_));
     explainAt(farthest);

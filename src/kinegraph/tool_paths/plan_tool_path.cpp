@@ -1,36 +1,33 @@
 #include "kinegraph/tool_paths/plan_tool_path.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <functional>
-#include <limits>
 #include <memory>
 
 #include "kinegraph/collision/edge_check.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/stopwatch.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/planning/arrive_moving.h"
 #include "kinegraph/planning/plan_motion.h"
 #include "kinegraph/planning/plan_timing.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/tool_paths/path_order.h"
 #include "kinegraph/tool_paths/path_search.h"
+#include "kinegraph/tool_paths/path_timing.h"
 #include "kinegraph/tool_paths/slow_stretches.h"
 
 namespace kinegraph {
 
 namespace {
 
-constexpr double kFitShare = .25;  // of the tolerance, for fitting rows
-constexpr int kLeastTimingIntervals = 100;
-constexpr int kMostTimingIntervals = 500, kFinest = 2;  // the latter per piece of the joint curve
-constexpr double kIdle = .02, kMuchIdle = .03;          // share of the duration without a limit that is reached
-constexpr int kSolutionsPerPath = 3, kBranches = 8;     // for transfers and orders; the latter of arms without freedom
-constexpr std::int64_t kQuickEvaluations = 20000;       // for transfers between which there is a choice
-constexpr double kLeastTime = 1e-3;                     // s, of a transfer
+constexpr double kFitShare = .25, kRotationFitShare = .625;  // of the tolerances, for fitting rows
+constexpr std::size_t kManyCorners = 20;
+constexpr int kSolutionsPerPath = 3, kBranches = 8;  // for transfers and orders; the latter of arms without freedom
+constexpr std::int64_t kQuickEvaluations = 20000;    // for transfers between which there is a choice
+constexpr double kLeastTime = 1e-3;                  // s, of a transfer
 constexpr double kLeastTolerance = 1e-6, kLeastRotationTolerance = 4e-6;  // m and rad that splines of joints keep
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+constexpr double kFlows[] = {1., .5, .25};  // start speeds that are tried, of the largest one
 constexpr const char* kPlanToolPath = "planToolPath";
 
 void requirePositive(const char* name, double value) {
@@ -88,15 +85,6 @@ Config withTouching(const Config& config, const std::vector<ToolPath>& paths,
   return scene;
 }
 
-/// Appends the limits of one more dof: velocity, acceleration, and jerk if jerks are limited.
-void appendTo(MotionLimits& limits, const std::array<double, 3>& more) {
-  const std::array<VectorXd*, 3> all = {&limits.velocity, &limits.acceleration, &limits.jerk};
-  for (std::size_t k = 0; k < std::size_t(limits.limitsJerk() ? 3 : 2); ++k) {
-    all[k]->conservativeResize(all[k]->size() + 1);
-    (*all[k])[all[k]->size() - 1] = more[k];
-  }
-}
-
 /// The joint curve in the other direction.
 JointCurve reversed(const JointCurve& curve) {
   JointCurve back = curve;
@@ -126,6 +114,7 @@ class ToolPathPlanner {
         cancellation_(cancellation),
         progress_(progress),
         checker_(touching_.state(), options.margin) {
+    plan_.setParts({}, config.getJointDimension());
     transfer_.margin = options.margin;
     transfer_.velocity = options.velocity, transfer_.acceleration = options.acceleration, transfer_.jerk = options.jerk;
     transfer_.seed = options.seed;
@@ -134,7 +123,13 @@ class ToolPathPlanner {
   }
 
   ToolPathPlan run() {
-    if (!solveAll()) return std::move(plan_);
+    try {
+      if (!solveAll()) return std::move(plan_);
+    } catch (const Cancelled&) {
+      if (!isLate()) throw;
+      failLate(int(curves_.size()) - 1);
+      return std::move(plan_);
+    }
     const PathSequence sequence = sequenceOf();
     if (!sequence.feasible && isLate()) {
       failLate(0);
@@ -149,6 +144,7 @@ class ToolPathPlanner {
 
  private:
   bool solveAll() {
+    const ToolTolerance fit{kFitShare * options_.tolerance, kRotationFitShare * options_.rotation_tolerance};
     const bool several = paths_.size() > 1 || options_.transfer_from.has_value();
     for (std::size_t k = 0; k < paths_.size(); ++k) {
       if (progress_) progress_({int(k), int(paths_.size())});
@@ -159,25 +155,29 @@ class ToolPathPlanner {
       const Pose now(tool.pose(present));
       const std::optional<ToolWaypoint>& first = paths_[k].first();
       const double side = tool.side(first ? Pose{first->p, first->rotation.value_or(now.q)} : now);
-      curves_.emplace_back(paths_[k], now, kFitShare * options_.tolerance, side * options_.approach,
-                           side * options_.retract);
+      curves_.emplace_back(paths_[k], now, fit, side * options_.approach, side * options_.retract);
       for (const std::string& warning : paths_[k].warnings()) plan_.warnings.push_back(warning);
       for (const std::string& warning : curves_.back().warnings())
         plan_.warnings.push_back(cat("path ", k, ": ", warning));
+      if (const std::size_t corners = curves_.back().corners().size(); corners >= kManyCorners)
+        plan_.warnings.push_back(cat("path ", k, ": the tool stops at ", corners, " corners; `blend` rounds them"));
       PathSearchSettings settings;
       settings.limits = {limits_.velocity, limits_.acceleration, curves_.back().largestSpeed(options_.speed)};
       settings.tolerance = {options_.tolerance, options_.rotation_tolerance};
       settings.seed = options_.seed;
       const bool is_free = tool.rows() != ToolRows::pose || tool.movingDofs() > 6;
       settings.wanted = !several ? 1 : is_free ? kSolutionsPerPath : kBranches;
-      settings.cancellation = cancellation_;
+      settings.cancellation = [this] { return cancellation_() || isLate(); };
       settings.first = {present};
       if (k == 0 && options_.start) settings.first = {*options_.start}, settings.only_first = true;
       // Solutions near those of the path before shorten the transfers.
       if (k > 0)
         for (const JointCurve& curve : solutions_[k - 1].curves) settings.first.push_back(curve.pieces.eval(0.));
       solutions_.push_back(searchPath(tool, curves_.back(), checker_, settings));
-      if (!solutions_.back().curves.empty()) continue;
+      if (!solutions_.back().curves.empty()) {
+        if (settings.only_first) warnOfStart(tool);
+        continue;
+      }
       std::string other;
       if (settings.only_first) {
         settings.only_first = false;
@@ -194,6 +194,14 @@ class ToolPathPlanner {
       return failPath(int(k), other);
     }
     return true;
+  }
+
+  /// The motion begins on the path, next to a `start` that is not there.
+  void warnOfStart(ToolKinematics& tool) {
+    const double off = tool.miss(*options_.start, curves_[0].at(0.)).p.norm();
+    if (off > options_.tolerance)
+      plan_.warnings.push_back(cat("path 0: at `start`, the tool is ", numberText(off, 3),
+                                   " m from the beginning of the path, where the motion begins"));
   }
 
   bool fail(ToolPathStatus status, int path, double place, const std::string& text) {
@@ -220,13 +228,16 @@ class ToolPathPlanner {
   PathSequence sequenceOf() {
     const bool both = options_.free_order && options_.approach == options_.retract;
     std::vector<std::vector<PathVariant>> variants;
-    for (const PathSolutions& solutions : solutions_) {
+    for (std::size_t path = 0; path < solutions_.size(); ++path) {
+      const std::vector<JointCurve>& curves = solutions_[path].curves;
       variants.emplace_back();
-      for (int k = 0; k < int(solutions.curves.size()); ++k) {
-        const CubicPieces& pieces = solutions.curves[std::size_t(k)].pieces;
-        const VectorXd first = pieces.eval(0.), last = pieces.eval(pieces.length);
-        variants.back().push_back({k, false, first, last});
-        if (both) variants.back().push_back({k, true, last, first});
+      for (int k = 0; k < int(curves.size()); ++k) {
+        const JointCurve& joints = curves[std::size_t(k)];
+        const VectorXd first = joints.pieces.eval(0.), last = joints.pieces.eval(joints.pieces.length);
+        const PathTiming timing(*tools_[path], curves_[path], joints, limits_, options_, cancellation_);
+        const double duration = curves.size() > 1 ? timing.estimatedDuration() : 0.;
+        variants.back().push_back({k, false, first, last, duration});
+        if (both) variants.back().push_back({k, true, last, first, duration});
       }
     }
     PlanOptions quick = transfer_;
@@ -249,89 +260,70 @@ class ToolPathPlanner {
     const VectorXd start = joints.pieces.eval(0.);
     std::optional<VectorXd> from = options_.transfer_from;
     if (position > 0) from = last_;
+    std::optional<MotionPlan> transfer;
     if (sequence.feasible) {
-      if (sequence.transfers[position]) addTransfer(*sequence.transfers[position], path);
+      transfer = sequence.transfers[position];
     } else if (from && (start - *from).cwiseAbs().maxCoeff() >= kSameConfiguration) {
       transfer_.time_limit = timeLeft();
-      const MotionPlan plan = planMotion(touching_, MotionGoal(start), transfer_, from, cancellation_);
-      if (!plan.feasible() && isLate()) return failLate(path);
-      if (!plan.feasible())
-        return fail(ToolPathStatus::no_transfer, path, 0., cat("there is no transfer to its start: ", plan.message));
-      addTransfer(plan, path);
+      transfer = planMotion(touching_, MotionGoal(start), transfer_, from, cancellation_);
+      if (!transfer->feasible() && isLate()) return failLate(path);
+      if (!transfer->feasible())
+        return fail(ToolPathStatus::no_transfer, path, 0.,
+                    cat("there is no transfer to its start: ", transfer->message));
     }
-    TimedPath timed;
-    if (!time(tool, curve, joints, timed))
-      return fail(ToolPathStatus::too_fast, path, 0., cat("there is no timing: ", timed.message));
-    const double begin = parts_.empty() ? 0. : parts_.back().begin + parts_.back().timed.duration();
-    const double in = timed.scaling().timeOf(curve.approachEnd()), out = timed.scaling().timeOf(curve.retractStart());
+    const PathTiming timing(tool, curve, joints, limits_, options_, cancellation_);
+    TimedPath timed = timing.timed();
+    if (!timed.feasible()) return fail(ToolPathStatus::too_fast, path, 0., cat("there is no timing: ", timed.message));
+    const bool flows =
+        options_.flow == TransferFlow::path || (options_.flow == TransferFlow::approach && curve.approachEnd() > 0.);
+    if (transfer && flows) flowInto(timing, joints, *transfer, timed);
+    if (transfer) addTransfer(*transfer, path);
+    addSlowStretches(
+        timed, path, curve.approachEnd(), curve.retractStart(), timing.limits(), tool.model(),
+        [&timing](double s) { return timing.speedAt(s); }, plan_.slow);
+    plan_.position_deviation = std::max(plan_.position_deviation, joints.position_deviation);
+    plan_.rotation_deviation = std::max(plan_.rotation_deviation, joints.rotation_deviation);
+    last_ = joints.pieces.eval(joints.pieces.length);
+    addTimed(std::move(timed), curve, path, choice.reversed);
+    return true;
+  }
+
+  double end() const { return parts_.empty() ? 0. : parts_.back().begin + parts_.back().timed.duration(); }
+
+  void addTransfer(const MotionPlan& plan, int path) {
+    plan_.segments.push_back({ToolSegment::Kind::transfer, path, false, end(), end() + plan.duration()});
+    for (const std::string& warning : plan.warnings)
+      plan_.warnings.push_back(cat("transfer to path ", path, ": ", warning));
+    parts_.push_back({end(), path, 0., true, plan.timed_path});
+  }
+
+  void addTimed(TimedPath timed, const ToolCurve& curve, int path, bool is_reversed) {
+    const double begin = end(), in = timed.scaling().timeOf(curve.approachEnd()),
+                 out = timed.scaling().timeOf(curve.retractStart());
     const auto segment = [&](ToolSegment::Kind kind, double a, double b) {
-      if (b > a) plan_.segments.push_back({kind, path, choice.reversed, begin + a, begin + b});
+      if (b > a) plan_.segments.push_back({kind, path, is_reversed, begin + a, begin + b});
     };
     segment(ToolSegment::Kind::approach, 0., in);
     segment(ToolSegment::Kind::path, in, out);
     segment(ToolSegment::Kind::retract, out, timed.duration());
-    addSlowStretches(timed, path, curve.approachEnd(), curve.retractStart(), timingLimits(curve), tool.model(),
-                     speedOf(curve), plan_.slow);
-    plan_.position_deviation = std::max(plan_.position_deviation, joints.position_deviation);
-    plan_.rotation_deviation = std::max(plan_.rotation_deviation, joints.rotation_deviation);
-    last_ = joints.pieces.eval(joints.pieces.length);
     parts_.push_back({begin, path, curve.approachEnd(), false, std::move(timed)});
-    return true;
   }
 
-  void addTransfer(const MotionPlan& plan, int path) {
-    const double begin = parts_.empty() ? 0. : parts_.back().begin + parts_.back().timed.duration();
-    plan_.segments.push_back({ToolSegment::Kind::transfer, path, false, begin, begin + plan.duration()});
-    parts_.push_back({begin, path, 0., true, plan.timed_path});
-  }
-
-  /// The limits of the joints, and of the tool's way as one more dof.
-  MotionLimits timingLimits(const ToolCurve& curve) const {
-    MotionLimits limits = limits_;
-    appendTo(limits, {curve.largestSpeed(options_.speed), options_.tool_acceleration, options_.tool_jerk});
-    return limits;
-  }
-
-  /// The speed asked at s.
-  std::function<double(double)> speedOf(const ToolCurve& curve) const {
-    return [&curve, otherwise = options_.speed](double s) {
-      const double speed = curve.speedAt(s);
-      return speed > 0. ? speed : otherwise;
-    };
-  }
-
-  bool time(ToolKinematics& tool, const ToolCurve& curve, const JointCurve& joints, TimedPath& timed) {
-    const PathCurve way = withToolWay(tool, curve, joints.pieces);
-    MatrixXd points(way.pieces() + 1, way.dofs());
-    for (int k = 0; k <= way.pieces(); ++k)
-      points.row(k) = way.eval(k < way.pieces() ? way.begin(k) : way.length()).transpose();
-    const MotionLimits limits = timingLimits(curve);
-    // Several speeds are the velocity limit of one more dof, for the time of this call.
-    const bool several = !curve.speedChanges().empty();
-    const PathCurve path = several ? withSpeedShare(way, speedOf(curve)) : way;
-    MotionLimits all = limits;
-    if (several) appendTo(all, {1., kUnlimited, kUnlimited});
-    const auto timedOn = [&](int intervals) {
-      RetimeOptions options;
-      options.cancellation = cancellation_;
-      options.intervals = intervals;
-      TimedPath result = retimeTightly(points, path, all, options);
-      if (!several || !result.feasible()) return result;
-      return TimedPath::fromParts(result.status, result.message, points, result.times, way, result.scaling());
-    };
-    // A coarse grid leaves limits unused between its points: a finer one, by the share of the time that is lost.
-    int intervals = std::max(kLeastTimingIntervals, path.pieces());
-    const int most = std::max(kMostTimingIntervals, kFinest * path.pieces());
-    timed = timedOn(intervals);
-    while (timed.feasible() && intervals < most) {
-      const double idle = idleShare(timed, limits, speedOf(curve));
-      if (idle <= kIdle) break;
-      intervals = std::min(most, intervals * (idle > kMuchIdle ? 4 : 2));
-      TimedPath finer = timedOn(intervals);
-      if (!finer.feasible() || finer.duration() >= timed.duration()) break;
-      timed = std::move(finer);
+  /// Replaces a transfer and the path behind it by those that meet with a speed, if that takes less time.
+  void flowInto(const PathTiming& timing, const JointCurve& joints, MotionPlan& transfer, TimedPath& timed) {
+    const double fastest = timing.fastestStart();
+    for (const double share : kFlows) {
+      const double speed = share * fastest;
+      TimedPath moving = timing.timed(speed);
+      if (!moving.feasible()) continue;
+      PlanOptions options = transfer_;
+      options.end_velocity = speed * joints.pieces.eval(0., 1);
+      if (limits_.limitsJerk()) options.end_acceleration = speed * speed * joints.pieces.eval(0., 2);
+      std::optional<MotionPlan> flowing = arriveMoving(touching_, transfer, options, cancellation_);
+      if (!flowing || flowing->duration() + moving.duration() >= transfer.duration() + timed.duration()) continue;
+      transfer = std::move(*flowing), timed = std::move(moving);
+      return;
     }
-    return timed.feasible();
   }
 
   const Config& config_;
@@ -354,10 +346,20 @@ class ToolPathPlanner {
 
 }  // namespace
 
+TransferFlow transferFlowOfName(const std::string& name) {
+  static const std::vector<std::string> names = {"none", "approach", "path"};
+  const auto found = std::find(names.begin(), names.end(), name);
+  if (found == names.end())
+    throw ValueError(
+        cat(kPlanToolPath, ": flow is '", name, "'; expected one of ", join(names), similarHint(name, names)));
+  return TransferFlow(found - names.begin());
+}
+
 void ToolPathOptions::validate(int dofs) const {
   requirePositive("speed", speed);
   requirePositive("tool_acceleration", tool_acceleration);
   requirePositive("tool_jerk", tool_jerk);
+  requirePositive("time_limit", time_limit);
   requireNotNegative("approach", approach);
   requireNotNegative("retract", retract);
   requireNotNegative("margin", margin);

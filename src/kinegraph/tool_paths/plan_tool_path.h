@@ -51,24 +51,35 @@ struct CubicPieces {
   void addPiece(double from, double to, const MatrixXd& coefficients, bool is_corner);
 };
 
+/// Where transfers end with the speed of what follows, and not at rest, if that takes less time.
+enum class TransferFlow {
+  none,      ///< nowhere: all approaches and paths start at rest
+  approach,  ///< at approaches; a path without one starts at rest
+  path,      ///< also at paths without an approach
+};
+
+/// Returns the value of "none", "approach" or "path"; throws ValueError for another name.
+TransferFlow transferFlowOfName(const std::string& name);
+
 /// Settings of planToolPath.
 struct ToolPathOptions {
-  double speed = .1;                       ///< of the tool where the path has no speed of its own, m/s
-  double tool_acceleration = 2.;           ///< along the path, m/s^2
-  double tool_jerk = 40.;                  ///< along the path, m/s^3; counts if `jerk` is given
-  double approach = 0.;                    ///< length of a straight approach along the tool's axis before each path, m,
-                                           ///< on the side of the tool's own link, or away from the origin of the
-                                           ///< part if no joint moves the tool
-  double retract = 0.;                     ///< length of a straight retract after each path, m
-  double tolerance = 2e-5;                 ///< largest distance of the tool from the curve, m, >= 1e-6
-  double rotation_tolerance = 8e-5;        ///< largest rotation of the tool or its axis, rad, >= 4e-6
-  double margin = 0.;                      ///< distance that all pairs keep, m
-  bool free_order = false;                 ///< paths may be done in any order and from either end
-  VectorXd velocity = {};                  ///< limits of |dq/dt|, per dof or one for all; empty: the model's
-  VectorXd acceleration = {};              ///< limits of |d2q/dt2|; empty: full speed within a quarter of a second
-  VectorXd jerk = {};                      ///< limits of |d3q/dt3|; empty: none
-  std::vector<std::string> touching = {};  ///< frames that the tool's link may touch
-  std::optional<VectorXd> start = {};      ///< configuration at the start of the first path; none: the best one
+  double speed = .1;                 ///< of the tool where the path has no speed of its own, m/s
+  double tool_acceleration = 2.;     ///< along the path, m/s^2
+  double tool_jerk = 40.;            ///< along the path, m/s^3; counts if `jerk` is given
+  double approach = 0.;              ///< length of a straight approach along the tool's axis before each path, m,
+                                     ///< on the side of the tool's own link, or away from the origin of the
+                                     ///< part if no joint moves the tool
+  double retract = 0.;               ///< length of a straight retract after each path, m
+  double tolerance = 2e-5;           ///< largest distance of the tool from the curve, m, >= 1e-6
+  double rotation_tolerance = 8e-5;  ///< largest rotation of the tool or its axis, rad, >= 4e-6
+  double margin = 0.;                ///< distance that all pairs keep, m
+  bool free_order = false;           ///< paths may be done in any order and from either end
+  TransferFlow flow = TransferFlow::approach;  ///< where transfers end with the speed of what follows
+  VectorXd velocity = {};                      ///< limits of |dq/dt|, per dof or one for all; empty: the model's
+  VectorXd acceleration = {};                  ///< limits of |d2q/dt2|; empty: full speed within a quarter of a second
+  VectorXd jerk = {};                          ///< limits of |d3q/dt3|; empty: none
+  std::vector<std::string> touching = {};      ///< frames that the tool's link may touch
+  std::optional<VectorXd> start = {};          ///< configuration at the start of the first path; none: the best one
   std::optional<VectorXd> transfer_from = {};  ///< where the robot is; adds a transfer from there; none: no transfer
   double time_limit = std::numeric_limits<double>::infinity();  ///< s, of the search
   std::uint64_t seed = 0;
@@ -177,7 +188,8 @@ class ToolPathPlan final : public Trajectory {
 /// the start of a path are followed along it, and a graph of their configurations is searched if none gets to the end
 /// without collision. The deviation of the tool from its curve is proven for all times (jointCurveAlong), and so is
 /// freedom of collisions with the margin. The tool moves at `speed` where the limits of the joints allow it, and as
-/// fast as they allow elsewhere; `slow` lists where. Paths are connected by planMotion.
+/// fast as they allow elsewhere; `slow` lists where. Paths are connected by planMotion, and transfers flow into
+/// approaches (options.flow).
 ///
 /// The Config is not changed. Equal arguments give equal bits, unless the time limit ends the search. Throws ValueError
 /// for invalid arguments, and FrameNotFound.

@@ -129,7 +129,7 @@ ToolPath ToolPath::read(const std::string& file, std::string frame, std::string 
       throw ParseError(end, cat("the row has ", row.size(), " numbers; the rows before have ", rows[0].size()));
     if (!columns.empty() && row.size() != columns.size())
       throw ParseError(end, cat("the row has ", row.size(), " numbers; there are ", columns.size(), " names"));
-    if (columns.empty() && row.size() == names.size() && row.size() > 3)
+    if (columns.empty() && row.size() == names.size())
       throw ParseError({file, line_of_names, names[0].column},
                        "the names of the columns are not x y z, and nx ny nz or qw qx qy qz, in any order; a line of "
                        "text begins with #");

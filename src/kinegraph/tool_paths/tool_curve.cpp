@@ -64,7 +64,8 @@ Pose ToolTarget::pose() const {
   return {p, Quaterniond(R)};
 }
 
-ToolCurve::ToolCurve(const ToolPath& path, const Pose& present, double tolerance, double approach, double retract) {
+ToolCurve::ToolCurve(const ToolPath& path, const Pose& present, const ToolTolerance& tolerance, double approach,
+                     double retract) {
   Pose start = present;
   if (path.first()) start = {path.first()->p, path.first()->rotation.value_or(present.q)};
   const Vector3d axis = Vector3d::Unit(path.freeAxis() < 0 ? 2 : path.freeAxis());

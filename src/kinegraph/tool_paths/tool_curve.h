@@ -20,6 +20,12 @@ struct ToolTarget {
   Vector3d axis(int number) const { return number == 0 ? x : number == 2 ? z : Vector3d(z.cross(x)); }
 };
 
+/// Allowed deviation of the tool from its curve, or of the curve from rows.
+struct ToolTolerance {
+  double position = 2e-5;  ///< m
+  double rotation = 8e-5;  ///< rad
+};
+
 /// The curve of a ToolPath by its length s, 0 <= s <= length() (m): position, x axis and z axis of the tool as cubic
 /// pieces. |dp/ds| is near 1; a rotation on the spot counts kOnTheSpot m per rad.
 class ToolCurve {
@@ -28,10 +34,11 @@ class ToolCurve {
   static constexpr double kLongest = 1e4;  ///< m
 
   /// `present` is the pose of the tool relative to the path's reference frame; the path starts there unless it has a
-  /// start. Rows are fitted to within `tolerance` (m, and as much rad per kOnTheSpot). `approach` and `retract` (m) add
+  /// start. Rows are fitted to within `tolerance`. `approach` and `retract` (m) add
   /// lines along the free axis, or z, of the tool to both ends; negative lengths are against the axis. Throws
   /// ValueError for paths without length or longer than kLongest, and arcs without a center.
-  ToolCurve(const ToolPath& path, const Pose& present, double tolerance, double approach = 0., double retract = 0.);
+  ToolCurve(const ToolPath& path, const Pose& present, const ToolTolerance& tolerance, double approach = 0.,
+            double retract = 0.);
 
   double length() const { return pieces_.length; }
   double approachEnd() const { return approach_end_; }    ///< s at which the path proper starts
@@ -42,8 +49,9 @@ class ToolCurve {
   /// Places at which the tool has to stop, ascending, without the ends.
   std::vector<double> corners() const;
 
-  /// Bound of the distance between the pieces and the curve they stand for, m. For rows, the curve is the polyline.
-  double fitError() const { return fit_error_; }
+  /// Bounds of the distance (m) and the rotation (rad) between the pieces and the curve they stand for. For rows, the
+  /// curve is the polyline.
+  const ToolTolerance& fitError() const { return fit_error_; }
 
   /// The speed that the path has at s, m/s; 0 if it has none.
   double speedAt(double s) const;
@@ -64,7 +72,8 @@ class ToolCurve {
   ToolCurve() = default;
 
   CubicPieces pieces_;
-  double fit_error_ = 0., approach_end_ = 0., retract_start_ = 0.;
+  ToolTolerance fit_error_{0., 0.};
+  double approach_end_ = 0., retract_start_ = 0.;
   std::vector<std::string> warnings_;
   struct SpeedSection {
     double begin, speed;

@@ -92,4 +92,44 @@ PathCurve joined(const PathCurve& first, const PathCurve& second, bool jumps) {
   return PathCurve::fromParts(parts);
 }
 
+namespace {
+
+PathCurve reversed(const PathCurve& curve) {
+  PathCurve::Parts parts{.dofs = curve.dofs(), .degree = curve.degree(), .length = curve.length()};
+  for (int piece = curve.pieces() - 1; piece >= 0; --piece) {
+    parts.begin.push_back(curve.length() - curve.end(piece));
+    parts.stops.push_back(piece + 1 < curve.pieces() && curve.stopsAt(piece + 1));
+    addPiece(parts, curve, piece, curve.end(piece) - curve.begin(piece));
+    for (int power = 1; power <= curve.degree(); power += 2)  // the variable has the other sign
+      for (int j = 0; j < parts.dofs; ++j)
+        parts.coefficients[parts.coefficients.size() - std::size_t((curve.degree() + 1 - power) * parts.dofs - j)] *=
+            -1.;
+  }
+  for (std::size_t i = curve.marks().size(); i-- > 0;) parts.marks.push_back(curve.length() - curve.marks()[i]);
+  return PathCurve::fromParts(parts);
+}
+
+TimeScaling reversed(const TimeScaling& scaling, const PathCurve& curve) {
+  TimeScaling back;
+  const std::vector<ScalingPhase>& phases = scaling.phases();
+  for (std::size_t i = phases.size(); i-- > 0;) {
+    const ScalingPhase& phase = phases[i];
+    const double time = (i + 1 < phases.size() ? phases[i + 1].time : scaling.duration()) - phase.time;
+    ScalingState begin = phase.at(time);
+    begin.s = curve.length() - phase.end, begin.acceleration *= -1.;
+    if (phase.growth != 0.) begin.jerk = 0.;  // the growth determines the change of the acceleration
+    back.add({0., begin, phase.growth, curve.length() - phase.begin.s, curve.pieces() - 1 - phase.piece}, time);
+  }
+  return back;
+}
+
+}  // namespace
+
+TimedPath reversed(const TimedPath& motion) {
+  const VectorXd times =
+      motion.times.size() ? VectorXd(motion.duration() - motion.times.reverse().array()) : VectorXd();
+  return TimedPath::fromParts(motion.status, motion.message, motion.path.colwise().reverse(), times,
+                              reversed(motion.curve()), reversed(motion.scaling(), motion.curve()));
+}
+
 }  // namespace kinegraph

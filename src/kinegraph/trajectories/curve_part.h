@@ -1,6 +1,7 @@
 #pragma once
 
 #include "kinegraph/trajectories/path_curve.h"
+#include "kinegraph/trajectories/retime.h"
 #include "kinegraph/trajectories/time_scaling.h"
 
 namespace kinegraph {
@@ -26,5 +27,9 @@ CurvePart partOf(const PathCurve& curve, double from, double to);
 /// Joins two curves of the same dofs; the second starts at the end of the first. With `jumps`, a motion stops in
 /// between. The marks are those of both; the mark at the joint counts once.
 PathCurve joined(const PathCurve& first, const PathCurve& second, bool jumps = true);
+
+/// The motion that takes the way of a timed path back: at time t it is where the other one is at duration - t, with the
+/// opposite velocity and the same acceleration.
+TimedPath reversed(const TimedPath& motion);
 
 }  // namespace kinegraph

@@ -54,6 +54,7 @@ constexpr int kNarrowings = 10;
 constexpr int kStopRounds = 2;  // of the choice between blends and stops
 constexpr int kMaxTrials = 5;   // each with twice as many intervals
 constexpr int kMaxIntervals = 1000000;
+constexpr int kLargestDegreeOfCurves = 4;                     // of which bounds are known
 constexpr int kTrialHalvings = 24, kIntervalsOfTrials = 100;  // of the search for a velocity that would do
 constexpr double kBelowBound[] = {1e-6, 1e-4};                // the message gives a value smaller by this share
 constexpr double kExcess = 1e-12;                             // of a constraint's range: rounding
@@ -306,6 +307,9 @@ TimedPath timedAlong(const MatrixXd& path, const PathCurve& curve, const MotionL
                      const RetimeOptions& options, bool tight) {
   options.validate();
   limits.validate(curve.dofs());
+  if (curve.degree() > kLargestDegreeOfCurves)
+    throw ValueError(
+        cat("retime: the curve has the degree ", curve.degree(), "; expected at most ", kLargestDegreeOfCurves));
   TimeScaling scaling;
   EndSpeeds ends{};
   ends.start = speedOf("start_velocity", options.start_velocity, curve, 0.);

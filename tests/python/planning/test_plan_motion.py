@@ -80,8 +80,10 @@ def test_every_option_is_a_keyword_with_its_default() -> None:
     defaults = {name: eval(each.default, {"inf": np.inf}) for name, each in options.items()}
     plan, same = ry.planMotion(room(), GOAL), ry.planMotion(room(), GOAL, **defaults)
     assert np.array_equal(plan.path, same.path) and plan.duration == same.duration
-    assert [each.default for each in parametersOf(ry.MotionPlan.replan)] == ["None"] * (len(options) - 2)
-    assert not {"start_velocity", "obstacle_trajectories"} & {each.name for each in parametersOf(ry.planMotions)}
+    assert [each.default for each in parametersOf(ry.MotionPlan.replan)] == ["None"] * (len(options) - 4)
+    assert not {"start_velocity", "end_velocity", "obstacle_trajectories"} & {
+        each.name for each in parametersOf(ry.planMotions)
+    }
     unchanged = plan.replan(room(), 0.0, **dict.fromkeys(each.name for each in parametersOf(ry.MotionPlan.replan)))
     assert np.array_equal(unchanged.path[-1], plan.path[-1])
 
@@ -203,6 +205,62 @@ def test_a_motion_is_planned_anew_without_a_jump_of_its_acceleration() -> None:
             assert after == pytest.approx(before, abs=1e-6)
     with pytest.raises(ry.ArgumentError, match="start_acceleration needs jerk limits"):
         ry.planMotion(C, [1.0, 1.0, 1.57], start_velocity=[0.1, 0, 0], start_acceleration=[1.0, 0, 0])
+
+
+def test_a_small_start_acceleration_costs_no_time() -> None:
+    """Motions whose first ramp was shorter than the grid of the timing took minutes and hours."""
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    q, rng = C.getJointState(), np.random.default_rng(0)
+    goal = q + np.array([0.3, 0.2, -0.2, 0.1, 0.2, 0.1, 0.3])
+    limits = {"acceleration": 6.0, "jerk": 120.0}
+    for _ in range(10):
+        velocity = np.clip(rng.normal(size=7) * 10 ** rng.uniform(-2, 0), -1.5, 1.5)
+        acceleration = np.clip(rng.normal(size=7) * 10 ** rng.uniform(-3, 0.5), -5.5, 5.5)
+        ramped, plain = (
+            ry.planMotion(C, goal, start=q, start_velocity=velocity, start_acceleration=a, **limits)
+            for a in (acceleration, None)
+        )
+        assert ramped.duration < plain.duration + 0.3
+
+
+@pytest.mark.parametrize("jerk", [None, 40.0])
+def test_a_motion_ends_with_a_velocity(jerk: float | None) -> None:
+    C = room()
+    limits = {"velocity": 1.0, "acceleration": 4.0, "jerk": jerk}
+    goal, velocity = np.array([1.0, 1.0, 1.57]), np.array([0.0, -0.4, 0.3])
+    acceleration = np.array([0.3, 0.2, 0.0]) if jerk else None
+    plan = ry.planMotion(C, goal, end_velocity=velocity, end_acceleration=acceleration, **limits)
+    assert plan.feasible, plan.message
+    assert not plan.warnings
+    end = plan.eval(plan.duration)
+    assert end[0] == pytest.approx(goal, abs=1e-9)
+    assert end[1] == pytest.approx(velocity, abs=1e-9)
+    if acceleration is not None:
+        assert end[2] == pytest.approx(acceleration, abs=1e-9)
+    h = 1e-3
+    q = plan.eval(np.arange(0.0, plan.duration, h))[0]
+    assert C.isValid(q).all()
+    for order, limit in ((1, 1.0), (2, 4.0), (3, jerk)):
+        assert limit is None or np.abs(np.diff(q, order, axis=0)).max() / h**order <= 1.001 * limit
+    after = plan.replan(C, at=0.5 * plan.duration)
+    assert after.feasible and after.eval(after.duration)[1] == pytest.approx(np.zeros(3), abs=1e-9)
+    assert "ends at rest" in after.warnings[-1]
+
+
+def test_an_end_velocity_that_cannot_be_says_why() -> None:
+    C = room()
+    fast = ry.planMotion(C, [1.0, 1.0, 1.57], velocity=1.0, end_velocity=[0.0, 2.0, 0.0])
+    assert fast.status == ry.PlanStatus.invalid_goal and "the end velocity of" in fast.message
+    for options, words in (
+        ({"end_velocity": [0.1, 0.0]}, "end_velocity has 2 numbers; expected 3"),
+        ({"end_velocity": [0.1, 0, 0], "start_velocity": [0.1, 0, 0]}, "needs a start at rest"),
+        ({"end_acceleration": [0.1, 0, 0], "jerk": 1.0}, "needs an end_velocity"),
+    ):
+        with pytest.raises(ry.ArgumentError, match=words):
+            ry.planMotion(C, [1.0, 1.0, 1.57], **options)
+    with pytest.raises(ry.ArgumentError, match="goal of one configuration"):
+        ry.planMotion(C, [[1.0, 1.0, 1.57], [1.0, 1.0, 0.0]], end_velocity=[0.1, 0, 0])
 
 
 def test_a_path_without_times_is_the_same_path() -> None:

@@ -65,6 +65,8 @@ def test_rows_of_many_tables_are_the_same(scene, tmp_path, text):
         ("x,y,z,rx,ry,rz\n0,0,0,0,0,0\n", r"1:7: the column 'rx' is an angle; expected a normal"),
         ("x,y,z\n0,0,0,1\n0,0,1,1\n", r"2:7: the row has 4 numbers"),
         ("x,y,z,qx,qy,qz,qz\n0,0,0,0,0,0,1\n", r"1:1: the names of the columns are not x y z"),
+        ("x,x,z\n0,0,0\n0,0,1\n", r"1:1: the names of the columns are not x y z"),
+        ("x_mm,y_mm,z_mm\n0,0,0\n0,0,1\n", r"1:1: the names of the columns are not x y z"),
         ("z,y,x\n0,0,0,0,0,1\n", r"2:11: the row has 6 numbers; there are 3 names"),
         ("nan,nan,nan\n0,0,0\n0,0,1\n", r"1:1: 'nan' is not a number"),
     ],
