@@ -212,8 +212,10 @@ class Browser:
         return self.decode(png, HEIGHT)
 
     def _still(self) -> str:
-        """A picture in full resolution, in base64: one during which the page has drawn nothing, as it does when warnings
-        arrive a second after a change."""
+        """A picture in full resolution, in base64, during which the page has drawn nothing.
+
+        Warnings, for example, arrive a second after a change.
+        """
         drawn = "kinegraph.idle() ? kinegraph.pictures() : -1"
         while True:
             self.wait_for("kinegraph.idle()")
