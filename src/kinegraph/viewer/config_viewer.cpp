@@ -15,6 +15,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/config.h"
 #include "kinegraph/scene/tree/scene_tree.h"
+#include "kinegraph/viewer/recorded_page.h"
 #include "kinegraph/viewer/scene_edits.h"
 #include "kinegraph/viewer/scene_items.h"
 #include "kinegraph/viewer/server.h"
@@ -136,6 +137,8 @@ std::string ConfigViewer::recording(std::size_t largest) {
   server().setWarnings(impl_->edits->warnings());
   return server().recording(largest);
 }
+
+void ConfigViewer::saveHtml(const std::string& path, const std::string& client) { savePage(recording(), path, client); }
 
 ViewerRecording ConfigViewer::record(const std::string& path) {
   server().startRecording(path);
