@@ -1,15 +1,15 @@
 """Writes a page per example: its text, its code in Python and C++, what it prints, and its last scene."""
 
 import ast
+import functools
 import hashlib
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
-
-from shared_client import shareClient
 
 import kinegraph
 
@@ -33,11 +33,11 @@ views = ((ry.Config, ("view", "view_path")), (ry.KOMO, ("view", "view_play")), (
 for cls, names in views:
     for name in names:
         keep(cls, name)
-script, page = sys.argv[1:3]
+script, page, client = sys.argv[1:4]
 sys.argv = [script]
 runpy.run_path(script, run_name="__main__")
 if viewers:
-    viewers[0].saveHtml(page)
+    viewers[0].saveHtml(page, client=client)
 """
 LONGEST_OUTPUT = 4000  # characters
 TIMEOUT = 300  # s
@@ -59,18 +59,22 @@ def indentedAsCode(text: str) -> str:
     return re.sub(r"(?m)(^    .+(?:\n(?:    .+|\s*))*)", lambda match: f"```text\n{match[1].rstrip()}\n```\n", text)
 
 
+@functools.cache
+def digest(file: Path) -> str:
+    return hashlib.sha256(file.read_bytes()).hexdigest()[:16]
+
+
 def runExample(script: Path, page: Path, cache: Path) -> str:
     """Runs an example and returns what it prints; the scene that it shows last is saved as `page`, if there is one.
 
-    The results are kept in `cache` by the content of the script and of the library.
+    The results are kept in `cache` by the content of the script and of the library, whose pages share one script.
     """
-    library = Path(kinegraph._core.__file__).read_bytes()
-    key = hashlib.sha256(script.read_bytes() + library).hexdigest()[:16]
-    kept_text, kept_page = cache / f"{key}.txt", cache / f"{key}.html"
+    kept = cache / digest(Path(kinegraph._core.__file__))
+    kept_text, kept_page = kept / f"{digest(script)}.txt", kept / f"{digest(script)}.html"
     if not kept_text.exists():
-        cache.mkdir(parents=True, exist_ok=True)
+        kept.mkdir(parents=True, exist_ok=True)
         done = subprocess.run(
-            [sys.executable, "-c", RUN, script.name, str(kept_page.resolve())],
+            [sys.executable, "-c", RUN, script.name, str(kept_page.resolve()), str((kept / CLIENT).resolve())],
             cwd=script.parent,
             capture_output=True,
             text=True,
@@ -82,7 +86,8 @@ def runExample(script: Path, page: Path, cache: Path) -> str:
         kept_text.write_text(done.stdout)
     if kept_page.exists():
         page.parent.mkdir(parents=True, exist_ok=True)
-        page.write_text(shareClient(kept_page.read_text(), page.parent / CLIENT, CLIENT))
+        shutil.copyfile(kept_page, page)
+        shutil.copyfile(kept / CLIENT, page.parent / CLIENT)
     return kept_text.read_text()
 
 

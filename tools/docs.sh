@@ -9,7 +9,7 @@ environment=$PWD/build/docs_venv
 [ -x "$environment/bin/python" ] || bash tools/make_venv.sh "${PYTHON:-python3}" "$environment"
 wheels=(build/wheel/*.whl)
 [ -f "${wheels[0]}" ] || wheels=(.)
-"$environment/bin/python" -m pip install -r site/requirements.txt pyarrow "av==18.1.0"
+"$environment/bin/python" -m pip install --no-compile -r site/requirements.txt pyarrow "av==18.1.0"
 "$environment/bin/python" -m pip install --force-reinstall --no-deps "${wheels[0]}"
 "$environment/bin/python" -m pip install kinegraph
 "$environment/bin/python" site/build.py build/site

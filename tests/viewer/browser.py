@@ -119,8 +119,15 @@ class Browser:
                     raise RuntimeError(answer["error"])
                 return answer["result"]
 
-    def open_page(self, url: str) -> None:
+    def navigate(self, url: str) -> None:
         self.call("Page.navigate", url=url)
+
+    def screenshot(self) -> str:
+        """The page as a picture, in base64."""
+        return self.call("Page.captureScreenshot", format="png")["data"]
+
+    def open_page(self, url: str) -> None:
+        self.navigate(url)
         self.wait_for("window.kinegraph && !kinegraph.ended()")
 
     def open(self, url: str) -> None:
@@ -130,7 +137,7 @@ class Browser:
 
     def close_page(self) -> None:
         self.evaluate("location.protocol === 'http:' && localStorage.clear()")
-        self.call("Page.navigate", url="about:blank")
+        self.navigate("about:blank")
 
     def evaluate(self, script: str) -> Any:
         result = self.call("Runtime.evaluate", expression=script, returnByValue=True, awaitPromise=True)
@@ -218,6 +225,6 @@ class Browser:
         while True:
             self.wait_for("kinegraph.idle()")
             before = self.evaluate(drawn)
-            png = self.call("Page.captureScreenshot", format="png")["data"]
+            png = self.screenshot()
             if before != -1 and before == self.evaluate(drawn):
                 return png

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "kinegraph/common/errors.h"
 #include "kinegraph/viewer/client_page.h"
 
 using namespace kinegraph;
@@ -15,6 +20,11 @@ std::string recordingOf(const std::vector<Outgoing>& messages) {
   const std::string page = recordedPage(messages), start = "id=\"recording\">";
   const std::size_t first = page.find(start) + start.size();
   return page.substr(first, page.find("</script", first) - first);
+}
+
+std::string contentOf(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
 }
 
 Mesh ball(int n) {
@@ -65,4 +75,24 @@ TEST(RecordedPage, MeshesGetCoarserUntilThePageIsSmallEnough) {
   EXPECT_GT(page.size(), empty + 5000);
   EXPECT_EQ(recordedScene(config, nullptr, "a ball", nullptr, whole + 1000).size(),
             recordedScene(config, nullptr, "a ball").size());
+}
+
+TEST(RecordedPage, PagesShareTheScriptOfAFile) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "shared client";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder / "pages");
+  const std::string page = recordedPage({message("{}", false)}), client = folder / "viewer.js";
+  savePage(page, folder / "pages/first.html", client);
+  savePage(page, folder / "second.html", client);
+  EXPECT_NE(std::string(clientPage()).find(contentOf(client)), std::string::npos);
+  EXPECT_GT(contentOf(client).size(), 100000u);
+  const std::string first = contentOf(folder / "pages/first.html"), second = contentOf(folder / "second.html");
+  EXPECT_NE(first.find(recordingOf({message("{}", false)})), std::string::npos);
+  EXPECT_NE(first.find("<script src=\"../viewer.js\"></script>"), std::string::npos);
+  EXPECT_NE(second.find("<script src=\"viewer.js\"></script>"), std::string::npos);
+  EXPECT_LT(first.size(), 100000u);
+  std::ofstream(client) << "of another version";
+  EXPECT_THROW(savePage(page, folder / "second.html", client), FileError);
+  savePage(page, folder / "second.html", "");
+  EXPECT_EQ(contentOf(folder / "second.html"), page);
 }

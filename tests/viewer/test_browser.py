@@ -319,7 +319,7 @@ def test_a_page_for_others_works_at_the_printed_address_and_requires_its_token(
     assert "0.0.0.0" not in url and "localhost" not in url and "?token=" in url
     browser.open(url)
     assert browser.evaluate("kinegraph.position('here')") == [0, 0, 0]
-    browser.call("Page.navigate", url=url.split("?")[0])
+    browser.navigate(url.split("?")[0])
     browser.wait_for("location.search === '' && document.readyState === 'complete'")
     assert browser.evaluate("typeof kinegraph") == "undefined"
 
@@ -332,7 +332,7 @@ def test_a_token_may_be_given(config: kg.Config, browser: Browser) -> None:
     url = config.viewer().url
     assert url.endswith("/?token=my-token_1")
     browser.open(url)
-    browser.call("Page.navigate", url=url.replace("my-token_1", "my-token_2"))
+    browser.navigate(url.replace("my-token_1", "my-token_2"))
     browser.wait_for("location.search.endsWith('2') && document.readyState === 'complete'")
     assert browser.evaluate("typeof kinegraph") == "undefined"
 

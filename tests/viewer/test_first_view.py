@@ -118,7 +118,7 @@ def test_without_webgl_the_page_says_so(config: kg.Config, browser: Browser) -> 
     hide = "HTMLCanvasElement.prototype.getContext = () => null"
     script = browser.call("Page.addScriptToEvaluateOnNewDocument", source=hide)
     try:
-        browser.call("Page.navigate", url=config.viewer().url)
+        browser.navigate(config.viewer().url)
         browser.wait_for("document.querySelector('#error')?.textContent")
         assert "WebGL 2 is missing" in browser.evaluate("document.querySelector('#error').textContent")
         assert not browser.is_visible("#panel-button")

@@ -21,7 +21,7 @@ def open_runs(browser: Browser, folder: Path, *files: str) -> None:
         browser.open((folder / "runs.html").as_uri())
         browser.wait_for("kinegraph.slice() !== null")
     else:
-        browser.call("Page.navigate", url=(folder / "runs.html").as_uri())
+        browser.navigate((folder / "runs.html").as_uri())
 
 
 def seek(browser: Browser, part: float) -> None:

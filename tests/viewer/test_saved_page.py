@@ -34,8 +34,8 @@ def joint_scene(tmp_path: Path) -> kg.Config:
     return config
 
 
-def open_saved(config: kg.Config, browser: Browser, folder: Path) -> None:
-    config.viewer().saveHtml(folder / "saved.html")
+def open_saved(config: kg.Config, browser: Browser, folder: Path, client: Path | None = None) -> None:
+    config.viewer().saveHtml(folder / "saved.html", client=client)
     browser.open((folder / "saved.html").as_uri())
     browser.wait_for(f"kinegraph.joints().length === {config.getJointDimension()}")
 
@@ -184,3 +184,13 @@ def test_a_detailed_mesh_is_packed_into_a_few_bytes_per_triangle(config: kg.Conf
     empty = len(config.viewer().asHtml())
     config.addFrame("egg").setMesh(points[triangles].reshape(-1, 3), np.arange(triangles.size).reshape(-1, 3))
     assert len(config.viewer().asHtml()) - empty < 6 * len(triangles)
+
+
+def test_pages_run_the_script_that_they_share(browser: Browser, tmp_path: Path) -> None:
+    config = joint_scene(tmp_path)
+    (tmp_path / "a folder").mkdir()
+    for folder in (tmp_path, tmp_path / "a folder"):
+        open_saved(config, browser, folder, tmp_path / "viewer.js")
+        assert len((folder / "saved.html").read_text()) < 60_000
+        set_joint(browser, 0, 0.5)
+        assert_agrees(config, browser)

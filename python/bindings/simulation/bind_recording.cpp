@@ -94,8 +94,11 @@ void bindRecording(nb::module_& m, nb::class_<PySimulation>& simulation) {
           "C"_a, nb::sig("def replay(self, C: Config) -> Simulation"), docs::simulation::replay)
       .def("view", viewRecording, "pause"_a = false, "message"_a = nb::none(), docs::simulation::viewRecording)
       .def(
-          "saveHtml", [](const PyRecording& r, const PathText& path) { r.saveHtml(path.text); }, "path"_a,
-          docs::simulation::saveHtml)
+          "saveHtml",
+          [](const PyRecording& r, const PathText& path, const std::optional<PathText>& client) {
+            r.saveHtml(path.text, client ? client->text : "");
+          },
+          "path"_a, "client"_a = nb::none(), docs::simulation::saveHtml)
       .def(
           "viewer",
           [](PyRecording& r) {

@@ -132,13 +132,14 @@ Raises:
     ArgumentError: The recording has no steps.
     KeyboardInterrupt: Ctrl-C while waiting.)";
 
-inline constexpr char saveHtml[] = R"(Saves a self-contained HTML page that plays the run, with a time slider.
+inline constexpr char saveHtml[] = R"(Saves an HTML page that plays the run without a program, with a time slider.
 
 Args:
     path: Path of the HTML file.
+    client: Path of a file with the script of all such pages, as in Viewer.saveHtml. None: the page contains it.
 Raises:
     ArgumentError: The recording has no steps.
-    FileError: The file cannot be written.)";
+    FileError: A file cannot be written, or client is another file.)";
 
 inline constexpr char perturb[] =
     R"(Moves a point of a link to a target by a damped spring, until endPerturbation.

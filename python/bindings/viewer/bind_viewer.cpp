@@ -184,11 +184,10 @@ void bindPage(nb::class_<PyViewer>& viewer) {
       .def("asHtml", wholePage, "Returns a self-contained web page of the shown scene or motion.")
       .def(
           "saveHtml",
-          [](PyViewer& v, const PathText& path) {
-            nb::module_::import_("pathlib").attr("Path")(path.text).attr("write_text")(wholePage(v),
-                                                                                       "encoding"_a = "utf-8");
+          [](PyViewer& v, const PathText& path, const std::optional<PathText>& client) {
+            savePage(wholePage(v), path.text, client ? client->text : "");
           },
-          "path"_a, docs::viewer::saveHtml)
+          "path"_a, "client"_a = nb::none(), docs::viewer::saveHtml)
       .def("record", recordPage, "path"_a, docs::viewer::record)
       .def(
           "_repr_html_",

@@ -39,8 +39,10 @@ inline constexpr char saveHtml[] = R"(Saves asHtml() as a file for any browser.
 
 Args:
     path: Path of the file, .html.
+    client: Path of a file with the script of all such pages, .js: the page loads it from there, and is small. The
+        file is written if it does not exist. None: the page contains the script.
 Raises:
-    OSError: The file cannot be written.)";
+    FileError: A file cannot be written, or client is another file.)";
 
 inline constexpr char record[] =
     R"(Records what this viewer shows and logs: scenes, simulations, motions, drawings and plots.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
@@ -49,11 +48,9 @@ ShownMotion recordedMotion(const Recording& recording) {
   return motion;
 }
 
-void Recording::saveHtml(const std::string& path) const {
+void Recording::saveHtml(const std::string& path, const std::string& client) const {
   const ShownMotion motion = recordedMotion(*this);
-  std::ofstream file(path, std::ios::binary);
-  file << recordedScene(makeConfig(), &motion, "Simulation");
-  if (!file.flush()) throw FileError(cat("Recording.saveHtml: '", path, "' cannot be written"));
+  savePage(recordedScene(makeConfig(), &motion, "Simulation"), path, client);
 }
 
 }  // namespace kinegraph

@@ -15,6 +15,15 @@ void pushOnce(std::vector<int>& nodes, int node) {
 
 }  // namespace
 
+NumberLists::NumberLists(const std::vector<std::vector<int>>& lists) {
+  begin_.reserve(lists.size() + 1);
+  for (const std::vector<int>& list : lists) {
+    begin_.push_back(int(numbers_.size()));
+    numbers_.insert(numbers_.end(), list.begin(), list.end());
+  }
+  begin_.push_back(int(numbers_.size()));
+}
+
 LandmarkCut::LandmarkCut(const GroundProblem& ground)
     : LandmarkCut(ground, std::vector<Cost>(ground.actions.size(), 1)) {}
 
@@ -91,20 +100,36 @@ void LandmarkCut::require(int action, int fact_not) {
   linked_ = false;
 }
 
-/// Lists the operators that need and add each node; deletes add a negation that is needed.
+/// Lists the operators of each node and action; deletes add a negation that is needed. Preconditions that few operators
+/// add come first: of those with the largest value, they become supporters, because their landmarks are small.
 void LandmarkCut::link() {
-  needed_by_.assign(std::size_t(nodes_), {});
-  added_by_.assign(std::size_t(nodes_), {});
-  owned_by_.assign(costs_.size(), {});
+  std::vector<std::vector<int>> pre, adds;
+  std::vector<std::vector<int>> needed_by, owned_by;
+  needed_by.resize(std::size_t(nodes_));
+  owned_by.resize(costs_.size());
+  std::vector<int> added_by(std::size_t(nodes_), 0);
+  owner_.clear();
+  always_free_.clear();
   for (std::size_t o = 0; o < operators_.size(); ++o) {
     Operator& op = operators_[o];
     for (int fact : op.deletes) {
       if (negation_[std::size_t(fact)] >= 0) pushOnce(op.adds, negation_[std::size_t(fact)]);
     }
-    for (int node : op.pre) needed_by_[std::size_t(node)].push_back(int(o));
-    for (int node : op.adds) added_by_[std::size_t(node)].push_back(int(o));
-    if (op.owner >= 0) owned_by_[std::size_t(op.owner)].push_back(int(o));
+    for (int node : op.pre) needed_by[std::size_t(node)].push_back(int(o));
+    if (op.owner >= 0) owned_by[std::size_t(op.owner)].push_back(int(o));
+    if (op.owner < 0 || costs_[std::size_t(op.owner)] == 0) always_free_.push_back(int(o));
+    owner_.push_back(op.owner);
+    for (int node : op.adds) ++added_by[std::size_t(node)];
+    adds.push_back(op.adds);
   }
+  for (Operator& op : operators_) {
+    std::ranges::stable_sort(op.pre, {}, [&](int node) { return added_by[std::size_t(node)]; });
+    pre.push_back(op.pre);
+  }
+  pre_ = NumberLists(pre);
+  adds_ = NumberLists(adds);
+  needed_by_ = NumberLists(needed_by);
+  owned_by_ = NumberLists(owned_by);
   linked_ = true;
 }
 
@@ -145,25 +170,24 @@ void LandmarkCut::explore(const std::vector<int>& begin) {
   supporter_.assign(operators_.size(), -1);
   supporter_value_.assign(operators_.size(), kNever);
   missing_.resize(operators_.size());
-  for (std::size_t o = 0; o < operators_.size(); ++o) missing_[o] = int(operators_[o].pre.size());
+  for (std::size_t o = 0; o < operators_.size(); ++o) missing_[o] = int(pre_[int(o)].size());
   at_ = 0;
   for (int node : begin) reach(node, 0);
   int node = 0;
   for (Cost value = popped(node); value < kNever; value = popped(node)) {
     if (value_[std::size_t(node)] != value) continue;
-    for (int o : needed_by_[std::size_t(node)]) {
+    for (int o : needed_by_[node]) {
       if (--missing_[std::size_t(o)] > 0) continue;
-      supporter_[std::size_t(o)] = node;
-      supporter_value_[std::size_t(o)] = value;
+      findSupporter(o);
       const Cost next = value + costOf(o);
-      for (int add : operators_[std::size_t(o)].adds) reach(add, next);
+      for (int add : adds_[o]) reach(add, next);
     }
   }
 }
 
 void LandmarkCut::findSupporter(int op) {
   Cost most = -1;
-  for (int node : operators_[std::size_t(op)].pre) {
+  for (int node : pre_[op]) {
     if (value_[std::size_t(node)] <= most) continue;
     most = value_[std::size_t(node)];
     supporter_[std::size_t(op)] = node;
@@ -177,49 +201,61 @@ void LandmarkCut::exploreAgain(const std::vector<int>& changed) {
   for (int o : changed) {
     if (supporter_[std::size_t(o)] < 0) continue;
     const Cost next = supporter_value_[std::size_t(o)] + costOf(o);
-    for (int add : operators_[std::size_t(o)].adds) reach(add, next);
+    for (int add : adds_[o]) reach(add, next);
   }
   int node = 0;
   for (Cost value = popped(node); value < kNever; value = popped(node)) {
     if (value_[std::size_t(node)] != value) continue;
-    for (int o : needed_by_[std::size_t(node)]) {
+    for (int o : needed_by_[node]) {
       if (supporter_[std::size_t(o)] != node || supporter_value_[std::size_t(o)] <= value) continue;
       const Cost before = supporter_value_[std::size_t(o)];
       findSupporter(o);
       if (supporter_value_[std::size_t(o)] == before) continue;
       const Cost next = supporter_value_[std::size_t(o)] + costOf(o);
-      for (int add : operators_[std::size_t(o)].adds) reach(add, next);
+      for (int add : adds_[o]) reach(add, next);
     }
   }
 }
 
-/// Reduces the cost of the actions that enter the zone with free paths to the goal. Returns the reduction.
-LandmarkCut::Cost LandmarkCut::cut(const std::vector<int>& begin, std::vector<int>& changed) {
+/// Lists an operator that costs nothing at the nodes that it adds.
+void LandmarkCut::addFree(int op) {
+  for (int add : adds_[op]) {
+    free_.push_back({op, free_by_[std::size_t(add)]});
+    free_by_[std::size_t(add)] = int(free_.size()) - 1;
+  }
+}
+
+/// Marks the nodes with free paths to the goal.
+void LandmarkCut::markZone() {
   zone_.assign(std::size_t(nodes_), 0);
-  before_.assign(std::size_t(nodes_), 0);
   std::vector<int> stack = {goal_};
   zone_[std::size_t(goal_)] = 1;
   while (!stack.empty()) {
     const int node = stack.back();
     stack.pop_back();
-    for (int o : added_by_[std::size_t(node)]) {
-      const int from = supporter_[std::size_t(o)];
-      if (from < 0 || zone_[std::size_t(from)] || costOf(o) > 0) continue;
+    for (int i = free_by_[std::size_t(node)]; i >= 0; i = free_[std::size_t(i)].next) {
+      const int from = supporter_[std::size_t(free_[std::size_t(i)].op)];
+      if (from < 0 || zone_[std::size_t(from)]) continue;
       zone_[std::size_t(from)] = 1;
       stack.push_back(from);
     }
   }
-  std::vector<int> leading;
-  stack = begin;
+}
+
+/// Reduces the cost of the actions that enter the zone. Returns the reduction.
+LandmarkCut::Cost LandmarkCut::cut(const std::vector<int>& begin, std::vector<int>& changed) {
+  markZone();
+  before_.assign(std::size_t(nodes_), 0);
+  std::vector<int> leading, stack = begin;
   for (int node : begin) before_[std::size_t(node)] = 1;
   while (!stack.empty()) {
     const int node = stack.back();
     stack.pop_back();
-    for (int o : needed_by_[std::size_t(node)]) {
+    for (int o : needed_by_[node]) {
       if (supporter_[std::size_t(o)] != node) continue;
-      const std::vector<int>& adds = operators_[std::size_t(o)].adds;
+      const std::span<const int> adds = adds_[o];
       if (std::ranges::any_of(adds, [&](int add) { return zone_[std::size_t(add)]; })) {
-        leading.push_back(operators_[std::size_t(o)].owner);
+        leading.push_back(owner_[std::size_t(o)]);
         continue;
       }
       for (int add : adds) {
@@ -229,15 +265,23 @@ LandmarkCut::Cost LandmarkCut::cut(const std::vector<int>& begin, std::vector<in
       }
     }
   }
+  return payFor(leading, changed);
+}
+
+/// Reduces the costs of actions by the least of them, and lists their operators.
+LandmarkCut::Cost LandmarkCut::payFor(std::vector<int>& leading, std::vector<int>& changed) {
   std::ranges::sort(leading);
   leading.erase(std::unique(leading.begin(), leading.end()), leading.end());
   Cost least = kNever;
   for (int owner : leading) least = std::min(least, cost_[std::size_t(owner)]);
   changed.clear();
   for (int owner : leading) {
-    cost_[std::size_t(owner)] -= least;
-    const std::vector<int>& operators = owned_by_[std::size_t(owner)];
-    changed.insert(changed.end(), operators.begin(), operators.end());
+    Cost& cost = cost_[std::size_t(owner)];
+    cost -= least;
+    for (int o : owned_by_[owner]) {
+      changed.push_back(o);
+      if (cost == 0) addFree(o);
+    }
   }
   return least;
 }
@@ -251,6 +295,9 @@ LandmarkCut::Cost LandmarkCut::operator()(const FactSet& state) {
     if (negation_[fact] >= 0 && (is_derived_[fact] || !state.has(int(fact)))) begin.push_back(negation_[fact]);
   }
   cost_ = costs_;
+  free_.clear();
+  free_by_.assign(std::size_t(nodes_), -1);
+  for (int o : always_free_) addFree(o);
   explore(begin);
   Cost sum = 0;
   while (value_[std::size_t(goal_)] < kNever) {

@@ -2,12 +2,27 @@
 
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "kinegraph/logic/grounding.h"
 
 namespace kinegraph {
+
+/// Lists of numbers, one behind the other in memory.
+class NumberLists {
+ public:
+  NumberLists() = default;
+  explicit NumberLists(const std::vector<std::vector<int>>& lists);
+  std::span<const int> operator[](int list) const {
+    const int begin = begin_[std::size_t(list)], end = begin_[std::size_t(list) + 1];
+    return {numbers_.data() + begin, std::size_t(end - begin)};
+  }
+
+ private:
+  std::vector<int> begin_, numbers_;
+};
 
 /// A lower bound on the cost of the actions to the goal, from landmarks: sets of actions such that each plan contains
 /// one of them. Deletes count only for negated preconditions. The effects of an action under different conditions, and
@@ -44,7 +59,7 @@ class LandmarkCut {
   void addOperators(const GroundRule& rule, int owner);
   void link();
   Cost costOf(int op) const {
-    const int owner = operators_[std::size_t(op)].owner;
+    const int owner = owner_[std::size_t(op)];
     return owner < 0 ? 0 : cost_[std::size_t(owner)];
   }
   void reach(int node, Cost value);
@@ -52,7 +67,10 @@ class LandmarkCut {
   void exploreAgain(const std::vector<int>& changed);
   Cost popped(int& node);
   void findSupporter(int op);
+  void addFree(int op);
+  void markZone();
   Cost cut(const std::vector<int>& begin, std::vector<int>& changed);
+  Cost payFor(std::vector<int>& leading, std::vector<int>& changed);
 
   const GroundProblem& ground_;
   std::vector<Cost> costs_;
@@ -62,7 +80,9 @@ class LandmarkCut {
   bool linked_ = false;
   bool small_ = true;  ///< small costs: a queue of buckets
   std::vector<Operator> operators_;
-  std::vector<std::vector<int>> needed_by_, added_by_, owned_by_;
+  NumberLists pre_, adds_;                ///< of operators
+  NumberLists needed_by_, owned_by_;      ///< operators of nodes, of actions
+  std::vector<int> owner_, always_free_;  ///< of operators; those without cost
   // Buffers of one evaluation.
   std::vector<Cost> value_, cost_, supporter_value_;
   std::vector<int> missing_, supporter_;
@@ -70,6 +90,11 @@ class LandmarkCut {
   std::size_t at_ = 0;
   std::vector<std::pair<Cost, int>> heap_;
   std::vector<char> zone_, before_;
+  struct Free {
+    int op, next;
+  };
+  std::vector<int> free_by_;  ///< per node: the first of the operators without cost that add it, in `free_`; or -1
+  std::vector<Free> free_;
 };
 
 }  // namespace kinegraph

@@ -147,8 +147,9 @@ struct Recording {
   /// Computes the world poses of all frames (by id) after the given steps. Throws ValueError for unknown steps.
   std::vector<std::vector<Pose>> framePoses(const std::vector<std::size_t>& steps) const;
 
-  /// Writes a self-contained HTML page that plays the run, with a time slider. Throws FileError.
-  void saveHtml(const std::string& path) const;
+  /// Writes an HTML page that plays the run, with a time slider. `client`: see ConfigViewer::saveHtml. Throws
+  /// FileError.
+  void saveHtml(const std::string& path, const std::string& client = "") const;
 
   /// Repeats the run on `config`, which makeConfig made. Throws Error if the final state differs from the recorded one.
   Simulation replay(Config& config) const;

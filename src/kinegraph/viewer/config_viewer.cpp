@@ -7,7 +7,6 @@
 #include <cctype>
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <mutex>
 #include <utility>
 
@@ -16,6 +15,7 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/scene/config.h"
 #include "kinegraph/scene/tree/scene_tree.h"
+#include "kinegraph/viewer/recorded_page.h"
 #include "kinegraph/viewer/scene_edits.h"
 #include "kinegraph/viewer/scene_items.h"
 #include "kinegraph/viewer/server.h"
@@ -138,11 +138,7 @@ std::string ConfigViewer::recording(std::size_t largest) {
   return server().recording(largest);
 }
 
-void ConfigViewer::saveHtml(const std::string& path) {
-  std::ofstream file(path, std::ios::binary);
-  file << recording();
-  if (!file.flush()) throw FileError(cat("saveHtml: '", path, "' cannot be written"));
-}
+void ConfigViewer::saveHtml(const std::string& path, const std::string& client) { savePage(recording(), path, client); }
 
 ViewerRecording ConfigViewer::record(const std::string& path) {
   server().startRecording(path);

@@ -65,8 +65,9 @@ class ConfigViewer : public ProgrammableViewer {
   void select(int frame);  ///< shows the card of a frame, with handles to move it
   /// Returns a self-contained HTML page of everything shown. `largest`: see recordedPage.
   std::string recording(std::size_t largest = 0);
-  /// Saves recording() as a file for any browser. Throws FileError if it cannot be written.
-  void saveHtml(const std::string& path);
+  /// Saves `recording()` as a file for any browser. With `client`, the path of a file with the script of all such
+  /// pages, the page loads it from there; the file is written if it does not exist. Throws FileError.
+  void saveHtml(const std::string& path, const std::string& client = "");
   /// Records whatever is shown and logged from now on, until the returned object is stopped or destroyed. The file then
   /// plays on a page: `kinegraph view run.kgr`. Times are those of a shown simulation, else of the clock; a motion
   /// takes its duration. Starts the page if necessary. Throws FileError if the file cannot be written, and ValueError

@@ -1,9 +1,12 @@
 #include "kinegraph/viewer/recorded_page.h"
 
-#include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 
 #include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/viewer/client_page.h"
 #include "kinegraph/viewer/gzip.h"
 #include "kinegraph/viewer/messages/binary_messages.h"
@@ -46,22 +49,84 @@ PagePart partBetween(std::string_view page, std::string_view start, std::string_
   return {begin, page.find(end, begin)};
 }
 
-/// The page before and behind its recording. A small script, which the page brings along, unpacks the client's.
-const std::array<std::string, 2>& emptyPage() {
-  static const std::array<std::string, 2> parts = [] {
+/// The page around its recording.
+struct EmptyPage {
+  std::string before;         ///< the recording
+  std::string packed_client;  ///< the client's script, and a small one that unpacks it
+  std::string_view client;    ///< the client's script
+  std::string after;
+};
+
+const EmptyPage& emptyPage() {
+  static const EmptyPage page = [] {
     constexpr std::string_view kPlace = "<!-- RECORDING -->", kScript = "<script>", kEnd = "</script>";
-    const std::string_view page = clientPage();
-    const std::size_t place = page.find(kPlace);
-    const PagePart unpack = partBetween(page, "<script type=\"text/plain\" id=\"unpack\">", kEnd);
-    const PagePart script{page.rfind(kScript) + kScript.size(), page.rfind(kEnd)};
-    return std::array{std::string(page.substr(0, place)), element("client", gzipped(script.in(page))) + "<script>" +
-                                                              std::string(unpack.in(page)) +
-                                                              std::string(page.substr(script.end))};
+    const std::string_view whole = clientPage();
+    const PagePart unpack = partBetween(whole, "<script type=\"text/plain\" id=\"unpack\">", kEnd);
+    const PagePart script{whole.rfind(kScript) + kScript.size(), whole.rfind(kEnd)};
+    return EmptyPage{
+        std::string(whole.substr(0, whole.find(kPlace))),
+        element("client", gzipped(script.in(whole))) + "<script>" + std::string(unpack.in(whole)) + std::string(kEnd),
+        script.in(whole), std::string(whole.substr(script.end + kEnd.size()))};
   }();
-  return parts;
+  return page;
+}
+
+std::string pageOf(std::string_view compressed) {
+  return emptyPage().before + element("recording", compressed) + emptyPage().packed_client + emptyPage().after;
+}
+
+/// Returns the address of a file relative to the folder of another one.
+std::string addressOf(const std::string& file, const std::string& page) {
+  const std::filesystem::path folder = std::filesystem::absolute(page).parent_path();
+  const std::string path = std::filesystem::relative(std::filesystem::absolute(file), folder).generic_string();
+  constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
+  constexpr char kDigits[] = "0123456789ABCDEF";
+  std::string address;
+  for (const unsigned char c : path) {
+    if (kPlain.find(char(c)) != std::string_view::npos) {
+      address += char(c);
+    } else {
+      address += {'%', kDigits[c >> 4], kDigits[c & 15]};
+    }
+  }
+  return address;
+}
+
+/// Returns the page with the script of a file in place of its own.
+std::string withClientAt(const std::string& page, const std::string& address) {
+  constexpr std::string_view kRule = "script-src ", kEnds = ";\"";
+  const EmptyPage& empty = emptyPage();
+  std::string before = empty.before;
+  const std::size_t rule = before.find(kRule) + kRule.size();
+  before.replace(rule, before.find_first_of(kEnds, rule) - rule, "'self' file:");
+  const std::size_t rest = empty.packed_client.size() + empty.after.size();
+  return before + page.substr(empty.before.size(), page.size() - empty.before.size() - rest) + "<script src=\"" +
+         address + "\"></script>" + empty.after;
+}
+
+void writeFile(const std::string& path, std::string_view content) {
+  std::ofstream file(path, std::ios::binary);
+  file << content;
+  if (!file.flush()) throw FileError(cat("saveHtml: '", path, "' cannot be written"));
+}
+
+/// Writes the script of the pages, unless it is there.
+void provideClient(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return writeFile(path, emptyPage().client);
+  const std::string content(std::istreambuf_iterator<char>(file), {});
+  if (content == emptyPage().client) return;
+  throw FileError(cat("saveHtml: the client '", path, "' is another file than the script of this version's pages; ",
+                      "delete it, or name a file that does not exist"));
 }
 
 }  // namespace
+
+void savePage(const std::string& page, const std::string& path, const std::string& client) {
+  if (client.empty()) return writeFile(path, page);
+  provideClient(client);
+  writeFile(path, withClientAt(page, addressOf(client, path)));
+}
 
 void appendMessage(std::string& stream, double time, const Outgoing& message) {
   appendBytes(stream, time);
@@ -80,13 +145,13 @@ std::string runFile(const std::string& stream) { return std::string(kRunMark) + 
 std::string runPage(std::string_view file) {
   if (!file.starts_with(kRunMark))
     throw ValueError("run: the file is not a recorded run of this version; viewer.record writes such files");
-  return emptyPage()[0] + element("recording", file.substr(kRunMark.size())) + emptyPage()[1];
+  return pageOf(file.substr(kRunMark.size()));
 }
 
 std::string recordedPage(const std::vector<Outgoing>& messages) {
   std::string stream;
   for (const Outgoing& message : messages) appendMessage(stream, 0., message);
-  return emptyPage()[0] + element("recording", gzipped(stream)) + emptyPage()[1];
+  return pageOf(gzipped(stream));
 }
 
 std::string recordedPage(const ShownScene& scene, std::size_t largest) {

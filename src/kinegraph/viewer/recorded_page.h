@@ -13,6 +13,11 @@ namespace kinegraph {
 /// are compressed.
 std::string recordedPage(const std::vector<Outgoing>& messages);
 
+/// Writes a page of recordedPage or recordedScene to a file. With `client`, the path of a file with the script of all
+/// such pages, the page loads its script from there instead of containing it. That file is written if it does not
+/// exist. Throws FileError if a file cannot be written, and if `client` has another content.
+void savePage(const std::string& page, const std::string& path, const std::string& client);
+
 /// Appends a message to a stream of recorded ones: its time (float64, s), 0 (text) or 1 (binary) and its number of
 /// bytes, as uint32, then the bytes, filled up to a multiple of 4.
 void appendMessage(std::string& stream, double time, const Outgoing& message);

@@ -156,16 +156,26 @@ def test_links_of_the_site_are_resolved(tmp_path):
     assert checks.brokenLinks(tmp_path) == ["b.html: c.html does not exist", "b.html: a.html#gone has no such anchor"]
 
 
-def test_scenes_share_one_script(tmp_path):
-    from shared_client import shareClient
-
-    sizes = []
+def test_pages_of_scenes_share_one_script(tmp_path):
+    client, pages = tmp_path / "shared scripts" / "viewer #1.js", tmp_path / "scenes"
+    client.parent.mkdir()
+    pages.mkdir()
     for i in range(10):
         C = ry.Config()
         C.addText(f"ball: {{ shape: sphere, size: [{0.1 + 0.01 * i}] }}")
-        C.viewer().saveHtml(tmp_path / "whole.html")
-        page = shareClient((tmp_path / "whole.html").read_text(), tmp_path / "viewer.js", "viewer.js")
-        assert '<script src="viewer.js"></script>' in page and "sha256-" not in page.split("base-uri")[0]
-        assert 'id="recording"' in page
-        sizes.append(len(page))
-    assert sum(sizes) + (tmp_path / "viewer.js").stat().st_size < 3_000_000
+        C.viewer().saveHtml(pages / f"{i}.html", client=client)
+    written = [file.read_text() for file in pages.iterdir()]
+    for page in written:
+        assert '<script src="../shared%20scripts/viewer%20%231.js"></script>' in page and 'id="recording"' in page
+        assert "script-src 'self' file:;" in page and "sha256-" not in page
+    assert sum(map(len, written)) + client.stat().st_size < 3_000_000
+
+
+def test_a_client_of_another_version_is_not_replaced(tmp_path):
+    client = tmp_path / "viewer.js"
+    client.write_text("another")
+    with pytest.raises(ry.FileError, match=r"saveHtml: the client '.*viewer.js' is another file"):
+        ry.Config().viewer().saveHtml(tmp_path / "scene.html", client=client)
+    assert client.read_text() == "another" and not (tmp_path / "scene.html").exists()
+    with pytest.raises(OSError, match="saveHtml: .* cannot be written"):
+        ry.Config().viewer().saveHtml(tmp_path / "missing" / "scene.html")

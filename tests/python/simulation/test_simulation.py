@@ -531,6 +531,8 @@ def test_a_recording_is_shown_with_its_fingers_and_saved_as_a_page(tmp_path):
     assert int(slices) == 26 and float(seconds) == pytest.approx(0.5)
     assert recording.view() == 0  # nobody is there
     recording.view_close()
+    recording.saveHtml(tmp_path / "shared.html", client=tmp_path / "viewer.js")
+    assert '<script src="viewer.js">' in (tmp_path / "shared.html").read_text() and (tmp_path / "viewer.js").exists()
     with pytest.raises(ry.ArgumentError, match="has no steps"):
         S.startRecording()
         S.stopRecording().saveHtml(tmp_path / "none.html")
