@@ -1,4 +1,4 @@
-"""Cameras in the loop: things are found, and what else is seen stops motions and shapes new plans."""
+"""Cameras in the loop: things are found, and other things stop motions and shape new plans."""
 
 import numpy as np
 import pytest
