@@ -212,7 +212,7 @@ class Browser:
         return self.decode(png, HEIGHT)
 
     def _still(self) -> str:
-        """A picture in full resolution, in base64: one during which the page has drawn nothing, as it does when warnings
+        """A picture in full resolution, in base64: one during which the page has drawn nothing, as when warnings
         arrive a second after a change."""
         drawn = "kinegraph.idle() ? kinegraph.pictures() : -1"
         while True:
