@@ -208,6 +208,20 @@ def test_a_thing_on_another_one_is_found_in_the_same_call(scene, names):
     assert [seen[name].pose[:3] for name in names] == [pytest.approx(pose[:3], abs=1e-3) for pose in truth]
 
 
+@pytest.mark.parametrize("names", [["low", "top"], ["top", "low"]])
+def test_a_thing_taken_from_another_one_leaves_the_pose_of_this_one_alone(scene, names):
+    scene.delFrame("can")
+    scene.delFrame("box")
+    scene.addFrame("low").setShape(ry.ST.box, [0.08, 0.08, 0.05]).setPosition([0.1, 0.05, 0.675]).setContact(1)
+    top = scene.addFrame("top").setShape(ry.ST.box, [0.05, 0.05, 0.05]).setPosition([0, 0.05, 0.675]).setContact(1)
+    depth, fxycxy = look(scene)
+    top.setPosition([0.1, 0.05, 0.725])
+    view = ry.DepthView(depth, fxycxy, "cam")
+    seen = ry.registerScene(scene, view, names, support="table", search_radius=0.12)
+    assert seen["low"].pose[:3] == pytest.approx([0.1, 0.05, 0.675], abs=1e-3)
+    assert seen["top"].pose[:3] == pytest.approx([0, 0.05, 0.675], abs=1e-3)
+
+
 def test_a_small_support_causes_no_warning(scene, recwarn):
     top = scene.addFrame("top").setShape(ry.ST.box, [0.04, 0.05, 0.05]).setPosition([0.12, 0.06, 0.755]).setContact(1)
     depth, fxycxy = look(scene)
