@@ -36,6 +36,28 @@ TEST(OccupancyMap, ABoxThatTheSceneDoesNotHaveIsOccupiedAndHidesWhatIsBehind) {
   EXPECT_EQ(map.state({9., 0., 0.}), CellState::free);
 }
 
+TEST(OccupancyMap, AnImageUpsideDownLooksThroughTheTable) {
+  Config C = mapScene();
+  OccupancyMap map(C, {-.3, -.3, .65}, {.3, .3, 1.}, .02);
+  DepthView view = imageOf(C);
+  EXPECT_TRUE(map.update(C, std::vector<DepthView>{view}).empty());
+  std::reverse(view.depth.begin(), view.depth.end());
+  const std::vector<std::string> warnings = map.update(C, std::vector<DepthView>{view});
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].find("looks through known shapes"), std::string::npos) << warnings[0];
+}
+
+TEST(OccupancyMap, TheLargestDepthOfAFormatIsNoMeasurement) {
+  Config C = mapScene();
+  OccupancyMap map(C, {-.3, -.3, .65}, {.3, .3, 1.}, .02);
+  DepthView view = imageOf(C);
+  for (int row = 0; row < view.height; ++row)
+    std::fill_n(view.depth.begin() + row * view.width, view.width / 3, 65.535f);
+  map.update(C, std::vector<DepthView>{view});
+  EXPECT_NE(map.state({-.25, 0., .8}), CellState::free);
+  EXPECT_EQ(map.state({.15, 0., .8}), CellState::free);
+}
+
 /// The number of cells that block if all cells but some are free.
 int blocking(Config C, const std::vector<std::pair<std::array<int, 3>, CellState>>& cells, Unseen unseen) {
   OccupancyMap map(C, {-.3, -.3, .65}, {.3, .3, 1.}, .05);

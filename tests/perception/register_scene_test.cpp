@@ -154,6 +154,20 @@ TEST(RegisterScene, TwoEqualBoxesSideBySideAreNotConfused) {
   EXPECT_LT((seen.frames.at("box2").pose.p - Vector3d(.19, .05, .69)).norm(), .001) << seen.str();
 }
 
+TEST(RegisterScene, AThingOnAnotherOneIsFoundInTheSameCall) {
+  Config C = tableScene();
+  C.addText("top: { shape: box, size: [.04, .05, .05], contact: 1 }");
+  const Pose below = C.getFrame("box").getPose();
+  const Vector3d on_top = below.p + Vector3d(.005, 0., .5 * .08 + .025);
+  C.getFrame("top").setPosition(on_top);
+  const std::vector<DepthView> views{look(C)};
+  displace(C, "top", {.01, -.01, 0.}, 0.);
+  displace(C, "box", {.01, -.01, 0.}, 0.);
+  const SeenScene seen = registerScene(C, views, {"box", "top"}, onTable());
+  EXPECT_LT((C.getFrame("box").getPosition() - below.p).norm(), .001) << seen.str();
+  EXPECT_LT((C.getFrame("top").getPosition() - on_top).norm(), .001) << seen.str();
+}
+
 TEST(RegisterScene, TheFarSideOfAThinWallDoesNotHoldThePose) {
   Config C = tableScene();
   C.addFrame("plate").setShape(ShapeType::ssBox, {.16, .004, .12, .0005}).setPosition({0., .2, .71});

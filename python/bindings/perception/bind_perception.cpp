@@ -38,6 +38,10 @@ DepthInMeters inMeters(nb::handle given, std::optional<double> unit) {
   if (nb::cast<int>(depth.attr("ndim")) != 2)
     throw ValueError(
         cat("DepthView: depth has ", nb::cast<int>(depth.attr("ndim")), " dimensions; expected shape (height, width)"));
+  if (kind != "f") {  // the largest number of its type is no measurement
+    const nb::object none = depth.attr("__eq__")(np.attr("iinfo")(depth.attr("dtype")).attr("max"));
+    depth = np.attr("where")(none, np.attr("zeros")(1, depth.attr("dtype")), depth);
+  }
   const double scale = unit.value_or(kind == "f" ? 1. : .001);
   if (!(scale > 0.)) throw ValueError(cat("DepthView: unit is ", scale, "; expected m per unit, more than 0"));
   if (scale != 1.) depth = depth.attr("astype")("float32").attr("__mul__")(np.attr("float32")(scale));

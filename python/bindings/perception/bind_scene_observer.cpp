@@ -5,6 +5,7 @@
 
 #include "arguments.h"
 #include "bindings.h"
+#include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/perception/occupancy_map.h"
 #include "perception/depth_views.h"
@@ -26,7 +27,14 @@ void makeObserver(PySceneObserver* self, const nb::object& take, std::vector<std
   OccupancyMap* cells = map.is_none() ? nullptr : &nb::cast<OccupancyMap&>(map);
   const auto views = [take] {
     const nb::gil_scoped_acquire lock;
-    return depthViews(take());
+    const nb::object taken = take();
+    try {
+      return depthViews(taken);
+    } catch (const nb::cast_error&) {
+      throw ValueError(cat("SceneObserver: take returned an object of type ",
+                           nb::cast<std::string>(taken.type().attr("__name__")),
+                           "; expected a DepthView or a sequence of them"));
+    }
   };
   auto observer = std::make_unique<SceneObserver>(views, std::move(frames), options, cells, unseenFromName(unseen));
   new (self) PySceneObserver{take, map, std::move(observer)};

@@ -9,16 +9,16 @@ The camera looks along z, x to the right and y down. A pixel with depth d shows 
 X = (column + .5 - cx) d / fx, Y = (row + .5 - cy) d / fy.
 
 Args:
-    depth: Depths along the camera's z axis, shape (height, width). Zero, negative and non-finite numbers are pixels
-        without a measurement.
+    depth: Depths along the camera's z axis, shape (height, width). Zero, negative and non-finite numbers, depths
+        above 50 m and the largest number of an integer type are pixels without a measurement.
     fxycxy: fx, fy, cx, cy in pixels, shape (4,).
     camera: The camera: the name of its frame in the scene, or its pose in the world, shape (7,).
     unit: Meters per unit of `depth`; None: .001 for integers, 1 for floats.
     noise: Standard deviation of the depth of a pixel, divided by its squared depth, 1/m.
     bias: The same for an error that all pixels of an object share, 1/m.
 Raises:
-    ArgumentError: The depth has not two dimensions, fxycxy does not fit the image, depths look like millimeters, or a
-        number is invalid.)";
+    ArgumentError: The depth has not two dimensions, fxycxy does not fit the image or is that of the transposed one,
+        depths look like millimeters, or a number is invalid.)";
 
 inline constexpr char registerScene[] = R"(Moves frames to where depth images show them.
 
@@ -33,8 +33,9 @@ Args:
     config: The scene. Frames that are seen are moved.
     views: A DepthView, or a list of them. The scene must have the joint angles at which they were taken.
     frames: The names of the frames to look for.
-    support: The frame on whose top the things rest, or on level boxes below it, such as a tray; None: they may be
-        anywhere. Frames with a joint of their own and frames in a hand never rest.
+    support: The frame on whose top the things rest, or on level boxes below it, such as a tray, or on what
+        they stood on in their last pose; None: they may be anywhere. Frames with a joint of their own and frames in a
+        hand never rest.
     search_radius: How far a thing may have moved since its last pose, m.
     prior: "last": things are near their last poses. "anywhere": they rest anywhere on the support, on any stable face.
         Frames with a joint are then looked for within its limits, frames in a hand near their last poses.

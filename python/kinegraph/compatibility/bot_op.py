@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
-from numpy.typing import ArrayLike, NDArray
+from typing import TYPE_CHECKING, Any
 
 from .._core import BotOp
 from ..errors import NotFound
+
+if TYPE_CHECKING:  # numpy.typing takes half a millisecond
+    from numpy.typing import ArrayLike, NDArray
 
 _hold = BotOp.hold
 

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, cast
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from .._core import JT, KOMO, NLP, OT, Config, Frame, NLP_Factory, NLP_Solver, NLP_SolverOptions, Skeleton
+
+if TYPE_CHECKING:  # numpy.typing takes half a millisecond
+    from numpy.typing import ArrayLike, NDArray
 
 
 def setModel(self: KOMO, config: Config, enableCollisions: bool = False) -> None:

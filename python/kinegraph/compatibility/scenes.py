@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from .._core import KOMO, ST, Config, Frame
 from ..errors import ArgumentError
+
+if TYPE_CHECKING:  # numpy.typing takes half a millisecond
+    from numpy.typing import ArrayLike, NDArray
 
 
 def frame(self: Config, frameID: str | int, warnIfNotExist: bool = True) -> Frame:

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from .._core import CameraView, Config, ConfigurationViewer, Frame
 from ..errors import ArgumentError
+
+if TYPE_CHECKING:  # numpy.typing takes half a millisecond
+    from numpy.typing import NDArray
 
 
 def get_viewer(self: Config, window_title: str = "", offscreen: bool = False) -> ConfigurationViewer:

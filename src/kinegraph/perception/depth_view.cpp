@@ -11,6 +11,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double kCenterOff = .2;                   // of the size of an image; half an image has .25 or .5
+constexpr double kNearCenter = .06;                 // of the size of an image, as the centers of most cameras are
 constexpr int kLargest = 8192;                      // pixels
 constexpr double kNearest = .005, kFarthest = 50.;  // m; another median depth is not in meters
 
@@ -28,6 +29,10 @@ void DepthView::validate(const std::string& where) const {
   if (isOff(fxycxy[2], width) || isOff(fxycxy[3], height))
     fail(cat("the center (", fxycxy[2], ", ", fxycxy[3], ") of fxycxy does not fit an image of ", width, " x ", height,
              " pixels; expected about (", .5 * width, ", ", .5 * height, "), since fxycxy scales with the image"));
+  const auto isNear = [](double center, int size) { return std::abs(center / size - .5) < kNearCenter; };
+  if (isNear(fxycxy[2], height) && isNear(fxycxy[3], width) && !isNear(fxycxy[2], width) && !isNear(fxycxy[3], height))
+    fail(cat("the center (", fxycxy[2], ", ", fxycxy[3], ") of fxycxy is that of an image of ", height, " x ", width,
+             " pixels, and depth shows ", width, " x ", height, "; expected rows from top to bottom: transpose it"));
   if (!pose.p.allFinite() || !pose.q.coeffs().allFinite()) fail("the camera's pose has non-finite numbers");
   if (!(noise > 0.) || !(bias >= 0.) || !std::isfinite(noise) || !std::isfinite(bias))
     fail(cat("noise is ", noise, " and bias ", bias, "; expected noise > 0 and bias >= 0, both in 1/m"));

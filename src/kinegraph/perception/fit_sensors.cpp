@@ -8,6 +8,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/cells.h"
+#include "kinegraph/perception/measured_depth.h"
 
 namespace kinegraph {
 
@@ -103,7 +104,7 @@ void SensorFit::addPoints() {
     for (int row = kPixelStep / 2; row < view.height; row += kPixelStep) {
       for (int column = kPixelStep / 2; column < view.width; column += kPixelStep) {
         const double d = view.depth[std::size_t(row) * std::size_t(view.width) + std::size_t(column)];
-        if (!std::isfinite(d) || d <= 0.) continue;
+        if (!isMeasured(float(d))) continue;
         const Vector4d& f = view.fxycxy;
         points_.push_back(
             {{(column + .5 - f[2]) * d / f[0], (row + .5 - f[3]) * d / f[1], d}, view.noise * d * d, int(k)});

@@ -5,11 +5,14 @@
 #include <cmath>
 #include <limits>
 
+#include "kinegraph/perception/measured_depth.h"
+
 namespace kinegraph {
 
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::infinity();
+constexpr double kFinest = .25;                                                    // cells: smaller parts are not asked
 constexpr int kHoleRadius = 3;                                                     // pixels at half resolution
 constexpr std::array<int, 12> kRadii = {0, 1, 2, 3, 4, 6, 8, 11, 15, 20, 27, 36};  // of the squares of the levels
 
@@ -50,7 +53,7 @@ DepthView nearestOfFour(const DepthView& view, double jump) {
         row = std::min(row, view.height - 1);
         column = std::min(column, view.width - 1);
         const float d = view.depth[std::size_t(row) * std::size_t(view.width) + std::size_t(column)];
-        return std::isfinite(d) && d > 0.f ? d : kNothing;
+        return isMeasured(d) ? d : kNothing;
       };
       const float first = at(2 * y, 2 * x);
       const float least =
@@ -62,26 +65,28 @@ DepthView nearestOfFour(const DepthView& view, double jump) {
   return half;
 }
 
-FreeDepth::FreeDepth(const ObservedView& view, double cell)
+FreeDepth::FreeDepth(const ObservedView& view, double cell, double nearest)
     : fx_(view.fx),
       fy_(view.fy),
       cx_(view.cx),
       cy_(view.cy),
       cell_(cell),
-      radius_(.5 * std::sqrt(3.) * cell),
-      reach_(radius_ * std::max(view.fx, view.fy)),
       width_(view.width),
-      height_(view.height) {
-  using Pixel = ObservedView::Pixel;
+      height_(view.height),
+      half_(.5 * cell * view.X_WC.R.transpose().cwiseAbs().rowwise().sum()) {
+  using Kind = ObservedView::Pixel;
+  for (std::size_t i = 0; i < 8; ++i)
+    corners_[i] =
+        view.X_WC.R.transpose() * Vector3d(.5 * cell * Vector3d(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
   std::vector<float> free(view.depth.size());
   surface_.resize(view.depth.size());
   for (std::size_t i = 0; i < view.depth.size(); ++i) {
     const float d = view.depth[i];
-    const bool measured = view.pixels[i] != Pixel::none;
+    const bool measured = view.pixels[i] != Kind::none;
     surface_[i] = measured ? d : kNothing;
     const double error = 3. * view.noise * double(d) * double(d);
-    const bool known = view.pixels[i] == Pixel::known || view.pixels[i] == Pixel::background;
-    free[i] = measured ? float(known ? double(d) + error + 2. * radius_ : double(d) - error) : kNothing;
+    const bool known = view.pixels[i] == Kind::known || view.pixels[i] == Kind::background;
+    free[i] = measured ? float(known ? double(d) + error + 2. * half_.z() : double(d) - error) : kNothing;
   }
   std::vector<float> around = free, around_surface = surface_;
   for (int n = 0; n < kHoleRadius; ++n) {
@@ -89,13 +94,14 @@ FreeDepth::FreeDepth(const ObservedView& view, double cell)
     around_surface = leastOfNeighbors(around_surface, width_, height_);
   }
   for (std::size_t i = 0; i < free.size(); ++i) {
-    if (view.pixels[i] != Pixel::none) continue;
+    if (view.pixels[i] != Kind::none) continue;
     free[i] = std::isfinite(around[i]) ? around[i] : 0.f;
     surface_[i] = around_surface[i];
   }
   free_.push_back(std::move(free));
+  const double largest = std::max(fx_, fy_) * kBlock * std::sqrt(3.) * cell / std::max(nearest, kNearest);
   int radius = 0;
-  for (std::size_t level = 1; level < kRadii.size() && radius < reach_ / .1; ++level) {
+  for (std::size_t level = 1; level < kRadii.size() && radius < largest; ++level) {
     std::vector<float> next = free_.back();
     for (; radius < kRadii[level]; ++radius) next = leastOfNeighbors(next, width_, height_);
     free_.push_back(std::move(next));
@@ -103,6 +109,15 @@ FreeDepth::FreeDepth(const ObservedView& view, double cell)
   for (std::size_t level = 0; level < free_.size(); ++level) {
     while (int(level_.size()) <= kRadii[level]) level_.push_back(std::uint8_t(level));
   }
+}
+
+bool FreeDepth::isFreeInParts(const Vector3d& middle, double size) const {
+  const Pixel at = pixelOf(middle);
+  if (at.index < 0 || double(free_[0][std::size_t(at.index)]) < middle.z()) return false;
+  if (isFree(middle, at, size)) return true;
+  return size > kFinest && std::all_of(corners_.begin(), corners_.end(), [&](const Vector3d& corner) {
+           return isFreeInParts(middle + .5 * size * corner, .5 * size);
+         });
 }
 
 std::size_t FreeDepth::levelFor(double pixels) const {

@@ -1,11 +1,13 @@
 #include "kinegraph/perception/occupancy_map.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/geometry/shapes/cells.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
+#include "kinegraph/perception/known_points.h"
+#include "kinegraph/perception/measured_depth.h"
 
 namespace kinegraph {
 
@@ -53,9 +55,7 @@ void markKnown(ObservedView& view, const std::vector<KnownShape>& known, const s
         if (!endless && (points[i] - center).squaredNorm() > radius * radius) continue;
         const double sigma = 3. * view.noise * view.depth[i] * view.depth[i];
         const double near = std::max(reach, sigma);
-        const RigidTransform X_WQ{Matrix3d::Identity(), points[i]};
-        if (!endless && !mayBeWithin(*shape.body, shape.X_WB, points[i], near)) continue;
-        if (proximity(*pointBody(), X_WQ, *shape.body, shape.X_WB).distance > near) continue;
+        if (!isWithin(shape, points[i], near)) continue;
         view.pixels[i] = shape.moves ? Pixel::known : Pixel::background;
       }
     }
@@ -107,16 +107,32 @@ int jointsOf(const Frame& frame) {
   return joints;
 }
 
+/// Every second pixel in both directions: those of even rows and columns, or if an interlaced image has twice as many
+/// measurements elsewhere, others.
 DepthView everySecondPixel(const DepthView& view) {
+  constexpr int kSparse = 7 * kStride;  // pixels: enough of them tell
+  std::array<int, kStride * kStride> measured{};
+  for (int row = 0; row + 1 < view.height; row += kSparse) {
+    for (int column = 0; column + 1 < view.width; column += kSparse) {
+      for (int i = 0; i < kStride * kStride; ++i)
+        measured[std::size_t(i)] += isMeasured(
+            view.depth[std::size_t(row + i / kStride) * std::size_t(view.width) + std::size_t(column + i % kStride)]);
+    }
+  }
+  const auto best = std::max_element(measured.begin(), measured.end());
+  const int phase = *best > 2 * measured[0] ? int(best - measured.begin()) : 0;
+  const int first_row = phase / kStride, first_column = phase % kStride;
   DepthView half = view;
-  half.width = (view.width + kStride - 1) / kStride;
-  half.height = (view.height + kStride - 1) / kStride;
+  half.width = (view.width - first_column + kStride - 1) / kStride;
+  half.height = (view.height - first_row + kStride - 1) / kStride;
+  half.fxycxy -= Eigen::Vector4d(0., 0., first_column, first_row);
   half.fxycxy /= kStride;
   half.depth.resize(std::size_t(half.width) * std::size_t(half.height));
   for (int row = 0; row < half.height; ++row) {
     for (int column = 0; column < half.width; ++column)
       half.depth[std::size_t(row) * std::size_t(half.width) + std::size_t(column)] =
-          view.depth[std::size_t(kStride * row) * std::size_t(view.width) + std::size_t(kStride * column)];
+          view.depth[std::size_t(first_row + kStride * row) * std::size_t(view.width) +
+                     std::size_t(first_column + kStride * column)];
   }
   return half;
 }
@@ -168,7 +184,7 @@ ObservedView compareWithKnown(const DepthView& given, const Pose& camera, const 
     for (int column = 0; column < view.width; ++column) {
       const std::size_t i = view.index(row, column);
       const float d = given.depth[i];
-      if (!std::isfinite(d) || d <= 0.f) continue;
+      if (!isMeasured(d)) continue;
       view.depth[i] = d;
       world[i] = view.point(row, column);
       const double near = std::max(kNearSurface, 3. * view.noise * d * d);

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/geometry/shapes/cells.h"
 #include "kinegraph/perception/free_depth.h"
+#include "kinegraph/perception/known_points.h"
 #include "kinegraph/scene/collisions.h"
 
 namespace kinegraph {
@@ -18,16 +19,7 @@ namespace {
 constexpr double kMostCells = 5e7;
 constexpr double kRobotClearance = .005;  // m, space around the robot that is taken to be free
 constexpr double kHalfDiagonal = .8660254037844386;
-constexpr double kDoubtful = .05;  // share of points deep inside of known shapes
-
-/// Whether a point is within a distance (m) of a shape.
-bool isWithin(const KnownShape& shape, const Vector3d& point, double distance) {
-  const CollisionBody& body = *shape.body;
-  const double reach = std::max(body.radius() + distance, 0.), square = squaredPointToCore(body, shape.X_WB, point);
-  if (square > reach * reach) return false;
-  if (body.core() <= CollisionBody::Core::cylinder && square > 0.) return true;  // exact
-  return proximity(*pointBody(), {Matrix3d::Identity(), point}, body, shape.X_WB).distance <= distance;
-}
+constexpr double kDoubtful = .05;  // share of points behind known shapes
 
 /// Calls visit(index, middle) for the cells whose middles may be within a distance (m) of a shape.
 template <class Visit>
@@ -63,19 +55,71 @@ std::optional<std::size_t> cellAt(const OccupancyMap& map, const Vector3d& point
          std::size_t(at[2]);
 }
 
-/// The share of some measured points that lie deep inside of shapes that do not move.
-double shareInside(const ObservedView& view, const std::vector<KnownShape>& known) {
-  int inside = 0, all = 0;
-  const double deep = -.015;
-  for (std::size_t i = 0; i < view.depth.size(); i += 97) {
-    if (view.depth[i] <= 0.f) continue;
-    ++all;
-    const Vector3d point = view.point(int(i) / view.width, int(i) % view.width);
-    inside += std::any_of(known.begin(), known.end(), [&](const KnownShape& shape) {
-      return !shape.moves && shape.body->convex() && isWithin(shape, point, deep);
-    });
+/// The numbers of points in each cell that no known shape explains, up to 255.
+std::vector<std::uint8_t> countHits(const OccupancyMap& map, const ObservedView& view) {
+  std::vector<std::uint8_t> hits(map.states().size(), 0);
+  for (int row = 0; row < view.height; ++row) {
+    for (int column = 0; column < view.width; ++column) {
+      if (view.pixels[view.index(row, column)] != ObservedView::Pixel::other) continue;
+      const std::optional<std::size_t> cell = cellAt(map, view.point(row, column));
+      if (cell && hits[*cell] < 255) ++hits[*cell];
+    }
   }
-  return all > 0 ? double(inside) / all : 0.;
+  return hits;
+}
+
+/// The least depth of a corner of the map, m.
+double nearestCorner(const OccupancyMap& map, const RigidTransform& X_CW) {
+  const auto [x, y, z] = map.counts();
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < 8; ++i) {
+    const Vector3d corner = map.lower() + map.cell() * Vector3d(i & 1 ? x : 0, i & 2 ? y : 0, i & 4 ? z : 0);
+    nearest = std::min(nearest, (X_CW * corner).z());
+  }
+  return nearest;
+}
+
+/// Sets the state of a cell, of which the middle is given in the camera's frame; returns whether it is in the image.
+bool addCell(const FreeDepth& depth, const Vector3d& middle, int hits, CellState& state) {
+  using Answer = FreeDepth::Answer;
+  const Answer answer = depth.ask(middle);
+  if (hits > 0 && hits >= depth.neededHits(middle.z())) {
+    state = CellState::occupied;
+  } else if (answer == Answer::free || (state != CellState::free && depth.isFreeInParts(middle))) {
+    state = CellState::free;
+  } else if (state == CellState::unseen || state == CellState::undecided) {
+    if (answer == Answer::behind) state = CellState::hidden;
+    if (answer == Answer::undecided) state = CellState::undecided;
+  }
+  return answer != Answer::outside;
+}
+
+/// Sets the states of the cells in a block; returns whether some are in the image.
+bool addBlock(const OccupancyMap& map, const FreeDepth& depth, const RigidTransform& X_CW,
+              const std::vector<std::uint8_t>& hits, const std::array<int, 3>& first, std::vector<CellState>& states) {
+  const std::array<int, 3>& count = map.counts();
+  constexpr int kBlock = FreeDepth::kBlock;
+  std::array<int, 3> end;
+  for (std::size_t axis = 0; axis < 3; ++axis) end[axis] = std::min(first[axis] + kBlock, count[axis]);
+  const Vector3d corner(first[0], first[1], first[2]);
+  const bool is_free =
+      depth.isFreeBlock(X_CW * Vector3d(map.lower() + map.cell() * (corner.array() + .5 * kBlock).matrix()));
+  const Vector3d step = map.cell() * X_CW.R.col(2);
+  bool in_view = is_free;
+  for (int i = first[0]; i < end[0]; ++i) {
+    for (int j = first[1]; j < end[1]; ++j) {
+      std::size_t index =
+          (std::size_t(i) * std::size_t(count[1]) + std::size_t(j)) * std::size_t(count[2]) + std::size_t(first[2]);
+      if (is_free) {
+        std::fill_n(states.begin() + std::ptrdiff_t(index), end[2] - first[2], CellState::free);
+        continue;
+      }
+      Vector3d p = X_CW * Vector3d(map.lower() + map.cell() * Vector3d(i + .5, j + .5, first[2] + .5));
+      for (int k = first[2]; k < end[2]; ++k, ++index, p += step)
+        in_view |= addCell(depth, p, hits[index], states[index]);
+    }
+  }
+  return in_view;
 }
 
 }  // namespace
@@ -162,40 +206,21 @@ void OccupancyMap::addView(const DepthView& given, const Pose& camera, const std
     warnings.push_back(cat(name, " has no depth"));
     return;
   }
-  if (const double share = shareInside(view, known); share > kDoubtful)
-    warnings.push_back(cat(int(std::lround(100. * share)), " % of the points of ", name,
-                           " lie inside of known shapes; check the camera's pose"));
-  std::vector<std::uint8_t> hits(states_.size(), 0);
-  for (int row = 0; row < view.height; ++row) {
-    for (int column = 0; column < view.width; ++column) {
-      if (view.pixels[view.index(row, column)] != ObservedView::Pixel::other) continue;
-      const std::optional<std::size_t> cell = cellAt(*this, view.point(row, column));
-      if (cell && hits[*cell] < 255) ++hits[*cell];
-    }
-  }
-  const FreeDepth depth(view, cell_);
+  if (const double share = shareBehind(view, known); share > kDoubtful)
+    warnings.push_back(cat(name, " looks through known shapes at ", int(std::lround(100. * share)),
+                           " % of its points; check the camera's pose (z forward, x to the right, y down), and the "
+                           "poses of these shapes"));
+  const std::vector<std::uint8_t> hits = countHits(*this, view);
   const RigidTransform X_CW = view.X_WC.inverse();
-  const Vector3d step = cell_ * X_CW.R.col(2);
-  std::size_t index = 0, in_view = 0;
-  for (int i = 0; i < count_[0]; ++i) {
-    for (int j = 0; j < count_[1]; ++j) {
-      Vector3d p = X_CW * Vector3d(lower_ + cell_ * Vector3d(i + .5, j + .5, .5));
-      for (int k = 0; k < count_[2]; ++k, ++index, p += step) {
-        CellState& state = states_[index];
-        const FreeDepth::Answer answer = depth.ask(p);
-        in_view += answer != FreeDepth::Answer::outside;
-        if (hits[index] >= depth.neededHits(p.z())) {
-          if (hits[index] > 0) state = CellState::occupied;
-        } else if (answer == FreeDepth::Answer::free) {
-          state = CellState::free;
-        } else if (state == CellState::unseen || state == CellState::undecided) {
-          if (answer == FreeDepth::Answer::behind) state = CellState::hidden;
-          if (answer == FreeDepth::Answer::undecided) state = CellState::undecided;
-        }
-      }
+  const FreeDepth depth(view, cell_, nearestCorner(*this, X_CW));
+  constexpr int kBlock = FreeDepth::kBlock;
+  bool in_view = false;
+  for (int i = 0; i < count_[0]; i += kBlock) {
+    for (int j = 0; j < count_[1]; j += kBlock) {
+      for (int k = 0; k < count_[2]; k += kBlock) in_view |= addBlock(*this, depth, X_CW, hits, {i, j, k}, states_);
     }
   }
-  if (in_view == 0) warnings.push_back(cat(name, " shows nothing of the region"));
+  if (!in_view) warnings.push_back(cat(name, " shows nothing of the region"));
 }
 
 /// The cells that can hold something: those from which cells that may hold something lead to a measured one, to a

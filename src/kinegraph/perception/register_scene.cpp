@@ -8,7 +8,9 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/perception/fit_sensors.h"
+#include "kinegraph/perception/known_points.h"
 #include "kinegraph/perception/look_alikes.h"
+#include "kinegraph/perception/measured_depth.h"
 #include "kinegraph/perception/pose_certainty.h"
 #include "kinegraph/perception/registration.h"
 #include "kinegraph/perception/resting_heights.h"
@@ -83,8 +85,12 @@ struct Support {
   double height;  ///< of its top, m
 };
 
-void warnOfViews(const std::vector<ObservedView>& views, const Support* support, std::vector<std::string>& warnings) {
+/// `solid`: the shapes of the scene that are not looked for.
+void warnOfViews(const std::vector<ObservedView>& views, const Support* support, const std::vector<KnownShape>& solid,
+                 std::vector<std::string>& warnings) {
+  constexpr double kDoubtful = .1;        // of the points: behind shapes
   constexpr double kLookedThrough = .15;  // of the surface of the support
+  constexpr double kOwnShare = .3;        // of the surface of a support too small for many pixels
   for (std::size_t k = 0; k < views.size(); ++k) {
     const ObservedView& view = views[k];
     int measured = 0, on_support = 0;
@@ -95,18 +101,22 @@ void warnOfViews(const std::vector<ObservedView>& views, const Support* support,
         on_support += support && std::abs(view.point(row, column).z() - support->height) < .02;
       }
     }
-    if (measured == 0) {
+    if (std::none_of(view.depth.begin(), view.depth.end(), isMeasured)) {
       warnings.push_back(cat("view ", k, " has no depth: all pixels are zero, negative or not finite"));
       continue;
     }
     if (!support) continue;
     const std::string advice = "'. Check the camera's pose (z forward, x to the right, y down), fxycxy, and the unit";
     const SurfaceCounts counts = countSurface(support->shape, support->X, {view}, int(support->shape.samples().size()));
-    if (on_support < .01 * measured)
+    if (on_support < .01 * measured && counts.agree <= kOwnShare * counts.inView())
       warnings.push_back(cat("view ", k, ": fewer than 1 % of its pixels show the top of '", support->name, advice));
     else if (counts.through > std::max<double>(kFewSamples, kLookedThrough * counts.inView()))
       warnings.push_back(cat("view ", k, " looks through ", 100 * counts.through / counts.inView(),
                              " % of the surface of '", support->name, advice));
+    else if (const double share = shareBehind(view, solid); share > kDoubtful)
+      warnings.push_back(cat("view ", k, " looks through shapes of the scene such as '", support->name, "' at ",
+                             int(std::lround(100. * share)),
+                             " % of its points. Check the camera's pose (z forward, x to the right, y down)"));
   }
 }
 
@@ -159,7 +169,7 @@ std::vector<Thing> thingsOf(const Config& config, const std::vector<std::string>
     }
     if (support && freedom.kind == PoseFreedom::Kind::resting) {
       const double reach = thing.is_lost ? kAnyPlace : thing.shape.radius() + thing.search;
-      thing.heights = heightsUnder(frame, config.getFrame(support->name), support->height, reach, listed);
+      thing.heights = heightsUnder(config, frame, config.getFrame(support->name), support->height, reach, listed);
     }
     things.push_back(std::move(thing));
   }
@@ -208,8 +218,9 @@ SeenScene findThings(Config& config, std::span<const DepthView> given, const std
   const Support* on = support ? &*support : nullptr;
   std::vector<Thing> things = thingsOf(config, names, on, options);
   std::set<int> looked_for;
-  if (on) looked_for.insert(on->shape.frames().begin(), on->shape.frames().end());
   for (const Thing& thing : things) looked_for.insert(thing.shape.frames().begin(), thing.shape.frames().end());
+  const std::vector<KnownShape> solid = knownShapes(config, looked_for);
+  if (on) looked_for.insert(on->shape.frames().begin(), on->shape.frames().end());
   const std::vector<KnownShape> known = knownShapes(config, looked_for);
   const std::vector<SearchBall> balls = searchBalls(things, on);
   std::vector<ObservedPoint> points;
@@ -219,7 +230,7 @@ SeenScene findThings(Config& config, std::span<const DepthView> given, const std
         observe(given[i], given[i].cameraPose(config), known, on ? &on->height : nullptr, balls, points, int(i)));
 
   SeenScene seen;
-  warnOfViews(views, on, seen.warnings);
+  warnOfViews(views, on, solid, seen.warnings);
   const bool anywhere = options.prior == Prior::anywhere;
   if (anywhere) keepPlausible(*support, things, points);
   Registration registration(things, views, points);

@@ -210,14 +210,19 @@ double Registration::valueOf(const Thing& thing, int index, const FitPoints& poi
   return value;
 }
 
-/// Looks again for a thing that overlaps another one, without the points of the other. Whether it is elsewhere.
-bool Registration::moveAway(Thing& thing, const Thing& other, double least_score) {
+/// Looks again for a thing that overlaps another one, without the points of the other; then for the other one, with
+/// all of its points. Whether the thing is elsewhere.
+bool Registration::moveAway(Thing& thing, Thing& stayed, double least_score) {
   const PoseCandidate best = thing.best;
   const std::vector<PoseCandidate> others = thing.others;
   const double score = thing.score;
   thing.score = -2.;
   find(thing, int(&thing - things_.data()), ownersOfPoints());
-  if (thing.score > least_score && !overlap(thing, thing.best.X, other, other.best.X)) return true;
+  if (thing.score > least_score && !overlap(thing, thing.best.X, stayed, stayed.best.X)) {
+    stayed.score = -2.;  // it may have been fitted without the points that the two shared
+    find(stayed, int(&stayed - things_.data()), ownersOfPoints());
+    return true;
+  }
   thing.best = best;
   thing.others = others;
   thing.score = score;

@@ -92,7 +92,7 @@ class Registration {
   double localValue(const Thing& thing, const std::vector<int>& owners, const RigidTransform& X) const;
   std::vector<PoseCandidate> candidatesAnywhere(const Thing& thing, const std::vector<int>& owners) const;
   std::vector<Vector3d> placesOfPoints(const std::vector<int>& owners, double radius) const;
-  bool moveAway(Thing& thing, const Thing& other, double least_score);
+  bool moveAway(Thing& thing, Thing& stayed, double least_score);
   void separate();
   std::vector<RigidTransform> starts(const Thing& thing, bool wide) const;
   void find(Thing& thing, int index, const std::vector<int>& owners);

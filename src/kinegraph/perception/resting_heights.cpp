@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/perception/occupancy_map.h"
 
 namespace kinegraph {
@@ -12,6 +13,7 @@ namespace {
 
 constexpr double kSameHeight = 1e-4;  // m
 constexpr double kLevel = .999;       // cosine of the tilt of a box that counts as level
+constexpr double kStood = .02;        // m, between the bottom of a thing and the top of what it stood on
 
 /// The height of the top of a level box, if it comes within `reach` of a point in the plane.
 std::optional<double> topOfBox(const Frame& frame, const Vector3d& near, double reach) {
@@ -23,6 +25,26 @@ std::optional<double> topOfBox(const Frame& frame, const Vector3d& near, double 
   const Vector3d half = .5 * R.cwiseAbs() * Vector3d(size[0], size[1], size[2]), p = frame.getPosition();
   const bool is_near = std::abs(near.x() - p.x()) < half.x() + reach && std::abs(near.y() - p.y()) < half.y() + reach;
   return is_near ? std::optional(p.z() + half.z()) : std::nullopt;
+}
+
+/// The height of the top of a shape on which a thing stood in its last pose, by their bounds.
+std::optional<double> topUnder(const Frame& thing, const Frame& frame) {
+  const auto &own = thing.data().shape, &other = frame.data().shape;
+  if (!own || !other || shapeKind(other->geometry->type).is_symbol || isMoved(frame)) return std::nullopt;
+  const auto boundsOf = [](const Frame& of) {
+    const auto body = of.data().shape->body();
+    const RigidTransform X = of.getPose().transform();
+    const Vector3d center = X * body->boundCenter();
+    const Vector3d half = (X.R.cwiseAbs() * body->boundHalf()).array() + body->radius();
+    return Eigen::AlignedBox3d(center - half, center + half);
+  };
+  if (other->body()->core() == CollisionBody::Core::half_space) return std::nullopt;
+  const Eigen::AlignedBox3d above = boundsOf(thing), below = boundsOf(frame);
+  const Vector3d middle = above.center();
+  const bool is_over =
+      (middle - below.min()).head<2>().minCoeff() > 0. && (below.max() - middle).head<2>().minCoeff() > 0.;
+  const double top = below.max().z();
+  return is_over && std::abs(above.min().z() - top) < kStood ? std::optional(top) : std::nullopt;
 }
 
 }  // namespace
@@ -39,8 +61,8 @@ double heightOf(const Frame& frame, const VisibleShape& place) {
   return frame.getPosition().z() + place.extent(frame.getRotationMatrix().transpose() * Vector3d::UnitZ());
 }
 
-std::vector<double> heightsUnder(const Frame& thing, const Frame& support, double height, double reach,
-                                 const std::set<int>& things) {
+std::vector<double> heightsUnder(const Config& config, const Frame& thing, const Frame& support, double height,
+                                 double reach, const std::set<int>& things) {
   std::vector<double> heights = {height};
   const auto add = [&](double other) {
     const bool is_new =
@@ -54,6 +76,10 @@ std::vector<double> heightsUnder(const Frame& thing, const Frame& support, doubl
   for (const Frame& frame : support.getSubtree()) {
     if (things.contains(frame.id()) || isMoved(frame)) continue;
     if (const auto top = topOfBox(frame, thing.getPosition(), reach)) add(*top);
+  }
+  for (const Frame& frame : config.getFrames()) {
+    if (frame.id() == thing.id()) continue;
+    if (const auto top = topUnder(thing, frame)) add(*top);
   }
   return heights;
 }

@@ -15,9 +15,9 @@ VisibleShape placeOf(const Frame& frame);
 double heightOf(const Frame& frame, const VisibleShape& place);
 
 /// The heights at which a thing may rest, m, without repetitions: on the support, whose top is at `height`; on the
-/// frame below which the thing hangs in the scene; and on level boxes below the support, such as trays, that come
-/// within `reach` (m) of the thing. `things` (ids) are not places.
-std::vector<double> heightsUnder(const Frame& thing, const Frame& support, double height, double reach,
-                                 const std::set<int>& things);
+/// frame below which the thing hangs in the scene; on level boxes below the support, such as trays, that come
+/// within `reach` (m) of the thing; and on what it stood on in its last pose. Only there `things` (ids) are places.
+std::vector<double> heightsUnder(const Config& config, const Frame& thing, const Frame& support, double height,
+                                 double reach, const std::set<int>& things);
 
 }  // namespace kinegraph

@@ -57,7 +57,7 @@ def images(C, count, seed, on_hand=True, pixel=0.1, joint=3e-4, spread=0.6):
             if not r.feasible:
                 continue
             q = r.q
-        C.setJointState(q + joint * rng.normal(size=7))  # where the arm really is
+        C.setJointState(q + joint * rng.normal(size=7))  # the true angles of the arm
         M, T = matrix(C.getFrame("marker").getPose()), matrix(C.getFrame("cam").getPose())
         x = (CORNERS @ M[:3, :3].T + M[:3, 3] - T[:3, 3]) @ T[:3, :3]
         if (x[:, 2] < 0.1).any() or M[:3, 2] @ (T[:3, 3] - M[:3, 3]) < 0.05:
@@ -79,7 +79,7 @@ def placeOf(C, name):
 
 
 def displaced(C):
-    """Forgets where camera and marker are."""
+    """Forgets the poses of camera and marker."""
     for name in ("cam", "marker"):
         frame = C.getFrame(name)
         (frame.setRelativePose if frame.getParent() else frame.setPose)([0.1, 0.2, 0.3, 1, 0, 0, 0])

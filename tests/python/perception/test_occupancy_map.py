@@ -1,4 +1,4 @@
-"""Free, occupied and unseen space from depth images, and motions that avoid what was not seen."""
+"""Free, occupied and unseen space from depth images, and motions around unseen space."""
 
 import copy
 import pickle
@@ -40,7 +40,8 @@ def scene(boxes=(), cameras=([0.0, 1.3, 1.4],)):
     return C, truth
 
 
-def look(truth, camera="cam0", noise=0.0, seed=0):
+def depth_image(truth, camera="cam0", noise=0.0, seed=0):
+    """The depth of a camera in m, and fx fy cx cy."""
     view = ry.CameraView(truth)
     view.setCamera(camera)
     depth = view.computeImageAndDepth()[1].astype(float)
@@ -48,7 +49,11 @@ def look(truth, camera="cam0", noise=0.0, seed=0):
         rng = np.random.default_rng(seed)
         depth = np.where(depth > 0, depth + rng.normal(size=depth.shape) * noise * depth**2, 0)
         depth[rng.random(depth.shape) < 0.02] = 0
-    return ry.DepthView(depth, view.getFxycxy(), camera)
+    return depth, view.getFxycxy()
+
+
+def look(truth, camera="cam0", noise=0.0, seed=0):
+    return ry.DepthView(*depth_image(truth, camera, noise, seed), camera)
 
 
 def middles(m):
@@ -89,6 +94,58 @@ def test_no_cell_with_a_part_of_a_thing_is_free(seed):
         inside = (np.abs(points - position) < np.array(size) / 2).all(-1) & (points[..., 2] > 0.65 + 0.866 * m.cell)
         assert not (inside & free).any()
     assert free.mean() > 0.4
+
+
+@pytest.mark.parametrize("eye", [[0.05, 0.35, 1.4], [0.2, 0.9, 1.3]])
+def test_cells_seen_close_beside_a_thing_are_free(eye):
+    C, truth = scene([([0.1, 0.1, 0.2], [0.0, 0.4, 0.76])], [eye])
+    depth, (fx, fy, cx, cy) = depth_image(truth)
+    m = ry.OccupancyMap(C, REGION, 0.02)
+    m.update(C, ry.DepthView(depth, [fx, fy, cx, cy], "cam0", noise=1e-6))
+    points = middles(m)
+    near = (np.abs(points[..., :2] - [0, 0.4]).max(-1) < 0.1) & (abs(points[..., 2] - 0.78) < 0.08)
+    # all of the cell and of 7 mm, a few pixels, around it
+    around = points[near][:, None] + 0.017 * np.stack(np.meshgrid(*3 * [[-1, -0.5, 0, 0.5, 1]]), -1).reshape(-1, 3)
+    camera = C.getFrame("cam0")
+    x, y, z = np.moveaxis((around - camera.getPosition()) @ camera.getRotationMatrix(), -1, 0)
+    seen = (depth[(fy * y / z + cy).astype(int), (fx * x / z + cx).astype(int)] > z).all(-1)
+    assert seen.sum() > 100 and (m.states[near][seen] == FREE).all()
+
+
+def test_cells_partly_beside_an_image_are_not_free_by_it():
+    C, truth = scene()
+    view = look(truth)
+    m = ry.OccupancyMap(C, REGION, 0.05)
+    m.update(C, view)
+    eye, R = C.getFrame("cam0").getPosition(), C.getFrame("cam0").getRotationMatrix()
+    fx, fy, cx, cy = view.fxycxy
+    corners = middles(m)[..., None, :] + 0.025 * (np.stack(np.indices((2, 2, 2)), -1).reshape(-1, 3) * 2 - 1)
+    x, y, z = np.moveaxis((corners - eye) @ R, -1, 0)
+    outside = (z < 0) | (abs(fx * x / z) > cx) | (abs(fy * y / z) > cy)
+    known = ry.OccupancyMap(C, REGION, 0.05).states == FREE  # the robot's own space
+    assert (outside.any(-1) & ~outside.all(-1)).sum() > 20
+    assert not ((m.states == FREE) & outside.any(-1) & ~known).any()
+
+
+@pytest.mark.parametrize("none", [np.uint16(65535), 65.535, np.inf])
+def test_the_largest_number_of_a_format_is_no_measurement(none):
+    C, truth = scene([([0.2, 0.1, 0.3], [0.0, 0.4, 0.81])])
+    depth, fxycxy = depth_image(truth)
+    if isinstance(none, np.uint16):
+        depth = np.round(1000 * depth).astype(np.uint16)
+    depth[200:400, 200:440] = none
+    m = ry.OccupancyMap(C, REGION, 0.02)
+    m.update(C, ry.DepthView(depth, fxycxy, "cam0"))
+    assert m.state([0, 0.35, 0.8]) != ry.CellState.free
+    assert m.state([0.4, 0.4, 0.9]) == ry.CellState.free
+
+
+def test_an_image_upside_down_is_told():
+    C, truth = scene()
+    depth, fxycxy = depth_image(truth)
+    m = ry.OccupancyMap(C, REGION, 0.02)
+    with pytest.warns(ry.KinegraphWarning, match="looks through known shapes"):
+        m.update(C, ry.DepthView(depth[::-1, ::-1], fxycxy, "cam0"))
 
 
 def test_what_moved_away_is_cleared():
@@ -166,7 +223,7 @@ def test_wrong_regions_and_images_are_refused_and_leave_the_map():
     assert (m.states == before).all()
     view = look(truth)
     C.getFrame("cam0").setPosition([0.0, 1.3, 1.35])  # 5 cm too low: the table is measured inside of itself
-    with pytest.warns(UserWarning, match="inside of known shapes"):
+    with pytest.warns(UserWarning, match="looks through known shapes"):
         m.update(C, view)
 
 

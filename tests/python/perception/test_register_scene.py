@@ -131,6 +131,7 @@ def test_the_robot_does_not_hold_a_thing_that_its_hand_touches():
     [
         (lambda d, f: ry.DepthView(1000 * d, f, "cam"), "pass unit=0.001"),
         (lambda d, f: ry.DepthView(d[::2, ::2], f, "cam"), "does not fit an image of 320 x 240"),
+        (lambda d, f: ry.DepthView(d.T, f, "cam"), "transpose it"),
         (lambda d, f: ry.DepthView(d[0], f, "cam"), "has 1 dimensions"),
         (lambda d, f: ry.DepthView(d, f[:3], "cam"), "has 3 entries"),
         (lambda d, f: ry.DepthView(d, f, [0, 0, 1]), "neither the name of a frame nor a pose"),
@@ -193,6 +194,50 @@ def test_a_camera_upside_down_and_a_wrong_unit_are_told(scene):
         ry.registerScene(scene, ry.DepthView(depth[::-1, ::-1], fxycxy, "cam"), ["box"], support="table")
     with pytest.raises(ry.ArgumentError, match="pass unit=1"):
         ry.DepthView(depth, fxycxy, "cam", unit=0.001)
+
+
+@pytest.mark.parametrize("names", [["box", "top"], ["top", "box"], ["top"]])
+def test_a_thing_on_another_one_is_found_in_the_same_call(scene, names):
+    top = scene.addFrame("top").setShape(ry.ST.box, [0.04, 0.05, 0.05]).setPosition([0.12, 0.06, 0.755]).setContact(1)
+    truth = [scene.getFrame(name).getPose() for name in names]
+    depth, fxycxy = look(scene)
+    top.setPosition([0.13, 0.05, 0.75])
+    if "box" in names:
+        scene.getFrame("box").setPosition([0.13, 0.04, 0.69])
+    seen = ry.registerScene(scene, ry.DepthView(depth, fxycxy, "cam"), names, support="table")
+    assert [seen[name].pose[:3] for name in names] == [pytest.approx(pose[:3], abs=1e-3) for pose in truth]
+
+
+@pytest.mark.parametrize("names", [["low", "top"], ["top", "low"]])
+def test_a_thing_taken_from_another_one_leaves_the_pose_of_this_one_alone(scene, names):
+    scene.delFrame("can")
+    scene.delFrame("box")
+    scene.addFrame("low").setShape(ry.ST.box, [0.08, 0.08, 0.05]).setPosition([0.1, 0.05, 0.675]).setContact(1)
+    top = scene.addFrame("top").setShape(ry.ST.box, [0.05, 0.05, 0.05]).setPosition([0, 0.05, 0.675]).setContact(1)
+    depth, fxycxy = look(scene)
+    top.setPosition([0.1, 0.05, 0.725])
+    view = ry.DepthView(depth, fxycxy, "cam")
+    seen = ry.registerScene(scene, view, names, support="table", search_radius=0.12)
+    assert seen["low"].pose[:3] == pytest.approx([0.1, 0.05, 0.675], abs=1e-3)
+    assert seen["top"].pose[:3] == pytest.approx([0, 0.05, 0.675], abs=1e-3)
+
+
+def test_a_small_support_causes_no_warning(scene, recwarn):
+    top = scene.addFrame("top").setShape(ry.ST.box, [0.04, 0.05, 0.05]).setPosition([0.12, 0.06, 0.755]).setContact(1)
+    depth, fxycxy = look(scene)
+    top.setPosition([0.13, 0.05, 0.755])
+    seen = ry.registerScene(scene, ry.DepthView(depth, fxycxy, "cam"), ["top"], support="box")
+    assert seen["top"].pose[:3] == pytest.approx([0.12, 0.06, 0.755], abs=1e-3)
+    assert not recwarn.list and not seen.warnings
+
+
+def test_an_interlaced_image_is_enough(scene):
+    depth, fxycxy = look(scene)
+    depth = depth.copy()
+    depth[::2] = 0
+    scene.getFrame("box").setPosition([0.13, 0.04, 0.7])
+    seen = ry.registerScene(scene, ry.DepthView(depth, fxycxy, "cam"), ["box"], support="table")
+    assert seen["box"].pose[:3] == pytest.approx([0.12, 0.05, 0.69], abs=1e-3)
 
 
 def test_things_beside_the_support_keep_their_prior(scene):

@@ -1,4 +1,4 @@
-"""Cameras in the loop: things are found, and what else is seen stops motions and shapes new plans."""
+"""Cameras in the loop: things are found, and other things stop motions and shape new plans."""
 
 import numpy as np
 import pytest
@@ -79,3 +79,5 @@ def test_wrong_arguments_are_named():
     C = believed()
     with pytest.raises(ry.FrameNotFound, match="'cup'"):
         ry.SceneObserver(lambda: image(C), ["cup"]).observe(C)
+    with pytest.raises(ry.ArgumentError, match="take returned an object of type int; expected a DepthView"):
+        ry.SceneObserver(lambda: 3, ["cube"]).observe(C)
