@@ -119,16 +119,41 @@ def test_what_is_a_little_too_far_is_at_the_limit_of_the_reach() -> None:
     assert "with nothing in the way: 'tray' is at the limit of the reach of 'l_gripper'" in plan.message, plan
 
 
-def test_hands_open_less_where_wide_ones_have_no_room() -> None:
-    C = scene()
+def betweenWalls(C: ry.Config) -> ry.Config:
+    """A tray, and a red box with a wall on two sides."""
     tray(C)
     box(C, "red", "table", (0.3, 0.3, TOP))
     for name, at, size in (("wall", (0.355, 0.3), (0.02, 0.2, 0.07)), ("other", (0.3, 0.355), (0.2, 0.02, 0.07))):
         wall = C.addFrame(name, "table").setPosition([*at, TOP + 0.035])
         wall.setShape(ry.ST.ssBox, [*size, 0.004]).setContact(1)
+    return C
+
+
+def test_hands_open_less_where_wide_ones_have_no_room() -> None:
+    C = betweenWalls(scene())
     plan = ry.planTask(C, "(on tray red)")
     assert "hands open to 55 mm only: wider ones have no room at the objects" in plan.warnings, plan
     assert stands(executed(C, plan), "red", "tray", TOP + 0.01 + 0.035, 0.1)
+
+
+SMALL_HAND = """
+stand: { X: [-1.5 0 1] }
+rail (stand): { joint: transX, limits: [-.1 .1] }
+a_gripper (rail): { shape: marker, size: [.02] }
+a_palm (rail): { shape: ssBox, size: [.1 .04 .03 .005], rel: [0 0 .08], contact: 1 }
+a_finger1 (rail): { joint: transX, limits: [0 .02], joint_active: False }
+a_finger2 (rail): { joint: transX, mimic: a_finger1, joint_scale: -1, joint_active: False }
+Edit a_finger1: { shape: ssBox, size: [.01 .02 .05 .004], contact: 1 }
+Edit a_finger2: { shape: ssBox, size: [.01 .02 .05 .004], contact: 1 }
+"""
+
+
+def test_a_small_hand_elsewhere_lets_another_one_open_less() -> None:
+    C = ry.Config()
+    C.addText(SMALL_HAND)
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    plan = ry.planTask(betweenWalls(C), "(on tray red)")
+    assert "hands open to 55 mm only: wider ones have no room at the objects" in plan.warnings, plan
 
 
 def test_names_that_contain_those_of_a_hand_do_not_change_the_search() -> None:
