@@ -113,27 +113,6 @@ Variants waysOf(const Frame& frame, double wide) {
   return ways;
 }
 
-/// The same for a hand: round things that meet it are also held off center.
-Variants waysAt(const Config& C, const Frame& frame, const std::string& hand, double wide) {
-  Variants ways = waysOf(frame, wide);
-  if ((ways == Variants{"center"} || ways == Variants{"around"}) && meetsHand(C, frame, hand))
-    ways.emplace_back(kOffCenter);
-  return ways;
-}
-
-/// Whether a round part makes up a body where fingers would close along an axis: they slip off beside its middle.
-bool isRoundAcross(const Frame& body, const Eigen::AlignedBox3d& around, int axis) {
-  constexpr double kSame = 2e-3, kAlong = .5;  // m; share of the length of the body
-  return std::ranges::any_of(heldShapes(body), [&](const Frame& part) {
-    const std::vector<double> size = part.getSize();
-    if (!isRoundBody(part) || 2. * size[1] < around.sizes()[axis] - kSame) return false;
-    const Vector3d along = part.getPose(body).transform().R.col(2).cwiseAbs();
-    Eigen::Index longest = 0;
-    along.maxCoeff(&longest);
-    return int(longest) != axis && size[0] >= kAlong * around.sizes()[longest];
-  });
-}
-
 /// Grasps of a body of several shapes: by the shape of its own frame, across all of it, then by its parts. First those
 /// that fingers get around, close to the center of mass; parts at equal distances are spread.
 Variants waysOfBody(const Config& C, const std::string& obj, const std::string& hand, double wide) {
@@ -144,16 +123,15 @@ Variants waysOfBody(const Config& C, const std::string& obj, const std::string& 
   Variants first, others;
   const auto add = [&](const std::string& variant) { (access.guess(variant) ? first : others).push_back(variant); };
   if (body.getShapeType() != ShapeType::none)
-    for (const std::string& way : waysAt(C, body, hand, wide)) add(way);
+    for (const std::string& way : waysOf(body, wide)) add(way);
   const Eigen::AlignedBox3d around = boxOfBody(body);
   for (int k = 0; k < 3; ++k)
-    if (around.sizes()[k] <= wide && !isRoundAcross(body, around, k))
-      add(cat(std::string(1, "xyz"[k]), kOfPart, kAllParts));
+    if (around.sizes()[k] <= wide) add(cat(std::string(1, "xyz"[k]), kOfPart, kAllParts));
   using Ranked = std::pair<std::pair<long, double>, std::string>;
   std::vector<Ranked> parts;
   for (const Frame& part : heldShapes(body)) {
     if (part == body) continue;
-    for (const std::string& way : waysAt(C, part, hand, wide)) {
+    for (const std::string& way : waysOf(part, wide)) {
       const std::string variant = cat(way, kOfPart, part.getName());
       const std::optional<GraspGuess> guess = access.guess(variant);
       if (!guess) {
@@ -357,7 +335,9 @@ Variants graspVariants(const Config& C, const std::string& obj, const std::strin
   if (!wide) return {"touch"};
   const Frame frame = C.getFrame(obj);
   if (isCompound(frame)) return waysOfBody(C, obj, hand, *wide);
-  Variants ways = waysAt(C, frame, hand, *wide);
+  Variants ways = waysOf(frame, *wide);
+  if ((ways == Variants{"center"} || ways == Variants{"around"}) && meetsHand(C, frame, hand))
+    ways.emplace_back(kOffCenter);
   const std::string up = upOf(C, obj).substr(0, 1);  // a finger would have to be below the object
   std::ranges::stable_partition(ways, [&](const std::string& way) { return way != up; });
   return ways;
