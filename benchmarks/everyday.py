@@ -253,9 +253,11 @@ def attempt(scene: Scene, plan: ry.TaskPlan, condition: str, seed: int, repairs:
     bot = ry.BotOp(world)
     run = plan.run(bot, repairs=repairs if condition == "moved" else 0, time_limit=60.0)
     count = 0
-    for _ in run:
+    for event in run:
         touched |= {action[1] for action in run.plan.actions}
         count += 1
+        if event.kind == ry.TaskEventKind.end:
+            break
         if count != steps:
             continue
         now = scene.C.copy()
@@ -266,7 +268,7 @@ def attempt(scene: Scene, plan: ry.TaskPlan, condition: str, seed: int, repairs:
             continue
         bot.setFramePose(*change)
         reference.getFrame(change[0]).setPose(change[1])
-    if condition == "moved" and count < steps:
+    if condition == "moved" and count <= steps:
         return None
     result.said, result.why = run.result.feasible, str(run.result.message)
     bot.sync(world, REST)

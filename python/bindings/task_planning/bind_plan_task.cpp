@@ -26,10 +26,10 @@ struct PyTaskPlans {
 PyTaskPlans plansOf(const PyConfig& C, const std::string& goal, const std::optional<LogicDomain>& domain,
                     const PyTaskRules& rules, std::optional<double> time_limit, long max_evaluations,
                     std::uint64_t seed, const std::optional<Numbers>& velocity,
-                    const std::optional<Numbers>& acceleration, int threads, double margin) {
+                    const std::optional<Numbers>& acceleration, int threads, double margin, double contact_speed) {
   const auto request = std::make_shared<const TaskRequest>(
       TaskRequest{goal, domain, rules, time_limit, max_evaluations, seed, velocity ? velocity->values : VectorXd(),
-                  acceleration ? acceleration->values : VectorXd(), threads, margin});
+                  acceleration ? acceleration->values : VectorXd(), threads, margin, contact_speed});
   const TaskOptions options = request->options();
   warnOfMissingContacts(C);
   PyConfig scene{Config(C), nullptr};
@@ -73,6 +73,7 @@ TaskOptions TaskRequest::options() const {
   options.acceleration = acceleration;
   options.threads = threads;
   options.margin = margin;
+  options.contact_speed = contact_speed;
   options.cancellation = [check = CheckInterrupts()]() mutable { check(); };
   options.helper = [] { return std::make_shared<PyManipulation>(); };
   return options;
@@ -97,11 +98,12 @@ void bindPlanTask(nb::module_& m) {
             "(C: Config, goal: str, *, domain: Domain | None = None, rules: collections.abc.Mapping[str, TaskRule] | "
             "None = None, time_limit: float | None = None, max_evaluations: int = 200000, seed: int = 0, velocity: "
             "numpy.typing.ArrayLike | None = None, acceleration: numpy.typing.ArrayLike | None = None, threads: int = "
-            "1, margin: float = 0.005) -> ",
+            "1, margin: float = 0.005, contact_speed: float = 0.15) -> ",
             returned);
     m.def(name, call, "C"_a, "goal"_a, nb::kw_only(), "domain"_a = nb::none(), "rules"_a = nb::none(),
           "time_limit"_a = nb::none(), "max_evaluations"_a = 200000, "seed"_a = 0, "velocity"_a = nb::none(),
-          "acceleration"_a = nb::none(), "threads"_a = 1, "margin"_a = kTaskMargin, nb::sig(signature.c_str()), doc);
+          "acceleration"_a = nb::none(), "threads"_a = 1, "margin"_a = kTaskMargin, "contact_speed"_a = kContactSpeed,
+          nb::sig(signature.c_str()), doc);
   };
   const auto first = []<class... Arguments>(PyTaskPlans (*plans)(Arguments...)) {
     return [plans](Arguments... arguments) {

@@ -33,6 +33,7 @@ struct TaskRequest {
   VectorXd velocity = {}, acceleration = {};
   int threads = 1;
   double margin = kTaskMargin;
+  double contact_speed = kContactSpeed;
 
   TaskOptions options() const;
 };

@@ -41,16 +41,16 @@ nb::object requestState(const std::shared_ptr<const TaskRequest>& request) {
   if (!request) return nb::none();
   return nb::make_tuple(request->goal, request->domain, request->rules, request->time_limit, request->max_evaluations,
                         request->seed, toNumpy(request->velocity), toNumpy(request->acceleration), request->threads,
-                        request->margin);
+                        request->margin, request->contact_speed);
 }
 
 std::shared_ptr<const TaskRequest> requestFrom(nb::handle state) {
   if (state.is_none()) return nullptr;
-  return std::make_shared<const TaskRequest>(
-      TaskRequest{nb::cast<std::string>(state[0]), nb::cast<std::optional<LogicDomain>>(state[1]),
-                  nb::cast<PyTaskRules>(state[2]), nb::cast<std::optional<double>>(state[3]), nb::cast<long>(state[4]),
-                  nb::cast<std::uint64_t>(state[5]), nb::cast<Numbers>(state[6]).values,
-                  nb::cast<Numbers>(state[7]).values, nb::cast<int>(state[8]), nb::cast<double>(state[9])});
+  return std::make_shared<const TaskRequest>(TaskRequest{
+      nb::cast<std::string>(state[0]), nb::cast<std::optional<LogicDomain>>(state[1]), nb::cast<PyTaskRules>(state[2]),
+      nb::cast<std::optional<double>>(state[3]), nb::cast<long>(state[4]), nb::cast<std::uint64_t>(state[5]),
+      nb::cast<Numbers>(state[6]).values, nb::cast<Numbers>(state[7]).values, nb::cast<int>(state[8]),
+      nb::cast<double>(state[9]), nb::cast<double>(state[10])});
 }
 
 nb::tuple planState(const PyTaskPlan& p) {

@@ -19,7 +19,8 @@ namespace kinegraph::python::docs::tasks {
   "        call `rules`, too, one at a time.\n"                                                                       \
   "    margin: Clearance of all pairs of bodies whose contact is not meant, m. Less is kept only where no other "     \
   "plan\n"                                                                                                            \
-  "        was found, with a warning.\n"
+  "        was found, with a warning.\n"                                                                              \
+  "    contact_speed: Speed of hands up to 5 cm away from where they take or leave something, m/s; inf: no limit.\n"
 #define KINEGRAPH_TASK_RAISES                                 \
   "Raises:\n"                                                 \
   "    ParseError: A word of the goal is not in the scene.\n" \

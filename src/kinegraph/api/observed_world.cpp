@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "kinegraph/api/standing_sides.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/shapes/cells.h"
@@ -27,33 +28,12 @@ double cosineOfDegrees(double degrees) { return std::cos(degrees * std::numbers:
 constexpr double kSlipped = .02;                 ///< m: tolerance of held objects in the hand
 constexpr double kOff = .03;                     ///< m: tolerance of standing objects
 constexpr double kNearOff = .008;                ///< m: tolerance of objects and places that come next
-const double kUpright = cosineOfDegrees(10.);    ///< objects that tilt more have fallen
 const double kNearTurned = cosineOfDegrees(4.);  ///< tolerance of the rotation of objects that come next
 constexpr double kLeastLever = .01;              ///< m: of objects that slipped because they turned
 constexpr double kCloser = .8;                   ///< factor on levers that another grasp may have
 constexpr double kTouch = 5e-3;                  ///< m: objects that are closer touch
 constexpr double kJointOff = .05;                ///< rad or m: tolerance of joints
 constexpr double kBeyond = 1e-3;                 ///< rad or m: joints that are not farther beyond a limit are at it
-
-/// Whether an object looks the same after any rotation about its axis.
-bool isRound(const Frame& frame) {
-  const ShapeType type = frame.getShapeType();
-  return type == ShapeType::cylinder || type == ShapeType::ssCylinder || type == ShapeType::capsule ||
-         type == ShapeType::sphere;
-}
-
-double cosineBetween(const Frame& a, const Frame& b) {
-  const Matrix3d R = a.getRotationMatrix().transpose() * b.getRotationMatrix();
-  return isRound(a) ? R(2, 2) : .5 * (R.trace() - 1.);
-}
-
-/// The cosine of the angle between the directions that point up, in the axes of an object. A lying round object may
-/// roll.
-double cosineOfTilt(const Frame& a, const Frame& b) {
-  const Vector3d up_a = a.getRotationMatrix().row(2), up_b = b.getRotationMatrix().row(2);
-  if (!isRound(a)) return up_a.dot(up_b);
-  return up_a.z() * up_b.z() + up_a.head<2>().norm() * up_b.head<2>().norm();
-}
 
 /// Returns the place that an object stands on: the nearest of those that it touches and whose center is lower; "" if
 /// none.
@@ -166,7 +146,7 @@ void requireGrippers(const TaskPlan& plan, const std::map<std::string, int>& gri
   }
 }
 
-double plannedOpening(const TaskPlan& plan, const std::string& hand, int number, double most) {
+double plannedOpening(const TaskPlan& plan, int number, double most) {
   constexpr double kSame = 1e-3;  // m
   if (plan.scenes.empty()) return most;
   const Config& scene = plan.scenes.front();
@@ -174,9 +154,7 @@ double plannedOpening(const TaskPlan& plan, const std::string& hand, int number,
   if (number < 0 || std::size_t(number) >= hands.size()) return most;
   const HandFingers& fingers = hands[std::size_t(number)].opening;
   const double wide = fingers.widthAt(scene.getFrame(fingers.joint).data().joint->q[0]);
-  const bool is_narrower =
-      wide < fingers.maxWidth() - kSame && std::abs(wide - opening(scene, hand).value_or(0.)) < kSame;
-  return is_narrower ? std::min(wide, most) : most;
+  return wide < fingers.maxWidth() - kSame ? std::min(wide, most) : most;
 }
 
 namespace {
@@ -377,7 +355,7 @@ std::string ObservedWorld::deviation(Config planned, const VectorXd& q, const Wo
     if (!is || !shall || held_.contains(name)) continue;
     const double off = (is->getPosition() - shall->getPosition()).norm();
     if (off > kNearOff) return cat("'", name, "' is ", fixed(off, 3), " m away from where it should be");
-    if (cosineBetween(*is, *shall) < kNearTurned) return cat("'", name, "' has rotated");
+    if (cosineBetween(*is, shall->getRotationMatrix()) < kNearTurned) return cat("'", name, "' has rotated");
   }
   return "";
 }
@@ -393,7 +371,7 @@ std::string ObservedWorld::objectDeviation(const std::string& obj, const Config&
   }
   const double off = (is.getPosition() - shall.getPosition()).norm();
   if (off > kOff) return cat("'", obj, "' is ", fixed(off, 3), " m away from where it should be");
-  return cosineOfTilt(is, shall) >= kUpright ? "" : cat("'", obj, "' has tilted");
+  return hasSameSideUp(is, shall.getRotationMatrix()) ? "" : cat("'", obj, "' has tilted");
 }
 
 std::vector<std::string> ObservedWorld::missedGoals(const std::vector<Literal>& goal, const Config& C) const {

@@ -22,7 +22,7 @@ void requireGrippers(const TaskPlan& plan, const std::map<std::string, int>& gri
 
 /// Returns the width to which a plan opens a hand, the gripper of a number, m: `most`, unless wide fingers have no
 /// room.
-double plannedOpening(const TaskPlan& plan, const std::string& hand, int number, double most);
+double plannedOpening(const TaskPlan& plan, int number, double most);
 
 /// The world during an execution as it is observed, the objects in hands, and its deviations from a plan.
 class ObservedWorld {

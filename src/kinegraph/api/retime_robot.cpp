@@ -5,6 +5,8 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/kinematics/kinematic_model.h"
+#include "kinegraph/kinematics/state.h"
 #include "kinegraph/scene/dynamics.h"
 #include "kinegraph/trajectories/path_curve.h"
 

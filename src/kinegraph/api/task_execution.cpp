@@ -6,10 +6,11 @@
 #include <cmath>
 
 #include "kinegraph/api/action_motion.h"
+#include "kinegraph/api/execution_motions.h"
 #include "kinegraph/api/observed_world.h"
+#include "kinegraph/api/standing_sides.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
-#include "kinegraph/planning/plan_motion.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/task_doors.h"
 #include "kinegraph/task_planning/task_tools.h"
@@ -20,21 +21,14 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr double kEmpty = 2e-3;                               ///< m: a gripper that is narrower holds nothing
-constexpr double kWeak = .5;                                  ///< N: fingers that press less hold nothing
-constexpr double kTimeout = 3., kQueryInterval = .05;         ///< s for a gripper, and between queries
-constexpr double kComesToRest = .3;                           ///< s until objects are at rest
-constexpr double kThere = 1e-3;                               ///< rad or m: a start that is closer needs no motion
-constexpr double kFar = .05;                                  ///< rad or m: tolerance of joints
-constexpr double kBlocked = .5;                               ///< rad or m: of a robot that was stopped, to its path
-constexpr double kOpenEnough = .9;                            ///< share of the widest opening
-constexpr double kReverseSlowdown = 3.;                       ///< factor on the time of a motion for its reversal
-constexpr double kStartMargin = 5e-3, kStartInContact = .02;  ///< m: of the motion to the start; depth that it resolves
-
-bool isClear(Config& C, const VectorXd& q) {
-  C.setJointState(q);
-  return C.getCollisions(-kOverlap).empty();
-}
+constexpr double kEmpty = 2e-3;                        ///< m: a gripper that is narrower holds nothing
+constexpr double kWeak = .5;                           ///< N: fingers that press less hold nothing
+constexpr double kTimeout = 3., kQueryInterval = .05;  ///< s for a gripper, and between queries
+constexpr double kComesToRest = .3;                    ///< s until objects are at rest
+constexpr double kThere = 1e-3;                        ///< rad or m: a start that is closer needs no motion
+constexpr double kFar = .05;                           ///< rad or m: tolerance of joints
+constexpr double kRelease = 4e-3;                      ///< m: a hand opens by more to release an object
+constexpr double kOpenEnough = .9;                     ///< share of the widest opening
 
 VectorXd limitsOf(const ExecutionOptions& options, Eigen::Index n) {
   const VectorXd& limits = options.max_external_effort;
@@ -60,7 +54,7 @@ class TaskRun::Impl {
     if (world_.isSimulated()) requireMovable(plan_, seen);
     grippers_ = grippersOf(bot, seen);
     requireGrippers(plan_, grippers_, world_.isSimulated() ? &seen : nullptr);
-    world_.setPlan(plan_);
+    setPlan();
   }
 
   std::optional<TaskEvent> next() {
@@ -129,8 +123,10 @@ class TaskRun::Impl {
   }
 
   TaskEvent finish() {
-    const Words missed = world_.missedGoals(plan_.goal, world_.scene());
+    const Config scene = world_.scene();
+    const Words missed = world_.missedGoals(plan_.goal, scene), fallen = sides_.fallen(scene, world_.held());
     if (!missed.empty()) return fail(join(missed, ", ") + " does not hold");
+    if (!fallen.empty()) return fail(cat("'", fallen[0], "' has fallen: it stands on another side than planned"));
     result.feasible = true;
     return end("");
   }
@@ -163,15 +159,25 @@ class TaskRun::Impl {
     if (repairs_left_ == 0) return end(failure_);
     world_.look();
     --repairs_left_;
-    TaskPlan plan = plan_.repair(world_.scene(), options_.repair);
+    const Config scene = world_.scene();
+    RepairOptions options = options_.repair;
+    options.also = sides_.asGoal(sides_.fallen(scene, world_.held()));
+    TaskPlan plan = plan_.repair(scene, options);
+    if (!plan.feasible() && !options.also.empty()) plan = plan_.repair(scene, options_.repair);
     if (!plan.feasible()) return end(cat(failure_, "; no plan leads on: ", plan.message));
+    if (plan.actions.empty() && !options.also.empty()) return end(failure_);
     ++result.repairs;
     plan_ = std::move(plan);
     plan_.requireMotion("execute");
-    world_.setPlan(plan_);
+    setPlan();
     handles_.clear();
     step_ = Step::begin;
     return {TaskEventKind::repair, -1, {}, plan_.actions.empty() ? plan_.summary() : planText(plan_.actions)};
+  }
+
+  void setPlan() {
+    world_.setPlan(plan_);
+    sides_.setPlan(plan_);
   }
 
   TaskEvent stopped() {
@@ -205,22 +211,10 @@ class TaskRun::Impl {
     VectorXd start = plan_.path.row(0);
     const double off = world_.jointErrors(start).maxCoeff();
     if (off <= kThere) return "";
-    Config C = world_.scene();
-    const VectorXd q = C.getJointState();  // joints a little beyond a limit are at it
+    const Config scene = world_.scene();
+    const VectorXd q = scene.getJointState();  // joints a little beyond a limit are at it
     for (const auto& [door, dof] : world_.doors()) start[dof] = q[dof];
-    ignorePairs(C, wedgedPairs(C, wordsOf(plan_.start, "is_gripper"), wordsOf(plan_.start, "is_object"), kOverlap));
-    PlanOptions options;
-    options.margin = kStartMargin;
-    options.max_start_penetration = kStartInContact;
-    if (plan_.limits.rows() == 2) {
-      options.velocity = plan_.limits.row(0).transpose();
-      options.acceleration = plan_.limits.row(1).transpose();
-    }
-    MotionPlan motion = planMotion(C, start, options);
-    if (!motion.feasible()) {
-      options.margin = 0.;
-      motion = planMotion(C, start, options);
-    }
+    const MotionPlan motion = motionToStart(plan_, scene, start);
     if (!motion.feasible())
       return cat("the robot is ", fixed(off, 3),
                  " (rad or m) beside the start of the plan, and no motion leads there: ", motion.message);
@@ -264,40 +258,42 @@ class TaskRun::Impl {
   /// collision-free. Objects that have turned in the hand that has just taken them are put back.
   void backOut(std::size_t i, const Words& turned) {
     const std::map<std::string, std::string> held = world_.held(), handles = handles_;
-    for (const auto& [obj, hand] : held) {
-      if (world_.touches(hand, obj)) continue;
-      world_.release(obj);
-      open(hand, obj);
-    }
+    for (const auto& [obj, hand] : held)
+      if (!world_.touches(hand, obj)) openWithout(i, hand, obj);
     for (const auto& [handle, hand] : handles) release(handle, hand);
-    const RowRange& rows = plan_.segments[i];
-    MatrixXd path = plan_.path.middleRows(rows.begin, rows.size());
-    const VectorXd times = plan_.times.segment(rows.begin, rows.size()), q = bot_.get_q();
-    for (const auto& [door, dof] : world_.doors()) path.col(dof).setConstant(q[dof]);
-    Eigen::Index at = 0;  // the row that is nearest to the robot
-    for (Eigen::Index row = 1; row < path.rows(); ++row)
-      if (world_.jointErrors(path.row(row)).maxCoeff() <= world_.jointErrors(path.row(at)).maxCoeff()) at = row;
-    if (isGuided(plan_.actions[i]) || world_.jointErrors(path.row(at)).maxCoeff() > kBlocked) return;
+    if (isGuided(plan_.actions[i])) return;
     const bool is_put_back = i > 0 && isPick(plan_.actions[i - 1]) && turned == Words{plan_.actions[i - 1][1]};
     Config C = world_.scene();
-    if (!is_put_back && isClear(C, q)) return;
-    Eigen::Index free = is_put_back ? 0 : at;
-    while (free >= 0 && !is_put_back && !isClear(C, path.row(free))) --free;
-    if (free < 0) return;
-    const Eigen::Index count = std::max<Eigen::Index>(at - free, 1);
-    const VectorXd back =
-        (kReverseSlowdown * (times[at] - times.segment(free, count).array()) + kComesToRest).reverse();
-    try {
-      bot_.move(path.middleRows(free, count).colwise().reverse(), back);
-    } catch (const ValueError&) {
-      return;  // beyond limits: a new plan starts here
-    }
-    while (bot_.getTimeToEnd() > 0.) world_.advance(kQueryInterval);
-    if (!is_put_back) return;
+    if (!is_put_back && isClear(C, bot_.get_q())) return;
+    const auto back =
+        retreatAlong(plan_, plan_.segments[i], world_, bot_.get_q(),
+                     [&](Eigen::Index row, const VectorXd& q) { return is_put_back ? row == 0 : isClear(C, q); });
+    if (!back || !retreat(*back) || !is_put_back) return;
     world_.advance(kComesToRest);
     open(plan_.actions[i - 1][3], turned[0]);
     world_.release(turned[0]);
     world_.advance(kComesToRest);
+  }
+
+  /// Opens a hand that has lost its object, where the fingers push nothing aside.
+  void openWithout(std::size_t i, const std::string& hand, const std::string& obj) {
+    world_.release(obj);
+    const auto gripper = grippers_.find(hand);
+    if (gripper != grippers_.end())
+      if (const auto back = retreatToOpen(plan_, i, world_, bot_.get_q(), hand, openingOf(gripper->second)))
+        retreat(*back);
+    open(hand, obj);
+  }
+
+  /// Whether the robot could move back.
+  bool retreat(const Retreat& back) {
+    try {
+      bot_.move(back.path, back.times);
+    } catch (const ValueError&) {
+      return false;  // beyond limits: a new plan starts here
+    }
+    while (bot_.getTimeToEnd() > 0.) world_.advance(kQueryInterval);
+    return true;
   }
 
   // --- hands
@@ -307,7 +303,7 @@ class TaskRun::Impl {
   void openEmptyHands() {
     for (const auto& [hand, number] : grippers_) {
       const bool holds = std::ranges::any_of(world_.held(), [&](const auto& pair) { return pair.second == hand; });
-      const double most = infoOf(number).max_width, wanted = plannedOpening(plan_, hand, number, most);
+      const double most = infoOf(number).max_width, wanted = openingOf(number);
       const double off = bot_.getGripperPos(number) - wanted;
       if (!holds && (off < (kOpenEnough - 1.) * most || (wanted < most && off > kEmpty))) open(hand);
     }
@@ -358,6 +354,8 @@ class TaskRun::Impl {
                          : "";
   }
 
+  double openingOf(int number) const { return plannedOpening(plan_, number, infoOf(number).max_width); }
+
   bool isShut(int number) const { return bot_.getGripperPos(number) < infoOf(number).min_width + kEmpty; }
 
   /// Whether a hand is shut, and presses on nothing as far as contacts tell.
@@ -371,9 +369,11 @@ class TaskRun::Impl {
   void open(const std::string& hand, const std::string& obj = {}) {
     const auto gripper = grippers_.find(hand);
     if (gripper != grippers_.end()) {
-      bot_.gripperMove(gripper->second,
-                       plannedOpening(plan_, hand, gripper->second, infoOf(gripper->second).max_width));
-      waitFor(gripper->second);
+      const int number = gripper->second;
+      const double wanted = openingOf(number);
+      const bool keeps = !obj.empty() && std::abs(wanted - bot_.getGripperPos(number)) < kRelease;
+      bot_.gripperMove(number, keeps ? infoOf(number).max_width : wanted);
+      waitFor(number);
     } else if (!obj.empty() && world_.isSimulated()) {
       bot_.detach(hand, obj);
     }
@@ -390,6 +390,7 @@ class TaskRun::Impl {
   const ExecutionOptions options_;
   ObservedWorld world_;
   TaskPlan plan_;
+  StandingSides sides_;
   VectorXd limits_;                             ///< of external efforts; empty: none
   std::map<std::string, int> grippers_;         ///< indices by the names of hands
   std::map<std::string, std::string> handles_;  ///< by handle: the hand that holds it

@@ -149,6 +149,7 @@ class Divider {
     for (const auto& frame : scene_.frames()) {
       if (!frame->parent) visit(*frame, {});
     }
+    for (const FrameData* joint : undeclared_) adoptBase(*joint);
     for (const auto& frame : scene_.frames()) addMass(*frame);
     for (std::size_t b = 1; b < result_.bodies.size(); ++b) completeMass(int(b));
     warnOfHangingRobots();
@@ -182,6 +183,24 @@ class Divider {
       fix(frame, parent, robot);
     }
     for (const FrameData* child : frame.children) visit(*child, robot);
+  }
+
+  /// Gives the shapes of a base that collide in no plan to the robot whose first joint stands on it: its links pass
+  /// through its base as they do through each other.
+  void adoptBase(const FrameData& joint) {
+    const int robot = result_.frames[std::size_t(joint.id)].robot;
+    bool is_base = false;
+    const auto adopt = [&](const FrameData& frame) {
+      PlacedFrame& placed = result_.frames[std::size_t(frame.id)];
+      if (!frame.shape || placed.body != 0) return;
+      is_base = true;
+      if (frame.shape->contact == 0 && placed.robot < 0) placed.robot = robot;
+    };
+    for (const FrameData* up = joint.parent; up && !is_base; up = up->parent) {
+      adopt(*up);
+      for (const FrameData* child : up->children)
+        if (!child->joint) adopt(*child);
+    }
   }
 
   bool isLooseLink(const FrameData& frame, const PlacedFrame& parent, bool begins, const Robot& robot) {

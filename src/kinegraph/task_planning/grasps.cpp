@@ -6,6 +6,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/features/eval.h"
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/scene/hand_fingers.h"
 #include "kinegraph/task_planning/shape_points.h"
@@ -29,6 +30,10 @@ constexpr double kNoShift = 1e-4;          ///< m: smaller shifts are none
 constexpr std::size_t kMostGrasps = 6;     ///< by parts of a body
 constexpr double kTurns = 1e2;             ///< per m, of a center of mass that is too far away
 constexpr double kEasyShare = .5;          ///< of the lever that a hand withstands
+constexpr double kOffShare = .6;           ///< of the half length of fingertips: most distance from their middle
+constexpr double kMostOff = .008;          ///< m: the same
+constexpr double kSlack = .002;            ///< m: round things that are nearer to the hand's link are held off center
+constexpr std::string_view kOffCenter = "off center";
 
 /// The sizes of a box, or of the box around a mesh, along x, y, z, m.
 Vector3d widthsOf(const Frame& frame) {
@@ -36,6 +41,38 @@ Vector3d widthsOf(const Frame& frame) {
   if (around.isEmpty())
     throw ValueError(cat("planTask: object '", frame.getName(), "' has no shape that can be grasped"));
   return around.sizes();
+}
+
+/// The colliding shapes of a hand's fingers, or of the link that carries them.
+std::vector<std::string> shapesOfHand(const Config& C, const std::string& hand, bool of_fingers) {
+  const auto headOf = [](Frame frame, bool& is_finger) {
+    while (!frame.data().moves() || !dofSource(frame.data()).joint->active) {
+      is_finger = is_finger || frame.data().moves();
+      const std::optional<Frame> parent = frame.getParent();
+      if (!parent) break;
+      frame = *parent;
+    }
+    return frame;
+  };
+  bool unused = false;
+  const Frame head = headOf(C.getFrame(hand), unused);
+  std::vector<std::string> names;
+  for (const Frame& frame : C.getFrames()) {
+    bool is_finger = false;
+    if (frame.data().shape && frame.data().shape->contact && headOf(frame, is_finger) == head &&
+        is_finger == of_fingers)
+      names.push_back(frame.getName());
+  }
+  return names;
+}
+
+/// Whether a round thing between the middles of the fingertips meets the link of a hand, such as a camera on it.
+bool meetsHand(const Config& C, const Frame& thing, const std::string& hand) {
+  const std::vector<double> size = thing.getSize();
+  const double radius = shapeKind(thing.getShapeType()).body == Body::ball ? size.back() : size[1];
+  return std::ranges::any_of(shapesOfHand(C, hand, false), [&](const std::string& part) {
+    return -eval(C, F::distance, {part, hand}).y[0] < radius + kSlack;
+  });
 }
 
 /// The distance by which fingers are shifted so that their tips hold a low object without meeting the ground, m.
@@ -155,6 +192,26 @@ void withinLever(TaskWaypoints& w, double time, const std::string& grip, const s
   w.komo().addObjective({time}, F::positionRel, {grip, obj}, O::ineqP, -level, Vector3d(center - away));
 }
 
+/// Fingers hold a round thing with the upper or lower parts of their tips, so that the palm or what is mounted at the
+/// hand has room.
+void graspOffCenter(TaskWaypoints& w, double time, const std::string& hand, const std::string& grip,
+                    const std::string& part, double inside) {
+  const double off = std::min(kOffShare * fingerReach(w.C, hand), kMostOff);
+  const MatrixXd all = 1e1 * Eigen::Matrix3d::Identity(), across = all.row(0), others = all.bottomRows(2);
+  const Frame thing = w.C.getFrame(part);
+  w.komo().addObjective({time}, F::positionRel, {part, grip}, O::eq, across);
+  if (!isRoundBody(thing)) {
+    w.komo().addObjective({time}, F::positionRel, {part, grip}, O::ineq, others, {0., off, off});
+    w.komo().addObjective({time}, F::positionRel, {part, grip}, O::ineq, -others, {0., -off, -off});
+    return;
+  }
+  const double along = std::max(.5 * thing.getSize()[0] - inside, 0.);
+  const Vector3d most(off, off, along);
+  w.komo().addObjective({time}, F::positionRel, {grip, part}, O::ineq, all, most);
+  w.komo().addObjective({time}, F::positionRel, {grip, part}, O::ineq, -all, Vector3d(-most));
+  w.komo().addObjective({time - .2, time}, F::scalarProductXZ, {grip, part}, O::eq, 1e0);
+}
+
 /// The box in a disk, in whose sides fingers hold its rim.
 Eigen::AlignedBox3d boxInDisk(const Frame& disk) {
   const double half = disk.getSize()[1] / std::sqrt(2.), thick = .5 * disk.getSize()[0];
@@ -163,26 +220,7 @@ Eigen::AlignedBox3d boxInDisk(const Frame& disk) {
 
 }  // namespace
 
-std::vector<std::string> fingerShapes(const Config& C, const std::string& hand) {
-  const auto headOf = [](Frame frame, bool& is_finger) {
-    while (!frame.data().moves() || !dofSource(frame.data()).joint->active) {
-      is_finger = is_finger || frame.data().moves();
-      const std::optional<Frame> parent = frame.getParent();
-      if (!parent) break;
-      frame = *parent;
-    }
-    return frame;
-  };
-  bool unused = false;
-  const Frame head = headOf(C.getFrame(hand), unused);
-  std::vector<std::string> fingers;
-  for (const Frame& frame : C.getFrames()) {
-    bool is_finger = false;
-    if (frame.data().shape && frame.data().shape->contact && headOf(frame, is_finger) == head && is_finger)
-      fingers.push_back(frame.getName());
-  }
-  return fingers;
-}
+std::vector<std::string> fingerShapes(const Config& C, const std::string& hand) { return shapesOfHand(C, hand, true); }
 
 double fingerReach(const Config& C, const std::string& hand) {
   double reach = 0.;
@@ -228,6 +266,8 @@ void addGrasp(TaskWaypoints& w, double time, const std::string& hand, const std:
     w.komo().addObjective({time}, F::distance, {words.part, hand}, O::eq, 1e1);
   } else if (words.way == "center") {
     w.komo().addObjective({time}, F::positionDiff, {grip, words.part}, O::eq, 1e1);
+  } else if (words.way == kOffCenter) {
+    graspOffCenter(w, time, hand, grip, words.part, std::min(inside, .25 * size[0]));
   } else if (words.way == "around") {
     w.m->grasp_cylinder(time, grip, words.part, palm, std::min(inside, .25 * size[0]));
   } else if (isBox(thing)) {
@@ -296,6 +336,8 @@ Variants graspVariants(const Config& C, const std::string& obj, const std::strin
   const Frame frame = C.getFrame(obj);
   if (isCompound(frame)) return waysOfBody(C, obj, hand, *wide);
   Variants ways = waysOf(frame, *wide);
+  if ((ways == Variants{"center"} || ways == Variants{"around"}) && meetsHand(C, frame, hand))
+    ways.emplace_back(kOffCenter);
   const std::string up = upOf(C, obj).substr(0, 1);  // a finger would have to be below the object
   std::ranges::stable_partition(ways, [&](const std::string& way) { return way != up; });
   return ways;

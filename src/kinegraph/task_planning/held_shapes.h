@@ -17,7 +17,7 @@ inline constexpr std::string_view kOfPart = " of ", kAllParts = "all parts";
 
 /// A variant of graspVariants: a way to close the fingers, and the shape that they hold.
 struct GraspWords {
-  std::string way;   ///< x y z, around, center, or touch
+  std::string way;   ///< x y z, around, center, off center, or touch
   std::string part;  ///< a frame, or kAllParts
 
   int axis() const;  ///< 0 to 2 for x y z, else -1

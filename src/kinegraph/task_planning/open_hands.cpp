@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 
 #include "kinegraph/scene/hand_fingers.h"
@@ -40,6 +41,19 @@ Fingers fingersOf(const Config& C, const std::string& hand) {
   return fingers;
 }
 
+/// The width of an object between the fingers of the hand that opens least for it, m; 0 if none takes it.
+double leastWidth(const Config& C, const std::string& obj, const std::vector<std::string>& hands) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::string& hand : hands) {
+    const std::vector<std::string> ways = graspVariants(C, obj, hand);
+    if (ways.empty() || ways[0] == "touch") continue;
+    const GraspWords words = graspWords(obj, ways[0]);
+    const Vector3d sizes = heldShape(C, obj, words).box.sizes();
+    least = std::min(least, words.axis() >= 0 ? sizes[words.axis()] : sizes.head<2>().minCoeff());
+  }
+  return std::isfinite(least) ? least : 0.;
+}
+
 void setFingers(Config& C, const Fingers& fingers, double q) {
   C.setJointState(VectorXd::Constant(1, q), {fingers.joint->name});
 }
@@ -68,6 +82,23 @@ Config withOpenHands(const Config& C, double most) {
   return scene;
 }
 
+bool opensFreely(const Config& C, const std::string& hand, double width) {
+  constexpr int kSteps = 8;
+  Config scene = C;
+  const Fingers fingers = fingersOf(scene, hand);
+  if (!fingers.joint) return true;
+  const std::vector<HandFingers> openings = handFingersOf(C);
+  const auto opening = std::ranges::find(openings, fingers.joint->name, &HandFingers::joint);
+  if (opening == openings.end()) return true;
+  const double now = fingers.joint->joint->q[0], open = opening->positionAt(width);
+  const std::size_t overlaps = scene.getCollisions(-kNewOverlap).size();
+  for (int k = 1; k <= kSteps; ++k) {
+    setFingers(scene, fingers, now + double(k) / kSteps * (open - now));
+    if (scene.getCollisions(-kNewOverlap).size() > overlaps) return false;
+  }
+  return true;
+}
+
 Config withFingersOf(const Config& C, const Config& other) {
   Config scene = C;
   for (const HandFingers& fingers : handFingersOf(C)) {
@@ -83,23 +114,20 @@ Config withFingersOf(const Config& C, const Config& other) {
 std::vector<double> narrowerOpenings(const Config& C, const std::vector<Literal>& goal) {
   const std::vector<HandFingers> all = handFingersOf(C);
   const std::vector<std::string> hands = wordsOf(taskFacts(C), "is_gripper");
-  if (all.empty() || hands.empty()) return {};
+  if (all.empty()) return {};
   const Config scene = withOpenings(C, hands);
-  double needed = 0.;
+  double needed = 0., widest = 0.;
+  for (const HandFingers& fingers : all) widest = std::max(widest, fingers.maxWidth());
   for (const std::string& obj : wordsOf(taskFacts(C), "is_object")) {
     const auto names = [&](const Literal& literal) {
       return std::ranges::find(literal.arguments, obj) != literal.arguments.end();
     };
     if (std::ranges::none_of(goal, names) || scene.getFrame(obj).getShapeType() == ShapeType::none) continue;
-    const std::vector<std::string> ways = graspVariants(scene, obj, hands[0]);
-    if (ways.empty()) continue;
-    const GraspWords words = graspWords(obj, ways[0]);
-    const Vector3d sizes = heldShape(scene, obj, words).box.sizes();
-    needed = std::max(needed, words.axis() >= 0 ? sizes[words.axis()] : sizes.head<2>().minCoeff());
+    needed = std::max(needed, leastWidth(scene, obj, hands));
   }
   std::vector<double> openings;
   for (const double room : kRooms)
-    if (needed > 0. && needed + 2. * room < kNarrower * all[0].maxWidth()) openings.push_back(needed + 2. * room);
+    if (needed > 0. && needed + 2. * room < kNarrower * widest) openings.push_back(needed + 2. * room);
   return openings;
 }
 

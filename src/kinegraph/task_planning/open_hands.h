@@ -13,6 +13,10 @@ namespace kinegraph {
 /// dof and limits, and those that mimic it, on the link of the hand. `most`: the opening of hands that open wider, m.
 Config withOpenHands(const Config& C, double most = std::numeric_limits<double>::infinity());
 
+/// Whether a hand opens from where its fingers are to a width (m) without pushing anything aside. Hands without fingers
+/// do.
+bool opensFreely(const Config& C, const std::string& hand, double width);
+
 /// Returns a scene with the fingers of hands as in another one.
 Config withFingersOf(const Config& C, const Config& other);
 

@@ -104,7 +104,19 @@ double leverOf(const Frame& body) {
 
 double leverIn(const Frame& hand, const Frame& body) {
   const Vector3d center = body.getPose().transform() * centerOfBody(body) - hand.getPosition();
-  return std::abs(center.cross(Vector3d::UnitZ()).dot(hand.getRotationMatrix().col(0)));
+  const double across = std::abs(center.cross(Vector3d::UnitZ()).dot(hand.getRotationMatrix().col(0)));
+  return std::max(across, .5 * std::sqrt(std::max(center.head<2>().squaredNorm() - across * across, 0.)));
+}
+
+double steadyAcceleration(const Frame& hand, const Frame& body) {
+  constexpr double kShare = .6;  // of the torque that the weight leaves
+  constexpr double kSpare = .2;  // of all torque: so much is taken to be left
+  const double mass = massOfBody(body);
+  const Vector3d center = body.getPose().transform() * centerOfBody(body) - hand.getPosition();
+  const double arm = center.cross(hand.getRotationMatrix().col(0)).norm();
+  if (!(mass * arm > 0.)) return std::numeric_limits<double>::infinity();
+  const double left = kGripTorque - mass * kGravity.norm() * leverIn(hand, body);
+  return kShare * std::max(left, kSpare * kGripTorque) / (mass * arm);
 }
 
 FramePairs wedgedPairs(const Config& C, const std::vector<std::string>& hands, const std::vector<std::string>& objects,

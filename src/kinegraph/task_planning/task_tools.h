@@ -38,9 +38,13 @@ double massOfBody(const Frame& body);
 /// without a mass.
 double leverOf(const Frame& body);
 
-/// Returns the level distance of the center of mass of a body from a hand, across the axis along which its fingers
-/// close, m.
+/// Returns the level distance of the center of mass of a body from a hand, m. Pads withstand twice as much along the
+/// axis along which the fingers close as across it: half of the distance along it counts.
 double leverIn(const Frame& hand, const Frame& body);
+
+/// Returns the acceleration up to which usual fingers keep an object from swinging in the hand, m/s^2; infinite without
+/// a mass.
+double steadyAcceleration(const Frame& hand, const Frame& body);
 
 /// Returns the pairs of frames, one of a held object and one of the robot, that overlap by more than `depth` (m). Such
 /// overlaps occur because models of hands are wider than hands, and held objects rotate or slip.

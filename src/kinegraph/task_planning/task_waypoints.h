@@ -16,6 +16,9 @@ struct TaskDoor;
 /// Default of the clearance that planTask keeps between all bodies whose contact is not meant, m.
 inline constexpr double kTaskMargin = .005;
 
+/// Default speed of hands close to where they take or leave something, m/s.
+inline constexpr double kContactSpeed = .15;
+
 /// The waypoint problem of a sequence of actions in one variant each: a Komo with a slice per action, and grasps and
 /// placements shared by all slices. Rules add the constraints of their actions through `komo()`, `m`, and the calls
 /// below. Times are in phases; action i, counted from 0, ends at i + 1. Calls throw FrameNotFound for unknown frames.

@@ -592,3 +592,12 @@ def test_a_state_from_before_a_force_sensor_says_so():
     with pytest.raises(ry.ArgumentError, match="was taken before addForceTorqueSensor; take states after the sensors"):
         S.setState(state)
     S.setState(S.getState())
+
+
+def test_a_robot_without_contacts_passes_through_its_own_base():
+    C = ry.Config()
+    C.addFile(ry.raiPath("ur10/ur10.g"))
+    bot = ry.BotOp(C)
+    bot.moveTo([0.86, -2.32, 0.55, -0.78, 0.87, 0.1])
+    bot.wait(C, forKeyPressed=False)
+    np.testing.assert_allclose(bot.get_q(), [0.86, -2.32, 0.55, -0.78, 0.87, 0.1], atol=1e-3)

@@ -75,16 +75,99 @@ def test_an_object_that_is_too_heavy_for_the_fingers_is_told() -> None:
     assert "'red' (12.0 kg) slips out of 'l_gripper', which lifts 4.1 kg" in plan.explain()
 
 
-def test_hands_open_less_where_wide_ones_have_no_room() -> None:
+def bottle(mass: float) -> ry.Config:
     C = scene()
+    tray(C, (0.3, 0.3, 0.01))
+    frame = C.addFrame("bottle", "table").setPosition([0.25, 0.3, TOP + 0.11]).setJoint(ry.JT.rigid)
+    frame.setShape(ry.ST.cylinder, [0.22, 0.035]).setContact(1).setMass(mass)
+    neck = C.addFrame("neck", "bottle").setRelativePosition([0, 0, 0.14])
+    neck.setShape(ry.ST.cylinder, [0.06, 0.013]).setContact(1)
+    return C
+
+
+def test_a_heavy_bottle_does_not_swing_in_the_hand() -> None:
+    C = bottle(1.0)
+    world = executed(C, ry.planTask(C, "(on tray bottle)"))
+    assert stands(world, "bottle", "tray", TOP + 0.01 + 0.11, 0.17)
+
+
+def test_what_turns_in_the_hand_wherever_it_is_taken_is_told() -> None:
+    C = scene()
+    tray(C, (0.3, 0.3, 0.01))
+    pan = C.addFrame("pan", "table").setPosition([0.2, 0.3, TOP + 0.02]).setJoint(ry.JT.rigid)
+    pan.setShape(ry.ST.cylinder, [0.04, 0.11]).setContact(1).setMass(1.5)
+    handle = C.addFrame("handle", "pan").setRelativePosition([0.2, 0, 0.011])
+    handle.setShape(ry.ST.ssBox, [0.18, 0.024, 0.018, 0.004]).setContact(1)
+    plan = ry.planTask(C, "(on tray pan)")
+    told = "'pan' turns in 'l_gripper': its center of mass is "
+    assert any(told in warning and "mm beside the fingers" in warning for warning in plan.warnings), plan.explain()
+
+
+def test_what_is_a_little_too_far_is_at_the_limit_of_the_reach() -> None:
+    C = scene()
+    tray(C).setPosition([0.8, 0.5, TOP + 0.005])
+    box(C, "red", "table", (0.3, 0.3, TOP))
+    plan = ry.planTask(C, "(on tray red)")
+    assert "with nothing in the way: 'tray' is at the limit of the reach of 'l_gripper'" in plan.message, plan
+
+
+def betweenWalls(C: ry.Config) -> ry.Config:
+    """A tray, and a red box with a wall on two sides."""
     tray(C)
     box(C, "red", "table", (0.3, 0.3, TOP))
     for name, at, size in (("wall", (0.355, 0.3), (0.02, 0.2, 0.07)), ("other", (0.3, 0.355), (0.2, 0.02, 0.07))):
         wall = C.addFrame(name, "table").setPosition([*at, TOP + 0.035])
         wall.setShape(ry.ST.ssBox, [*size, 0.004]).setContact(1)
+    return C
+
+
+def test_hands_open_less_where_wide_ones_have_no_room() -> None:
+    C = betweenWalls(scene())
     plan = ry.planTask(C, "(on tray red)")
     assert "hands open to 55 mm only: wider ones have no room at the objects" in plan.warnings, plan
     assert stands(executed(C, plan), "red", "tray", TOP + 0.01 + 0.035, 0.1)
+
+
+SMALL_HAND = """
+stand: { X: [-1.5 0 1] }
+rail (stand): { joint: transX, limits: [-.1 .1] }
+a_gripper (rail): { shape: marker, size: [.02] }
+a_palm (rail): { shape: ssBox, size: [.1 .04 .03 .005], rel: [0 0 .08], contact: 1 }
+a_finger1 (rail): { joint: transX, limits: [0 .02], joint_active: False }
+a_finger2 (rail): { joint: transX, mimic: a_finger1, joint_scale: -1, joint_active: False }
+Edit a_finger1: { shape: ssBox, size: [.01 .02 .05 .004], contact: 1 }
+Edit a_finger2: { shape: ssBox, size: [.01 .02 .05 .004], contact: 1 }
+"""
+
+
+def test_a_small_hand_elsewhere_lets_another_one_open_less() -> None:
+    C = ry.Config()
+    C.addText(SMALL_HAND)
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    plan = ry.planTask(betweenWalls(C), "(on tray red)")
+    assert "hands open to 55 mm only: wider ones have no room at the objects" in plan.warnings, plan
+
+
+def test_names_that_contain_those_of_a_hand_do_not_change_the_search() -> None:
+    evaluations = []
+    for name in ("red", "the_l_palm"):
+        C = scene()
+        tray(C)
+        box(C, name, "table", (0.75, 0.35, TOP))
+        plan = ry.planTask(C, f"(on tray {name})")
+        assert f"'l_gripper' misses its grasp of '{name}'" in plan.message, plan
+        evaluations.append(plan.evaluations)
+    assert evaluations[0] == evaluations[1]
+
+
+@pytest.mark.parametrize("radius", [0.035, 0.0375])
+def test_a_ball_that_meets_the_camera_of_the_hand_is_held_off_center(radius) -> None:
+    C = scene()
+    tray(C)
+    ball = C.addFrame("ball", "table").setPosition([0.3, 0.3, TOP + radius]).setJoint(ry.JT.rigid)
+    ball.setShape(ry.ST.sphere, [radius]).setContact(1).setMass(0.15)
+    world = executed(C, ry.planTask(C, "(on tray ball)"))
+    assert stands(world, "ball", "tray", TOP + 0.01 + radius, 0.05)
 
 
 def test_a_robotiq_takes_a_low_bar_with_its_fingertips() -> None:

@@ -114,6 +114,33 @@ def test_where_there_is_less_room_a_warning_says_between_what() -> None:
     assert ry.checkTaskPlan(C, plan) == []
 
 
+def slowZone(C: ry.Config, plan: ry.TaskPlan) -> tuple[float, float]:
+    """The speed of the hand up to 5 cm away from where it takes the object, and everywhere else; m/s."""
+    D, hand = C.copy(), []
+    for q in plan.path:
+        D.setJointState(q)
+        hand.append(D.getFrame("l_gripper").getPosition())
+    at, grasp = np.array(hand), plan.segments[0].stop - 1
+    steps = np.diff(plan.times)
+    speeds = np.linalg.norm(np.diff(at, axis=0), axis=1) / np.where(steps > 0, steps, np.inf)
+    near = np.linalg.norm(0.5 * (at[1:] + at[:-1]) - at[grasp], axis=1) < 0.05
+    return float(speeds[near].max()), float(speeds[~near].max())
+
+
+def test_hands_are_slow_where_they_take_something() -> None:
+    C = panda()
+    plate(C, "tray", [-0.3, 0.3], 0.2)
+    box(C, "b", [0.3, 0.3])
+    plan, fast = (ry.planTask(C, "(on tray b)", contact_speed=v) for v in (0.15, float("inf")))
+    np.testing.assert_array_equal(plan.path, fast.path)
+    assert slowZone(C, plan)[0] < 0.151 < 0.25 < slowZone(C, fast)[0]
+    assert slowZone(C, plan)[1] == pytest.approx(slowZone(C, fast)[1], rel=0.2)
+    assert fast.duration < plan.duration < 1.3 * fast.duration
+    assert ry.checkTaskPlan(C, plan) == []
+    with pytest.raises(ry.ArgumentError, match="contact_speed is 0 m/s; expected a number > 0, or infinity"):
+        ry.planTask(C, "(on tray b)", contact_speed=0.0)
+
+
 def test_a_margin_is_a_number_of_meters() -> None:
     C = panda()
     box(C, "b", [-0.3, 0.3])

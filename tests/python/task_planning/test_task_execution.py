@@ -117,6 +117,66 @@ def test_a_world_that_is_disturbed_on_the_way_is_repaired(tower) -> None:
     assert run.plan.feasible and "reached the goal" in str(run.result)
 
 
+def bars(size=(0.12, 0.016, 0.016)) -> ry.Config:
+    """A bar on the table, between the fingers of a hand from above, and a tray."""
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    bar = C.addFrame("bar", "table").setRelativePosition([0.25, 0.27, 0.05 + 0.5 * size[2]]).setJoint(ry.JT.rigid)
+    bar.setShape(ry.ST.ssBox, [*size, 0.002]).setContact(1).setMass(0.05)
+    tray = C.addFrame("tray", "table").setRelativePosition([-0.25, 0.27, 0.055])
+    tray.setShape(ry.ST.ssBox, [0.26, 0.26, 0.01, 0.004]).setContact(1)
+    return C
+
+
+ON_ITS_SIDE = np.sqrt(0.5) * np.array([1, 1, 0, 0])
+
+
+def disturbed(C, plan, action, position, rotation, repairs=3) -> tuple[ry.TaskExecution, ry.Config]:
+    """Executes a plan; somebody moves the bar after an action, or before the first one (-1)."""
+    bot = ry.BotOp(C)
+    run, is_done = plan.run(bot, repairs=repairs), False
+    for event in run:
+        if event.index == action and event.kind in (ry.TaskEventKind.start, ry.TaskEventKind.grip) and not is_done:
+            is_done = True
+            bot.setFramePose("bar", np.concatenate([position, rotation]))
+    return run.result, bot.getWorld()
+
+
+def test_a_hand_opens_where_it_pushes_nothing_over() -> None:
+    C = bars()
+    beside = C.getFrame("bar").getPosition() + np.array([0.01, -0.056, 0])
+    result, world = disturbed(C, ry.planTask(C, "(on tray bar)"), 0, beside, [1, 0, 0, 0])
+    assert result.feasible and result.repairs == 1, result
+    assert world.getFrame("bar").getRotationMatrix()[2, 2] > 0.99
+
+
+def test_what_has_fallen_is_put_up_again() -> None:
+    C = bars((0.04, 0.05, 0.1))
+    fallen = C.getFrame("bar").getPosition() + np.array([0.03, 0, -0.025])
+    result, world = disturbed(C, ry.planTask(C, "(on tray bar)"), -1, fallen, ON_ITS_SIDE)
+    assert result.feasible and result.repairs == 1, result
+    assert world.getFrame("bar").getRotationMatrix()[2, 2] > 0.99
+    assert world.getFrame("bar").getPosition()[2] == pytest.approx(0.66 + 0.05, abs=2e-3)
+
+
+@pytest.mark.parametrize("repairs", [0, 3])
+def test_an_object_that_lies_where_it_shall_stand_is_no_success(repairs: int) -> None:
+    C = bars((0.04, 0.05, 0.1))
+    lying = C.getFrame("tray").getPosition() + np.array([0, 0, 0.005 + 0.025])
+    result, world = disturbed(C, ry.planTask(C, "(on tray bar)"), 1, lying, ON_ITS_SIDE, repairs)
+    stands = world.getFrame("bar").getRotationMatrix()[2, 2] > 0.99
+    assert result.feasible == stands == (repairs > 0), result
+    assert stands or result.message == "'bar' has fallen: it stands on another side than planned"
+
+
+def test_a_ball_may_roll() -> None:
+    C = bars()
+    C.getFrame("bar").setShape(ry.ST.sphere, [0.025]).setRelativePosition([0.25, 0.27, 0.075])
+    rolled = C.getFrame("bar").getPosition() + np.array([0.003, 0, 0])
+    result, _ = disturbed(C, ry.planTask(C, "(on tray bar)"), -1, rolled, ON_ITS_SIDE)
+    assert result.feasible and result.repairs == 0, result
+
+
 def test_an_execution_starts_where_the_robot_is(tower) -> None:
     C, plan = tower
     rng = np.random.default_rng(0)

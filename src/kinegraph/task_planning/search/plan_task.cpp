@@ -14,7 +14,7 @@ std::function<TaskPlan(const Config&, const RepairOptions&)> replannerTo(std::st
     if (limits.time_limit) changed.time_limit = *limits.time_limit;
     if (limits.max_evaluations) changed.max_evaluations = *limits.max_evaluations;
     if (limits.threads) changed.threads = *limits.threads;
-    return planTask(C, goal, changed);
+    return planTask(C, goal + limits.also, changed);
   };
 }
 

@@ -23,7 +23,8 @@ struct TaskOptions {
   VectorXd velocity = {};         ///< |dq/dt| limit, one number or one per dof, rad/s or m/s; empty: the model's, or 1
   VectorXd acceleration = {};     ///< |d2q/dt2| limit, rad/s^2 or m/s^2; empty: full speed is reached in half a second
   double margin = kTaskMargin;  ///< m: clearance of all pairs whose contact is not meant; less only where there is none
-  int threads = 1;              ///< that solve variants and motions in parallel; the plan is bit-identical
+  double contact_speed = kContactSpeed;  ///< m/s: of hands up to 5 cm away from where they take or leave something
+  int threads = 1;                       ///< that solve variants and motions in parallel; the plan is bit-identical
 
   /// Queried on the calling thread. planTask throws Cancelled if the token cancels, and passes on what it throws.
   CancellationToken cancellation = {};

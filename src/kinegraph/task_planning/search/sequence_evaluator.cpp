@@ -80,7 +80,7 @@ SequenceEvaluator::SequenceEvaluator(SpeculativeExecutor& executor, const Waypoi
       limits_(std::move(limits)),
       goal_(std::move(goal)),
       start_(std::move(start)),
-      motions_(executor, limits_, settings.margin, start_, settings.seed) {}
+      motions_(executor, limits_, {settings.margin, settings.contact_speed}, start_, settings.seed) {}
 
 SequenceEvaluator::Outcome SequenceEvaluator::evaluate(const Request& request, const CancellationToken& stopped) const {
   const Piece whole{scene_, request.actions, {}, {}, request.seed};
@@ -293,6 +293,8 @@ void SequenceEvaluator::judge(TaskPlan& plan, const Motions& parts) const {
                                     " mm"));
     }
     plan.tolerances.push_back(toleranceOf(motion.part.config, around, path, motion.action, hands));
+    const auto& [error, limit] = plan.tolerances.back();
+    if (isPick(motion.action) && error == 0.) plan.warnings.push_back(cat(planText({motion.action}), ": ", limit));
   }
 }
 

@@ -23,6 +23,13 @@ MatrixXd sampled(const MatrixXd& path) {
   return rows;
 }
 
+/// Says why the weight of an object turns it in a hand; "" if it does not.
+std::string turnText(double lever, double most) {
+  if (lever <= most) return "";
+  return cat(": its center of mass is ", fixed(1e3 * lever, 0), " mm beside the fingers, which withstand ",
+             fixed(1e3 * most, 0), " mm");
+}
+
 void lower(StepTolerance& tolerance, double error, const std::string& limit) {
   if (error < tolerance.error) tolerance = {error, limit};
 }
@@ -51,7 +58,7 @@ StepTolerance toleranceOf(const Config& C, const Surroundings& around, const Mat
                 fixed(most, 1), " kg"));
     if (opening(end, action[3]))
       lower(tolerance, std::max(leverOf(obj) - leverIn(hand, obj), 0.),
-            cat("'", action[1], "' turns in '", action[3], "'"));
+            cat("'", action[1], "' turns in '", action[3], "'", turnText(leverIn(hand, obj), leverOf(obj))));
   } else if (action[0] == "place" && end.findFrame(action[3])) {
     const Frame obj = end.getFrame(action[1]);
     lower(tolerance, std::max(supportOf(obj, end.getFrame(action[3])), 0.),

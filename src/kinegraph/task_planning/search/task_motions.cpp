@@ -10,6 +10,7 @@
 #include "kinegraph/ik/ik_target.h"
 #include "kinegraph/ik/solve_ik.h"
 #include "kinegraph/scene/dynamics.h"
+#include "kinegraph/task_planning/search/contact_speed.h"
 #include "kinegraph/task_planning/search/guided_motion.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/task_actions.h"
@@ -102,11 +103,12 @@ VectorXd perDof(const char* name, const VectorXd& given, const VectorXd& otherwi
 
 }  // namespace
 
-TaskMotions::TaskMotions(SpeculativeExecutor& executor, MatrixXd limits, double margin,
+TaskMotions::TaskMotions(SpeculativeExecutor& executor, MatrixXd limits, const Manner& manner,
                          const std::vector<Literal>& start, std::uint64_t seed)
     : executor_(executor),
       limits_(std::move(limits)),
-      margin_(margin),
+      margin_(manner.margin),
+      contact_speed_(manner.contact_speed),
       has_doors_(!wordsOf(start, "is_guided").empty()),
       hands_(wordsOf(start, "is_gripper")),
       objects_(wordsOf(start, "is_object")),
@@ -191,13 +193,17 @@ TaskMotions::Found TaskMotions::planFree(const Config& C, const VectorXd& q0, co
     level.push_back({.feature = FeatureSymbol::vectorZ, .frames = {obj}, .target = up});
   }
   const Surroundings around(C, q0, q1, action, before, hands_);
+  const TaskAction last = before.empty() ? pickAtStart(C, q0) : before;
+  const std::vector<ContactPoint> contacts = contactPoints(C, q0, q1, action, last);
   const auto finished = [&](Found found) {
-    found.motion = steady(C, std::move(*found.motion), carried);
+    TimedRows& rows = *found.motion;
+    rows.times = slowerNearContacts(C, rows.path, rows.times, limits_, contacts, contact_speed_);
+    found.motion = steady(C, std::move(rows), carried);
     return found;
   };
   Speculative<PathResult> direct;  // without retreat and approach
   if (level.empty()) {
-    std::vector<VectorXd> configurations = retreat(C, around, q0, before.empty() ? pickAtStart(C, q0) : before);
+    std::vector<VectorXd> configurations = retreat(C, around, q0, last);
     const std::vector<VectorXd> tail = retreat(C, around, q1, reversedAction(action));
     if (configurations.size() + tail.size() > 2) {
       const MotionPlan found = findPath(C, configurations.back(), tail.back(), {}, [&] {
@@ -370,9 +376,14 @@ std::vector<VectorXd> TaskMotions::straight(const Config& C, const VectorXd& q, 
 /// Slows a motion down so that held objects do not slip, and objects that stand on them stay in place.
 TimedRows TaskMotions::steady(const Config& C, TimedRows rows, const std::vector<std::string>& carried) const {
   double share = 1.;
+  Config start = C;
+  start.setJointState(rows.path.row(0));
   for (const std::string& obj : objects_) {
-    if (holderOf(C, obj, hands_).empty()) continue;
-    const double most = std::ranges::find(carried, obj) != carried.end() ? kSteady / 1.01 : kHeld;
+    const std::string hand = holderOf(C, obj, hands_);
+    if (hand.empty()) continue;
+    const bool is_carried = std::ranges::find(carried, obj) != carried.end();
+    const double held = opening(C, hand) ? steadyAcceleration(start.getFrame(hand), start.getFrame(obj)) : kHeld;
+    const double most = is_carried ? kSteady / 1.01 : std::min(kHeld, held);
     share = std::max(share, accelerationOf(C, rows.path, rows.times, obj) / most);
   }
   rows.times *= std::sqrt(share);

@@ -22,9 +22,14 @@ struct TimedRows {
 /// Plans the motions of actions: continuously collision-free, within limits, from rest to rest.
 class TaskMotions {
  public:
-  /// `limits`: velocity and acceleration of each dof, (2, n). `margin`: preferred clearance, m. `start`: the initial
-  /// facts.
-  TaskMotions(SpeculativeExecutor& executor, MatrixXd limits, double margin, const std::vector<Literal>& start,
+  /// How motions pass other things.
+  struct Manner {
+    double margin = 0.;         ///< preferred clearance, m
+    double contact_speed = 0.;  ///< of hands close to where they take or leave something, m/s
+  };
+
+  /// `limits`: velocity and acceleration of each dof, (2, n). `start`: the initial facts.
+  TaskMotions(SpeculativeExecutor& executor, MatrixXd limits, const Manner& manner, const std::vector<Literal>& start,
               std::uint64_t seed);
 
   struct Found {
@@ -69,7 +74,7 @@ class TaskMotions {
 
   SpeculativeExecutor& executor_;
   MatrixXd limits_;
-  double margin_;
+  double margin_, contact_speed_;
   bool has_doors_;
   std::vector<std::string> hands_, objects_;
   std::uint64_t seed_;

@@ -54,6 +54,11 @@ double requireMargin(double margin) {
   return margin;
 }
 
+double requireContactSpeed(double speed) {
+  if (speed > 0.) return speed;
+  throw ValueError(cat("planTask: contact_speed is ", speed, " m/s; expected a number > 0, or infinity"));
+}
+
 /// The error that a plan survives, with the missing margin subtracted, m; at most that of a robust step.
 double robustnessOf(const TaskPlan& plan, double margin) {
   double least = kRobust;
@@ -71,6 +76,17 @@ Config sceneOf(const Config& C, double most) {
   return scene;
 }
 
+/// Whether a sentence has a name as a whole word.
+bool mentions(const std::string& sentence, const std::string& name) {
+  constexpr std::string_view kBetween = " '\"(),;";
+  const auto isBetween = [&](std::size_t at) {
+    return at >= sentence.size() || kBetween.find(sentence[at]) != std::string_view::npos;
+  };
+  for (std::size_t at = sentence.find(name); at != std::string::npos; at = sentence.find(name, at + 1))
+    if ((at == 0 || isBetween(at - 1)) && isBetween(at + name.size())) return true;
+  return false;
+}
+
 /// Whether the fingers or the palm of a hand were in the way in some branch of a search.
 bool isInTheWay(const Config& C, const TaskPlan& failed) {
   for (const std::string& hand : wordsOf(failed.start, "is_gripper")) {
@@ -78,7 +94,7 @@ bool isInTheWay(const Config& C, const TaskPlan& failed) {
     if (const std::string palm = palmOf(C, hand); !palm.empty()) parts.push_back(palm);
     for (const auto& [cause, count] : failed.causes)
       for (const std::string& part : parts)
-        if (cause.find(part) != std::string::npos) return true;
+        if (mentions(cause, part)) return true;
   }
   return false;
 }
@@ -133,6 +149,7 @@ TaskSearch::TaskSearch(const Config& C, const std::string& goal, const TaskOptio
                 requireThreads(options.threads),
                 [this] { return isLate(); },
                 options.helper,
+                requireContactSpeed(options.contact_speed),
                 requireMargin(options.margin)},
       may_regrasp_(!options.domain),
       best_(kNoPlan),
@@ -176,6 +193,7 @@ std::optional<TaskPlan> TaskSearch::next() {
   }
   std::optional<TaskPlan> plan = nextPlan();
   std::optional<TaskPlan> other = plan ? withNarrowerHands(*plan) : std::nullopt;
+  if (!other && plan) plan->evaluations = evaluations();
   return other ? std::move(other) : std::move(plan);
 }
 

@@ -23,6 +23,7 @@ class WaypointSolver {
     int threads = 1;
     std::function<bool()> is_late = {};  ///< true: the solver gives up; called by several threads
     std::function<std::shared_ptr<ManipulationHelper>()> helper = {};  ///< makes helpers; none: ManipulationHelper
+    double contact_speed = kContactSpeed;                              ///< of hands near contacts, m/s
     double margin = kTaskMargin;                                       ///< preferred clearance, m
   };
 

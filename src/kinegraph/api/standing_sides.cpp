@@ -1,0 +1,68 @@
+#include "kinegraph/api/standing_sides.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "kinegraph/common/text.h"
+#include "kinegraph/task_planning/task_actions.h"
+
+namespace kinegraph {
+
+namespace {
+
+const double kUpright = std::cos(10. * std::numbers::pi / 180.);  ///< objects that tilt more have fallen
+
+bool isBall(const Frame& frame) { return frame.getShapeType() == ShapeType::sphere; }
+
+/// Whether an object looks the same after any rotation about its axis.
+bool isRound(const Frame& frame) {
+  const ShapeType type = frame.getShapeType();
+  return type == ShapeType::cylinder || type == ShapeType::ssCylinder || type == ShapeType::capsule;
+}
+
+}  // namespace
+
+double cosineBetween(const Frame& obj, const Matrix3d& rotation) {
+  if (isBall(obj)) return 1.;
+  const Matrix3d R = obj.getRotationMatrix().transpose() * rotation;
+  return isRound(obj) ? R(2, 2) : .5 * (R.trace() - 1.);
+}
+
+bool hasSameSideUp(const Frame& obj, const Matrix3d& rotation) {
+  if (isBall(obj)) return true;
+  const Vector3d now = obj.getRotationMatrix().row(2), then = rotation.row(2);
+  const double round = now.z() * then.z() + now.head<2>().norm() * then.head<2>().norm();
+  return (isRound(obj) ? round : now.dot(then)) >= kUpright;
+}
+
+void StandingSides::setPlan(const TaskPlan& plan) {
+  if (plan.scenes.empty()) return;
+  Config end = plan.scenes.back();
+  end.setJointState(plan.path.row(plan.path.rows() - 1));
+  for (const std::string& obj : wordsOf(plan.start, "is_object")) {
+    const Matrix3d rotation = end.getFrame(obj).getRotationMatrix();
+    if (!rotations_.contains(obj) || !hasSameSideUp(plan.scenes.front().getFrame(obj), rotation))
+      rotations_[obj] = rotation;
+  }
+}
+
+std::vector<std::string> StandingSides::fallen(const Config& C,
+                                               const std::map<std::string, std::string>& in_hands) const {
+  std::vector<std::string> names;
+  for (const auto& [obj, rotation] : rotations_)
+    if (!in_hands.contains(obj) && !hasSameSideUp(C.getFrame(obj), rotation)) names.push_back(obj);
+  return names;
+}
+
+std::string StandingSides::asGoal(const std::vector<std::string>& objects) const {
+  std::string goal;
+  for (const std::string& obj : objects) {
+    Eigen::Index axis = 0;
+    const Vector3d up = rotations_.at(obj).row(2);
+    up.cwiseAbs().maxCoeff(&axis);
+    goal += cat(" (up ", std::string(1, "xyz"[axis]), up[axis] < 0. ? "Neg" : "", " ", obj, ")");
+  }
+  return goal;
+}
+
+}  // namespace kinegraph
