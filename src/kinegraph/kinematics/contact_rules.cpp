@@ -4,9 +4,22 @@
 
 namespace kinegraph {
 
+namespace {
+
+/// Whether both parts stand on the same ground, a root.
+bool standTogether(const std::vector<ContactRules::Part>& parts, int a, int b) {
+  const auto groundOf = [&](int part) {
+    const int ground = parts[std::size_t(part)].parent;
+    return ground < 0 ? part : ground;
+  };
+  return !parts[std::size_t(a)].jointed && !parts[std::size_t(b)].jointed && groundOf(a) == groundOf(b);
+}
+
+}  // namespace
+
 bool ContactRules::allow(std::size_t i, std::size_t j) const {
   const Body &a = bodies[i], &b = bodies[j];
-  if (a.part == b.part) return false;
+  if (a.part == b.part || standTogether(parts, a.part, b.part)) return false;
   if (a.flag < 0 && excludedByFlag(a, b)) return false;
   if (b.flag < 0 && excludedByFlag(b, a)) return false;
   if (excluded.empty()) return true;

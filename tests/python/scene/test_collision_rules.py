@@ -334,3 +334,28 @@ def test_the_first_question_about_collisions_warns_of_shapes_without_contact(cal
     with warnings.catch_warnings():
         warnings.simplefilter("error", ry.KinegraphWarning)
         C.isValid(C.getJointState())  # once per scene
+
+
+LINK = '<link name="{0}"><collision><geometry><sphere radius="0.05"/></geometry></collision></link>'
+JOINT = """<joint name="j{1}" type="continuous"><parent link="{0}"/><child link="{1}"/><axis xyz="0 1 0"/>
+  <origin xyz="0 0 0.3"/></joint>"""
+ARM = f"""<robot name="arm">{"".join(LINK.format(x) for x in "abcd")}
+  {"".join(JOINT.format(*pair) for pair in ("ab", "bc", "cd"))}</robot>"""
+
+
+@pytest.mark.parametrize("ground", ["world", "table"])
+def test_a_wall_beside_a_robot_on_the_ground_is_no_part_of_its_base(ground, tmp_path):
+    (tmp_path / "arm.urdf").write_text(ARM)
+    C = ry.Config()
+    C.addFrame(ground)
+    C.addFrame("wall", ground).setShape(ry.ST.box, [0.1, 2, 2]).setPosition([0.1, 0, 1]).setContact(1)
+    C.addFrame("floor", ground).setShape(ry.ST.box, [2, 2, 0.1]).setPosition([0, 0, -0.5]).setContact(1)
+    C.addFile(str(tmp_path / "arm.urdf")).setParent(C.getFrame(ground))
+    with_wall = {name for pair in own_pairs(C) if "wall" in pair for name in pair} - {"wall"}
+    assert with_wall == ({"b_0", "c_0", "d_0"} if ground == "world" else {"d_0"})
+    assert {pair for pair in own_pairs(C) if not {"wall", "floor"} & set(pair)} == {("a_0", "d_0")}
+    saved = str(tmp_path / "saved.g")
+    C.write(saved)
+    again = ry.Config()
+    again.addFile(saved)
+    assert own_pairs(again) == own_pairs(C)

@@ -157,9 +157,12 @@ std::vector<LinkInertia> collectInertias(const SceneTree& scene, const Kinematic
 
 namespace {
 
-/// The nearest frame at or above with a joint, or the root: `frame` is rigidly fixed to it.
+/// Whether a frame is the ground on which robots and other things stand, and is not a part of any of them.
+bool isGround(const FrameData& frame) { return !frame.parent && !frame.joint && frame.name == "world"; }
+
+/// The nearest frame at or above with a joint, the root, or one fixed to the ground: `frame` is rigidly fixed to it.
 const FrameData* partFrame(const FrameData* frame) {
-  while (!frame->joint && frame->parent) frame = frame->parent;
+  while (!frame->joint && frame->parent && !isGround(*frame->parent)) frame = frame->parent;
   return frame;
 }
 
