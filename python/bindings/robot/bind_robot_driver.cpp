@@ -7,7 +7,7 @@
 #include "bindings.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/robot/drivers.h"
-#include "robot/robot_docs.h"
+#include "robot/driver_docs.h"
 #include "robot/robot_objects.h"
 
 namespace kinegraph::python {
