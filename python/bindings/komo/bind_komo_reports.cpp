@@ -89,7 +89,10 @@ std::vector<std::string> objectiveTags(const PyKomo& komo) {
 
 std::shared_ptr<PyViewer> viewerOf(PyKomo& komo) {
   if (!komo.viewer) komo.viewer = std::make_shared<PyViewer>();
-  if (!komo.viewer->scene) komo.viewer->scene = komo.configuration(-komo.order()).scene();
+  try {
+    if (!komo.viewer->scene) komo.viewer->scene = komo.configuration(-komo.order()).scene();
+  } catch (const Error&) {  // without a configuration and a timing there is nothing to show yet
+  }
   return komo.viewer;
 }
 

@@ -371,7 +371,8 @@ class UrdfParser {
     };
     joint.effort = ofMotor("effort");
     joint.velocity = ofMotor("velocity");
-    if (!said_that_motors_have_no_limit_ && !element.child("mimic")) {
+    const bool has_motor = joint.type != UrdfJointType::fixed && joint.type != UrdfJointType::floating;
+    if (has_motor && !said_that_motors_have_no_limit_ && !element.child("mimic")) {
       sayThatZeroIsNoLimit(*limit);
       sayThatLimitsAreMissing(*limit);
     }

@@ -19,6 +19,7 @@ constexpr double kMostOfLine = .45, kMostBehindCorner = .3;  // the latter leave
 constexpr int kPieces = 3, kMarksPerPiece = 4;               // of a bend
 constexpr int kPartsOfPiece = 16;                            // in collision checks
 constexpr double kShortestArrival = 1e-6;                    // rad or m
+constexpr double kLeastRunUp = .01;                          // rad or m: of slow ends
 constexpr double kBeyondLimits = 1e-12;                      // rad or m: rounding
 
 /// Position, slope and second derivative at an end of a curve.
@@ -86,7 +87,7 @@ class Arrival {
     const Endpoint start = endpoint(loose, path.row(0).transpose()), end = endpoint(loose, goal);
     if (!start.isFree() || !end.isFree()) return std::nullopt;
     Steering steering(constraintsAround({&start, &end}));
-    const double distance = stoppingDistance(options_.end_velocity, limits_);
+    const double distance = std::max(kLeastRunUp, stoppingDistance(options_.end_velocity, limits_));
     for (const double factor : kArrivalLengths) {
       const double length = factor * distance;
       const bool is_slower = take(steering, before, goal, std::min(length, most));
@@ -143,7 +144,6 @@ class Arrival {
     for (Eigen::Index k = 0; k < rows.rows(); ++k) rows.row(k) = curve.eval(curve.marks()[std::size_t(k)]).transpose();
     RetimeOptions timing;
     timing.end_velocity = options_.end_velocity;
-    timing.cancellation = cancellation_;
     TimedPath timed = retime(rows, curve, limits_, timing);
     if (!timed.feasible()) return false;
     if (best_ && best_->duration() <= timed.duration()) return true;

@@ -14,6 +14,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double kLineFactors[] = {1., 2., 4.};  // lengths of lines, as multiples of the stopping distance
+constexpr double kShortestLine = 1e-5;           // rad or m: shorter ones have no direction beside rounding
 constexpr double kRoundingFactor = 1. + 1e-6;    // on the stopping distance
 constexpr double kAboveLimits = 1e-9;            // relative excess of a running motion over its limits, by rounding
 constexpr int kParts = 16;                       // of a curved piece, in collision checks
@@ -227,7 +228,9 @@ class PlanFromVelocity {
       return;
     }
     MatrixXd points(2, start_.size());
-    points << ramp.end.transpose(), (ramp.end + farther * distanceToRest(ramp.velocity) * ramp.velocity).transpose();
+    const double speed = ramp.velocity.stableNorm();
+    const double length = std::max(farther * distanceToRest(ramp.velocity) * speed, kShortestLine);
+    points << ramp.end.transpose(), (ramp.end + length / speed * ramp.velocity).transpose();
     const PathCurve line = polyline(points);
     FirstSegment first = ramp;
     first.curve = ramp.curve.pieces() > 0 ? joined(ramp.curve, line, false) : line;

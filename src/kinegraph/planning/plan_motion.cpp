@@ -104,7 +104,8 @@ MotionPlan MotionPlan::replan(const Config& config, double time, const std::opti
   if (!std::isfinite(time)) throw ValueError("MotionPlan.replan: the time is not finite");
   const MotionState now = eval(time);
   PlanOptions next = options_now.value_or(optionsAt(time));
-  const bool ends_at_rest = next.end_velocity.size() == 0 || next.end_velocity.isZero(0.);
+  const auto isZero = [](const VectorXd& velocity) { return velocity.size() == 0 || velocity.isZero(0.); };
+  const bool ends_at_rest = isZero(options.end_velocity) && isZero(next.end_velocity);
   next.start_velocity = now.velocity;
   next.start_acceleration = next.end_velocity = next.end_acceleration = {};
   if (next.jerk.size() > 0 && !now.velocity.isZero(0.)) next.start_acceleration = now.acceleration;

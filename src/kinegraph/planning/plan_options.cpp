@@ -114,6 +114,8 @@ void PlanOptions::validateFor(int dofs) const {
         "end_velocity");
   if (isMoving(end_velocity) && (isMoving(start_velocity) || !obstacle_trajectories.empty()))
     throw ValueError("planMotion: end_velocity needs a start at rest, and no obstacle_trajectories");
+  if (isMoving(end_velocity) && !acceleration.allFinite())
+    throw ValueError("planMotion: acceleration is infinite; end_velocity needs a finite limit");
   if (slices == 1 || slices > kMostSlices)
     throw ValueError(cat("planMotion: slices is ", slices, "; expected 0, or 2 to ", kMostSlices));
   if (!obstacle_trajectories.empty() && !acceleration.allFinite())

@@ -18,6 +18,8 @@ namespace kinegraph {
 
 namespace {
 
+constexpr double kFewTimes = 2., kLittleMore = 1.;  // s: of a motion to rest; a longer one is planned in another way
+
 /// The options of the motion in the other direction.
 PlanOptions backwards(const PlanOptions& options) {
   PlanOptions back = options;
@@ -72,8 +74,8 @@ MotionPlan planToVelocity(const Config& config, const MotionGoal& goal, const Pl
   to_rest.end_velocity = to_rest.end_acceleration = {};
   MotionPlan at_rest = planFromVelocity(config, goal, to_rest, start, cancellation);
   if (!at_rest.feasible()) return at_rest;
-  if (std::optional<MotionPlan> moving = arriveMoving(config, at_rest, options, cancellation))
-    return std::move(*moving);
+  std::optional<MotionPlan> moving = arriveMoving(config, at_rest, options, cancellation);
+  if (moving && moving->duration() < kFewTimes * at_rest.duration() + kLittleMore) return std::move(*moving);
   PlanOptions back = backwards(options);
   back.time_limit = timeLeft();
   plan = planFromVelocity(config, MotionGoal(start), back, end, cancellation);
@@ -86,6 +88,7 @@ MotionPlan planToVelocity(const Config& config, const MotionGoal& goal, const Pl
       plan.warnings.push_back("the motion ends without the end acceleration");
     }
   }
+  if (moving && !(plan.feasible() && plan.duration() < moving->duration())) return std::move(*moving);
   if (plan.feasible()) return reversedPlan(std::move(plan));
   if (plan.status == PlanStatus::timeout || plan.status == PlanStatus::cancelled) return plan;
   MotionPlan failed;

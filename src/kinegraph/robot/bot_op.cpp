@@ -14,7 +14,8 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kSameWidth = 1e-3;  ///< m: openings that differ by less are the same
+constexpr double kSameWidth = 1e-3;     ///< m: openings that differ by less are the same
+constexpr double kDefaultWidth = .075;  ///< m: of gripperMove and gripperOpen, as far as a gripper opens
 
 }  // namespace
 
@@ -133,7 +134,7 @@ void BotOp::gripper(const char* call, GripperCommand command) {
     throw ValueError(cat(call, ": width is ", command.width, ", speed ", command.speed, ", force ", command.force,
                          "; expected a finite width, and speed and force above 0"));
   const double width = std::clamp(command.width, info.min_width, info.max_width);
-  if (!command.grasp && std::abs(width - command.width) > kSameWidth)
+  if (!command.grasp && command.width != kDefaultWidth && std::abs(width - command.width) > kSameWidth)
     loop_->warn(cat(call, ": a width of ", command.width, " m is beyond the opening of gripper '", info.name, "', ",
                     info.min_width, " to ", info.max_width, " m; it moves to ", width, " m"));
   command.width = width;
@@ -230,7 +231,8 @@ void BotOp::detach(const std::string& from, const std::string& to) {
 }
 
 void BotOp::setFramePose(const std::string& frame, const Pose& pose) {
-  if (const FrameData* moved = model_.scene()->find(frame); moved && moved->moves() && moved->joint->active)
+  if (const FrameData* moved = model_.scene()->find(frame);
+      moved && moved->moves() && moved->joint->active && moved->joint->type != JointType::free)
     throw ValueError(
         cat("BotOp::setFramePose: '", frame, "' is a joint of the robot, which moveTo moves; expected an object"));
   const Lock lock(mutex_);

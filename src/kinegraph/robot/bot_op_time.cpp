@@ -214,9 +214,9 @@ void requireRobot(const Config& C, const Config& robot) {
   std::size_t joints = 0;
   for (const auto& frame : robot.scene()->frames()) {
     if (!frame->moves() || !frame->joint->active || frame->joint->mimic) continue;
+    if (frame->joint->type == JointType::free) continue;  // an object, or a base
     ++joints;
-    const FrameData* other = C.scene()->find(frame->name);
-    if (!other || !other->moves()) missing.push_back(frame->name);
+    if (!C.scene()->find(frame->name)) missing.push_back(frame->name);
   }
   if (missing.empty()) return;
   throw ValueError(cat("BotOp: the configuration has ", missing.size() == joints ? "none" : "only a part",

@@ -33,7 +33,7 @@ class RobotLoop {
   LoopMode mode() const { return mode_; }
   const std::string& fault() const { return fault_; }  ///< cause of the fault; empty without one
 
-  void warn(std::string message) { warning_ = std::move(message); }
+  void warn(const std::string& message) { warning_ += warning_.empty() ? message : "; " + message; }
 
   /// Returns and clears the last warning, such as of a joint that came too far from its command; empty without one.
   std::string takeWarning() { return std::exchange(warning_, {}); }

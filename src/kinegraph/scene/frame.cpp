@@ -268,7 +268,7 @@ Frame& Frame::setJoint(JointType type, const std::vector<double>& limits, const 
   }
   if (dofs > 0 && !joint.mimic) {
     joint.q = motionProject(joint.steps, joint.axis, joint.scale, relative);
-    moveToEqualLimits(given, {joint.q.data(), dofs});
+    moveToEqualLimits(joint.steps, given, {joint.q.data(), dofs});
     joint.home = joint.q;
   }
   if (dofs == 0) frame.pose = relative;

@@ -75,7 +75,7 @@ void setLimits(Frame& frame, const Node& node) {
   data.joint->lower = Eigen::Map<const VectorXd>(limits.data(), Eigen::Index(dofs));
   data.joint->upper = Eigen::Map<const VectorXd>(limits.data() + dofs, Eigen::Index(dofs));
   VectorXd q = data.joint->q;
-  if (!data.joint->mimic && moveToEqualLimits(limits, {q.data(), dofs})) frame.setJointState(q);
+  if (!data.joint->mimic && moveToEqualLimits(data.joint->steps, limits, {q.data(), dofs})) frame.setJointState(q);
   frame.scene()->structureChanged();
 }
 

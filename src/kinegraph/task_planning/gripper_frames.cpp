@@ -96,6 +96,7 @@ std::optional<Vector3d> middleOf(const SceneTree& scene, const State& state, con
 
 /// Returns what is wrong with the z axis, which points from the fingers to the palm, and the rotation that mends it.
 std::string flawOfDirection(SceneTree& scene, const State& state, const FrameData& hand, const HandFingers& fingers) {
+  if (!headOf(hand).joint) return "";  // all that stands in the world would be its palm
   const auto isPad = [&](const FrameData& frame) { return std::ranges::count(fingers.pads, frame.name) > 0; };
   const auto tips = middleOf(scene, state, isPad);
   const auto palm = middleOf(scene, state, [&](const FrameData& frame) { return &headOf(frame) == &headOf(hand); });

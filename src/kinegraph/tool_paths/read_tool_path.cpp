@@ -103,6 +103,7 @@ ToolPath ToolPath::read(const std::string& file, std::string frame, std::string 
   std::vector<std::size_t> columns;
   std::string line;
   int line_of_names = 0;
+  std::size_t fields = 0;  // of the names: a name such as "x (mm)" is several words
   for (int number = 1; std::getline(text, line); ++number) {
     const std::vector<RowWord> words = rowWords(line, file, number);
     if (words.empty()) continue;
@@ -112,6 +113,7 @@ ToolPath ToolPath::read(const std::string& file, std::string frame, std::string 
     if (is_names) {
       names = words;
       line_of_names = number;
+      fields = 1 + std::size_t(std::count_if(line.begin(), line.end(), [](char c) { return c == ',' || c == ';'; }));
       columns = namedColumns(words, file, number);
       continue;
     }
@@ -129,7 +131,7 @@ ToolPath ToolPath::read(const std::string& file, std::string frame, std::string 
       throw ParseError(end, cat("the row has ", row.size(), " numbers; the rows before have ", rows[0].size()));
     if (!columns.empty() && row.size() != columns.size())
       throw ParseError(end, cat("the row has ", row.size(), " numbers; there are ", columns.size(), " names"));
-    if (columns.empty() && row.size() == names.size())
+    if (columns.empty() && !names.empty() && (row.size() == names.size() || row.size() == fields))
       throw ParseError({file, line_of_names, names[0].column},
                        "the names of the columns are not x y z, and nx ny nz or qw qx qy qz, in any order; a line of "
                        "text begins with #");

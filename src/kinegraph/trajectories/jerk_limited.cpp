@@ -11,6 +11,7 @@ namespace kinegraph {
 
 namespace {
 
+constexpr double kCrawl = 100., kLeastCrawl = 10.;  // of the time without jerk limits; s
 constexpr double kGap = 1e-3;  // largest relative excess of the duration over the optimum on the grid
 constexpr double kViolation = 2e-4, kNoViolation = 1e-7;  // relative violation of limits before the slow-down
 constexpr double kRoughGap = .01;                         // at which limits between gridpoints are checked first
@@ -287,6 +288,14 @@ TimeScaling curvedScaling(const ScalingGrid& grid, const Section& section, const
   return safe;
 }
 
+/// Whether a section that may not slow down as a whole takes so long that it is no timing at all. The first feasible
+/// iterate may be such a one.
+bool crawls(const Section& section, const TimeScaling& scaling, const TimeScaling& fast, const ScalingGrid& grid) {
+  if (section.from.at_rest && section.to.at_rest) return false;
+  const double quick = fast.timeOf(grid.place(section.end)) - fast.timeOf(grid.place(section.begin));
+  return scaling.duration() > kCrawl * quick + kLeastCrawl;
+}
+
 }  // namespace
 
 JerkLimitedScaling jerkLimitedScaling(const ScalingGrid& grid, const SquaredSpeeds& first, double start_acceleration,
@@ -303,7 +312,7 @@ JerkLimitedScaling jerkLimitedScaling(const ScalingGrid& grid, const SquaredSpee
                            grid.piece(section.begin));
     } else {
       TimeScaling scaling = curvedScaling(grid, section, fast, limits, rows, budget);
-      is_found = !scaling.phases().empty();
+      is_found = !scaling.phases().empty() && !crawls(section, scaling, fast, grid);
       smooth.scaling.append(scaling);
     }
     if (is_found) continue;

@@ -248,3 +248,8 @@ def test_translucent_shapes_are_mixed_with_what_is_behind_them() -> None:
     finally:
         ry.params_clear()
     assert np.allclose(behind, 0.5, atol=0.02)
+
+
+def test_a_problem_has_a_viewer_before_it_has_a_scene() -> None:
+    komo = ry.KOMO()
+    assert komo.viewer() is komo.get_viewer()

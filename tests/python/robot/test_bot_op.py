@@ -8,6 +8,7 @@ import subprocess
 import sys
 import threading
 import time
+import warnings
 import weakref
 from collections.abc import Iterator
 
@@ -424,3 +425,25 @@ def test_a_robot_whose_base_falls_is_told_that_no_motor_holds_it() -> None:
     bot.moveTo([0, 0, 2, 1, 0, 0, 0, 0.5])
     with pytest.raises(ry.RobotFault, match="joint 'base:.' is .* or is it the free joint of a base or an object, wh"):
         bot.wait(C)
+
+
+@pytest.mark.parametrize("change", ["attach", "delete", "place"])
+def test_free_objects_are_no_joints_of_the_robot(panda: ry.Config, change: str) -> None:
+    panda.addFrame("ball", "world").setShape(ry.ST.sphere, [0.03]).setPosition([0.3, 0.4, 1]).setJoint(ry.JT.free)
+    bot = ry.BotOp(panda, False)
+    if change == "attach":
+        panda.attach("l_gripper", "ball")
+    elif change == "delete":
+        panda.delFrame("ball")
+    else:
+        bot.setFramePose("ball", [0.3, 0.4, 1.2, 1, 0, 0, 0])
+    bot.sync(panda)
+
+
+def test_opening_as_far_as_a_small_gripper_opens_is_no_mistake() -> None:
+    C = ry.Config()
+    C.addFile(ry.raiPath("panda/panda_tight.g"))
+    bot = ry.BotOp(C, False)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        bot.gripperMove(0)

@@ -179,3 +179,16 @@ def test_misspelled_names_in_a_urdf_file_are_asked_about(shape: str, joint: str,
 def test_extensions_of_a_urdf_file_are_not_asked_about(tmp_path: Path) -> None:
     shape = '<self_collision_checking/><contact><lateral_friction value="1"/></contact>'
     urdf(tmp_path, shape, '<origin xyz="1 0 0"/><transmission/><dynamics damping="1" spring_stiffness="2"/>')
+
+
+def test_fixed_joints_need_no_limits_of_motors(tmp_path: Path) -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        urdf(tmp_path, joint='<limit lower="0" upper="0"/>', type="fixed")
+        urdf(tmp_path, joint='<limit effort="0" velocity="0"/>', type="floating")
+
+
+def test_equal_limits_of_quaternions_do_not_move_a_joint() -> None:
+    C = ry.Config()
+    C.addText("w: {}\nb (w): { joint: free, limits: [-1 -1 -1 0 0 0 0 1 1 1 0 0 0 0] }")
+    assert list(C.getFrame("b").getPose()) == [0, 0, 0, 1, 0, 0, 0]

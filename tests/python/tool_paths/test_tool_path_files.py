@@ -67,6 +67,7 @@ def test_rows_of_many_tables_are_the_same(scene, tmp_path, text):
         ("x,y,z,qx,qy,qz,qz\n0,0,0,0,0,0,1\n", r"1:1: the names of the columns are not x y z"),
         ("x,x,z\n0,0,0\n0,0,1\n", r"1:1: the names of the columns are not x y z"),
         ("x_mm,y_mm,z_mm\n0,0,0\n0,0,1\n", r"1:1: the names of the columns are not x y z"),
+        ("x (mm),y (mm),z (mm)\n0,0,0\n0,0,1\n", r"1:1: the names of the columns are not x y z"),
         ("z,y,x\n0,0,0,0,0,1\n", r"2:11: the row has 6 numbers; there are 3 names"),
         ("nan,nan,nan\n0,0,0\n0,0,1\n", r"1:1: 'nan' is not a number"),
     ],

@@ -76,7 +76,7 @@ void AttributeReader::readLimits(Joint& joint) {
   joint.lower = Eigen::Map<const VectorXd>(given.data(), Eigen::Index(dofs));
   joint.upper = Eigen::Map<const VectorXd>(given.data() + dofs, Eigen::Index(dofs));
   if (const std::string why = limitsError(given); !why.empty()) return error(*limits, why);
-  moveToEqualLimits(given, {joint.home.data(), dofs});
+  moveToEqualLimits(joint.steps, given, {joint.home.data(), dofs});
   joint.q = joint.home;
 }
 

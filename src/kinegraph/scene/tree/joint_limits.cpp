@@ -54,7 +54,8 @@ std::optional<std::vector<double>> limitsInTurn(std::span<const double> limits, 
   return ordered;
 }
 
-bool moveToEqualLimits(std::span<const double> limits, std::span<double> q) {
+bool moveToEqualLimits(std::span<const MotionStep> steps, std::span<const double> limits, std::span<double> q) {
+  if (std::ranges::any_of(steps, [](const MotionStep& step) { return step.orients(); })) return false;
   bool moved = false;
   for (std::size_t i = 0; i < limits.size() / 2; ++i) {
     if (limits[i] != limits[q.size() + i] || q[i] == limits[i]) continue;

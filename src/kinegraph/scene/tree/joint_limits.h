@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "kinegraph/kinematics/joint.h"
+
 namespace kinegraph {
 
 /// Explains why `limits` are not the limits of a joint with `limits.size() / 2` dofs (all lower, then all upper); "" if
@@ -16,7 +18,7 @@ std::string limitsError(std::span<const double> limits);
 std::optional<std::vector<double>> limitsInTurn(std::span<const double> limits, std::string& warning);
 
 /// Sets each entry of q whose limits are equal to this value: a locked joint is nowhere else. `limits` are all lower,
-/// then all upper ones, or empty. Returns whether q changed.
-bool moveToEqualLimits(std::span<const double> limits, std::span<double> q);
+/// then all upper ones, or empty. Joints with a quaternion stay as they are. Returns whether q changed.
+bool moveToEqualLimits(std::span<const MotionStep> steps, std::span<const double> limits, std::span<double> q);
 
 }  // namespace kinegraph
