@@ -194,3 +194,9 @@ def test_pages_run_the_script_that_they_share(browser: Browser, tmp_path: Path) 
         assert len((folder / "saved.html").read_text()) < 60_000
         set_joint(browser, 0, 0.5)
         assert_agrees(config, browser)
+
+
+def test_a_page_cannot_be_its_own_script(config: kg.Config, tmp_path: Path) -> None:
+    for client in (tmp_path / "saved.html", ""):
+        with pytest.raises(kg.ArgumentError, match="saveHtml: "):
+            config.viewer().saveHtml(tmp_path / "saved.html", client=client)

@@ -96,6 +96,7 @@ void bindRecording(nb::module_& m, nb::class_<PySimulation>& simulation) {
       .def(
           "saveHtml",
           [](const PyRecording& r, const PathText& path, const std::optional<PathText>& client) {
+            if (client && client->text.empty()) throw ValueError("saveHtml: client is empty; expected a path, or None");
             r.saveHtml(path.text, client ? client->text : "");
           },
           "path"_a, "client"_a = nb::none(), docs::simulation::saveHtml)

@@ -50,7 +50,8 @@ std::shared_ptr<const TaskRequest> requestFrom(nb::handle state) {
       nb::cast<std::string>(state[0]), nb::cast<std::optional<LogicDomain>>(state[1]), nb::cast<PyTaskRules>(state[2]),
       nb::cast<std::optional<double>>(state[3]), nb::cast<long>(state[4]), nb::cast<std::uint64_t>(state[5]),
       nb::cast<Numbers>(state[6]).values, nb::cast<Numbers>(state[7]).values, nb::cast<int>(state[8]),
-      nb::cast<double>(state[9]), nb::cast<double>(state[10])});
+      nb::cast<double>(state[9]),
+      nb::len(state) > 10 ? nb::cast<double>(state[10]) : TaskOptions().contact_speed});  // older plans have none
 }
 
 nb::tuple planState(const PyTaskPlan& p) {

@@ -185,6 +185,7 @@ void bindPage(nb::class_<PyViewer>& viewer) {
       .def(
           "saveHtml",
           [](PyViewer& v, const PathText& path, const std::optional<PathText>& client) {
+            if (client && client->text.empty()) throw ValueError("saveHtml: client is empty; expected a path, or None");
             savePage(wholePage(v), path.text, client ? client->text : "");
           },
           "path"_a, "client"_a = nb::none(), docs::viewer::saveHtml)

@@ -1,7 +1,9 @@
 #include "kinegraph/api/standing_sides.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/task_planning/task_actions.h"
@@ -12,12 +14,29 @@ namespace {
 
 const double kUpright = std::cos(10. * std::numbers::pi / 180.);  ///< objects that tilt more have fallen
 
+constexpr double kUp = .9;  ///< cosine of the angle of an axis that counts as vertical
+
+/// The axis that is nearest to the vertical, and whether it points up (1) or down (-1).
+std::pair<Eigen::Index, double> upAxis(const Matrix3d& rotation) {
+  Eigen::Index axis = 0;
+  const Vector3d up = rotation.row(2);
+  up.cwiseAbs().maxCoeff(&axis);
+  return {axis, up[axis] < 0. ? -1. : 1.};
+}
+
 bool isBall(const Frame& frame) { return frame.getShapeType() == ShapeType::sphere; }
 
 /// Whether an object looks the same after any rotation about its axis.
 bool isRound(const Frame& frame) {
   const ShapeType type = frame.getShapeType();
   return type == ShapeType::cylinder || type == ShapeType::ssCylinder || type == ShapeType::capsule;
+}
+
+/// Whether an object stands as in a rotation. One that was a little tilted may have settled on its side.
+bool standsAs(const Frame& obj, const Matrix3d& rotation) {
+  if (hasSameSideUp(obj, rotation)) return true;
+  const auto [axis, sign] = upAxis(rotation);
+  return sign * rotation(2, axis) > kUp && sign * obj.getRotationMatrix()(2, axis) >= kUpright;
 }
 
 }  // namespace
@@ -50,17 +69,18 @@ std::vector<std::string> StandingSides::fallen(const Config& C,
                                                const std::map<std::string, std::string>& in_hands) const {
   std::vector<std::string> names;
   for (const auto& [obj, rotation] : rotations_)
-    if (!in_hands.contains(obj) && !hasSameSideUp(C.getFrame(obj), rotation)) names.push_back(obj);
+    if (!in_hands.contains(obj) && !standsAs(C.getFrame(obj), rotation)) names.push_back(obj);
   return names;
 }
 
 std::string StandingSides::asGoal(const std::vector<std::string>& objects) const {
+  if (objects.empty()) return "";
   std::string goal;
-  for (const std::string& obj : objects) {
-    Eigen::Index axis = 0;
-    const Vector3d up = rotations_.at(obj).row(2);
-    up.cwiseAbs().maxCoeff(&axis);
-    goal += cat(" (up ", std::string(1, "xyz"[axis]), up[axis] < 0. ? "Neg" : "", " ", obj, ")");
+  for (const auto& [obj, rotation] : rotations_) {
+    const auto [axis, sign] = upAxis(rotation);
+    const bool stays = axis == 2 && sign > 0.;  // actions keep this side up
+    if (!stays || std::ranges::count(objects, obj) > 0)
+      goal += cat(" (up ", std::string(1, "xyz"[axis]), sign < 0. ? "Neg" : "", " ", obj, ")");
   }
   return goal;
 }

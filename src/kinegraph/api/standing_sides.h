@@ -24,7 +24,8 @@ class StandingSides {
   /// Returns the objects, but for those in hands, of which another side points up.
   std::vector<std::string> fallen(const Config& C, const std::map<std::string, std::string>& in_hands) const;
 
-  /// Returns literals of a goal, (up axis obj), with which objects stand as they shall.
+  /// Returns literals of a goal, (up axis obj), with which objects stand as they shall; with them those that lie, which
+  /// such a goal would put up. Empty without objects.
   std::string asGoal(const std::vector<std::string>& objects) const;
 
  private:

@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <iterator>
 
 #include "kinegraph/api/action_motion.h"
 #include "kinegraph/api/execution_motions.h"
@@ -160,19 +161,35 @@ class TaskRun::Impl {
     world_.look();
     --repairs_left_;
     const Config scene = world_.scene();
-    RepairOptions options = options_.repair;
-    options.also = sides_.asGoal(sides_.fallen(scene, world_.held()));
-    TaskPlan plan = plan_.repair(scene, options);
-    if (!plan.feasible() && !options.also.empty()) plan = plan_.repair(scene, options_.repair);
+    const Words fallen = sides_.fallen(scene, world_.held());
+    TaskPlan plan = planOnward(scene, fallen);
     if (!plan.feasible()) return end(cat(failure_, "; no plan leads on: ", plan.message));
-    if (plan.actions.empty() && !options.also.empty()) return end(failure_);
+    if (plan.actions.empty() && !fallen.empty()) return end(failure_);
     ++result.repairs;
+    plan.replanner = plan_.replanner;
     plan_ = std::move(plan);
     plan_.requireMotion("execute");
     setPlan();
     handles_.clear();
     step_ = Step::begin;
     return {TaskEventKind::repair, -1, {}, plan_.actions.empty() ? plan_.summary() : planText(plan_.actions)};
+  }
+
+  /// Plans to the goal with all fallen objects put up again, else with those of the goal, else without.
+  TaskPlan planOnward(const Config& scene, const Words& fallen) {
+    Words of_goal;
+    std::ranges::copy_if(fallen, std::back_inserter(of_goal), [&](const std::string& obj) {
+      return std::ranges::any_of(
+          plan_.goal, [&](const Literal& literal) { return std::ranges::count(literal.arguments, obj) > 0; });
+    });
+    RepairOptions options = options_.repair;
+    for (const Words& objects : {fallen, of_goal}) {
+      const std::string also = sides_.asGoal(objects);
+      if (also == options.also) continue;
+      options.also = also;
+      if (TaskPlan plan = plan_.repair(scene, options); plan.feasible()) return plan;
+    }
+    return plan_.repair(scene, options_.repair);
   }
 
   void setPlan() {
@@ -371,7 +388,7 @@ class TaskRun::Impl {
     if (gripper != grippers_.end()) {
       const int number = gripper->second;
       const double wanted = openingOf(number);
-      const bool keeps = !obj.empty() && std::abs(wanted - bot_.getGripperPos(number)) < kRelease;
+      const bool keeps = !obj.empty() && wanted - bot_.getGripperPos(number) < kRelease;
       bot_.gripperMove(number, keeps ? infoOf(number).max_width : wanted);
       waitFor(number);
     } else if (!obj.empty() && world_.isSimulated()) {
@@ -410,24 +427,6 @@ std::optional<TaskEvent> TaskRun::next() { return impl_->next(); }
 void TaskRun::stop() { impl_->stop(); }
 const TaskExecution& TaskRun::result() const { return impl_->result; }
 const TaskPlan& TaskRun::plan() const { return impl_->plan(); }
-
-std::string taskEventName(TaskEventKind kind) {
-  constexpr std::array names = {"start", "motion", "grip", "failure", "repair", "end"};
-  return names[std::size_t(kind)];
-}
-
-std::string TaskEvent::str() const {
-  std::string text = taskEventName(kind);
-  if (!message.empty()) return cat(text, ": ", message);
-  return action.empty() ? text : cat(text, ": ", planText({action}));
-}
-
-std::string TaskExecution::str() const {
-  std::string text =
-      cat(feasible ? "reached the goal" : "stopped", " after ", done, done == 1 ? " action" : " actions");
-  if (repairs > 0) text += cat(" and ", repairs, repairs == 1 ? " repair" : " repairs");
-  return feasible ? text : cat(text, ": ", message);
-}
 
 TaskExecution execute(const TaskPlan& plan, BotOp& bot, Config& seen, const ExecutionOptions& options) {
   TaskRun run(plan, bot, seen, options);

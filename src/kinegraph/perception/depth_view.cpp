@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
@@ -36,14 +37,20 @@ void DepthView::validate(const std::string& where) const {
   if (!pose.p.allFinite() || !pose.q.coeffs().allFinite()) fail("the camera's pose has non-finite numbers");
   if (!(noise > 0.) || !(bias >= 0.) || !std::isfinite(noise) || !std::isfinite(bias))
     fail(cat("noise is ", noise, " and bias ", bias, "; expected noise > 0 and bias >= 0, both in 1/m"));
+  bool is_near = false;
+  float nearest_far = std::numeric_limits<float>::infinity(), farthest = 0.f;
   std::vector<float> measured;
   for (std::size_t i = 0; i < depth.size(); i += 7) {
-    if (std::isfinite(depth[i]) && depth[i] > 0.f) measured.push_back(depth[i]);
+    if (!std::isfinite(depth[i]) || depth[i] <= 0.f) continue;
+    measured.push_back(depth[i]);
+    is_near |= depth[i] <= kFarthest;
+    if (depth[i] > kFarthest) nearest_far = std::min(nearest_far, depth[i]), farthest = std::max(farthest, depth[i]);
   }
   if (measured.empty()) return;
   const auto middle = measured.begin() + std::ptrdiff_t(measured.size() / 2);
   std::nth_element(measured.begin(), middle, measured.end());
-  if (*middle > kFarthest)
+  const bool marks_holes = is_near && nearest_far == farthest;  // one number for what was not measured
+  if (*middle > kFarthest && !marks_holes)
     fail(cat("the median depth is ", *middle, " m. If depths are in millimeters, pass unit=0.001"));
   if (*middle < kNearest) fail(cat("the median depth is ", *middle, " m. If depths are in meters, pass unit=1"));
 }

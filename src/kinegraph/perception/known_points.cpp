@@ -41,7 +41,8 @@ bool isWithin(const KnownShape& shape, const Vector3d& point, double distance) {
 double shareBehind(const ObservedView& view, const std::vector<KnownShape>& known) {
   std::vector<const KnownShape*> shapes;
   for (const KnownShape& shape : known) {
-    if (!shape.moves && shape.body->convex()) shapes.push_back(&shape);
+    const bool is_exact = shape.body->core() <= CollisionBody::Core::cylinder;  // hulls of meshes may be hollow
+    if (!shape.moves && is_exact && !isWithin(shape, view.X_WC.p, 0.)) shapes.push_back(&shape);
   }
   int behind = 0, all = 0;
   for (std::size_t i = 0; i < view.depth.size(); i += kEvery) {

@@ -114,9 +114,9 @@ void warnOfViews(const std::vector<ObservedView>& views, const Support* support,
       warnings.push_back(cat("view ", k, " looks through ", 100 * counts.through / counts.inView(),
                              " % of the surface of '", support->name, advice));
     else if (const double share = shareBehind(view, solid); share > kDoubtful)
-      warnings.push_back(cat("view ", k, " looks through shapes of the scene such as '", support->name, "' at ",
-                             int(std::lround(100. * share)),
-                             " % of its points. Check the camera's pose (z forward, x to the right, y down)"));
+      warnings.push_back(cat("view ", k, " looks through shapes of the scene at ", int(std::lround(100. * share)),
+                             " % of its points. Check the camera's pose (z forward, x to the right, y down), and the ",
+                             "poses of these shapes"));
   }
 }
 

@@ -16,7 +16,8 @@ namespace {
 
 using Kind = SceneBody::Kind;
 
-constexpr double kInTheAir = .01;  ///< m: a base that is this far from everything hangs in the air
+constexpr double kBesideJoint = .1;  ///< m: shapes farther from the first joint are no part of its base
+constexpr double kInTheAir = .01;    ///< m: a base that is this far from everything hangs in the air
 
 bool isRigidLink(const FrameData& frame) {
   return !frame.parent || (frame.joint && frame.joint->type == JointType::rigid);
@@ -186,13 +187,16 @@ class Divider {
   }
 
   /// Gives the shapes of a base that collide in no plan to the robot whose first joint stands on it: its links pass
-  /// through its base as they do through each other.
+  /// through its base as they do through each other. What stands beside this joint is no part of the base.
   void adoptBase(const FrameData& joint) {
     const int robot = result_.frames[std::size_t(joint.id)].robot;
+    const RigidTransform at{Matrix3d::Identity(), joint.worldPose().p};
     bool is_base = false;
     const auto adopt = [&](const FrameData& frame) {
       PlacedFrame& placed = result_.frames[std::size_t(frame.id)];
       if (!frame.shape || placed.body != 0) return;
+      const RigidTransform X = frame.worldPose().transform();
+      if (proximity(*pointBody(), at, *frame.shape->body(), X).distance > kBesideJoint) return;
       is_base = true;
       if (frame.shape->contact == 0 && placed.robot < 0) placed.robot = robot;
     };

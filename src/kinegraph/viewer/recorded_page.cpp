@@ -1,5 +1,7 @@
 #include "kinegraph/viewer/recorded_page.h"
 
+#include <unistd.h>
+
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -75,10 +77,12 @@ std::string pageOf(std::string_view compressed) {
   return emptyPage().before + element("recording", compressed) + emptyPage().packed_client + emptyPage().after;
 }
 
+/// Links are not followed: a server has them where they are.
+std::filesystem::path wholePath(const std::string& path) { return std::filesystem::absolute(path).lexically_normal(); }
+
 /// Returns the address of a file relative to the folder of another one.
 std::string addressOf(const std::string& file, const std::string& page) {
-  const std::filesystem::path folder = std::filesystem::absolute(page).parent_path();
-  const std::string path = std::filesystem::relative(std::filesystem::absolute(file), folder).generic_string();
+  const std::string path = wholePath(file).lexically_relative(wholePath(page).parent_path()).generic_string();
   constexpr std::string_view kPlain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~/";
   constexpr char kDigits[] = "0123456789ABCDEF";
   std::string address;
@@ -113,7 +117,14 @@ void writeFile(const std::string& path, std::string_view content) {
 /// Writes the script of the pages, unless it is there.
 void provideClient(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
-  if (!file) return writeFile(path, emptyPage().client);
+  if (!file) {
+    const std::string part = cat(path, ".", getpid(), ".part");  // other programs may write it, too
+    writeFile(part, emptyPage().client);
+    std::error_code failed;
+    std::filesystem::rename(part, path, failed);
+    if (failed) throw FileError(cat("saveHtml: '", path, "' cannot be written"));
+    return;
+  }
   const std::string content(std::istreambuf_iterator<char>(file), {});
   if (content == emptyPage().client) return;
   throw FileError(cat("saveHtml: the client '", path, "' is another file than the script of this version's pages; ",
@@ -124,6 +135,8 @@ void provideClient(const std::string& path) {
 
 void savePage(const std::string& page, const std::string& path, const std::string& client) {
   if (client.empty()) return writeFile(path, page);
+  if (wholePath(client) == wholePath(path))
+    throw ValueError(cat("saveHtml: the client '", client, "' is the page itself; expected another file, .js"));
   provideClient(client);
   writeFile(path, withClientAt(page, addressOf(client, path)));
 }

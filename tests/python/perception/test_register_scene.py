@@ -1,5 +1,7 @@
 """Poses of known shapes from depth images: arguments, results, and robustness to the errors of a camera."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -337,3 +339,19 @@ def test_images_of_another_size_than_the_intrinsics_are_errors(scene):
     for image in (depth[::2, ::2], np.repeat(np.repeat(depth, 2, 0), 2, 1)):
         with pytest.raises(ry.ArgumentError, match="does not fit an image"):
             ry.DepthView(image, fxycxy, "cam")
+
+
+def test_the_housing_of_a_camera_is_nothing_that_it_looks_through(scene):
+    depth, fxycxy = look(scene)
+    scene.addFrame("housing", "cam").setShape(ry.ST.ssBox, [0.08, 0.08, 0.08, 0.004]).setContact(1)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        ry.registerScene(scene, ry.DepthView(depth, fxycxy, "cam"), ["box"], support="table")
+
+
+def test_one_large_number_marks_what_was_not_measured(scene):
+    depth, fxycxy = look(scene)
+    depth[:250] = 65.535
+    assert ry.DepthView(depth, fxycxy, "cam").depth.shape == depth.shape
+    with pytest.raises(ry.ArgumentError, match=r"pass unit=0.001"):
+        ry.DepthView(1000 * look(scene)[0], fxycxy, "cam")

@@ -251,3 +251,16 @@ def test_a_robot_without_contacts_passes_through_its_own_base():
     bot.moveTo([0.86, -2.32, 0.55, -0.78, 0.87, 0.1])
     bot.wait(C, forKeyPressed=False)
     np.testing.assert_allclose(bot.get_q(), [0.86, -2.32, 0.55, -0.78, 0.87, 0.1], atol=1e-3)
+
+
+def test_what_stands_beside_the_first_joint_of_a_robot_is_no_part_of_its_base():
+    C = ry.Config()
+    C.addText(
+        "base: {}\ntable (base): { shape: box, size: [.4 2 .1], X: [.5 0 .4] }\n"
+        "j1 (base): { joint: hingeY, pre: [0 0 .8], limits: [-3 3] }\n"
+        "arm (j1): { shape: box, size: [.8 .05 .05], Q: [.4 0 0], mass: 1 }"
+    )
+    bot = ry.BotOp(C)
+    bot.moveTo([1.2])
+    with pytest.raises(ry.RobotFault, match="does an obstacle block it"):
+        bot.wait(C, forKeyPressed=False)

@@ -169,6 +169,49 @@ def test_an_object_that_lies_where_it_shall_stand_is_no_success(repairs: int) ->
     assert stands or result.message == "'bar' has fallen: it stands on another side than planned"
 
 
+def second(C: ry.Config, rotation, height: float) -> None:
+    b2 = C.addFrame("b2", "table").setRelativePosition([0.45, 0.2, 0.05 + height]).setRelativeQuaternion(rotation)
+    b2.setJoint(ry.JT.rigid).setShape(ry.ST.ssBox, [0.04, 0.05, 0.1, 0.004]).setContact(1).setMass(0.05)
+
+
+def test_an_object_that_lies_stays_so_when_another_one_is_put_up_again() -> None:
+    C = bars((0.04, 0.05, 0.1))
+    second(C, ON_ITS_SIDE, 0.025)
+    fallen = C.getFrame("bar").getPosition() + np.array([0.03, 0, -0.025])
+    result, world = disturbed(C, ry.planTask(C, "(on tray bar) (on tray b2)"), -1, fallen, ON_ITS_SIDE)
+    ups = [world.getFrame(name).getRotationMatrix()[2] for name in ("bar", "b2")]
+    assert result.feasible == (ups[0][2] > 0.99 and abs(ups[1][1]) > 0.99), (result, ups)
+
+
+def test_an_object_that_settles_has_not_fallen() -> None:
+    C = bars((0.04, 0.05, 0.1))
+    tilt = np.radians(14) / 2
+    second(C, [np.cos(tilt), np.sin(tilt), 0, 0], 0.058)
+    result, world = disturbed(C, ry.planTask(C, "(on tray bar)"), None, [], [])
+    assert world.getFrame("b2").getRotationMatrix()[2, 2] > 0.99
+    assert result.feasible and result.repairs == 0, result
+
+
+WITHOUT_SIDES = """
+is_gripper is_object is_place on busy
+DecisionRule pick { Obj, From, Hand,
+  { (is_gripper Hand) (is_object Obj) (on From Obj) (is_place From) (busy Hand)! (on Obj ANY)! }
+  { (on From Obj)! (on Hand Obj) (busy Hand) } }
+DecisionRule place { Obj, Hand, To,
+  { (is_gripper Hand) (is_object Obj) (on Hand Obj) (is_place To) (on Obj To)! }
+  { (busy Hand)! (on Hand Obj)! (on To Obj) } }
+"""
+
+
+def test_a_domain_without_sides_is_repaired_without_them(tmp_path) -> None:
+    (tmp_path / "own.fol").write_text(WITHOUT_SIDES)
+    C = bars((0.04, 0.05, 0.1))
+    plan = ry.planTask(C, "(on tray bar)", domain=ry.Domain.fromFol(str(tmp_path / "own.fol")))
+    fallen = C.getFrame("bar").getPosition() + np.array([0.03, 0, -0.025])
+    result, world = disturbed(C, plan, -1, fallen, ON_ITS_SIDE)
+    assert not result.feasible or world.getFrame("bar").getRotationMatrix()[2, 2] > 0.99, result
+
+
 def test_a_ball_may_roll() -> None:
     C = bars()
     C.getFrame("bar").setShape(ry.ST.sphere, [0.025]).setRelativePosition([0.25, 0.27, 0.075])

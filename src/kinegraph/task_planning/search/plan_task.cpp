@@ -1,5 +1,7 @@
 #include "kinegraph/task_planning/search/plan_task.h"
 
+#include <algorithm>
+
 #include "kinegraph/task_planning/search/task_search.h"
 
 namespace kinegraph {
@@ -14,7 +16,10 @@ std::function<TaskPlan(const Config&, const RepairOptions&)> replannerTo(std::st
     if (limits.time_limit) changed.time_limit = *limits.time_limit;
     if (limits.max_evaluations) changed.max_evaluations = *limits.max_evaluations;
     if (limits.threads) changed.threads = *limits.threads;
-    return planTask(C, goal + limits.also, changed);
+    const auto knows = [&](const char* word) {
+      return !options.domain || std::ranges::count(options.domain->symbols, word) > 0;
+    };
+    return planTask(C, knows("up") && knows("z") ? goal + limits.also : goal, changed);
   };
 }
 
