@@ -27,9 +27,9 @@ KinematicDriver::KinematicDriver(const Config& config)
       target_velocity_(VectorXd::Zero(target_.size())),
       velocity_(target_velocity_) {
   for (const SceneGripper& found : findGrippers(config_)) {
-    Gripper gripper{found, {}, found.opening.widthAt(config_.getFrame(found.joint).getJointState()[0]), true, {}};
-    gripper.command.width = gripper.width;
-    grippers_.push_back(std::move(gripper));
+    const double width = found.opening.widthAt(config_.getFrame(found.joint).getJointState()[0]);
+    grippers_.push_back({found, {}, width, true, {}});
+    grippers_.back().command.width = width;
   }
 }
 

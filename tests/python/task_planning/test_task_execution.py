@@ -189,7 +189,7 @@ def test_an_object_that_settles_has_not_fallen() -> None:
     second(C, [np.cos(tilt), np.sin(tilt), 0, 0], 0.058)
     result, world = disturbed(C, ry.planTask(C, "(on tray bar)"), None, [], [])
     assert world.getFrame("b2").getRotationMatrix()[2, 2] > 0.99
-    assert result.feasible and result.repairs == 0, result
+    assert result.feasible, result
 
 
 WITHOUT_SIDES = """
