@@ -83,10 +83,10 @@ class Arrival {
     const VectorXd goal = path.bottomRows(1).transpose(), before = path.row(path.rows() - 2).transpose();
     const double most = (path.rows() > 2 ? kMostBehindCorner : kMostOfLine) * (goal - before).norm();
     if (most < kShortestArrival) return std::nullopt;
-    Steering loose(constraintsAround({}));
+    Steering loose(constraintsAround(scene_, space_, options_, {}));
     const Endpoint start = endpoint(loose, path.row(0).transpose()), end = endpoint(loose, goal);
     if (!start.isFree() || !end.isFree()) return std::nullopt;
-    Steering steering(constraintsAround({&start, &end}));
+    Steering steering(constraintsAround(scene_, space_, options_, {&start, &end}));
     const double distance = std::max(kLeastRunUp, stoppingDistance(options_.end_velocity, limits_));
     for (const double factor : kArrivalLengths) {
       const double length = factor * distance;
@@ -97,14 +97,6 @@ class Arrival {
   }
 
  private:
-  PlanningConstraints constraintsAround(const std::vector<const Endpoint*>& ends) {
-    return {.scene = &scene_,
-            .space = &space_,
-            .clearance = clearanceAround(options_.margin, ends),
-            .constraints = options_.constraints,
-            .constraint_tolerance = options_.constraint_tolerance};
-  }
-
   Endpoint endpoint(Steering& steering, const VectorXd& q) {
     return checkEndpoint(steering, *config_.model(), q, options_.margin, "end", kPlanMotion);
   }

@@ -82,6 +82,15 @@ Clearance clearanceAround(double margin, const std::vector<const Endpoint*>& end
   return clearance;
 }
 
+PlanningConstraints constraintsAround(const State& scene, const JointSpace& space, const PlanOptions& options,
+                                      const std::vector<const Endpoint*>& ends) {
+  return {.scene = &scene,
+          .space = &space,
+          .clearance = clearanceAround(options.margin, ends),
+          .constraints = options.constraints,
+          .constraint_tolerance = options.constraint_tolerance};
+}
+
 std::string marginWarning(const KinematicModel& model, const Endpoint& end, double margin, const std::string& what) {
   if (end.near.empty() || end.near.front().distance >= margin) return "";
   const double kept = std::max(0., end.near.front().distance);

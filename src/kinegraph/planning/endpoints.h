@@ -27,6 +27,10 @@ Endpoint checkEndpoint(Steering& steering, const KinematicModel& model, const Ve
 /// The clearance to keep: `margin`, and around endpoints that keep less, their own clearance.
 Clearance clearanceAround(double margin, const std::vector<const Endpoint*>& ends);
 
+/// The constraints of a motion with these endpoints. `scene` and `space` must outlive their users.
+PlanningConstraints constraintsAround(const State& scene, const JointSpace& space, const PlanOptions& options,
+                                      const std::vector<const Endpoint*>& ends);
+
 /// "'hand' and 'table' overlap by 12 mm, ...", for the deepest pairs.
 std::string describePairs(const KinematicModel& model, const std::vector<ClearanceCheck::Nearest>& pairs);
 

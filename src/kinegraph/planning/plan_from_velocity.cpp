@@ -114,14 +114,6 @@ class PlanFromVelocity {
         tryFirstSegment({marked(stop.curve), stop.scaling, "along the present motion"});
   }
 
-  PlanningConstraints constraintsAround(const std::vector<const Endpoint*>& ends) {
-    return {.scene = &scene_,
-            .space = &space_,
-            .clearance = clearanceAround(options_.margin, ends),
-            .constraints = options_.constraints,
-            .constraint_tolerance = options_.constraint_tolerance};
-  }
-
   /// Whether the initial velocity or acceleration keeps its limits; else sets the status.
   bool keepsLimits(const char* what, const VectorXd& initial, const VectorXd& limits) {
     for (Eigen::Index j = 0; j < initial.size(); ++j) {
@@ -135,7 +127,7 @@ class PlanFromVelocity {
   }
 
   bool checkStart() {
-    Steering steering(constraintsAround({}));
+    Steering steering(constraintsAround(scene_, space_, options_, {}));
     start_endpoint_ = checkEndpoint(steering, *config_.model(), start_, options_.margin, "start", kPlanMotion);
     if (start_endpoint_.isFree()) return true;
     best_.status = PlanStatus::invalid_start;
@@ -145,13 +137,13 @@ class PlanFromVelocity {
 
   /// Steering with the clearances around the start and other endpoints of the motion.
   Steering steeringTo(const std::vector<VectorXd>& others) {
-    Steering loose(constraintsAround({}));
+    Steering loose(constraintsAround(scene_, space_, options_, {}));
     std::vector<Endpoint> ends;
     for (const VectorXd& q : others)
       ends.push_back(checkEndpoint(loose, *config_.model(), q, options_.margin, "goal", kPlanMotion));
     std::vector<const Endpoint*> list = {&start_endpoint_};
     for (const Endpoint& end : ends) list.push_back(&end);
-    return Steering(constraintsAround(list));
+    return Steering(constraintsAround(scene_, space_, options_, list));
   }
 
   /// The stopping distance as a factor on the velocity, for constant acceleration and jerk.

@@ -39,11 +39,7 @@ Planner::Planner(const Config& config, const PlanOptions& options, const Cancell
       samples_(*config.model()) {
   plan_.space = std::make_shared<const JointSpace>(*config.model());
   plan_.scene = std::make_shared<const State>(config.state());
-  constraints_ = {.scene = plan_.scene.get(),
-                  .space = &samples_,
-                  .clearance = {.margin = options.margin},
-                  .constraints = options.constraints,
-                  .constraint_tolerance = options.constraint_tolerance};
+  constraints_ = constraintsAround(*plan_.scene, samples_, options, {});
 }
 
 MotionPlan Planner::run(const MotionGoal& goal, const VectorXd& start) {
