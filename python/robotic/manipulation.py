@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import itertools
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
@@ -62,20 +63,42 @@ class KOMO_ManipulationHelper(kinegraph.KOMO_ManipulationHelper):
             )
         super().place_box(time, obj, table, palm, place_direction, margin)
 
-    def no_collision(self, time_interval: Any, pairs: Any, margin: float = 0.001) -> None:
+    def no_collision(self, time_interval: Any, *frames_and_margin: Any, margin: float = 0.001) -> None:
         """Keeps pairs of frames apart, like no_collisions.
 
         Args:
             time_interval: Start and end, in phases.
-            pairs: Names of frames, two per pair.
+            frames_and_margin: A list of names, two per pair, or two names, as in the first versions; behind them,
+                optionally, the margin.
             margin: Least distance, m.
         Raises:
             FrameNotFound: There is no such frame.
-            ArgumentError: The names are not in pairs.
+            ArgumentError: The names are not in pairs, or other arguments are given.
         """
-        self.no_collisions(time_interval, pairs, margin)
+        one_by_one = bool(frames_and_margin) and isinstance(frames_and_margin[0], str)
+        count = 2 if one_by_one else 1
+        pairs, rest = frames_and_margin[:count], frames_and_margin[count:]
+        if len(pairs) < count or len(rest) > 1:
+            raise kinegraph.ArgumentError(
+                f"no_collision: {len(frames_and_margin)} arguments after the times; expected a list of names in pairs,"
+                " or two names, and optionally the margin"
+            )
+        self.no_collisions(time_interval, list(pairs) if one_by_one else pairs[0], rest[0] if rest else margin)
 
     keep_distance = no_collision
+
+    def keep_distances(self, time_interval: Any, objs: list[str], margin: float = 0.001) -> None:
+        """Keeps each of some frames apart from each other one.
+
+        Args:
+            time_interval: Start and end, in phases.
+            objs: Names of frames.
+            margin: Least distance, m.
+        Raises:
+            FrameNotFound: There is no such frame.
+        """
+        pairs = [name for pair in itertools.combinations(objs, 2) for name in pair]
+        self.no_collisions(time_interval, pairs, margin)
 
     if not TYPE_CHECKING:  # otherwise type checkers accept any name
 

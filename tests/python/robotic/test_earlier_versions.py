@@ -200,6 +200,14 @@ def test_a_manipulation_helper_of_2024_knows_its_scene() -> None:
     move.no_collision([0.3, 0.7], ["l_palm", "box"])
     move.keep_distance([0.3, 0.7], ["l_palm", "table"], 0.02)
     assert len(move.komo.getFeatureNames()) > before
+    by_pairs = move.komo.getFeatureNames()[before:]
+    move.no_collision([0.3, 0.7], "l_palm", "box")
+    move.keep_distance([0.3, 0.7], "l_palm", "table", margin=0.02)
+    assert move.komo.getFeatureNames()[before:] == 2 * by_pairs
+    move.keep_distances([0.3, 0.7], ["l_palm", "table", "box"], 0.0)
+    assert len(move.komo.getFeatureNames()) == before + 2 * len(by_pairs) + 3 * len(by_pairs) // 2
+    with pytest.raises(ry.ArgumentError, match="3 arguments after the times; expected a list of names in pairs"):
+        move.no_collision([], ["l_palm", "box"], 0.01, 0.02)
     move.solve(verbose=0)
     move.play(0.0)
     assert np.allclose(C.getJointState(), M.path[0], atol=1e-2)
