@@ -48,6 +48,8 @@ class KOMO_ManipulationHelper(ManipulationHelper):
         self.path = None
         """The path of the last solve, (T, n); None if it is not feasible."""
 
+    _begin = __init__
+
     @property
     def feasible(self) -> bool:
         """Whether the last solve was feasible."""
@@ -100,7 +102,8 @@ class KOMO_ManipulationHelper(ManipulationHelper):
             ArgumentError: The phase is out of range, or the problem is no sequence.
         """
         C, _, q1 = self._problem("sub_motion").getSubProblem(phase)
-        motion = type(self)(f"sub_motion {phase}" + (f" of {self.info}" if self.info else ""))
+        motion = type(self).__new__(type(self))  # constructors of derived classes may take other arguments
+        motion._begin(f"sub_motion {phase}" + (f" of {self.info}" if self.info else ""))
         scales = (homing_scale, acceleration_scale, accumulated_collisions, joint_limits, quaternion_norms)
         if fixEnd:
             motion.setup_point_to_point_motion(C, q1, *scales)

@@ -38,6 +38,8 @@ class KOMO_ManipulationHelper(kinegraph.KOMO_ManipulationHelper):
         self._scene = scene
         self.komo = kinegraph.KOMO()
 
+    _begin = __init__
+
     def place_box(
         self,
         time: float,

@@ -132,7 +132,8 @@ class Config(kinegraph.Config):
         """
         if other is not None:
             return super().copy(other)
-        again = type(self)()
+        again = type(self).__new__(type(self))  # constructors of derived classes may take other arguments
+        kinegraph.Config.__init__(again)
         kinegraph.Config.copy(again, self)
         return again
 

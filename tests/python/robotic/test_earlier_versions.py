@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import logging
 import sys
@@ -323,3 +324,12 @@ def test_messages_are_silenced_and_heard_again(capsys: pytest.CaptureFixture[str
         ry.NLP_Solver(komo.nlp(), verbose=1).solve()
         assert "==nlp==" in capsys.readouterr().out
     assert logging.getLogger("kinegraph").propagate
+
+
+def test_a_derived_scene_is_copied_whatever_its_constructor_takes() -> None:
+    class Lab(ry.Config):
+        def __init__(self, box: str) -> None:
+            super().__init__()
+            self.addFrame(box)
+
+    assert Lab("box").copy().getFrameNames() == copy.deepcopy(Lab("box")).getFrameNames() == ["box"]

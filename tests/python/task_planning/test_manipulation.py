@@ -256,6 +256,24 @@ def test_a_box_is_picked_and_placed_and_moved_between() -> None:
     np.testing.assert_allclose(motion.path[-1], m.path[0], atol=1e-2)
 
 
+@pytest.mark.parametrize("package", [ry, robotic])
+def test_a_derived_helper_has_its_methods_in_motions_too(package) -> None:
+    class Helper(package.KOMO_ManipulationHelper):
+        def __init__(self) -> None:
+            super().__init__()
+
+        def keep_off(self) -> None:
+            self.no_collisions([], ["l_palm", "obst"])
+
+    C, m = scene(), Helper()
+    pick_and_place(C, m, "z")
+    m.solve(verbose=0)
+    motion = m.sub_motion(0)
+    before = len(motion.komo.getFeatureNames())
+    motion.keep_off()
+    assert motion.info == "sub_motion 0" and len(motion.komo.getFeatureNames()) > before
+
+
 @pytest.mark.parametrize("direction", ["xz", "yz", "yx", "zx"])  # the Panda reaches these from its place
 def test_a_box_is_grasped_along_its_axes(direction) -> None:
     C, m = scene(), ry.KOMO_ManipulationHelper()
