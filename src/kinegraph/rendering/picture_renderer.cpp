@@ -61,6 +61,8 @@ struct PictureRenderer::Impl {
  private:
   /// The contents of the context.
   struct Drawing {
+    Drawing();  // defined below: Clang cannot use initializers of members before the end of Impl
+
     std::optional<PicturePrograms> programs;
     PictureStore store;
     SunShadows shadows;
@@ -337,6 +339,8 @@ void PictureRenderer::Impl::readDepth(CameraImage& image) {
   }
   depthToMeters(image.depth, view->camera);
 }
+
+PictureRenderer::Impl::Drawing::Drawing() = default;
 
 CameraImage PictureRenderer::Impl::render(SceneTree& tree, const Camera& camera, const PictureOptions& options,
                                           bool visuals_only) {
