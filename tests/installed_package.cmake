@@ -82,6 +82,16 @@ if(EXISTS "${work}/moved/lib/libkinegraph.so")
   endif()
 endif()
 
+# The record of its ABI, and what an earlier release with the same minor version promised.
+if(EXISTS "${work}/moved/lib/libkinegraph.so")
+  set(ENV{CXX} "${COMPILER}")
+  run("${PYTHON}" "${SOURCE}/tools/release/abi.py" record "${work}/moved" "${work}/abi.json")
+  string(REGEX MATCH "^[0-9]+\\.[0-9]+" minor "${VERSION}")
+  if(EXISTS "${SOURCE}/docs/results/abi-${minor}.json")
+    run("${PYTHON}" "${SOURCE}/tools/release/abi.py" compare "${work}/moved" "${SOURCE}/docs/results/abi-${minor}.json")
+  endif()
+endif()
+
 file(GLOB examples RELATIVE "${SOURCE}/examples/cpp" "${SOURCE}/examples/cpp/*.cpp")
 foreach(example IN LISTS examples)
   get_filename_component(name "${example}" NAME_WE)

@@ -128,6 +128,16 @@ def make_cpp_package(tools: Path, work: Path, out: Path, objects: Path, builds: 
     return [archive, tagged(wheel, out)]
 
 
+def check_abi(prefix: Path, out: Path) -> None:
+    """Compares the C++ package with the first release of its minor version, or records it as the first one."""
+    minor = ".".join(VERSION.split(".")[:2])
+    recorded, program = ROOT / f"docs/results/abi-{minor}.json", ROOT / "tools/release/abi.py"
+    if recorded.exists():
+        run(sys.executable, program, "compare", prefix, recorded)
+    else:
+        run(sys.executable, program, "record", prefix, out / recorded.name)
+
+
 def plain(member: tarfile.TarInfo) -> tarfile.TarInfo:
     """Owner, times and order of an archive do not depend on the machine."""
     member.uid = member.gid = 0
@@ -209,6 +219,7 @@ def main() -> None:
         if options.aarch64:
             aarch64.make_wheel(source, wheel, builds / "aarch64", out)
     make_cpp_package(tools, work, out, objects, builds)
+    check_abi(work / f"kinegraph-{VERSION}-linux-x86_64", out)
     (out / f"kinegraph-{VERSION}.cdx.json").write_text(bill_of_materials(ROOT))
     write_checksums(out)
 

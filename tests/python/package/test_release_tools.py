@@ -14,6 +14,7 @@ from kinegraph import cli
 ROOT = Path(__file__).parents[3]
 sys.path.insert(0, str(ROOT / "tools/release"))
 
+from abi import differences, interface  # noqa: E402
 from materials import LICENSES, bill_of_materials  # noqa: E402
 from repository_state import commit_time, refuse_unready  # noqa: E402
 
@@ -75,3 +76,41 @@ def test_cmake_dir_is_that_of_the_package_kinegraph_dev(tmp_path, monkeypatch, c
         cli.main(["--cmake-dir"])
     assert ended.value.code == 0 and Path(capsys.readouterr().out.strip()) == folder
     monkeypatch.delitem(sys.modules, "kinegraph_dev")
+
+
+def package(prefix: Path, header: str, source: str) -> Path:
+    """Makes an installed C++ package with one header."""
+    (prefix / "include/kinegraph").mkdir(parents=True)
+    (prefix / "lib").mkdir()
+    text = f"#pragma once\n\nnamespace kinegraph {{\n{header}\n}}  // namespace kinegraph\n"
+    (prefix / "include/kinegraph/kinegraph.h").write_text(text)
+    (prefix / "library.cpp").write_text(f"#include <kinegraph/kinegraph.h>\n{source}\n")
+    command = ["c++", "-shared", "-fPIC", f"-I{prefix}/include", prefix / "library.cpp"]
+    subprocess.run([*command, "-o", prefix / "lib/libkinegraph.so"], check=True)
+    return prefix
+
+
+def test_changes_that_break_compiled_programs_are_found(tmp_path):
+    header = """enum class Way { straight, around };
+struct Plan {
+  double time;
+};
+template <typename T>
+struct Any {
+  T t;
+};
+Plan plan(int goal);"""
+    code = "kinegraph::Plan kinegraph::plan(int) { return {}; }"
+    old = interface(package(tmp_path / "old", header, code))
+    assert old["layouts"] == {"Way": [4, 4], "Way::straight": [0, 0], "Way::around": [1, 0], "Plan": [8, 8]}
+    more = header.replace("around }", "around, above }") + "\nint count();"
+    new = interface(package(tmp_path / "more", more, code + "\nint kinegraph::count() { return 1; }"))
+    assert differences(old, new) == []
+    other = header.replace("straight, around", "around, straight").replace("double time;", "double time, length;")
+    new = interface(package(tmp_path / "new", other.replace("(int", "(long"), code.replace("(int", "(long")))
+    assert differences(old, new) == [
+        "Plan: 8 bytes, aligned to 8 is 16 bytes, aligned to 8 now",
+        "Way::straight: 0 is 1 now",
+        "Way::around: 1 is 0 now",
+        "kinegraph::plan(int) is not exported any more",
+    ]
