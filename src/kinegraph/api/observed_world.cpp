@@ -77,7 +77,7 @@ bool isBelow(const Config& C, const std::string& name, const std::string& ancest
   return frame.has_value();
 }
 
-void requireMovable(const std::string& obj, const Words& doors, const Config& world) {
+void requireMovableObject(const std::string& obj, const Words& doors, const Config& world) {
   if (!(world.getFrame(obj).getMass() > 0.))
     throw ValueError(cat("execute: '", obj,
                          "' has no mass, so that it stays where it is in the simulated world; call "
@@ -113,7 +113,7 @@ void requireMovable(const TaskPlan& plan, const Config& world) {
   const Words objects = wordsOf(plan.start, "is_object"), doors = wordsOf(plan.start, "is_guided");
   for (const TaskAction& action : plan.actions) {
     const std::string obj = objectOf(action);
-    if (std::ranges::find(objects, obj) != objects.end()) requireMovable(obj, doors, world);
+    if (std::ranges::find(objects, obj) != objects.end()) requireMovableObject(obj, doors, world);
     if (isGuided(action) && !attributeFlag(world.getFrame(obj).data(), "noMotor", false))
       throw ValueError(
           cat("execute: a motor moves '", obj,

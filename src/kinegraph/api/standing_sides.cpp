@@ -7,6 +7,7 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/task_planning/task_actions.h"
+#include "kinegraph/task_planning/task_tools.h"
 
 namespace kinegraph {
 
@@ -23,8 +24,6 @@ std::pair<Eigen::Index, double> upAxis(const Matrix3d& rotation) {
   up.cwiseAbs().maxCoeff(&axis);
   return {axis, up[axis] < 0. ? -1. : 1.};
 }
-
-bool isBall(const Frame& frame) { return frame.getShapeType() == ShapeType::sphere; }
 
 /// Whether an object looks the same after any rotation about its axis.
 bool isRound(const Frame& frame) {
