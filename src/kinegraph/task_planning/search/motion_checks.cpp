@@ -15,7 +15,7 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kStraight = 1e-10;  ///< rad or m: deviation up to which three waypoints are collinear
+constexpr double kCollinear = 1e-10;  ///< rad or m: deviation up to which three waypoints are collinear
 
 /// The cosine of the angle of the rotation between two orientations.
 double turnCosine(const Matrix3d& a, const Matrix3d& b) { return .5 * ((a.transpose() * b).trace() - 1.); }
@@ -104,7 +104,7 @@ MatrixXd cornersOf(const MatrixXd& path) {
   for (Eigen::Index row = 1; row + 1 < path.rows(); ++row) {
     const VectorXd chord = path.row(row + 1) - path.row(kept.back()), offset = path.row(row) - path.row(kept.back());
     const double share = offset.dot(chord) / std::max(chord.dot(chord), 1e-300);
-    if (!(share >= 0. && share <= 1.) || (offset - share * chord).cwiseAbs().maxCoeff() > kStraight)
+    if (!(share >= 0. && share <= 1.) || (offset - share * chord).cwiseAbs().maxCoeff() > kCollinear)
       kept.push_back(row);
   }
   kept.push_back(path.rows() - 1);

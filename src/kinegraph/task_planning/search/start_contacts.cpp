@@ -16,9 +16,9 @@ namespace kinegraph {
 
 namespace {
 
-constexpr double kFarther = 2.;    ///< factor on the margin: pairs that are farther apart do not matter
-constexpr double kSameGap = 1e-6;  ///< m
-constexpr int kSampled = 8;        ///< configurations
+constexpr double kIrrelevant = 2.;  ///< factor on the margin: pairs that are farther apart do not matter
+constexpr double kSameGap = 1e-6;   ///< m
+constexpr int kSampled = 8;         ///< configurations
 
 }  // namespace
 
@@ -32,14 +32,14 @@ Config withoutGivenContacts(const Config& C, double margin) {
   };
   Config scene = C;
   std::map<std::pair<int, int>, double> near;
-  for (const Config::NearPair& pair : scene.getCollisions(kFarther * margin))
+  for (const Config::NearPair& pair : scene.getCollisions(kIrrelevant * margin))
     if (pair.distance > 0. && !isCarried(pair.a) && !isCarried(pair.b))
       near[std::minmax(pair.a, pair.b)] = pair.distance;
   Rng rng(1);
   for (int k = 0; k < kSampled && !near.empty(); ++k) {
     scene.setRandom(rng);
     std::map<std::pair<int, int>, double> still;
-    for (const Config::NearPair& pair : scene.getCollisions(kFarther * margin)) {
+    for (const Config::NearPair& pair : scene.getCollisions(kIrrelevant * margin)) {
       const auto before = near.find(std::minmax(pair.a, pair.b));
       if (before != near.end() && std::abs(before->second - pair.distance) < kSameGap) still.insert(*before);
     }
