@@ -146,10 +146,28 @@ def examplePage(script: Path, out: Path, scenes: Path, cache: Path) -> None:
     (out / f"{script.stem}.md").write_text("\n".join(lines))
 
 
+def programPage(program: Path, out: Path) -> None:
+    """Writes the page of a program that exists in C++ only: its first comment and its code."""
+    comment = re.match(r"(?:// .*\n)+", program.read_text())
+    text = re.sub(r"(?m)^// ", "", comment[0] if comment else program.stem).replace("\n", " ")
+    title, _, rest = text.strip().partition(". ")
+    lines = [f"# {title.rstrip('.')}", "", rest, "", f"```{{literalinclude}} {os.path.relpath(program, out)}"]
+    lines += [":language: cpp", "```", "", "[Kinegraph from C++](../cpp.md#a-project) has the `CMakeLists.txt`.", ""]
+    (out / f"{program.stem}.md").write_text("\n".join(lines))
+
+
 def writePages(examples: Path, out: Path, scenes: Path, cache: Path) -> list[str]:
     """Returns the names of the pages, in their order."""
     out.mkdir(parents=True, exist_ok=True)
     scripts = [script for script in sorted(examples.glob("[0-9]*.py")) if script.stem != FIRST]
     for script in scripts:
         examplePage(script, out, scenes, cache)
-    return [script.stem for script in scripts]
+    programs = [file for file in sorted((examples / "cpp").glob("[0-9]*.cpp")) if not twinOf(file).exists()]
+    for program in programs:
+        programPage(program, out)
+    return [file.stem for file in [*scripts, *programs]]
+
+
+def twinOf(program: Path) -> Path:
+    """The same example in Python."""
+    return program.parents[1] / f"{program.stem}.py"
