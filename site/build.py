@@ -9,7 +9,6 @@ OUT/cache by the content of their scripts. Warnings of Sphinx are errors.
 
 import importlib.util
 import os
-import re
 import shutil
 import subprocess
 import sys
@@ -44,13 +43,6 @@ def index(title: str, text: str, groups: list[tuple[str, list[str]]]) -> str:
     return "\n".join(lines)
 
 
-def withExampleLinks(text: str, top: str) -> str:
-    """Links the names of examples to their pages; `top` is the top of the site, relative to the page."""
-    link = rf"[\g<0>]({top}examples/\g<1>.md)"
-    text = re.sub(r"(?<!\[)`examples/(?:cpp/)?(\d\d_\w+)\.(?:py|cpp)`", link, text)
-    return text.replace(f"examples/{example_pages.FIRST}.md", "install.md")
-
-
 def copyPages(out: Path) -> None:
     """Copies docs/ and the texts beside it, with links that hold on the site."""
     for file in sorted((REPOSITORY / "docs").rglob("*")):
@@ -67,7 +59,7 @@ def copyPages(out: Path) -> None:
                 if words not in text:
                     raise SystemExit(f"site/pages.py: SITE_LINKS: {file.name} has no '{words}'")
                 text = text.replace(words, link)
-            text = withExampleLinks(text, "../" * (len(target.relative_to(out).parts) - 1))
+            text = example_pages.withExampleLinks(text, "../" * (len(target.relative_to(out).parts) - 1))
             target.write_text(withSearchWords(file.stem, text) if target.parent == out else text)
     for source, page in (("CHANGELOG.md", "changes.md"), ("SECURITY.md", "security.md")):
         text = (REPOSITORY / source).read_text().replace("](docs/", "](")
