@@ -1,4 +1,6 @@
-"""Part 10: one problem from many starts, several problems at once, and samples of the feasible set.
+"""Part 10: many problems.
+
+One problem from many starts, several problems at once, and samples of the feasible set.
 
 A motion problem may have many solutions, or be a choice between several problems: which hand grasps the ball? All of
 them are solved in parallel, with the same results for any number of threads.

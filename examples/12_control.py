@@ -1,4 +1,6 @@
-"""A loop at 1 kHz: a gripper follows a target, within limits of velocity and acceleration, and avoids the table.
+"""A loop at 1 kHz.
+
+A gripper follows a target, within limits of velocity and acceleration, and avoids the table.
 
 The loop runs in the time of the scene. On a robot, `BotOp` or a driver sends each `ik.step` and waits for the next ms.
 """

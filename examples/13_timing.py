@@ -1,4 +1,6 @@
-"""The fastest motion along a path, within limits of velocity, acceleration and jerk.
+"""Timing of a path.
+
+The fastest motion along a path, within limits of velocity, acceleration and jerk.
 
     python examples/13_timing.py [PICTURE.svg]
 

@@ -1,4 +1,6 @@
-"""A receding horizon controls a simulated Panda: it follows a target, avoids a crossing ball, and recovers from a push.
+"""Model predictive control.
+
+A receding horizon controls a simulated Panda: it follows a target, avoids a crossing ball, and recovers from a push.
 
 Twenty times a second, the motion of the next second is replanned from measurements.
 """

@@ -1,4 +1,6 @@
-"""Part 15: physics. A Panda grasps a box of 1 kg, lifts and rotates it, and the box does not slip.
+"""Part 15: grasp and lift.
+
+A Panda grasps a box of 1 kg, lifts and rotates it, and the box does not slip.
 
 A Simulation moves the Config itself: motors move the joints along a reference, gravity and contacts move the box.
 

@@ -1,4 +1,6 @@
-"""Part 16: a conveyor belt carries boxes of different weight, and a bar pushes them off.
+"""Part 16: a conveyor belt.
+
+A conveyor belt carries boxes of different weight, and a bar pushes them off.
 
 `surfaceVelocity` moves a shape's surface without moving the shape. `python 16_conveyor.py falls.png` saves a picture.
 """

@@ -1,4 +1,7 @@
-"""Waypoints for picking and placing a box, then the motions between them."""
+"""Pick and place by waypoints.
+
+Waypoints for picking and placing a box, then the motions between them.
+"""
 
 import kinegraph as ry
 

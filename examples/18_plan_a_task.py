@@ -1,4 +1,7 @@
-"""Plans a motion for a goal: objects in the way are put aside first. An impossible goal is explained."""
+"""Plan a task.
+
+Plans a motion for a goal: objects in the way are put aside first. An impossible goal is explained.
+"""
 
 import kinegraph as ry
 

@@ -1,4 +1,7 @@
-"""A custom action with two variants: an object in the hand is shown, high or low."""
+"""An action of your own.
+
+A custom action with two variants: an object in the hand is shown, high or low.
+"""
 
 import kinegraph as ry
 

@@ -1,4 +1,6 @@
-"""Part 20: two robots at a table, moved by one BotOp.
+"""Part 20: two robots.
+
+Two robots at a table, moved by one BotOp.
 
 Both arms grasp a block and lift it at the same time. In the simulated world, the grippers hold the blocks by force. The
 log of all commands repeats the motion, to the bit. `python 20_two_robots.py lifted.png` saves a picture.

@@ -1,4 +1,7 @@
-"""Plans a tower of three cubes, builds it with a simulated robot, and repairs it after a failure."""
+"""Execute and repair a task.
+
+Plans a tower of three cubes, builds it with a simulated robot, and repairs it after a failure.
+"""
 
 import numpy as np
 

@@ -1,4 +1,6 @@
-"""Part 22: a data set of inverse kinematics and motions, computed by all processors, and read back.
+"""Part 22: a data set.
+
+A data set of inverse kinematics and motions, computed by all processors, and read back.
 
 `ry.map` applies a function to many items. Results are the same to the bit on threads, processes and clusters. A run
 that is interrupted by Ctrl-C or a failure of the machine continues when the script is started again.

@@ -1,4 +1,7 @@
-"""Plans that improve with more evaluations; and an explanation if there is none."""
+"""Plans that improve.
+
+Plans that improve with more evaluations; and an explanation if there is none.
+"""
 
 import kinegraph as ry
 

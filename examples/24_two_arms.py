@@ -1,4 +1,7 @@
-"""Two Pandas: one hands over an object to the other, which reaches the goal."""
+"""Two arms and a handover.
+
+Two Pandas: one hands over an object to the other, which reaches the goal.
+"""
 
 import kinegraph as ry
 

@@ -1,4 +1,7 @@
-"""A box has to stand upside down. The wrist cannot turn it over in one grasp: it is laid on its side first."""
+"""Turn a box upside down.
+
+A box has to stand upside down. The wrist cannot turn it over in one grasp: it is laid on its side first.
+"""
 
 import kinegraph as ry
 

@@ -1,4 +1,6 @@
-"""Derivatives of solutions by parameters of the problem. The mounting of a tool is estimated from the robot's
+"""Calibration by gradients.
+
+Derivatives of solutions by parameters of the problem. The mounting of a tool is estimated from the robot's
 configurations at known points, and gradient descent runs through inverse kinematics."""
 
 import numpy as np

@@ -1,4 +1,6 @@
-"""Part 27: motions among dynamic obstacles, replanning of a running motion, and improving motions.
+"""Motions among dynamic obstacles.
+
+Motions among dynamic obstacles, replanning of a running motion, and improving motions.
 
 The motion avoids obstacles with known trajectories, continuously in time. `replan` continues a running motion without a
 stop. `planMotions` yields better and better motions.

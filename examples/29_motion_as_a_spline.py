@@ -1,4 +1,6 @@
-"""Part 28: a motion problem whose variables are the control points of a B-spline.
+"""A motion as a spline.
+
+A motion problem whose variables are the control points of a B-spline.
 
 Ten control points for 60 slices: the motion is smooth, respects joint limits everywhere, and a robot can execute the
 spline directly.

@@ -1,4 +1,7 @@
-"""A cup goes into a closed drawer. The geometry alone implies that the drawer has to be opened first."""
+"""Open a drawer.
+
+A cup goes into a closed drawer. The geometry alone implies that the drawer has to be opened first.
+"""
 
 import kinegraph as ry
 

@@ -1,4 +1,7 @@
-"""Logic-geometric programs: a search in logic proposes plans, and waypoints decide whether an arm can execute them."""
+"""Logic-geometric programs.
+
+A search in logic proposes plans, and waypoints decide whether an arm can execute them.
+"""
 
 from pathlib import Path
 

@@ -1,4 +1,9 @@
-"""Makes data sets of LeRobot for three tasks, by plans in simulation: python 32_a_data_set_overnight.py [EPISODES]."""
+"""A data set for LeRobot.
+
+Makes data sets of LeRobot for three tasks, by plans in simulation.
+
+    python 32_a_data_set_overnight.py [EPISODES]
+"""
 
 import sys
 import tempfile

@@ -1,4 +1,7 @@
-"""A simulated depth camera looks, the robot plans and picks, and looks again while somebody moves the cubes."""
+"""Look, plan and pick.
+
+A simulated depth camera looks, the robot plans and picks, and looks again while somebody moves the cubes.
+"""
 
 import numpy as np
 

@@ -1,4 +1,7 @@
-"""Part 34: a seam on a part at a constant speed, with approach and retract, and a clamp that is in the way."""
+"""Part 34: a seam.
+
+A seam on a part at a constant speed, with approach and retract, and a clamp that is in the way.
+"""
 
 import numpy as np
 

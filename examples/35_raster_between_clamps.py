@@ -1,4 +1,7 @@
-"""Part 35: a raster on a cylinder between clamps; the tool leans within a cone, and turns freely about its axis."""
+"""Part 35: a raster between clamps.
+
+A raster on a cylinder between clamps; the tool leans within a cone, and turns freely about its axis.
+"""
 
 import numpy as np
 

@@ -1,4 +1,7 @@
-"""Part 36: writing a word, in strokes with their own speed, and a program of G-code."""
+"""Part 36: write a word.
+
+Writing a word, in strokes with their own speed, and a program of G-code.
+"""
 
 import tempfile
 from pathlib import Path

@@ -1,4 +1,7 @@
-"""Part 37: a part in the hand moves along a fixed tool; a turntable turns a can while an arm welds around it."""
+"""Part 37: the part in the hand.
+
+A part in the hand moves along a fixed tool; a turntable turns a can while an arm welds around it.
+"""
 
 import numpy as np
 

@@ -1,4 +1,7 @@
-"""A camera at the wrist looks, the robot plans and picks, looks again and places, while somebody moves things."""
+"""Look before moving.
+
+A camera at the wrist looks, the robot plans and picks, looks again and places, while somebody moves things.
+"""
 
 import numpy as np
 

@@ -59,6 +59,7 @@ def copyPages(out: Path) -> None:
                 if words not in text:
                     raise SystemExit(f"site/pages.py: SITE_LINKS: {file.name} has no '{words}'")
                 text = text.replace(words, link)
+            text = example_pages.withExampleLinks(text, "../" * (len(target.relative_to(out).parts) - 1))
             target.write_text(withSearchWords(file.stem, text) if target.parent == out else text)
     for source, page in (("CHANGELOG.md", "changes.md"), ("SECURITY.md", "security.md")):
         text = (REPOSITORY / source).read_text().replace("](docs/", "](")

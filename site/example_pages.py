@@ -39,6 +39,7 @@ runpy.run_path(script, run_name="__main__")
 if viewers:
     viewers[0].saveHtml(page, client=client)
 """
+SETTINGS = {"22_a_data_set": {"TARGETS": "20000"}}  # environment variables that shorten an example
 LONGEST_OUTPUT = 4000  # characters
 TIMEOUT = 300  # s
 CLIENT = "viewer.js"  # the script of all scenes
@@ -70,7 +71,9 @@ def runExample(script: Path, page: Path, cache: Path) -> str:
     The results are kept in `cache` by the content of the script and of the library, whose pages share one script.
     """
     kept = cache / digest(Path(kinegraph._core.__file__))
-    kept_text, kept_page = kept / f"{digest(script)}.txt", kept / f"{digest(script)}.html"
+    settings = SETTINGS.get(script.stem, {})
+    key = "_".join([digest(script), *settings.values()])
+    kept_text, kept_page = kept / f"{key}.txt", kept / f"{key}.html"
     if not kept_text.exists():
         kept.mkdir(parents=True, exist_ok=True)
         done = subprocess.run(
@@ -78,7 +81,7 @@ def runExample(script: Path, page: Path, cache: Path) -> str:
             cwd=script.parent,
             capture_output=True,
             text=True,
-            env={**os.environ, "KINEGRAPH_HEADLESS": "1"},
+            env={**os.environ, "KINEGRAPH_HEADLESS": "1", **settings},
             timeout=TIMEOUT,
         )
         if done.returncode:
@@ -136,7 +139,15 @@ def content(script: Path, out: Path, scenes: Path, cache: Path, top: str = "../"
         lines += [":language: cpp", "```", ":::"]
     lines += ["::::", ""]
     if printed.strip():
-        lines += ["It prints:", "", "```text", printed[:LONGEST_OUTPUT].rstrip(), "```", ""]
+        settings = ", ".join(f"`{name}={value}`" for name, value in SETTINGS.get(script.stem, {}).items())
+        lines += [
+            f"It prints, with {settings}:" if settings else "It prints:",
+            "",
+            "```text",
+            printed[:LONGEST_OUTPUT].rstrip(),
+            "```",
+            "",
+        ]
     return lines
 
 
@@ -146,10 +157,35 @@ def examplePage(script: Path, out: Path, scenes: Path, cache: Path) -> None:
     (out / f"{script.stem}.md").write_text("\n".join(lines))
 
 
+def withExampleLinks(text: str, top: str) -> str:
+    """Links the names of examples to their pages; `top` is the top of the site, relative to the page."""
+    link = rf"[\g<0>]({top}examples/\g<1>.md)"
+    text = re.sub(r"(?<!\[)`examples/(?:cpp/)?(\d\d_\w+)\.(?:py|cpp)`", link, text)
+    return text.replace(f"examples/{FIRST}.md", "install.md")
+
+
+def programPage(program: Path, out: Path) -> None:
+    """Writes the page of a program that exists in C++ only: its first comment and its code."""
+    comment = re.match(r"(?:// .*\n)+", program.read_text())
+    text = re.sub(r"(?m)^// ", "", comment[0] if comment else program.stem).replace("\n", " ")
+    title, _, rest = text.strip().partition(". ")
+    lines = [f"# {title.rstrip('.')}", "", rest, "", f"```{{literalinclude}} {os.path.relpath(program, out)}"]
+    lines += [":language: cpp", "```", "", "[Kinegraph from C++](../cpp.md#a-project) has the `CMakeLists.txt`.", ""]
+    (out / f"{program.stem}.md").write_text("\n".join(lines))
+
+
 def writePages(examples: Path, out: Path, scenes: Path, cache: Path) -> list[str]:
     """Returns the names of the pages, in their order."""
     out.mkdir(parents=True, exist_ok=True)
     scripts = [script for script in sorted(examples.glob("[0-9]*.py")) if script.stem != FIRST]
     for script in scripts:
         examplePage(script, out, scenes, cache)
-    return [script.stem for script in scripts]
+    programs = [file for file in sorted((examples / "cpp").glob("[0-9]*.cpp")) if not twinOf(file).exists()]
+    for program in programs:
+        programPage(program, out)
+    return [file.stem for file in [*scripts, *programs]]
+
+
+def twinOf(program: Path) -> Path:
+    """The same example in Python."""
+    return program.parents[1] / f"{program.stem}.py"

@@ -13,7 +13,8 @@ from gallery import motions, physics_and_tasks, scenes
 import kinegraph as ry
 
 SIZE = (400, 300)  # pixels
-RATE = 12.0  # pictures per second of loops
+RATE = 10.0  # pictures per second of loops
+LONGEST = 4.0  # s; longer motions are shown faster, since each picture takes 50 ms of processor time
 LONGEST_CODE = 40  # lines
 CHAPTERS: dict[str, ModuleType] = {"Scenes": scenes, "Motions": motions, "Physics and tasks": physics_and_tasks}
 
@@ -59,7 +60,7 @@ def show(function: Any, view: Any, folder: Path) -> Path:
         viewer.savePng(str(file))
     else:
         file = folder / f"{function.__name__}.mp4"
-        ry.saveFilm(file, C, path, max(seconds, 1.0), rate=RATE, size=SIZE)
+        ry.saveFilm(file, C, path, min(max(seconds, 1.0), LONGEST), rate=RATE, size=SIZE)
     return file
 
 
@@ -67,7 +68,7 @@ def kept(module: ModuleType, name: str, function: Any, cache: Path) -> Path:
     """The picture of an entry, from the cache if neither its code nor the helpers' has changed."""
     texts = [inspect.getsource(function), *(inspect.getsource(f) for f in helpers())]
     view = getattr(module, "VIEW", {}).get(name)
-    key = hashlib.sha256("\n".join([*texts, repr((view, SIZE, RATE))]).encode()).hexdigest()[:16]
+    key = hashlib.sha256("\n".join([*texts, repr((view, SIZE, RATE, LONGEST))]).encode()).hexdigest()[:16]
     folder = cache / "gallery" / key
     for suffix in (".png", ".mp4"):
         if (folder / f"{name}{suffix}").exists():
@@ -96,7 +97,10 @@ def writePage(out: Path, static: Path, cache: Path) -> int:
     lines = ["# Gallery", "", "Pictures and loops, each with its code. The functions start from", "", "```python"]
     lines += ["import numpy as np", "import kinegraph as ry", "", *(code(f) + "\n" for f in helpers()), "```", ""]
     lines += ["They return a scene, shown by `C.view()`; or a scene, a path and a duration, shown by"]
-    lines += ["`C.view_path(path, duration)`, or saved by `ry.saveFilm`.", ""]
+    lines += [
+        f"`C.view_path(path, duration)`, or saved by `ry.saveFilm`. Loops of more than {LONGEST:g} s are shown faster.",
+        "",
+    ]
     count = 0
     for chapter, module in CHAPTERS.items():
         lines += [f"## {chapter}", "", ":::::{grid} 1 1 2 2", ":gutter: 3", ""]

@@ -74,11 +74,11 @@ def cell(text: str, as_code: bool = False) -> str:
 def table(options: list[Option]) -> list[str]:
     """A table in Markdown; columns without any entry are left out."""
     columns = [
-        ("type", lambda o: cell(o.type, True)),
+        ("meaning", lambda o: cell(o.meaning)),
         ("default", lambda o: cell(o.default, True)),
         ("unit", lambda o: cell(o.unit)),
         ("expects", lambda o: cell(o.expects)),
-        ("meaning", lambda o: cell(o.meaning)),
+        ("type", lambda o: cell(o.type, True)),
     ]
     shown = [(title, text) for title, text in columns if any(text(option) for option in options)]
     head = ["option", *(title for title, _ in shown)]

@@ -16,10 +16,10 @@ SITE_LINKS = {
 
 EXAMPLES = [  # captions, and the numbers of the examples below
     ("Scenes, features and inverse kinematics", "01 02 03 04 05 06 07 08 09"),
-    ("A motion that is free, timed and followed", "11 13 28 29"),
+    ("Collision-free motions, timed and followed", "11 13 28 29"),
     ("Tools along paths", "34 35 36 37"),
-    ("Control loops", "12 14"),
-    ("A simulation that holds", "15 16 20"),
+    ("Control loops", "12 14 39"),
+    ("Simulation with contact", "15 16 20"),
     ("Tasks", "17 18 21 19 23 24 25 30 31"),
     ("A camera in the loop", "33 38"),
     ("Calibration by gradients", "27"),

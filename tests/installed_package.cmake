@@ -53,6 +53,10 @@ foreach(header IN LISTS headers)  # whichever is included first
   endif()
 endforeach()
 
+# The code of the pages.
+run("${PYTHON}" "${SOURCE}/tests/consumers/pages_code.py" "${work}/pages.cpp")
+run("${COMPILER}" -std=c++20 -fsyntax-only "-I${work}/moved/include" -isystem "${work}/moved/include/kinegraph/eigen3" "${work}/pages.cpp")
+
 # Another version of Eigen, and components that do not exist.
 file(MAKE_DIRECTORY "${work}/other/Eigen")
 foreach(header IN ITEMS Core Geometry)

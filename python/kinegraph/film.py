@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from ._core import Config, TaskPlan, Trajectory
 from .errors import ArgumentError, ArgumentTypeError, NotFound
 from .progress import drawProgress
+from .recording.reading import Recording
 
 _CODECS = {  # with their speed settings
     ".mp4": ("h264", {"preset": "veryfast"}),
@@ -49,11 +50,19 @@ def _states(config: Config, path: np.ndarray, count: int) -> np.ndarray:
     return np.asarray((1 - share) * path[before] + share * after)
 
 
-def _rows(config: Config, motion: Trajectory, count: int) -> Any:
-    """Evaluates a motion at equal steps; a TaskPlan gives poses of frames, with held objects in the hands."""
+def _rows(config: Config, motion: Trajectory | Recording, count: int) -> Any:
+    """Evaluates a motion at equal steps; plans of tasks and recordings give poses of frames, with their objects."""
+    if isinstance(motion, Recording):
+        return motion.frames(config, (count - 1) / motion.times[-1])
     if isinstance(motion, TaskPlan):
         return motion.frames(config, max(25.0, count / motion.duration))
     return [motion.eval(t)[0] for t in np.linspace(0, motion.duration, count)]
+
+
+def _duration(motion: Trajectory | Recording) -> float:
+    if isinstance(motion, Recording):
+        return float(motion.times[-1]) if len(motion.times) else 0.0
+    return float(motion.duration)
 
 
 def _require(file: Any, config: Any, size: Any) -> None:
@@ -69,7 +78,7 @@ def _require(file: Any, config: Any, size: Any) -> None:
 def saveFilm(
     file: str | os.PathLike[str],
     config: Config,
-    path: ArrayLike | Trajectory,
+    path: ArrayLike | Trajectory | Recording,
     seconds: float | None = None,
     rate: float = 25.0,
     size: tuple[int, int] | None = None,
@@ -81,9 +90,10 @@ def saveFilm(
     Args:
         file: The file's name, which ends in .mp4 or .webm. A missing folder is created.
         config: The scene.
-        path: A plan or another Trajectory; joint vectors, shape (T, n), or poses of all frames, shape (T, frames, 7),
-            like `komo.getPathFrames()`, at equal time steps. In a TaskPlan, held objects move along.
-        seconds: Duration of the film, s; None: that of the Trajectory, or 3.
+        path: A plan or another Trajectory; a `Recording` of a robot; joint vectors, shape (T, n), or poses of all
+            frames, shape (T, frames, 7), like `komo.getPathFrames()`, at equal time steps. In a TaskPlan and in a
+            Recording, objects move along.
+        seconds: Duration of the film, s; None: that of the Trajectory or Recording, or 3.
         rate: Pictures per second.
         size: Width and height, pixels; by default those of the viewer's camera. Odd numbers are made even.
     Returns:
@@ -95,11 +105,12 @@ def saveFilm(
         OSError: The file cannot be written.
     """
     _require(file, config, size)
-    motion = path if isinstance(path, Trajectory) else None
-    if motion is not None and motion.duration <= 0:
+    motion = path if isinstance(path, (Trajectory, Recording)) else None
+    duration = 3.0 if motion is None else _duration(motion)
+    if duration <= 0:
         raise ArgumentError(f"saveFilm: {motion!r} has no motion")
     if seconds is None:
-        seconds = motion.duration if motion is not None else 3.0
+        seconds = duration
     target = Path(file)
     if target.suffix not in _CODECS:
         raise ArgumentError(f"saveFilm: the file is '{target}'; expected a name that ends in {' or '.join(_CODECS)}")

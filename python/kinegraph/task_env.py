@@ -14,9 +14,15 @@ import warnings
 from collections.abc import Callable, Sequence
 from typing import Any, ClassVar
 
-import gymnasium
 import numpy as np
 from numpy.typing import NDArray
+
+try:
+    import gymnasium
+except ModuleNotFoundError as error:
+    raise ModuleNotFoundError(
+        "kinegraph.task_env needs the package gymnasium: pip install 'kinegraph[gym]'", name=error.name
+    ) from None
 
 from ._core import BotOp, Config
 from .errors import ArgumentError

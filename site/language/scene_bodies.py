@@ -268,6 +268,14 @@ TASKS = [
         "a: { opening: .08 }",
         "a.getAttributes()['opening'] == 0.08",
     ),
+    E(
+        "least_opening",
+        "m",
+        "of the fingers",
+        "Smallest distance of the fingers of a gripper frame; planned grasps leave out narrower sides of objects.",
+        "a: { least_opening: .04 }",
+        "a.getAttributes()['least_opening'] == 0.04",
+    ),
 ]
 
 STORED = [

@@ -106,6 +106,20 @@ TEST(Grasps, AFlawNamesWhatNoFingerGetsAround) {
   EXPECT_EQ(graspFlaw(C, "cube", "table", "hand"), "");
 }
 
+TEST(Grasps, FingersThatDoNotCloseHoldNoNarrowerObject) {
+  Config C = handAboveATable();
+  C.addFrame("mover", "hand", "joint: transY, joint_active: False, limits: [0 .04]");
+  C.addFrame("left", "mover", "shape: box, size: [.02 .02 .02], contact: -1").setRelativePosition({0., .035, 0.});
+  C.addFrame("other", "hand", "joint: transY, joint_active: False, mimic: mover, joint_scale: -1");
+  C.addFrame("right", "other", "shape: box, size: [.02 .02 .02], contact: -1").setRelativePosition({0., -.035, 0.});
+  C = withOpenings(C, {"hand"});
+  lying(C, "pen", {.03, .04, .14});
+  lying(C, "can", {.06, .07, .14});
+  EXPECT_TRUE(graspVariants(C, "pen", "hand").empty());
+  EXPECT_EQ(graspMisfit(C, "pen", "hand"), "'pen' does not fit between the fingers of 'hand' (0.050 to 0.130 m)");
+  EXPECT_EQ(graspVariants(C, "can", "hand"), (std::vector<std::string>{"x", "y"}));
+}
+
 TEST(Grasps, WhatLiesRestsAsItLies) {
   Config C = handWithFingers();
   Frame pen = lying(C, "pen", {.1, .1, .1});

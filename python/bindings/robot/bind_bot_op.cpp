@@ -419,7 +419,7 @@ void bindRobot(nb::module_& m) {
       .value("floating", LoopMode::floating, "Has no stiffness.")
       .value("fault", LoopMode::fault, "Was stopped by a safety limit or by an error of the robot.");
   nb::class_<StepObservation>(m, "StepObservation", "State and reference of a robot at one time.")
-      .def_ro("ctrlTime", &StepObservation::ctrl_time, "s.")
+      .def_ro("ctrlTime", &StepObservation::ctrl_time, "Control time, s.")
       .def_prop_ro(
           "qpos", [](const StepObservation& o) { return toNumpy(o.qpos); }, "Joint values, (n,) rad or m.")
       .def_prop_ro(

@@ -92,7 +92,7 @@ void bindEvents(nb::module_& m) {
     kinds.value(names[std::size_t(i)].c_str(), TaskEventKind(i));
   }
   nb::class_<TaskEvent>(m, "TaskEvent", "A step of an execution that is done. The robot rests.")
-      .def_ro("kind", &TaskEvent::kind, "A TaskEventKind.")
+      .def_ro("kind", &TaskEvent::kind, "Kind of the event, a TaskEventKind.")
       .def_ro("index", &TaskEvent::index, "Index of the action in the present plan; -1 for start, repair and end.")
       .def_ro("action", &TaskEvent::action, "The words of the action; [] without one.")
       .def_prop_ro(

@@ -219,7 +219,7 @@ void bindToolPathPlan(nb::module_& m) {
   nb::class_<ToolPathPlan, Trajectory>(m, "ToolPathPlan", doc::ToolPathPlan)
       .def_prop_ro("feasible", &ToolPathPlan::feasible, "True if there is a motion.")
       .def("__bool__", &ToolPathPlan::feasible)
-      .def_ro("status", &ToolPathPlan::status, "A ToolPathStatus.")
+      .def_ro("status", &ToolPathPlan::status, "Outcome, a ToolPathStatus.")
       .def_prop_ro(
           "message", [](const ToolPathPlan& p) { return inPython(p.message); },
           "\"\" if there is a motion; else the path, the place on it, and the cause.")

@@ -145,7 +145,7 @@ void bindTimedPath(nb::module_& m) {
       .value("cannot_move", RetimeStatus::cannot_move, "A torque limit holds for no speed at some point.");
   nb::class_<TimedPath, Trajectory>(m, "TimedPath", "A path with its time parameterization; a Trajectory.")
       .def_prop_ro("feasible", &TimedPath::feasible, "True if there is a motion.")
-      .def_ro("status", &TimedPath::status, "A RetimeStatus.")
+      .def_ro("status", &TimedPath::status, "Outcome, a RetimeStatus.")
       .def_prop_ro(
           "message", [](const TimedPath& t) { return inPython(t.message); },
           "\"\" if there is a motion; else the cause, with a value that would do.")

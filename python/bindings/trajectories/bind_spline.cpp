@@ -69,7 +69,7 @@ void bindSpline(nb::module_& m) {
           "getKnots", [](const BSpline& s) { return toNumpy(s.getKnots()); }, docs::spline::getKnots)
       .def(
           "getCtrlPoints", [](const BSpline& s) { return toNumpy(s.getCtrlPoints()); }, docs::spline::getCtrlPoints)
-      .def_prop_ro("degree", &BSpline::degree, "0 to 9.")
+      .def_prop_ro("degree", &BSpline::degree, "Degree of its polynomials, 0 to 9.")
       .def("__repr__",
            [](const BSpline& s) {
              if (s.isEmpty()) return std::string("<BSpline without points>");

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import importlib
 import io
 from collections.abc import Iterable, Sequence
 from fractions import Fraction
@@ -11,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from ..errors import NotFound
+from ..packages import needed
 
 CAMERA_INFO = "sensor_msgs/msg/CameraInfo"
 CLOCK = "rosgraph_msgs/msg/Clock"
@@ -19,24 +18,6 @@ IMAGE = "sensor_msgs/msg/CompressedImage"
 JOINT_STATE = "sensor_msgs/msg/JointState"
 TEXT = "std_msgs/msg/String"
 TRANSFORMS = "tf2_msgs/msg/TFMessage"
-
-
-def needed(module: str, extra: str = "mcap") -> Any:
-    """Imports a module of an extra.
-
-    Args:
-        module: Its name.
-        extra: The extra that installs it.
-    Returns:
-        The module.
-    Raises:
-        NotFound: It is not installed.
-    """
-    try:
-        return importlib.import_module(module)
-    except ImportError:
-        package = module.split(".")[0]
-        raise NotFound(f"the package {package} is not installed: pip install 'kinegraph[{extra}]'") from None
 
 
 @functools.cache

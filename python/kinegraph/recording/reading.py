@@ -16,6 +16,7 @@ import numpy as np
 from .._core import JT, Config, GripperState, KinematicDriver, RecordedDriver, RobotInfo, RobotState, SampledTrajectory
 from ..errors import ArgumentError, FileError, KinegraphWarning, NotFound
 from . import messages
+from .poses import framesOf
 
 Message = tuple[str, str, int, bytes]  # topic, type, time (ns), CDR
 
@@ -126,6 +127,45 @@ class Recording:
             for row, time in enumerate(self.times)
         ]
         return RecordedDriver(info, states)
+
+    def frames(self, config: Config, rate: float = 25.0, *, names: Mapping[str, str] | None = None) -> np.ndarray:
+        """Returns the recorded poses of all frames of a scene, for `saveFilm` and `C.setFrameState`.
+
+        Joints have their recorded values, fingers, too, and objects the poses of the topics /tf and /tf_static. All
+        other frames stay in their place.
+
+        Args:
+            config: The scene, which does not change.
+            rate: Number of poses per second; each is the last recorded one.
+            names: As in `trajectory`.
+        Returns:
+            World poses, shape (T, frames, 7): x y z qw qx qy qz.
+        Raises:
+            NotFound: A joint of the scene was not recorded.
+            ArgumentError: The rate is not positive, or there are no joint states.
+        """
+        if not 0 < rate < float("inf"):
+            raise ArgumentError(f"Recording.frames: rate is {rate}; expected a number > 0")
+        if not len(self.times):
+            raise ArgumentError("Recording.frames: the recording has no joint states")
+        self._columns("Recording.frames", config, names)
+        scene_name = {recorded: scene for scene, recorded in (names or {}).items()}
+        joints = [scene_name.get(name, name) for name in self.joints]
+        at = self.start + np.arange(0, self.times[-1] + 0.5 / rate, 1 / rate) + 1e-6
+        rows = np.searchsorted(self.times, at - self.start, side="right") - 1
+        return np.array(framesOf(config, joints, zip(self.q[rows], self._transforms(at))))
+
+    def _transforms(self, at: np.ndarray) -> list[list[Any]]:
+        """The transforms that were recorded up to each time, after the one before; `at` in s of the recording."""
+        found: list[list[Any]] = [[] for _ in at]
+        for topic, kind, _, data in _read(self.path)[0]:
+            if kind == messages.TRANSFORMS and topic in ("/tf", "/tf_static"):
+                for stamped in messages.decode(data, kind).transforms:
+                    stamp = stamped.header.stamp
+                    row = int(np.searchsorted(at, stamp.sec + stamp.nanosec / 1e9))
+                    if row < len(found):
+                        found[row].append(stamped)
+        return found
 
     def images(self, topic: str) -> tuple[np.ndarray, list[np.ndarray]]:
         """Reads the images of a topic of CompressedImage.

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 
 from .._core import Config, GripperCommand, RobotCommand, RobotDriver, RobotInfo, RobotState
+from ..packages import needed
+from .arm_joints import armInfo
 from .hand import Hand, handInfo
 from .setpoints import Limits, Setpoints
 
@@ -35,9 +37,11 @@ class FrankaDriver(RobotDriver):
             host: Address of the arm.
             hand: True if the arm has Franka's hand.
             realtime: False runs without real-time priority, as for a simulator.
+        Raises:
+            ArgumentError: The scene has another number of joints.
         """
         super().__init__()
-        info = RobotInfo.of(config, "FR3")
+        info = armInfo("FrankaDriver", config, "FR3", 7)
         info.acceleration = 0.8 * np.array(ACCELERATION)  # the rest is for the polynomials between setpoints
         info.velocity = np.minimum(info.velocity, VELOCITY)
         if hand:
@@ -65,9 +69,7 @@ class FrankaDriver(RobotDriver):
         Raises:
             RuntimeError: The arm does not answer, or has the protocol of another version; the message names both.
         """
-        import pylibfranka
-
-        self._franka = pylibfranka
+        pylibfranka = self._franka = needed("pylibfranka", "franka")
         priority = pylibfranka.RealtimeConfig
         try:
             self._robot = pylibfranka.Robot(self._host, priority.kEnforce if self._realtime else priority.kIgnore)

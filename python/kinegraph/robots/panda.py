@@ -14,6 +14,8 @@ from .._core import (
     RobotInfo,
     RobotState,
 )
+from ..packages import needed
+from .arm_joints import armInfo
 from .hand import Hand, handInfo
 
 STIFFNESS = np.array([600.0, 600.0, 600.0, 600.0, 250.0, 150.0, 50.0])  # N m/rad, defaults of panda-python
@@ -35,9 +37,11 @@ class PandaDriver(RobotDriver):
             config: A scene whose q has the arm's seven joints.
             host: Address of the arm.
             hand: True if the arm has Franka's hand.
+        Raises:
+            ArgumentError: The scene has another number of joints.
         """
         super().__init__()
-        info = RobotInfo.of(config, "Franka")
+        info = armInfo("PandaDriver", config, "Franka", 7)
         info.compliant = True
         info.acceleration = ACCELERATION
         if hand:
@@ -54,11 +58,10 @@ class PandaDriver(RobotDriver):
 
     def connect(self) -> None:
         """Connects to the arm and its hand, and holds the arm."""
-        import panda_py
-        from panda_py import libfranka
-
-        self._panda = panda_py.Panda(self._host)
+        self._panda = needed("panda_py", "panda").Panda(self._host)
         if self._has_hand:
+            from panda_py import libfranka
+
             self._hand = Hand(libfranka.Gripper(self._host))
         self._start()
 

@@ -19,6 +19,8 @@ from .._core import (
     RobotState,
 )
 from ..errors import ArgumentError
+from ..packages import needed
+from .arm_joints import armInfo
 
 JOINTS = 6
 SETTLED = 0.3  # s without motion of the gripper: an object or its end stops it
@@ -55,12 +57,7 @@ class TrossenDriver(RobotDriver):
             ArgumentError: The scene has another number of joints, or a number is invalid.
         """
         super().__init__()
-        info = RobotInfo.of(config, "Trossen")
-        if len(info.joints) != JOINTS:
-            raise ArgumentError(
-                f"TrossenDriver: q of the scene has {len(info.joints)} joints ({', '.join(info.joints)}); expected the "
-                "six of the arm; C.selectJoints makes the others inactive"
-            )
+        info = armInfo("TrossenDriver", config, "Trossen", JOINTS)
         if not 0 < acceleration < math.inf:
             raise ArgumentError(f"TrossenDriver: acceleration is {acceleration}; expected a number above 0, in rad/s^2")
         info.acceleration = np.full(JOINTS, acceleration)
@@ -83,8 +80,7 @@ class TrossenDriver(RobotDriver):
             ArgumentError: There is no such model or end effector.
             RuntimeError: The arm does not answer, or has another number of joints.
         """
-        import trossen_arm
-
+        trossen_arm = needed("trossen_arm", "trossen")
         model = _named(trossen_arm.Model, self._model, "model")
         end_effector = _named(trossen_arm.StandardEndEffector, self._end_effector, "end_effector")
         arm = trossen_arm.TrossenArmDriver()

@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from .._core import Config, RobotCommand, RobotDriver, RobotInfo, RobotState
+from ..packages import needed
+from .arm_joints import armInfo
 
 
 class UrDriver(RobotDriver):
@@ -25,9 +27,11 @@ class UrDriver(RobotDriver):
             lookahead: Smoothing time of servoj, .03 to .2 s.
             gain: Gain of servoj, 100 to 2000.
             deceleration: Deceleration of stops, rad/s^2.
+        Raises:
+            ArgumentError: The scene has another number of joints.
         """
         super().__init__()
-        self._info = RobotInfo.of(config, "UR")
+        self._info = armInfo("UrDriver", config, "UR", 6)
         self._host, self._lookahead, self._gain, self._deceleration = host, lookahead, gain, deceleration
         self._control: Any = None
         self._receive: Any = None
@@ -38,11 +42,8 @@ class UrDriver(RobotDriver):
 
     def connect(self) -> None:
         """Connects to the controller, and starts its program for commands."""
-        from rtde_control import RTDEControlInterface
-        from rtde_receive import RTDEReceiveInterface
-
-        self._receive = RTDEReceiveInterface(self._host)
-        self._control = RTDEControlInterface(self._host)
+        self._receive = needed("rtde_receive", "ur").RTDEReceiveInterface(self._host)
+        self._control = needed("rtde_control", "ur").RTDEControlInterface(self._host)
 
     def disconnect(self) -> None:
         """Stops the arm, and disconnects."""

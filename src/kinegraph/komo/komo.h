@@ -114,9 +114,9 @@ class Komo {
 
   // --- the path ----------------------------------------------------------------------------------------------------
 
-  int slices() const;  ///< T
-  int order() const;   ///< k
-  double tau() const;  ///< s per slice
+  int slices() const;  ///< the number T of slices
+  int order() const;   ///< the largest order k of the objectives
+  double tau() const;  ///< duration of a slice, s
   int dofs() const;    ///< n, of the initial configuration
 
   MatrixXd getPath(const std::vector<int>& frames = {}) const;  ///< T x n; see Path::joints

@@ -51,9 +51,9 @@ struct FollowOptions {
 
 /// State and reference of a robot at one time, for `stepAction`.
 struct StepObservation {
-  double ctrl_time = 0.;    ///< s
-  VectorXd qpos, qvel;      ///< of the robot's state
-  VectorXd qref, qvel_ref;  ///< of the last command
+  double ctrl_time = 0.;    ///< control time, s
+  VectorXd qpos, qvel;      ///< state of the robot, (n,) each
+  VectorXd qref, qvel_ref;  ///< those of the last command, (n,) each
 };
 
 /// Moves a simulated or real robot along motions, operates its grippers, and shows both.

@@ -12,18 +12,18 @@ namespace kinegraph {
 /// A gripper of a robot. Widths are of the opening between its fingers.
 struct GripperInfo {
   std::string name;
-  double min_width = 0., max_width = .08;  ///< m
-  double max_speed = .2;                   ///< m/s of the width
-  double max_force = 70.;                  ///< N
+  double min_width = 0., max_width = .08;  ///< smallest and largest width, m
+  double max_speed = .2;                   ///< largest speed of the width, m/s
+  double max_force = 70.;                  ///< largest force, N
 };
 
 /// Name, joints, limits and grippers of a robot. Limits are per joint, infinite if there is none.
 struct RobotInfo {
   std::string name;
   std::vector<std::string> joints;  ///< one name per entry of q, as Config::getJointNames gives them
-  VectorXd lower, upper;            ///< rad or m
-  VectorXd velocity, acceleration;  ///< rad/s, rad/s^2, or with m
-  VectorXd effort;                  ///< N m or N
+  VectorXd lower, upper;            ///< limits of position, rad or m
+  VectorXd velocity, acceleration;  ///< largest values, rad/s and rad/s^2, or with m
+  VectorXd effort;                  ///< largest torques and forces, N m or N
   double rate = 100.;               ///< preferred rate of commands, Hz
   bool compliant = false;           ///< supports a reduced stiffness
   std::vector<GripperInfo> grippers;
@@ -37,16 +37,16 @@ struct RobotInfo {
 
 /// The state of a gripper.
 struct GripperState {
-  double width = 0.;    ///< m
+  double width = 0.;    ///< distance between the fingers, m
   bool is_done = true;  ///< it has reached its target width, or an object stops it
 };
 
 /// The state of a robot.
 struct RobotState {
-  double time = 0.;          ///< of the robot's clock, s; it must increase
-  VectorXd q, velocity;      ///< rad, rad/s, or with m
-  VectorXd effort;           ///< of the motors, N m or N; empty if it is not measured
-  VectorXd external_effort;  ///< by contacts, N m or N; empty if it is not measured
+  double time = 0.;          ///< time of the robot's clock, s; it must increase
+  VectorXd q, velocity;      ///< state of the joints, rad and rad/s, or with m
+  VectorXd effort;           ///< torques and forces of the motors, N m or N; empty if they are not measured
+  VectorXd external_effort;  ///< torques and forces by contacts, N m or N; empty if they are not measured
   std::vector<GripperState> grippers;
   std::string error;  ///< reported by the robot; empty without one
 };
@@ -54,8 +54,8 @@ struct RobotState {
 /// The target of a robot at the end of a control period.
 struct RobotCommand {
   double period = .01;    ///< length of the control period, s
-  VectorXd q, velocity;   ///< at its end
-  VectorXd acceleration;  ///< at its end, of the reference
+  VectorXd q, velocity;   ///< setpoints at the end of the period, rad and rad/s, or with m
+  VectorXd acceleration;  ///< that of the reference there, rad/s^2 or m/s^2
   MatrixXd stiffness;     ///< n x n factor on the robot's stiffness; identity is full, 0 is none. Empty: full
   double damping = 1.;    ///< factor on the robot's damping, if the stiffness is not full
   bool isStiff() const { return stiffness.size() == 0; }

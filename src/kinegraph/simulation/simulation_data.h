@@ -13,16 +13,16 @@ namespace kinegraph {
 /// A contact point between two frames.
 struct Contact {
   std::string frame_a, frame_b;  ///< "ground" for the plane at z = 0
-  Vector3d position;             ///< world, m
+  Vector3d position;             ///< place of the contact in the world, m
   Vector3d normal;               ///< unit, from a to b
-  double distance;               ///< m; negative if the shapes overlap
+  double distance;               ///< distance of the shapes, m; negative if the shapes overlap
   Vector3d force;                ///< exerted by a on b, world, N
 };
 
 /// The state of a simulation. Fields may be changed before it is restored.
 struct SimulationState {
-  double time = 0.;       ///< s
-  VectorXd q, qDot;       ///< of the Config's active joints
+  double time = 0.;       ///< simulated time, s
+  VectorXd q, qDot;       ///< positions and velocities of the active joints, (n,) each
   MatrixXd freePos;       ///< F x 7, world poses of the free frames: x y z qw qx qy qz
   MatrixXd freeVel;       ///< F x 6, linear (m/s) and angular (rad/s) velocities, world
   std::string remainder;  ///< everything else that affects later steps, as bytes
@@ -79,9 +79,9 @@ struct SimulationOptions {
   double inner_step = .002;             ///< s; a step consists of equal inner steps of at most this duration
   double servo_frequency = 100.;        ///< rad/s: stiffness of joints; times inner_step at most .5
   double reference_acceleration = 20.;  ///< rad/s^2 or m/s^2: acceleration of references towards distant targets
-  double friction = 1.;                 ///< of frames without the attribute `friction`
+  double friction = 1.;                 ///< friction coefficient of frames without the attribute `friction`
   double torsional_friction = .005;     ///< m: against spinning on the spot
-  double rolling_friction = 1e-4;       ///< m
+  double rolling_friction = 1e-4;       ///< m: against rolling
   double gravity = 9.81;                ///< m/s^2, along -z
   double armature = .1;                 ///< kg m^2 or kg: inertia of motors, added to actuated joints
   bool ground = true;                   ///< a plane at z = 0
@@ -129,9 +129,9 @@ struct Recording {
   SimulationState start, end;
   std::vector<Call> calls;
 
-  std::vector<double> times;      ///< s, after each step
-  std::vector<VectorXd> q;        ///< at these times
-  std::vector<MatrixXd> freePos;  ///< F x 7
+  std::vector<double> times;      ///< simulated times, s, after each step
+  std::vector<VectorXd> q;        ///< joint states at these times
+  std::vector<MatrixXd> freePos;  ///< world poses of the free frames, F x 7
   std::vector<VectorXd>
       motions;          ///< positions of the engine: all joints, including grippers and followers, and free bodies
   bool is_cut = false;  ///< a change of the scene's structure ended the recording

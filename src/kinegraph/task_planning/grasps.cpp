@@ -34,6 +34,7 @@ constexpr double kOffShare = .6;           ///< of the half length of fingertips
 constexpr double kMostOff = .008;          ///< m: the same
 constexpr double kSlack = .002;            ///< m: round things that are nearer to the hand's link are held off center
 constexpr std::string_view kOffCenter = "off center";
+constexpr std::string_view kLeastOpening = "least_opening";
 
 /// The sizes of a box, or of the box around a mesh, along x, y, z, m.
 Vector3d widthsOf(const Frame& frame) {
@@ -96,42 +97,55 @@ std::string gripName(const std::string& hand, const std::string& obj, const std:
   return cat("grip of ", hand, " at ", obj, " (", variant, ")");
 }
 
-/// The ways in which fingers close on one shape, the narrow ones first; none if it is too wide.
-Variants waysOf(const Frame& frame, double wide) {
+/// The openings of a hand.
+struct Openings {
+  double least, most;  // m
+  bool hold(double width) const { return least <= width && width <= most; }
+};
+
+Openings openingsOf(const Config& C, const std::string& hand) {
+  const Node* least = C.getFrame(hand).attributes().find(kLeastOpening);
+  const double* width = least ? least->value.as<double>() : nullptr;
+  return {width ? *width : 0., opening(C, hand).value_or(0.)};
+}
+
+/// The ways in which fingers close on one shape, the narrow ones first; none if it does not fit between them.
+Variants waysOf(const Frame& frame, const Openings& hand) {
   const std::vector<double> size = frame.getSize();
   const Body body = shapeKind(frame.getShapeType()).body;
-  if (body == Body::ball) return 2. * size.back() <= wide ? Variants{"center"} : Variants{};
-  if (body == Body::capsule) return 2. * size[1] <= wide ? Variants{"around"} : Variants{};
-  if (body == Body::cylinder && 2. * size[1] <= wide) return {"around"};
-  if (body == Body::cylinder) return size[0] <= wide ? Variants{"z"} : Variants{};  // a disk, at its rim
+  if (body == Body::ball) return hand.hold(2. * size.back()) ? Variants{"center"} : Variants{};
+  if (body == Body::capsule) return hand.hold(2. * size[1]) ? Variants{"around"} : Variants{};
+  if (body == Body::cylinder && hand.hold(2. * size[1])) return {"around"};
+  if (body == Body::cylinder) return hand.hold(size[0]) ? Variants{"z"} : Variants{};  // a disk, at its rim
   const Vector3d widths = widthsOf(frame);
   std::array<int, 3> axes = {0, 1, 2};
   std::ranges::stable_sort(axes, {}, [&](int k) { return widths[k]; });
   Variants ways;
   for (const int k : axes)
-    if (widths[k] <= wide) ways.emplace_back(1, "xyz"[k]);
+    if (hand.hold(widths[k])) ways.emplace_back(1, "xyz"[k]);
   return ways;
 }
 
 /// Grasps of a body of several shapes: by the shape of its own frame, across all of it, then by its parts. First those
 /// that fingers get around, close to the center of mass; parts at equal distances are spread.
-Variants waysOfBody(const Config& C, const std::string& obj, const std::string& hand, double wide) {
+Variants waysOfBody(const Config& C, const std::string& obj, const std::string& hand) {
   constexpr double kRing = .005;  // m
   const Frame body = C.getFrame(obj);
-  const PartAccess access(C, obj, wide);
+  const Openings openings = openingsOf(C, hand);
+  const PartAccess access(C, obj, openings.most);
   const Vector3d center = centerOfBody(body), from = C.getFrame(hand).getPosition();
   Variants first, others;
   const auto add = [&](const std::string& variant) { (access.guess(variant) ? first : others).push_back(variant); };
   if (body.getShapeType() != ShapeType::none)
-    for (const std::string& way : waysOf(body, wide)) add(way);
+    for (const std::string& way : waysOf(body, openings)) add(way);
   const Eigen::AlignedBox3d around = boxOfBody(body);
   for (int k = 0; k < 3; ++k)
-    if (around.sizes()[k] <= wide) add(cat(std::string(1, "xyz"[k]), kOfPart, kAllParts));
+    if (openings.hold(around.sizes()[k])) add(cat(std::string(1, "xyz"[k]), kOfPart, kAllParts));
   using Ranked = std::pair<std::pair<long, double>, std::string>;
   std::vector<Ranked> parts;
   for (const Frame& part : heldShapes(body)) {
     if (part == body) continue;
-    for (const std::string& way : waysOf(part, wide)) {
+    for (const std::string& way : waysOf(part, openings)) {
       const std::string variant = cat(way, kOfPart, part.getName());
       const std::optional<GraspGuess> guess = access.guess(variant);
       if (!guess) {
@@ -283,18 +297,24 @@ void addGrasp(TaskWaypoints& w, double time, const std::string& hand, const std:
 }
 
 std::string graspFlaw(const Config& C, const std::string& obj, const std::string& place, const std::string& hand) {
-  const std::optional<double> wide = opening(C, hand);
-  if (!wide) return "";
+  if (!opening(C, hand)) return "";
   const Variants ways = graspVariants(C, obj, hand);
   const HeldHeights at = heldHeights(C, obj, {"", std::string(kAllParts)});
   const std::string lies = cat("lies flat on '", place, "': let it overhang an edge, or raise it");
   if (isTooWideAcross(C, obj, hand))
-    return cat("'", obj, "' is wider than '", hand, "' opens (", fixed(*wide, 3),
-               " m) along its level axes, and no finger gets below it while it ", lies);
+    return cat(graspMisfit(C, obj, hand), " along its level axes, and no finger gets below it while it ", lies);
   if (!ways.empty() && at.height < kThinnest && fingerReach(C, hand) > 0.)
     return cat("'", obj, "' is ", fixed(1e3 * at.height, 1), " mm high, too thin for the tips of '", hand, "' (",
                fixed(1e3 * kThinnest, 0), " mm) while it ", lies);
   return "";
+}
+
+std::string graspMisfit(const Config& C, const std::string& obj, const std::string& hand) {
+  const Openings openings = openingsOf(C, hand);
+  if (openings.least > 0.)
+    return cat("'", obj, "' does not fit between the fingers of '", hand, "' (", fixed(openings.least, 3), " to ",
+               fixed(openings.most, 3), " m)");
+  return cat("'", obj, "' is wider than '", hand, "' opens (", fixed(openings.most, 3), " m)");
 }
 
 std::string palmOf(const Config& C, const std::string& hand) {
@@ -324,18 +344,19 @@ Config withOpenings(const Config& C, const std::vector<std::string>& hands) {
       return false;
     };
     const auto found = std::ranges::find_if(all, isBelow);
-    if (found != all.end() && found->maxWidth() > 0.)
-      frame.editAttributes().set({"opening", {}, {}, {found->maxWidth(), {}}, {}});
+    if (found == all.end() || !(found->maxWidth() > 0.)) continue;
+    frame.editAttributes().set({"opening", {}, {}, {found->maxWidth(), {}}, {}});
+    if (found->minWidth() > kThinnest)
+      frame.editAttributes().set({std::string(kLeastOpening), {}, {}, {found->minWidth(), {}}, {}});
   }
   return scene;
 }
 
 Variants graspVariants(const Config& C, const std::string& obj, const std::string& hand) {
-  const std::optional<double> wide = opening(C, hand);
-  if (!wide) return {"touch"};
+  if (!opening(C, hand)) return {"touch"};
   const Frame frame = C.getFrame(obj);
-  if (isCompound(frame)) return waysOfBody(C, obj, hand, *wide);
-  Variants ways = waysOf(frame, *wide);
+  if (isCompound(frame)) return waysOfBody(C, obj, hand);
+  Variants ways = waysOf(frame, openingsOf(C, hand));
   if ((ways == Variants{"center"} || ways == Variants{"around"}) && meetsHand(C, frame, hand))
     ways.emplace_back(kOffCenter);
   const std::string up = upOf(C, obj).substr(0, 1);  // a finger would have to be below the object

@@ -28,6 +28,10 @@ std::optional<GraspGuess> graspGuess(const Config& C, const std::string& obj, co
 void addGrasp(TaskWaypoints& w, double time, const std::string& hand, const std::string& obj,
               const std::string& variant, double inside = kGraspInside);
 
+/// Returns the beginning of a message: an object does not fit between the fingers of a hand, with their openings. The
+/// attribute `least_opening` of the hand's frame is that of fingers that do not close completely.
+std::string graspMisfit(const Config& C, const std::string& obj, const std::string& hand);
+
 /// Returns why fingers do not get around an object as it lies: it is too wide across and lies flat, or it is too thin;
 /// "" for other objects.
 std::string graspFlaw(const Config& C, const std::string& obj, const std::string& place, const std::string& hand);

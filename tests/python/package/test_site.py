@@ -136,6 +136,30 @@ def test_members_without_a_docstring_are_described():
         assert not missing, enum
 
 
+def test_names_of_examples_become_links_to_their_pages():
+    from example_pages import withExampleLinks
+
+    text = "`examples/33_look_plan_pick.py`, `examples/cpp/39_one_kilohertz.cpp`, [`examples/05_features.py`](x)"
+    assert withExampleLinks(text, "../") == (
+        "[`examples/33_look_plan_pick.py`](../examples/33_look_plan_pick.md), "
+        "[`examples/cpp/39_one_kilohertz.cpp`](../examples/39_one_kilohertz.md), [`examples/05_features.py`](x)"
+    )
+    assert withExampleLinks("`examples/00_first_motion.py`", "") == "[`examples/00_first_motion.py`](install.md)"
+
+
+def test_a_program_without_a_twin_in_python_has_a_page(tmp_path):
+    from example_pages import programPage, titleAndText
+
+    programPage(ROOT / "examples" / "cpp" / "39_one_kilohertz.cpp", tmp_path)
+    page = (tmp_path / "39_one_kilohertz.md").read_text()
+    assert page.startswith(
+        "# A control loop at 1 kHz: inverse kinematics that follow a moving target\n\nPrints how late"
+    )
+    assert ":language: cpp" in page
+    titles = [titleAndText(script)[0] for script in sorted((ROOT / "examples").glob("[0-9]*.py"))]
+    assert len(set(titles)) == len(titles) and max(map(len, titles)) <= 85, titles
+
+
 def test_words_that_people_search_lead_to_headings_that_exist():
     from search_words import WORDS, withSearchWords
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import kinegraph as ry
-from recorded_runs import recorded
+from recorded_runs import recorded, scene, wave
 
 State = tuple[str, int, list[str], list[float], list[float]]
 
@@ -118,3 +118,49 @@ def test_other_files_are_refused(tmp_path: Path) -> None:
     ]:
         with pytest.raises(ry.FileError, match=message):
             ry.readRecording(tmp_path / name)
+
+
+def test_a_recording_has_the_poses_of_frames_also_of_fingers_and_of_objects_that_were_moved(tmp_path: Path) -> None:
+    C = scene()
+    bot = ry.BotOp(C)
+    bot.recordTo(tmp_path / "run.mcap")
+    wave(bot, C)
+    bot.setFramePose("box", [-0.3, 0.2, 0.8, 0.6, 0.0, 0.0, 0.8])
+    bot.gripperMove(0, 0.02)
+    bot.wait(C, forGripper=True)
+    bot.recordTo("")
+    recording = ry.readRecording(tmp_path / "run.mcap")
+    start = scene()
+    frames = recording.frames(start, rate=100)
+    assert frames.shape == (round(recording.times[-1] * 100) + 1, len(C.getFrameNames()), 7)
+    np.testing.assert_array_equal(start.getFrameState(), scene().getFrameState())
+    index = C.getFrameNames().index
+    np.testing.assert_allclose(frames[0, index("box")], start.getFrame("box").getPose(), atol=1e-3)
+    end = start.copy()
+    end.setFrameState(frames[-1])
+    for name in ("box", "l_gripper", "l_finger1", "l_finger2"):
+        np.testing.assert_allclose(end.getFrame(name).getPosition(), C.getFrame(name).getPosition(), atol=1e-4)
+    np.testing.assert_allclose(
+        end.getFrame("box").getRotationMatrix(), C.getFrame("box").getRotationMatrix(), atol=1e-3
+    )
+    with pytest.raises(ry.ArgumentError, match=r"Recording\.frames: rate is 0; expected a number > 0"):
+        recording.frames(start, rate=0)
+    with pytest.raises(ry.NotFound, match=r"Recording\.frames: .* has no joint"):
+        recording.frames(other_arm())
+
+
+def other_arm() -> ry.Config:
+    C = ry.Config()
+    C.addFrame("base")
+    C.addFrame("other", "base", "joint: hingeZ")
+    return C
+
+
+def test_a_film_shows_a_recording_in_its_time(tmp_path: Path) -> None:
+    import av
+
+    C, _ = recorded(tmp_path / "run.mcap")
+    recording = ry.readRecording(tmp_path / "run.mcap")
+    with av.open(str(ry.saveFilm(tmp_path / "run.mp4", C, recording, rate=10, size=(64, 48)))) as film:
+        count = sum(1 for _ in film.decode(video=0))
+    assert count == round(recording.times[-1] * 10)

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import importlib
 import sys
 import threading
 import time
 import types
+from typing import Any
 
 import numpy as np
 import pytest
 
 import kinegraph as ry
-from kinegraph.robots import PandaDriver, UrDriver
+from kinegraph.robots import FrankaDriver, PandaDriver, TrossenDriver, UrDriver
 
 
 def ur_scene() -> ry.Config:
@@ -388,3 +390,37 @@ def test_a_function_can_be_watched_while_a_driver_in_python_runs_in_real_time(pa
     bot.sync(panda, 0.1)
     assert len(calls) >= 20
     bot.close()
+
+
+@pytest.mark.parametrize(
+    ("driver", "package"),
+    [
+        (FrankaDriver, "pylibfranka"),
+        (PandaDriver, "panda_py"),
+        (TrossenDriver, "trossen_arm"),
+        (UrDriver, "rtde_receive"),
+    ],
+)
+def test_a_driver_names_the_joints_that_it_expects_and_the_package_that_it_needs(
+    driver: Any, package: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    five = ry.Config()
+    five.addFile(ry.raiPath("so101/so101.g"))
+    expected = (
+        rf"{driver.__name__}: q of the scene has 5 joints \(shoulder_pan, .*\); expected the (six|seven) of the arm"
+    )
+    with pytest.raises(ry.ArgumentError, match=expected):
+        driver(five, "host")
+    monkeypatch.setitem(sys.modules, package, None)
+    arm = ry.Config()
+    arm.addFile(ry.raiPath("panda/panda.g" if driver in (FrankaDriver, PandaDriver) else "ur5e/ur5e.g"))
+    with pytest.raises(ry.RobotFault, match=rf"the package {package} is not installed: pip install 'kinegraph\[\w+\]'"):
+        ry.BotOp(arm, True, driver=driver(arm, "host"))
+
+
+def test_environments_name_the_package_that_they_need(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "gymnasium", None)
+    for module in ("gym", "task_env"):
+        monkeypatch.delitem(sys.modules, f"kinegraph.{module}", raising=False)
+        with pytest.raises(ModuleNotFoundError, match=rf"kinegraph.{module} needs the package gymnasium: pip install"):
+            importlib.import_module(f"kinegraph.{module}")

@@ -154,7 +154,7 @@ class Proofs {
         if (const auto travel = travelOf(action[3]))
           proveReach(action, action[2], action[3], *travel + half + 2. * bodyRadius(action[1]) + handRadius(action[2]));
       } else if (isHold(action)) {
-        if (graspVariants(C_, action[2], action[3]).empty()) addTooWide(action, action[2]);
+        if (graspVariants(C_, action[2], action[3]).empty()) addMisfit(action, action[2]);
         if (const auto travel = travelOf(action[2]))
           proveReach(action, action[3], action[2], *travel + bodyRadius(action[2]) + handRadius(action[3]));
       } else if (isGuided(action)) {
@@ -164,7 +164,7 @@ class Proofs {
       } else if (endsSliding(action)) {
         proveHeights(actions, action);
       } else if (action[0] == "handover" && graspVariants(C_, action[1], action[3]).empty()) {
-        addTooWide(action, action[1]);
+        addMisfit(action, action[1]);
       }
     }
     proveRoom(actions);
@@ -187,7 +187,7 @@ class Proofs {
 
   void provePick(const TaskAction& action) {
     const std::string &obj = action[1], &place = action[2], &hand = action[3];
-    if (graspVariants(C_, obj, hand).empty()) return addTooWide(action, obj);
+    if (graspVariants(C_, obj, hand).empty()) return addMisfit(action, obj);
     const std::optional<double> travel = travelOf(place);
     if (!travel) return;
     const double half = .5 * diagonalOf(C_.getFrame(place), 2);
@@ -329,12 +329,8 @@ class Proofs {
            cat("'", place, "' is at least ", fixed(missing, 2), " m beyond the reach of '", hand, "'", with)});
   }
 
-  void addTooWide(const TaskAction& action, const std::string& obj) {
-    const double width = opening(C_, action[3]).value_or(0.);
-    found_.push_back(
-        {action,
-         {},
-         cat("'", obj, "' is wider than '", action[3], "' opens (", fixed(width, 3), " m) along all of its axes")});
+  void addMisfit(const TaskAction& action, const std::string& obj) {
+    found_.push_back({action, {}, cat(graspMisfit(C_, obj, action[3]), " along all of its axes")});
   }
 
   /// The centers of two objects on a place are at least the sum of their inner radii apart, and at most its diagonal.
