@@ -103,6 +103,11 @@ DOORS: dict[tuple[str, str], set[str]] = {
     ("scene", "api"): {"Config::eval", "Config::view", "Config::viewPath", "Config::viewer", "Config::watchFile"},
     ("simulation", "api"): {"Recording::saveHtml", "Simulation::run", "Simulation::view"},
     ("tool_paths", "api"): {"ToolPathPlan::view"},
+    ("viewer", "api"): {
+        *{"ConfigViewer::camera", "ConfigViewer::fit", "ConfigViewer::focus", "ConfigViewer::getDepth"},
+        *{"ConfigViewer::getRgb", "ConfigViewer::pictures", "ConfigViewer::savePng", "ConfigViewer::setCamera"},
+        "ConfigViewer::setWindow",
+    },
     ("task_planning/lgp", "api"): {"LgpTool::view_close", "LgpTool::view_solved"},
     ("task_planning/search", "api"): {
         *{"TaskPlan::execute", "TaskPlan::failedConfiguration", "TaskPlan::frames", "TaskPlan::play", "TaskPlan::view"},

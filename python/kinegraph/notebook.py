@@ -23,6 +23,7 @@ def showInline(url: str) -> None:
         display(IFrame(url, "100%", _HEIGHT))
 
 
-def inlineFrame(page: str) -> str:
-    """Returns a page as an element of another one."""
-    return f'<iframe srcdoc="{html.escape(page)}" width="100%" height="{_HEIGHT}" style="border: 0"></iframe>'
+def inlineFrame(page: str, text: str = "") -> str:
+    """Returns a page as an element of another one, with a text below it."""
+    below = f"<pre>{html.escape(text)}</pre>" if text else ""
+    return f'<iframe srcdoc="{html.escape(page)}" width="100%" height="{_HEIGHT}" style="border: 0"></iframe>{below}'

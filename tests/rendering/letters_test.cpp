@@ -86,5 +86,20 @@ TEST(Letters, ARendererWritesAnyText) {
   EXPECT_LE(many.height, 200);
 }
 
+TEST(Letters, LabelsHaveTheirCenterAtAPixelAndAreClipped) {
+  constexpr int kWidth = 20, kHeight = 10;
+  std::vector<std::uint8_t> rgb(3 * kWidth * kHeight, 0);
+  const Letters letters{2, 2, {255, 255, 255, 255}};
+  drawLabel(rgb, kWidth, letters, 10, 5);
+  const auto gray = [&](int row, int column) { return int(rgb[3 * std::size_t(row * kWidth + column)]); };
+  EXPECT_EQ(gray(5, 10), 36);
+  EXPECT_GT(gray(5, 12), 200);  // the panel beside
+  EXPECT_EQ(gray(5, 16), 0);
+  EXPECT_EQ(gray(7, 10), 0);
+  drawLabel(rgb, kWidth, letters, -1, 0);
+  drawLabel(rgb, kWidth, letters, kWidth, kHeight);
+  EXPECT_GT(gray(0, 2), 200);
+}
+
 }  // namespace
 }  // namespace kinegraph

@@ -133,3 +133,32 @@ def test_a_configuration_is_a_picture_and_a_table() -> None:
     picture = re.search(r'<img alt="the scene" src="data:image/png;base64,([^"]*)">', element)
     assert base64.b64decode(picture[1]).startswith(b"\x89PNG")
     assert "the box" in element
+
+
+def plan_in(config: kg.Config) -> kg.MotionPlan:
+    config.addFile(kg.raiPath("scenarios/pandaSingle.g"))
+    return kg.planMotion(config, {"l_gripper": [0.4, 0.2, 0.9]})
+
+
+def test_a_motion_plan_plays_itself(config: kg.Config, browser: Browser, tmp_path: Path) -> None:
+    plan = plan_in(config)
+    page = plan._repr_html_()
+    assert len(page) < 600_000 and page.endswith("</pre>")
+    opened(page.split("<pre>")[0], browser, tmp_path)
+    config.setJointState(plan.path[-1])
+    there = config.getFrame("l_gripper").getPosition()
+    browser.wait_for(f"Math.hypot(...kinegraph.position('l_gripper').map((x, i) => x - {there.tolist()}[i])) < 1e-3")
+
+
+def test_a_roadmap_and_a_recording_show_themselves(config: kg.Config) -> None:
+    plan_in(config)
+    roadmap = kg.Roadmap(config)
+    roadmap.grow(20)
+    assert "20 configurations" in roadmap._repr_html_()
+    config.addFrame("ball").setShape(kg.ST.sphere, [0.05]).setPosition([0.4, 0.3, 1.2]).setMass(0.1).setContact(1)
+    simulation = kg.Simulation(config, kg.SimulationEngine.physx)
+    simulation.startRecording()
+    for _ in range(50):
+        simulation.step([], 0.01, kg.ControlMode.none)
+    page = simulation.stopRecording()._repr_html_()
+    assert page.startswith("<iframe") and len(page) < 600_000

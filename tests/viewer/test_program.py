@@ -79,6 +79,24 @@ def test_values_go_both_ways_and_lie_in_their_folders(
     browser.wait_for("document.querySelectorAll('.controls summary').length == 0")
 
 
+def test_a_logged_image_is_replaced_and_removed(
+    config: kg.Config, viewer: kg.ConfigurationViewer, browser: Browser
+) -> None:
+    pixel = "[...document.querySelector('.images canvas').getContext('2d').getImageData({}, {}, 1, 1).data]"
+    image = np.zeros((2, 3, 3), np.uint8)
+    image[1, 2] = [10, 20, 30]
+    viewer.log("wrist", image)
+    open_page(config, browser)
+    browser.wait_for("document.querySelector('.images canvas')?.width === 3")
+    assert browser.evaluate(pixel.format(2, 1)) == [10, 20, 30, 255]
+    viewer.log({"wrist": np.full((4, 4, 3), 200, np.uint8), "cost": 1.0})
+    browser.wait_for("document.querySelector('.images canvas').width === 4")
+    assert browser.evaluate(pixel.format(0, 0)) == [200, 200, 200, 255]
+    assert browser.evaluate("document.querySelectorAll('.images figure').length") == 1
+    viewer.remove("wrist")
+    browser.wait_for("document.querySelectorAll('.images figure').length === 0")
+
+
 def test_what_a_control_refuses(viewer: kg.ConfigurationViewer) -> None:
     width = viewer.slider("width", 0, 1, 0.5)
     for wrong in (

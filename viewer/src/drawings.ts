@@ -2,6 +2,7 @@ import * as THREE from "three";
 import { CSS2DObject } from "three/addons/renderers/CSS2DRenderer.js";
 import { Cloud, linearColors, spread } from "./clouds";
 import { label } from "./labels";
+import type { LoggedImages } from "./logged";
 import { WideLines } from "./lines";
 import type { DrawMessage } from "./messages";
 import { marker } from "./shapes";
@@ -123,6 +124,7 @@ export class Drawings {
   constructor(
     private readonly stage: Stage,
     private readonly frames: ReadonlyMap<number, Shown>,
+    private readonly images: LoggedImages,
   ) {
     stage.scene.add(this.group);
     stage.onDraw(() => this.follow());
@@ -134,7 +136,7 @@ export class Drawings {
   }
 
   clear(): void {
-    for (const name of this.names) this.remove(name);
+    for (const name of [...this.names, ...this.images.names]) this.remove(name);
   }
 
   announce(message: DrawMessage): void {
@@ -145,14 +147,25 @@ export class Drawings {
     if (!this.announced) return;
     const message = this.announced;
     this.announced = null;
+    const content = readData(data);
+    if (message.type === "log") {
+      this.undraw(message.name);
+      this.images.show(message.name, content.columns, content.rows, content.rgb);
+      return;
+    }
     this.remove(message.name);
-    const drawing = { message, group: this.make(message, readData(data)), frame: null };
+    const drawing = { message, group: this.make(message, content), frame: null };
     this.drawn.set(message.name, drawing);
     this.group.add(drawing.group);
     this.stage.redraw();
   }
 
   remove(name: string): void {
+    this.images.remove(name);
+    this.undraw(name);
+  }
+
+  private undraw(name: string): void {
     const drawing = this.drawn.get(name);
     if (!drawing) return;
     drawing.group.traverse((object) => {

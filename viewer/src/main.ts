@@ -25,6 +25,7 @@ import {
   type ServerMessage,
   viewpointCommand,
 } from "./messages";
+import { LoggedImages } from "./logged";
 import { Motion, readSlices } from "./motion";
 import { NearLines } from "./near";
 import { Notices } from "./notices";
@@ -82,7 +83,8 @@ const warnings = new Warnings(stage, shown.frames, recorded ? null : send, () =>
 });
 const controls = new Controls(recorded ? null : send);
 const plots = new Plots();
-const drawings = new Drawings(stage, shown.frames);
+const images = new LoggedImages(showProgram);
+const drawings = new Drawings(stage, shown.frames, images);
 const notices = new Notices();
 let hasPlots = false;
 const panel = new Panel(display, shown.frames, switched, (id) => selection.select(id), () => plots.request());
@@ -146,7 +148,7 @@ function setAppearance(appearance: AppearanceMessage): void {
 }
 
 function showProgram(isNew: boolean): void {
-  panel.showProgram(controls.count > 0 || hasPlots, isNew);
+  panel.showProgram(controls.count > 0 || hasPlots || images.names.length > 0, isNew);
 }
 
 function receive(message: ServerMessage): void {

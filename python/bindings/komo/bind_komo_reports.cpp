@@ -179,7 +179,7 @@ void bindKomoReports(nb::class_<PyKomo>& komo) {
       .def(
           "view_close",
           [](PyKomo& k) {
-            if (k.viewer) k.viewer->endPage();
+            if (k.viewer) k.viewer->close();
           },
           "Closes the viewer.")
       .def("viewer", viewerOf, "Returns the viewer of this problem.")

@@ -15,6 +15,7 @@
 #include "planning/plan_docs.h"
 #include "planning/plan_objects.h"
 #include "python_names.h"
+#include "viewer/notebook_page.h"
 #include "viewer/py_viewer.h"
 
 namespace kinegraph::python {
@@ -170,6 +171,14 @@ int viewPlan(const PyMotionPlan& plan, PyConfig& config, const std::optional<Fra
   return playOnPage(config, shown, shownPlan(plan, shown), pause, plan.str());
 }
 
+/// Without a scene, notebooks show the text.
+std::optional<std::string> planPage(const PyMotionPlan& plan) {
+  if (!plan.config) return std::nullopt;
+  const Config shown = plan.picture(*plan.config);
+  const std::optional<ShownMotion> motion = plan.feasible() ? std::optional(shownPlan(plan, shown)) : std::nullopt;
+  return notebookPage(shown, motion ? &*motion : nullptr, "MotionPlan", inPython(plan.str()));
+}
+
 Array refined(MatrixXd (*refine)(const Config&, const MatrixXd&, const RefineOptions&), const PyConfig& config,
               const Numbers& path, double margin, double blend, std::uint64_t seed) {
   const MatrixXd rows = path.matrix();
@@ -279,6 +288,7 @@ MotionPlanClass bindMotionPlan(nb::module_& m) {
       .def("view", viewPlan, "config"_a, "frames"_a = nb::none(), "pause"_a = false,
            cat(docs::plan::view, lines::frames, docs::plan::viewRest, lines::raises).c_str())
       .def("__bool__", &MotionPlan::feasible)
+      .def("_repr_html_", planPage, "Returns a page for notebooks that plays the motion without a running program.")
       .def("__repr__", [](const PyMotionPlan& p) { return cat("<MotionPlan ", inPython(p.str()), ">"); });
 }
 

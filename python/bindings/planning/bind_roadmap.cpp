@@ -14,6 +14,7 @@
 #include "planning/path_lines_docs.h"
 #include "planning/roadmap_docs.h"
 #include "python_names.h"
+#include "viewer/notebook_page.h"
 
 namespace kinegraph::python {
 
@@ -117,6 +118,13 @@ void bindRoadmap(nb::module_& m) {
           },
           "config"_a, "frames"_a = nb::none(),
           cat(docs::roadmap::picture, lines::frames, lines::returnsPicture, lines::raises).c_str())
+      .def(
+          "_repr_html_",
+          [](const PyRoadmap& map) {
+            return notebookPage(map.picture(*map.config), nullptr, "Roadmap",
+                                cat(map.size(), " configurations and ", map.edges(), " edges"));
+          },
+          "Returns a page for notebooks with the picture of the roadmap.")
       .def("__len__", &Roadmap::size)
       .def_prop_ro("edges", &Roadmap::edges, "Number of edges.")
       .def_prop_ro("margin", &Roadmap::margin, "Distance that all collidable pairs keep, m.")

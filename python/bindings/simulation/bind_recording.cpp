@@ -11,6 +11,7 @@
 #include "kinegraph/common/text.h"
 #include "simulation/simulation_docs.h"
 #include "simulation/simulation_objects.h"
+#include "viewer/notebook_page.h"
 #include "viewer/py_viewer.h"
 
 namespace kinegraph::python {
@@ -110,9 +111,17 @@ void bindRecording(nb::module_& m, nb::class_<PySimulation>& simulation) {
       .def(
           "view_close",
           [](PyRecording& r) {
-            if (r.viewer) r.viewer->endPage();
+            if (r.viewer) r.viewer->close();
           },
           "Closes the viewer.")
+      .def(
+          "_repr_html_",
+          [](const PyRecording& r) -> std::optional<std::string> {
+            if (r.times.empty()) return std::nullopt;
+            const ShownMotion motion = recordedMotion(r);
+            return notebookPage(r.makeConfig(), &motion, "Simulation", "");
+          },
+          "Returns a page for notebooks that plays the recording without a running program.")
       .def("__repr__", [](const PyRecording& r) {
         return cat("<SimulationRecording of ", r.times.size(), " steps, ", r.calls.size(), " calls>");
       });

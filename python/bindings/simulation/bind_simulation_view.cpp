@@ -79,7 +79,7 @@ void bindSimulationView(nb::class_<PySimulation>& simulation) {
           "view_close",
           [](PySimulation& s) {
             s.simulation.setObserver(nullptr);
-            if (configOf(s).viewer) configOf(s).viewer->endPage();
+            if (configOf(s).viewer) configOf(s).viewer->close();
           },
           docs::simulation::view_close)
       .def("run", run, "seconds"_a = nb::none(), "tau"_a = .01, "speed"_a = 1., docs::simulation::run);

@@ -10,6 +10,7 @@
 #include "python_names.h"
 #include "task_planning/task_objects.h"
 #include "task_planning/task_plan_docs.h"
+#include "viewer/notebook_page.h"
 #include "viewer/py_viewer.h"
 
 namespace kinegraph::python {
@@ -63,6 +64,20 @@ int view(const PyTaskPlan& plan, nb::handle_t<PyConfig> C, bool pause) {
   auto& scene = nb::cast<PyConfig&>(C);
   if (plan.path.rows() > 0) return playOnPage(scene, scene, taskMotion(plan, scene), pause, plan.str());
   return viewOnPage(scene, failedScene(plan, scene), pause, inPython(cat(plan.message, "\n", plan.searchTree())));
+}
+
+/// Returns the motion, else the configuration that failed in the longest branch; notebooks show the text without both.
+std::optional<std::string> page(const PyTaskPlan& plan) {
+  const std::string text = inPython(cat(plan.str(), "\n", plan.searchTree()));
+  if (plan.path.rows() > 0 && !plan.scenes.empty()) {
+    const ShownMotion motion = taskMotion(plan, plan.scenes.front());
+    return notebookPage(plan.scenes.front(), &motion, "TaskPlan", text);
+  }
+  const TaskBranch* longest = nullptr;
+  for (const TaskBranch& branch : plan.tree)
+    if (branch.failed_configuration && (!longest || branch.actions.size() > longest->actions.size())) longest = &branch;
+  if (!longest) return std::nullopt;
+  return notebookPage(*longest->failed_configuration, nullptr, "TaskPlan", text);
 }
 
 Array frames(const PyTaskPlan& plan, const PyConfig& C, double rate) {
@@ -170,6 +185,8 @@ void bindTaskPlan(nb::module_& m) {
       .def(
           "searchTree", [](const PyTaskPlan& p) { return inPython(p.searchTree()); },
           "The branches as a tree: a line per action, with the cause behind the last action of each branch.")
+      .def("_repr_html_", page,
+           "Returns a page for notebooks with the motion, or the configuration that failed, without a running program.")
       .def("view", view, "C"_a, "pause"_a = true, docs::view)
       .def("play", play, "C"_a, "pause"_a = false, docs::play)
       .def("frames", frames, "C"_a, "rate"_a = 25., docs::frames)

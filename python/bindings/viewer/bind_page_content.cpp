@@ -121,12 +121,17 @@ void drawFrustum(PyViewer& v, const std::string& name, const std::variant<std::s
   v.frustum(name, seen.pose, focal_length.value_or(seen.focal_length), aspect, image, optionsOf(v, "frustum", look));
 }
 
-void logOne(PyViewer& v, const std::string& name, const Numbers& value, std::optional<double> time,
+/// Numbers, or an image: rows and columns of rgb bytes.
+using Logged =
+    std::variant<nb::ndarray<const std::uint8_t, nb::shape<-1, -1, 3>, nb::c_contig, nb::device::cpu>, Numbers>;
+
+void logOne(PyViewer& v, const std::string& name, const Logged& value, std::optional<double> time,
             const std::string& unit) {
-  v.log(name, value.list(), time, unit);
+  if (const auto* numbers = std::get_if<Numbers>(&value)) return v.log(name, numbers->list(), time, unit);
+  v.log(name, imageOf(Rgb(std::get<0>(value)), "log"));
 }
 
-void logAll(PyViewer& v, const std::map<std::string, Numbers>& values, std::optional<double> time) {
+void logAll(PyViewer& v, const std::map<std::string, Logged>& values, std::optional<double> time) {
   for (const auto& [name, value] : values) logOne(v, name, value, time, "");
 }
 

@@ -196,7 +196,7 @@ void bindPage(nb::class_<PyViewer>& viewer) {
             return nb::module_::import_("kinegraph.notebook").attr("inlineFrame")(pageOf(v, kLargestInNotebooks));
           },
           "Shows the present scene in notebooks.")
-      .def("close", &PyViewer::endPage, "Closes the viewer.");
+      .def("close", &PyViewer::close, "Closes the viewer.");
 }
 
 /// Binds the views of a Config.
@@ -207,7 +207,7 @@ void bindViews(nb::class_<PyConfig>& config) {
       .def(
           "view_close",
           [](PyConfig& c) {
-            if (c.viewer) c.viewer->endPage();
+            if (c.viewer) c.viewer->close();
           },
           "Closes the viewer; the next view() starts a new one.")
       .def("viewer", viewerOf, "Returns the viewer of this scene.")
@@ -226,6 +226,7 @@ void bindViews(nb::class_<PyConfig>& config) {
 
 int viewOnPage(PyConfig& config, Config shown, bool pause, const std::string& message) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
+  viewer->scene = shown.scene();
   if (!show(*viewer, message, false)) return pause ? kEscape : 0;
   const nb::gil_scoped_release unlock;
   return viewer->view(shown, pause, message, interrupted);
@@ -234,6 +235,7 @@ int viewOnPage(PyConfig& config, Config shown, bool pause, const std::string& me
 int playOnPage(PyConfig& config, const Config& shown, const ShownMotion& motion, bool pause,
                const std::string& message) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
+  viewer->scene = shown.scene();
   if (!openPage(*viewer)) return pause ? kEscape : 0;
   const nb::gil_scoped_release unlock;
   return viewer->showMotion(shown, motion, pause, message, interrupted);

@@ -2,7 +2,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
-#include <cmath>
+#include <utility>
 
 #include "bindings.h"
 #include "kinegraph/common/errors.h"
@@ -18,19 +18,8 @@ namespace {
 constexpr int kNoFrame = 0xffffff;  // as in segmentation images
 
 int setQuad(PyViewer& viewer, int id, const Image<std::uint8_t>& rgb, double x, double y, double height) {
-  if (id < -1) throw ValueError(cat("setQuad: id is ", id, "; expected -1 for a new image, or an existing id"));
-  if (!(std::isfinite(x) && std::isfinite(y) && std::isfinite(height) && height > 0.)) {
-    throw ValueError(
-        cat("setQuad: x, y, h are ", x, ", ", y, ", ", height, "; expected fractions of the window's height, h > 0"));
-  }
   Quad quad = quadOf(rgb, "setQuad");
-  quad.id = id >= 0 ? id : viewer.quads.empty() ? 0 : viewer.quads.rbegin()->first + 1;
-  quad.x = x;
-  quad.y = y;
-  quad.height = height;
-  viewer.quads[quad.id] = quad;
-  if (viewer.isOpen()) viewer.server().setQuad(quad);
-  return quad.id;
+  return viewer.setQuad(id, {quad.columns, quad.rows, std::move(quad.rgb)}, x, y, height);
 }
 
 int viewPage(PyViewer& viewer, bool pause, const std::optional<std::string>& text, bool offscreen) {
@@ -42,7 +31,7 @@ int viewPage(PyViewer& viewer, bool pause, const std::optional<std::string>& tex
 /// Returns the point under the pointer and the surface normal there, 6 numbers; empty until the pointer was on a
 /// surface.
 Array eventCursor(PyViewer& viewer) {
-  const std::optional<Cursor> cursor = viewer.server().cursor();
+  const std::optional<Cursor> cursor = viewer.getEventCursor();
   if (!cursor) return toNumpy(VectorXd(0));
   VectorXd numbers(6);
   numbers << cursor->point, cursor->normal;
@@ -50,7 +39,7 @@ Array eventCursor(PyViewer& viewer) {
 }
 
 int eventCursorObject(PyViewer& viewer) {
-  const std::optional<Cursor> cursor = viewer.server().cursor();
+  const std::optional<Cursor> cursor = viewer.getEventCursor();
   return cursor && cursor->frame >= 0 ? cursor->frame : kNoFrame;
 }
 
@@ -77,11 +66,9 @@ void bindViewerInput(nb::module_& m, nb::class_<PyViewer>& viewer) {
   viewer
       .def("view", viewPage, "pause"_a = false, "text"_a = nb::none(), "offscreen"_a = false, docs::viewer_input::view)
       .def("setQuad", setQuad, "id"_a, "rgb"_a, "x"_a, "y"_a, "h"_a, docs::viewer_input::setQuad)
-      .def(
-          "setupEventHandler", [](PyViewer& v, bool block) { v.server().requestEvents(block); },
-          "blockDefaultHandler"_a, docs::viewer_input::setupEventHandler)
-      .def(
-          "getEvents", [](PyViewer& v) { return v.server().takeEvents(); }, docs::viewer_input::getEvents)
+      .def("setupEventHandler", &PyViewer::setupEventHandler, "blockDefaultHandler"_a,
+           docs::viewer_input::setupEventHandler)
+      .def("getEvents", &PyViewer::getEvents, docs::viewer_input::getEvents)
       .def("getEventCursor", eventCursor, docs::viewer_input::getEventCursor)
       .def("getEventCursorObject", eventCursorObject,
            "Returns the id of the frame under the pointer; 16777215 over the floor and the background.")

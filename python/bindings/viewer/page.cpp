@@ -2,7 +2,11 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
+
+#include "kinegraph/viewer/recorded_page.h"
 #include "parameters.h"
+#include "viewer/notebook_page.h"
 #include "viewer/py_viewer.h"
 
 namespace kinegraph::python {
@@ -20,26 +24,22 @@ bool flag(const char* name, bool otherwise) {
 
 std::vector<double> numbers(const char* name) { return parameter(name, std::vector<double>(), "a list of numbers"); }
 
-/// Sets the initial camera to a frame `camera_init`, if there is one. Returns whether it has just been set.
-bool startCamera(PyViewer& viewer) {
-  FrameData* init = viewer.scene && !viewer.camera_is_set ? viewer.scene->find("camera_init") : nullptr;
-  if (!init) return false;
-  viewer.camera.place(cameraOf(Frame(viewer.scene, *init)));
-  viewer.camera_is_set = true;
-  return true;
-}
-
-/// Sets the camera of the pages, if it has changed.
-void aimPage(PyViewer& viewer, bool is_new) {
-  const bool started = startCamera(viewer);
-  const Camera camera = cameraNow(viewer);
-  if (started || viewer.camera.follows()) {
-    const PageCamera page = pageCameraOf(camera);
-    const bool same = viewer.page_camera && page.pose.numbers().isApprox(viewer.page_camera->pose.numbers(), 1e-12);
-    if (is_new || !same) viewer.aim(page);
-  } else if (is_new && viewer.page_camera) {
-    viewer.aim(*viewer.page_camera);
+/// Returns the motion with fewer slices, equally far apart, such that they have at most about `most` poses.
+ShownMotion thinned(const ShownMotion& motion, std::size_t most) {
+  const std::size_t slices = motion.poses.size();
+  const std::size_t kept = slices < 2 ? slices : std::clamp<std::size_t>(most / motion.poses[0].size(), 2, slices);
+  if (kept == slices) return motion;
+  ShownMotion fewer;
+  fewer.seconds = motion.seconds;
+  fewer.start = motion.start;
+  fewer.q.resize(motion.q.rows() > 0 ? Eigen::Index(kept) : 0, motion.q.cols());
+  for (std::size_t i = 0; i < kept; ++i) {
+    const std::size_t from = i * (slices - 1) / (kept - 1);
+    fewer.poses.push_back(motion.poses[from]);
+    if (fewer.q.rows() > 0) fewer.q.row(Eigen::Index(i)) = motion.q.row(Eigen::Index(from));
+    if (!motion.texts.empty()) fewer.texts.push_back(motion.texts[from]);
   }
+  return fewer;
 }
 
 }  // namespace
@@ -49,23 +49,9 @@ bool interrupted() {
   return false;
 }
 
-void PyViewer::aim(const PageCamera& from) {
-  page_camera = from;
-  if (from.distance > 0.) distance = from.distance;
-  if (isOpen()) setCamera(from);
-}
-
-void PyViewer::endPage() {
-  close();
-  camera.place(defaultViewCamera());
-  camera_is_set = visuals_only = false;
-  page_camera.reset();
-  distance = PageCamera{}.distance;
-  quads.clear();
-}
-
-Appearance appearanceFromParameters() {
+void takeAppearance(PyViewer& viewer) {
   Appearance appearance;
+  appearance.visuals_only = viewer.appearance().visuals_only;
   const std::vector<double> background = numbers("Render/backgroundColor"), floor = numbers("Render/floorColor");
   const std::vector<double> lights = numbers("Render/lights");
   if (background.size() == 3) appearance.background = Vector3d(background.data());
@@ -80,58 +66,33 @@ Appearance appearanceFromParameters() {
         cat("parameter Render/lights has ", lights.size(), " numbers; expected the 3 coordinates (m) of each light"));
   }
   for (std::size_t i = 0; i < lights.size(); i += 3) appearance.lights.emplace_back(&lights[i]);
-  return appearance;
-}
-
-PageCamera pageCameraOf(const Camera& camera) {
-  PageCamera page{camera.pose};
-  page.focal_length = camera.focal_length;
-  page.ortho_height = camera.ortho_height;
-  page.aspect = double(camera.width) / camera.height;
-  if (camera.has_range) {
-    page.near = camera.near;
-    page.far = camera.far;
-  }
-  return page;
-}
-
-Camera cameraNow(PyViewer& viewer) {
-  startCamera(viewer);
-  FrameData* tracked = viewer.scene ? viewer.scene->find("camera_track") : nullptr;
-  const std::optional<PageCamera> moved = viewer.takeViewpoint();
-  if (tracked) {
-    viewer.camera.follow(Frame(viewer.scene, *tracked));
-    viewer.camera_is_set = true;
-  } else if (moved) {
-    Camera camera = viewer.camera.now();
-    camera.pose = moved->pose;
-    camera.focal_length = moved->focal_length;
-    camera.ortho_height = moved->ortho_height;
-    viewer.camera.place(camera);
-    viewer.camera_is_set = true;
-    if (moved->distance > 0.) viewer.distance = moved->distance;
-  }
-  return viewer.camera.now();
+  viewer.setAppearance(appearance);
 }
 
 bool openPage(PyViewer& viewer) {
   if (flag("disableGui", false)) return false;
   viewer.setWaits(!flag("noInteractivity", false));
-  Appearance appearance = appearanceFromParameters();
-  appearance.visuals_only = viewer.visuals_only;
+  takeAppearance(viewer);
   const bool is_new = !viewer.isOpen();
-  viewer.server().setAppearance(appearance);
-  if (viewer.scene) aimPage(viewer, is_new);
-  if (is_new) {
-    for (const auto& [id, quad] : viewer.quads) viewer.server().setQuad(quad);
-    nb::module_::import_("kinegraph.notebook").attr("showInline")(viewer.url());
-  }
+  viewer.server();
+  if (viewer.scene) viewer.pictures().aimPage();
+  if (is_new) nb::module_::import_("kinegraph.notebook").attr("showInline")(viewer.url());
   return true;
 }
 
 bool show(PyViewer& viewer, const std::optional<std::string>& message, bool offscreen) {
   if (message) viewer.storeMessage(*message);
   return !offscreen && openPage(viewer);
+}
+
+std::string notebookPage(const Config& config, const ShownMotion* motion, const std::string& title,
+                         const std::string& text) {
+  constexpr std::size_t kMostPoses = 8000;
+  ShownMotion shown;
+  if (motion) shown = thinned(*motion, kMostPoses);
+  const std::string page = recordedScene(config, motion ? &shown : nullptr, title, nullptr, kLargestInNotebooks);
+  const nb::module_ notebook = nb::module_::import_("kinegraph.notebook");
+  return nb::cast<std::string>(notebook.attr("inlineFrame")(page, text));
 }
 
 }  // namespace kinegraph::python

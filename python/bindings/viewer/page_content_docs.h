@@ -183,11 +183,11 @@ Args:
     text: The text.
     level: "info", "warning" or "error".)";
 
-inline constexpr char log[] = R"(Appends a sample to a plot on the page, which grows.
+inline constexpr char log[] = R"(Appends a sample to a plot on the page, which grows, or shows an image there.
 
 Args:
-    name: Name of the plot.
-    value: A number, or numbers, one curve for each.
+    name: Name of the plot or image.
+    value: A number, or numbers, one curve for each; or an image, uint8 (height, width, 3), in place of the last one.
     time: s; None: seconds since the first call. Pages keep the last 100,000 samples.
     unit: Unit in the title of the plot.
 Raises:
@@ -196,7 +196,7 @@ Raises:
 inline constexpr char logAll[] = R"(Appends samples to several plots on the page.
 
 Args:
-    values: A dict of names and values, each a number or numbers, one curve for each.
+    values: A dict of names and values, each a number, numbers (one curve for each), or an image, uint8 (h, w, 3).
     time: s; None: seconds since the first call.
 Raises:
     ArgumentError: The number of values differs from that of earlier samples.)";

@@ -1,14 +1,12 @@
 #pragma once
 
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "bindings.h"
-#include "kinegraph/rendering/camera_renderer.h"
-#include "kinegraph/rendering/picture_renderer.h"
+#include "kinegraph/api/viewer_pictures.h"
 #include "kinegraph/scene/tree/scene_tree.h"
 #include "kinegraph/viewer/config_viewer.h"
 #include "kinegraph/viewer/page_content.h"
@@ -16,57 +14,17 @@
 
 namespace kinegraph::python {
 
-/// A fixed camera, or one that follows a frame.
-class ViewCamera {
- public:
-  explicit ViewCamera(const Camera& camera) : camera_(camera) {}
-
-  /// Follows a frame, with the camera of its attributes.
-  void follow(const Frame& frame) {
-    camera_ = cameraOf(frame);
-    frame_ = frame;
-  }
-  void place(const Camera& camera) {
-    camera_ = camera;
-    frame_.reset();
-  }
-  void resize(int width, int height) {
-    camera_.width = width;
-    camera_.height = height;
-  }
-  bool follows() const { return frame_.has_value(); }
-  Camera now() const {
-    Camera camera = camera_;
-    if (frame_) camera.pose = frame_->getPose();
-    return camera;
-  }
-
- private:
-  Camera camera_;
-  std::optional<Frame> frame_;
-};
-
 /// The Python object of a viewer: the page in the browser, and pictures of the same scene without a browser.
 struct PyViewer : ConfigViewer {
   using ConfigViewer::ConfigViewer;
+  using ConfigViewer::pictures;
 
-  std::shared_ptr<SceneTree> scene;        ///< the shown scene
-  ViewCamera camera{defaultViewCamera()};  ///< of pictures
-  bool camera_is_set = false;
-  std::optional<PageCamera> page_camera;  ///< last camera sent to the pages
-  bool visuals_only = false;
-  int saved = 0;                            ///< number of saved pictures
-  std::map<int, Quad> quads;                ///< images on top of the scene
-  std::vector<std::string> folders;         ///< of new controls, outermost first
-  double distance = PageCamera{}.distance;  ///< m from the camera to the center of rotation
-  std::optional<PictureRenderer> pictures;  ///< created with the first picture
-  std::optional<CameraRenderer> letters;    ///< of texts in pictures
+  std::shared_ptr<SceneTree> scene;  ///< the shown scene
 
-  /// Sets the camera of all pages, including later ones.
-  void aim(const PageCamera& from);
+  std::vector<std::string> folders;  ///< of new controls, outermost first
 
-  /// Closes the page; the next one starts with the initial camera.
-  void endPage();
+ protected:
+  std::shared_ptr<SceneTree> pictured() const override { return scene; }
 };
 
 constexpr int kEscape = 27;  ///< returned at once by views if the parameter `disableGui` is set
@@ -84,14 +42,8 @@ int viewOnPage(PyConfig& config, Config shown, bool pause, const std::string& me
 int playOnPage(PyConfig& config, const Config& shown, const ShownMotion& motion, bool pause,
                const std::string& message);
 
-/// Returns the viewer's camera: as set, or as a user has moved the page's since.
-Camera cameraNow(PyViewer& viewer);
-
-/// Converts a camera for pages.
-PageCamera pageCameraOf(const Camera& camera);
-
-/// Returns the appearance of pages and pictures in the parameters `Render/...`.
-Appearance appearanceFromParameters();
+/// Sets the appearance of pages and pictures to that in the parameters `Render/...`.
+void takeAppearance(PyViewer& viewer);
 
 /// Checks for Ctrl-C, which throws; otherwise returns false.
 bool interrupted();

@@ -22,6 +22,7 @@ Evaluation Config::eval(const FeatureSource& feature, const std::vector<std::str
 
 ConfigViewer& Config::viewer() {
   if (!scene_->viewer) scene_->viewer = std::make_shared<ConfigViewer>();
+  if (!scene_->viewer->pictured()) scene_->viewer->setScene(scene_);
   return *scene_->viewer;
 }
 

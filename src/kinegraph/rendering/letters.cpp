@@ -9,7 +9,8 @@ namespace kinegraph {
 namespace {
 
 constexpr int kMargin = 12, kBesides = 12,
-              kAbove = 7;               // pixels: margin around the panel, and between panel and letters
+              kAbove = 7;  // pixels: margin around the panel, and between panel and letters
+constexpr int kBesidesLabel = 4;
 constexpr int kPanel = 255, kInk = 36;  // gray values
 constexpr double kSolid = .93;          // opacity of the panel
 
@@ -26,6 +27,29 @@ std::string ascii(const std::string& text) {
       out += c;
   }
   return out;
+}
+
+/// A panel around letters.
+struct Panel {
+  int left, top;       ///< pixels of the picture
+  int besides, above;  ///< pixels between its border and the letters
+};
+
+void drawPanel(std::vector<std::uint8_t>& rgb, int width, const Letters& letters, const Panel& panel) {
+  const int height = int(rgb.size() / 3) / width;
+  const int right = std::min(width, panel.left + letters.width + 2 * panel.besides);
+  const int bottom = std::min(height, panel.top + letters.height + 2 * panel.above);
+  for (int row = std::max(panel.top, 0); row < bottom; ++row) {
+    for (int column = std::max(panel.left, 0); column < right; ++column) {
+      const int y = row - panel.top - panel.above, x = column - panel.left - panel.besides;
+      const bool inside = x >= 0 && x < letters.width && y >= 0 && y < letters.height;
+      const double ink =
+          inside ? letters.cover[std::size_t(y) * std::size_t(letters.width) + std::size_t(x)] / 255. : 0.;
+      const double shown = ink * kInk + (1. - ink) * kPanel, solid = std::max(kSolid, ink);
+      std::uint8_t* pixel = &rgb[3 * (std::size_t(row) * std::size_t(width) + std::size_t(column))];
+      for (int k = 0; k < 3; ++k) pixel[k] = std::uint8_t(solid * shown + (1. - solid) * pixel[k] + .5);
+    }
+  }
 }
 
 }  // namespace
@@ -58,20 +82,12 @@ std::vector<std::string> brokenLines(const std::string& text, int width, const i
 }
 
 void drawLetters(std::vector<std::uint8_t>& rgb, int width, const Letters& letters) {
-  const int height = int(rgb.size() / 3) / width;
-  const int right = std::min(width, kMargin + letters.width + 2 * kBesides);
-  const int bottom = std::min(height, kMargin + letters.height + 2 * kAbove);
-  for (int row = kMargin; row < bottom; ++row) {
-    for (int column = kMargin; column < right; ++column) {
-      const int y = row - kMargin - kAbove, x = column - kMargin - kBesides;
-      const bool inside = x >= 0 && x < letters.width && y >= 0 && y < letters.height;
-      const double ink =
-          inside ? letters.cover[std::size_t(y) * std::size_t(letters.width) + std::size_t(x)] / 255. : 0.;
-      const double shown = ink * kInk + (1. - ink) * kPanel, solid = std::max(kSolid, ink);
-      std::uint8_t* pixel = &rgb[3 * (std::size_t(row) * std::size_t(width) + std::size_t(column))];
-      for (int k = 0; k < 3; ++k) pixel[k] = std::uint8_t(solid * shown + (1. - solid) * pixel[k] + .5);
-    }
-  }
+  drawPanel(rgb, width, letters, {.left = kMargin, .top = kMargin, .besides = kBesides, .above = kAbove});
+}
+
+void drawLabel(std::vector<std::uint8_t>& rgb, int width, const Letters& letters, int column, int row) {
+  const int left = column - letters.width / 2 - kBesidesLabel, top = row - letters.height / 2;
+  drawPanel(rgb, width, letters, {.left = left, .top = top, .besides = kBesidesLabel, .above = 0});
 }
 
 }  // namespace kinegraph

@@ -20,4 +20,7 @@ std::vector<std::string> brokenLines(const std::string& text, int width, const i
 /// pages. `rgb` has rows from top to bottom. Parts outside are clipped.
 void drawLetters(std::vector<std::uint8_t>& rgb, int width, const Letters& letters);
 
+/// Draws letters with their center at a pixel, dark on a light panel like labels on pages. Parts outside are clipped.
+void drawLabel(std::vector<std::uint8_t>& rgb, int width, const Letters& letters, int column, int row);
+
 }  // namespace kinegraph

@@ -10,6 +10,7 @@ namespace kinegraph {
 namespace {
 
 constexpr int kParts = 56;  ///< facets around an axis, as many as on the page for close views
+constexpr int kAroundArrows = 24;
 
 /// A point of a profile that is rotated about z, with the normal there.
 struct ProfilePoint {
@@ -185,18 +186,40 @@ PictureMesh pictureMesh(const Geometry& geometry) {
   return completed(std::move(picture));
 }
 
+PictureMesh arrowMesh(const Vector3d& at, const Vector3d& vector, double thickness) {
+  PictureMesh picture;
+  const double length = vector.norm();
+  if (!(length > 0.)) return picture;
+  const double head = std::min(.4 * length, 4. * thickness), slope = std::atan2(1.2 * thickness, head);
+  std::vector<float> arrow;  // along z
+  addRotated(arrow, cylinderProfile(0., length - head, .5 * thickness), kAroundArrows);
+  addRotated(arrow,
+             {{0., length - head, 0., -1.},
+              {1.2 * thickness, length - head, 0., -1.},
+              {1.2 * thickness, length - head, std::cos(slope), std::sin(slope)},
+              {0., length, std::cos(slope), std::sin(slope)}},
+             kAroundArrows);
+  const Eigen::Quaterniond q = Eigen::Quaterniond::FromTwoVectors(Vector3d::UnitZ(), vector);
+  for (std::size_t i = 0; i < arrow.size(); i += std::size_t(picture.stride())) {
+    const auto turned = [&](std::size_t j) {
+      return Vector3d(q * Eigen::Map<const Eigen::Vector3f>(&arrow[j]).cast<double>());
+    };
+    addVertex(picture.vertices, at + turned(i), turned(i + 3));
+  }
+  return completed(std::move(picture));
+}
+
 PictureMesh markerMesh(double length) {
   PictureMesh picture;
-  constexpr int kAround = 16;
   const Vector3d colors[] = {{.839, .271, .271}, {.247, .612, .294}, {.231, .435, .839}};
   std::vector<float> arrow;  // along z
-  addRotated(arrow, cylinderProfile(0., .8 * length, .02 * length), kAround);
+  addRotated(arrow, cylinderProfile(0., .8 * length, .02 * length), kAroundArrows);
   addRotated(arrow,
              {{0., .8 * length, 0., -1.},
               {.06 * length, .8 * length, 0., -1.},
               {.06 * length, .8 * length, 1., 0.},
               {0., length, 1., 0.}},
-             kAround);
+             kAroundArrows);
   const std::size_t stride = std::size_t(picture.stride());
   for (int axis = 0; axis < 3; ++axis) {
     const int first = int(picture.vertices.size() / stride);

@@ -38,6 +38,10 @@ PictureMesh pictureMesh(const Geometry& geometry);
 /// Returns the axes of a marker: arrows along x (red), y (green) and z (blue).
 PictureMesh markerMesh(double length);
 
+/// Returns an arrow from `at` along `vector`; `thickness` is the diameter of its shaft. All in m. An arrow without a
+/// length has no vertices.
+PictureMesh arrowMesh(const Vector3d& at, const Vector3d& vector, double thickness);
+
 /// Converts a color (rgb in 0..1) from sRGB to a linear scale.
 Vector3d linearColor(const Vector3d& rgb);
 

@@ -54,7 +54,8 @@ void PictureOptions::validate() const {
 
 struct PictureRenderer::Impl {
   ~Impl();
-  CameraImage render(SceneTree& tree, const Camera& camera, const PictureOptions& options, bool visuals_only);
+  CameraImage render(SceneTree& tree, const std::vector<PictureDrawing>& drawings, const Camera& camera,
+                     const PictureOptions& options, bool visuals_only);
 
   std::optional<GlContext> context;
 
@@ -113,7 +114,7 @@ GlProgram& PictureRenderer::Impl::use(PictureProgram& program) {
 void PictureRenderer::Impl::drawSurface(const PictureItem& item, ShapePrograms& programs) {
   const GlFunctions& f = glFunctions();
   const PictureMesh& mesh = item.stored->mesh;
-  const int shading = view->options.flat_colors ? kFlat : item.is_symbol ? kSymbol : kByLights;
+  const int shading = view->options.flat_colors || item.is_image ? kFlat : item.is_symbol ? kSymbol : kByLights;
   f.BindVertexArray(item.stored->array);
   for (std::size_t i = 0; i < mesh.parts.size(); ++i) {
     const PictureMesh::Part& part = mesh.parts[i];
@@ -150,7 +151,12 @@ void PictureRenderer::Impl::drawItem(const PictureItem& item, ShapePrograms& pro
   GlProgram& program = use(is_lines ? programs.lines : programs.points);
   program.set("pose", item.pose);
   program.set("color", linear(mesh.has_colors ? Vector4d(1., 1., 1., item.color[3]) : item.color));
-  program.set("width", PictureView::kFiner * (is_lines ? kLineWidth : kPointSize));
+  const double usual = is_lines ? kLineWidth : item.size > 0. ? 0. : kPointSize;
+  program.set("width", PictureView::kFiner * (item.width > 0. ? item.width : usual));
+  const Camera& camera = view->camera;
+  const double samples_per_meter =
+      camera.height / (camera.ortho_height > 0. ? camera.ortho_height : 1. / camera.focal_length);
+  program.set("wider_at_1m", item.size * samples_per_meter);
   program.set("kind", kWithoutFog);
   program.set("shading", view->options.flat_colors ? kFlat : kSymbol);
   f.Disable(gl::kCullFace);
@@ -244,10 +250,12 @@ void PictureRenderer::Impl::limitToShapes() {
   const GlFunctions& f = glFunctions();
   if (view->options.floor_color) return;
   const Eigen::Matrix4d to_image = projection(view->camera);
-  constexpr double kInfinity = std::numeric_limits<double>::infinity(), kMargin = 4.;  // pixels
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Eigen::Array2d lower = Eigen::Array2d::Constant(kInfinity), upper = -lower;
+  double margin = 4.;  // pixels
   for (const PictureItem& item : view->scene.items) {
     if (item.isTransparent()) continue;
+    margin = std::max(margin, item.width);
     for (const Vector3d& corner : item.corners()) {
       const Eigen::Vector4d p = to_image * corner.homogeneous();
       if (p[3] <= 0.) return;  // behind the camera
@@ -256,8 +264,8 @@ void PictureRenderer::Impl::limitToShapes() {
     }
   }
   const Eigen::Array2d size(view->camera.width / PictureView::kFiner, view->camera.height / PictureView::kFiner);
-  const Eigen::Array2d from = (.5 * (lower + 1.) * size - kMargin).max(0.).min(size);
-  const Eigen::Array2d to = (.5 * (upper + 1.) * size + kMargin).max(from).min(size);
+  const Eigen::Array2d from = (.5 * (lower + 1.) * size - margin).max(0.).min(size);
+  const Eigen::Array2d to = (.5 * (upper + 1.) * size + margin).max(from).min(size);
   f.Enable(gl::kScissorTest);
   f.Scissor(int(from[0]), int(from[1]), int(std::ceil(to[0])) - int(from[0]), int(std::ceil(to[1])) - int(from[1]));
 }
@@ -342,12 +350,12 @@ void PictureRenderer::Impl::readDepth(CameraImage& image) {
 
 PictureRenderer::Impl::Drawing::Drawing() = default;
 
-CameraImage PictureRenderer::Impl::render(SceneTree& tree, const Camera& camera, const PictureOptions& options,
-                                          bool visuals_only) {
+CameraImage PictureRenderer::Impl::render(SceneTree& tree, const std::vector<PictureDrawing>& drawings,
+                                          const Camera& camera, const PictureOptions& options, bool visuals_only) {
   const GlFunctions& f = glFunctions();
   if (!drawing) drawing.emplace();
   ++pictures;
-  view.emplace(pictureScene(tree, visual_meshes, drawing->store, visuals_only), camera, options);
+  view.emplace(pictureScene(tree, visual_meshes, drawing->store, visuals_only, drawings), camera, options);
   CameraImage image{camera.width, camera.height, {}, {}};
   if (!drawing->programs || drawing->programs->lights != view->lights()) drawing->programs.emplace(view->lights());
 
@@ -377,11 +385,16 @@ PictureRenderer::~PictureRenderer() = default;
 
 CameraImage PictureRenderer::render(SceneTree& scene, const Camera& camera, const PictureOptions& options,
                                     bool visuals_only) {
+  return render(scene, {}, camera, options, visuals_only);
+}
+
+CameraImage PictureRenderer::render(SceneTree& scene, const std::vector<PictureDrawing>& drawings, const Camera& camera,
+                                    const PictureOptions& options, bool visuals_only) {
   camera.validate();
   options.validate();
   if (!impl_->context) impl_->context.emplace();
   const GlContext::Use use(*impl_->context);
-  return impl_->render(scene, camera, options, visuals_only);
+  return impl_->render(scene, drawings, camera, options, visuals_only);
 }
 
 }  // namespace kinegraph

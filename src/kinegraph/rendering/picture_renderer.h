@@ -9,6 +9,8 @@
 
 namespace kinegraph {
 
+struct PictureDrawing;
+
 /// The appearance of pictures. The defaults are those of the viewer's page in daylight.
 struct PictureOptions {
   bool has_floor = true;                     ///< lines and shadows at z = 0; it is deep from above, not from below
@@ -42,6 +44,10 @@ class PictureRenderer {
                      bool visuals_only = false) {
     return render(*config.scene(), camera, options, visuals_only);
   }
+
+  /// Renders drawings, too, which belong to no frame.
+  CameraImage render(SceneTree& scene, const std::vector<PictureDrawing>& drawings, const Camera& camera,
+                     const PictureOptions& options, bool visuals_only);
 
  private:
   struct Impl;

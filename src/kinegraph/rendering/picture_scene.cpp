@@ -27,6 +27,28 @@ void findBall(PictureScene& scene) {
   scene.lowest = lower.z();
 }
 
+/// Adds drawings to the items.
+void addDrawings(PictureScene& scene, const std::vector<PictureDrawing>& drawings, PictureStore& store) {
+  for (const PictureDrawing& drawing : drawings) {
+    PictureItem item;
+    item.stored = &store.of(drawing.mesh);
+    if (item.stored->mesh.parts.empty()) continue;
+    item.pose = Eigen::Matrix4d::Identity();
+    item.pose.topLeftCorner<3, 3>() = drawing.pose.q.toRotationMatrix();
+    item.pose.topRightCorner<3, 1>() = drawing.pose.p;
+    item.color = drawing.color;
+    item.has_color = true;
+    item.is_symbol =
+        drawing.colors == PictureDrawing::Colors::symbol && drawing.mesh->kind == PictureMesh::Kind::surface;
+    item.is_image = drawing.colors == PictureDrawing::Colors::image;
+    item.width = drawing.width;
+    item.size = drawing.size;
+    scene.has_transparent = scene.has_transparent || item.isTransparent();
+    for (const Vector3d& p : item.corners()) scene.lowest = std::min(scene.lowest, p.z());
+    scene.items.push_back(item);
+  }
+}
+
 }  // namespace
 
 std::array<Vector3d, 8> PictureItem::corners() const {
@@ -34,13 +56,14 @@ std::array<Vector3d, 8> PictureItem::corners() const {
   const PictureMesh& mesh = stored->mesh;
   for (int corner = 0; corner < 8; ++corner) {
     Vector3d p;
-    for (int k = 0; k < 3; ++k) p[k] = corner >> k & 1 ? mesh.upper[k] : mesh.lower[k];
+    for (int k = 0; k < 3; ++k) p[k] = corner >> k & 1 ? mesh.upper[k] + size : mesh.lower[k] - size;
     corners[std::size_t(corner)] = pose.topLeftCorner<3, 3>() * p + pose.topRightCorner<3, 1>();
   }
   return corners;
 }
 
-PictureScene pictureScene(SceneTree& tree, VisualMeshes& visual_meshes, PictureStore& store, bool visuals_only) {
+PictureScene pictureScene(SceneTree& tree, VisualMeshes& visual_meshes, PictureStore& store, bool visuals_only,
+                          const std::vector<PictureDrawing>& drawings) {
   PictureScene scene;
   const State& state = tree.state();
   for (const ShownShape& shown : shownShapes(tree, visual_meshes, visuals_only)) {
@@ -58,8 +81,9 @@ PictureScene pictureScene(SceneTree& tree, VisualMeshes& visual_meshes, PictureS
     scene.has_transparent = scene.has_transparent || item.isTransparent();
     scene.items.push_back(item);
   }
-  store.tidy();
   findBall(scene);
+  addDrawings(scene, drawings, store);
+  store.tidy();
   return scene;
 }
 

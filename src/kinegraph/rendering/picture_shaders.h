@@ -90,7 +90,10 @@ void main() { sampled = uvec2(packedColor(stored(texture(picture, on_picture).rg
 inline constexpr const char* kTintSample = R"(
 in vec3 tint;
 uniform vec4 color;  // linear
-void main() { sampled = uvec2(packedColor(stored(tint * color.rgb)), packedNormal(vec3(0., 0., 1.))); }
+void main() {
+  cutEnds();
+  sampled = uvec2(packedColor(stored(tint * color.rgb)), packedNormal(vec3(0., 0., 1.)));
+}
 )";
 
 /// How the lights shine on a surface; precedes shaders of surfaces. ADD_OTHER_LIGHTS is ADD_LIGHT(1)
@@ -167,6 +170,7 @@ uniform vec4 color;  // linear
 uniform int shading;
 out vec4 painted;
 void main() {
+  cutEnds();
   vec3 seen = tint * color.rgb;
   painted = vec4(encoded(shading == 0 ? seen : bent(seen)), color.a);
 }
@@ -181,29 +185,50 @@ uniform mat4 to_image, pose;
 uniform vec2 size;    // samples of the picture
 uniform float width;  // samples
 out vec3 tint;
+noperspective out vec2 on_line;  // along and across, in halves of the width
+flat out float line_length;
 void main() {
   vec4 a = to_image * pose * vec4(from, 1.), b = to_image * pose * vec4(to, 1.);
   const float kNear = 1e-4;
   if (a.w < kNear && b.w > kNear) a = mix(a, b, (kNear - a.w) / (b.w - a.w));
   if (b.w < kNear && a.w > kNear) b = mix(b, a, (kNear - b.w) / (a.w - b.w));
   vec2 along = (b.xy / b.w - a.xy / a.w) * size;
-  vec2 across = length(along) > 0. ? normalize(vec2(-along.y, along.x)) : vec2(0.);
+  vec2 direction = length(along) > 0. ? normalize(along) : vec2(1., 0.), across = vec2(-direction.y, direction.x);
   vec4 p = corner.x == 0. ? a : b;
   tint = own_color;
-  gl_Position = p + vec4(corner.y * across * width / size * p.w, 0., 0.);
+  line_length = length(along) / width;
+  on_line = vec2(corner.x == 0. ? -1. : line_length + 1., corner.y);
+  vec2 away = corner.y * across + (2. * corner.x - 1.) * direction;
+  gl_Position = p + vec4(away * width / size * p.w, 0., 0.);
 }
+)";
+
+/// Precedes fragments of lines: their ends are round.
+inline constexpr const char* kRoundEnds = R"(
+noperspective in vec2 on_line;
+flat in float line_length;
+void cutEnds() {
+  float beyond = max(-on_line.x, on_line.x - line_length);
+  if (beyond > 0. && beyond * beyond + on_line.y * on_line.y > 1.) discard;
+}
+)";
+
+/// Precedes fragments of points, which are squares.
+inline constexpr const char* kSquares = R"(
+void cutEnds() {}
 )";
 
 inline constexpr const char* kPointVertex = R"(#version 330
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 own_color;
 uniform mat4 to_image, pose;
-uniform float width;  // samples
+uniform float width;        // samples
+uniform float wider_at_1m;  // samples: the share of the size that depends on the depth
 out vec3 tint;
 void main() {
   tint = own_color;
-  gl_PointSize = width;
   gl_Position = to_image * pose * vec4(position, 1.);
+  gl_PointSize = width + wider_at_1m / max(gl_Position.w, 1e-4);
 }
 )";
 

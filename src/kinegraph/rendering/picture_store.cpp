@@ -123,6 +123,13 @@ const StoredMesh& PictureStore::of(const std::shared_ptr<const Geometry>& geomet
   return *mesh;
 }
 
+const StoredMesh& PictureStore::of(const std::shared_ptr<const PictureMesh>& drawn) {
+  used_.insert(drawn);
+  std::unique_ptr<StoredMesh>& mesh = meshes_[drawn];
+  if (!mesh) mesh = stored(*drawn);
+  return *mesh;
+}
+
 const StoredMesh& PictureStore::marker(double length) {
   std::unique_ptr<StoredMesh>& mesh = markers_[length];
   if (!mesh) mesh = stored(markerMesh(length));
@@ -146,8 +153,22 @@ void PictureStore::tidy() {
       if (entry.second) release(*entry.second);
       return true;
     });
+    tidyTextures();
   }
   used_.clear();
+}
+
+/// Frees the textures that no shape has.
+void PictureStore::tidyTextures() {
+  std::set<unsigned> used;
+  for (const auto& [shape, mesh] : meshes_) {
+    if (mesh) used.insert(mesh->textures.begin(), mesh->textures.end());
+  }
+  std::erase_if(textures_, [&](const auto& entry) {
+    if (used.contains(entry.second)) return false;
+    gl_.DeleteTextures(1, &entry.second);
+    return true;
+  });
 }
 
 }  // namespace kinegraph

@@ -33,6 +33,7 @@ class PictureStore {
 
   /// Returns the mesh of a shape; uploads it at the first call. Throws FileError for a damaged image.
   const StoredMesh& of(const std::shared_ptr<const Geometry>& geometry);
+  const StoredMesh& of(const std::shared_ptr<const PictureMesh>& mesh);
   const StoredMesh& marker(double length);
 
   /// Returns a square from (-1, -1) to (1, 1).
@@ -44,11 +45,12 @@ class PictureStore {
  private:
   std::unique_ptr<StoredMesh> stored(PictureMesh mesh);
   unsigned textureOf(const Image& image);
+  void tidyTextures();
   void release(StoredMesh& mesh);
 
   const GlFunctions& gl_;
-  std::map<std::shared_ptr<const Geometry>, std::unique_ptr<StoredMesh>> meshes_;
-  std::set<std::shared_ptr<const Geometry>> used_;  ///< since the last tidy()
+  std::map<std::shared_ptr<const void>, std::unique_ptr<StoredMesh>> meshes_;
+  std::set<std::shared_ptr<const void>> used_;  ///< since the last tidy()
   std::map<double, std::unique_ptr<StoredMesh>> markers_;
   std::unique_ptr<StoredMesh> square_;
   std::uint64_t stored_ = 0;                               ///< number of shapes so far

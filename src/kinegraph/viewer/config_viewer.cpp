@@ -6,7 +6,9 @@
 #include <algorithm>
 #include <cctype>
 #include <chrono>
+#include <cmath>
 #include <cstdlib>
+#include <map>
 #include <mutex>
 #include <utility>
 
@@ -49,6 +51,11 @@ struct ConfigViewer::Impl {
   std::unique_ptr<ViewerServer> server{};
   SceneItems items{};
   bool knows_items = false;  ///< the page has those of the last update
+  Appearance appearance{};
+  std::optional<PageCamera> camera{};  ///< last camera set by the program
+  std::map<int, Quad> quads{};
+  std::weak_ptr<SceneTree> scene{};
+  std::shared_ptr<SceneTree> kept_scene{};  ///< the same, unless it owns this viewer
   std::shared_ptr<SceneEdits> edits = std::make_shared<SceneEdits>();
 };
 
@@ -65,7 +72,11 @@ void ConfigViewer::setWaits(bool waits) { impl_->waits = waits; }
 bool ConfigViewer::waits() const { return impl_->waits && !isHeadless(); }
 void ConfigViewer::setError(const std::string& text) { server().setError(text); }
 void ConfigViewer::select(int frame) { server().select(frame); }
-void ConfigViewer::setCamera(const PageCamera& camera) { server().setCamera(camera); }
+const std::map<int, Quad>& ConfigViewer::quads() const { return impl_->quads; }
+std::shared_ptr<SceneTree> ConfigViewer::pictured() const { return impl_->scene.lock(); }
+void ConfigViewer::setupEventHandler(bool instead) { server().requestEvents(instead); }
+std::vector<std::string> ConfigViewer::getEvents() { return server().takeEvents(); }
+std::optional<Cursor> ConfigViewer::getEventCursor() { return server().cursor(); }
 std::optional<PageCamera> ConfigViewer::takeViewpoint() {
   return isOpen() ? impl_->server->takeViewpoint() : std::nullopt;
 }
@@ -83,6 +94,9 @@ ViewerServer& ConfigViewer::server() {
       return true;
     });
     impl_->server->setMessage(message());
+    impl_->server->setAppearance(impl_->appearance);
+    if (impl_->camera) impl_->server->setCamera(*impl_->camera);
+    for (const auto& [id, quad] : impl_->quads) impl_->server->setQuad(quad);
     if (!isHeadless()) announce(*impl_->server);
     openBrowser(impl_->server->url());
   }
@@ -106,6 +120,46 @@ void ConfigViewer::serveAt(const std::string& host, int port, const std::string&
     impl_->options = before;
     throw;
   }
+}
+
+void ConfigViewer::setScene(const std::shared_ptr<SceneTree>& scene) {
+  impl_->scene = scene;
+  impl_->kept_scene = scene->viewer.get() == this ? nullptr : scene;
+}
+
+void ConfigViewer::setCamera(const PageCamera& camera) {
+  impl_->camera = camera;
+  if (isOpen()) impl_->server->setCamera(camera);
+}
+
+const Appearance& ConfigViewer::appearance() const { return impl_->appearance; }
+
+void ConfigViewer::setAppearance(const Appearance& appearance) {
+  impl_->appearance = appearance;
+  if (isOpen()) impl_->server->setAppearance(appearance);
+}
+
+void ConfigViewer::visualsOnly(bool yes) {
+  Appearance appearance = impl_->appearance;
+  appearance.visuals_only = yes;
+  setAppearance(appearance);
+}
+
+int ConfigViewer::setQuad(int id, const PageImage& image, double x, double y, double height) {
+  if (id < -1) throw ValueError(cat("setQuad: id is ", id, "; expected -1 for a new image, or an existing id"));
+  if (!(std::isfinite(x) && std::isfinite(y) && std::isfinite(height) && height > 0.)) {
+    throw ValueError(
+        cat("setQuad: x, y, h are ", x, ", ", y, ", ", height, "; expected fractions of the window's height, h > 0"));
+  }
+  if (image.rgb.empty() || image.rgb.size() != 3 * std::size_t(image.columns) * std::size_t(image.rows)) {
+    throw ValueError(cat("setQuad: ", image.rgb.size(), " bytes; expected 3 for each of ", image.rows, " x ",
+                         image.columns, " pixels"));
+  }
+  auto& quads = impl_->quads;
+  const int chosen = id >= 0 ? id : quads.empty() ? 0 : quads.rbegin()->first + 1;
+  quads[chosen] = {chosen, x, y, height, 0., image.columns, image.rows, image.rgb};
+  if (isOpen()) impl_->server->setQuad(quads[chosen]);
+  return chosen;
 }
 
 void ConfigViewer::setTitle(const std::string& text) {
@@ -170,11 +224,16 @@ int ConfigViewer::takeKey() {
 void ConfigViewer::close() {
   if (isOpen()) impl_->server->stopRecording();
   impl_->server.reset();
+  impl_->appearance = {};
+  impl_->camera.reset();
+  impl_->quads.clear();
+  if (reset_pictures_) reset_pictures_();
   remember("");
 }
 
 void ConfigViewer::update(const Config& config) {
   ViewerServer& to = server();
+  setScene(config.scene());
   impl_->items.read(config);
   to.endMotion();
   std::exchange(impl_->knows_items, true) ? to.update(impl_->items.items(), impl_->items.changed())

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/scene/config.h"
@@ -14,8 +16,12 @@
 namespace kinegraph {
 
 class Config;
+class Frame;
+class ViewerPictures;
 class ViewerRecording;
 class ViewerServer;
+struct Camera;
+struct CameraImage;
 struct ShownMotion;
 struct ViewerOptions;
 
@@ -73,8 +79,44 @@ class ConfigViewer : public ProgrammableViewer {
   /// takes its duration. Starts the page if necessary. Throws FileError if the file cannot be written, and ValueError
   /// during another recording of this viewer.
   [[nodiscard]] ViewerRecording record(const std::string& path);
-  void setCamera(const PageCamera& camera);
+  void setCamera(const PageCamera& camera);  ///< of all pages, including later ones
+  /// Returns the camera that a user has moved since the last call and the last setCamera; nothing if no user has.
   std::optional<PageCamera> takeViewpoint();
+  /// Shows an image on top of the scene, on all pages and in pictures, at a place in heights of the window. `id`
+  /// replaces an image; -1 adds one. Returns its id. Throws ValueError for a wrong number of pixels or place.
+  int setQuad(int id, const PageImage& image, double x, double y, double height);
+  const std::map<int, Quad>& quads() const;
+
+  /// Requests events of mouse and keys from the page; with `instead`, they have no other effect there.
+  void setupEventHandler(bool instead);
+  std::vector<std::string> getEvents();  ///< since the last call, such as "click down left", "key up a", "scroll up"
+  /// Returns the point under the pointer, the surface's normal and the frame; nothing until it was on a surface.
+  std::optional<Cursor> getEventCursor();
+
+  /// Renders the scene as the page shows it, with the program's drawings and the message, without a browser. The depth
+  /// is empty. Throws ValueError before the viewer has a scene, and FileError without EGL or a driver.
+  CameraImage getRgb();
+  /// Renders with the depth (m along the camera's z axis; -1: background), which has no drawings.
+  CameraImage getDepth();
+  /// Saves a picture as PNG, and creates missing folders. `path` is the file, if it ends in .png; else the prefix of a
+  /// six-digit number and .png: `count`, or counted up from 0. Returns the file. Throws ValueError for files that end
+  /// in .jpg or another format, and FileError.
+  std::string savePng(const std::string& path = "z.vid/", int count = -1);
+
+  /// Returns the camera of pictures and pages: as set, or as a user has moved the page's since.
+  Camera camera();
+  void setCamera(const Camera& camera);
+  void setCamera(const Frame& frame);  ///< follows a frame with its attributes of a camera; see `cameraOf`
+  void setCamera(const Vector3d& position, const Vector3d& target);  ///< m
+  /// Turns the camera to a point (m), and moves it such that `height` m fit into the picture there.
+  void focus(const Vector3d& position, double height = 1.);
+  /// Moves the camera along its line of sight such that the visible scene fills the picture. Returns the scene's
+  /// center, m; 0 without a visible shape.
+  Vector3d fit();
+  void setWindow(const std::string& title, int width, int height);  ///< size of pictures, pixels
+  void visualsOnly(bool yes = true);  ///< omits markers, transparent shapes and the message from pictures and pages
+  void setAppearance(const Appearance& appearance);  ///< of pictures and pages, including later ones
+  const Appearance& appearance() const;
   std::string url();
   int clients() const;
   int takeKey();  ///< also runs the callbacks that are due
@@ -94,8 +136,15 @@ class ConfigViewer : public ProgrammableViewer {
 
  protected:
   void contentChanged() override;
+  /// Returns the scene of pictures: that of the last `update` or `setScene`, in its present state; null without one.
+  virtual std::shared_ptr<SceneTree> pictured() const;
+  ViewerPictures& pictures();
 
  private:
+  friend class ViewerPictures;
+  friend class Config;
+
+  void setScene(const std::shared_ptr<SceneTree>& scene);
   /// Shows the message with a request for a key, and waits for one.
   int promptKey(const std::optional<std::string>& message, const CancellationToken& cancellation);
   int waitKey(const std::string& prompt, const CancellationToken& cancellation);
@@ -103,6 +152,8 @@ class ConfigViewer : public ProgrammableViewer {
 
   struct Impl;
   std::unique_ptr<Impl> impl_;
+  std::shared_ptr<ViewerPictures> pictures_;  ///< null until needed
+  std::function<void()> reset_pictures_;      ///< sets the initial camera
 };
 
 /// A running recording of a viewer, which must outlive it. Closing the viewer ends it, too.

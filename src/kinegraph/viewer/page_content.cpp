@@ -65,10 +65,21 @@ std::shared_ptr<PageControl> PageContent::add(PageControl control) {
   return controls_.back();
 }
 
-void PageContent::draw(const PageDrawing& drawing) {
+void PageContent::draw(PageDrawing drawing) {
   std::vector<Outgoing> messages = drawingMessages(drawing);
+  auto shared = std::make_shared<const PageDrawing>(std::move(drawing));
   const std::lock_guard lock(mutex_);
-  drawings_[drawing.name] = {++revision_, std::move(messages)};
+  Drawn& drawn = drawings_[shared->name];
+  drawn = {++revision_, std::move(shared), std::move(messages)};
+}
+
+std::vector<std::shared_ptr<const PageDrawing>> PageContent::drawings() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<std::shared_ptr<const PageDrawing>> drawings;
+  for (const auto& [name, drawn] : drawings_) {
+    if (drawn.drawing) drawings.push_back(drawn.drawing);
+  }
+  return drawings;
 }
 
 double PageContent::now() {
@@ -106,7 +117,7 @@ std::vector<std::string> PageContent::names() const {
   std::vector<std::string> names;
   for (const auto& control : controls_) names.push_back(control->name());
   for (const auto& [name, drawn] : drawings_) {
-    if (!drawn.messages.empty()) names.push_back(name);
+    if (drawn.drawing) names.push_back(name);
   }
   for (const auto& [name, series] : series_) names.push_back(name);
   return names;
@@ -117,7 +128,7 @@ void PageContent::remove(const std::string& name) {
   const std::lock_guard lock(mutex_);
   const std::vector<std::string> known = names();
   bool found = false;
-  if (const auto drawn = drawings_.find(name); drawn != drawings_.end() && !drawn->second.messages.empty()) {
+  if (const auto drawn = drawings_.find(name); drawn != drawings_.end() && drawn->second.drawing) {
     drawn->second = {++revision_};
     found = true;
   }
@@ -210,7 +221,7 @@ void PageContent::addMessages(Seen& seen, std::vector<Outgoing>& out) const {
   for (const auto& [name, drawn] : drawings_) {
     if (drawn.revision <= seen.revision) continue;
     out.insert(out.end(), drawn.messages.begin(), drawn.messages.end());
-    if (drawn.messages.empty() && seen.revision > 0) out.push_back(jsonMessage(UndrawMessage{name}));
+    if (!drawn.drawing && seen.revision > 0) out.push_back(jsonMessage(UndrawMessage{name}));
   }
   if (series_revision_ > seen.revision) {
     PlotsMessage message;

@@ -43,7 +43,7 @@ struct PageControl {
 
 /// A drawing in the scene, in the coordinates of a frame or of the world.
 struct PageDrawing {
-  std::string name, type;  ///< type: arrow, line, label, points, frustum, axes, image
+  std::string name, type;  ///< type: arrow, line, label, points, frustum, axes, image; log: an image beside it
   std::string frame{}, text{};
   std::vector<Vector3d> points{};
   std::vector<std::array<std::uint8_t, 4>> colors{};  ///< rgba; one, or one per point
@@ -67,7 +67,9 @@ class PageContent {
   /// Adds a control, or returns the one of this kind with the same label and folder. Throws ValueError if that one is
   /// of another kind.
   std::shared_ptr<PageControl> add(PageControl control);
-  void draw(const PageDrawing& drawing);
+  void draw(PageDrawing drawing);
+  /// Returns the drawings, by name; each object stays the same until it is replaced.
+  std::vector<std::shared_ptr<const PageDrawing>> drawings() const;
   /// Appends a sample to the plot of that name. Throws ValueError unless it has as many numbers as earlier ones.
   void log(const std::string& name, double time, const std::vector<double>& values, const std::string& unit);
   /// Returns the seconds since the first sample.
@@ -105,7 +107,8 @@ class PageContent {
   using Clock = std::chrono::steady_clock;
   struct Drawn {
     std::uint64_t revision = 0;
-    std::vector<Outgoing> messages{};  ///< empty: removed
+    std::shared_ptr<const PageDrawing> drawing{};  ///< null: removed
+    std::vector<Outgoing> messages{};
   };
   struct Series {
     int id;

@@ -199,7 +199,7 @@ void ProgrammableViewer::draw(PageDrawing drawing, const DrawOptions& options) {
   drawing.colors = options.colors;
   if (drawing.colors.empty()) drawing.colors = {colorBytes(options.color)};
   if (drawing.type != "label") drawing.text = options.label;
-  content_->draw(drawing);
+  content_->draw(std::move(drawing));
   contentChanged();
 }
 
@@ -257,6 +257,16 @@ void ProgrammableViewer::image(const std::string& name, const PageImage& image, 
         image.rows,
         image.rgb},
        options);
+}
+
+void ProgrammableViewer::logImage(const std::string& name, const PageImage& image) {
+  checkImage("log", name, image);
+  if (image.rgb.empty()) throw ValueError(cat("log '", name, "': the image has no pixels"));
+  PageDrawing drawing{name, "log"};
+  drawing.columns = image.columns;
+  drawing.rows = image.rows;
+  drawing.rgb = image.rgb;
+  draw(std::move(drawing), {});
 }
 
 void ProgrammableViewer::remove(const std::string& name) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <concepts>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -126,6 +127,11 @@ class ProgrammableViewer {
            const std::string& unit = "") {
     log(name, std::vector{value}, time, unit);
   }
+  /// Shows an image below the plots, instead of the last one of that name. Throws ValueError without pixels.
+  template <std::same_as<PageImage> Picture>
+  void log(const std::string& name, const Picture& image) {
+    logImage(name, image);
+  }
 
   /// Sets the function that clicks on the scene call. An empty function ends it.
   void onClick(std::function<void(const Hit&)> callback);
@@ -142,6 +148,7 @@ class ProgrammableViewer {
   template <class T>
   ViewerValue<T> valueOf(PageControl control);
   void draw(PageDrawing drawing, const DrawOptions& options);
+  void logImage(const std::string& name, const PageImage& image);
 
   std::shared_ptr<PageContent> content_;
 };
