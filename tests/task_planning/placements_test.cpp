@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "kinegraph/task_planning/polygon.h"
+#include "kinegraph/task_planning/shape_points.h"
 #include "tests/task_planning/task_scenes.h"
 
 namespace kinegraph {
@@ -49,6 +50,15 @@ TEST(Placements, AnObjectThatIsLargerThanItsPlaceIsNotWhole) {
   const auto placements = placementsOf(traysAndCubes(), {putOn("pad", "b0")});
   EXPECT_FALSE(placements[0]->is_whole);
   EXPECT_LT(placements[0]->at.norm(), 1e-9);
+}
+
+TEST(Placements, AnObjectFromElsewhereComesInsideALargePlace) {
+  Config C = traysAndCubes();
+  C.getFrame("b0").setPosition({-5., .2, 1.});
+  const auto placements = placementsOf(C, {putOn("table", "b0")});
+  EXPECT_TRUE(placements[0]->is_whole);
+  const Eigen::Vector2d half = .5 * placeSides(C.getFrame("table"));
+  EXPECT_GT((half - placements[0]->at.cwiseAbs()).minCoeff(), .1);
 }
 
 TEST(Placements, OnALargePlaceAnObjectStaysNear) {

@@ -91,10 +91,16 @@ Array frames(const PyTaskPlan& plan, const PyConfig& C, double rate) {
 }
 
 PyTaskPlan repair(const PyTaskPlan& plan, const PyConfig& C, std::optional<double> time_limit,
-                  std::optional<long> max_evaluations, std::optional<int> threads) {
+                  std::optional<long> max_evaluations, std::optional<int> threads, const std::string& also) {
   const Config scene(C);
+  std::shared_ptr<const TaskRequest> request = plan.request;
+  if (request && !also.empty()) {  // copies of the plan have the same goal
+    TaskRequest with = *request;
+    with.goal += " " + also;
+    request = std::make_shared<const TaskRequest>(std::move(with));
+  }
   const nb::gil_scoped_release unlock;
-  return {plan.repair(scene, {time_limit, max_evaluations, threads}), plan.request};
+  return {plan.repair(scene, {time_limit, max_evaluations, threads, also}), request};
 }
 
 void bindPlanFields(nb::class_<PyTaskPlan, Trajectory>& plan) {
@@ -195,7 +201,7 @@ void bindTaskPlan(nb::module_& m) {
           [](const PyTaskPlan& p, const PyConfig& C) { return copyOf(p.failedConfiguration(C)); }, "C"_a,
           docs::failedConfiguration)
       .def("repair", repair, "C"_a, nb::kw_only(), "time_limit"_a = nb::none(), "max_evaluations"_a = nb::none(),
-           "threads"_a = nb::none(), docs::repair)
+           "threads"_a = nb::none(), "also"_a = "", docs::repair)
       .def("__bool__", &TaskPlan::feasible)
       .def("__str__", [](const PyTaskPlan& p) { return inPython(p.str()); })
       .def("__repr__", [](const PyTaskPlan& p) {

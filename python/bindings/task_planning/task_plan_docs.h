@@ -75,6 +75,7 @@ Args:
     time_limit: s of wall time; None: that of the plan.
     max_evaluations: Budget of evaluations; None: that of the plan.
     threads: Threads; None: those of the plan.
+    also: Further literals of the goal, such as (up z cup). Those of `up` are left out if the domain has no such word.
 Returns:
     A TaskPlan; not finding one is a status.
 Raises:

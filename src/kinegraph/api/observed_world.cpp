@@ -32,6 +32,8 @@ const double kNearTurned = cosineOfDegrees(4.);  ///< tolerance of the rotation 
 constexpr double kLeastLever = .01;              ///< m: of objects that slipped because they turned
 constexpr double kCloser = .8;                   ///< factor on levers that another grasp may have
 constexpr double kTouch = 5e-3;                  ///< m: objects that are closer touch
+constexpr double kRest = .1, kStill = 1e-3;      ///< s, m: objects that move less in this time are at rest
+constexpr int kMostRests = 30;                   ///< such times, at most, until objects are at rest
 constexpr double kJointOff = .05;                ///< rad or m: tolerance of joints
 constexpr double kBeyond = 1e-3;                 ///< rad or m: joints that are not farther beyond a limit are at it
 
@@ -231,6 +233,22 @@ void ObservedWorld::advance(double seconds) {
   placeBelieved();
 }
 
+void ObservedWorld::comeToRest() {
+  const auto positions = [&] {
+    std::vector<Vector3d> at;
+    for (const std::string& obj : objects_) at.push_back(seen_.getFrame(obj).getPosition());
+    return at;
+  };
+  for (int k = 0; k < kMostRests; ++k) {
+    const std::vector<Vector3d> before = positions();
+    advance(kRest);
+    const std::vector<Vector3d> after = positions();
+    double most = 0.;
+    for (std::size_t i = 0; i < after.size(); ++i) most = std::max(most, (after[i] - before[i]).norm());
+    if (most < kStill) return;
+  }
+}
+
 void ObservedWorld::look() {
   bot_.sync(seen_, 0.);
   if (observe_) {
@@ -371,7 +389,9 @@ std::string ObservedWorld::objectDeviation(const std::string& obj, const Config&
   }
   const double off = (is.getPosition() - shall.getPosition()).norm();
   if (off > kOff) return cat("'", obj, "' is ", fixed(off, 3), " m away from where it should be");
-  return hasSameSideUp(is, shall.getRotationMatrix()) ? "" : cat("'", obj, "' has tilted");
+  const Matrix3d rotation = shall.getRotationMatrix();
+  const bool stands = hasSameSideUp(is, rotation) || leansInside(seen_, obj, placeBelow(seen_, obj, places_), rotation);
+  return stands ? "" : cat("'", obj, "' has tilted");
 }
 
 std::vector<std::string> ObservedWorld::missedGoals(const std::vector<Literal>& goal, const Config& C) const {

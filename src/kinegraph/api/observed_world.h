@@ -33,6 +33,7 @@ class ObservedWorld {
   void setPlan(const TaskPlan& plan);
 
   void advance(double seconds);  ///< of control time
+  void comeToRest();             ///< lets time pass until no object moves, 3 s at most
   void look();                   ///< observes all objects
 
   const Config& seen() const { return seen_; }

@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 #include "kinegraph/common/text.h"
+#include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/task_actions.h"
 #include "kinegraph/task_planning/task_tools.h"
 
@@ -25,10 +27,27 @@ std::pair<Eigen::Index, double> upAxis(const Matrix3d& rotation) {
   return {axis, up[axis] < 0. ? -1. : 1.};
 }
 
+const double kLeaning = std::cos(45. * std::numbers::pi / 180.);  ///< objects that tilt more do not lean
+constexpr double kLeanGap = 5e-3;                                 ///< m: bodies that are closer touch
+
 /// Whether an object looks the same after any rotation about its axis.
 bool isRound(const Frame& frame) {
   const ShapeType type = frame.getShapeType();
   return type == ShapeType::cylinder || type == ShapeType::ssCylinder || type == ShapeType::capsule;
+}
+
+/// The cosine of the angle between the directions that point up in two orientations. Lying round objects may roll.
+double upCosine(const Frame& obj, const Matrix3d& rotation) {
+  if (isBall(obj)) return 1.;
+  const Vector3d now = obj.getRotationMatrix().row(2), then = rotation.row(2);
+  const double round = now.z() * then.z() + now.head<2>().norm() * then.head<2>().norm();
+  return isRound(obj) ? round : now.dot(then);
+}
+
+/// Whether a frame is fixed to another one above it.
+bool isFixedTo(Frame frame, const Frame& above) {
+  while (!(frame == above) && frame.getJointType() == JointType::none && frame.getParent()) frame = *frame.getParent();
+  return frame == above;
 }
 
 /// Whether an object stands as in a rotation. One that was a little tilted may have settled on its side.
@@ -46,11 +65,16 @@ double cosineBetween(const Frame& obj, const Matrix3d& rotation) {
   return isRound(obj) ? R(2, 2) : .5 * (R.trace() - 1.);
 }
 
-bool hasSameSideUp(const Frame& obj, const Matrix3d& rotation) {
-  if (isBall(obj)) return true;
-  const Vector3d now = obj.getRotationMatrix().row(2), then = rotation.row(2);
-  const double round = now.z() * then.z() + now.head<2>().norm() * then.head<2>().norm();
-  return (isRound(obj) ? round : now.dot(then)) >= kUpright;
+bool hasSameSideUp(const Frame& obj, const Matrix3d& rotation) { return upCosine(obj, rotation) >= kUpright; }
+
+bool leansInside(const Config& C, const std::string& obj, const std::string& place, const Matrix3d& rotation) {
+  const std::optional<Frame> below = C.findFrame(place);
+  if (!below || upCosine(C.getFrame(obj), rotation) < kLeaning) return false;
+  return std::ranges::any_of(below->getSubtree(), [&](const Frame& wall) {
+    const auto& shape = wall.data().shape;
+    return !(wall == *below) && shape && shape->contact && isFixedTo(wall, *below) &&
+           standingGap(C, obj, wall.getName()) < kLeanGap;
+  });
 }
 
 void StandingSides::setPlan(const TaskPlan& plan) {
@@ -67,8 +91,11 @@ void StandingSides::setPlan(const TaskPlan& plan) {
 std::vector<std::string> StandingSides::fallen(const Config& C,
                                                const std::map<std::string, std::string>& in_hands) const {
   std::vector<std::string> names;
-  for (const auto& [obj, rotation] : rotations_)
-    if (!in_hands.contains(obj) && !standsAs(C.getFrame(obj), rotation)) names.push_back(obj);
+  for (const auto& [obj, rotation] : rotations_) {
+    if (in_hands.contains(obj) || standsAs(C.getFrame(obj), rotation)) continue;
+    const std::optional<Frame> place = C.getFrame(obj).getParent();
+    if (!place || !leansInside(C, obj, place->getName(), rotation)) names.push_back(obj);
+  }
   return names;
 }
 

@@ -158,13 +158,15 @@ class TaskRun::Impl {
 
   TaskEvent repair() {
     if (repairs_left_ == 0) return end(failure_);
+    world_.comeToRest();  // what falls is planned for where it ends
     world_.look();
     --repairs_left_;
     const Config scene = world_.scene();
     const Words fallen = sides_.fallen(scene, world_.held());
     TaskPlan plan = planOnward(scene, fallen);
     if (!plan.feasible()) return end(cat(failure_, "; no plan leads on: ", plan.message));
-    if (plan.actions.empty() && !fallen.empty()) return end(failure_);
+    if (plan.actions.empty() && !fallen.empty())
+      return end(cat(failure_, "; no plan puts ", join(fallen, ", "), " up again"));
     ++result.repairs;
     plan.replanner = plan_.replanner;
     plan_ = std::move(plan);
@@ -183,10 +185,12 @@ class TaskRun::Impl {
           plan_.goal, [&](const Literal& literal) { return std::ranges::count(literal.arguments, obj) > 0; });
     });
     RepairOptions options = options_.repair;
+    std::string tried;
     for (const Words& objects : {fallen, of_goal}) {
-      const std::string also = sides_.asGoal(objects);
-      if (also == options.also) continue;
-      options.also = also;
+      const std::string sides = sides_.asGoal(objects);
+      if (sides == tried) continue;
+      tried = sides;
+      options.also = options_.repair.also + sides;
       if (TaskPlan plan = plan_.repair(scene, options); plan.feasible()) return plan;
     }
     return plan_.repair(scene, options_.repair);

@@ -127,9 +127,10 @@ Variants waysOf(const Frame& frame, const Openings& hand) {
 }
 
 /// Grasps of a body of several shapes: by the shape of its own frame, across all of it, then by its parts. First those
-/// that fingers get around, close to the center of mass; parts at equal distances are spread.
+/// that fingers get around, close to the center of mass and not too far beside it; parts at equal distances are spread.
 Variants waysOfBody(const Config& C, const std::string& obj, const std::string& hand) {
   constexpr double kRing = .005;  // m
+  constexpr long kLast = 1000;    // rings: parts at which the weight turns the body in the hand come last
   const Frame body = C.getFrame(obj);
   const Openings openings = openingsOf(C, hand);
   const PartAccess access(C, obj, openings.most);
@@ -152,8 +153,9 @@ Variants waysOfBody(const Config& C, const std::string& obj, const std::string& 
         others.push_back(variant);
         continue;
       }
-      const Vector3d at = body.getPose().transform() * guess->at;
-      parts.push_back({{std::lround((guess->at - center).norm() / kRing), (at - from).norm()}, variant});
+      const Vector3d at = body.getPose().transform() * guess->at, off = guess->at - center;
+      const bool turns = Vector3d(body.getRotationMatrix() * off).head<2>().norm() > leverOf(body);
+      parts.push_back({{std::lround(off.norm() / kRing) + (turns ? kLast : 0), (at - from).norm()}, variant});
     }
   }
   std::ranges::sort(parts);

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "kinegraph/scene/hand_fingers.h"
 #include "kinegraph/task_planning/held_shapes.h"
@@ -54,6 +56,18 @@ double leastWidth(const Config& C, const std::string& obj, const std::vector<std
   return std::isfinite(least) ? least : 0.;
 }
 
+/// The pairs of frames that overlap.
+std::set<std::pair<int, int>> overlapsIn(const Config& C) {
+  std::set<std::pair<int, int>> pairs;
+  for (const Config::NearPair& pair : C.getCollisions(-kNewOverlap)) pairs.emplace(pair.a, pair.b);
+  return pairs;
+}
+
+/// Whether no pair overlaps that did not overlap before.
+bool overlapsNothingElse(const Config& C, const std::set<std::pair<int, int>>& before) {
+  return std::ranges::includes(before, overlapsIn(C));
+}
+
 void setFingers(Config& C, const Fingers& fingers, double q) {
   C.setJointState(VectorXd::Constant(1, q), {fingers.joint->name});
 }
@@ -72,10 +86,10 @@ Config withOpenHands(const Config& C, double most) {
     if (opening == openings.end()) continue;
     const double wide = opening->widthAt(upper) > opening->widthAt(lower) ? upper : lower;
     const double open = opening->maxWidth() > most ? opening->positionAt(most) : wide;
-    const std::size_t overlaps = scene.getCollisions(-kNewOverlap).size();
+    const std::set<std::pair<int, int>> overlaps = overlapsIn(scene);
     for (const double share : kShares) {
       setFingers(scene, fingers, now + share * (open - now));
-      if (scene.getCollisions(-kNewOverlap).size() <= overlaps) break;
+      if (overlapsNothingElse(scene, overlaps)) break;
       setFingers(scene, fingers, now);
     }
   }
@@ -91,10 +105,10 @@ bool opensFreely(const Config& C, const std::string& hand, double width) {
   const auto opening = std::ranges::find(openings, fingers.joint->name, &HandFingers::joint);
   if (opening == openings.end()) return true;
   const double now = fingers.joint->joint->q[0], open = opening->positionAt(width);
-  const std::size_t overlaps = scene.getCollisions(-kNewOverlap).size();
+  const std::set<std::pair<int, int>> overlaps = overlapsIn(scene);
   for (int k = 1; k <= kSteps; ++k) {
     setFingers(scene, fingers, now + double(k) / kSteps * (open - now));
-    if (scene.getCollisions(-kNewOverlap).size() > overlaps) return false;
+    if (!overlapsNothingElse(scene, overlaps)) return false;
   }
   return true;
 }
@@ -111,20 +125,16 @@ Config withFingersOf(const Config& C, const Config& other) {
   return scene;
 }
 
-std::vector<double> narrowerOpenings(const Config& C, const std::vector<Literal>& goal) {
+std::vector<double> narrowerOpenings(const Config& C, const std::set<std::string>& objects) {
   const std::vector<HandFingers> all = handFingersOf(C);
   const std::vector<std::string> hands = wordsOf(taskFacts(C), "is_gripper");
   if (all.empty()) return {};
   const Config scene = withOpenings(C, hands);
   double needed = 0., widest = 0.;
   for (const HandFingers& fingers : all) widest = std::max(widest, fingers.maxWidth());
-  for (const std::string& obj : wordsOf(taskFacts(C), "is_object")) {
-    const auto names = [&](const Literal& literal) {
-      return std::ranges::find(literal.arguments, obj) != literal.arguments.end();
-    };
-    if (std::ranges::none_of(goal, names) || scene.getFrame(obj).getShapeType() == ShapeType::none) continue;
-    needed = std::max(needed, leastWidth(scene, obj, hands));
-  }
+  for (const std::string& obj : wordsOf(taskFacts(C), "is_object"))
+    if (objects.contains(obj) && scene.getFrame(obj).getShapeType() != ShapeType::none)
+      needed = std::max(needed, leastWidth(scene, obj, hands));
   std::vector<double> openings;
   for (const double room : kRooms)
     if (needed > 0. && needed + 2. * room < kNarrower * widest) openings.push_back(needed + 2. * room);

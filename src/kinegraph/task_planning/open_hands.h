@@ -1,9 +1,10 @@
 #pragma once
 
 #include <limits>
+#include <set>
+#include <string>
 #include <vector>
 
-#include "kinegraph/logic/domain.h"
 #include "kinegraph/scene/config.h"
 
 namespace kinegraph {
@@ -20,8 +21,8 @@ bool opensFreely(const Config& C, const std::string& hand, double width);
 /// Returns a scene with the fingers of hands as in another one.
 Config withFingersOf(const Config& C, const Config& other);
 
-/// Returns openings of hands, m, that have room for the objects of a goal and are less than the widest one, wide ones
-/// first: for objects next to which open fingers have no room.
-std::vector<double> narrowerOpenings(const Config& C, const std::vector<Literal>& goal);
+/// Returns openings of hands, m, that have room for objects and are less than the widest one, wide ones first: for
+/// objects next to which open fingers have no room.
+std::vector<double> narrowerOpenings(const Config& C, const std::set<std::string>& objects);
 
 }  // namespace kinegraph

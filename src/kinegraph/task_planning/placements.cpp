@@ -202,7 +202,8 @@ class Packing {
     const Footprint footprint = footprintOf(C_.getFrame(obj), rotationOf(obj));
     const RigidTransform to_place = C_.getFrame(to).getPose().inverse().transform();
     const Vector3d world = at_.contains(obj) ? at_.at(obj) : C_.getFrame(obj).getPosition();
-    const Vector2d start = Vector3d(to_place * world).head<2>();
+    const Vector2d inside = (half.array() - footprint.radius - kEnough).max(0.);  // it may come from elsewhere
+    const Vector2d start = Vector3d(to_place * world).head<2>().cwiseMax(-inside).cwiseMin(inside);
     std::vector<Rectangle> obstacles = obstaclesOn(to, footprint.height, half, i);
     for (const Rectangle& other : taken_[to]) obstacles.push_back(other);
     Placement best{.is_near = true};

@@ -26,7 +26,11 @@ std::vector<Literal> unique(const std::vector<Literal>& facts) {
 
 class StartFacts {
  public:
-  explicit StartFacts(const Config& C) : C_(C), said_(sceneFacts(C)) {}
+  explicit StartFacts(const Config& C) : C_(C), said_(sceneFacts(C)) {
+    for (const char* kind : {"is_carrier", "is_pushable"})  // labels that only objects have
+      for (const std::string& name : wordsOf(said_, kind))
+        if (C.getFrame(name).getJointType() == JointType::rigid) said_.push_back({"is_object", {name}});
+  }
 
   std::vector<Literal> with(const std::vector<Literal>& goal) {
     const std::vector<Frame> frames = C_.getFrames();

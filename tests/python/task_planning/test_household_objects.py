@@ -116,3 +116,15 @@ def test_what_no_finger_gets_around_is_said() -> None:
     body(C, "card", 0.003).setShape(ry.ST.ssBox, [0.06, 0.09, 0.003, 0.001]).setContact(1)
     message = ry.planTask(C, "(on tray card)").message
     assert "'card' is 3.0 mm high, too thin for the tips of 'l_gripper' (4 mm) while it lies flat on 'table'" in message
+
+
+def test_a_heavy_kettle_is_held_in_the_middle_of_its_bow() -> None:
+    C = scene()
+    body(C, "kettle", 0.14, mass=0.9)
+    part(C, "pot", "kettle", [0, 0, 0], ry.ST.cylinder, [0.14, 0.07])
+    part(C, "bow", "kettle", [0, 0, 0.12], ry.ST.ssBox, [0.11, 0.02, 0.02, 0.004])
+    for side in (-1, 1):
+        part(C, f"post{side}", "kettle", [0.05 * side, 0, 0.095], ry.ST.ssBox, [0.012, 0.02, 0.05, 0.003])
+    plan = ry.planTask(C, "(on tray kettle)")
+    assert min(error for error, _ in plan.tolerances) > 3e-3, plan.explain()
+    assert is_on_tray(C, executed(C, plan), "kettle", 0.14)

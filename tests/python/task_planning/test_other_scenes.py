@@ -99,3 +99,54 @@ def test_what_makes_way_is_put_on_the_table_and_not_onto_another_object() -> Non
     assert next(action[3] for action in plan.actions if action[0] == "place") == "table"
     world = executed(C, plan)
     assert stands(world, "a", "pad1") and stands(world, "b", "pad0")
+
+
+def test_an_object_from_afar_stands_well_inside_a_large_place() -> None:
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/panda_mobile.g"))
+    C.addFrame("floor")
+    for name, x in (("kitchen", 2.0), ("desk", -2.0)):
+        body(C, name, "floor", [x, 0, 0.35], [0.8, 1.2, 0.7])
+    body(C, "box", "kitchen", [-0.2, 0.1, 0.4], [0.05, 0.05, 0.1], 0.2)
+    world = executed(C, ry.planTask(C, "(on desk box)", max_evaluations=QUICK))
+    at = world.getFrame("box").getPosition() - world.getFrame("desk").getPosition()
+    assert stands(world, "box", "desk") and np.all(np.abs(at[:2]) < [0.37, 0.57])
+
+
+def pens_and_a_cup(apart: float) -> ry.Config:
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    cup = C.addFrame("cup", "table").setRelativePosition([0.2, 0.3, 0.053]).setJoint(ry.JT.rigid).setMass(0.3)
+    cup.setShape(ry.ST.cylinder, [0.006, 0.035]).setContact(1)
+    for k in range(8):
+        a = 0.25 * np.pi * k
+        wall = C.addFrame(f"wall{k}", "cup").setRelativePosition([0.035 * np.cos(a), 0.035 * np.sin(a), 0.05])
+        wall.setRelativeQuaternion([np.cos(0.5 * a), 0, 0, np.sin(0.5 * a)])
+        wall.setShape(ry.ST.ssBox, [0.004, 0.03, 0.1, 0.001]).setContact(1)
+    for i in range(2):
+        pen = C.addFrame(f"pen{i}", "table").setRelativePosition([-0.3 + apart * i, 0.3, 0.057]).setJoint(ry.JT.rigid)
+        pen.setRelativeQuaternion([1, 1, 0, 0]).setShape(ry.ST.capsule, [0.13, 0.006]).setContact(1).setMass(0.02)
+    return C
+
+
+def test_a_pen_that_leans_in_a_cup_has_not_fallen_and_a_neighbor_is_left_alone() -> None:
+    C = pens_and_a_cup(apart=0.06)
+    plan = ry.planTask(C, "(on cup pen0)")
+    assert any("hands open to 26 mm only" in warning for warning in plan.warnings)
+    assert min(error for error, _ in plan.tolerances) > 2e-3
+    world = executed(C, plan)
+    up = world.getFrame("pen0").getRotationMatrix()[2, 2]
+    assert 0.7 < up < 0.985 and world.getFrame("pen0").getPosition()[2] > 0.7
+
+
+def test_a_tray_that_is_called_a_carrier_needs_no_other_label() -> None:
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    body(C, "tray", "table", [-0.3, 0.3, 0.058], [0.2, 0.06, 0.016], 0.3)
+    C.getFrame("tray").setAttributes({"logical": {"is_carrier": True}})
+    body(C, "glass", "tray", [0, 0, 0.058], [0.04, 0.04, 0.1], 0.1)
+    body(C, "board", "table", [0.3, 0.35, 0.055], [0.3, 0.3, 0.01])
+    plan = ry.planTask(C, "(on board tray)", max_evaluations=QUICK)
+    assert [action[0] for action in plan.actions] == ["lift", "place"], plan
+    world = executed(C, plan)
+    assert stands(world, "tray", "board") and stands(world, "glass", "tray")

@@ -103,7 +103,7 @@ def test_where_there_is_less_room_a_warning_says_between_what() -> None:
     C = panda()
     plate(C, "pad", [0.3, 0.35], 0.12)
     box(C, "a", [-0.2, 0.3])
-    for i, (x, y) in enumerate([(-0.068, 0), (0.068, 0), (0, -0.068), (0, 0.068)]):  # no open hand passes with 5 mm
+    for i, (x, y) in enumerate([(-0.0575, 0), (0.0575, 0), (0, -0.0575), (0, 0.0575)]):  # no hand passes with 5 mm
         wall = C.addFrame(f"wall{i}", "table").setRelativePosition([-0.2 + x, 0.3 + y, TABLE_TOP + 0.03])
         wall.setShape(ry.ST.ssBox, [0.02, 0.2, 0.06, 0.004] if y == 0 else [0.2, 0.02, 0.06, 0.004]).setContact(1)
     plan = ry.planTask(C, "(on pad a)")

@@ -1,5 +1,7 @@
 """Plans carried out in simulation: hands hold objects by friction, and failures are noticed and repaired."""
 
+import pickle
+
 import numpy as np
 import pytest
 
@@ -209,7 +211,8 @@ def test_a_domain_without_sides_is_repaired_without_them(tmp_path) -> None:
     plan = ry.planTask(C, "(on tray bar)", domain=ry.Domain.fromFol(str(tmp_path / "own.fol")))
     fallen = C.getFrame("bar").getPosition() + np.array([0.03, 0, -0.025])
     result, _ = disturbed(C, plan, -1, fallen, ON_ITS_SIDE)
-    assert not result.feasible and result.message.endswith("'bar' has fallen: it stands on another side than planned")
+    assert not result.feasible and "'bar' has fallen: it stands on another side than planned" in result.message
+    assert result.message.endswith("no plan puts bar up again")
 
 
 def test_a_ball_may_roll() -> None:
@@ -347,3 +350,25 @@ def test_the_base_of_a_robot_is_no_object() -> None:
     assert [word for word in ry.planTask(C, "(on gripper cup)").start if word.startswith("(is_object")] == [
         "(is_object cup)"
     ]
+
+
+def test_a_repair_waits_for_what_falls(tower) -> None:
+    C, plan = tower
+    bot = ry.BotOp(C)
+    run = plan.run(bot, repairs=1)
+    obj = plan.actions[0][1]
+    above = C.getFrame(obj).getPosition() + np.array([0.05, 0, 0.4])
+    for event in run:
+        if event.kind == ry.TaskEventKind.start and run.result.repairs == 0:
+            bot.setFramePose(obj, [*above, 1, 0, 0, 0])
+    assert run.result.feasible and run.result.repairs == 1, run.result
+
+
+def test_a_repair_may_have_a_further_goal(tower) -> None:
+    C, plan = tower
+    obj = plan.actions[0][1]
+    more = plan.repair(C, also=f"(on table {obj})!")
+    assert more.feasible and more.goal[-1] == f"(on table {obj})!", more.goal
+    assert pickle.loads(pickle.dumps(more)).repair(C).goal == more.goal
+    with pytest.raises(ry.ParseError, match="nowhere"):
+        plan.repair(C, also="(nowhere cup)")

@@ -52,6 +52,11 @@ def no_hand(C) -> None:
             "'red' stands on no place (it hangs below 'world'); put it on a place",
         ),
         (
+            lambda C: C.getFrame("tray").setAttributes({"logical": {"is_place": True}}),
+            "(on tray red)",
+            "'red' cannot be picked up where it stands: 'table' is no place: only frames with the label is_place are",
+        ),
+        (
             lambda C: C.getFrame("red").setPosition([1.1, 1.1, 0.685]),
             "(on tray red)",
             "beyond the reach of 'l_gripper'",

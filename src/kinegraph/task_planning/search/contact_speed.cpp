@@ -99,15 +99,17 @@ VectorXd slowerNearContacts(const Config& C, const MatrixXd& path, const VectorX
     }
   }
   const Stretching stretching(path, times, limits);
-  for (const double share : {1., .98, .95, .9, .75, .5}) {
-    const VectorXd w = stretching.squaredRates(caps, share);
-    if (!(w.minCoeff() > 0.) || !stretching.keepsLimits(w)) continue;
+  const auto stretched = [&](const VectorXd& w) {
     VectorXd later = times;
     const VectorXd steps = stretching.steps(w);
     for (Eigen::Index k = 0; k < count; ++k) later[k + 1] = later[k] + steps[k];
     return later;
+  };
+  for (const double share : {1., .98, .95, .9, .75, .5}) {
+    const VectorXd w = stretching.squaredRates(caps, share);
+    if (w.minCoeff() > 0. && stretching.keepsLimits(w)) return stretched(w);
   }
-  return times;
+  return stretched(VectorXd::Constant(count, caps.minCoeff()));  // all of it is slower, and keeps all limits
 }
 
 }  // namespace kinegraph

@@ -1,6 +1,7 @@
 #include "kinegraph/task_planning/search/goal_flaw.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "kinegraph/common/text.h"
@@ -42,7 +43,11 @@ class GoalFlaw {
     const std::string flaws[] = {ofObject(obj), is("is_gripper", place) ? "" : ofPlace(place), ofHands()};
     for (const std::string& flaw : flaws)
       if (!flaw.empty()) return flaw;
-    if (whatIsBelow(start_).contains(obj)) return "";
+    const std::map<std::string, std::string> below = whatIsBelow(start_);
+    if (const auto now = below.find(obj); now != below.end()) {
+      const std::string flaw = is("is_gripper", now->second) ? "" : ofPlace(now->second);
+      return flaw.empty() ? "" : cat("'", obj, "' cannot be picked up where it stands: ", flaw);
+    }
     const std::optional<Frame> parent = C_.getFrame(obj).getParent();
     return cat("'", obj, "' stands on no place", parent ? cat(" (it hangs below '", parent->getName(), "')") : "",
                "; put it on a place: a level box that no joint moves, or another object");

@@ -19,7 +19,10 @@ std::function<TaskPlan(const Config&, const RepairOptions&)> replannerTo(std::st
     const auto knows = [&](const char* word) {
       return !options.domain || std::ranges::count(options.domain->symbols, word) > 0;
     };
-    return planTask(C, knows("up") && knows("z") ? goal + limits.also : goal, changed);
+    std::string whole = goal;
+    for (const Literal& literal : readLiterals(limits.also, "also"))
+      if (literal.predicate != "up" || (knows("up") && knows("z"))) whole += " " + literal.str();
+    return planTask(C, whole, changed);
   };
 }
 

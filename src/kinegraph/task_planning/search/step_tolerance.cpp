@@ -12,6 +12,7 @@ namespace kinegraph {
 namespace {
 
 constexpr double kLifted = kHoldingForce;  ///< N: half of the friction of both fingers is to spare
+constexpr double kApproach = .08;          ///< m: up to this distance of a hand from its end it approaches an object
 constexpr Eigen::Index kEvery = 8;         ///< rows of a path that are left out between two
 
 /// Some rows of a path, its ends included.
@@ -34,6 +35,28 @@ void lower(StepTolerance& tolerance, double error, const std::string& limit) {
   if (error < tolerance.error) tolerance = {error, limit};
 }
 
+/// Lowers a tolerance to the least distance of a hand from the object that it takes, also on the way.
+void lowerByHand(StepTolerance& tolerance, Config scene, const MatrixXd& path, const TaskAction& action) {
+  const MatrixXd rows = sampled(path);
+  const auto handAt = [&](Eigen::Index row) {
+    scene.setJointState(rows.row(row));
+    return scene.getFrame(action[3]).getPosition();
+  };
+  const Vector3d end = handAt(rows.rows() - 1);
+  std::vector<std::string> hand = fingerShapes(scene, action[3]);
+  const std::string palm = palmOf(scene, action[3]);
+  if (!hand.empty() && !palm.empty() && scene.getFrame(palm).data().shape) hand.push_back(palm);
+  const std::vector<Frame> parts = shapesOf(scene.getFrame(action[1]));
+  for (Eigen::Index row = rows.rows() - 1; row >= 0; --row) {
+    if ((handAt(row) - end).norm() > kApproach) continue;
+    for (const std::string& shape : hand)
+      for (const Frame& part : parts)
+        if (part.data().shape->contact)
+          lower(tolerance, std::max(gapOf(scene, shape, part.getName()), 0.),
+                cat("'", shape, "' meets '", part.getName(), "'"));
+  }
+}
+
 }  // namespace
 
 StepTolerance toleranceOf(const Config& C, const Surroundings& around, const MatrixXd& path, const TaskAction& action,
@@ -45,11 +68,7 @@ StepTolerance toleranceOf(const Config& C, const Surroundings& around, const Mat
   end.setJointState(path.row(path.rows() - 1));
   if (action.size() < 4 || !end.findFrame(action[1])) return tolerance;
   if (isPick(action) && std::ranges::find(hands, action[3]) != hands.end()) {
-    for (const std::string& finger : fingerShapes(end, action[3]))
-      for (const Frame& part : shapesOf(end.getFrame(action[1])))
-        if (part.data().shape->contact)
-          lower(tolerance, std::max(gapOf(end, finger, part.getName()), 0.),
-                cat("'", finger, "' meets '", part.getName(), "'"));
+    lowerByHand(tolerance, end, path, action);
     const Frame obj = end.getFrame(action[1]), hand = end.getFrame(action[3]);
     const double mass = massOfBody(obj), most = kLifted / kGravity.norm();
     if (opening(end, action[3]) && mass > most)

@@ -53,7 +53,7 @@ struct RepairOptions {
   std::optional<double> time_limit = {};     ///< s of wall time
   std::optional<long> max_evaluations = {};  ///< of the functions of waypoint and motion problems
   std::optional<int> threads = {};
-  std::string also = {};  ///< further literals of the goal, such as "(up z cup)"
+  std::string also = {};  ///< further literals of the goal, such as "(up z cup)"; those only if the domain has `up`
 };
 
 /// The result of planTask: actions with their timed motion, or the causes for which there is none.

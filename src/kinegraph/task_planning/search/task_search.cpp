@@ -11,6 +11,7 @@
 #include "kinegraph/task_planning/grasps.h"
 #include "kinegraph/task_planning/gripper_frames.h"
 #include "kinegraph/task_planning/open_hands.h"
+#include "kinegraph/task_planning/search/crowded_hands.h"
 #include "kinegraph/task_planning/search/goal_flaw.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/search/poor_placements.h"
@@ -30,6 +31,8 @@ constexpr int kRobustSeeds = 10;    ///< the same if it has a plan that is not r
 constexpr int kBetterSeeds = 16;    ///< sets of waypoints that are tried for better plans
 constexpr int kWithoutPoor = 8;     ///< sequences without poor placements that are tried before others
 constexpr long kForRobust = 60000;  ///< evaluations; after more, no plan is searched that is more robust
+constexpr double kPoor = 1e-3;      ///< m: a plan that survives less is no plan for the world
+constexpr long kForPoor = 180000;   ///< the evaluations for such a plan
 constexpr double kNoPlan = std::numeric_limits<double>::infinity();
 
 Clock::time_point deadlineAfter(double seconds) {
@@ -74,29 +77,6 @@ Config sceneOf(const Config& C, double most) {
     if (opening(scene, hand).value_or(0.) > most)
       scene.getFrame(hand).editAttributes().set({"opening", {}, {}, {most, {}}, {}});
   return scene;
-}
-
-/// Whether a sentence has a name as a whole word.
-bool mentions(const std::string& sentence, const std::string& name) {
-  constexpr std::string_view kBetween = " '\"(),;";
-  const auto isBetween = [&](std::size_t at) {
-    return at >= sentence.size() || kBetween.find(sentence[at]) != std::string_view::npos;
-  };
-  for (std::size_t at = sentence.find(name); at != std::string::npos; at = sentence.find(name, at + 1))
-    if ((at == 0 || isBetween(at - 1)) && isBetween(at + name.size())) return true;
-  return false;
-}
-
-/// Whether the fingers or the palm of a hand were in the way in some branch of a search.
-bool isInTheWay(const Config& C, const TaskPlan& failed) {
-  for (const std::string& hand : wordsOf(failed.start, "is_gripper")) {
-    std::vector<std::string> parts = fingerShapes(C, hand);
-    if (const std::string palm = palmOf(C, hand); !palm.empty()) parts.push_back(palm);
-    for (const auto& [cause, count] : failed.causes)
-      for (const std::string& part : parts)
-        if (mentions(cause, part)) return true;
-  }
-  return false;
 }
 
 int requireThreads(int threads) {
@@ -191,30 +171,48 @@ std::optional<TaskPlan> TaskSearch::next() {
     evaluations_ += narrower_->evaluations() - before;
     return plan ? std::optional(ofNarrowerHands(std::move(*plan))) : std::nullopt;
   }
+  const bool is_first = !hasPlan();
   std::optional<TaskPlan> plan = nextPlan();
-  std::optional<TaskPlan> other = plan ? withNarrowerHands(*plan) : std::nullopt;
+  std::optional<TaskPlan> other = plan && is_first ? withNarrowerHands(*plan) : std::nullopt;
   if (!other && plan) plan->evaluations = evaluations();
   return other ? std::move(other) : std::move(plan);
 }
 
-/// The plan with hands that open less, if fully open ones have no room at objects.
-std::optional<TaskPlan> TaskSearch::withNarrowerHands(const TaskPlan& failed) {
-  if (failed.status != TaskStatus::no_plan_found || std::isfinite(opening_) || !isInTheWay(*original_, failed))
-    return std::nullopt;
-  for (const double opening : narrowerOpenings(*original_, logic_.goal())) {
+/// Openings of hands for which there may be more room than in a plan with wide ones.
+std::vector<double> TaskSearch::narrowerThan(const TaskPlan& wide) const {
+  if (std::isfinite(opening_)) return {};
+  std::set<std::string> objects;
+  if (wide.feasible() && isCrowded(*original_, wide)) {
+    for (const TaskAction& action : wide.actions)
+      if (isPick(action)) objects.insert(objectOf(action));
+  } else if (wide.status == TaskStatus::no_plan_found && isInTheWay(*original_, wide)) {
+    for (const Literal& literal : logic_.goal()) objects.insert(literal.arguments.begin(), literal.arguments.end());
+  }
+  return narrowerOpenings(*original_, objects);
+}
+
+/// The plan with hands that open less, if fully open ones have no room at objects, or less than the margin.
+std::optional<TaskPlan> TaskSearch::withNarrowerHands(const TaskPlan& wide) {
+  std::optional<TaskPlan> best;
+  double most = wide.feasible() ? robustnessOf(wide, options_.margin) : -kNoPlan;
+  for (const double opening : narrowerThan(wide)) {
     TaskOptions rest = options_;
     rest.max_evaluations -= evaluations();
+    if (wide.feasible()) rest.max_evaluations = std::min(rest.max_evaluations, kForRobust);
     if (deadline_ != Clock::time_point::max())
       rest.time_limit = std::chrono::duration<double>(deadline_ - Clock::now()).count();
     if (rest.max_evaluations <= 0 || !(rest.time_limit > 0.)) break;
     auto search = std::make_unique<TaskSearch>(*original_, goal_text_, rest, opening);
     std::optional<TaskPlan> plan = search->next();
     evaluations_ += search->evaluations();
-    if (!plan || !plan->feasible()) continue;
+    if (!plan || !plan->feasible() || !(robustnessOf(*plan, options_.margin) > most)) continue;
+    most = robustnessOf(*plan, options_.margin);
     narrower_ = std::move(search);
-    return ofNarrowerHands(std::move(*plan));
+    best = std::move(plan);
+    if (!wide.feasible() || most >= kRobust) break;
   }
-  return std::nullopt;
+  if (!best) return std::nullopt;
+  return ofNarrowerHands(std::move(*best));
 }
 
 /// A plan of the search with hands that open less, as one of this search.
@@ -362,7 +360,9 @@ std::optional<TaskPlan> TaskSearch::nextOf(Trial& trial) {
         trial.robustness = robustness;
       }
     }
-    if (trial.best && trial.evaluations > kForRobust) break;
+    if (trial.best && trial.evaluations > (trial.robustness < kPoor ? kForPoor : kForRobust)) break;
+    if (trial.best && !narrowerThan(*trial.best).empty())
+      break;  // hands that open less are better than other waypoints
     if (trial.best) continue;
     needs_seeds_ = true;
     trial.motion_failure = outcome.motion_failure;

@@ -44,7 +44,8 @@ class TaskSearch {
   };
 
   std::optional<TaskPlan> begin();
-  std::optional<TaskPlan> withNarrowerHands(const TaskPlan& failed);
+  std::vector<double> narrowerThan(const TaskPlan& wide) const;
+  std::optional<TaskPlan> withNarrowerHands(const TaskPlan& wide);
   TaskPlan ofNarrowerHands(TaskPlan plan) const;
   std::optional<TaskPlan> nextPlan();
   std::optional<Actions> nextActions();

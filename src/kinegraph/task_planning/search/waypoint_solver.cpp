@@ -55,8 +55,8 @@ std::string causeOf(const Config& C, const TaskAction& action, const std::string
                   : cat("'", action[1], "' misses its place on '", action[3], "' by ", amount);
   }
   if ((isPick(action) || isPlace(action)) && violated.starts_with("pos") && violated.find(" while ") == violated.npos)
-    cause += cat(", with nothing in the way: '", isPick(action) ? action[1] : action[3],
-                 "' is at the limit of the reach of '", isPick(action) ? action[3] : action[2], "'");
+    cause += cat(", with nothing in the way: '", isPick(action) ? action[3] : action[2], "' does not reach '",
+                 isPick(action) ? action[1] : action[3], "' in the orientation that this takes");
   const std::string flaw = isPick(action) ? graspFlaw(C, action[1], action[2], action[3]) : "";
   return flaw.empty() ? cause : flaw;
 }
