@@ -30,6 +30,14 @@ def drawSolve(
     stream.flush()
 
 
+def drawTime(what: str, seconds: float, stream: TextIO | None = None) -> None:
+    """Redraws how long a call has taken on `stream` (stderr), if it is a terminal."""
+    stream = stream or sys.stderr
+    if stream.isatty():
+        stream.write(f"\r{what}: {seconds:.0f} s (Ctrl-C ends it)\x1b[K\r")
+        stream.flush()
+
+
 def clearLine(stream: TextIO | None = None) -> None:
     """Removes the line on `stream` (stderr), if it is a terminal."""
     stream = stream or sys.stderr

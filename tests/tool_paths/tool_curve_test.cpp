@@ -131,6 +131,16 @@ TEST(ToolCurve, FewRowsAtRightAnglesAreLinesWithCorners) {
   EXPECT_LT((curve.at(.25).p - Vector3d(.05, .1, 0.)).norm(), kExact);
 }
 
+TEST(ToolCurve, NoiseWithinTheToleranceGivesNoCorners) {
+  MatrixXd points(301, 3);
+  for (int k = 0; k <= 300; ++k)  // a right angle, a row every .5 mm, with noise of .3 mm
+    points.row(k) << std::min(k, 150) * 5e-4, std::max(k - 150, 0) * 5e-4, 3e-4 * std::sin(double(37 * k * k));
+  const ToolPath path = ToolPath::along("tool", points);
+  EXPECT_GT(curveOfPath(path).corners().size(), 50u);
+  EXPECT_EQ(ToolCurve(path, Pose(), {6e-4, 1e-3}).corners().size(), 1u);
+  EXPECT_NEAR(ToolCurve(path, Pose(), {6e-4, 1e-3}).corners()[0], .075, .002);
+}
+
 TEST(ToolCurve, TheReversedCurveIsTheSamePlaceByPlace) {
   ToolPath path("tool");
   path.start(poseAt(0., 0., 0.)).line(poseAt(.1, 0., 0., .5)).arc(Vector3d(.15, .05, 0.), poseAt(.2, 0., .1, 1.));

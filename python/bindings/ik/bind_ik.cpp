@@ -8,43 +8,13 @@
 #include "ik/ik_targets.h"
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/log.h"
-#include "kinegraph/common/stopwatch.h"
 #include "kinegraph/common/text.h"
+#include "progress_bar.h"
 #include "python_names.h"
 
 namespace kinegraph::python {
 
 namespace {
-
-/// Draws a progress bar while a search runs without the interpreter lock.
-class ProgressBar {
- public:
-  ProgressBar(std::size_t total, int verbose) : total_(total), verbose_(verbose) {}
-
-  /// Called often; draws and checks for Ctrl-C now and then.
-  void operator()(const Progress& progress) {
-    if (check_.checkIfDue() && verbose_ > 0 && total_ > 1 && seconds() > .5) draw(progress.done);
-  }
-
-  void finish() {
-    if (drawn_) draw(int(total_));
-  }
-
-  double seconds() const { return stopwatch_.seconds(); }
-
- private:
-  void draw(int done) {
-    const nb::gil_scoped_acquire lock;
-    drawn_ = true;
-    nb::module_::import_("kinegraph.progress").attr("drawProgress")("solveIk", done, total_, seconds());
-  }
-
-  std::size_t total_;
-  int verbose_;
-  Stopwatch stopwatch_;
-  CheckInterrupts check_;
-  bool drawn_ = false;
-};
 
 /// The starting points of the problems: one for all, or one per problem.
 std::vector<VectorXd> startsOf(const Numbers& start, std::size_t problems, int dofs) {
@@ -72,7 +42,7 @@ nb::object solve(PyConfig& config, nb::handle targets, const std::optional<IkOpt
   if (start) starts = startsOf(*start, problems.problems.size(), config.getJointDimension());
   if (options.collisions) warnOfContacts(config);
   const IkSolver solver(config, problems.problems[0], options);
-  ProgressBar bar(problems.problems.size(), verbose);
+  ProgressBar bar("solveIk", verbose);
   IkResults results;
   {
     const nb::gil_scoped_release unlock;

@@ -7,6 +7,7 @@
 #include "features/feature_arguments.h"
 #include "ik/ik_targets.h"
 #include "kinegraph/api/plan_view.h"
+#include "kinegraph/common/log.h"
 #include "kinegraph/common/stopwatch.h"
 #include "kinegraph/planning/path_finder.h"
 #include "kinegraph/planning/steering/joint_space.h"
@@ -14,6 +15,7 @@
 #include "planning/plan_arguments.h"
 #include "planning/plan_docs.h"
 #include "planning/plan_objects.h"
+#include "progress_bar.h"
 #include "python_names.h"
 #include "viewer/notebook_page.h"
 #include "viewer/py_viewer.h"
@@ -59,16 +61,34 @@ MotionGoal goalOf(const PyConfig& config, nb::handle goal) {
                        "solveIk, the name of a joint state, or MotionConstraints"));
 }
 
+/// Takes the argument `verbose`, which is no option of the planner.
+int takeVerbose(nb::kwargs& arguments) {
+  if (!arguments.contains("verbose")) return 0;
+  int verbose = 0;
+  if (!nb::try_cast(arguments["verbose"], verbose))
+    throw ValueError(
+        cat("planMotion: verbose is ", nb::cast<std::string>(nb::repr(arguments["verbose"])), "; expected a number"));
+  nb::del(arguments["verbose"]);
+  return verbose;
+}
+
 PyMotionPlan plan(const PyConfig& config, nb::handle goal, const std::optional<Numbers>& start, nb::kwargs arguments) {
   const Stopwatch stopwatch;
   warnOfMissingContacts(config);
+  const int verbose = takeVerbose(arguments);
   const PlanOptions options = planOptionsFrom(arguments, PlanCall::plan);
   const MotionGoal to = goalOf(config, goal);
   const std::optional<VectorXd> from = start ? std::optional(start->values) : std::nullopt;
   const auto scene = std::make_shared<const Config>(config);  // as it is now
-  const nb::gil_scoped_release unlock;
-  PyMotionPlan found{planMotion(*scene, to, options, from, CheckInterrupts()), scene};
+  ProgressBar bar("planMotion", verbose);
+  PyMotionPlan found = [&]() -> PyMotionPlan {
+    const nb::gil_scoped_release unlock;
+    return {planMotion(*scene, to, options, from, [&bar] { bar.check(); }), scene};
+  }();
+  bar.finish();
   found.addSetupStage(stopwatch.seconds());
+  if (verbose > 0)
+    logMessage(LogLevel::info, cat("planMotion: ", inPython(found.str()), ", ", stopwatch.seconds(), " s"));
   return found;
 }
 

@@ -133,6 +133,7 @@ std::string planArguments(PlanCall call) {
   for (const Row& row : planOptionTable().rows()) add(row.name, typeOf(row), defaultOf(row));
   for (const LargeOption& option : kLargeOptions)
     if (takes(call, option)) add(option.name, option.type, option.default_value);
+  if (call == PlanCall::plan) add("verbose", "int", "0");
   return join(arguments);
 }
 
@@ -142,6 +143,8 @@ std::string planArgumentDocs(PlanCall call) {
     text += cat("    ", row.name, ": ", row.doc, *row.unit ? cat(" In ", row.unit, ".") : "", "\n");
   for (const LargeOption& option : kLargeOptions)
     if (takes(call, option)) text += cat("    ", option.name, ": ", option.doc, "\n");
+  if (call == PlanCall::plan)
+    text += "    verbose: 1 logs a line at the end, and shows the time on a terminal during long searches.\n";
   return text;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
-/// The docstrings of bind_tool_moves.cpp. Each has a first sentence, `moveAbout`, its own arguments, and `moveRest`.
+/// The docstrings of bind_tool_moves.cpp. Each has a first sentence, `moveAbout`, its own arguments, `moveOptions`, and
+/// `moveReturns`.
 namespace kinegraph::python::docs::robot {
 
 inline constexpr char moveAbout[] = R"(
@@ -10,10 +11,13 @@ collisions are proven, and the limits of the robot hold. Without a motion the ro
 KinegraphWarning has the place and the cause. Does not wait.
 
 Args:
-    frame: Name of the frame that moves, the tool.
 )";
 
-inline constexpr char moveRest[] =
+inline constexpr char moveFrame[] =
+    R"(    frame: Name of the frame that moves, the tool.
+)";
+
+inline constexpr char moveOptions[] =
     R"(    speed: Speed of the tool, m/s.
     tolerance: Largest distance of the tool from its curve, m.
     rotation_tolerance: Largest rotation of the tool from its curve, rad.
@@ -27,7 +31,10 @@ inline constexpr char moveRest[] =
     time_limit: Ends the search after so many seconds.
     overwrite: True: the robot brakes now, and the motion starts where it comes to rest. False: it starts at the end of
         the present motion.
-Returns:
+)";
+
+inline constexpr char moveReturns[] =
+    R"(Returns:
     The ToolPathPlan. If it is not feasible, status, message and where tell why.
 Raises:
     FrameNotFound: A frame does not exist.
@@ -51,8 +58,15 @@ inline constexpr char moveSequenceArgs[] =
     blend: Radius (m) within which a smooth curve replaces each corner; 0: the tool stops at corners.
 )";
 
-inline constexpr char moveSequencePath[] =
-    R"(The same with a ToolPath, instead of frame, targets and blend. If it has a start of its own, a collision-free
-motion leads there first.)";
+inline constexpr char moveSequencePath[] = "Moves a tool along a ToolPath and rests at its end.";
+inline constexpr char moveSequencePathArgs[] =
+    R"(    path: The ToolPath. A collision-free motion, the transfer, leads to a start of its own and to an approach.
+)";
+inline constexpr char moveSequencePathOptions[] =
+    R"(    approach: Length (m) of a straight approach before the path, as in planToolPath. 0: none.
+    retract: Length (m) of a straight retract after the path. 0: none.
+    flow: Where the transfer ends with the speed of what follows, if that takes less time: "approach"; "path" also at a
+        path without an approach; "none": it ends at rest.
+)";
 
 }  // namespace kinegraph::python::docs::robot

@@ -8,8 +8,10 @@
 #include "bindings.h"
 #include "kinegraph/api/tool_path_view.h"
 #include "kinegraph/common/errors.h"
+#include "kinegraph/common/log.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/tool_paths/plan_tool_path.h"
+#include "progress_bar.h"
 #include "python_names.h"
 #include "tool_paths/tool_path_docs.h"
 #include "tool_paths/tool_waypoint.h"
@@ -54,6 +56,67 @@ int axisNumber(const std::string& about) {
   if (about.size() != 1 || axis == std::string::npos)
     throw ValueError(cat("ToolPath.free: about is '", about, "'; expected one of x, y, z"));
   return int(axis);
+}
+
+/// Warns of what a method added to the warnings of a path.
+template <class Call>
+ToolPath& warningOfNew(ToolPath& path, const Call& call) {
+  const std::size_t before = path.warnings().size();
+  call();
+  for (std::size_t k = before; k < path.warnings().size(); ++k) emitWarning(cat("ToolPath.", path.warnings()[k]));
+  return path;
+}
+
+/// A pose (7,), or a position (3,) without a rotation.
+VectorXd numbersOf(const ToolWaypoint& waypoint) {
+  VectorXd numbers(waypoint.rotation ? 7 : 3);
+  numbers.head<3>() = waypoint.p;
+  if (waypoint.rotation) numbers.tail<4>() << waypoint.rotation->w(), waypoint.rotation->vec();
+  return numbers;
+}
+
+/// The same waypoint, to the last bit.
+ToolWaypoint waypointFrom(nb::handle state) {
+  const VectorXd numbers = nb::cast<Numbers>(state).values;
+  ToolWaypoint waypoint;
+  if (numbers.size() != 3 && numbers.size() != 7)
+    throw ValueError(cat("ToolPath: the state has a pose of ", numbers.size(), " numbers; expected 3 or 7"));
+  waypoint.p = numbers.head<3>();
+  if (numbers.size() == 7) waypoint.rotation = Quaterniond(numbers[3], numbers[4], numbers[5], numbers[6]);
+  return waypoint;
+}
+
+nb::tuple toolPathState(const ToolPath& path) {
+  const ToolPath::Parts& p = path.parts();
+  nb::list elements;
+  for (const ToolPathElement& e : p.elements) {
+    nb::list waypoints;
+    for (const ToolWaypoint& waypoint : e.waypoints) waypoints.append(toNumpy(numbersOf(waypoint)));
+    elements.append(nb::make_tuple(int(e.kind), waypoints, toNumpy(VectorXd(e.center)), toNumpy(VectorXd(e.axis)),
+                                   e.angle, e.advance, e.blend, e.speed));
+  }
+  const nb::object first = p.first ? nb::object(toNumpy(numbersOf(*p.first))) : nb::none();
+  return nb::make_tuple(p.frame, p.relative_to, first, elements, p.free_axis, p.cone, p.speed, p.range, p.prefer,
+                        p.warnings);
+}
+
+void setToolPathState(ToolPath& path, const nb::tuple& state) {
+  ToolPath::Parts p{nb::cast<std::string>(state[0]), nb::cast<std::string>(state[1])};
+  if (!state[2].is_none()) p.first = waypointFrom(state[2]);
+  for (nb::handle e : state[3]) {
+    ToolPathElement element{ToolPathElement::Kind(nb::cast<int>(e[0]))};
+    for (nb::handle waypoint : e[1]) element.waypoints.push_back(waypointFrom(waypoint));
+    element.center = vector3("__setstate__", "center", nb::cast<Numbers>(e[2]));
+    element.axis = vector3("__setstate__", "axis", nb::cast<Numbers>(e[3]));
+    element.angle = nb::cast<double>(e[4]), element.advance = nb::cast<double>(e[5]);
+    element.blend = nb::cast<double>(e[6]), element.speed = nb::cast<double>(e[7]);
+    p.elements.push_back(std::move(element));
+  }
+  p.free_axis = nb::cast<int>(state[4]), p.cone = nb::cast<double>(state[5]), p.speed = nb::cast<double>(state[6]);
+  p.range = nb::cast<std::optional<std::pair<double, double>>>(state[7]);
+  p.prefer = nb::cast<std::optional<double>>(state[8]);
+  p.warnings = nb::cast<std::vector<std::string>>(state[9]);
+  new (&path) ToolPath(ToolPath::fromParts(std::move(p)));
 }
 
 void bindToolPath(nb::module_& m) {
@@ -105,8 +168,9 @@ void bindToolPath(nb::module_& m) {
           "circle",
           [](ToolPath& path, const Numbers& center, const Numbers& axis, double angle, double blend,
              double advance) -> ToolPath& {
-            return path.circle(vector3("circle", "center", center), vector3("circle", "axis", axis), angle, blend,
-                               advance);
+            return warningOfNew(path, [&] {
+              path.circle(vector3("circle", "center", center), vector3("circle", "axis", axis), angle, blend, advance);
+            });
           },
           "center"_a, "axis"_a, "angle"_a, "blend"_a = 0., "advance"_a = 0., kChain, doc::circle)
       .def(
@@ -125,7 +189,9 @@ void bindToolPath(nb::module_& m) {
       .def(
           "free",
           [](ToolPath& path, const std::string& about, const std::optional<std::pair<double, double>>& range,
-             const std::optional<double>& prefer) -> ToolPath& { return path.free(axisNumber(about), range, prefer); },
+             const std::optional<double>& prefer) -> ToolPath& {
+            return warningOfNew(path, [&] { path.free(axisNumber(about), range, prefer); });
+          },
           "about"_a = "z", "range"_a = nb::none(), "prefer"_a = nb::none(), kChain, doc::free)
       .def(
           "tilt", [](ToolPath& path, double angle) -> ToolPath& { return path.tilt(angle); }, "angle"_a, kChain,
@@ -135,7 +201,10 @@ void bindToolPath(nb::module_& m) {
           "travel"_a, "work"_a = 0., kChain, doc::lean)
       .def_prop_ro("frame", &ToolPath::frame, "Name of the frame that moves.")
       .def_prop_ro("warnings", &ToolPath::warnings,
-                   "Sentences with file:line:column about what was ignored in a file, such as spindle commands.")
+                   "Sentences about what was ignored in a file, such as spindle commands, with file:line:column, and "
+                   "about angles that may be in degrees.")
+      .def("__getstate__", toolPathState)
+      .def("__setstate__", setToolPathState)
       .def("__repr__", [](const ToolPath& path) { return cat("<ToolPath ", path.str(), ">"); });
 }
 
@@ -268,7 +337,8 @@ void bindToolPaths(nb::module_& m) {
          double retract, const std::string& flow, double tolerance, double rotation_tolerance, double margin,
          const std::vector<std::string>& touching, const MaybeVector& start, const MaybeVector& transfer_from,
          const MaybeVector& velocity, const MaybeVector& acceleration, const MaybeVector& jerk,
-         double tool_acceleration, double tool_jerk, const std::optional<double>& time_limit, std::uint64_t seed) {
+         double tool_acceleration, double tool_jerk, const std::optional<double>& time_limit, std::uint64_t seed,
+         int verbose) {
         ToolPathOptions options;
         if (order != "free" && order != "given")
           throw ValueError(cat("planToolPath: order is '", order, "'; expected 'given' or 'free'"));
@@ -286,14 +356,22 @@ void bindToolPaths(nb::module_& m) {
         if (time_limit) options.time_limit = *time_limit;
         const std::vector<ToolPath> all = pathsFrom(paths);
         const Config scene(config);  // a copy, because the caller may change it
-        const nb::gil_scoped_release unlock;
-        return planToolPath(scene, all, options, CheckInterrupts());
+        ProgressBar bar("planToolPath", verbose);
+        ToolPathPlan plan = [&] {
+          const nb::gil_scoped_release unlock;
+          return planToolPath(
+              scene, all, options, [&bar] { bar.check(); }, std::ref(bar));
+        }();
+        bar.finish();
+        if (verbose > 0)
+          logMessage(LogLevel::info, cat("planToolPath: ", inPython(plan.str()), ", ", bar.seconds(), " s"));
+        return plan;
       },
       "config"_a, "paths"_a, nb::kw_only(), "speed"_a = .1, "order"_a = "given", "approach"_a = 0., "retract"_a = 0.,
       "flow"_a = "approach", "tolerance"_a = 2e-5, "rotation_tolerance"_a = 8e-5, "margin"_a = 0.,
       "touching"_a = std::vector<std::string>(), "start"_a = nb::none(), "transfer_from"_a = nb::none(),
       "velocity"_a = nb::none(), "acceleration"_a = nb::none(), "jerk"_a = nb::none(), "tool_acceleration"_a = 2.,
-      "tool_jerk"_a = 40., "time_limit"_a = nb::none(), "seed"_a = 0, doc::plan);
+      "tool_jerk"_a = 40., "time_limit"_a = nb::none(), "seed"_a = 0, "verbose"_a = 0, doc::plan);
 }
 
 }  // namespace kinegraph::python

@@ -41,7 +41,8 @@ inline constexpr char read[] =
     R"(Reads a path from a text file with one row per line.
 
 Rows have 3 numbers (x y z, m), 6 (with a normal) or 7 (x y z qw qx qy qz), separated by commas, semicolons or spaces.
-Columns are in this order, unless a first line names them: x y z, and nx ny nz or qw qx qy qz, in any order. Other first
+Columns are in this order, unless a first line names them: x y z, and nx ny nz or qw qx qy qz, in any order. Names may
+have a unit, such as x_mm or X [mm], and columns with other names are ignored with a line in `warnings`. Other first
 lines without numbers are skipped, and so is the text behind #. Files with the extension .nc, .ngc, .gcode, .gc, .tap or
 .cnc are read by readGcode.
 
@@ -258,6 +259,7 @@ Args:
     tool_jerk: Limit along the path, m/s^3; counts if jerk is given.
     time_limit: Ends the search after so many seconds.
     seed: Of the samples.
+    verbose: 1 logs a line at the end, and shows a progress bar during long searches.
 Returns:
     A ToolPathPlan.
 Raises:

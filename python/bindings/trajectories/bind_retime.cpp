@@ -72,18 +72,42 @@ TimedPath ofPath(const Numbers& path, const Numbers& velocity, const Numbers& ac
   return retime(q, limits, options);
 }
 
+/// The limits of a robot with so many dofs.
+RobotLimits robotLimits(Eigen::Index dofs, const MaybeNumbers& velocity, const MaybeNumbers& acceleration,
+                        const MaybeNumbers& jerk, bool torque, const std::map<std::string, double>& tool_speed) {
+  return {{perDof("velocity", velocity, dofs), perDof("acceleration", acceleration, dofs), perDof("jerk", jerk, dofs)},
+          torque,
+          tool_speed};
+}
+
 TimedPath ofRobot(const PyConfig& config, const Numbers& path, const MaybeNumbers& velocity,
                   const MaybeNumbers& acceleration, const MaybeNumbers& jerk, bool torque,
                   const std::map<std::string, double>& tool_speed, const Request& request) {
   const MatrixXd q = points(path);
-  const RobotLimits limits{{perDof("velocity", velocity, q.cols()), perDof("acceleration", acceleration, q.cols()),
-                            perDof("jerk", jerk, q.cols())},
-                           torque,
-                           tool_speed};
+  const RobotLimits limits = robotLimits(q.cols(), velocity, acceleration, jerk, torque, tool_speed);
   const RetimeOptions options = request.options();
   const Config scene(config);  // a copy, because the caller may change it
   const nb::gil_scoped_release unlock;
   return retime(scene, q, limits, options);
+}
+
+TimedPath ofMotion(const PyConfig& config, const Trajectory& motion, const RobotLimits& limits,
+                   const Request& request) {
+  const RetimeOptions options = request.options();
+  const Config scene(config);  // a copy, because the caller may change it
+  const nb::gil_scoped_release unlock;
+  return retime(scene, motion, limits, options);
+}
+
+nb::typed<nb::list, nb::tuple> activeLimitsOf(const PyConfig& config, const TimedPath& motion,
+                                              const MaybeNumbers& velocity, const MaybeNumbers& acceleration,
+                                              const MaybeNumbers& jerk, bool torque,
+                                              const std::map<std::string, double>& tool_speed) {
+  const RobotLimits limits = robotLimits(motion.dimension(), velocity, acceleration, jerk, torque, tool_speed);
+  nb::list list;
+  for (const ActiveLimit& active : activeLimits(Config(config), motion, limits))
+    list.append(nb::make_tuple(active.from, active.to, active.share, active.cause));
+  return list;
 }
 
 nb::tuple timedState(const TimedPath& t) {
@@ -192,6 +216,24 @@ void bindRetime(nb::module_& m) {
       nb::kw_only(), "torque"_a = false, "corners"_a = "blend", "tolerance"_a = .01, "is_free"_a = nb::none(),
       "start_velocity"_a = nb::none(), "end_velocity"_a = nb::none(), "intervals"_a = 100,
       "start_acceleration"_a = nb::none(), "tool_speed"_a = std::map<std::string, double>(), docs::retime::ofRobot);
+  m.def(
+      "retime",
+      [](const PyConfig& config, const Trajectory& motion, const MaybeNumbers& velocity,
+         const MaybeNumbers& acceleration, const MaybeNumbers& jerk, bool torque, const MaybeNumbers& start_velocity,
+         const MaybeNumbers& end_velocity, int intervals, const MaybeNumbers& start_acceleration,
+         const std::map<std::string, double>& tool_speed) {
+        const RobotLimits limits = robotLimits(motion.dimension(), velocity, acceleration, jerk, torque, tool_speed);
+        const Request request{"spline",     RetimeOptions().tolerance, nb::none(), start_velocity,
+                              end_velocity, start_acceleration,        intervals};
+        return ofMotion(config, motion, limits, request);
+      },
+      "config"_a, "motion"_a, "velocity"_a = nb::none(), "acceleration"_a = nb::none(), "jerk"_a = nb::none(),
+      nb::kw_only(), "torque"_a = false, "start_velocity"_a = nb::none(), "end_velocity"_a = nb::none(),
+      "intervals"_a = 1000, "start_acceleration"_a = nb::none(), "tool_speed"_a = std::map<std::string, double>(),
+      docs::retime::ofMotion);
+  m.def("activeLimits", activeLimitsOf, "config"_a, "motion"_a, "velocity"_a = nb::none(),
+        "acceleration"_a = nb::none(), "jerk"_a = nb::none(), nb::kw_only(), "torque"_a = false,
+        "tool_speed"_a = std::map<std::string, double>(), docs::retime::activeLimits);
   m.def(
       "retime",
       [](const Numbers& path, const Numbers& velocity, const Numbers& acceleration, const MaybeNumbers& jerk,

@@ -84,4 +84,45 @@ Returns:
 Raises:
     ArgumentError: As without config; the path has another number of dofs, or the model lacks a limit.)";
 
+inline constexpr char ofMotion[] =
+    R"(Computes the fastest motion along the way of another motion, whose times do not count.
+
+The way is that of a spline (SplineTrajectory), a plan, a tool path or any other Trajectory. It is followed within 1e-6
+rad or m, that of a TimedPath exactly. The motion stops where the direction jumps.
+
+Args:
+    config: The scene; not changed.
+    motion: A Trajectory in the dofs of q.
+    velocity: Limit of |dq/dt|, one number or one per dof, rad/s or m/s; None: the model's, as C.getVelocityLimits.
+    acceleration: Limit of |d2q/dt2|, rad/s^2 or m/s^2; None, with torque only: none.
+    jerk: Limit of |d3q/dt3|, rad/s^3 or m/s^3; None for none.
+    torque: True keeps the model's torque limits, as C.getEffortLimits, by its masses and gravity.
+    start_velocity: dq/dt at the start, shape (n,), along the way; None: at rest.
+    end_velocity: dq/dt at the end, shape (n,), along the way; None: at rest.
+    intervals: Number of intervals of the time scaling. Limits of torques and of speeds hold at their ends, and are made
+        stricter so that they hold in between: more intervals give a shorter motion.
+    start_acceleration: d2q/dt2 at the start, shape (n,), as with a path; None: a constant speed at the start.
+    tool_speed: Largest speeds of the origins of frames in the world: a dict from names to m/s.
+Returns:
+    TimedPath. If the problem is infeasible, its feasible is False and its message gives the cause.
+Raises:
+    ArgumentError: As with a path, or there is no motion.)";
+
+inline constexpr char activeLimits[] =
+    R"(Returns the limits that make a motion as slow as it is.
+
+Args:
+    config: The scene; not changed.
+    motion: A TimedPath, as retime returns it.
+    velocity: Limit of |dq/dt| of the call, a number or one per dof; None: the model's.
+    acceleration: Limit of |d2q/dt2|, likewise; None, with torque only: none.
+    jerk: Limit of |d3q/dt3|, likewise; None for none.
+    torque: Whether the model's torque limits count.
+    tool_speed: Largest speeds of the origins of frames in the world: a dict from names to m/s.
+Returns:
+    A list of (from, to, share, cause) in the order of time: times in s, the largest share of the limit there (1: it is
+    reached), and the limit, such as "velocity of 'elbow'", "torque of 'elbow'" or "speed of 'tool'".
+Raises:
+    ArgumentError: There is no motion, or a limit is missing, not positive, or has another size.)";
+
 }  // namespace kinegraph::python::docs::retime

@@ -42,7 +42,7 @@ ToolPathPlan BotOp::moveAlong(const char* call, const ToolPath& path, ToolPathOp
   // The plan begins at rest where the present motion ends.
   const VectorXd from = scene.getJointState();
   options.start.reset(), options.transfer_from.reset();
-  (path.first() ? options.transfer_from : options.start) = from;
+  (path.first() || options.approach > 0. ? options.transfer_from : options.start) = from;
   ToolPathPlan plan = planToolPath(scene, {path}, options, options_.cancellation);
   if (plan.feasible()) follow(plan);
   return plan;

@@ -1,5 +1,6 @@
 #include "kinegraph/api/robot_motion.h"
 
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -7,13 +8,18 @@
 #include "kinegraph/common/text.h"
 #include "kinegraph/kinematics/kinematic_model.h"
 #include "kinegraph/kinematics/state.h"
+#include "kinegraph/planning/steering/joint_space.h"
 #include "kinegraph/scene/dynamics.h"
+#include "kinegraph/tool_paths/plan_tool_path.h"
+#include "kinegraph/trajectories/motion_curve.h"
 #include "kinegraph/trajectories/path_curve.h"
+#include "kinegraph/trajectories/time_scaling.h"
 
 namespace kinegraph {
 
 namespace {
 
+constexpr int kSamplesOfPhases = 4;
 constexpr double kNoEffortLimit = std::numeric_limits<double>::infinity();
 
 /// Returns the dofs with effort limits.
@@ -103,26 +109,107 @@ ConstraintSource together(const ConstraintSource& first, const ConstraintSource&
   return rows;
 }
 
-}  // namespace
-
-TimedPath retime(const Config& config, const MatrixXd& path, const RobotLimits& limits, const RetimeOptions& options) {
+/// The limits with those of the model; throws for a motion of other dofs.
+MotionLimits completeLimits(const char* call, const Config& config, Eigen::Index dofs, const RobotLimits& limits) {
   const int n = config.getJointDimension();
-  if (path.cols() != n)
+  if (dofs != n)
     throw ValueError(
-        cat("retime: the path has ", path.cols(), " dofs; the scene has ", n, ": ", join(config.getJointNames())));
+        cat(call, ": the path has ", dofs, " dofs; the scene has ", n, ": ", join(config.getJointNames())));
   MotionLimits motion = limits.motion;
   if (motion.velocity.size() == 0) motion.velocity = getVelocityLimits(config);
   if (motion.acceleration.size() == 0) {
     if (!limits.torque)
-      throw ValueError("retime: acceleration is missing; expected a number per dof or one for all, or torque");
+      throw ValueError(cat(call, ": acceleration is missing; expected a number per dof or one for all, or torque"));
     motion.acceleration = VectorXd::Constant(n, kNoEffortLimit);
   }
+  return motion;
+}
+
+/// The torques, then the speeds of frames; empty without both.
+ConstraintSource constraintsAlong(const Config& config, const PathCurve& curve, const RobotLimits& limits) {
+  if (limits.tool_speed.empty()) return limits.torque ? torqueRows(config, curve) : ConstraintSource();
+  const ConstraintSource speeds = toolSpeedRows(config, curve, limits.tool_speed);
+  return limits.torque ? together(torqueRows(config, curve), speeds) : speeds;
+}
+
+/// Finds the nearest limit at states of a motion.
+class NearestCause {
+ public:
+  NearestCause(const Config& config, const TimedPath& motion, const RobotLimits& limits)
+      : curve_(motion.curve()),
+        limits_(completeLimits("activeLimits", config, motion.dimension(), limits)),
+        rows_(constraintsAlong(config, curve_, limits)),
+        joints_(dofNames(*config.model())) {
+    limits_.validate(motion.dimension());
+    const std::size_t torques = rows_.names.size() - limits.tool_speed.size();
+    for (std::size_t k = 0; k < torques; ++k) row_names_.push_back(cat("torque of '", rows_.names[k], "'"));
+    for (const auto& [frame, speed] : limits.tool_speed) row_names_.push_back(cat("speed of '", frame, "'"));
+  }
+
+  ActiveLimit at(int piece, const ScalingState& state) const {
+    const NearestLimit nearest = nearestLimit(curve_, piece, state, limits_);
+    ActiveLimit active;
+    active.share = nearest.share;
+    if (nearest.dof >= 0)
+      active.cause = cat(nearestLimitName(nearest.kind), " of '", joints_[std::size_t(nearest.dof)], "'");
+    if (!rows_) return active;
+    const ScalingConstraints row = rows_.at(state.s, piece);
+    const VectorXd value = row.a * state.acceleration + row.b * state.speed * state.speed + row.c;
+    for (Eigen::Index k = 0; k < value.size(); ++k) {
+      const double used = value[k] / (value[k] > 0. ? rows_.high[k] : rows_.low[k]);
+      const bool is_speed = row.a[k] == 0. && row.c[k] == 0.;  // the row is the square of a speed
+      const double share = is_speed ? std::sqrt(used) : used;
+      if (state.speed > 0. && share > active.share) active.share = share, active.cause = row_names_[std::size_t(k)];
+    }
+    return active;
+  }
+
+ private:
+  const PathCurve& curve_;
+  MotionLimits limits_;
+  const ConstraintSource rows_;
+  const std::vector<std::string> joints_;
+  std::vector<std::string> row_names_;
+};
+
+}  // namespace
+
+TimedPath retime(const Config& config, const MatrixXd& path, const RobotLimits& limits, const RetimeOptions& options) {
+  const MotionLimits motion = completeLimits("retime", config, path.cols(), limits);
   if (!limits.torque && limits.tool_speed.empty()) return retime(path, motion, options);
-  return retime(path, motion, options, [&](const PathCurve& curve) {
-    if (limits.tool_speed.empty()) return torqueRows(config, curve);
-    const ConstraintSource speeds = toolSpeedRows(config, curve, limits.tool_speed);
-    return limits.torque ? together(torqueRows(config, curve), speeds) : speeds;
-  });
+  return retime(path, motion, options, [&](const PathCurve& curve) { return constraintsAlong(config, curve, limits); });
+}
+
+TimedPath retime(const Config& config, const Trajectory& motion, const RobotLimits& limits,
+                 const RetimeOptions& options) {
+  const MotionLimits complete = completeLimits("retime", config, motion.dimension(), limits);
+  const PathCurve curve = curveOf(motion, options.cancellation);
+  MatrixXd points(Eigen::Index(curve.marks().size()), curve.dofs());
+  for (Eigen::Index k = 0; k < points.rows(); ++k)
+    points.row(k) = curve.eval(curve.marks()[std::size_t(k)]).transpose();
+  RetimeOptions constrained = options;
+  constrained.constraints = constraintsAlong(config, curve, limits);
+  return retime(points, curve, complete, constrained);
+}
+
+std::vector<ActiveLimit> activeLimits(const Config& config, const TimedPath& motion, const RobotLimits& limits) {
+  if (!motion.feasible()) throw ValueError(cat("activeLimits: there is no motion: ", motion.message));
+  const NearestCause causes(config, motion, limits);
+  const std::vector<ScalingPhase>& phases = motion.scaling().phases();
+  std::vector<ActiveLimit> all;
+  for (std::size_t i = 0; i < phases.size(); ++i) {
+    const double end = i + 1 < phases.size() ? phases[i + 1].time : motion.duration();
+    const double step = (end - phases[i].time) / kSamplesOfPhases;
+    for (int k = 0; k < kSamplesOfPhases && step > 0.; ++k) {
+      ActiveLimit active = causes.at(phases[i].piece, phases[i].at((k + .5) * step));
+      if (active.cause.empty()) continue;
+      active.from = phases[i].time + k * step, active.to = active.from + step;
+      const bool continues = !all.empty() && all.back().cause == active.cause && active.from <= all.back().to + step;
+      if (!continues) all.push_back(active);
+      all.back().to = active.to, all.back().share = std::max(all.back().share, active.share);
+    }
+  }
+  return all;
 }
 
 }  // namespace kinegraph

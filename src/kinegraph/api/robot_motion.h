@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "kinegraph/common/cancellation.h"
 #include "kinegraph/control/diff_ik.h"
@@ -27,6 +28,23 @@ struct RobotLimits {
 /// if the path has another number of dofs, or the model does not have the limits asked for; FrameNotFound.
 TimedPath retime(const Config& config, const MatrixXd& path, const RobotLimits& limits,
                  const RetimeOptions& options = {});
+
+/// The same along the way of a motion, whose times do not count: a spline (SplineTrajectory), a plan, a tool path. The
+/// motion stops where the direction jumps. `options.corners`, `tolerance` and `is_free` are not used. With torques or
+/// `tool_speed`, some 1000 `options.intervals` give shorter motions.
+TimedPath retime(const Config& config, const Trajectory& motion, const RobotLimits& limits,
+                 const RetimeOptions& options = {});
+
+/// A stretch of a motion on which one limit is the nearest.
+struct ActiveLimit {
+  double from = 0., to = 0.;  ///< times, s
+  double share = 0.;          ///< the largest share of the limit there; 1: it is reached
+  std::string cause;          ///< "velocity of 'wrist_2'", "torque of 'elbow'", "speed of 'tool'"
+};
+
+/// Returns the limits that make a motion as slow as it is, in the order of time; stretches at rest are left out. Limits
+/// are those of `retime`. Throws as `retime` does, and ValueError if there is no motion.
+std::vector<ActiveLimit> activeLimits(const Config& config, const TimedPath& motion, const RobotLimits& limits);
 
 /// Returns the target at a time in s: a position (3,) or a pose (7,). A TargetFile is one.
 using TargetSource = std::function<VectorXd(double t)>;

@@ -18,6 +18,7 @@ constexpr double kSamePlace = 1e-7;    // m or rad, between two poses
 constexpr double kCornerOfRows = .35;  // rad between rows
 constexpr double kAlwaysCorner = 1.;   // rad between rows
 constexpr double kSharper = 2.5;       // than at the rows before and after
+constexpr double kCornerReach = 8.;    // of the tolerance: nearer rows, which noise may displace, show no corner
 constexpr int kFirstStride = 16;       // rows between the first knots
 constexpr int kMaxFitRounds = 20;
 constexpr double kLargestBlendShare = .49;  // of the shorter element
@@ -39,6 +40,38 @@ double hermiteSpacing(double curvature, double rotation_rate) {
       curvature > 0. ? std::pow(384. * PrimitiveList::kHermiteError / std::pow(curvature, 3.), .25) : 1e9;
   const double rotation = rotation_rate > 0. ? std::pow(384. * PrimitiveList::kHermiteError, .25) / rotation_rate : 1e9;
   return std::min(position, rotation);
+}
+
+/// Which rows are corners of a polyline. `step` is the way to the row before, and `spot` tells whether the tool only
+/// rotates there. Angles are those between the rows at a distance of at least `reach` on both sides, and the sharpest
+/// row within `reach` is the corner.
+std::vector<char> cornersOfRows(const std::vector<VectorXd>& rows, const std::vector<double>& step,
+                                const std::vector<char>& spot, double reach) {
+  constexpr double kSpotCorner = 10.;  // sharper than any angle
+  const std::size_t count = rows.size();
+  std::vector<double> angle(count, 0.);
+  std::vector<std::size_t> before(count, 0), behind(count, count - 1);
+  for (std::size_t i = 1; i + 1 < count; ++i) {
+    double back = step[i], on = step[i + 1];
+    for (before[i] = i - 1; before[i] > 0 && back < reach; --before[i]) back += step[before[i]];
+    for (behind[i] = i + 1; behind[i] + 1 < count && on < reach; ++behind[i]) on += step[behind[i] + 1];
+    if (spot[i] || spot[i + 1]) {
+      angle[i] = spot[i] != spot[i + 1] ? kSpotCorner : 0.;
+      continue;
+    }
+    if (std::min(back, on) < reach) continue;  // next to an end
+    const Vector3d a = (rows[i] - rows[before[i]]).head<3>(), b = (rows[behind[i]] - rows[i]).head<3>();
+    angle[i] = std::atan2(a.cross(b).norm(), a.dot(b));
+  }
+  std::vector<char> is_corner(count, false);
+  for (std::size_t i = 1; i + 1 < count; ++i) {
+    const auto from = angle.begin() + std::ptrdiff_t(before[i]) + 1, to = angle.begin() + std::ptrdiff_t(behind[i]);
+    const bool is_sharpest = angle[i] == kSpotCorner || std::max_element(from, to) - angle.begin() == std::ptrdiff_t(i);
+    const double beside = std::max(angle[before[i]], angle[behind[i]]);
+    is_corner[i] =
+        is_sharpest && (angle[i] > kAlwaysCorner || (angle[i] > kCornerOfRows && angle[i] > kSharper * beside));
+  }
+  return is_corner;
 }
 
 /// Positions by length with a rotation at a constant rate.
@@ -284,22 +317,9 @@ void PrimitiveList::rows(const ToolPathElement& element) {
   }
   const int count = int(kept.size());
   if (count < 2) return;
-  std::vector<double> corner(std::size_t(count), 0.);
-  for (int k = 1; k + 1 < count; ++k) {
-    const std::size_t i = std::size_t(k);
-    if (spot[i] || spot[i + 1]) {
-      corner[i] = spot[i] != spot[i + 1] ? 10. : 0.;
-      continue;
-    }
-    const Vector3d a = (kept[i] - kept[i - 1]).head<3>(), b = (kept[i + 1] - kept[i]).head<3>();
-    corner[i] = std::atan2(a.cross(b).norm(), a.dot(b));
-  }
+  const std::vector<char> is_corner = cornersOfRows(kept, step, spot, kCornerReach * tolerance_.position);
   for (int first = 0, k = 1; k < count; ++k) {
-    const std::size_t i = std::size_t(k);
-    const double beside = k + 1 < count ? std::max(corner[i - 1], corner[i + 1]) : 0.;
-    const bool ends =
-        k + 1 == count || (corner[i] > kAlwaysCorner || (corner[i] > kCornerOfRows && corner[i] > kSharper * beside));
-    if (!ends) continue;
+    if (k + 1 < count && !is_corner[std::size_t(k)]) continue;
     std::vector<double> t = {0.};
     MatrixXd y(9, k - first + 1);
     for (int j = first; j <= k; ++j) {

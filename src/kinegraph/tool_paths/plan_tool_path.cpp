@@ -8,6 +8,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/stopwatch.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/ik/target_questions.h"
 #include "kinegraph/planning/arrive_moving.h"
 #include "kinegraph/planning/plan_motion.h"
 #include "kinegraph/planning/plan_timing.h"
@@ -40,7 +41,8 @@ void requireNotNegative(const char* name, double value) {
 }
 
 void requireAtLeast(const char* name, double value, double least) {
-  if (!(value >= least)) throw ValueError(cat(kPlanToolPath, ": ", name, " is ", value, "; expected at least ", least));
+  if (!(value >= least) || !std::isfinite(value))
+    throw ValueError(cat(kPlanToolPath, ": ", name, " is ", value, "; expected a finite number of at least ", least));
 }
 
 bool mayCollide(const Config& scene, const Frame& frame) {
@@ -83,6 +85,15 @@ Config withTouching(const Config& config, const std::vector<ToolPath>& paths,
   }
   tree.structureChanged();
   return scene;
+}
+
+/// Asks whether lengths of a path are in mm; "" if they are such as a robot has.
+std::string questionAbout(const ToolPath& path) {
+  for (const ToolPathElement& element : path.elements())
+    for (const ToolWaypoint& waypoint : element.waypoints)
+      if (const std::string question = askAboutLength(waypoint.p, waypoint.p.norm()); !question.empty())
+        return question;
+  return "";
 }
 
 /// The joint curve in the other direction.
@@ -137,17 +148,23 @@ class ToolPathPlanner {
     }
     for (std::size_t k = 0; k < sequence.order.size(); ++k)
       if (!addPath(sequence, k)) return std::move(plan_);
+    report(2 * paths_.size());
     plan_.status = ToolPathStatus::solved;
     plan_.setParts(std::move(parts_), config_.getJointDimension());
     return std::move(plan_);
   }
 
  private:
+  /// Each path counts twice: it is searched, then timed with its transfer.
+  void report(std::size_t done) const {
+    if (progress_) progress_({int(done), int(2 * paths_.size())});
+  }
+
   bool solveAll() {
     const ToolTolerance fit{kFitShare * options_.tolerance, kRotationFitShare * options_.rotation_tolerance};
     const bool several = paths_.size() > 1 || options_.transfer_from.has_value();
     for (std::size_t k = 0; k < paths_.size(); ++k) {
-      if (progress_) progress_({int(k), int(paths_.size())});
+      report(k);
       if (isLate()) return failLate(int(k));
       tools_.push_back(std::make_unique<ToolKinematics>(touching_, paths_[k]));
       ToolKinematics& tool = *tools_.back();
@@ -222,7 +239,10 @@ class ToolPathPlanner {
     plan_.reached.resize(Eigen::Index(failure.reached.size()), config_.getJointDimension());
     for (std::size_t k = 0; k < failure.reached.size(); ++k)
       plan_.reached.row(Eigen::Index(k)) = failure.reached[k].transpose();
-    return fail(failure.status, path, failure.place - curves_.back().approachEnd(), failure.text + more);
+    const bool asks = failure.status == ToolPathStatus::out_of_reach && failure.text.find("mm") == std::string::npos;
+    const std::string question = asks ? questionAbout(paths_[std::size_t(path)]) : "";
+    const std::string text = question.empty() ? failure.text : cat(failure.text, "; ", question);
+    return fail(failure.status, path, failure.place - curves_.back().approachEnd(), text + more);
   }
 
   PathSequence sequenceOf() {
@@ -251,6 +271,7 @@ class ToolPathPlanner {
   }
 
   bool addPath(const PathSequence& sequence, std::size_t position) {
+    report(paths_.size() + position);
     const OrderedPath& choice = sequence.order[position];
     const int path = choice.path;
     ToolKinematics& tool = *tools_[std::size_t(path)];

@@ -191,8 +191,9 @@ class ToolPathPlan final : public Trajectory {
 /// fast as they allow elsewhere; `slow` lists where. Paths are connected by planMotion, and transfers flow into
 /// approaches (options.flow).
 ///
-/// The Config is not changed. Equal arguments give equal bits, unless the time limit ends the search. Throws ValueError
-/// for invalid arguments, and FrameNotFound.
+/// The Config is not changed. Equal arguments give equal bits, unless the time limit ends the search. `progress` counts
+/// each path twice, when it has been searched and when it has been timed. Throws ValueError for invalid arguments, and
+/// FrameNotFound.
 ToolPathPlan planToolPath(const Config& config, const std::vector<ToolPath>& paths, const ToolPathOptions& options = {},
                           const CancellationToken& cancellation = {}, const ProgressCallback& progress = {});
 

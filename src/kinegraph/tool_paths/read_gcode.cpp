@@ -88,9 +88,13 @@ class GcodeProgram {
     });
     const bool leaves = leaving != words.end();
     if (leaves) ignore(leaving->where, cat("the move with ", codeName('G', codeOf(*leaving))));
+    const bool moves = std::any_of(words.begin(), words.end(),
+                                   [](const GcodeWord& word) { return word.letter >= 'X' && word.letter <= 'Z'; });
     for (const GcodeWord& word : words) {
       if (leaves && &word == &*leaving) continue;
-      if (word.letter == 'G')
+      if (word.letter == 'G' && codeOf(word) == 920 && !moves)
+        ignore(word.where, "G92");  // of an extruder
+      else if (word.letter == 'G')
         addCode(word, dwells, sets_blend);
       else if (word.letter == 'M')
         is_end = addMachineCode(word) || is_end;
@@ -299,7 +303,7 @@ ToolPath ToolPath::readGcode(const std::string& file, std::string frame, std::st
   for (int number = 1; std::getline(text, line); ++number)
     if (!program.addLine(wordsOf(line, file, number))) break;
   ToolPath path = program.finish(file);
-  path.warnings_ = std::move(program.warnings);
+  path.parts_.warnings = std::move(program.warnings);
   return path;
 }
 

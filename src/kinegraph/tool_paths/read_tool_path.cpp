@@ -2,6 +2,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -17,6 +18,7 @@ namespace kinegraph {
 namespace {
 
 constexpr const char* kRowKinds = "expected 3 numbers (x y z), 6 (with a normal) or 7 (x y z qw qx qy qz)";
+constexpr double kLeastNorm = 1e-9;
 
 /// A number or a name in a row.
 struct RowWord {
@@ -28,6 +30,12 @@ std::optional<double> rowNumber(const RowWord& word) {
   const char* rest = nullptr;
   const double number = readNumber(word.text.c_str(), &rest);
   return *rest == '\0' ? std::optional(number) : std::nullopt;
+}
+
+/// Without the quotes that some programs put around all fields.
+std::string unquoted(const std::string& text) {
+  const bool is_quoted = text.size() >= 2 && text.front() == text.back() && (text[0] == '"' || text[0] == '\'');
+  return is_quoted ? text.substr(1, text.size() - 2) : text;
 }
 
 /// Splits a line, without a comment behind #, at commas or semicolons, and at spaces.
@@ -47,7 +55,7 @@ std::vector<RowWord> rowWords(const std::string& all, const std::string& file, i
       throw ParseError({file, number, int(begin) + 1}, "the field is empty; expected a number");
     while (at < end) {
       const std::size_t after = std::min(line.find_first_of(" \t\r", at), end);
-      const RowWord word{line.substr(at, after - at), int(at) + 1};
+      const RowWord word{unquoted(line.substr(at, after - at)), int(at) + 1};
       const bool is_second = (has_commas || has_semicolons) && !words.empty() && words.back().column > int(begin);
       if (is_second && rowNumber(word) && rowNumber(words.back()))
         throw ParseError({file, number, word.column},
@@ -60,31 +68,201 @@ std::vector<RowWord> rowWords(const std::string& all, const std::string& file, i
   return words;
 }
 
-/// Which column has each of the numbers x y z, and nx ny nz or qw qx qy qz; none if a name is not one of these.
-std::vector<std::size_t> namedColumns(const std::vector<RowWord>& names, const std::string& file, int number) {
-  static const std::vector<std::vector<std::string>> orders = {
-      {"x", "y", "z", "qw", "qx", "qy", "qz"}, {"x", "y", "z", "nx", "ny", "nz"}, {"x", "y", "z"}};
-  static const std::vector<std::string> angles = {"a", "b", "c", "rx", "ry", "rz", "roll", "pitch", "yaw"};
-  std::vector<std::string> plain;
-  for (const RowWord& name : names) {
-    std::string text;
-    for (const char c : name.text)
-      if (c != '"' && c != '\'') text += char(std::tolower(static_cast<unsigned char>(c)));
-    if (std::find(angles.begin(), angles.end(), text) != angles.end())
-      throw ParseError(
-          {file, number, name.column},
-          cat("the column '", text, "' is an angle; expected a normal (nx ny nz) or a quaternion (qw qx ", "qy qz)"));
-    plain.push_back(text);
-  }
-  for (const std::vector<std::string>& order : orders)
-    if (order.size() == plain.size() && std::is_permutation(order.begin(), order.end(), plain.begin())) {
-      std::vector<std::size_t> columns;
-      for (const std::string& name : order)
-        columns.push_back(std::size_t(std::find(plain.begin(), plain.end(), name) - plain.begin()));
-      return columns;
+/// The fields of a line of names: "x (mm)" is one field if there are separators.
+std::vector<RowWord> nameFields(const std::string& all, const std::string& file, int number) {
+  const std::string line = all.substr(0, all.find('#'));
+  if (line.find_first_of(",;") == std::string::npos) return rowWords(all, file, number);
+  std::vector<RowWord> fields;
+  for (std::size_t begin = 0; begin < line.size();) {
+    const std::size_t end = std::min(line.find_first_of(",;", begin), line.size());
+    const std::size_t first = line.find_first_not_of(" \t\r", begin);
+    if (first < end) {
+      const std::size_t last = line.find_last_not_of(" \t\r", end - 1);
+      fields.push_back({unquoted(line.substr(first, last + 1 - first)), int(first) + 1});
     }
-  return {};
+    begin = end + 1;
+  }
+  return fields;
 }
+
+/// A name of a column with its unit: "x_mm", "X [mm]" and "x (m)" are x.
+struct ColumnName {
+  std::string name;
+  double unit = 0.;  ///< m; 0 without one
+};
+
+ColumnName columnName(const std::string& text) {
+  static const std::pair<const char*, double> units[] = {{"mm", 1e-3}, {"cm", 1e-2}, {"m", 1.}};
+  std::string plain;
+  for (const char c : text)
+    if (!std::isspace(static_cast<unsigned char>(c)) && !std::strchr("()[]_/", c))
+      plain += char(std::tolower(static_cast<unsigned char>(c)));
+  for (const auto& [unit, meters] : units)
+    if (plain.size() > std::strlen(unit) && plain.ends_with(unit) && plain.size() < text.size())
+      return {plain.substr(0, plain.size() - std::strlen(unit)), meters};
+  return {plain};
+}
+
+/// The columns of a table with names.
+struct NamedColumns {
+  std::vector<std::size_t> columns;  ///< of x y z, and nx ny nz or qw qx qy qz; none: the names say nothing
+  double unit = 1.;                  ///< of x y z, m
+  std::vector<RowWord> ignored;
+};
+
+/// Throws ParseError for different units, parts of a normal or a quaternion, and angles without these.
+class ColumnFinder {
+ public:
+  ColumnFinder(const std::vector<RowWord>& fields, const std::string& file, int number)
+      : fields_(fields), file_(file), number_(number), is_used_(fields.size(), false) {
+    for (const RowWord& field : fields) names_.push_back(columnName(field.text));
+  }
+
+  NamedColumns find() {
+    for (const char* name : {"x", "y", "z"})
+      if (count(name) != 1) return {};
+    take({"x", "y", "z"});
+    readUnit();
+    if (!take({"qw", "qx", "qy", "qz"}) && !take({"nx", "ny", "nz"})) requireNoAngles();
+    for (std::size_t k = 0; k < fields_.size(); ++k)
+      if (!is_used_[k]) found_.ignored.push_back(fields_[k]);
+    return std::move(found_);
+  }
+
+ private:
+  std::ptrdiff_t count(const std::string& name) const {
+    return std::count_if(names_.begin(), names_.end(), [&](const ColumnName& other) { return other.name == name; });
+  }
+
+  [[noreturn]] void fail(std::size_t column, const std::string& message) const {
+    throw ParseError({file_, number_, fields_[column].column}, message);
+  }
+
+  /// Whether the table has these columns.
+  bool take(const std::vector<std::string>& wanted) {
+    std::vector<std::size_t> columns;
+    for (const std::string& name : wanted)
+      for (std::size_t k = 0; k < names_.size(); ++k)
+        if (names_[k].name == name) columns.push_back(k);
+    if (columns.empty()) return false;
+    for (const std::string& name : wanted)
+      if (count(name) != 1) fail(columns[0], cat("expected each of the columns ", join(wanted), " once"));
+    for (const std::size_t k : columns) is_used_[k] = true;
+    found_.columns.insert(found_.columns.end(), columns.begin(), columns.end());
+    return true;
+  }
+
+  void readUnit() {
+    const double unit = names_[found_.columns[0]].unit;
+    for (const std::size_t k : found_.columns)
+      if (names_[k].unit != unit) fail(k, "x, y and z have different units; expected one");
+    if (unit > 0.) found_.unit = unit;
+  }
+
+  void requireNoAngles() const {
+    static const std::vector<std::string> angles = {"a", "b", "c", "rx", "ry", "rz", "roll", "pitch", "yaw"};
+    for (std::size_t k = 0; k < names_.size(); ++k)
+      if (std::find(angles.begin(), angles.end(), names_[k].name) != angles.end())
+        fail(k, cat("the column '", names_[k].name,
+                    "' is an angle; expected a normal (nx ny nz) or a quaternion (qw qx qy qz)"));
+  }
+
+  const std::vector<RowWord>& fields_;
+  const std::string& file_;
+  const int number_;
+  std::vector<ColumnName> names_;
+  std::vector<char> is_used_;
+  NamedColumns found_;
+};
+
+/// Reads the lines of a table.
+class TableReader {
+ public:
+  explicit TableReader(const std::string& file) : file_(file) {}
+
+  void addLine(const std::string& line) {
+    ++number_;
+    const std::vector<RowWord> words = rowWords(line, file_, number_);
+    if (words.empty()) return;
+    const bool is_names =
+        rows_.empty() && names_.empty() &&
+        std::none_of(words.begin(), words.end(), [](const RowWord& word) { return rowNumber(word).has_value(); });
+    if (is_names) return readNames(line);
+    rows_.push_back(named_.columns.empty() ? plainRow(words) : namedRow(words));
+    requireDirection(words);
+  }
+
+  MatrixXd rows() const {
+    if (rows_.size() < 2)
+      throw ParseError({file_, 1, 1}, cat("there are ", rows_.size(), " rows; expected at least 2"));
+    MatrixXd all(Eigen::Index(rows_.size()), rows_[0].size());
+    for (Eigen::Index k = 0; k < all.rows(); ++k) all.row(k) = rows_[std::size_t(k)].transpose();
+    return all;
+  }
+
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> all;
+    for (const RowWord& field : named_.ignored)
+      all.push_back(SourcePosition{file_, line_of_names_, field.column}.str() +
+                    cat(": the column '", field.text, "' is ignored"));
+    return all;
+  }
+
+ private:
+  void readNames(const std::string& line) {
+    names_ = nameFields(line, file_, number_);
+    line_of_names_ = number_;
+    named_ = ColumnFinder(names_, file_, number_).find();
+  }
+
+  double numberOf(const RowWord& word) const {
+    const std::optional<double> value = rowNumber(word);
+    if (!value || !std::isfinite(*value))
+      throw ParseError({file_, number_, word.column}, cat("'", word.text, "' is not a number; ", kRowKinds));
+    return *value;
+  }
+
+  VectorXd plainRow(const std::vector<RowWord>& words) const {
+    VectorXd row(Eigen::Index(words.size()));
+    for (std::size_t k = 0; k < words.size(); ++k) row[Eigen::Index(k)] = numberOf(words[k]);
+    const SourcePosition end{file_, number_, words.back().column};
+    if (row.size() != 3 && row.size() != 6 && row.size() != 7)
+      throw ParseError(end, cat("the row has ", row.size(), " numbers; ", kRowKinds));
+    if (!rows_.empty() && row.size() != rows_[0].size())
+      throw ParseError(end, cat("the row has ", row.size(), " numbers; the rows before have ", rows_[0].size()));
+    if (words.size() == names_.size())
+      throw ParseError({file_, line_of_names_, names_[0].column},
+                       "the names of the columns are not x y z, and nx ny nz or qw qx qy qz, in any order; a line of "
+                       "text begins with #");
+    return row;
+  }
+
+  VectorXd namedRow(const std::vector<RowWord>& words) const {
+    if (words.size() != names_.size())
+      throw ParseError({file_, number_, words.back().column},
+                       cat("the row has ", words.size(), " fields; there are ", names_.size(), " names"));
+    VectorXd row(Eigen::Index(named_.columns.size()));
+    for (std::size_t k = 0; k < named_.columns.size(); ++k) row[Eigen::Index(k)] = numberOf(words[named_.columns[k]]);
+    row.head<3>() *= named_.unit;
+    return row;
+  }
+
+  /// Throws for a normal or a quaternion of zeros in the last row.
+  void requireDirection(const std::vector<RowWord>& words) const {
+    const VectorXd& row = rows_.back();
+    if (row.size() == 3 || row.tail(row.size() - 3).norm() >= kLeastNorm) return;
+    const std::size_t column = named_.columns.empty() ? 3 : named_.columns[3];
+    throw ParseError({file_, number_, words[column].column},
+                     row.size() == 6 ? "the normal is zero; expected a direction"
+                                     : "the quaternion is zero; expected a rotation, such as 1 0 0 0");
+  }
+
+  const std::string file_;
+  int number_ = 0, line_of_names_ = 0;
+  std::vector<RowWord> names_;
+  NamedColumns named_;
+  std::vector<VectorXd> rows_;
+};
 
 }  // namespace
 
@@ -98,52 +276,13 @@ ToolPath ToolPath::read(const std::string& file, std::string frame, std::string 
   std::ifstream in(file, std::ios::binary);
   if (!in) throw FileError(cat(file, ": cannot open the file"));
   std::istringstream text(toUtf8(std::string(std::istreambuf_iterator<char>(in), {})));
-  std::vector<std::vector<double>> rows;
-  std::vector<RowWord> names;
-  std::vector<std::size_t> columns;
-  std::string line;
-  int line_of_names = 0;
-  std::size_t fields = 0;  // of the names: a name such as "x (mm)" is several words
-  for (int number = 1; std::getline(text, line); ++number) {
-    const std::vector<RowWord> words = rowWords(line, file, number);
-    if (words.empty()) continue;
-    const bool is_names =
-        rows.empty() && names.empty() &&
-        std::none_of(words.begin(), words.end(), [](const RowWord& word) { return rowNumber(word).has_value(); });
-    if (is_names) {
-      names = words;
-      line_of_names = number;
-      fields = 1 + std::size_t(std::count_if(line.begin(), line.end(), [](char c) { return c == ',' || c == ';'; }));
-      columns = namedColumns(words, file, number);
-      continue;
-    }
-    std::vector<double> row;
-    for (const RowWord& word : words) {
-      const std::optional<double> value = rowNumber(word);
-      if (!value || !std::isfinite(*value))
-        throw ParseError({file, number, word.column}, cat("'", word.text, "' is not a number; ", kRowKinds));
-      row.push_back(*value);
-    }
-    const SourcePosition end{file, number, words.back().column};
-    if (row.size() != 3 && row.size() != 6 && row.size() != 7)
-      throw ParseError(end, cat("the row has ", row.size(), " numbers; ", kRowKinds));
-    if (!rows.empty() && row.size() != rows[0].size())
-      throw ParseError(end, cat("the row has ", row.size(), " numbers; the rows before have ", rows[0].size()));
-    if (!columns.empty() && row.size() != columns.size())
-      throw ParseError(end, cat("the row has ", row.size(), " numbers; there are ", columns.size(), " names"));
-    if (columns.empty() && !names.empty() && (row.size() == names.size() || row.size() == fields))
-      throw ParseError({file, line_of_names, names[0].column},
-                       "the names of the columns are not x y z, and nx ny nz or qw qx qy qz, in any order; a line of "
-                       "text begins with #");
-    rows.push_back(row);
-    for (std::size_t k = 0; k < columns.size(); ++k) rows.back()[k] = row[columns[k]];
-  }
-  if (rows.size() < 2) throw ParseError({file, 1, 1}, cat("there are ", rows.size(), " rows; expected at least 2"));
-  MatrixXd all(Eigen::Index(rows.size()), Eigen::Index(rows[0].size()));
-  for (Eigen::Index k = 0; k < all.rows(); ++k)
-    all.row(k) = Eigen::Map<const VectorXd>(rows[std::size_t(k)].data(), all.cols()).transpose();
-  return all.cols() == 6 ? along(std::move(frame), all.leftCols(3), all.rightCols(3), std::move(relative_to))
-                         : along(std::move(frame), all, {}, std::move(relative_to));
+  TableReader table(file);
+  for (std::string line; std::getline(text, line);) table.addLine(line);
+  const MatrixXd all = table.rows();
+  ToolPath path = all.cols() == 6 ? along(std::move(frame), all.leftCols(3), all.rightCols(3), std::move(relative_to))
+                                  : along(std::move(frame), all, {}, std::move(relative_to));
+  path.parts_.warnings = table.warnings();
+  return path;
 }
 
 }  // namespace kinegraph

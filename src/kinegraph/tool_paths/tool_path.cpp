@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "kinegraph/common/errors.h"
+#include "kinegraph/common/guessed_units.h"
 #include "kinegraph/common/text.h"
 
 namespace kinegraph {
@@ -25,10 +27,21 @@ Quaterniond rotationWithAxis(const Vector3d& z, const Vector3d& x) {
   return Quaterniond(R);
 }
 
+constexpr double kLeastDegrees = 10.;  // angles from here on may be in degrees
+
+/// How many waypoints an element has at least and at most.
+std::pair<std::size_t, std::size_t> waypointCounts(ToolPathElement::Kind kind) {
+  constexpr std::size_t kMany = std::numeric_limits<std::size_t>::max();
+  static constexpr std::pair<std::size_t, std::size_t> counts[] = {{1, 1}, {2, 2}, {0, 0}, {1, kMany}, {2, kMany}};
+  const int number = int(kind);
+  if (number < 0 || number >= int(std::size(counts)))
+    throw ValueError(cat("ToolPath: the state has an element of kind ", number, "; expected 0 to 4"));
+  return counts[number];
+}
+
 }  // namespace
 
-ToolPath::ToolPath(std::string frame, std::string relative_to)
-    : frame_(std::move(frame)), relative_to_(std::move(relative_to)) {}
+ToolPath::ToolPath(std::string frame, std::string relative_to) : parts_{std::move(frame), std::move(relative_to)} {}
 
 ToolPath ToolPath::along(std::string frame, const MatrixXd& points, const MatrixXd& normals, std::string relative_to) {
   const bool poses = normals.size() == 0 && points.cols() == 7;
@@ -57,21 +70,21 @@ ToolPath ToolPath::along(std::string frame, const MatrixXd& points, const Matrix
     rows.waypoints.back().rotation = rotationWithAxis(z, x);
     x = *rows.waypoints.back().rotation * Vector3d::UnitX();
   }
-  path.first_ = rows.waypoints.front();
+  path.parts_.first = rows.waypoints.front();
   return path.append(std::move(rows));
 }
 
 ToolPath& ToolPath::append(ToolPathElement element) {
-  element.speed = speed_;
-  elements_.push_back(std::move(element));
+  element.speed = parts_.speed;
+  parts_.elements.push_back(std::move(element));
   return *this;
 }
 
 ToolPath& ToolPath::start(const ToolWaypoint& pose) {
   requireFinite("start", pose);
-  if (!elements_.empty() && elements_.front().kind == ToolPathElement::Kind::rows)
+  if (!parts_.elements.empty() && parts_.elements.front().kind == ToolPathElement::Kind::rows)
     throw ValueError("ToolPath.start: the path begins with rows, whose first one is its start");
-  first_ = pose;
+  parts_.first = pose;
   return *this;
 }
 
@@ -102,6 +115,8 @@ ToolPath& ToolPath::circle(const Vector3d& center, const Vector3d& axis, double 
   ToolPathElement element{ToolPathElement::Kind::circle};
   element.center = center, element.axis = axis.normalized(), element.angle = angle, element.blend = blend;
   element.advance = advance;
+  if (mayBeDegrees(angle, kLeastDegrees))
+    parts_.warnings.push_back(cat("circle: angle is ", angle, "; ", askForRadians(angle)));
   return append(std::move(element));
 }
 
@@ -114,7 +129,7 @@ ToolPath& ToolPath::spline(std::vector<ToolWaypoint> waypoints) {
 ToolPath& ToolPath::speed(double speed) {
   if (!(speed >= 0.) || !std::isfinite(speed))
     throw ValueError(cat("ToolPath.speed: speed is ", speed, "; expected a number >= 0 in m/s"));
-  speed_ = speed;
+  parts_.speed = speed;
   return *this;
 }
 
@@ -127,18 +142,22 @@ ToolPath& ToolPath::free(int about, std::optional<std::pair<double, double>> ran
   if (prefer && (!std::isfinite(*prefer) || (range && (*prefer < range->first || *prefer > range->second))))
     throw ValueError(cat("ToolPath.free: prefer is ", *prefer, "; expected an angle in rad",
                          range ? cat(" from ", range->first, " to ", range->second) : ""));
-  free_axis_ = about;
+  const double end = range ? std::max(-range->first, range->second) : 0.;
+  if (mayBeDegrees(end, kLeastDegrees))
+    parts_.warnings.push_back(cat("free: the range from ", range->first, " to ", range->second,
+                                  " is more than a turn; ", askForRadians(end)));
+  parts_.free_axis = about;
   const bool is_turn = range && range->second - range->first >= 2. * std::numbers::pi - 1e-9;
-  range_ = is_turn ? std::nullopt : range;
-  prefer_ = prefer;
+  parts_.range = is_turn ? std::nullopt : range;
+  parts_.prefer = prefer;
   return *this;
 }
 
 ToolPath& ToolPath::tilt(double angle) {
   if (!(angle >= 0.) || angle >= std::numbers::pi / 2.)
     throw ValueError(cat("ToolPath.tilt: angle is ", angle, "; expected 0 <= angle < pi / 2 rad"));
-  if (free_axis_ < 0) free_axis_ = 2;
-  cone_ = angle;
+  if (parts_.free_axis < 0) parts_.free_axis = 2;
+  parts_.cone = angle;
   return *this;
 }
 
@@ -148,7 +167,7 @@ ToolPath& ToolPath::lean(double travel, double work) {
       throw ValueError(
           cat("ToolPath.lean: ", name, " is ", angle, "; expected an angle between -pi / 2 and pi / 2 rad"));
   bool any = false;
-  for (ToolPathElement& element : elements_) {
+  for (ToolPathElement& element : parts_.elements) {
     const std::vector<ToolWaypoint> rows = element.waypoints;
     if (element.kind != ToolPathElement::Kind::rows || !rows.front().rotation) continue;
     any = true;
@@ -162,18 +181,32 @@ ToolPath& ToolPath::lean(double travel, double work) {
       const Eigen::AngleAxisd forward(travel, z.cross(along)), left(work, -along);
       element.waypoints[k].rotation = Quaterniond(forward * left) * *rows[k].rotation;
     }
-    if (&element == &elements_.front()) first_ = element.waypoints.front();
+    if (&element == &parts_.elements.front()) parts_.first = element.waypoints.front();
   }
   if (!any) throw ValueError("ToolPath.lean: the path has no rows with normals; call it behind ToolPath.along or read");
   return *this;
 }
 
+ToolPath ToolPath::fromParts(Parts parts) {
+  for (const ToolPathElement& element : parts.elements) {
+    const auto [least, most] = waypointCounts(element.kind);
+    if (element.waypoints.size() < least || element.waypoints.size() > most)
+      throw ValueError(cat("ToolPath: the state has an element of kind ", int(element.kind), " with ",
+                           element.waypoints.size(), " waypoints; expected ", least, least < most ? " or more" : ""));
+  }
+  if (parts.free_axis < -1 || parts.free_axis > 2)
+    throw ValueError(cat("ToolPath: the state has the free axis ", parts.free_axis, "; expected -1 to 2"));
+  ToolPath path(parts.frame);
+  path.parts_ = std::move(parts);
+  return path;
+}
+
 std::string ToolPath::str() const {
-  return cat(elements_.size(), elements_.size() == 1 ? " element of '" : " elements of '", frame_, "'",
-             relative_to_.empty() ? "" : cat(" relative to '", relative_to_, "'"),
-             free_axis_ < 0 ? "" : cat(", free about ", "xyz"[free_axis_]),
-             range_ ? cat(" from ", range_->first, " to ", range_->second, " rad") : "",
-             cone_ > 0. ? cat(", tilt ", cone_, " rad") : "");
+  return cat(parts_.elements.size(), parts_.elements.size() == 1 ? " element of '" : " elements of '", parts_.frame,
+             "'", parts_.relative_to.empty() ? "" : cat(" relative to '", parts_.relative_to, "'"),
+             parts_.free_axis < 0 ? "" : cat(", free about ", "xyz"[parts_.free_axis]),
+             parts_.range ? cat(" from ", parts_.range->first, " to ", parts_.range->second, " rad") : "",
+             parts_.cone > 0. ? cat(", tilt ", parts_.cone, " rad") : "");
 }
 
 }  // namespace kinegraph

@@ -57,7 +57,8 @@ class ToolPath {
 
   /// Reads rows of 3 (x y z), 6 (with a normal) or 7 numbers (x y z qw qx qy qz) from a file, separated by commas,
   /// semicolons or spaces. Columns are in this order, unless a first line names them: x y z, and nx ny nz or qw qx qy
-  /// qz, in any order. Other first lines without numbers are skipped, and so is the text behind #. Files with the
+  /// qz, in any order. Names may have a unit, such as x_mm or X [mm], and columns with other names are ignored with a
+  /// line in `warnings`. Other first lines without numbers are skipped, and so is the text behind #. Files with the
   /// extension .nc, .ngc, .gcode, .gc, .tap or .cnc are read by `readGcode`. Throws FileError if it cannot be read, and
   /// ParseError with line and column for other content.
   static ToolPath read(const std::string& file, std::string frame, std::string relative_to = {});
@@ -110,29 +111,39 @@ class ToolPath {
   /// other angles, without such rows, and for normals along the path.
   ToolPath& lean(double travel, double work = 0.);
 
-  const std::string& frame() const { return frame_; }
-  const std::string& relativeTo() const { return relative_to_; }
-  const std::optional<ToolWaypoint>& first() const { return first_; }
-  const std::vector<ToolPathElement>& elements() const { return elements_; }
-  int freeAxis() const { return free_axis_; }                                       ///< -1: the rotation is given
-  double cone() const { return cone_; }                                             ///< rad
-  const std::optional<std::pair<double, double>>& range() const { return range_; }  ///< rad; none: a whole turn
-  const std::optional<double>& preferred() const { return prefer_; }                ///< rad
-  const std::vector<std::string>& warnings() const { return warnings_; }            ///< of the file that was read
+  /// All members, for storage.
+  struct Parts {
+    std::string frame = {}, relative_to = {};
+    std::optional<ToolWaypoint> first = {};
+    std::vector<ToolPathElement> elements = {};
+    int free_axis = -1;                                   ///< 0 x, 1 y, 2 z; -1: the rotation is given
+    double cone = 0.;                                     ///< rad
+    double speed = 0.;                                    ///< of elements that are appended, m/s
+    std::optional<std::pair<double, double>> range = {};  ///< rad; none: a whole turn
+    std::optional<double> prefer = {};                    ///< rad
+    std::vector<std::string> warnings = {};
+  };
+  const std::string& frame() const { return parts_.frame; }
+  const std::string& relativeTo() const { return parts_.relative_to; }
+  const std::optional<ToolWaypoint>& first() const { return parts_.first; }
+  const std::vector<ToolPathElement>& elements() const { return parts_.elements; }
+  int freeAxis() const { return parts_.free_axis; }                                       ///< -1: the rotation is given
+  double cone() const { return parts_.cone; }                                             ///< rad
+  const std::optional<std::pair<double, double>>& range() const { return parts_.range; }  ///< rad; none: a whole turn
+  const std::optional<double>& preferred() const { return parts_.prefer; }                ///< rad
+  const std::vector<std::string>& warnings() const {
+    return parts_.warnings;
+  }  ///< of the file that was read, and of angles that may be in degrees
+
+  const Parts& parts() const { return parts_; }
+  static ToolPath fromParts(Parts parts);  ///< throws ValueError for impossible ones
 
   std::string str() const;  ///< "3 elements of 'pen' relative to 'part', free about z, tilt 0.26 rad"
 
  private:
   ToolPath& append(ToolPathElement element);
 
-  std::string frame_, relative_to_;
-  std::optional<ToolWaypoint> first_;
-  std::vector<ToolPathElement> elements_;
-  int free_axis_ = -1;
-  double cone_ = 0., speed_ = 0.;
-  std::optional<std::pair<double, double>> range_;
-  std::optional<double> prefer_;
-  std::vector<std::string> warnings_;
+  Parts parts_;
 };
 
 }  // namespace kinegraph

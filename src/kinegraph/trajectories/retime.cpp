@@ -298,9 +298,13 @@ Timing timingWithConstraints(const ScalingGrid& grid, const MotionLimits& limits
   return timing;
 }
 
-/// Tells whether a finer grid may have a time scaling.
-bool needsFinerGrid(const Timing& timing) {
-  return timing.speeds.failure == ScalingFailure::cannot_move && timing.speeds.row < 0;
+/// Tells whether a finer grid may have a time scaling: no further limit fails, or one that holds at rest.
+bool needsFinerGrid(const Timing& timing, const PathCurve& curve, const ConstraintSource& rows) {
+  const SquaredSpeeds& speeds = timing.speeds;
+  if (speeds.failure != ScalingFailure::cannot_move || speeds.row < 0)
+    return speeds.failure == ScalingFailure::cannot_move;
+  const double at_rest = rows.at(speeds.place, curve.pieceAt(speeds.place)).c[speeds.row];
+  return at_rest >= rows.low[speeds.row] && at_rest <= rows.high[speeds.row];
 }
 
 TimedPath timedAlong(const MatrixXd& path, const PathCurve& curve, const MotionLimits& limits,
@@ -321,7 +325,8 @@ TimedPath timedAlong(const MatrixXd& path, const PathCurve& curve, const MotionL
   }
   ScalingBudget budget{options.intervals, options.cancellation, tight};
   Timing timing;
-  for (int trial = 0; trial == 0 || (needsFinerGrid(timing) && trial < kMaxTrials); ++trial) {
+  for (int trial = 0; trial == 0 || (needsFinerGrid(timing, curve, options.constraints) && trial < kMaxTrials);
+       ++trial) {
     if (trial > 0) budget.intervals = std::max(budget.intervals, std::min(2 * budget.intervals, kMaxIntervals));
     const ScalingGrid grid(curve, limits, budget, bool(options.constraints));
     checkLimited(grid, limits, budget);

@@ -2,7 +2,7 @@
 
 import io
 
-from kinegraph.progress import clearLine, drawProgress, drawSolve
+from kinegraph.progress import clearLine, drawProgress, drawSolve, drawTime
 
 
 class Terminal(io.StringIO):
@@ -32,3 +32,10 @@ def test_the_line_of_a_solver_shows_its_state_and_is_removed_at_the_end():
     assert "NLP_Solver: 120 evaluations, cost 1.25, violation 0.003, 2 s" in terminal.getvalue()
     assert terminal.getvalue().endswith("\r\x1b[K")
     assert file.getvalue() == ""
+
+
+def test_a_call_without_parts_shows_its_time():
+    terminal, file = Terminal(), io.StringIO()
+    for stream in (terminal, file):
+        drawTime("planMotion", 3.2, stream)
+    assert terminal.getvalue().startswith("\rplanMotion: 3 s (Ctrl-C ends it)") and file.getvalue() == ""

@@ -80,7 +80,7 @@ def test_every_option_is_a_keyword_with_its_default() -> None:
     defaults = {name: eval(each.default, {"inf": np.inf}) for name, each in options.items()}
     plan, same = ry.planMotion(room(), GOAL), ry.planMotion(room(), GOAL, **defaults)
     assert np.array_equal(plan.path, same.path) and plan.duration == same.duration
-    assert [each.default for each in parametersOf(ry.MotionPlan.replan)] == ["None"] * (len(options) - 4)
+    assert [each.default for each in parametersOf(ry.MotionPlan.replan)] == ["None"] * (len(options) - 5)
     assert not {"start_velocity", "end_velocity", "obstacle_trajectories"} & {
         each.name for each in parametersOf(ry.planMotions)
     }
@@ -94,6 +94,16 @@ def test_editors_see_the_options_in_the_stub() -> None:
     for call in ("planMotion", "planMotions", "replan"):
         signature = stub[stub.index(f"def {call}(") :].split("\n", 1)[0]
         assert "*, margin: float" in signature and "**" not in signature
+
+
+def test_a_verbose_call_logs_a_line(caplog: pytest.LogCaptureFixture) -> None:
+    caplog.set_level("INFO", "kinegraph")
+    C = room()
+    quiet, plan = ry.planMotion(C, GOAL), ry.planMotion(C, GOAL, verbose=1)
+    assert len(caplog.messages) == 1 and caplog.messages[0].startswith("planMotion: solved: ")
+    assert np.array_equal(quiet.path, plan.path)
+    with pytest.raises(ry.ArgumentError, match="verbose is 'yes'; expected a number"):
+        ry.planMotion(C, GOAL, verbose="yes")
 
 
 def test_a_plan_is_a_trajectory() -> None:

@@ -69,6 +69,27 @@ def test_sequences_blend_their_corners_and_paths_may_have_a_start(cell):
     assert np.allclose(track(C, bot)[-1, :3], corner, atol=2e-5)
 
 
+def test_transfers_to_paths_flow_into_them_if_asked(cell):
+    C, bot = cell
+    start = C.getFrame(TOOL).getPose()
+    path = (
+        ry.ToolPath(TOOL).start(start + np.r_[0.1, 0, -0.1, 0, 0, 0, 0]).line(start[:3] + np.array([0.1, 0.15, -0.1]))
+    )
+    home, entered = bot.get_q(), []
+    for flow in ("none", "path"):
+        plan = bot.moveSequence(path.free(), speed=0.3, flow=flow, tool_acceleration=0.8)
+        assert [kind for kind, *_ in plan.segments] == ["transfer", "path"]
+        entered.append(plan.speed(plan.segments[1][3] + 1e-6))
+        bot.wait(C)
+        bot.moveTo(home, 1.0)
+        bot.wait(C)
+    assert entered[0] < 1e-3 and entered[1] > 0.05
+    plan = bot.moveSequence(path, speed=0.3, approach=0.05, retract=0.05)
+    assert [kind for kind, *_ in plan.segments] == ["transfer", "approach", "path", "retract"]
+    with pytest.raises(ry.ArgumentError, match="flow is 'paths'; expected one of none, approach, path"):
+        bot.moveSequence(path, flow="paths")
+
+
 def test_overwrite_brakes_first(cell):
     C, bot = cell
     target = C.getFrame(TOOL).getPosition() + np.array([0.1, 0.1, -0.1])

@@ -40,6 +40,11 @@ def table(rows, separator=","):
         "x y z qx qy qz qw\n" + table(POSES[:, [0, 1, 2, 4, 5, 6, 3]], " "),  # as ROS has it
         "point on the seam\n" + table(ROWS, "\t").replace("\n", "  # a comment\n"),
         table(ROWS).replace("\n", ",\n"),
+        "X [mm],Y [mm],Z [mm],nx,ny,nz\n" + table(ROWS * [1e3, 1e3, 1e3, 1, 1, 1]),
+        "x_cm;y_cm;z_cm;nx;ny;nz\n" + table(ROWS * [1e2, 1e2, 1e2, 1, 1, 1], ";"),
+        "id,x,y,z,note,nx,ny,nz\n"
+        + "\n".join(f"{k}," + table([r[:3]]) + ",ok," + table([r[3:]]) for k, r in enumerate(ROWS)),
+        "x,y,z,nx,ny,nz\n" + "\n".join(",".join(f'"{value}"' for value in row) for row in ROWS),
     ],
 )
 def test_rows_of_many_tables_are_the_same(scene, tmp_path, text):
@@ -63,12 +68,14 @@ def test_rows_of_many_tables_are_the_same(scene, tmp_path, text):
         ("0,5 0,2 0,1\n0,5 0,2 0,2\n", r"1:5: the field has two numbers"),
         ("0,0,0\n0,,1\n", r"2:3: the field is empty"),
         ("x,y,z,rx,ry,rz\n0,0,0,0,0,0\n", r"1:7: the column 'rx' is an angle; expected a normal"),
-        ("x,y,z\n0,0,0,1\n0,0,1,1\n", r"2:7: the row has 4 numbers"),
-        ("x,y,z,qx,qy,qz,qz\n0,0,0,0,0,0,1\n", r"1:1: the names of the columns are not x y z"),
+        ("x,y,z\n0,0,0,1\n0,0,1,1\n", r"2:7: the row has 4 fields; there are 3 names"),
+        ("x,y,z,qx,qy,qz,qz\n0,0,0,0,0,0,1\n", r"1:7: expected each of the columns qw, qx, qy, qz once"),
         ("x,x,z\n0,0,0\n0,0,1\n", r"1:1: the names of the columns are not x y z"),
-        ("x_mm,y_mm,z_mm\n0,0,0\n0,0,1\n", r"1:1: the names of the columns are not x y z"),
-        ("x (mm),y (mm),z (mm)\n0,0,0\n0,0,1\n", r"1:1: the names of the columns are not x y z"),
-        ("z,y,x\n0,0,0,0,0,1\n", r"2:11: the row has 6 numbers; there are 3 names"),
+        ("x_mm,y_m,z_mm\n0,0,0\n0,0,1\n", r"1:6: x, y and z have different units"),
+        ("z,y,x\n0,0,0,0,0,1\n", r"2:11: the row has 6 fields; there are 3 names"),
+        ("id,x,y,z\n1,0,0,0\n2,0,0,O\n", r"3:7: 'O' is not a number"),
+        ("0,0,0,0,0,1\n0,0,1,0,0,0\n", r"2:7: the normal is zero"),
+        ("qw,qx,qy,qz,x,y,z\n0,0,0,0,0,0,1\n", r"2:1: the quaternion is zero"),
         ("nan,nan,nan\n0,0,0\n0,0,1\n", r"1:1: 'nan' is not a number"),
     ],
 )
@@ -77,6 +84,33 @@ def test_tables_that_are_not_read_are_explained(tmp_path, text, message):
     file.write_text(text)
     with pytest.raises(ry.ParseError, match=r"seam\.csv:" + message):
         ry.ToolPath.read(file)
+
+
+def test_other_columns_are_ignored_with_a_warning(tmp_path):
+    file = tmp_path / "seam.csv"
+    file.write_text("id, x, y, z\n1,0,0,0\n2,0,0,1\n")
+    assert ry.ToolPath.read(file).warnings == [f"{file}:1:1: the column 'id' is ignored"]
+
+
+def test_the_extruder_of_a_printer_is_ignored(tmp_path):
+    file = tmp_path / "part.gcode"
+    file.write_text("G92 E0\nG0 X0 Y0 Z0\nG1 X10 E1 F600\n")
+    assert ry.ToolPath.read(file).warnings == [
+        f"{file}:1:1: G92 is ignored",
+        f"{file}:1:5: E0 is ignored",
+        f"{file}:3:8: E1 is ignored",
+    ]
+    file.write_text("G92 X0\nG0 X0 Y0 Z0\nG1 X10\n")
+    with pytest.raises(ry.ParseError, match="1:1: unknown code G92"):
+        ry.ToolPath.read(file)
+
+
+def test_coordinates_in_millimeters_are_asked_for(scene, tmp_path):
+    file = tmp_path / "seam.csv"
+    position = scene.getFrame("tool").getPosition()
+    file.write_text(table([position, 1000 * position + 1]))  # the path begins within reach
+    plan = ry.planToolPath(scene, ry.ToolPath.read(file))
+    assert "did you mean meters? " in plan.message
 
 
 def test_a_program_of_gcode_is_cut_at_its_feeds(scene, tmp_path):

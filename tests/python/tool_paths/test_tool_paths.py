@@ -236,10 +236,51 @@ def test_arguments_that_no_plan_can_keep_are_explained(scene):
     C = scene
     start = C.getFrame("tool").getPose()
     path = ry.ToolPath("tool").start(start).line(start[:3] + 0.1 * X)
-    with pytest.raises(ValueError, match="tolerance is 1e-07; expected at least 1e-06"):
+    with pytest.raises(ValueError, match="tolerance is 1e-07; expected a finite number of at least 1e-06"):
         ry.planToolPath(C, path, tolerance=1e-7)
+    for name in ("tolerance", "rotation_tolerance"):
+        with pytest.raises(ValueError, match=f"planToolPath: {name} is (inf|nan); expected a finite number"):
+            ry.planToolPath(C, path, **{name: np.inf})
+        with pytest.raises(ValueError, match=f"planToolPath: {name} is (inf|nan); expected a finite number"):
+            ry.planToolPath(C, path, **{name: np.nan})
     with pytest.raises(ValueError, match="element 0 ends at its start; expected another end, or a circle"):
         ry.planToolPath(C, ry.ToolPath("tool").start(start).arc(start[:3] + 0.1 * X, start))
+
+
+def test_angles_that_look_like_degrees_are_warned_of(scene):
+    start = scene.getFrame("tool").getPose()
+    with pytest.warns(ry.KinegraphWarning, match=r"circle: angle is 360; did you mean radians\? 360 degrees are 6.28"):
+        path = ry.ToolPath("tool").start(start).circle(start[:3] + 0.05 * X, Z, 360)
+    assert path.warnings
+    with pytest.warns(
+        ry.KinegraphWarning, match=r"free: the range from -30 to 30 is more than a turn; did you mean radians\? 30 "
+    ):
+        ry.ToolPath("tool").free(range=(-30, 30))
+    assert not ry.ToolPath("tool").circle(start[:3], Z, 6 * np.pi).free(range=(-7, 7)).warnings
+
+
+def test_paths_are_pickled_to_the_last_bit(scene):
+    start = scene.getFrame("tool").getPose()
+    path = ry.ToolPath("tool").start(start).line(start[:3] + 0.05 * X).speed(0.05)
+    path.arc(start[:3] + 0.07 * X + 0.02 * Y, start + np.r_[0.05 * X + 0.04 * Y, np.zeros(4)], blend=0.005)
+    path.circle(start[:3] + 0.05 * X + 0.06 * Y, Z, 1.0).spline([start[:3] + 0.1 * Y, start[:3] + 0.1 * Y + 0.02 * Z])
+    rows = ry.ToolPath.along(np.tile(start[:3], (5, 1)) + np.outer(np.arange(5), 0.01 * Y), np.tile(Z, (5, 1)))
+    for one in (path.free("z", (-1.0, 1.0), prefer=0.1), rows.tilt(0.2)):
+        copy = pickle.loads(pickle.dumps(one))
+        assert str(copy) == str(one)
+        a, b = (ry.planToolPath(scene, each) for each in (one, copy))
+        assert a and a.duration == b.duration
+        assert np.array_equal(samples(a)[1], samples(b)[1])
+        assert copy.line(start[:3]) is copy
+
+
+def test_a_verbose_call_logs_a_line(scene, caplog):
+    caplog.set_level("INFO", "kinegraph")
+    path = ry.ToolPath("tool").line(scene.getFrame("tool").getPosition() + 0.1 * Y)
+    ry.planToolPath(scene, path)
+    assert not caplog.messages
+    plan = ry.planToolPath(scene, path, verbose=1)
+    assert f"planToolPath: solved: 1 path in {plan.duration:.6g} s, " in caplog.messages[0]
 
 
 def test_a_simulated_robot_follows_the_plan(scene):
