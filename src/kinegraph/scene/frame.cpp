@@ -300,7 +300,8 @@ Frame& Frame::setJointState(const VectorXd& q) {
 
 Frame& Frame::setMass(double mass, const std::vector<double>& matrix) {
   FrameData& frame = edit();
-  if (!(mass >= 0.)) throw ValueError(cat("frame '", frame.name, "': mass ", mass, " kg is not zero or positive"));
+  if (!(mass >= 0.) || std::isinf(mass))
+    throw ValueError(cat("frame '", frame.name, "': mass ", mass, " kg is not zero, or positive and finite"));
   if (mass == 0.) {
     frame.inertia.reset();
     scene_->posesChanged();
