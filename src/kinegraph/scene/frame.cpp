@@ -2,6 +2,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/geometry/shapes/geometry_flaw.h"
 #include "kinegraph/geometry/shapes/mass.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
@@ -138,6 +139,8 @@ Shape& Frame::editableShape() {
 }
 
 Frame& Frame::setGeometry(Geometry geometry) {
+  if (const std::string flaw = geometryFlaw(geometry); !flaw.empty())
+    throw ValueError(cat("frame '", getName(), "': ", flaw));
   editableShape().geometry = std::make_shared<Geometry>(std::move(geometry));
   scene_->structureChanged();
   return *this;
