@@ -16,6 +16,7 @@ TEST(Text, SimilarWordsFindsTypingMistakesAndParts) {
   EXPECT_EQ(similarNames("gripper", names).front(), "l_gripper");
   EXPECT_TRUE(similarNames("zzz", names).empty());
   EXPECT_EQ(similarHint("Table", names), "; similar names: table");
+  EXPECT_EQ(similarNames("target" + std::string(10000, '_'), names), std::vector<std::string>{"target"});
 }
 
 TEST(Text, ExactNumbersReadBackUnchanged) {

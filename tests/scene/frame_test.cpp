@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "kinegraph/scene/config.h"
 #include "tests/support/expect_error.h"
@@ -186,4 +187,31 @@ TEST(Frame, MassesAreThoseOfTheSurface) {
   EXPECT_LT((config.getFrame("a").getInertia()->matrix.diagonal() - Vector3d(1.537879, 1.196970, .689394)).norm(),
             2e-6);
   EXPECT_NEAR(config.getFrame("b").getInertia()->matrix(0, 0), 1. / 6., 1e-12);
+}
+
+TEST(Frame, GeometriesThatContradictThemselvesAreRefused) {
+  Config config;
+  const auto refused = [&](const Geometry& geometry, const char* reason) {
+    expectError<ValueError>([&] { config.addFrame("a").setGeometry(geometry); }, {"frame 'a': ", reason});
+  };
+  refused({ShapeType::box, {}, nullptr}, "a box has 3 sizes, got 0");
+  refused({ShapeType::sphere, {std::nan("")}, nullptr}, "its sizes are not finite");
+  Mesh mesh;
+  mesh.vertices = {Vector3d::Zero(), Vector3d::UnitX(), Vector3d::UnitY()};
+  const auto with = [&](auto change) {
+    Mesh changed = mesh;
+    change(changed);
+    return Geometry{ShapeType::mesh, {}, std::make_shared<const Mesh>(changed)};
+  };
+  refused(with([](Mesh& m) { m.triangles = {{0, 1, 9}}; }), "triangle 0 has the vertex 9 of 3");
+  refused(with([](Mesh& m) { m.vertices[1].x() = INFINITY; }), "vertex 1 is not finite");
+  refused(with([](Mesh& m) { m.colors.resize(2); }), "it has 2 colors for 3 vertices");
+  refused(with([](Mesh& m) { m.texcoords.resize(2); }), "it has 2 texture coordinates for 3 vertices");
+  refused(with([](Mesh& m) { m.parts = {0, 2, 1}; }), "its parts do not ascend within its 3 vertices");
+  Geometry grid{ShapeType::sdf, {1., 1., 1.}, nullptr};
+  for (const int cells : {0, -5, 5}) {
+    grid.grid = std::make_shared<const Grid>(Grid{{cells, 5, 5}, {}});
+    refused(grid, "5 x 5 has 0 values");
+  }
+  EXPECT_NO_THROW(config.addFrame("a").setGeometry(with([](Mesh& m) { m.triangles = {{0, 1, 2}}; })));
 }

@@ -285,8 +285,8 @@ void bindGrippers(nb::class_<PyBotOp>& bot) {
       .def(
           "gripperCloseGrasp",
           [](PyBotOp& b, int id, const std::string& object, double force, double width, double speed) {
-            const nb::gil_scoped_release unlock;
-            b->gripperCloseGrasp(id, object, force, width, speed);
+            call (&BotOp::gripperCloseGrasp)(b, id, object, force, width, speed);
+            if (const std::string warning = b->takeWarning(); !warning.empty()) emitWarning(warning);
           },
           "id"_a, "objName"_a, "force"_a = 10., "width"_a = .05, "speed"_a = .1, docs::robot::gripperCloseGrasp)
       .def("getGripperPos", call(&BotOp::getGripperPos), "id"_a, docs::robot::getGripperPos)

@@ -88,10 +88,11 @@ std::vector<std::string> similarNames(std::string_view word, const std::vector<s
   std::vector<std::pair<double, std::string>> near;
   for (const std::string& candidate : candidates) {
     if (candidate.empty() || word.empty()) continue;
-    double distance = editDistance(word, candidate);
     const bool contains = candidate.find(word) != std::string::npos || word.find(candidate) != std::string_view::npos;
-    const double limit = std::max(1., double(std::max(word.size(), candidate.size())) / 3.);
-    const bool nothing_in_common = distance >= double(std::max(word.size(), candidate.size()));
+    const double longest = double(std::max(word.size(), candidate.size())), limit = std::max(1., longest / 3.);
+    const double difference = longest - double(std::min(word.size(), candidate.size()));  // at most the distance
+    double distance = difference > limit ? difference : editDistance(word, candidate);
+    const bool nothing_in_common = distance >= longest;
     if ((distance > limit || nothing_in_common) && !(contains && std::min(word.size(), candidate.size()) >= 3))
       continue;
     if (contains) distance = std::min(distance, limit);

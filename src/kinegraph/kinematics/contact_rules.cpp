@@ -6,11 +6,11 @@ namespace kinegraph {
 
 namespace {
 
-/// Whether both parts stand on the same ground, a root.
+/// Whether both parts are fixed to the same root.
 bool standTogether(const std::vector<ContactRules::Part>& parts, int a, int b) {
   const auto groundOf = [&](int part) {
-    const int ground = parts[std::size_t(part)].parent;
-    return ground < 0 ? part : ground;
+    while (parts[std::size_t(part)].parent >= 0) part = parts[std::size_t(part)].parent;
+    return part;
   };
   return !parts[std::size_t(a)].jointed && !parts[std::size_t(b)].jointed && groundOf(a) == groundOf(b);
 }

@@ -62,8 +62,13 @@ Quaterniond rotationOfZTo(const Vector3d& v) {
 
 std::optional<std::vector<double>> MjcfValues::parse(const MjcfElement& element, const XmlAttribute& attribute,
                                                      std::size_t least, std::size_t most) {
-  auto found = numbersIn(attribute.value);
-  if (found && found->size() >= least && found->size() <= most) return found;
+  const auto fits = [&](const auto& found) { return found && found->size() >= least && found->size() <= most; };
+  if (auto found = numbersIn(attribute.value); fits(found)) return found;
+  if (auto listed = numbersBetweenCommas(attribute.value); fits(listed)) {
+    findings_.warn(attribute.where, cat(element.describe(), " ", attribute.name, "=\"", attribute.value,
+                                        "\": the commas are read as blanks"));
+    return listed;
+  }
   const std::string shown = attribute.value.size() > 60 ? attribute.value.substr(0, 60) + "..." : attribute.value;
   findings_.error(attribute.where,
                   cat(element.describe(), " ", attribute.name, "=\"", shown, "\": expected ",

@@ -89,8 +89,15 @@ class UrdfParser {
   std::vector<double> numbers(const XmlAttribute& attribute, const XmlElement& element, std::size_t count) {
     const auto found = numbersIn(attribute.value);
     if (found && found->size() == count) return *found;
-    error(attribute.where, cat(context_, "<", element.name, "> ", attribute.name, "=\"", attribute.value,
-                               "\": expected ", count, count == 1 ? " number" : " numbers"));
+    const auto shown = [&] { return cat(context_, "<", element.name, "> ", attribute.name, "=\"", attribute.value); };
+    if (const auto listed = numbersBetweenCommas(attribute.value); listed && listed->size() == count) {
+      warn(attribute.where, cat(shown(), "\": the commas are read as blanks"));
+      return *listed;
+    }
+    const bool is_xacro =
+        attribute.value.find("$(") != std::string::npos || attribute.value.find("${") != std::string::npos;
+    error(attribute.where, cat(shown(), "\": expected ", count, count == 1 ? " number" : " numbers",
+                               is_xacro ? "; this is xacro: give the file a name that ends with .xacro" : ""));
     return std::vector<double>(count, 0.);
   }
 

@@ -198,6 +198,13 @@ std::optional<std::vector<double>> numbersIn(std::string_view text) {
   return numbers;
 }
 
+std::optional<std::vector<double>> numbersBetweenCommas(std::string_view text) {
+  if (text.find(',') == std::string_view::npos) return std::nullopt;
+  std::string blanks(text);
+  std::ranges::replace(blanks, ',', ' ');
+  return numbersIn(blanks);
+}
+
 std::string xmlEscaped(std::string_view text) {
   std::string out;
   for (const char c : text) {

@@ -36,6 +36,9 @@ std::string xmlRootName(std::string_view text);
 /// Parses blank-separated numbers; nullopt if the text contains anything else or a non-finite number.
 std::optional<std::vector<double>> numbersIn(std::string_view text);
 
+/// The same for numbers with commas between them; nullopt if there is no comma.
+std::optional<std::vector<double>> numbersBetweenCommas(std::string_view text);
+
 /// As numbersIn, but the words inf and infinity are numbers, with a sign and in any capitals.
 std::optional<std::vector<double>> limitsIn(std::string_view text);
 

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "kinegraph/common/text.h"
+#include "kinegraph/geometry/distance/proximity.h"
 #include "kinegraph/robot/robot_loop.h"
 #include "kinegraph/robot/scene_grippers.h"
 #include "kinegraph/scene/tree/scene_tree.h"
@@ -16,6 +17,15 @@ namespace {
 
 constexpr double kSameWidth = 1e-3;     ///< m: openings that differ by less are the same
 constexpr double kDefaultWidth = .075;  ///< m: of gripperMove and gripperOpen, as far as a gripper opens
+constexpr double kGraspReach = .05;     ///< m: beyond the opening of a gripper; farther objects are not between fingers
+
+/// The distance of a gripper's frame from the shape, or else the origin, of an object, m.
+double distanceFrom(const Frame& gripper, const Frame& object) {
+  const FrameData& frame = object.data();
+  return proximity(*pointBody(), gripper.getPose().transform(), frame.shape ? *frame.shape->body() : *pointBody(),
+                   object.getPose().transform())
+      .distance;
+}
 
 }  // namespace
 
@@ -161,6 +171,15 @@ void BotOp::gripperClose(int gripper, double force, double width, double speed) 
 void BotOp::gripperCloseGrasp(int gripper, const std::string& object, double force, double width, double speed) {
   if (loop_->driver().world()) model_.getFrame(object);  // throws FrameNotFound
   this->gripper("BotOp::gripperCloseGrasp", {gripper, true, width, speed, force, object});
+  const Lock lock(mutex_);
+  const SimulatedWorld* world = loop_->driver().world();
+  const GripperInfo& info = loop_->info().grippers[std::size_t(gripper)];
+  const SceneTree* scene = world ? world->config().scene().get() : nullptr;
+  if (!scene || !scene->find(info.name) || !scene->find(object)) return;
+  const double distance = distanceFrom(world->config().getFrame(info.name), world->config().getFrame(object));
+  if (distance > info.max_width + kGraspReach)
+    loop_->warn(cat("BotOp::gripperCloseGrasp: '", object, "' is ", distance, " m from '", info.name,
+                    "', not between its fingers; move there first"));
 }
 
 double BotOp::getGripperPos(int gripper) {
@@ -231,10 +250,17 @@ void BotOp::detach(const std::string& from, const std::string& to) {
 }
 
 void BotOp::setFramePose(const std::string& frame, const Pose& pose) {
-  if (const FrameData* moved = model_.scene()->find(frame);
-      moved && moved->moves() && moved->joint->active && moved->joint->type != JointType::free)
-    throw ValueError(
-        cat("BotOp::setFramePose: '", frame, "' is a joint of the robot, which moveTo moves; expected an object"));
+  const auto isOfRobot = [](const FrameData& moved) {
+    return moved.moves() && moved.joint->active && moved.joint->type != JointType::free;
+  };
+  const FrameData* const moved = model_.scene()->find(frame);
+  const FrameData* link = moved;
+  while (link && !link->joint) link = link->parent;
+  if (link && isOfRobot(*link))
+    throw ValueError(cat("BotOp::setFramePose: '", frame, "' is ",
+                         link == moved ? std::string("a joint of the robot, which moveTo moves")
+                                       : cat("fixed to '", link->name, "', a joint of the robot"),
+                         "; expected an object"));
   const Lock lock(mutex_);
   loop_->apply(PlaceFrame{frame, pose});
   if (!std::ranges::count(placed_, frame)) placed_.push_back(frame);

@@ -42,11 +42,21 @@ std::string exceeded(const RobotInfo& robot, Eigen::Index i, double time, const 
 
 std::string outOfRange(const RobotInfo& robot, Eigen::Index i, double q) {
   constexpr double kLeastDegrees = 4.;
+  constexpr double kLeastRange = 1.;  // rad; joints that slide have less, in m
   const double radians = q * std::numbers::pi / 180.;
-  const bool is_degrees = mayBeDegrees(q, kLeastDegrees) || std::abs(q) > 4. * std::numbers::pi;
+  const bool may_turn = robot.upper[i] - robot.lower[i] >= kLeastRange;
+  const bool is_degrees = may_turn && (mayBeDegrees(q, kLeastDegrees) || std::abs(q) > 4. * std::numbers::pi);
   const bool is_within = radians > robot.lower[i] - .01 && radians < robot.upper[i] + .01;
   return cat("joint '", robot.joints[std::size_t(i)], "' would go to ", q, "; its limits are ", robot.lower[i], " to ",
              robot.upper[i], is_degrees && is_within ? cat("; ", askForRadians(q)) : "");
+}
+
+/// Describes a joint that leaves its range, or is outside before it moves.
+std::string outOfRange(const RobotInfo& robot, Eigen::Index i, double q, double start) {
+  if (start >= robot.lower[i] - kPositionTolerance && start <= robot.upper[i] + kPositionTolerance)
+    return outOfRange(robot, i, q);
+  return cat("joint '", robot.joints[std::size_t(i)], "' is at ", start, ", beyond its limits ", robot.lower[i], " to ",
+             robot.upper[i], "; place it within them before the robot starts, as by setJointState");
 }
 
 bool hasEffortLimits(const RobotInfo& robot, const Config& model) {
@@ -131,7 +141,8 @@ std::optional<std::string> violatedLimit(const BSpline& motion, double from, con
       points = motion.eval(VectorXd::LinSpaced(kSamples, std::max(from, motion.start()), motion.end()));
     const double lowest = points.col(i).minCoeff(), highest = points.col(i).maxCoeff();
     if (lowest >= robot.lower[i] - kPositionTolerance && highest <= robot.upper[i] + kPositionTolerance) continue;
-    return outOfRange(robot, i, lowest < robot.lower[i] - kPositionTolerance ? lowest : highest);
+    return outOfRange(robot, i, lowest < robot.lower[i] - kPositionTolerance ? lowest : highest,
+                      motion.eval(std::max(from, motion.start()))[i]);
   }
   const MotionPeaks peaks = peaksOf(motion, from);
   const double factor = peaks.slowdown(robot.velocity, robot.acceleration);
@@ -160,8 +171,8 @@ std::optional<std::string> violatedLimit(const MotionStates& motion, const Robot
   };
   for (Eigen::Index i = 0; i < motion.q.cols(); ++i) {
     const double lowest = motion.q.col(i).minCoeff(), highest = motion.q.col(i).maxCoeff();
-    if (lowest < robot.lower[i] - kPositionTolerance) return outOfRange(robot, i, lowest);
-    if (highest > robot.upper[i] + kPositionTolerance) return outOfRange(robot, i, highest);
+    if (lowest < robot.lower[i] - kPositionTolerance) return outOfRange(robot, i, lowest, motion.q(0, i));
+    if (highest > robot.upper[i] + kPositionTolerance) return outOfRange(robot, i, highest, motion.q(0, i));
     for (Eigen::Index k = 0; k < count; ++k) {
       const double time = motion.times[k];
       check(i, time, "a velocity", motion.velocity(k, i), " /s", robot.velocity[i], kRounding, 1.);

@@ -17,6 +17,19 @@ void requireFit(const char* field, const VectorXd& numbers, std::size_t expected
     throw RobotFault(cat("the robot's state has a ", field, " of ", numbers.size(), " numbers; expected ", expected));
 }
 
+/// Names the pair of shapes that press on each other the most, in a simulated world; empty if none do.
+std::string strongestContact(RobotDriver& driver) {
+  const SimulatedWorld* world = driver.world();
+  const std::vector<Contact> contacts = world ? world->contacts() : std::vector<Contact>{};
+  const auto weaker = [](const Contact& a, const Contact& b) { return a.force.norm() < b.force.norm(); };
+  const auto most = std::ranges::max_element(contacts, weaker);
+  if (most == contacts.end()) return {};
+  const bool on_ground = most->frame_a == "ground" || most->frame_b == "ground";
+  return cat(" '", most->frame_a, "' and '", most->frame_b, "' press on each other with ",
+             std::round(most->force.norm()), " N",
+             on_ground ? "; the ground is the plane at z = 0 of simulations" : "");
+}
+
 }  // namespace
 
 RobotLoop::RobotLoop(std::shared_ptr<RobotDriver> driver, double period, const SafetyLimits& safety)
@@ -110,7 +123,8 @@ std::string RobotLoop::trackingFault() const {
     const std::string& name = info_.joints[std::size_t(i)];
     const bool is_part = name.find(':') != std::string::npos;  // of a joint with several dofs
     return cat("joint '", name, "' is ", distance, " from its command; does an obstacle block it",
-               is_part ? ", or is it the free joint of a base or an object, which no motor moves?" : "?");
+               is_part ? ", or is it the free joint of a base or an object, which no motor moves?" : "?",
+               strongestContact(*driver_));
   }
   return {};
 }

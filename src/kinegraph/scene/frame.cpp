@@ -2,6 +2,7 @@
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
+#include "kinegraph/geometry/shapes/geometry_flaw.h"
 #include "kinegraph/geometry/shapes/mass.h"
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
@@ -138,6 +139,8 @@ Shape& Frame::editableShape() {
 }
 
 Frame& Frame::setGeometry(Geometry geometry) {
+  if (const std::string flaw = geometryFlaw(geometry); !flaw.empty())
+    throw ValueError(cat("frame '", getName(), "': ", flaw));
   editableShape().geometry = std::make_shared<Geometry>(std::move(geometry));
   scene_->structureChanged();
   return *this;
@@ -300,7 +303,8 @@ Frame& Frame::setJointState(const VectorXd& q) {
 
 Frame& Frame::setMass(double mass, const std::vector<double>& matrix) {
   FrameData& frame = edit();
-  if (!(mass >= 0.)) throw ValueError(cat("frame '", frame.name, "': mass ", mass, " kg is not zero or positive"));
+  if (!(mass >= 0.) || std::isinf(mass))
+    throw ValueError(cat("frame '", frame.name, "': mass ", mass, " kg is not zero, or positive and finite"));
   if (mass == 0.) {
     frame.inertia.reset();
     scene_->posesChanged();

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
@@ -194,10 +195,14 @@ class ModelMaker {
       all.push_back({frame.get(), root, placed.body == 0 ? fixedBody(frame->id) : placed.body, placed.robot,
                      model_.scene.bodies[std::size_t(placed.body)].kind, scene_.worldPose(*frame).transform()});
     }
+    std::map<int, std::pair<const FrameData*, double>> deepest;  // by root: the lowest shape of a floating robot
     for (const Placed& a : all) {
       if (a.kind != SceneBody::Kind::jointed && a.kind != SceneBody::Kind::fixed) continue;
       const CollisionBody& body = *a.frame->shape->body();
-      if (hasGround() && lowest(body, a.X) < -kOverlap) exclude(kGroundBody, "ground", a.body, bodyName(a.body));
+      if (const double z = hasGround() ? lowest(body, a.X) : 0.; z < -kOverlap) {
+        exclude(kGroundBody, "ground", a.body, bodyName(a.body));
+        if (floats(a.body) && z < deepest[a.root->id].second) deepest[a.root->id] = {a.frame, z};
+      }
       for (const Placed& b : all) {
         if (a.root != b.root || (a.robot == b.robot && (a.robot < 0 || model_.scene.declared[std::size_t(a.robot)])))
           continue;
@@ -209,6 +214,19 @@ class ModelMaker {
         exclude(a.body, bodyName(a.body), b.body, b.body < 0 ? fixedName(b.frame->id) : bodyName(b.body));
       }
     }
+    for (const auto& [root, lowest] : deepest) {
+      const std::string depth = numberText(-lowest.second, 3);
+      model_.scene.warnings.push_back(cat("Simulation: '", lowest.first->name, "' of a floating robot begins ", depth,
+                                          " m below the ground, through which it falls; raise the robot's base by ",
+                                          depth, " m or more"));
+    }
+  }
+
+  /// Returns whether a body belongs to a robot whose base moves freely.
+  bool floats(int body) const {
+    while (body > 0 && model_.scene.bodies[std::size_t(body)].kind != SceneBody::Kind::free)
+      body = model_.scene.bodies[std::size_t(body)].parent;
+    return body > 0;
   }
 
   /// Returns whether a body carries another one.

@@ -317,7 +317,8 @@ def test_engines_are_chosen_by_parameter(bench: ry.Config) -> None:
     bench.getFrame("box").setPosition([0, 0, 3])
     bot.sync(bench, 0.5)
     assert bench.getFrame("box").getPosition() == pytest.approx([-0.25, 0.1, 0.67])  # nothing falls
-    bot.gripperCloseGrasp(0, "box", width=0.05)
+    with pytest.warns(ry.KinegraphWarning, match="'box' is 0.619.* m from 'l_gripper', not between its fingers"):
+        bot.gripperCloseGrasp(0, "box", width=0.05)
     bot.wait(bench, forTimeToEnd=False, forGripper=True)
     bot.moveTo(bot.get_qHome() + 0.2)
     bot.wait(bench)
@@ -413,6 +414,23 @@ def test_frames_that_are_placed_are_there_in_the_configuration_and_joints_are_re
     assert panda.getFrame("table").getPosition() == pytest.approx([0.1, 0.2, 0.3])
     with pytest.raises(ry.ArgumentError, match="'l_panda_joint3' is a joint of the robot, which moveTo moves"):
         bot.setFramePose("l_panda_joint3", [0, 0, 1, 1, 0, 0, 0])
+    with pytest.raises(ry.ArgumentError, match="'l_palm' is fixed to 'l_panda_joint7', a joint of the robot"):
+        bot.setFramePose("l_palm", [0, 0, 1, 1, 0, 0, 0])
+
+
+@pytest.mark.parametrize("far", [True, False])
+def test_grasping_an_object_that_is_not_between_the_fingers_is_told(panda: ry.Config, far: bool) -> None:
+    place = panda.getFrame("l_gripper").getPosition() + np.array([0, 0.5 if far else 0, 0])
+    panda.addFrame("can", "world").setShape(ry.ST.ssBox, [0.03, 0.03, 0.03, 0.002]).setPosition(place)
+    bot = ry.BotOp(panda, False)
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        bot.gripperCloseGrasp(0, "can")
+        bot.sync(panda, 0.1)
+    distance = [
+        str(w.message) for w in told if "'can' is 0.485 m from 'l_gripper', not between its fingers" in str(w.message)
+    ]
+    assert len(distance) == far
 
 
 def test_a_robot_whose_base_falls_is_told_that_no_motor_holds_it() -> None:
@@ -438,6 +456,16 @@ def test_free_objects_are_no_joints_of_the_robot(panda: ry.Config, change: str) 
     else:
         bot.setFramePose("ball", [0.3, 0.4, 1.2, 1, 0, 0, 0])
     bot.sync(panda)
+
+
+def test_a_robot_that_begins_outside_of_its_limits_is_told() -> None:
+    C = ry.Config()
+    C.addText("base: {}\nj (base): { joint: hingeZ, limits: [.5 2] }")
+    C.setJointState([0.0])
+    bot = ry.BotOp(C, False)
+    for call in (lambda: bot.moveTo([1.0]), lambda: bot.move([[1.0]], [2.0])):
+        with pytest.raises(ry.ArgumentError, match="'j' is at .*, beyond its limits 0.5 to 2; place it within them"):
+            call()
 
 
 def test_opening_as_far_as_a_small_gripper_opens_is_no_mistake() -> None:

@@ -359,3 +359,23 @@ def test_a_wall_beside_a_robot_on_the_ground_is_no_part_of_its_base(ground, tmp_
     again = ry.Config()
     again.addFile(saved)
     assert own_pairs(again) == own_pairs(C)
+
+
+@pytest.mark.parametrize(
+    "ground", ["", "table: { shape: ssBox, size: [2 2 .1 .01], contact: 1 }", "world: {} table (world): {}"]
+)
+def test_what_stands_beside_a_robot_on_the_same_table_collides_with_all_of_its_links(ground):
+    C = ry.Config()
+    root = "(table)" if ground else ""
+    C.addText(f"""{ground}
+      base {root}: {{ multibody: true, shape: sphere, size: [.1], contact: 1 }}
+      box (base): {{ shape: sphere, size: [.1], contact: 1 }}
+      a (base): {{ joint: hingeZ, shape: sphere, size: [.1], contact: -2 }}
+      b (a): {{ joint: hingeX, shape: sphere, size: [.1], contact: -2 }}
+      wall {root}: {{ shape: sphere, size: [.1], contact: 1 }}
+      shelf {"(wall)" if ground else ""}: {{ shape: sphere, size: [.1], contact: 1 }}""")
+    between = {("a", "shelf"), ("a", "wall"), ("b", "shelf"), ("b", "wall")}
+    fixed = (
+        set() if ground else {("base", "wall"), ("base", "shelf"), ("box", "wall"), ("box", "shelf"), ("shelf", "wall")}
+    )
+    assert own_pairs(C) == between | {tuple(sorted(pair)) for pair in fixed}

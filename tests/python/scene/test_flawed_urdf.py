@@ -192,3 +192,23 @@ def test_equal_limits_of_quaternions_do_not_move_a_joint() -> None:
     C = ry.Config()
     C.addText("w: {}\nb (w): { joint: free, limits: [-1 -1 -1 0 0 0 0 1 1 1 0 0 0 0] }")
     assert list(C.getFrame("b").getPose()) == [0, 0, 0, 1, 0, 0, 0]
+
+
+def test_numbers_may_have_commas_between_them(tmp_path: Path) -> None:
+    with pytest.warns(ry.KinegraphWarning, match='<origin> xyz="1, 2 3": the commas are read as blanks'):
+        C = urdf(tmp_path, "", '<origin xyz="1, 2 3"/>')
+    assert C.getFrame("b").getPosition().tolist() == [1, 2, 3]
+    with pytest.raises(ry.ParseError, match='xyz="1,5 2 3": expected 3 numbers'):
+        urdf(tmp_path, "", '<origin xyz="1,5 2 3"/>')
+    with pytest.raises(ry.ParseError, match="expected 3 numbers; this is xacro: give the file a name that ends with"):
+        urdf(tmp_path, "", '<origin xyz="$(optenv PLACE 0 0 1)"/>')
+    (tmp_path / "m.xml").write_text('<mujoco><worldbody><body name="b" pos="1,2,3"/></worldbody></mujoco>')
+    C = ry.Config()
+    with pytest.warns(ry.KinegraphWarning, match='pos="1,2,3": the commas are read as blanks'):
+        C.addFile(tmp_path / "m.xml")
+    assert C.getFrame("b").getPosition().tolist() == [1, 2, 3]
+
+
+def test_a_mass_is_finite() -> None:
+    with pytest.raises(ry.ArgumentError, match="mass inf kg is not zero, or positive and finite"):
+        ry.Config().addFrame("a").setMass(np.inf)

@@ -233,3 +233,11 @@ def test_motions_of_a_robot_in_degrees_are_asked_about(panda: ry.Config) -> None
     with pytest.raises(ry.ArgumentError) as beyond:
         bot.moveTo([0, -1.9, 0, -2, 0, 2, 0])
     assert ASKS not in str(beyond.value)
+
+
+def test_joints_that_slide_are_not_asked_for_radians() -> None:
+    C = ry.Config()
+    C.addText("base: {}\nslide (base): { joint: transX, limits: [0 .5] }")
+    with pytest.raises(ry.ArgumentError, match="would go to 20; its limits are 0 to 0.5") as beyond:
+        ry.BotOp(C, False).moveTo([20.0])
+    assert ASKS not in str(beyond.value)

@@ -1,5 +1,7 @@
 """Simulation in Python: grasps, replays, measurements and errors."""
 
+import warnings
+
 import numpy as np
 import pytest
 
@@ -262,5 +264,24 @@ def test_what_stands_beside_the_first_joint_of_a_robot_is_no_part_of_its_base():
     )
     bot = ry.BotOp(C)
     bot.moveTo([1.2])
-    with pytest.raises(ry.RobotFault, match="does an obstacle block it"):
+    with pytest.raises(
+        ry.RobotFault, match=r"does an obstacle block it\? 'arm' and 'table' press on each other with \d+ N"
+    ):
         bot.wait(C, forKeyPressed=False)
+
+
+@pytest.mark.parametrize("height", [0, 0.5])
+def test_a_floating_robot_that_begins_in_the_ground_is_told_how_far_to_raise_it(height):
+    C = ry.Config()
+    C.addText(
+        f"world: {{}}\nbody (world): {{ joint: free, q: [0 0 {height} 1 0 0 0], shape: box, size: [.2 .2 .2], mass: 5, "
+        "multibody: true }\n"
+        "leg (body): { joint: hingeY, limits: [-1 1], shape: box, size: [.05 .05 .4], pre: [0 0 -.3], mass: 1 }"
+    )
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        ry.Simulation(C)
+    depth = [
+        str(w.message) for w in told if "'leg' of a floating robot begins 0.5 m below the ground" in str(w.message)
+    ]
+    assert len(depth) == (height == 0)

@@ -157,12 +157,34 @@ std::vector<LinkInertia> collectInertias(const SceneTree& scene, const Kinematic
 
 namespace {
 
-/// Whether a frame is the ground on which robots and other things stand, and is not a part of any of them.
-bool isGround(const FrameData& frame) { return !frame.parent && !frame.joint && frame.name == "world"; }
+/// Whether a frame is the base of a robot.
+bool isRobotBase(const FrameData& frame) {
+  const Node* node = frame.attributes->find("multibody");
+  const bool* flag = node ? node->value.as<bool>() : nullptr;
+  return flag && *flag;
+}
+
+/// The frames without joints on which robots and other things stand, each for itself: a root `world`, and roots and
+/// what is fixed to them above the base of a robot (`multibody`).
+std::vector<char> groundFrames(const SceneTree& scene) {
+  const auto isFixed = [](const FrameData& frame) { return !frame.joint; };
+  std::vector<char> grounds(scene.frames().size(), 0), robots(scene.frames().size(), 0);
+  for (const FrameData* frame : topologicalOrder(scene)) {
+    const bool is_base = isRobotBase(*frame);
+    robots[frame->id] = is_base || (frame->parent && robots[frame->parent->id]);
+    if (!frame->parent) grounds[frame->id] = isFixed(*frame) && frame->name == "world";
+    if (!is_base || !frame->parent || robots[frame->parent->id]) continue;
+    std::vector<const FrameData*> above;
+    for (const FrameData* base = frame->parent; base && isFixed(*base); base = base->parent) above.push_back(base);
+    if (above.empty() || above.back()->parent || !isFixed(*frame)) continue;  // it stands on something that moves
+    for (const FrameData* ground : above) grounds[ground->id] = 1;
+  }
+  return grounds;
+}
 
 /// The nearest frame at or above with a joint, the root, or one fixed to the ground: `frame` is rigidly fixed to it.
-const FrameData* partFrame(const FrameData* frame) {
-  while (!frame->joint && frame->parent && !isGround(*frame->parent)) frame = frame->parent;
+const FrameData* partFrame(const FrameData* frame, const std::vector<char>& grounds) {
+  while (!frame->joint && frame->parent && !grounds[frame->parent->id]) frame = frame->parent;
   return frame;
 }
 
@@ -174,20 +196,22 @@ bool takesPart(const FrameData& frame) {
 
 ContactRules contactRules(const SceneTree& scene) {
   ContactRules rules;
+  const std::vector<char> grounds = groundFrames(scene);
+  const auto partOf = [&](const FrameData* frame) { return partFrame(frame, grounds); };
   std::vector<int> part_of(scene.frames().size(), -1);  // per frame, for the first frame of each part
   for (const auto& frame : scene.frames()) {
-    if (partFrame(frame.get()) != frame.get()) continue;
+    if (partOf(frame.get()) != frame.get()) continue;
     part_of[frame->id] = int(rules.parts.size());
     rules.parts.push_back({-1, frame->joint.has_value()});
   }
   for (const auto& frame : scene.frames()) {
     if (part_of[frame->id] >= 0 && frame->parent)
-      rules.parts[part_of[frame->id]].parent = part_of[partFrame(frame->parent)->id];
+      rules.parts[part_of[frame->id]].parent = part_of[partOf(frame->parent)->id];
     for (const FrameData* other : frame->no_contact) rules.excluded.push_back(std::minmax(frame->id, other->id));
     if (!takesPart(*frame)) continue;
     const int owner =
         frame->parent && !frame->joint ? frame->parent->id : frame->id;  // a fixed shape belongs to its parent
-    rules.bodies.push_back({frame->id, part_of[partFrame(frame.get())->id], frame->shape->contact, owner});
+    rules.bodies.push_back({frame->id, part_of[partOf(frame.get())->id], frame->shape->contact, owner});
   }
   std::sort(rules.excluded.begin(), rules.excluded.end());
   return rules;
