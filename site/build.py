@@ -132,7 +132,7 @@ def indexPages(out: Path, examples: list[str], notebooks: list[str]) -> None:
 def main() -> None:
     out = Path(sys.argv[1] if len(sys.argv) > 1 else REPOSITORY / "build" / "site").resolve()
     source = out / "source"
-    for folder in (source, out / "html"):  # pages that are gone stay in neither
+    for folder in (source, out / "html", out / "doctrees"):  # pages that are gone stay in none
         shutil.rmtree(folder, ignore_errors=True)
     source.mkdir(parents=True)
     copyPages(source)
@@ -163,7 +163,8 @@ def main() -> None:
 
     environment = {**os.environ, "KINEGRAPH_VERSION": __version__, "KINEGRAPH_DOXYGEN": str(doxygen)}
     environment["KINEGRAPH_SITE"] = str(SITE)
-    command = [sys.executable, "-m", "sphinx", "-b", "html", "-q", "-W", "--keep-going", str(source), str(out / "html")]
+    command = [sys.executable, "-m", "sphinx", "-b", "html", "-q", "-W", "--keep-going", "-d", str(out / "doctrees")]
+    command += [str(source), str(out / "html")]
     subprocess.run(command, check=True, env=environment)
     print(f"{out / 'html' / 'index.html'}")
 

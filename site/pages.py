@@ -104,9 +104,14 @@ NAMES = {
     ),
     "viewer": (
         "Viewer and cameras",
-        "ConfigurationViewer CameraView CameraViewSensor ImageViewer saveFilm depthImage2PointCloud getArucoImage",
+        "ConfigurationViewer CameraView CameraViewSensor ImageViewer saveFilm depthImage2PointCloud getArucoImage "
+        "ViewerButton ViewerCheck ViewerFolder ViewerSlider ViewerText",
     ),
-    "perception": ("Perception", "DepthView registerScene SeenScene SeenFrame SeenCamera SeenStatus"),
+    "perception": (
+        "Perception",
+        "DepthView registerScene SeenScene SeenFrame SeenCamera SeenStatus SceneObserver OccupancyMap CellState Hit "
+        "UnseenPlace nextView NextView calibrateCamera CameraCalibration",
+    ),
     "fleets": ("Many processes", "imap readResults"),
     "mcap": ("Recordings", "Recording readRecording saveRecording serveFoxglove"),
     "lerobot": ("Data sets of LeRobot", "demonstrate LeRobotWriter Randomization checkDataset mergeShards"),
@@ -147,3 +152,29 @@ CPP_ONLY = {
     "tasks": "PlanTaskOptions TaskPlanOptions",
     "simulation": "Contact",
 }
+
+# Pages of all other names of C++, by the beginning of their header below src/kinegraph.
+CPP_ROOMS = {
+    **dict.fromkeys(("planning", "rrt", "collision"), "planning"),
+    **dict.fromkeys(("komo", "nlp", "solvers", "trajectory_optimization", "api/solutions"), "komo"),
+    **dict.fromkeys(
+        ("scene", "geometry", "gfile", "kinematics", "math", "exporters", "parsers", "api/batch"), "scenes"
+    ),
+    **dict.fromkeys(("features", "api/custom_feature"), "features"),
+    **dict.fromkeys(("task_planning", "logic", "api/task"), "tasks"),
+    **dict.fromkeys(("viewer", "rendering"), "viewer"),
+    **dict.fromkeys(("simulation", "api/recorded_motion"), "simulation"),
+    **dict.fromkeys(("control", "api/robot_motion"), "control"),
+    **dict.fromkeys(("perception", "api/next_view"), "perception"),
+    "ik": "ik",
+    "robot": "operation",
+    "trajectories": "timing",
+    "tool_paths": "tool_paths",
+    "common/errors": "errors",
+}
+
+
+def pageOf(header: str) -> str:
+    """The page of the names of a header: that of its longest folder or beginning in `CPP_ROOMS`."""
+    found = [room for room in CPP_ROOMS if header.startswith(room)]
+    return CPP_ROOMS[max(found, key=len)] if found else "more"

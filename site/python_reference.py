@@ -5,6 +5,7 @@ from pathlib import Path
 
 import griffe
 import option_tables
+from cpp_reference import plain
 from member_texts import MemberTexts
 
 SHORT = re.compile(r"(collections\.abc|typing|numpy\.typing|kinegraph\._core)\.")
@@ -142,7 +143,12 @@ def directive(kind: str, head: str, body: list[str], depth: int, options: list[s
 
 
 def functionEntry(
-    variants: list[griffe.Function], name: str, depth: int, kind: str = "py:function", is_method: bool = False
+    variants: list[griffe.Function],
+    name: str,
+    depth: int,
+    kind: str = "py:function",
+    is_method: bool = False,
+    end: list[str] | None = None,
 ) -> list[str]:
     is_static = is_method and "staticmethod" in variants[0].labels
     body: list[str] = []
@@ -155,7 +161,7 @@ def functionEntry(
     heads = [name + signature(variant, is_method and not is_static) for variant in variants]
     if len(heads) > 1:
         body = ["Overloads:", "", "~~~python", *heads[1:], "~~~", "", *body]
-    return directive(kind, heads[0], body, depth, ["staticmethod:"] if is_static else [])
+    return directive(kind, heads[0], [*body, *(end or [])], depth, ["staticmethod:"] if is_static else [])
 
 
 def classOptions(cls: griffe.Class) -> list[option_tables.Option]:
@@ -181,7 +187,11 @@ def attributesOfText(cls: griffe.Class) -> list[str]:
     return [name for line in re.findall(r"(?m)^ {4}(\w[\w, ]*):", section) for name in line.split(", ")]
 
 
-def memberEntries(cls: griffe.Class, depth: int, texts: MemberTexts) -> list[str]:
+def memberEntries(cls: griffe.Class, depth: int, texts: MemberTexts, in_cpp: dict[str, str]) -> list[str]:
+    def link(name: str) -> list[str]:
+        twin = in_cpp.get(plain(name))
+        return ["", f"In C++: {{cpp:any}}`{twin.removeprefix('kinegraph::')} <{twin}>`"] if twin else []
+
     members: dict[str, list] = {name: [member] for name, member in cls.members.items()}
     for name, variants in getattr(cls, "overloads", {}).items():
         if variants:
@@ -205,21 +215,21 @@ def memberEntries(cls: griffe.Class, depth: int, texts: MemberTexts) -> list[str
         if member.is_function:
             variants = list(member.overloads or variants) if len(variants) == 1 else variants
             if not any(variant.docstring for variant in variants):
-                lines += directive("py:method", name + "()", [texts.find(cls.name, name)], depth)
+                lines += directive("py:method", name + "()", [texts.find(cls.name, name), *link(name)], depth)
                 continue
-            lines += functionEntry(variants, name, depth, "py:method", is_method=True)
+            lines += functionEntry(variants, name, depth, "py:method", is_method=True, end=link(name))
         elif member.is_attribute:
             is_property = "property" in member.labels
             options = [f"type: {annotation(member.annotation)}"] if member.annotation else []
             if member.value is not None and not is_property and len(str(member.value)) < 30:
                 options.append(f"value: {member.value}")
-            text = description(member) or [texts.find(cls.name, name)]
+            text = [*(description(member) or [texts.find(cls.name, name)]), *link(name)]
             lines += directive("py:property" if is_property else "py:attribute", name, text, depth, options)
     return lines
 
 
-def entry(package: griffe.Object, name: str, twin: str | None, texts: MemberTexts) -> list[str]:
-    """The section of a name, with a link to its counterpart in C++ if it has one."""
+def entry(package: griffe.Object, name: str, twin: str | None, texts: MemberTexts, in_cpp: dict[str, str]) -> list[str]:
+    """The section of a name, with links to its counterpart in C++ and those of its members (`in_cpp`)."""
     item, variants = package[name], []
     if item.is_alias:
         module = package.modules_collection[item.target_path.rsplit(".", 1)[0]]
@@ -233,7 +243,7 @@ def entry(package: griffe.Object, name: str, twin: str | None, texts: MemberText
         is_written = init is not None and init.is_function
         head = name + (signature(init, True) if is_written else "")
         body = description(item) + (["", *description(init)] if is_written else [])
-        return lines + directive("py:class", head, [*body, "", *memberEntries(item, 2, texts)], 1)
+        return lines + directive("py:class", head, [*body, "", *memberEntries(item, 2, texts, in_cpp)], 1)
     if item.is_function:
         return lines + functionEntry(variants or list(item.overloads or [item]), name, 1)
     other = f"Another name of `{item.value}`, in older scripts." if item.is_attribute and item.value else ""

@@ -26,7 +26,7 @@ def main() -> None:
             line = text[: found.start()].count("\n") + 2
             blocks.append(namespaceOf(len(blocks), page.relative_to(ROOT), line, found[1]))
     assert len(blocks) > 10, blocks
-    head = "#include <kinegraph/kinegraph.h>\n#include <iostream>\nusing namespace kinegraph;"
+    head = "#include <kinegraph/kinegraph.h>\n#include <fstream>\n#include <iostream>\nusing namespace kinegraph;"
     Path(sys.argv[1]).write_text("\n".join([head, *blocks, ""]))
 
 

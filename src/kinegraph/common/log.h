@@ -4,7 +4,7 @@
 #include <string_view>
 
 namespace kinegraph {
-
+/// The importance of a message.
 enum class LogLevel {
   info,    ///< progress and results of calls with `verbose`
   notice,  ///< for the person at the keyboard: the address of a viewer, a key to press

@@ -48,7 +48,7 @@ double readNumber(const char* text, const char** end = nullptr);
 
 /// Returns the shortest decimal text that parses to exactly `value`.
 std::string exact(double value);
-
+/// Returns the words as one text, with a separator between them.
 std::string join(const std::vector<std::string>& words, std::string_view separator = ", ");
 
 /// Returns the number of insertions, deletions, replacements and swaps of neighbors that transform `a` into `b`.

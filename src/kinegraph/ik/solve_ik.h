@@ -115,7 +115,7 @@ std::shared_ptr<Nlp> makeNlp(const IkResult& result);
 /// Returns the number of a target from the name of its frame or feature. Throws NameError unless exactly one matches.
 int ikTargetNumber(const Nlp& nlp, const std::string& name);
 
-int ikTargetCount(const Nlp& nlp);
+int ikTargetCount(const Nlp& nlp);  ///< Returns the number of targets.
 
 /// Returns the numbers of a target as a parameter, in their original order:
 /// - position or gaze: x y z (m)

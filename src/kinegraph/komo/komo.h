@@ -248,7 +248,7 @@ std::shared_ptr<NlpParameter> objectiveScale(const Nlp& nlp, int objective);
 /// rotation vector r (rad) about its own origin, along axes of the parent: R <- exp(r) R. Throws FrameNotFound, and
 /// ValueError for frames that a joint moves; name their parent instead.
 std::shared_ptr<NlpParameter> framePosition(const Nlp& nlp, const std::string& frame);
-std::shared_ptr<NlpParameter> framePose(const Nlp& nlp, const std::string& frame);
+std::shared_ptr<NlpParameter> framePose(const Nlp& nlp, const std::string& frame);  ///< position and quaternion
 
 /// The q from which the motion starts, at rest. Throws ValueError for problems of order 0, which have no slices before
 /// the first.

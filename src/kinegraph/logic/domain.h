@@ -166,6 +166,6 @@ LogicProblem readPddlProblem(std::string_view text, const LogicDomain& domain, c
 /// several numbers of arguments gets a name for each, `on` and `on-3`. Throw ValueError for automatic rules, and for
 /// names that differ in case alone.
 std::string writePddlDomain(const LogicDomain& domain);
-std::string writePddlProblem(const LogicProblem& problem);
+std::string writePddlProblem(const LogicProblem& problem);  ///< the same for a problem
 
 }  // namespace kinegraph

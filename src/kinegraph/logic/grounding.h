@@ -109,7 +109,8 @@ std::vector<std::string> diagnostics(const GroundProblem& ground);
 
 /// Returns the index of an action given as words, (pick cup table hand). Throws ValueError with similar actions.
 int actionNumber(const GroundProblem& ground, const std::vector<std::string>& action);
-std::vector<int> actionNumbers(const GroundProblem& ground, const std::vector<std::vector<std::string>>& actions);
+std::vector<int> actionNumbers(const GroundProblem& ground,
+                               const std::vector<std::vector<std::string>>& actions);  ///< of each
 
 /// Returns the words of actions: name, then arguments.
 std::vector<std::vector<std::string>> actionWords(const GroundProblem& ground, const std::vector<int>& actions);

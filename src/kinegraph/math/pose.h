@@ -50,7 +50,7 @@ struct Pose {
 
 /// Returns the unit quaternion of w x y z. Throws ValueError with the name `what` for zero or non-finite input.
 Quaterniond unitQuaternion(const Vector4d& wxyz, const char* what = "quaternion");
-
+/// Returns the entries of a quaternion in the order w x y z.
 inline Vector4d wxyz(const Quaterniond& q) { return {q.w(), q.x(), q.y(), q.z()}; }
 
 /// Returns the rotation about a coordinate axis (0 x, 1 y, 2 z) by `angle` rad.

@@ -237,7 +237,7 @@ class Nlp {
 struct ErrorSums {
   double f = 0., sos = 0., ineq = 0., eq = 0.;
 };
-ErrorSums sumErrors(const std::vector<ObjectiveType>& types, const VectorXd& phi);
+ErrorSums sumErrors(const std::vector<ObjectiveType>& types, const VectorXd& phi);  ///< sums over all rows
 
 /// Returns the violation of a constraint; 0 for costs.
 double violation(ObjectiveType type, double phi);
@@ -275,6 +275,6 @@ struct ScalarEvaluation {
   VectorXd gradient;
   MatrixXd hessian;
 };
-ScalarEvaluation evaluateScalar(Nlp& nlp, const VectorXd& x);
+ScalarEvaluation evaluateScalar(Nlp& nlp, const VectorXd& x);  ///< evaluates cost and derivatives
 
 }  // namespace kinegraph

@@ -50,7 +50,7 @@ bool isCamera(const Frame& frame);
 
 /// The initial camera of a viewer: 600 x 500 pixels, from (2, 5, 1.7) towards (0, 0, 1).
 Camera defaultViewCamera();
-
+/// A ball around everything that a picture shows.
 struct ShownBall {
   Vector3d center;  ///< m, in the world
   double radius;    ///< m

@@ -7,12 +7,16 @@ namespace kinegraph {
 
 // Dynamics of a scene in velocity coordinates at its current q; see kinematics/velocity_dynamics.h.
 
+/// Returns the number of velocity coordinates: those of q, with three for each quaternion.
 int velocityDimension(const Config& config);
 
+/// Returns the matrix (velocityDimension, n) that maps dq/dt to velocity coordinates.
 MatrixXd velocityMap(const Config& config);
 
+/// Returns the mass matrix, the Coriolis matrix and the gravity forces at velocity v; gravity in m/s^2.
 RigidBodyDynamics rigidBodyDynamics(const Config& config, const VectorXd& v, const Vector3d& gravity = kGravity);
 
+/// Returns the matrix that maps velocity coordinates to the momentum about the center of mass.
 MatrixXd centroidalMomentumMatrix(const Config& config);
 
 /// Velocity limit of each dof of q (rad/s or m/s of q): the first number of `ctrl_limits` (velocity, effort, ...; from

@@ -160,6 +160,32 @@ def test_a_program_without_a_twin_in_python_has_a_page(tmp_path):
     assert len(set(titles)) == len(titles) and max(map(len, titles)) <= 85, titles
 
 
+def test_names_of_cpp_without_a_comment_are_described_and_keywords_are_names(tmp_path):
+    import cpp_reference
+    import pages
+
+    empty = "<briefdescription></briefdescription><detaileddescription></detaileddescription>"
+    place = '<location file="kinegraph/ik/a.h" line="2"/>'
+    variable = f'<memberdef kind="variable" prot="public"><type></type><name>double</name>{empty}{place}</memberdef>'
+    struct = f"<compounddef><compoundname>kinegraph::AOptions</compoundname>{variable}{empty}{place}</compounddef>"
+    head = f"<memberdef kind='function'><type>T</type><name>{{}}</name>{{}}{empty}{place}</memberdef>"
+    take = head.format("solve", "<param><type>const AOptions &amp;</type></param>")
+    functions = take + head.format("kindName", "") + head.format("plain", "") + head.format("kindName", "")
+    (tmp_path / "kinegraph" / "ik").mkdir(parents=True)
+    (tmp_path / "kinegraph" / "ik" / "a.h").write_text("struct AOptions {\n  double local = 1.;\n};\n")
+    (tmp_path / "structkinegraph_1_1AOptions.xml").write_text(f"<doxygen>{struct}</doxygen>")
+    (tmp_path / "namespacekinegraph.xml").write_text(f"<doxygen>{functions}</doxygen>")
+    (tmp_path / "index.xml").write_text(
+        "<index><compound kind='struct' refid='structkinegraph_1_1AOptions'><name>kinegraph::AOptions</name></compound></index>"
+    )
+    cpp_reference.cpp_texts.fillDescriptions(tmp_path, tmp_path)
+    written = (tmp_path / "structkinegraph_1_1AOptions.xml").read_text()
+    assert "Options of solve." in written and "<type>double</type><name>local</name>" in written
+    names = cpp_reference.CppNames(tmp_path)
+    assert names.headers == {"AOptions": "ik/a.h", "kindName": "ik/a.h"}
+    assert [pages.pageOf(header) for header in ("ik/a.h", "api/task_run.h", "common/text.h")] == ["ik", "tasks", "more"]
+
+
 def test_words_that_people_search_lead_to_headings_that_exist():
     from search_words import WORDS, withSearchWords
 

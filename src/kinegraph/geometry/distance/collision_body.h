@@ -78,7 +78,7 @@ class CollisionBody {
   std::unique_ptr<const BodyTree> tree_;
   std::unique_ptr<const GridField> grid_;
 };
-
+/// Returns the convex body of a shape, for distances; the origin for a shape without a collision core.
 std::shared_ptr<const CollisionBody> makeCollisionBody(const Geometry& geometry);
 
 /// The body of a frame without a shape: its origin.

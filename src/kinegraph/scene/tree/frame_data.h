@@ -64,7 +64,7 @@ struct Shape {
   mutable std::shared_ptr<BodyCache> body_cache_ =
       std::make_shared<BodyCache>();  ///< shared with copies of the same geometry
 };
-
+/// The mass of a link: its center and its matrix of inertia.
 struct Inertia {
   double mass = 0.;                    ///< kg
   Vector3d com = Vector3d::Zero();     ///< m, in the frame
