@@ -22,14 +22,14 @@ namespace {
 
 using Words = std::vector<std::string>;
 
-constexpr double kEmpty = 2e-3;                        ///< m: a gripper that is narrower holds nothing
-constexpr double kWeak = .5;                           ///< N: fingers that press less hold nothing
-constexpr double kTimeout = 3., kQueryInterval = .05;  ///< s for a gripper, and between queries
-constexpr double kComesToRest = .3;                    ///< s until objects are at rest
-constexpr double kThere = 1e-3;                        ///< rad or m: a start that is closer needs no motion
-constexpr double kFar = .05;                           ///< rad or m: tolerance of joints
-constexpr double kRelease = 4e-3;                      ///< m: a hand opens by more to release an object
-constexpr double kOpenEnough = .9;                     ///< share of the widest opening
+constexpr double kEmpty = 2e-3;                         ///< m: a gripper that is narrower holds nothing
+constexpr double kWeak = .5;                            ///< N: fingers that press less hold nothing
+constexpr double kTimeout = 12., kQueryInterval = .05;  ///< s for a gripper, and between queries
+constexpr double kComesToRest = .3;                     ///< s until objects are at rest
+constexpr double kThere = 1e-3;                         ///< rad or m: a start that is closer needs no motion
+constexpr double kFar = .05;                            ///< rad or m: tolerance of joints
+constexpr double kRelease = 4e-3;                       ///< m: a hand opens by more to release an object
+constexpr double kOpenEnough = .9;                      ///< share of the widest opening
 
 VectorXd limitsOf(const ExecutionOptions& options, Eigen::Index n) {
   const VectorXd& limits = options.max_external_effort;
@@ -371,6 +371,8 @@ class TaskRun::Impl {
     waitFor(number);
     if (isShut(number)) return cat("'", hand, "' closed on nothing");
     const double force = world_.gripForce(hand, obj);
+    if (force < kWeak && !bot_.gripperDone(number))
+      return cat("'", hand, "' is still closing after ", fixed(kTimeout, 0), " s");
     return force < kWeak ? cat("'", hand, "' closed, and presses on '", obj, "' with ", fixed(force, 1), " N only")
                          : "";
   }

@@ -141,7 +141,8 @@ Variants waysOfBody(const Config& C, const std::string& obj, const std::string& 
     for (const std::string& way : waysOf(body, openings)) add(way);
   const Eigen::AlignedBox3d around = boxOfBody(body);
   for (int k = 0; k < 3; ++k)
-    if (openings.hold(around.sizes()[k])) add(cat(std::string(1, "xyz"[k]), kOfPart, kAllParts));
+    if (openings.hold(around.sizes()[k]) && !boxAcross(body, k).isEmpty())
+      add(cat(std::string(1, "xyz"[k]), kOfPart, kAllParts));
   using Ranked = std::pair<std::pair<long, double>, std::string>;
   std::vector<Ranked> parts;
   for (const Frame& part : heldShapes(body)) {
@@ -272,7 +273,7 @@ void addGrasp(TaskWaypoints& w, double time, const std::string& hand, const std:
   if (!palm.empty()) nearCenter(w, time, grip, obj);
   if (!palm.empty()) withinLever(w, time, grip, obj);
   if (words.isOfAllParts()) {
-    graspBox(w, time, grip, obj, boxOfBody(w.C.getFrame(obj)), words.axis(), "");
+    graspBox(w, time, grip, obj, heldShape(w.C, obj, words).box, words.axis(), "");
     return;
   }
   const Frame thing = w.C.getFrame(words.part);

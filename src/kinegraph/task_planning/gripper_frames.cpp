@@ -31,13 +31,17 @@ const FrameData& headOf(const FrameData& frame) {
   return *head;
 }
 
-/// Returns the direction in the world in which the two sides of a hand move apart, of unit length; zero if unknown.
+/// Returns the direction in the world in which the two sides of a hand begin to move apart, of unit length; zero if
+/// unknown. Fingers that rotate far have another direction when they are wide open.
 Vector3d motionOfFingers(const Config& C, const HandFingers& fingers) {
   if (fingers.pads.empty() || fingers.q.size() < 2) return Vector3d::Zero();
   Config scene = C;
+  const Eigen::Index last = fingers.q.size() - 1, step = std::max<Eigen::Index>(last / 4, 1);
+  const bool grows = fingers.widths[last] > fingers.widths[0];
+  const Eigen::Index narrow = grows ? 0 : last, wider = grows ? step : last - step;
   std::map<const FrameData*, std::pair<int, Vector3d>> sides;  // number of shapes, sum of the motions of their centers
   for (const bool opens : {false, true}) {
-    scene.setJointState(VectorXd::Constant(1, fingers.q[opens ? fingers.q.size() - 1 : 0]), {fingers.joint});
+    scene.setJointState(VectorXd::Constant(1, fingers.q[opens ? wider : narrow]), {fingers.joint});
     const State& state = scene.scene()->state();
     for (const std::string& name : fingers.pads) {
       const FrameData& pad = *scene.scene()->find(name);

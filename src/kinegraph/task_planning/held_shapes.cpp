@@ -44,17 +44,55 @@ Eigen::AlignedBox3d boxOfShape(const Frame& part) {
   return {Vector3d(-half), half};
 }
 
+/// The box around a part in the axes of its object.
+static Eigen::AlignedBox3d boxInBody(const Frame& part, const Frame& obj) {
+  Eigen::AlignedBox3d around;
+  for (int k = 0; k < 8; ++k)
+    around.extend(part.getPose(obj).transform() * boxOfShape(part).corner(Eigen::AlignedBox3d::CornerType(k)));
+  return around;
+}
+
+/// The part of the box around a part in which fingers that close along an axis of its object touch it: for a round one,
+/// the middle of its side.
+static Eigen::AlignedBox3d touchedBox(const Frame& part, const Frame& obj, int axis) {
+  constexpr double kMiddle = .3;  // of the radius
+  Eigen::AlignedBox3d box = boxInBody(part, obj);
+  Eigen::Index along = 0;
+  part.getPose(obj).transform().R.col(2).cwiseAbs().maxCoeff(&along);
+  if (!isRoundBody(part) || along == axis) return box;
+  const Eigen::Index beside = 3 - along - axis;
+  const double middle = box.center()[beside], half = .5 * kMiddle * box.sizes()[beside];
+  box.min()[beside] = middle - half;
+  box.max()[beside] = middle + half;
+  return box;
+}
+
 Eigen::AlignedBox3d boxOfBody(const Frame& obj) {
   Eigen::AlignedBox3d around;
-  for (const Frame& part : heldShapes(obj))
-    for (int k = 0; k < 8; ++k)
-      around.extend(part.getPose(obj).transform() * boxOfShape(part).corner(Eigen::AlignedBox3d::CornerType(k)));
+  for (const Frame& part : heldShapes(obj)) around.extend(boxInBody(part, obj));
   return around;
+}
+
+Eigen::AlignedBox3d boxAcross(const Frame& obj, int axis) {
+  constexpr double kReaches = .002;  // m
+  const Eigen::AlignedBox3d around = boxOfBody(obj);
+  Eigen::AlignedBox3d low, high;
+  for (const Frame& part : heldShapes(obj)) {
+    const Eigen::AlignedBox3d box = touchedBox(part, obj, axis);
+    if (box.min()[axis] < around.min()[axis] + kReaches) low.extend(box);
+    if (box.max()[axis] > around.max()[axis] - kReaches) high.extend(box);
+  }
+  low.max()[axis] = high.max()[axis];  // both cover the whole axis
+  high.min()[axis] = low.min()[axis];
+  return low.intersection(high);
 }
 
 HeldShape heldShape(const Config& C, const std::string& obj, const GraspWords& words) {
   const Frame body = C.getFrame(obj);
-  if (words.isOfAllParts()) return {body, boxOfBody(body)};
+  if (words.isOfAllParts()) {
+    const Eigen::AlignedBox3d across = words.axis() < 0 ? Eigen::AlignedBox3d() : boxAcross(body, words.axis());
+    return {body, across.isEmpty() ? boxOfBody(body) : across};
+  }
   const Frame frame = C.getFrame(words.part);
   return {frame, boxOfShape(frame)};
 }

@@ -39,6 +39,10 @@ bool isRoundBody(const Frame& frame);
 Eigen::AlignedBox3d boxOfShape(const Frame& part);
 Eigen::AlignedBox3d boxOfBody(const Frame& obj);
 
+/// The part of that box in which fingers that close along an axis meet the body on both sides: that of the parts that
+/// reach to both ends. Empty if there is none, as for an L.
+Eigen::AlignedBox3d boxAcross(const Frame& obj, int axis);
+
 /// A shape that a variant holds: a box in the axes of a frame.
 struct HeldShape {
   Frame frame;

@@ -128,3 +128,13 @@ def test_a_heavy_kettle_is_held_in_the_middle_of_its_bow() -> None:
     plan = ry.planTask(C, "(on tray kettle)")
     assert min(error for error, _ in plan.tolerances) > 3e-3, plan.explain()
     assert is_on_tray(C, executed(C, plan), "kettle", 0.14)
+
+
+def test_a_bottle_is_held_across_where_its_sides_are() -> None:
+    C = scene()
+    body(C, "bottle", 0.145, mass=0.3).setShape(ry.ST.cylinder, [0.145, 0.0304]).setContact(1)
+    part(C, "neck", "bottle", [0, 0, 0.0975], ry.ST.cylinder, [0.05, 0.013])
+    plan = ry.planTask(C, "(on tray bottle)")
+    C.setJointState(plan.waypoints[0])
+    grip = C.getFrame("l_gripper").getPosition() - C.getFrame("bottle").getPosition()
+    assert np.hypot(*grip[:2]) < 0.006, grip  # not beside its axis

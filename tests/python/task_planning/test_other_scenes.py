@@ -150,3 +150,14 @@ def test_a_tray_that_is_called_a_carrier_needs_no_other_label() -> None:
     assert [action[0] for action in plan.actions] == ["lift", "place"], plan
     world = executed(C, plan)
     assert stands(world, "tray", "board") and stands(world, "glass", "tray")
+
+
+def test_a_hand_with_one_moving_jaw_takes_a_cube() -> None:
+    C = ry.Config()
+    C.addFile(ry.raiPath("so101/so101.g"))
+    C.addFrame("desk").setPosition([0.2, 0, -0.02]).setShape(ry.ST.ssBox, [0.8, 0.8, 0.04, 0.005]).setContact(1)
+    body(C, "cube", "desk", [0.05, 0.1, 0.035], [0.02, 0.02, 0.03], 0.03)
+    body(C, "pad", "desk", [0.05, -0.12, 0.025], [0.08, 0.08, 0.01])
+    plan = ry.planTask(C, "(on pad cube)", max_evaluations=QUICK)
+    assert not any("axis of 'gripper'" in warning for warning in plan.warnings), plan.warnings
+    assert stands(executed(C, plan), "cube", "pad")

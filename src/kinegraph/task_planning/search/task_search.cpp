@@ -62,11 +62,16 @@ double requireContactSpeed(double speed) {
   throw ValueError(cat("planTask: contact_speed is ", speed, " m/s; expected a number > 0, or infinity"));
 }
 
-/// The error that a plan survives, with the missing margin subtracted, m; at most that of a robust step.
-double robustnessOf(const TaskPlan& plan, double margin) {
+/// The error that a plan survives, m; at most that of a robust step.
+double leastTolerance(const TaskPlan& plan) {
   double least = kRobust;
   for (const StepTolerance& step : plan.tolerances) least = std::min(least, step.error);
-  return least + std::min(plan.margin - margin, 0.);
+  return least;
+}
+
+/// The same, with the missing margin subtracted.
+double robustnessOf(const TaskPlan& plan, double margin) {
+  return leastTolerance(plan) + std::min(plan.margin - margin, 0.);
 }
 
 /// The scene with open hands. `most`: the opening of hands that open wider, m.
@@ -360,7 +365,7 @@ std::optional<TaskPlan> TaskSearch::nextOf(Trial& trial) {
         trial.robustness = robustness;
       }
     }
-    if (trial.best && trial.evaluations > (trial.robustness < kPoor ? kForPoor : kForRobust)) break;
+    if (trial.best && trial.evaluations > (leastTolerance(*trial.best) < kPoor ? kForPoor : kForRobust)) break;
     if (trial.best && !narrowerThan(*trial.best).empty())
       break;  // hands that open less are better than other waypoints
     if (trial.best) continue;
