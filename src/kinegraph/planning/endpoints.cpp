@@ -22,6 +22,23 @@ void requireState(const VectorXd& q, int dofs, const std::string& what, const ch
   if (!q.allFinite()) throw ValueError(cat(who, ": the ", what, " has numbers that are not finite"));
 }
 
+/// Returns whether both frames are links of a robot, or its first link and the base.
+bool areOwn(const KinematicModel& model, int a, int b) {
+  const std::vector<ContactRules::Body>& bodies = model.contacts.bodies;
+  const auto first = std::ranges::find(bodies, a, &ContactRules::Body::frame);
+  const auto second = std::ranges::find(bodies, b, &ContactRules::Body::frame);
+  if (first == bodies.end() || second == bodies.end()) return false;
+  const auto isLink = [&](int frame) { return model.frame_link[std::size_t(frame)] != 0; };
+  const auto parentOf = [&](int part) { return model.contacts.parts[std::size_t(part)].parent; };
+  return (isLink(a) && isLink(b)) || parentOf(first->part) == second->part || parentOf(second->part) == first->part;
+}
+
+/// Advice for a start in which only parts of the robot collide: models often overlap there in every configuration.
+std::string adviceOnOverlaps(const KinematicModel& model, const std::vector<ClearanceCheck::Nearest>& pairs) {
+  const bool is_own = std::ranges::all_of(pairs, [&](const auto& pair) { return areOwn(model, pair.a, pair.b); });
+  return is_own ? "; if these parts of the robot always touch, C.ignoreCollisionsNow() excludes them" : "";
+}
+
 }  // namespace
 
 std::string formatLength(double length) {
@@ -62,7 +79,8 @@ Endpoint checkEndpoint(Steering& steering, const KinematicModel& model, const Ve
   end.near = steering.check().nearerThan(end.q, margin + kSlack);
   if (!end.near.empty()) end.clearance = std::min(margin, end.near.front().distance);
   if (!end.near.empty() && end.near.front().distance < std::min(margin, 0.) + kSlack) {
-    end.problem = cat("the ", what, " collides: ", describePairs(model, end.near));
+    end.problem = cat("the ", what, " collides: ", describePairs(model, end.near),
+                      what == "start" ? adviceOnOverlaps(model, end.near) : "");
   } else if (steering.isConstrained()) {
     const double violation = steering.manifold().violation(end.q);
     if (violation > steering.manifold().tolerance())

@@ -448,3 +448,22 @@ def test_joint_values_in_degrees_are_asked_about_if_they_are_no_round_numbers(pa
     assert "did you mean radians?" in ry.planMotion(panda, goal).message
     with pytest.raises(ry.ArgumentError, match=r"did you mean radians\?"):
         ry.BotOp(panda, False).moveTo(goal)
+
+
+@pytest.mark.parametrize("pair", [("base", "a"), ("a", "c"), ("b", "wall"), ("a", "wall")])
+def test_a_start_in_which_only_parts_of_the_robot_overlap_has_advice(pair: tuple[str, str]) -> None:
+    def shape(frame: str) -> str:
+        return "shape: sphere, size: [.06], contact: 1" if frame in pair else ""
+
+    C = ry.Config()
+    C.addText(
+        f"base: {{ {shape('base')} }}\na (base): {{ joint: hingeZ, limits: [-1 1], {shape('a')} }}\n"
+        f"b (a): {{ joint: hingeX, limits: [-1 1], {shape('b')} }}\nc (b): {{ joint: hingeX, limits: [-1 1], {shape('c')} }}\n"
+        f"wall: {{ {shape('wall')} }}"
+    )
+    plan = ry.planMotion(C, [0.5, 0, 0])
+    assert plan.status == ry.PlanStatus.invalid_start
+    advice = "if these parts of the robot always touch, C.ignoreCollisionsNow() excludes them"
+    assert (advice in plan.message) == ("wall" not in pair)
+    C.ignoreCollisionsNow()
+    assert ry.planMotion(C, [0.5, 0, 0]).feasible
