@@ -103,6 +103,7 @@ class KOMO_ManipulationHelper(ManipulationHelper):
         """
         C, _, q1 = self._problem("sub_motion").getSubProblem(phase)
         motion = type(self).__new__(type(self))  # constructors of derived classes may take other arguments
+        motion.__dict__.update(self.__dict__)
         motion._begin(f"sub_motion {phase}" + (f" of {self.info}" if self.info else ""))
         scales = (homing_scale, acceleration_scale, accumulated_collisions, joint_limits, quaternion_norms)
         if fixEnd:

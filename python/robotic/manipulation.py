@@ -65,27 +65,31 @@ class KOMO_ManipulationHelper(kinegraph.KOMO_ManipulationHelper):
             )
         super().place_box(time, obj, table, palm, place_direction, margin)
 
-    def no_collision(self, time_interval: Any, *frames_and_margin: Any, margin: float = 0.001) -> None:
+    def no_collision(
+        self, time_interval: Any, *frames_and_margin: Any, pairs: Any = None, margin: float | None = None
+    ) -> None:
         """Keeps pairs of frames apart, like no_collisions.
 
         Args:
             time_interval: Start and end, in phases.
             frames_and_margin: A list of names, two per pair, or two names, as in the first versions; behind them,
                 optionally, the margin.
-            margin: Least distance, m.
+            pairs: The list of names by keyword.
+            margin: Least distance, m; None: 0.001.
         Raises:
             FrameNotFound: There is no such frame.
             ArgumentError: The names are not in pairs, or other arguments are given.
         """
-        one_by_one = bool(frames_and_margin) and isinstance(frames_and_margin[0], str)
-        count = 2 if one_by_one else 1
-        pairs, rest = frames_and_margin[:count], frames_and_margin[count:]
-        if len(pairs) < count or len(rest) > 1:
+        given = list(frames_and_margin if pairs is None else (pairs, *frames_and_margin))
+        if len(given) > 1 and isinstance(given[0], str) and isinstance(given[1], str):
+            given[:2] = [given[:2]]
+        if len(given) == 2 and margin is None:
+            margin = given.pop()
+        if len(given) != 1 or isinstance(given[0], str):
             raise kinegraph.ArgumentError(
-                f"no_collision: {len(frames_and_margin)} arguments after the times; expected a list of names in pairs,"
-                " or two names, and optionally the margin"
+                "no_collision: expected times, then a list of names in pairs or two names, and optionally one margin"
             )
-        self.no_collisions(time_interval, list(pairs) if one_by_one else pairs[0], rest[0] if rest else margin)
+        self.no_collisions(time_interval, given[0], 0.001 if margin is None else margin)
 
     keep_distance = no_collision
 
@@ -98,7 +102,10 @@ class KOMO_ManipulationHelper(kinegraph.KOMO_ManipulationHelper):
             margin: Least distance, m.
         Raises:
             FrameNotFound: There is no such frame.
+            ArgumentError: There are fewer than two names.
         """
+        if isinstance(objs, str) or len(objs) < 2:
+            raise kinegraph.ArgumentError(f"keep_distances: objs is {objs!r}; expected a list of at least two names")
         pairs = [name for pair in itertools.combinations(objs, 2) for name in pair]
         self.no_collisions(time_interval, pairs, margin)
 

@@ -134,6 +134,7 @@ class Config(kinegraph.Config):
             return super().copy(other)
         again = type(self).__new__(type(self))  # constructors of derived classes may take other arguments
         kinegraph.Config.__init__(again)
+        again.__dict__.update(self.__dict__)
         kinegraph.Config.copy(again, self)
         return again
 

@@ -207,8 +207,16 @@ def test_a_manipulation_helper_of_2024_knows_its_scene() -> None:
     assert move.komo.getFeatureNames()[before:] == 2 * by_pairs
     move.keep_distances([0.3, 0.7], ["l_palm", "table", "box"], 0.0)
     assert len(move.komo.getFeatureNames()) == before + 2 * len(by_pairs) + 3 * len(by_pairs) // 2
-    with pytest.raises(ry.ArgumentError, match="3 arguments after the times; expected a list of names in pairs"):
-        move.no_collision([], ["l_palm", "box"], 0.01, 0.02)
+    move.no_collision([], pairs=["l_palm", "box"])
+    for wrong in (
+        lambda: move.no_collision([], ["l_palm", "box"], 0.01, 0.02),
+        lambda: move.no_collision([], "l_palm", "box", 0.01, margin=0.5),
+        lambda: move.no_collision([], "l_palm"),
+    ):
+        with pytest.raises(ry.ArgumentError, match="a list of names in pairs or two names, and optionally one margin"):
+            wrong()
+    with pytest.raises(ry.ArgumentError, match="expected a list of at least two names"):
+        move.keep_distances([], ["box"])
     move.solve(verbose=0)
     move.play(0.0)
     assert np.allclose(C.getJointState(), M.path[0], atol=1e-2)
@@ -331,5 +339,7 @@ def test_a_derived_scene_is_copied_whatever_its_constructor_takes() -> None:
         def __init__(self, box: str) -> None:
             super().__init__()
             self.addFrame(box)
+            self.box = box
 
-    assert Lab("box").copy().getFrameNames() == copy.deepcopy(Lab("box")).getFrameNames() == ["box"]
+    for lab in (Lab("box").copy(), copy.deepcopy(Lab("box"))):
+        assert lab.getFrameNames() == ["box"] and lab.box == "box"

@@ -261,9 +261,10 @@ def test_a_derived_helper_has_its_methods_in_motions_too(package) -> None:
     class Helper(package.KOMO_ManipulationHelper):
         def __init__(self) -> None:
             super().__init__()
+            self.obstacle = "obst"
 
         def keep_off(self) -> None:
-            self.no_collisions([], ["l_palm", "obst"])
+            self.no_collisions([], ["l_palm", self.obstacle])
 
     C, m = scene(), Helper()
     pick_and_place(C, m, "z")
