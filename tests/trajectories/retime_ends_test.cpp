@@ -9,12 +9,6 @@
 using namespace kinegraph;
 using namespace kinegraph::test;
 
-namespace {
-
-constexpr double kWithin = 1e-9;  // largest relative violation of a limit
-
-}  // namespace
-
 TEST(RetimeEnds, VelocitiesAtTheEndsAreKept) {
   Rng rng(5);
   const MatrixXd path = randomPath(rng, 5, 2);

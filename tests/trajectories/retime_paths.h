@@ -7,6 +7,8 @@
 
 namespace kinegraph::test {
 
+constexpr double kWithin = 1e-9;  ///< largest relative violation of a limit
+
 inline MotionLimits limitsOf(int dofs, double velocity, double acceleration, double jerk = 0.) {
   MotionLimits limits{VectorXd::Constant(dofs, velocity), VectorXd::Constant(dofs, acceleration), {}};
   if (jerk > 0.) limits.jerk = VectorXd::Constant(dofs, jerk);

@@ -15,7 +15,6 @@ using namespace kinegraph::test;
 
 namespace {
 
-constexpr double kWithin = 1e-9;  // largest relative violation of a limit
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 }  // namespace

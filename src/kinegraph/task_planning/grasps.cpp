@@ -126,6 +126,11 @@ Variants waysOf(const Frame& frame, const Openings& hand) {
   return ways;
 }
 
+/// Whether a round thing also has to be held beside the middle of the fingertips.
+bool isHeldOffCenter(const Config& C, const Frame& thing, const std::string& hand, const Variants& ways) {
+  return (ways == Variants{"center"} || ways == Variants{"around"}) && meetsHand(C, thing, hand);
+}
+
 /// Grasps of a body of several shapes: by the shape of its own frame, across all of it, then by its parts. First those
 /// that fingers get around, close to the center of mass and not too far beside it; parts at equal distances are spread.
 Variants waysOfBody(const Config& C, const std::string& obj, const std::string& hand) {
@@ -137,8 +142,11 @@ Variants waysOfBody(const Config& C, const std::string& obj, const std::string& 
   const Vector3d center = centerOfBody(body), from = C.getFrame(hand).getPosition();
   Variants first, others;
   const auto add = [&](const std::string& variant) { (access.guess(variant) ? first : others).push_back(variant); };
-  if (body.getShapeType() != ShapeType::none)
-    for (const std::string& way : waysOf(body, openings)) add(way);
+  if (body.getShapeType() != ShapeType::none) {
+    const Variants ways = waysOf(body, openings);
+    for (const std::string& way : ways) add(way);
+    if (isHeldOffCenter(C, body, hand, ways)) add(std::string(kOffCenter));
+  }
   const Eigen::AlignedBox3d around = boxOfBody(body);
   for (int k = 0; k < 3; ++k)
     if (openings.hold(around.sizes()[k]) && !boxAcross(body, k).isEmpty())
@@ -360,8 +368,7 @@ Variants graspVariants(const Config& C, const std::string& obj, const std::strin
   const Frame frame = C.getFrame(obj);
   if (isCompound(frame)) return waysOfBody(C, obj, hand);
   Variants ways = waysOf(frame, openingsOf(C, hand));
-  if ((ways == Variants{"center"} || ways == Variants{"around"}) && meetsHand(C, frame, hand))
-    ways.emplace_back(kOffCenter);
+  if (isHeldOffCenter(C, frame, hand, ways)) ways.emplace_back(kOffCenter);
   const std::string up = upOf(C, obj).substr(0, 1);  // a finger would have to be below the object
   std::ranges::stable_partition(ways, [&](const std::string& way) { return way != up; });
   return ways;

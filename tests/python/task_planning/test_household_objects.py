@@ -138,3 +138,18 @@ def test_a_bottle_is_held_across_where_its_sides_are() -> None:
     C.setJointState(plan.waypoints[0])
     grip = C.getFrame("l_gripper").getPosition() - C.getFrame("bottle").getPosition()
     assert np.hypot(*grip[:2]) < 0.006, grip  # not beside its axis
+
+
+def test_a_bottle_between_boards_that_meets_the_camera_of_the_hand_is_held_off_center() -> None:
+    C = scene()
+    body(C, "bottle", 0.2, mass=0.2, at=(0.0, 0.5)).setShape(ry.ST.cylinder, [0.2, 0.03]).setContact(1)
+    part(C, "neck", "bottle", [0, 0, 0.125], ry.ST.cylinder, [0.05, 0.013])
+    for name, at, size in (
+        ("left", [-0.21, 0.55, 0.225], [0.02, 0.3, 0.35]),
+        ("right", [0.21, 0.55, 0.225], [0.02, 0.3, 0.35]),
+        ("back", [0, 0.71, 0.225], [0.44, 0.02, 0.35]),
+        ("roof", [0, 0.55, 0.41], [0.44, 0.3, 0.02]),
+    ):
+        part(C, name, "table", at, ry.ST.ssBox, [*size, 0.004])
+    plan = ry.planTask(C, "(on l_gripper bottle)")
+    assert plan.feasible and ry.checkTaskPlan(C, plan) == [], plan
