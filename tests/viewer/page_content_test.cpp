@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 
 #include "kinegraph/common/errors.h"
 #include "kinegraph/viewer/config_viewer.h"
@@ -39,6 +40,24 @@ TEST_F(PageContentTest, AButtonCountsClicksAndCallsInTheThreadThatPolls) {
   EXPECT_EQ(calls, 2);
   EXPECT_TRUE(button.clicked());
   EXPECT_FALSE(button.clicked());
+}
+
+TEST_F(PageContentTest, AValueOfTheProgramUpdatesThePagesAtOnce) {
+  ViewerValue<double> width = viewer.slider("width", {0., .08}, .04);
+  int updates = 0;
+  viewer.content()->onChange([&] { ++updates; });
+  width.set(.02);
+  EXPECT_EQ(updates, 1);
+  EXPECT_THROW(width.set(.09), ValueError);
+  EXPECT_EQ(updates, 1);
+}
+
+TEST_F(PageContentTest, AControlOutlivesItsViewer) {
+  auto other = std::make_unique<ConfigViewer>();
+  ViewerValue<double> width = other->slider("width", {0., .08}, .04);
+  other.reset();
+  width.set(.02);
+  EXPECT_EQ(width.value(), .02);
 }
 
 TEST_F(PageContentTest, AFloodOfClicksCallsAHundredTimes) {

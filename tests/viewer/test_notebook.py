@@ -162,3 +162,15 @@ def test_a_roadmap_and_a_recording_show_themselves(config: kg.Config) -> None:
         simulation.step([], 0.01, kg.ControlMode.none)
     page = simulation.stopRecording()._repr_html_()
     assert page.startswith("<iframe") and len(page) < 600_000
+
+
+def test_a_task_plan_shows_its_motion_or_only_its_text(config: kg.Config) -> None:
+    config.addFile(kg.raiPath("scenarios/pandaSingle.g"))
+    cup = config.addFrame("cup", "table").setShape(kg.ST.ssBox, [0.05, 0.05, 0.1, 0.01])
+    cup.setRelativePosition([0.3, 0.3, 0.1]).setJoint(kg.JT.rigid).setContact(1)
+    tray = config.addFrame("tray", "table").setShape(kg.ST.ssBox, [0.3, 0.3, 0.04, 0.01]).setContact(1)
+    tray.setRelativePosition([-0.3, 0.3, 0.07])
+    page = kg.planTask(config, "(on tray cup)")._repr_html_()
+    assert page.startswith("<iframe") and "2 actions" in page and len(page) < 600_000
+    cup.setJoint(kg.JT.none)
+    assert kg.planTask(config, "(on tray cup)")._repr_html_() is None

@@ -3,7 +3,7 @@
 /// Docstrings for bind_pictures.cpp.
 namespace kinegraph::python::docs::pictures {
 
-inline constexpr char getRgb[] = R"(Renders the scene with the message, without a browser.
+inline constexpr char getRgb[] = R"(Renders the scene with drawings and the message, without a browser.
 
 Args:
     nonThreaded: Not used; older scripts pass it.
@@ -20,7 +20,7 @@ Returns:
 Raises:
     ArgumentError: The viewer has no scene yet.)";
 
-inline constexpr char getDepth[] = R"(Renders the depth along the camera's z axis.
+inline constexpr char getDepth[] = R"(Renders the depth of the scene, without drawings, along the camera's z axis.
 
 Args:
     nonThreaded: Not used; older scripts pass it.

@@ -60,8 +60,10 @@ struct ConfigViewer::Impl {
 };
 
 ConfigViewer::ConfigViewer() : ConfigViewer(ViewerOptions{}) {}
-ConfigViewer::ConfigViewer(ViewerOptions options) : impl_(new Impl{std::move(options)}) {}
-ConfigViewer::~ConfigViewer() = default;
+ConfigViewer::ConfigViewer(ViewerOptions options) : impl_(new Impl{std::move(options)}) {
+  content()->onChange([this] { contentChanged(); });
+}
+ConfigViewer::~ConfigViewer() { content()->onChange({}); }  // controls may outlive it
 
 int ConfigViewer::structure() const { return impl_->items.structure(); }
 bool ConfigViewer::hasEdits() const { return impl_->edits->hasAny(); }

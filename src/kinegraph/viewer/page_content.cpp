@@ -192,6 +192,11 @@ void PageContent::onClick(std::function<void(const Hit&)> callback) {
   on_click_.swap(shared);
 }
 
+void PageContent::onChange(std::function<void()> update) {
+  const std::lock_guard lock(mutex_);
+  on_change_ = std::move(update);
+}
+
 void PageContent::runCallbacks() {
   std::vector<std::shared_ptr<const std::function<void()>>> due;
   std::shared_ptr<const std::function<void(const Hit&)>> on_click;

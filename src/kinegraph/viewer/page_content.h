@@ -87,12 +87,20 @@ class PageContent {
   /// Runs the callbacks that are due, in this thread.
   void runCallbacks();
 
-  /// Calls `use` while no other thread accesses the content, then updates the browsers at their next message.
+  /// Sets the function that updates the browsers after `change`; empty: they are updated at their next message.
+  void onChange(std::function<void()> update);
+
+  /// Calls `use` while no other thread accesses the content, then updates the browsers.
   template <class Use>
-  auto change(const Use& use) {
-    const std::lock_guard lock(mutex_);
-    controls_revision_ = ++revision_;
-    return use();
+  void change(const Use& use) {
+    std::function<void()> update;
+    {
+      const std::lock_guard lock(mutex_);
+      use();
+      controls_revision_ = ++revision_;
+      update = on_change_;
+    }
+    if (update) update();
   }
   template <class Use>
   auto read(const Use& use) const {
@@ -139,6 +147,7 @@ class PageContent {
   std::deque<Notification> notifications_;
   std::deque<Hit> hits_;
   std::shared_ptr<const std::function<void(const Hit&)>> on_click_;
+  std::function<void()> on_change_;
 };
 
 }  // namespace kinegraph
