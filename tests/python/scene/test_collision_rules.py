@@ -379,3 +379,12 @@ def test_what_stands_beside_a_robot_on_the_same_table_collides_with_all_of_its_l
         set() if ground else {("base", "wall"), ("base", "shelf"), ("box", "wall"), ("box", "shelf"), ("shelf", "wall")}
     )
     assert own_pairs(C) == between | {tuple(sorted(pair)) for pair in fixed}
+
+
+def test_a_wall_on_the_table_of_a_panda_collides_with_its_first_link_and_the_table_does_not():
+    C = ry.Config()
+    C.addFile(ry.raiPath("scenarios/pandaSingle.g"))
+    C.addFrame("wall", "table").setShape(ry.ST.sphere, [0.1]).setContact(1)
+    pairs = own_pairs(C)
+    assert {("l_panda_coll1", "wall"), ("l_panda_coll2", "wall")} <= pairs
+    assert ("l_panda_coll1", "table") not in pairs

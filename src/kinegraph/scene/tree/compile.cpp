@@ -176,7 +176,7 @@ std::vector<char> groundFrames(const SceneTree& scene) {
     if (!is_base || !frame->parent || robots[frame->parent->id]) continue;
     std::vector<const FrameData*> above;
     for (const FrameData* base = frame->parent; base && isFixed(*base); base = base->parent) above.push_back(base);
-    if (above.empty() || above.back()->parent || !isFixed(*frame)) continue;  // it stands on something that moves
+    if (above.empty() || above.back()->parent) continue;  // it stands on something that moves
     for (const FrameData* ground : above) grounds[ground->id] = 1;
   }
   return grounds;
