@@ -36,9 +36,8 @@ std::vector<RigidTransform> Registration::starts(const Thing& thing, const Rigid
     around(from.R, {0., .4, -.4, .8, -.8, 1.571});
     return starts;
   }
-  for (const Vector3d& side : {Vector3d::UnitX(), Vector3d::UnitY()}) {  // it may have slid along itself
-    starts.push_back({from.R, from.p + kNearStart * side});
-    starts.push_back({from.R, from.p - kNearStart * side});
+  for (const int axis : {0, 1}) {  // it may have slid along itself
+    for (const double by : {kNearStart, -kNearStart}) starts.push_back({from.R, from.p + by * Vector3d::Unit(axis)});
   }
   if (freedom.kind != PoseFreedom::Kind::resting) {
     around(from.R, {1.2, -1.2, 1.8, -1.8, 2.4, -2.4, 3.1});

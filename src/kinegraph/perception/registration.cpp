@@ -92,7 +92,7 @@ bool Registration::tryDoubtful() {
     if (thing.is_lost || thing.anywhere || thing.is_displaced || thing.freedom.hasJoint()) continue;
     if (thing.score < kWrongScore || !isDoubtful(thing, owners)) continue;
     std::vector<PoseCandidate> candidates{thing.best};
-    tryStarts(thing, int(i), owners, RigidTransform(thing.best.X), true, candidates);
+    tryStarts(thing, int(i), owners, thing.best.X, true, candidates);
     std::sort(candidates.begin(), candidates.end(), [](auto& a, auto& b) { return a.value > b.value; });
     refine(thing, int(i), owners, candidates);
     owners = ownersOfPoints();

@@ -23,7 +23,7 @@ constexpr int kSamples = 500;   // points of a surface
 constexpr double kThin = 1e-9;  // m, lengths that count as zero
 constexpr double kTilt = .1;    // rad, that a shape withstands on a face
 constexpr int kTilts = 8;
-constexpr double kSameHeight = 5e-4;  // m, that a round shape may roll up or down without rolling away
+constexpr double kRollHeight = 5e-4;  // m, that a round shape may roll up or down without rolling away
 constexpr double kNearFace = .7;      // cosine between a face and the one on which a shape falls
 constexpr double kSameFace = .9998;   // cosine between normals of triangles of one face
 
@@ -360,7 +360,7 @@ void VisibleShape::findRestingDirections() {
   // On a facet of a rounded edge, a shape would tip over at the slightest tilt, and lie lower then.
   for (const Vector3d& down : stable) {
     const bool may_fall = std::ranges::any_of(stable, [&](const Vector3d& other) {
-      return other.dot(down) > kNearFace && height(other) < height(down) - kSameHeight;
+      return other.dot(down) > kNearFace && height(other) < height(down) - kRollHeight;
     });
     if (!may_fall || keepsStanding(down)) resting_.push_back(down);
   }
