@@ -4,6 +4,7 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <cstring>
 
 #include "arguments.h"
@@ -12,12 +13,14 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/perception/calibrate_camera.h"
+#include "kinegraph/perception/measured_depth.h"
 #include "kinegraph/perception/occupancy_map.h"
 #include "kinegraph/perception/register_scene.h"
 #include "kinegraph/scene/collisions.h"
 #include "perception/calibration_docs.h"
 #include "perception/depth_views.h"
 #include "perception/perception_docs.h"
+#include "perception/seen_pickle.h"
 #include "planning/plan_objects.h"
 #include "python_names.h"
 
@@ -343,7 +346,12 @@ void bindPerception(nb::module_& m) {
       .def_ro("height", &DepthView::height, "Height of the image in pixels.")
       .def_prop_ro(
           "fxycxy", [](const DepthView& v) { return toNumpy(VectorXd(v.fxycxy)); },
-          "fx, fy, cx, cy in pixels, shape (4,).");
+          "fx, fy, cx, cy in pixels, shape (4,).")
+      .def("__repr__", [](const DepthView& v) {
+        const auto measured = std::count_if(v.depth.begin(), v.depth.end(), isMeasured);
+        return cat("<DepthView ", v.width, " x ", v.height, ", ", 100 * measured / std::ptrdiff_t(v.depth.size()),
+                   " % measured, camera ", v.camera.empty() ? "at a pose" : cat("'", v.camera, "'"), ">");
+      });
   bindSeenFrame(m);
   nb::class_<SeenCamera>(m, "SeenCamera", "A camera whose pose registerScene estimated.")
       .def_prop_ro(
@@ -385,6 +393,7 @@ void bindPerception(nb::module_& m) {
                 "collections.abc.Sequence[str], *, support: str | None = None, search_radius: float = 0.05, "
                 "prior: str = 'last', estimate: collections.abc.Sequence[str] = ()) -> SeenScene"),
         docs::perception::registerScene);
+  bindSeenCopies();
   bindOccupancyMap(m);
   bindSceneObserver(m);
   bindCalibration(m);

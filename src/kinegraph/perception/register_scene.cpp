@@ -21,21 +21,28 @@ namespace {
 
 constexpr int kFewSamples = 12;
 
-SeenStatus statusOf(const SurfaceCounts& counts, double score) {
-  if (counts.total() == 0 || counts.outside > .7 * counts.total()) return SeenStatus::not_in_view;
-  if (counts.agree >= .5 * (counts.agree + counts.through) && counts.agree > kFewSamples && score > 0.)
-    return SeenStatus::seen;
-  if (counts.through > .3 * counts.inView()) return SeenStatus::not_there;
-  return counts.none == counts.inView() ? SeenStatus::not_in_view : SeenStatus::occluded;
+/// Whether the images show a thing at its best pose. `explained`: the share of the points beside its surface, and in
+/// it, that it explains. Poses that explain them worse than noise are not seen.
+bool isSeen(const SurfaceCounts& counts, double explained) {
+  constexpr double kLeastAgree = .12, kMostThrough = .25;  // of the surface in view, of what is not hidden
+  constexpr double kLeastExplained = .86, kMostOutside = .7;
+  return counts.agree > kFewSamples && counts.agree >= kLeastAgree * counts.inView() &&
+         counts.through <= kMostThrough * (counts.agree + counts.through) &&
+         counts.outside <= kMostOutside * counts.total() && counts.score() > 0. && explained >= kLeastExplained;
 }
 
-/// `is_taken`: another thing is where this one was found. The last pose of a thing that may be anywhere tells nothing.
-SeenStatus statusOf(const Thing& thing, const SurfaceCounts& counts, bool is_taken) {
-  if (thing.is_lost) return SeenStatus::not_found;
-  const SeenStatus status = statusOf(counts, counts.score());
-  if (status == SeenStatus::seen && !is_taken) return status;
+/// The reason for which a thing was not seen. `there`: its surface at its last pose, which tells nothing if it may be
+/// anywhere.
+SeenStatus whyNotSeen(const Thing& thing, const SurfaceCounts& there) {
+  constexpr double kMostVisible = .3;  // of the surface in view: through it, or something else is measured at its place
   if (thing.anywhere) return SeenStatus::not_found;
-  return status == SeenStatus::seen ? SeenStatus::not_there : status;
+  if (there.outside > .7 * there.total() || there.none == there.inView()) return SeenStatus::not_in_view;
+  return there.through + there.agree > kMostVisible * there.inView() ? SeenStatus::not_there : SeenStatus::occluded;
+}
+
+/// The last pose of a thing, on what it stood on.
+RigidTransform lastPlace(const Thing& thing) {
+  return thing.height_of_place ? restingPose(thing.shape, thing.last, *thing.height_of_place) : thing.last;
 }
 
 /// Sets the pose of a seen thing, its covariance and its alternatives.
@@ -169,7 +176,9 @@ std::vector<Thing> thingsOf(const Config& config, const std::vector<std::string>
     }
     if (support && freedom.kind == PoseFreedom::Kind::resting) {
       const double reach = thing.is_lost ? kAnyPlace : thing.shape.radius() + thing.search;
-      thing.heights = heightsUnder(config, frame, config.getFrame(support->name), support->height, reach, listed);
+      const Frame on = config.getFrame(support->name);
+      thing.heights = heightsUnder(config, frame, thing.shape, on, support->height, reach, listed);
+      if (!thing.is_lost) thing.height_of_place = heightOfPlace(thing.shape, thing.last, thing.heights);
     }
     things.push_back(std::move(thing));
   }
@@ -211,6 +220,25 @@ void warnOfLookAlikes(const std::vector<Thing>& things, const std::vector<std::p
                            "' look alike and may be exchanged: each is taken to be the one nearer to its last pose"));
 }
 
+/// Moves the frames that were seen, parents first. Things that were not seen move with their parents.
+void moveSeen(Config& config, SeenScene& seen) {
+  std::vector<Frame> frames = config.getFrames();
+  const auto depth = [](const Frame& frame) {
+    int parents = 0;
+    for (auto at = frame.getParent(); at; at = at->getParent()) ++parents;
+    return parents;
+  };
+  std::erase_if(frames, [&](const Frame& frame) { return !seen.frames.contains(frame.getName()); });
+  std::ranges::stable_sort(frames, {}, depth);
+  for (Frame& frame : frames) {
+    SeenFrame& result = seen.frames[frame.getName()];
+    if (result.status == SeenStatus::seen)
+      frame.setPose(result.pose);
+    else
+      result.pose = frame.getPose();
+  }
+}
+
 /// Finds the things with cameras and joints as they are in the scene.
 SeenScene findThings(Config& config, std::span<const DepthView> given, const std::vector<std::string>& names,
                      const RegisterOptions& options) {
@@ -237,28 +265,31 @@ SeenScene findThings(Config& config, std::span<const DepthView> given, const std
   registration.run();
   if (anywhere) registration.findLost();
 
-  const auto countsOf = [&](const Thing& thing) {
-    return countSurface(thing.shape, thing.best.X, views, int(thing.shape.samples().size()), true);
+  const auto countsAt = [&](const Thing& thing, const RigidTransform& X) {
+    return countSurface(thing.shape, X, views, int(thing.shape.samples().size()), true);
   };
   std::vector<SurfaceCounts> all_counts;
   std::vector<RigidTransform> counted_at;
+  std::vector<int> owners = registration.ownersOfPoints();
   std::vector<bool> is_seen;
   for (const Thing& thing : things) {
-    all_counts.push_back(countsOf(thing));
+    all_counts.push_back(countsAt(thing, thing.best.X));
     counted_at.push_back(thing.best.X);
-    is_seen.push_back(statusOf(thing, all_counts.back(), thing.is_displaced) == SeenStatus::seen);
+    is_seen.push_back(!thing.is_lost && !thing.is_displaced &&
+                      isSeen(all_counts.back(), registration.explainedBeside(thing, owners)));
   }
   std::vector<std::pair<int, int>> unclear;
   const std::vector<std::vector<int>> may_be = tellApart(things, registration, anywhere, is_seen, unclear);
-  const std::vector<int> owners = registration.ownersOfPoints();
+  owners = registration.ownersOfPoints();
   for (std::size_t i = 0; i < things.size(); ++i) {
     Thing& thing = things[i];
-    const bool has_moved = thing.best.X.p != counted_at[i].p || thing.best.X.R != counted_at[i].R;
-    const SurfaceCounts counts = has_moved ? countsOf(thing) : std::move(all_counts[i]);
+    const RigidTransform there = is_seen[i] ? thing.best.X : lastPlace(thing);
+    const bool is_counted = there.p == counted_at[i].p && there.R == counted_at[i].R;
+    const SurfaceCounts counts = is_counted ? std::move(all_counts[i]) : countsAt(thing, there);
     SeenFrame result;
     result.score = counts.score();
     result.visible = double(counts.agree) / std::max(1, counts.total());
-    result.status = is_seen[i] ? SeenStatus::seen : statusOf(thing, counts, true);
+    result.status = is_seen[i] ? SeenStatus::seen : whyNotSeen(thing, counts);
     result.pose = Pose(thing.last);
     for (const int other : may_be[i]) result.may_be.push_back(things[std::size_t(other)].name);
     if (is_seen[i])
@@ -270,10 +301,7 @@ SeenScene findThings(Config& config, std::span<const DepthView> given, const std
   }
   warnOfLookAlikes(things, unclear, seen.warnings);
   warnOfOverlaps(things, registration, seen.warnings);
-  for (const Thing& thing : things) {
-    const SeenFrame& result = seen.frames[thing.name];
-    if (result.status == SeenStatus::seen) config.getFrame(thing.name).setPose(result.pose);
-  }
+  moveSeen(config, seen);
   return seen;
 }
 
@@ -302,11 +330,7 @@ SeenScene registerScene(Config& config, std::span<const DepthView> views, const 
   SeenScene seen = findThings(corrected, sensors.views(), names, options);
   sensors.describe(seen);
   sensors.correct(config);
-  for (const Frame& frame : corrected.getFrames()) {  // parents first
-    const auto found = seen.frames.find(frame.getName());
-    if (found != seen.frames.end() && found->second.status == SeenStatus::seen)
-      config.getFrame(frame.getName()).setPose(found->second.pose);
-  }
+  moveSeen(config, seen);
   return seen;
 }
 

@@ -14,21 +14,20 @@ constexpr double kExplained = .005;    // m, distance of a point from the surfac
 constexpr double kSure = 3.;           // standard deviations for agreement
 constexpr double kSameResult = .0007;  // m, mean distance of two poses of one shape that look the same
 constexpr double kNearlySame = .004;   // m, the same for a shape that is nearly symmetric
-constexpr double kSureScore = .6;      // from here on a pose is only refined
 constexpr double kWrongScore = .35;    // below, other resting poses and rotations are tried
 constexpr double kOverlap = .05;       // share of a surface inside of another thing
 constexpr double kSamePlace = .3;      // the same: two things cannot be there
 
-constexpr double kNearStart = .03;     // m, reached from the last place
-constexpr double kStepOfStarts = .06;  // m, of a joint; less for small search radii
+constexpr double kLastHeight = .1;  // value of resting at the height of the last pose
+
+/// Whether a thing rests at the height at which it rested in its last pose.
+bool isAtLastHeight(const Thing& thing, const RigidTransform& X) {
+  constexpr double kSameHeight = .001;  // m
+  const double bottom = X.p.z() - thing.shape.extent(X.R.transpose() * -Vector3d::UnitZ());
+  return thing.height_of_place && std::abs(bottom - *thing.height_of_place) < kSameHeight;
+}
 
 }  // namespace
-
-Vector3d Thing::middle() const {
-  Vector3d sum = Vector3d::Zero();
-  for (const Vector3d& point : shape.samples()) sum += point;
-  return sum / double(std::max<std::size_t>(shape.samples().size(), 1));
-}
 
 double meanDistance(const VisibleShape& shape, const RigidTransform& a, const RigidTransform& b) {
   const std::size_t count = std::min<std::size_t>(100, shape.samples().size());
@@ -82,6 +81,24 @@ void Registration::run() {
     if (!things_[i].is_lost) find(things_[i], int(i), owners);
   }
   separate();
+  if (tryDoubtful()) separate();
+}
+
+bool Registration::tryDoubtful() {
+  bool has_changed = false;
+  std::vector<int> owners = ownersOfPoints();
+  for (std::size_t i = 0; i < things_.size(); ++i) {
+    Thing& thing = things_[i];
+    if (thing.is_lost || thing.anywhere || thing.is_displaced || thing.freedom.hasJoint()) continue;
+    if (thing.score < kWrongScore || !isDoubtful(thing, owners)) continue;
+    std::vector<PoseCandidate> candidates{thing.best};
+    tryStarts(thing, int(i), owners, thing.best.X, true, candidates);
+    std::sort(candidates.begin(), candidates.end(), [](auto& a, auto& b) { return a.value > b.value; });
+    refine(thing, int(i), owners, candidates);
+    owners = ownersOfPoints();
+    has_changed = true;
+  }
+  return has_changed;
 }
 
 /// The share of a thing's surface in pose X that is inside of another one, or coincides with its surface.
@@ -161,6 +178,23 @@ double Registration::explained(const Thing& thing, const FitPoints& points, cons
   return count / double(points.measured.size());
 }
 
+double Registration::explainedBeside(const Thing& thing, const std::vector<int>& owners) const {
+  constexpr double kBeside = .015;  // m
+  const RigidTransform& X = thing.best.X;
+  const int index = int(&thing - things_.data());
+  int count = 0, all = 0;
+  for (std::size_t i = 0; i < points_.size(); i += 2) {
+    const Vector3d arm = points_[i].p - X.p;
+    const double reach = thing.shape.radius() + kBeside;
+    if ((owners[i] >= 0 && owners[i] != index) || arm.squaredNorm() > reach * reach) continue;
+    const double d = thing.shape.nearest(X.R.transpose() * arm).distance;
+    if (d > kBeside) continue;
+    ++all;
+    count += std::abs(d) < std::max(kExplained, kSure * points_[i].sigma);
+  }
+  return all > 0 ? double(count) / all : 0.;
+}
+
 /// The mean squared distance of points from the surface, over their noise and at most 9.
 double Registration::misfit(const Thing& thing, const FitPoints& points, const RigidTransform& X) const {
   double sum = 0.;
@@ -203,6 +237,7 @@ void Registration::addTurned(const Thing& thing, int index, const std::vector<in
 /// `index` < 0: other things do not count.
 double Registration::valueOf(const Thing& thing, int index, const FitPoints& points, const RigidTransform& X) const {
   double value = countSurface(thing.shape, X, views_, kFineSamples).score() + 2. * explained(thing, points, X);
+  if (isAtLastHeight(thing, X)) value += kLastHeight;
   for (const Thing& other : things_) {
     if (index >= 0 && &other != &thing && other.score >= kSureScore)
       value -= 2. * shareInside(thing, X, other, other.best.X);
@@ -250,43 +285,6 @@ void Registration::separate() {
   }
 }
 
-std::vector<RigidTransform> Registration::starts(const Thing& thing, bool wide) const {
-  std::vector<RigidTransform> starts;
-  const PoseFreedom& freedom = thing.freedom;
-  Vector6d move = Vector6d::Zero();
-  if (freedom.hasJoint()) {
-    const int count = std::max(2, int(std::ceil(thing.search / kStepOfStarts)));  // on each side
-    for (int i = 0; i <= 2 * count; ++i) {
-      const double at = (i % 2 == 0 ? .5 : -.5) * (i + i % 2) * 1.6 / count * thing.search;
-      move << at * freedom.axis, 6. * at * freedom.axis;
-      starts.push_back(freedom.moved(thing.start, move));
-    }
-    return starts;
-  }
-  const auto around = [&](const RigidTransform& X, std::initializer_list<double> angles) {
-    for (const double angle : angles)
-      starts.push_back({Eigen::AngleAxisd(angle, Vector3d::UnitZ()).toRotationMatrix() * X.R, X.p});
-  };
-  if (!wide) {
-    around(thing.start, {0., .4, -.4, .8, -.8, 1.571});
-    return starts;
-  }
-  if (freedom.kind != PoseFreedom::Kind::resting) {
-    around(thing.start, {1.2, -1.2, 1.8, -1.8, 2.4, -2.4, 3.1});
-    return starts;
-  }
-  std::vector<Vector3d> tried;
-  for (const Vector3d& down : thing.shape.restingDirections()) {
-    const bool is_new = std::none_of(tried.begin(), tried.end(), [&](const Vector3d& t) { return t.dot(down) > .8; });
-    if (!is_new || tried.size() > 8) continue;
-    tried.push_back(down);
-    const Matrix3d R =
-        Quaterniond::FromTwoVectors(thing.start.R * down, -Vector3d::UnitZ()).toRotationMatrix() * thing.start.R;
-    around({R, thing.start.p}, {0., .785, 1.571, 2.356, 3.142, -.785, -1.571, -2.356});
-  }
-  return starts;
-}
-
 void Registration::find(Thing& thing, int index, const std::vector<int>& owners) {
   std::vector<PoseCandidate> candidates;
   const bool again = index >= 0;
@@ -296,43 +294,15 @@ void Registration::find(Thing& thing, int index, const std::vector<int>& owners)
     candidates.push_back({thing.best.X, valueOf(thing, index, near, thing.best.X), 0.});
   }
   if (again) addTurned(thing, index, owners, candidates);
-  if (!again || thing.score < kSureScore || thing.anywhere) tryStarts(thing, index, owners, false, candidates);
+  if (!again || thing.score < kSureScore || thing.anywhere)
+    tryStarts(thing, index, owners, thing.start, false, candidates);
   std::sort(candidates.begin(), candidates.end(), [](auto& a, auto& b) { return a.value > b.value; });
   refine(thing, index, owners, candidates);
   if (!again || thing.score >= kWrongScore || thing.freedom.hasJoint() || thing.anywhere) return;
   candidates.assign(1, thing.best);
-  tryStarts(thing, index, owners, true, candidates);
+  tryStarts(thing, index, owners, thing.start, true, candidates);
   std::sort(candidates.begin(), candidates.end(), [](auto& a, auto& b) { return a.value > b.value; });
   refine(thing, index, owners, candidates);
-}
-
-void Registration::tryStarts(const Thing& thing, int index, const std::vector<int>& owners, bool wide,
-                             std::vector<PoseCandidate>& candidates) const {
-  const FitPoints fine =
-      pointsNear(thing, index, owners, thing.start.p, thing.shape.radius() + thing.search, kFinePoints);
-  FitPoints coarse{{}, fine.keep_out};
-  const std::size_t step = std::max<std::size_t>(1, fine.measured.size() / kCoarsePoints);
-  for (std::size_t i = 0; i < fine.measured.size(); i += step) coarse.measured.push_back(fine.measured[i]);
-  const auto tryStart = [&](RigidTransform X) {
-    fitPose(thing.shape, thing.freedom, coarse, views_, kCoarseWidths, kCoarseSamples, X);
-    candidates.push_back({X, valueOf(thing, index, fine, X), 0.});
-  };
-  std::vector<RigidTransform> begin = starts(thing, wide);
-  if (index >= 0 && thing.score < kSureScore && !thing.freedom.hasJoint()) {  // at points that nothing explains
-    const Vector3d middle = thing.start * thing.middle();
-    for (const Vector3d& place : placesOfPoints(owners, std::min(thing.shape.radius(), kNearStart))) {
-      const Vector3d shift(place.x() - middle.x(), place.y() - middle.y(), 0.);
-      if (shift.norm() < kNearStart || shift.norm() > thing.search + .01) continue;
-      const std::vector<RigidTransform> around = starts(thing, wide);
-      for (const RigidTransform& X : around) begin.push_back({X.R, X.p + shift});
-    }
-  }
-  for (const RigidTransform& X : begin) {
-    if (thing.freedom.kind != PoseFreedom::Kind::resting)
-      tryStart(X);
-    else
-      for (const double height : thing.heights) tryStart(restingPose(thing.shape, X, height));
-  }
 }
 
 /// Refines the best candidates that differ; `thing.others` are those about as good that look different.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,6 +10,7 @@ namespace kinegraph {
 
 inline constexpr int kCoarsePoints = 150, kFinePoints = 500;    // of a fit
 inline constexpr int kCoarseSamples = 150, kFineSamples = 300;  // of a surface
+inline constexpr double kSureScore = .6;                        // from here on a pose is only refined
 inline constexpr double kSimilarScore = .12;                    // values of two poses that are about as good
 inline const std::vector<double> kCoarseWidths{.015, .012, .009, .006, .004, .003};  // m, of robust weights
 inline const std::vector<double> kFineWidths{.003, .002, .002, .002};
@@ -26,18 +28,19 @@ struct Thing {
   VisibleShape shape;
   PoseFreedom freedom;
   RigidTransform last;
-  std::vector<double> heights;           ///< m, of the tops on which a resting thing may rest
-  double search;                         ///< how far from `start` it may be, m
-  std::vector<Matrix3d> rotations = {};  ///< resting ones, for a thing that may be anywhere
-  bool is_displaced = false;             ///< another thing is at the only place where it may be
-  bool anywhere = false;                 ///< its last pose tells nothing
-  bool is_lost = anywhere;               ///< it was not found yet
-  RigidTransform start = last;           ///< where it is looked for
+  std::vector<double> heights;                 ///< m, of the tops on which a resting thing may rest
+  std::optional<double> height_of_place = {};  ///< the one of these on which it rests in its last pose
+  double search;                               ///< how far from `start` it may be, m
+  std::vector<Matrix3d> rotations = {};        ///< resting ones, for a thing that may be anywhere
+  bool is_displaced = false;                   ///< another thing is at the only place where it may be
+  bool anywhere = false;                       ///< its last pose tells nothing
+  bool is_lost = anywhere;                     ///< it was not found yet
+  RigidTransform start = last;                 ///< where it is looked for
   PoseCandidate best = {start, -2., 0.};
   std::vector<PoseCandidate> others = {};  ///< other poses that are about as good
   double score = -2.;
 
-  Vector3d middle() const;  ///< of its surface, in the coordinates of the frame
+  const Vector3d& middle() const { return shape.middle(); }
 };
 
 /// The mean distance of the surfaces of a shape in two poses, m.
@@ -77,6 +80,10 @@ class Registration {
   FitPoints pointsNear(const Thing& thing, int index, const std::vector<int>& owners, const Vector3d& center,
                        double reach, int most, int* thinning = nullptr) const;
 
+  /// The share of the points within 15 mm of a thing, or in it, that its surface explains; other things' points do not
+  /// count. 0 without any.
+  double explainedBeside(const Thing& thing, const std::vector<int>& owners) const;
+
   /// For each point the index of the thing whose surface it is on, -1 for none.
   std::vector<int> ownersOfPoints() const;
 
@@ -94,9 +101,11 @@ class Registration {
   std::vector<Vector3d> placesOfPoints(const std::vector<int>& owners, double radius) const;
   bool moveAway(Thing& thing, Thing& stayed, double least_score);
   void separate();
-  std::vector<RigidTransform> starts(const Thing& thing, bool wide) const;
+  std::vector<RigidTransform> starts(const Thing& thing, const RigidTransform& from, bool wide) const;
+  bool isDoubtful(const Thing& thing, const std::vector<int>& owners) const;
+  bool tryDoubtful();  ///< compares doubtful poses with others; whether there are any
   void find(Thing& thing, int index, const std::vector<int>& owners);
-  void tryStarts(const Thing& thing, int index, const std::vector<int>& owners, bool wide,
+  void tryStarts(const Thing& thing, int index, const std::vector<int>& owners, const RigidTransform& from, bool wide,
                  std::vector<PoseCandidate>& candidates) const;
   void refine(Thing& thing, int index, const std::vector<int>& owners, const std::vector<PoseCandidate>& candidates);
 

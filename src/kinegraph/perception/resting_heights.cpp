@@ -6,6 +6,7 @@
 
 #include "kinegraph/geometry/shapes/shape_kinds.h"
 #include "kinegraph/perception/occupancy_map.h"
+#include "kinegraph/perception/pose_fit.h"
 
 namespace kinegraph {
 
@@ -27,24 +28,44 @@ std::optional<double> topOfBox(const Frame& frame, const Vector3d& near, double 
   return is_near ? std::optional(p.z() + half.z()) : std::nullopt;
 }
 
+/// The box with sides along the axes of the world that holds a shape.
+Eigen::AlignedBox3d boundsOf(const VisibleShape& shape, const RigidTransform& X) {
+  Eigen::AlignedBox3d bounds;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d direction = X.R.transpose() * Vector3d::Unit(axis);
+    bounds.max()[axis] = X.p[axis] + shape.extent(direction);
+    bounds.min()[axis] = X.p[axis] - shape.extent(-direction);
+  }
+  return bounds;
+}
+
+Eigen::AlignedBox3d boundsOf(const Frame& frame) {
+  const auto body = frame.data().shape->body();
+  const RigidTransform X = frame.getPose().transform();
+  const Vector3d center = X * body->boundCenter();
+  const Vector3d half = (X.R.cwiseAbs() * body->boundHalf()).array() + body->radius();
+  return {center - half, center + half};
+}
+
+/// The pose with the nearest stable face down, at the same place.
+RigidTransform uprightPose(const VisibleShape& shape, const RigidTransform& X) {
+  RigidTransform out = restingPose(shape, X, 0.);
+  out.p.z() = X.p.z();
+  return out;
+}
+
 /// The height of the top of a shape on which a thing stood in its last pose, by their bounds.
-std::optional<double> topUnder(const Frame& thing, const Frame& frame) {
-  const auto &own = thing.data().shape, &other = frame.data().shape;
-  if (!own || !other || shapeKind(other->geometry->type).is_symbol || isMoved(frame)) return std::nullopt;
-  const auto boundsOf = [](const Frame& of) {
-    const auto body = of.data().shape->body();
-    const RigidTransform X = of.getPose().transform();
-    const Vector3d center = X * body->boundCenter();
-    const Vector3d half = (X.R.cwiseAbs() * body->boundHalf()).array() + body->radius();
-    return Eigen::AlignedBox3d(center - half, center + half);
-  };
-  if (other->body()->core() == CollisionBody::Core::half_space) return std::nullopt;
-  const Eigen::AlignedBox3d above = boundsOf(thing), below = boundsOf(frame);
-  const Vector3d middle = above.center();
+std::optional<double> topUnder(const Eigen::AlignedBox3d& thing, const Frame& frame) {
+  const auto& shape = frame.data().shape;
+  if (!shape || shapeKind(shape->geometry->type).is_symbol || isMoved(frame) ||
+      shape->body()->core() == CollisionBody::Core::half_space)
+    return std::nullopt;
+  const Eigen::AlignedBox3d below = boundsOf(frame);
+  const Vector3d middle = thing.center();
   const bool is_over =
       (middle - below.min()).head<2>().minCoeff() > 0. && (below.max() - middle).head<2>().minCoeff() > 0.;
   const double top = below.max().z();
-  return is_over && std::abs(above.min().z() - top) < kStood ? std::optional(top) : std::nullopt;
+  return is_over && std::abs(thing.min().z() - top) < kStood ? std::optional(top) : std::nullopt;
 }
 
 }  // namespace
@@ -61,8 +82,8 @@ double heightOf(const Frame& frame, const VisibleShape& place) {
   return frame.getPosition().z() + place.extent(frame.getRotationMatrix().transpose() * Vector3d::UnitZ());
 }
 
-std::vector<double> heightsUnder(const Config& config, const Frame& thing, const Frame& support, double height,
-                                 double reach, const std::set<int>& things) {
+std::vector<double> heightsUnder(const Config& config, const Frame& thing, const VisibleShape& shape,
+                                 const Frame& support, double height, double reach, const std::set<int>& things) {
   std::vector<double> heights = {height};
   const auto add = [&](double other) {
     const bool is_new =
@@ -77,11 +98,17 @@ std::vector<double> heightsUnder(const Config& config, const Frame& thing, const
     if (things.contains(frame.id()) || isMoved(frame)) continue;
     if (const auto top = topOfBox(frame, thing.getPosition(), reach)) add(*top);
   }
+  const Eigen::AlignedBox3d bounds = boundsOf(shape, uprightPose(shape, thing.getPose().transform()));
   for (const Frame& frame : config.getFrames()) {
-    if (frame.id() == thing.id()) continue;
-    if (const auto top = topUnder(thing, frame)) add(*top);
+    if (std::ranges::count(shape.frames(), frame.id()) > 0) continue;
+    if (const auto top = topUnder(bounds, frame)) add(*top);
   }
   return heights;
+}
+
+double heightOfPlace(const VisibleShape& shape, const RigidTransform& last, const std::vector<double>& heights) {
+  const double bottom = boundsOf(shape, uprightPose(shape, last)).min().z();
+  return *std::ranges::min_element(heights, {}, [&](double height) { return std::abs(height - bottom); });
 }
 
 }  // namespace kinegraph

@@ -23,8 +23,9 @@ constexpr int kSamples = 500;   // points of a surface
 constexpr double kThin = 1e-9;  // m, lengths that count as zero
 constexpr double kTilt = .1;    // rad, that a shape withstands on a face
 constexpr int kTilts = 8;
-constexpr double kNearFace = .7;     // cosine between a face and the one on which a shape falls
-constexpr double kSameFace = .9998;  // cosine between normals of triangles of one face
+constexpr double kRollHeight = 5e-4;  // m, that a round shape may roll up or down without rolling away
+constexpr double kNearFace = .7;      // cosine between a face and the one on which a shape falls
+constexpr double kSameFace = .9998;   // cosine between normals of triangles of one face
 
 bool hasJoint(const Frame& frame) { return frame.data().joint && frame.data().joint->dofs() > 0; }
 
@@ -289,9 +290,11 @@ void VisibleShape::sample(const std::vector<Mesh>& surfaces) {
       if (normal.norm() < 1e-14) continue;
       pieces.push_back({a, ab, ac, normal.normalized()});
       areas.push_back(areas.back() + normal.norm());
+      middle_ += normal.norm() * (a + (ab + ac) / 3.);
     }
   }
   if (pieces.empty()) return;
+  middle_ /= areas.back();
   Rng rng(0);
   for (int tries = 0; tries < 20 * kSamples && int(samples_.size()) < kSamples; ++tries) {
     const auto found = std::upper_bound(areas.begin(), areas.end(), rng.uniform() * areas.back());
@@ -309,8 +312,7 @@ void VisibleShape::sample(const std::vector<Mesh>& surfaces) {
 void VisibleShape::findRestingDirections() {
   if (!spanVolume(hull_points_)) return;
   const Mesh hull = convexHull(hull_points_);
-  Vector3d middle = Vector3d::Zero();
-  for (const Vector3d& point : samples_) middle += point / double(samples_.size());
+  const Vector3d& middle = middle_;
   struct Face {
     Vector3d normal;
     double offset;
@@ -358,7 +360,7 @@ void VisibleShape::findRestingDirections() {
   // On a facet of a rounded edge, a shape would tip over at the slightest tilt, and lie lower then.
   for (const Vector3d& down : stable) {
     const bool may_fall = std::ranges::any_of(stable, [&](const Vector3d& other) {
-      return other.dot(down) > kNearFace && height(other) < height(down) - 1e-6;
+      return other.dot(down) > kNearFace && height(other) < height(down) - kRollHeight;
     });
     if (!may_fall || keepsStanding(down)) resting_.push_back(down);
   }

@@ -51,6 +51,8 @@ class VisibleShape {
 
   double radius() const { return radius_; }  ///< of a ball about the origin that holds the shape
 
+  const Vector3d& middle() const { return middle_; }  ///< of the surface
+
   /// Points of the surface with outward normals, uniform and in random order.
   const std::vector<Vector3d>& samples() const { return samples_; }
   const std::vector<Vector3d>& normals() const { return normals_; }
@@ -73,6 +75,7 @@ class VisibleShape {
   MatrixXd boxes_ = MatrixXd(0, 6);  ///< center and half sides of the box that holds a part, parallel to the axes
   std::vector<int> frames_;
   std::vector<Vector3d> samples_, normals_, resting_, hull_points_;
+  Vector3d middle_ = Vector3d::Zero();
   double radius_ = 0.;
 };
 

@@ -1,5 +1,7 @@
 """Poses of known shapes from depth images: arguments, results, and robustness to the errors of a camera."""
 
+import copy
+import pickle
 import warnings
 
 import numpy as np
@@ -355,3 +357,84 @@ def test_one_large_number_marks_what_was_not_measured(scene):
     assert ry.DepthView(depth, fxycxy, "cam")
     with pytest.raises(ry.ArgumentError, match=r"pass unit=0.001"):
         ry.DepthView(1000 * look(scene)[0], fxycxy, "cam")
+
+
+def test_a_thing_of_several_parts_on_another_one_is_found(scene):
+    lamp = scene.addFrame("lamp").setPosition([0.12, 0.06, 0.78])
+    foot = scene.addFrame("foot", "lamp").setShape(ry.ST.box, [0.05, 0.05, 0.02]).setContact(1)
+    foot.setRelativePosition([0, 0, -0.04])
+    pole = scene.addFrame("pole", "lamp").setShape(ry.ST.cylinder, [0.06, 0.012]).setContact(1)
+    pole.setRelativePosition([0, 0, 0])
+    truth = lamp.getPose()
+    depth, fxycxy = look(scene)
+    scene.getFrame("box").setPosition([0.13, 0.04, 0.69])
+    lamp.setPosition([0.135, 0.05, 0.78])
+    seen = ry.registerScene(scene, ry.DepthView(depth, fxycxy, "cam"), ["box", "lamp"], support="table")
+    assert seen["lamp"].status == ry.SeenStatus.seen
+    assert seen["lamp"].pose[:3] == pytest.approx(truth[:3], abs=1e-3)
+
+
+@pytest.mark.parametrize("roll", [0.0, 1.0, 2.5, -2.0])
+def test_a_lying_can_may_have_any_side_down(scene, roll):
+    can = scene.getFrame("can").setShape(ry.ST.cylinder, [0.08, 0.045])
+    can.setPosition([-0.12, 0.05, 0.695]).setQuaternion(
+        [
+            np.cos(np.pi / 4) * np.cos(roll / 2),
+            np.sin(np.pi / 4) * np.cos(roll / 2),
+            -np.sin(np.pi / 4) * np.sin(roll / 2),
+            np.cos(np.pi / 4) * np.sin(roll / 2),
+        ]
+    )
+    truth = can.getPose()
+    depth, fxycxy = look(scene)
+    can.setPose(moved(truth, [0.02, -0.02, 0.01]))
+    seen = ry.registerScene(scene, ry.DepthView(depth, fxycxy, "cam"), ["can"], support="table")
+    assert seen["can"].pose[:3] == pytest.approx(truth[:3], abs=1e-3)
+
+
+def test_what_explains_the_pixels_badly_is_not_seen(scene):
+    unknown = scene.copy()
+    unknown.delFrame("box")
+    unknown.addFrame("stranger").setShape(ry.ST.sphere, [0.05]).setPosition([0.12, 0.05, 0.7])
+    seen = ry.registerScene(scene, ry.DepthView(*look(unknown), "cam"), ["box"], support="table")
+    assert seen["box"].status != ry.SeenStatus.seen
+
+
+@pytest.mark.parametrize("names", [["box", "lid"], ["lid", "box"]])
+def test_a_child_of_another_thing_is_where_it_was_seen(scene, names):
+    lid = scene.addFrame("lid", "box").setShape(ry.ST.box, [0.04, 0.04, 0.02]).setRelativePosition([0, 0, 0.05])
+    lid.setContact(1)
+    depth, fxycxy = look(scene)
+    truth = lid.getPose()
+    scene.getFrame("box").setPosition([0.14, 0.04, 0.69])
+    seen = ry.registerScene(scene, ry.DepthView(depth, fxycxy, "cam"), names, support="table")
+    assert seen["lid"].pose == pytest.approx(truth, abs=1e-3)
+    assert lid.getPose() == pytest.approx(seen["lid"].pose, abs=1e-9)
+
+
+def test_a_child_that_was_not_seen_moves_with_its_parent(scene):
+    depth, fxycxy = look(scene)
+    lid = scene.addFrame("lid", "box").setShape(ry.ST.box, [0.04, 0.04, 0.02]).setRelativePosition([0, 0, 0.05])
+    scene.getFrame("box").setPosition([0.14, 0.04, 0.69])
+    seen = ry.registerScene(scene, ry.DepthView(depth, fxycxy, "cam"), ["lid", "box"], support="table")
+    assert seen["lid"].status == ry.SeenStatus.not_there
+    assert lid.getPosition() == pytest.approx([0.12, 0.05, 0.74], abs=1e-3)
+    assert np.array_equal(seen["lid"].pose[:3], lid.getPosition())
+
+
+@pytest.mark.filterwarnings("ignore::kinegraph.errors.KinegraphWarning")  # a plane does not determine the camera
+def test_views_and_results_are_pickled_and_copied(scene):
+    view = ry.DepthView(*look(scene), "cam", noise=0.002)
+    scene.getFrame("box").setPosition([0.13, 0.04, 0.69])
+    again = pickle.loads(pickle.dumps(view))
+    assert repr(again) == repr(view) == "<DepthView 640 x 480, 100 % measured, camera 'cam'>"
+    seen = ry.registerScene(scene.copy(), view, ["box", "can"], support="table", estimate=["camera"])
+    assert repr(ry.registerScene(scene.copy(), again, ["box", "can"], support="table", estimate=["camera"])) == repr(
+        seen
+    )
+    for other in (pickle.loads(pickle.dumps(seen)), copy.deepcopy(seen)):
+        assert repr(other) == repr(seen)
+        assert np.array_equal(other["box"].covariance, seen["box"].covariance)
+        assert np.array_equal(other["can"].free_directions, seen["can"].free_directions)
+        assert other.poses()["can"] == pytest.approx(seen.poses()["can"])
+        assert np.array_equal(other.cameras[0].covariance, seen.cameras[0].covariance)
