@@ -93,14 +93,17 @@ Array frames(const PyTaskPlan& plan, const PyConfig& C, double rate) {
 PyTaskPlan repair(const PyTaskPlan& plan, const PyConfig& C, std::optional<double> time_limit,
                   std::optional<long> max_evaluations, std::optional<int> threads, const std::string& also) {
   const Config scene(C);
+  TaskPlan repaired = [&] {
+    const nb::gil_scoped_release unlock;
+    return plan.repair(scene, {time_limit, max_evaluations, threads, also});
+  }();
   std::shared_ptr<const TaskRequest> request = plan.request;
   if (request && !also.empty()) {  // copies of the plan have the same goal
     TaskRequest with = *request;
-    with.goal += " " + also;
+    with.goal = join(literalTexts(repaired.goal), " ");
     request = std::make_shared<const TaskRequest>(std::move(with));
   }
-  const nb::gil_scoped_release unlock;
-  return {plan.repair(scene, {time_limit, max_evaluations, threads, also}), request};
+  return {std::move(repaired), std::move(request)};
 }
 
 void bindPlanFields(nb::class_<PyTaskPlan, Trajectory>& plan) {

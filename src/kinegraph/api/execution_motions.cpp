@@ -2,6 +2,9 @@
 
 #include <algorithm>
 
+#include "kinegraph/api/task_execution.h"
+#include "kinegraph/common/errors.h"
+#include "kinegraph/common/text.h"
 #include "kinegraph/task_planning/open_hands.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
 #include "kinegraph/task_planning/task_doors.h"
@@ -18,6 +21,18 @@ constexpr double kMargin = 5e-3;    ///< m: of the motion to the start of a plan
 constexpr double kInContact = .02;  ///< m: depth of contacts that it resolves
 
 }  // namespace
+
+VectorXd effortLimits(const ExecutionOptions& options, Eigen::Index n) {
+  const VectorXd& limits = options.max_external_effort;
+  if (options.repairs < 0)
+    throw ValueError(cat("TaskPlan.execute: repairs is ", options.repairs, "; expected 0 or more"));
+  if (limits.size() > 1 && limits.size() != n)
+    throw ValueError(
+        cat("TaskPlan.execute: max_external_effort has ", limits.size(), " numbers; expected one, or ", n));
+  if (limits.size() > 0 && !(limits.minCoeff() > 0.))
+    throw ValueError("TaskPlan.execute: max_external_effort has a number that is not above 0");
+  return limits.size() == 1 ? VectorXd(VectorXd::Constant(n, limits[0])) : limits;
+}
 
 bool isClear(Config& C, const VectorXd& q) {
   C.setJointState(q);

@@ -8,6 +8,11 @@
 
 namespace kinegraph {
 
+struct ExecutionOptions;
+
+/// Returns the limits of external efforts of n joints; empty: none. Throws ValueError if options are wrong.
+VectorXd effortLimits(const ExecutionOptions& options, Eigen::Index n);
+
 /// A part of a plan's motion, slow and in reverse.
 struct Retreat {
   MatrixXd path;   ///< (K, n)

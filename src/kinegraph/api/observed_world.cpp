@@ -242,6 +242,7 @@ void ObservedWorld::comeToRest() {
   for (int k = 0; k < kMostRests; ++k) {
     const std::vector<Vector3d> before = positions();
     advance(kRest);
+    look();  // what cameras observe moves only then
     const std::vector<Vector3d> after = positions();
     double most = 0.;
     for (std::size_t i = 0; i < after.size(); ++i) most = std::max(most, (after[i] - before[i]).norm());

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "kinegraph/common/text.h"
+#include "kinegraph/task_planning/held_shapes.h"
 #include "kinegraph/task_planning/search/motion_checks.h"
+#include "kinegraph/task_planning/shape_points.h"
 #include "kinegraph/task_planning/task_actions.h"
 #include "kinegraph/task_planning/task_tools.h"
 
@@ -69,7 +71,9 @@ bool hasSameSideUp(const Frame& obj, const Matrix3d& rotation) { return upCosine
 
 bool leansInside(const Config& C, const std::string& obj, const std::string& place, const Matrix3d& rotation) {
   const std::optional<Frame> below = C.findFrame(place);
-  if (!below || upCosine(C.getFrame(obj), rotation) < kLeaning) return false;
+  if (!below || !hasTop(*below) || upCosine(C.getFrame(obj), rotation) < kLeaning) return false;
+  const double length = boxOfBody(C.getFrame(obj)).sizes().maxCoeff();
+  if (placeSides(*below).maxCoeff() > length) return false;  // it leans on something, not in it
   return std::ranges::any_of(below->getSubtree(), [&](const Frame& wall) {
     const auto& shape = wall.data().shape;
     return !(wall == *below) && shape && shape->contact && isFixedTo(wall, *below) &&

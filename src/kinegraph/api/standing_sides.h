@@ -15,8 +15,8 @@ double cosineBetween(const Frame& obj, const Matrix3d& rotation);
 /// Whether the same side of an object points up in another orientation, to 10 degrees. Lying round objects may roll.
 bool hasSameSideUp(const Frame& obj, const Matrix3d& rotation);
 
-/// Whether an object leans against a wall of the place that it stands on, as a pen does in a cup: it is tilted by up to
-/// 45 degrees against an orientation, and touches another part of the place.
+/// Whether an object leans against a wall of the narrow place that it stands on, as a pen does in a cup: it is longer
+/// than the place is wide, tilted by up to 45 degrees against an orientation, and touches another part of the place.
 bool leansInside(const Config& C, const std::string& obj, const std::string& place, const Matrix3d& rotation);
 
 /// The orientations that objects shall have at the end of an execution, as far as the side that points up matters.

@@ -31,18 +31,6 @@ constexpr double kFar = .05;                            ///< rad or m: tolerance
 constexpr double kRelease = 4e-3;                       ///< m: a hand opens by more to release an object
 constexpr double kOpenEnough = .9;                      ///< share of the widest opening
 
-VectorXd limitsOf(const ExecutionOptions& options, Eigen::Index n) {
-  const VectorXd& limits = options.max_external_effort;
-  if (options.repairs < 0)
-    throw ValueError(cat("TaskPlan.execute: repairs is ", options.repairs, "; expected 0 or more"));
-  if (limits.size() > 1 && limits.size() != n)
-    throw ValueError(
-        cat("TaskPlan.execute: max_external_effort has ", limits.size(), " numbers; expected one, or ", n));
-  if (limits.size() > 0 && !(limits.minCoeff() > 0.))
-    throw ValueError("TaskPlan.execute: max_external_effort has a number that is not above 0");
-  return limits.size() == 1 ? VectorXd(VectorXd::Constant(n, limits[0])) : limits;
-}
-
 }  // namespace
 
 class TaskRun::Impl {
@@ -50,7 +38,7 @@ class TaskRun::Impl {
   Impl(const TaskPlan& plan, BotOp& bot, Config& seen, ExecutionOptions options)
       : bot_(bot), options_(std::move(options)), world_(bot, seen, options_.observe), plan_(plan) {
     plan_.requireScenes("execute");
-    limits_ = limitsOf(options_, plan_.path.cols());
+    limits_ = effortLimits(options_, plan_.path.cols());
     repairs_left_ = plan_.replanner ? options_.repairs : 0;
     if (world_.isSimulated()) requireMovable(plan_, seen);
     grippers_ = grippersOf(bot, seen);
@@ -116,6 +104,7 @@ class TaskRun::Impl {
     std::string failure = deviation(true);
     if (failure.empty()) failure = moveFingers(plan_.actions[index_]);
     world_.look();
+    if (is_stopped_) return stopped();
     if (failure.empty()) failure = deviation(true);
     if (!failure.empty()) return fail(failure);
     step_ = Step::motion;
@@ -124,6 +113,8 @@ class TaskRun::Impl {
   }
 
   TaskEvent finish() {
+    world_.comeToRest();  // what still falls has not arrived
+    if (is_stopped_) return stopped();
     const Config scene = world_.scene();
     const Words missed = world_.missedGoals(plan_.goal, scene), fallen = sides_.fallen(scene, world_.held());
     if (!missed.empty()) return fail(join(missed, ", ") + " does not hold");
@@ -159,7 +150,7 @@ class TaskRun::Impl {
   TaskEvent repair() {
     if (repairs_left_ == 0) return end(failure_);
     world_.comeToRest();  // what falls is planned for where it ends
-    world_.look();
+    if (is_stopped_) return stopped();
     --repairs_left_;
     const Config scene = world_.scene();
     const Words fallen = sides_.fallen(scene, world_.held());
@@ -313,8 +304,8 @@ class TaskRun::Impl {
     } catch (const ValueError&) {
       return false;  // beyond limits: a new plan starts here
     }
-    while (bot_.getTimeToEnd() > 0.) world_.advance(kQueryInterval);
-    return true;
+    while (bot_.getTimeToEnd() > 0. && !is_stopped_) world_.advance(kQueryInterval);
+    return !is_stopped_;
   }
 
   // --- hands
@@ -405,7 +396,7 @@ class TaskRun::Impl {
   void waitFor(int gripper) {
     for (int k = 0; k < int(std::lround(kTimeout / kQueryInterval)); ++k) {
       world_.advance(kQueryInterval);
-      if (bot_.gripperDone(gripper)) return;
+      if (is_stopped_ || bot_.gripperDone(gripper)) return;
     }
   }
 

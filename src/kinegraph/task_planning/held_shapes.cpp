@@ -53,17 +53,19 @@ static Eigen::AlignedBox3d boxInBody(const Frame& part, const Frame& obj) {
 }
 
 /// The part of the box around a part in which fingers that close along an axis of its object touch it: for a round one,
-/// the middle of its side.
+/// the middle of its side, and for a ball that of its surface.
 static Eigen::AlignedBox3d touchedBox(const Frame& part, const Frame& obj, int axis) {
   constexpr double kMiddle = .3;  // of the radius
   Eigen::AlignedBox3d box = boxInBody(part, obj);
   Eigen::Index along = 0;
   part.getPose(obj).transform().R.col(2).cwiseAbs().maxCoeff(&along);
-  if (!isRoundBody(part) || along == axis) return box;
-  const Eigen::Index beside = 3 - along - axis;
-  const double middle = box.center()[beside], half = .5 * kMiddle * box.sizes()[beside];
-  box.min()[beside] = middle - half;
-  box.max()[beside] = middle + half;
+  if (!isBall(part) && (!isRoundBody(part) || along == axis)) return box;
+  for (Eigen::Index beside = 0; beside < 3; ++beside) {
+    if (beside == axis || (beside == along && !isBall(part))) continue;
+    const double middle = box.center()[beside], half = .5 * kMiddle * box.sizes()[beside];
+    box.min()[beside] = middle - half;
+    box.max()[beside] = middle + half;
+  }
   return box;
 }
 
@@ -98,15 +100,24 @@ HeldShape heldShape(const Config& C, const std::string& obj, const GraspWords& w
 }
 
 HeldHeights heldHeights(const Config& C, const std::string& obj, const GraspWords& words) {
+  const bool is_across = words.isOfAllParts() && words.axis() >= 0;  // fingers hold less than the whole body
   const RigidTransform flipped{Vector3d(1., -1., -1.).asDiagonal(), Vector3d::Zero()};
   double ground = std::numeric_limits<double>::infinity(), low = ground, high = -ground;
   for (const Frame& shape : heldShapes(C.getFrame(obj))) {
     const RigidTransform X = shape.getPose().transform();
     const double lowest = -depthOfShape(shape, X);
     ground = std::min(ground, lowest);
-    if (!words.isOfAllParts() && shape.getName() != words.part) continue;
+    if (is_across || (!words.isOfAllParts() && shape.getName() != words.part)) continue;
     low = std::min(low, lowest);
     high = std::max(high, depthOfShape(shape, flipped * X));
+  }
+  if (is_across) {
+    const HeldShape held = heldShape(C, obj, words);
+    for (int k = 0; k < 8; ++k) {
+      const Vector3d corner = held.frame.getPose().transform() * held.box.corner(Eigen::AlignedBox3d::CornerType(k));
+      low = std::min(low, corner.z());
+      high = std::max(high, corner.z());
+    }
   }
   return high < low ? HeldHeights{} : HeldHeights{low - ground, high - low};
 }

@@ -213,6 +213,9 @@ def test_a_domain_without_sides_is_repaired_without_them(tmp_path) -> None:
     result, _ = disturbed(C, plan, -1, fallen, ON_ITS_SIDE)
     assert not result.feasible and "'bar' has fallen: it stands on another side than planned" in result.message
     assert result.message.endswith("no plan puts bar up again")
+    repaired = plan.repair(C, also="(up z bar)")
+    assert "the goal is without (up z bar), because the domain has no `up`" in repaired.warnings
+    assert pickle.loads(pickle.dumps(repaired)).repair(C).goal == plan.goal
 
 
 def test_a_ball_may_roll() -> None:
@@ -352,16 +355,50 @@ def test_the_base_of_a_robot_is_no_object() -> None:
     ]
 
 
-def test_a_repair_waits_for_what_falls(tower) -> None:
+@pytest.mark.parametrize("is_observed", [False, True])
+def test_a_repair_waits_for_what_falls(tower, is_observed: bool) -> None:
     C, plan = tower
     bot = ry.BotOp(C)
-    run = plan.run(bot, repairs=1)
+
+    def look() -> dict:
+        world = bot.getWorld()
+        return {name: world.getFrame(name).getPose() for name in ("b0", "b1")}
+
+    run = plan.run(bot, repairs=1, observe=look if is_observed else None)
     obj = plan.actions[0][1]
     above = C.getFrame(obj).getPosition() + np.array([0.05, 0, 0.4])
     for event in run:
         if event.kind == ry.TaskEventKind.start and run.result.repairs == 0:
             bot.setFramePose(obj, [*above, 1, 0, 0, 0])
     assert run.result.feasible and run.result.repairs == 1, run.result
+
+
+def test_success_is_judged_when_nothing_falls_any_more() -> None:
+    C = bars((0.04, 0.05, 0.1))
+    C.getFrame("bar").setParent(C.getFrame("tray")).setRelativePosition([0.05, 0.05, 0.055])
+    second(C, [1, 0, 0, 0], 0.05)
+    plan = ry.planTask(C, "(on tray bar) (on tray b2)")
+    assert len(plan.actions) == 2
+    result, _ = disturbed(C, plan, 1, [0.2, 0.5, 1.05], [1, 0, 0, 0], repairs=0)
+    assert not result.feasible and "(on tray bar) does not hold" in result.message, result
+
+
+def test_a_stop_also_ends_the_wait_for_a_hand(tower) -> None:
+    C, plan = tower
+    bot = ry.BotOp(C)
+    times = []
+
+    def look() -> dict:
+        if times:
+            run.stop()
+        return {}
+
+    run = plan.run(bot, observe=look)
+    for event in run:
+        if event.kind == ry.TaskEventKind.motion:
+            times.append(bot.get_t())
+    assert run.result.done == 0 and "stopped by its caller" in run.result.message
+    assert bot.get_t() - times[0] < 1.0
 
 
 def test_a_repair_may_have_a_further_goal(tower) -> None:

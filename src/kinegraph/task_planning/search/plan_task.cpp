@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "kinegraph/common/text.h"
 #include "kinegraph/task_planning/search/task_search.h"
 
 namespace kinegraph {
@@ -20,9 +21,17 @@ std::function<TaskPlan(const Config&, const RepairOptions&)> replannerTo(std::st
       return !options.domain || std::ranges::count(options.domain->symbols, word) > 0;
     };
     std::string whole = goal;
-    for (const Literal& literal : readLiterals(limits.also, "also"))
-      if (literal.predicate != "up" || (knows("up") && knows("z"))) whole += " " + literal.str();
-    return planTask(C, whole, changed);
+    std::vector<std::string> left_out;
+    for (const Literal& literal : readLiterals(limits.also, "also")) {
+      if (literal.predicate != "up" || (knows("up") && knows("z")))
+        whole += " " + literal.str();
+      else
+        left_out.push_back(literal.str());
+    }
+    TaskPlan plan = planTask(C, whole, changed);
+    for (const std::string& literal : left_out)
+      plan.warnings.push_back(cat("the goal is without ", literal, ", because the domain has no `up`"));
+    return plan;
   };
 }
 

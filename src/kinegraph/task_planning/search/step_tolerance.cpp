@@ -45,7 +45,8 @@ void lowerByHand(StepTolerance& tolerance, Config scene, const MatrixXd& path, c
   const Vector3d end = handAt(rows.rows() - 1);
   std::vector<std::string> hand = fingerShapes(scene, action[3]);
   const std::string palm = palmOf(scene, action[3]);
-  if (!hand.empty() && !palm.empty() && scene.getFrame(palm).data().shape) hand.push_back(palm);
+  const auto collides = [](const FrameData& data) { return data.shape && data.shape->contact != 0; };
+  if (!hand.empty() && !palm.empty() && collides(scene.getFrame(palm).data())) hand.push_back(palm);
   const std::vector<Frame> parts = shapesOf(scene.getFrame(action[1]));
   for (Eigen::Index row = rows.rows() - 1; row >= 0; --row) {
     if ((handAt(row) - end).norm() > kApproach) continue;

@@ -193,6 +193,7 @@ std::vector<double> TaskSearch::narrowerThan(const TaskPlan& wide) const {
   } else if (wide.status == TaskStatus::no_plan_found && isInTheWay(*original_, wide)) {
     for (const Literal& literal : logic_.goal()) objects.insert(literal.arguments.begin(), literal.arguments.end());
   }
+  if (objects.empty()) return {};
   return narrowerOpenings(*original_, objects);
 }
 
@@ -217,6 +218,7 @@ std::optional<TaskPlan> TaskSearch::withNarrowerHands(const TaskPlan& wide) {
     if (!wide.feasible() || most >= kRobust) break;
   }
   if (!best) return std::nullopt;
+  narrower_->options_.max_evaluations = options_.max_evaluations - evaluations() + narrower_->evaluations();
   return ofNarrowerHands(std::move(*best));
 }
 
@@ -225,8 +227,8 @@ TaskPlan TaskSearch::ofNarrowerHands(TaskPlan plan) const {
   plan.evaluations = evaluations();
   if (!plan.feasible()) return plan;
   plan.replanner = replannerTo(goal_text_, options_);
-  plan.warnings.push_back(
-      cat("hands open to ", fixed(1e3 * narrower_->opening_, 0), " mm only: wider ones have no room at the objects"));
+  plan.warnings.push_back(cat("hands open to ", fixed(1e3 * narrower_->opening_, 0),
+                              " mm only: wider ones have less than the margin, or no room, beside the objects"));
   return plan;
 }
 
@@ -365,9 +367,10 @@ std::optional<TaskPlan> TaskSearch::nextOf(Trial& trial) {
         trial.robustness = robustness;
       }
     }
+    if ((trial.best || trial.has_plan) && isSpent()) break;
     if (trial.best && trial.evaluations > (leastTolerance(*trial.best) < kPoor ? kForPoor : kForRobust)) break;
-    if (trial.best && !narrowerThan(*trial.best).empty())
-      break;  // hands that open less are better than other waypoints
+    if (trial.best && !hasPlan() && trial.seed >= kSeeds && !narrowerThan(*trial.best).empty())
+      break;  // hands that open less are better than more waypoints
     if (trial.best) continue;
     needs_seeds_ = true;
     trial.motion_failure = outcome.motion_failure;

@@ -70,7 +70,7 @@ class TaskSearch {
   const std::shared_ptr<const Config> original_;
   const Config C_;  ///< held objects may overlap the robot as they do at the start
   const std::vector<TaskDoor> doors_;
-  const TaskOptions options_;
+  TaskOptions options_;  ///< later plans may have more evaluations
   const std::string goal_text_;
   const std::vector<std::string> flaws_;  ///< of the frames of hands
   TaskLogic logic_;
