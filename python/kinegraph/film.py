@@ -26,7 +26,7 @@ _CODECS = {  # with their speed settings
 def _encoder() -> Any:
     try:
         import av
-    except ImportError:
+    except ModuleNotFoundError:
         raise NotFound("saveFilm needs the package av: pip install 'kinegraph[film]'") from None
     return av
 

@@ -18,9 +18,12 @@ def needed(module: str, extra: str = "mcap") -> Any:
         The module.
     Raises:
         NotFound: It is not installed.
+        ImportError: It is installed, but cannot be loaded, as without a library that it needs.
     """
     try:
         return importlib.import_module(module)
-    except ImportError:
+    except ModuleNotFoundError as error:
         package = module.split(".")[0]
+        if error.name is None or error.name.split(".")[0] != package:
+            raise
         raise NotFound(f"the package {package} is not installed: pip install 'kinegraph[{extra}]'") from None

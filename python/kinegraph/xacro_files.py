@@ -32,7 +32,7 @@ def expand(path: str, arguments: Mapping[str, str]) -> str:
     try:
         xacro, xacrodoc = import_module("xacro"), import_module("xacrodoc")
         packages = import_module("xacrodoc.packages")
-    except ImportError:
+    except ModuleNotFoundError:
         raise FileError(
             f"'{path}' has xacro macros, which need the package xacrodoc: pip install kinegraph[xacro]"
         ) from None

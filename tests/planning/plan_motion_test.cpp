@@ -151,5 +151,19 @@ TEST(PlanMotion, GoalsOfSeveralKindsAreRefused) {
   EXPECT_THROW(planMotion(roomForABox(.5), MotionGoal()), ValueError);
 }
 
+TEST(PlanMotion, AnUnknownFrameOfATargetIsReportedByPlanMotion) {
+  const auto messageOf = [](const std::vector<IkTarget>& targets) {
+    try {
+      planMotion(roomForABox(.5), targets);
+    } catch (const FrameNotFound& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  const IkTarget known = IkTarget::toPosition("body", Vector3d::Zero());
+  EXPECT_EQ(messageOf({IkTarget::toPosition("bdy", Vector3d::Zero())}).substr(0, 28), "planMotion: frame name 'bdy'");
+  EXPECT_EQ(messageOf({known.relativeTo("nothing")}).substr(0, 32), "planMotion: frame name 'nothing'");
+}
+
 }  // namespace
 }  // namespace kinegraph

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "kinegraph/common/errors.h"
+#include "kinegraph/scene/frame_setters.h"
 #include "kinegraph/task_planning/task_tools.h"
 #include "tests/task_planning/task_scenes.h"
 
@@ -106,18 +108,50 @@ TEST(Grasps, AFlawNamesWhatNoFingerGetsAround) {
   EXPECT_EQ(graspFlaw(C, "cube", "table", "hand"), "");
 }
 
-TEST(Grasps, FingersThatDoNotCloseHoldNoNarrowerObject) {
+/// A hand whose fingers open from 5 to 13 cm.
+Config handThatDoesNotClose() {
   Config C = handAboveATable();
   C.addFrame("mover", "hand", "joint: transY, joint_active: False, limits: [0 .04]");
   C.addFrame("left", "mover", "shape: box, size: [.02 .02 .02], contact: -1").setRelativePosition({0., .035, 0.});
   C.addFrame("other", "hand", "joint: transY, joint_active: False, mimic: mover, joint_scale: -1");
   C.addFrame("right", "other", "shape: box, size: [.02 .02 .02], contact: -1").setRelativePosition({0., -.035, 0.});
-  C = withOpenings(C, {"hand"});
   lying(C, "pen", {.03, .04, .14});
   lying(C, "can", {.06, .07, .14});
+  return C;
+}
+
+TEST(Grasps, FingersThatDoNotCloseHoldNoNarrowerObject) {
+  const Config C = withOpenings(handThatDoesNotClose(), {"hand"});
   EXPECT_TRUE(graspVariants(C, "pen", "hand").empty());
   EXPECT_EQ(graspMisfit(C, "pen", "hand"), "'pen' does not fit between the fingers of 'hand' (0.050 to 0.130 m)");
   EXPECT_EQ(graspVariants(C, "can", "hand"), (std::vector<std::string>{"x", "y"}));
+}
+
+TEST(Grasps, EachOpeningOfAFrameOverridesThatOfTheFingers) {
+  const auto set = [](const std::string& key, double width) {
+    Config C = handThatDoesNotClose();
+    C.getFrame("hand").editAttributes().set({key, {}, {}, {width, {}}, {}});
+    return withOpenings(C, {"hand"});
+  };
+  EXPECT_EQ(graspVariants(set("least_opening", 0.), "pen", "hand").size(), 2U);
+  EXPECT_EQ(graspVariants(set("least_opening", .035), "pen", "hand"), std::vector<std::string>{"y"});
+  EXPECT_EQ(graspMisfit(set("opening", .1), "pen", "hand"),
+            "'pen' does not fit between the fingers of 'hand' (0.050 to 0.100 m)");
+}
+
+TEST(Grasps, AnOpeningThatIsNoNumberIsRefused) {
+  for (const char* key : {"opening", "least_opening"}) {
+    Config C = handThatDoesNotClose();
+    Frame hand = C.getFrame("hand");
+    setAttributes(hand, std::string(key) + ": wide");
+    try {
+      graspVariants(withOpenings(C, {"hand"}), "pen", "hand");
+      FAIL() << key;
+    } catch (const ValueError& error) {
+      EXPECT_NE(std::string(error.what()).find(std::string("frame 'hand' has the attribute ") + key), std::string::npos)
+          << error.what();
+    }
+  }
 }
 
 TEST(Grasps, WhatLiesRestsAsItLies) {

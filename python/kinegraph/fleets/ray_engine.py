@@ -18,7 +18,7 @@ from .worker import Answer, Batch, Worker, packAnswer
 def _ray() -> Any:
     try:
         import ray
-    except ImportError:
+    except ModuleNotFoundError:
         raise NotFound("engine='ray' needs the package ray: pip install 'kinegraph[ray]'") from None
     return ray
 

@@ -65,7 +65,7 @@ def pyarrow() -> Any:
     try:
         import pyarrow
         import pyarrow.parquet
-    except ImportError:
+    except ModuleNotFoundError:
         raise NotFound("results in Parquet need the package pyarrow: pip install 'kinegraph[fleets]'") from None
     return pyarrow
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Container, Sequence
 from xml.etree import ElementTree
 
 import numpy as np
@@ -33,6 +33,28 @@ def _rotated(a: np.ndarray, v: np.ndarray) -> np.ndarray:
     return np.asarray(v + a[:, :1] * t + np.cross(a[:, 1:], t))
 
 
+def frameNamed(names: Container[str], link: str) -> str:
+    """Returns the name of the frame of a link, which is named as in the URDF of its scene; "" if there is none.
+
+    Args:
+        names: Names of the frames of the scene.
+        link: Name of the link.
+    """
+    found = link if link in names else link.removesuffix("_link")
+    return found if found in names else ""
+
+
+def isFree(config: Config, name: str) -> bool:
+    """Returns whether a frame has a pose of its own, as objects have: it is a root, or has a rigid joint.
+
+    Args:
+        config: The scene.
+        name: Name of the frame.
+    """
+    frame = config.getFrame(name)
+    return name != ROOT and (frame.getParent() is None or frame.getJointType() == JT.rigid)
+
+
 class Links:
     """The tree of links of a scene: those of its URDF, and other frames as children of the world."""
 
@@ -48,7 +70,7 @@ class Links:
         tree = ElementTree.fromstring(self.urdf)
         frames = config.getFrameNames()
         self.count = len(frames)
-        self._index = {name: index for index, name in enumerate(frames)}
+        index = {name: number for number, name in enumerate(frames)}
         parent_of: dict[str, str] = {}
         moving: set[str] = set()
         urdf_joints = {joint.get("name") for joint in tree.iter("joint")}
@@ -60,28 +82,20 @@ class Links:
             parent_of[child.get("link", "")] = parent.get("link", "")
             if joint.get("type") != "fixed":
                 moving.add(child.get("link", ""))
-                if joint.get("name") in self._index and joint.get("type") in ("revolute", "continuous", "prismatic"):
+                if joint.get("name") in index and joint.get("type") in ("revolute", "continuous", "prismatic"):
                     self.joints.append(str(joint.get("name")))
         in_q = set(config.getJointNames())
         self.fingers = [name for name in self.joints if name not in in_q]  # joints that are not part of q
         links = [str(link.get("name")) for link in tree.iter("link")]
         known = urdf_joints.union(links)
-        links += [f for f in frames if f not in known and f + "_link" not in known and self._isFree(config, f)]
-        self.names = [name for name in links if self._frame(name) is not None and name != ROOT]
+        links += [f for f in frames if f not in known and f + "_link" not in known and isFree(config, f)]
+        self.names = [name for name in links if frameNamed(index, name) and name != ROOT]
         self.parents = [parent_of.get(name, ROOT) for name in self.names]
-        self._children = np.array([self._frame(name) for name in self.names], int)
-        self._parents = np.array([-1 if self._frame(p) is None else self._frame(p) for p in self.parents], int)
-        self._moving = np.array([name in moving or self._isFree(config, name) for name in self.names], bool)
+        self._children = np.array([index[frameNamed(index, name)] for name in self.names], int)
+        self._parents = np.array([index.get(frameNamed(index, parent), -1) for parent in self.parents], int)
+        free = [name in index and isFree(config, name) for name in self.names]
+        self._moving = np.array([name in moving for name in self.names], bool) | np.array(free, bool)
         self._last: np.ndarray | None = None
-
-    def _frame(self, link: str) -> int | None:
-        return self._index.get(link, self._index.get(link.removesuffix("_link")))
-
-    def _isFree(self, config: Config, name: str) -> bool:
-        if name not in self._index:
-            return False
-        frame = config.getFrame(name)
-        return name != ROOT and (frame.getParent() is None or frame.getJointType() == JT.rigid)
 
     def read(self, config: Config) -> tuple[Transforms, Transforms]:
         """Returns the transforms of the links that move, and, in the first call, those of the others.

@@ -6,7 +6,7 @@ import os
 import re
 import sqlite3
 import warnings
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -16,7 +16,7 @@ import numpy as np
 from .._core import JT, Config, GripperState, KinematicDriver, RecordedDriver, RobotInfo, RobotState, SampledTrajectory
 from ..errors import ArgumentError, FileError, KinegraphWarning, NotFound
 from . import messages
-from .poses import framesOf
+from .poses import framesOf, movingJoints
 
 Message = tuple[str, str, int, bytes]  # topic, type, time (ns), CDR
 
@@ -84,14 +84,8 @@ class Recording:
             raise ArgumentError(
                 f"Recording.trajectory: {len(rows)} recorded states lie between {begin} s and {end} s; expected 2 or more"
             )
+        self._requireFinite("Recording.trajectory", rows, columns, "choose a part without it by begin and end")
         times, q, velocity = self.times[rows], self.q[rows][:, columns], self.velocity[rows][:, columns]
-        broken = ~(np.isfinite(q) & np.isfinite(velocity))
-        if broken.any():
-            row, column = np.argwhere(broken)[0]
-            raise ArgumentError(
-                f"Recording.trajectory: the state of joint '{self.joints[columns[column]]}' at {times[row]:.3f} s is not "
-                "finite; choose a part without it by begin and end"
-            )
         acceleration = np.gradient(velocity, times, axis=0)
         return SampledTrajectory((times - times[0]) / speed, q, velocity * speed, acceleration * speed**2)
 
@@ -131,8 +125,9 @@ class Recording:
     def frames(self, config: Config, rate: float = 25.0, *, names: Mapping[str, str] | None = None) -> np.ndarray:
         """Returns the recorded poses of all frames of a scene, for `saveFilm` and `C.setFrameState`.
 
-        Joints have their recorded values, fingers, too, and objects the poses of the topics /tf and /tf_static. All
-        other frames stay in their place.
+        Joints have their recorded values, fingers, too, and objects the poses of the topics /tf and /tf_static, in
+        "world" or in another frame of the scene. A warning names other parents, such as "map": add a frame of that name
+        to the scene, or the objects in it are not moved. All other frames stay in their place.
 
         Args:
             config: The scene, which does not change.
@@ -142,7 +137,7 @@ class Recording:
             World poses, shape (T, frames, 7): x y z qw qx qy qz.
         Raises:
             NotFound: A joint of the scene was not recorded.
-            ArgumentError: The rate is not positive, or there are no joint states.
+            ArgumentError: The rate is not positive, there are no joint states, or a joint value is not finite.
         """
         if not 0 < rate < float("inf"):
             raise ArgumentError(f"Recording.frames: rate is {rate}; expected a number > 0")
@@ -153,6 +148,8 @@ class Recording:
         joints = [scene_name.get(name, name) for name in self.joints]
         at = self.start + np.arange(0, self.times[-1] + 0.5 / rate, 1 / rate) + 1e-6
         rows = np.searchsorted(self.times, at - self.start, side="right") - 1
+        columns = [joints.index(name) for part in movingJoints(config, joints) for name in part]
+        self._requireFinite("Recording.frames", rows, columns, "replace it in recording.q", with_velocity=False)
         return np.array(framesOf(config, joints, zip(self.q[rows], self._transforms(at))))
 
     def _transforms(self, at: np.ndarray) -> list[list[Any]]:
@@ -202,6 +199,18 @@ class Recording:
                 f"it has {', '.join(self.joints) or 'none'}; pass names={{scene: recorded}} if names differ"
             )
         return [self.joints.index(given.get(name, name)) for name in wanted]
+
+    def _requireFinite(
+        self, caller: str, rows: np.ndarray, columns: Sequence[int], remedy: str, with_velocity: bool = True
+    ) -> None:
+        read = [self.q, self.velocity] if with_velocity else [self.q]
+        broken = np.argwhere(~np.all([np.isfinite(values[rows][:, columns]) for values in read], axis=0))
+        if len(broken):
+            row, column = broken[0]
+            raise ArgumentError(
+                f"{caller}: the state of joint '{self.joints[columns[column]]}' at {self.times[rows[row]]:.3f} s is not "
+                f"finite; {remedy}"
+            )
 
     def _hands(self, config: Config) -> list[tuple[Any, int]]:
         hands = []

@@ -19,7 +19,7 @@ def needed(module: str) -> Any:
     """
     try:
         return importlib.import_module(module)
-    except ImportError:
+    except ModuleNotFoundError:
         package = module.split(".")[0]
         raise NotFound(
             f"the ROS 2 package {package} is not found: run 'source /opt/ros/DISTRO/setup.bash' first, or install it"

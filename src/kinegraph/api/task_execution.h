@@ -22,7 +22,7 @@ struct TaskExecution {
 
   std::string str() const;
 };
-
+/// What happened in an execution.
 enum class TaskEventKind {
   start,    ///< the robot is where the plan begins
   motion,   ///< the motion of an action is done

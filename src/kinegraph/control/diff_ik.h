@@ -29,7 +29,7 @@ struct DiffIkOptions {
 
   void validate(int dofs) const;  ///< throws ValueError
 };
-
+/// Whether the last step of a DiffIk met all constraints.
 enum class DiffIkStatus {
   solved,               ///< all limits, distances and equalities hold
   constraints_relaxed,  ///< some limits, distances or equalities could not hold; `message()` names them

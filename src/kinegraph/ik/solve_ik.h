@@ -9,7 +9,7 @@
 #include "kinegraph/nlp/parameter.h"
 
 namespace kinegraph {
-
+/// How solveIk ended.
 enum class IkStatus {
   solved,            ///< all targets are within tolerance, and no pair is closer than the margin
   goal_unreachable,  ///< no attempt succeeded; the best one misses a target
@@ -20,7 +20,7 @@ enum class IkStatus {
 std::string ikStatusName(IkStatus status);
 
 struct IkRequest;
-
+/// The answer of solveIk, with its errors.
 struct IkResult {
   VectorXd q;  ///< (n,), within the limits: the answer, or the attempt with the least error
   IkStatus status = IkStatus::cancelled;

@@ -258,7 +258,7 @@ struct JacobianCheck {
   double analytic = 0., numeric = 0.;
 };
 JacobianCheck checkJacobian(Nlp& nlp, const VectorXd& x, double step = 1e-5,
-                            const CancellationToken& cancellation = {});
+                            const CancellationToken& cancellation = {});  ///< compares J with central differences
 
 /// Returns up to `count` entries whose difference exceeds the tolerance or is not a number, the worst first.
 std::vector<JacobianCheck> worstJacobianEntries(Nlp& nlp, const VectorXd& x, double tolerance, int count,

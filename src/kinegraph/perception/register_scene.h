@@ -27,7 +27,7 @@ struct DepthView {
   /// The camera's pose in the world; throws FrameNotFound for an unknown frame.
   Pose cameraPose(const Config& config) const;
 };
-
+/// Whether a frame was seen, and why not.
 enum class SeenStatus {
   seen,         ///< the pose is measured, and the frame was moved to it
   occluded,     ///< something is in front of it

@@ -16,7 +16,7 @@ namespace kinegraph {
 class DynamicScene;
 class JointSpace;
 class State;
-
+/// How planMotion ended.
 enum class PlanStatus {
   solved,            ///< the motion is continuously collision-free
   invalid_start,     ///< the start is in collision or beyond limits

@@ -5,6 +5,7 @@
 #include "kinegraph/common/errors.h"
 #include "kinegraph/common/text.h"
 #include "kinegraph/ik/ik_problem.h"
+#include "kinegraph/kinematics/kinematic_model.h"
 
 namespace kinegraph {
 
@@ -47,9 +48,16 @@ class GoalFinder {
     return int(found_.ends.size()) >= options_.max_goal_samples || (cancellation_ && cancellation_());
   }
 
+  void requireFrames(const IkTarget& target) const {
+    std::vector<std::string> names = target.feature ? target.feature->frames : std::vector{target.frame};
+    if (!target.relative_to.empty()) names.push_back(target.relative_to);
+    for (const std::string& name : names) frameId(*config_.model(), name, kPlanMotion);
+  }
+
   /// Solves inverse kinematics from the start, and from random values of the joints that move the targets.
   void fromTargets(const std::vector<IkTarget>& targets) {
     steering_.space().requireRanges(kPlanMotion);
+    for (const IkTarget& target : targets) requireFrames(target);
     Config scene(config_);
     scene.setJointState(start_);
     IkOptions ik;

@@ -34,6 +34,7 @@ constexpr double kOffShare = .6;           ///< of the half length of fingertips
 constexpr double kMostOff = .008;          ///< m: the same
 constexpr double kSlack = .002;            ///< m: round things that are nearer to the hand's link are held off center
 constexpr std::string_view kOffCenter = "off center";
+constexpr std::string_view kOpening = "opening";
 constexpr std::string_view kLeastOpening = "least_opening";
 
 /// The sizes of a box, or of the box around a mesh, along x, y, z, m.
@@ -103,10 +104,18 @@ struct Openings {
   bool hold(double width) const { return least <= width && width <= most; }
 };
 
+/// The value of an attribute of a hand's frame, m; none if the frame does not have it.
+std::optional<double> saidWidth(const Frame& hand, std::string_view key) {
+  const Node* said = hand.attributes().find(key);
+  if (!said) return std::nullopt;
+  const double* width = said->value.as<double>();
+  if (width && *width >= 0.) return *width;
+  throw ValueError(cat("planTask: frame '", hand.getName(), "' has the attribute ", key, " with ",
+                       describe(said->value), "; expected a number >= 0, in m"));
+}
+
 Openings openingsOf(const Config& C, const std::string& hand) {
-  const Node* least = C.getFrame(hand).attributes().find(kLeastOpening);
-  const double* width = least ? least->value.as<double>() : nullptr;
-  return {width ? *width : 0., opening(C, hand).value_or(0.)};
+  return {saidWidth(C.getFrame(hand), kLeastOpening).value_or(0.), opening(C, hand).value_or(0.)};
 }
 
 /// The ways in which fingers close on one shape, the narrow ones first; none if it does not fit between them.
@@ -336,8 +345,7 @@ std::string palmOf(const Config& C, const std::string& hand) {
 }
 
 std::optional<double> opening(const Config& C, const std::string& hand) {
-  const Node* said = C.getFrame(hand).attributes().find("opening");
-  if (const double* width = said ? said->value.as<double>() : nullptr) return *width;
+  if (const std::optional<double> said = saidWidth(C.getFrame(hand), kOpening)) return said;
   return palmOf(C, hand).empty() ? std::nullopt : std::optional(kUsualOpening);
 }
 
@@ -346,7 +354,6 @@ Config withOpenings(const Config& C, const std::vector<std::string>& hands) {
   const std::vector<HandFingers> all = handFingersOf(C);
   for (const std::string& hand : hands) {
     Frame frame = scene.getFrame(hand);
-    if (frame.attributes().find("opening")) continue;
     std::optional<Frame> head = frame;
     while (head->getJointType() == JointType::none && head->getParent()) head = head->getParent();
     const auto isBelow = [&](const HandFingers& fingers) {
@@ -356,9 +363,11 @@ Config withOpenings(const Config& C, const std::vector<std::string>& hands) {
     };
     const auto found = std::ranges::find_if(all, isBelow);
     if (found == all.end() || !(found->maxWidth() > 0.)) continue;
-    frame.editAttributes().set({"opening", {}, {}, {found->maxWidth(), {}}, {}});
-    if (found->minWidth() > kThinnest)
-      frame.editAttributes().set({std::string(kLeastOpening), {}, {}, {found->minWidth(), {}}, {}});
+    const auto add = [&](std::string_view key, double width) {
+      if (!frame.attributes().find(key)) frame.editAttributes().set({std::string(key), {}, {}, {width, {}}, {}});
+    };
+    add(kOpening, found->maxWidth());
+    if (found->minWidth() > kThinnest) add(kLeastOpening, found->minWidth());
   }
   return scene;
 }

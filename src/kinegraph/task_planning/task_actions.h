@@ -131,17 +131,17 @@ TaskRules defaultTaskRules(bool upright = false);
 /// without one.
 std::string palmOf(const Config& C, const std::string& hand);
 
-/// Returns the opening of the fingers of a hand, m; none for a hand without fingers. The attribute `opening` of its
-/// frame overrides the default, .08 m for a hand with a palm.
+/// Returns the opening of the fingers of a hand, m: the attribute `opening` of its frame, else .08 m for a hand with a
+/// palm; none for a hand without fingers. Throws ValueError if the attribute is no number >= 0.
 std::optional<double> opening(const Config& C, const std::string& hand);
 
-/// Returns the scene with the attribute `opening` at each hand that has none and whose fingers are modeled
-/// (handFingersOf).
+/// Returns the scene with the attributes `opening` and, for fingers that do not close completely, `least_opening` at
+/// the hands with modeled fingers (handFingersOf) that do not have them.
 Config withOpenings(const Config& C, const std::vector<std::string>& hands);
 
 /// Returns the grasps of an object by a hand. Boxes and meshes have the axes x, y, z along which the fingers can close,
 /// the narrow ones first; cylinders and capsules `around`, balls `center`, and hands without fingers `touch`. None if
-/// the object is too wide. Throws ValueError for objects without a shape.
+/// the object is too wide or too narrow. Throws ValueError for objects without a shape.
 std::vector<std::string> graspVariants(const Config& C, const std::string& obj, const std::string& hand);
 
 /// Whether the fingers of a hand fit an object, as it stands, along its upright axis only: from its side, with one of

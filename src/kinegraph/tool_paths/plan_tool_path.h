@@ -86,7 +86,7 @@ struct ToolPathOptions {
 
   void validate(int dofs) const;  ///< throws ValueError that names the first invalid field
 };
-
+/// How planToolPath ended, and why there is no motion.
 enum class ToolPathStatus {
   solved,
   out_of_reach,  ///< no configuration reaches a place of a path

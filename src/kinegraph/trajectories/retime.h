@@ -63,7 +63,7 @@ struct RetimeOptions {
 
   void validate() const;  ///< throws ValueError
 };
-
+/// Whether retime found a timing, and why not.
 enum class RetimeStatus {
   timed,
   start_too_fast,  ///< the start velocity is above the limits, or cannot be braked

@@ -9,6 +9,7 @@ import pytest
 
 import kinegraph
 import robotic
+from kinegraph.packages import needed
 
 
 def loaded(code: str) -> set[str]:
@@ -64,3 +65,15 @@ def test_names_of_robotic_are_its_own_whatever_was_used_before() -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
+
+
+def test_a_package_that_cannot_be_loaded_is_not_called_missing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "half_installed.py").write_text("raise ImportError('libneeded.so: cannot open shared object file')")
+    (tmp_path / "needs_another.py").write_text("import no_such_package")
+    monkeypatch.syspath_prepend(str(tmp_path))
+    with pytest.raises(ImportError, match=r"libneeded\.so"):
+        needed("half_installed")
+    with pytest.raises(ModuleNotFoundError, match="no_such_package"):
+        needed("needs_another")
+    with pytest.raises(kinegraph.NotFound, match=r"no_such_package is not installed: pip install 'kinegraph\[film\]'"):
+        needed("no_such_package.part", "film")

@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 
 import kinegraph as ry
+from kinegraph.recording import messages
+from kinegraph.recording.files import McapFile
 from recorded_runs import recorded, scene, wave
 
 State = tuple[str, int, list[str], list[float], list[float]]
@@ -147,6 +149,31 @@ def test_a_recording_has_the_poses_of_frames_also_of_fingers_and_of_objects_that
         recording.frames(start, rate=0)
     with pytest.raises(ry.NotFound, match=r"Recording\.frames: .* has no joint"):
         recording.frames(other_arm())
+
+
+def test_a_pose_in_an_unknown_frame_moves_nothing_and_a_warning_names_it(tmp_path: Path) -> None:
+    file = McapFile(str(tmp_path / "run.mcap"), "test")
+    pose, angle = np.array([0.1, 0.2, 0.3, 1.0, 0.0, 0.0, 0.0]), np.array([0.1])
+    for k in range(3):
+        at = k * 10**8
+        file.send("/joint_states", messages.JOINT_STATE, messages.encodeJoints(at, ["other"], angle, angle), at)
+        file.send("/tf", messages.TRANSFORMS, messages.encodeTransforms(at, [("map", "cup", pose)]), at)
+    file.close()
+    recording = ry.readRecording(tmp_path / "run.mcap")
+    C = other_arm()
+    C.addFrame("cup").setPosition([1.0, 0.0, 0.0])
+    with pytest.warns(ry.KinegraphWarning, match=r"pose of 'cup' was recorded in 'map'.*Add a frame 'map'") as warned:
+        frames = recording.frames(C, rate=10)
+    assert len(warned) == 1
+    np.testing.assert_array_equal(frames[-1, -1, :3], [1.0, 0.0, 0.0])
+    C.addFrame("map").setPosition([0.0, 0.0, 1.0])
+    cup = C.getFrameNames().index("cup")
+    np.testing.assert_allclose(recording.frames(C, rate=10)[-1, cup, :3], [0.1, 0.2, 1.3])
+    recording.q[1, 0] = np.nan
+    with pytest.raises(
+        ry.ArgumentError, match=r"Recording\.frames: the state of joint 'other' at 0.100 s is not finite"
+    ):
+        recording.frames(C)
 
 
 def other_arm() -> ry.Config:

@@ -50,7 +50,7 @@ void solveEach(const std::vector<std::shared_ptr<Komo>>& problems, const LgpOpti
                const std::function<void(int problem, SolverResult result)>& take);
 
 class LgpWaypoints;
-
+/// How LgpTool::solve ended.
 enum class LgpStatus {
   not_started,    ///< LgpTool::solve was not called yet
   solved,         ///< there is a plan with feasible waypoints

@@ -15,7 +15,7 @@ namespace kinegraph {
 class BotOp;
 struct ExecutionOptions;
 struct TaskExecution;
-
+/// How planTask ended.
 enum class TaskStatus {
   solved,         ///< there is a plan, and checkTaskPlan accepted it
   infeasible,     ///< proved: no motion reaches the goal
