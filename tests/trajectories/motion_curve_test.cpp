@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "kinegraph/trajectories/retime.h"
@@ -19,6 +20,26 @@ MatrixXd threePoints() {
   points << 0., 0., 1., 0., 1., 1.;
   return points;
 }
+
+/// Two legs at a right angle, each from rest to rest in `leg` s by a polynomial of degree 5.
+class TwoLegs : public Trajectory {
+ public:
+  explicit TwoLegs(double leg) : leg_(leg) {}
+  int dimension() const override { return 2; }
+  double duration() const override { return 2. * leg_; }
+
+  void evalTo(double t, double* q, double* velocity, double* acceleration) const override {
+    for (int j = 0; j < 2; ++j) {
+      const double u = std::clamp(t / leg_ - j, 0., 1.);
+      q[j] = u * u * u * (10. - 15. * u + 6. * u * u);
+      velocity[j] = 30. * u * u * (1. - u) * (1. - u) / leg_;
+      acceleration[j] = 60. * u * (1. - u) * (1. - 2. * u) / (leg_ * leg_);
+    }
+  }
+
+ private:
+  double leg_;
+};
 
 }  // namespace
 
@@ -45,6 +66,33 @@ TEST(MotionCurve, HasACornerWhereTheDirectionJumps) {
     EXPECT_LT((curve.eval(curve.begin(piece)) - Eigen::Vector2d(1., 0.)).norm(), 1e-6);
   }
   EXPECT_EQ(corners, 1);
+}
+
+TEST(MotionCurve, HasACornerWhereAMotionStopsSlowly) {
+  for (const double leg : {1., 3., 7., 7.001}) {  // also with the corner between two samples
+    const PathCurve curve = curveOf(TwoLegs(leg));
+    EXPECT_NEAR(curve.length(), 2., 1e-6);
+    int corners = 0;
+    for (int piece = 1; piece < curve.pieces(); ++piece) {
+      if (!curve.stopsAt(piece)) continue;
+      ++corners;
+      EXPECT_LT((curve.eval(curve.begin(piece)) - Eigen::Vector2d(1., 0.)).norm(), 1e-6) << leg;
+    }
+    EXPECT_EQ(corners, 1) << leg;
+  }
+}
+
+TEST(MotionCurve, HasManyCorners) {
+  constexpr int kCorners = 40;
+  MatrixXd zigzag(kCorners + 2, 2);
+  for (int k = 0; k < zigzag.rows(); ++k) zigzag.row(k) << (k + 1) / 2, k / 2;
+  const PathCurve curve = curveOf(SplineTrajectory(splineOf(1, zigzag)));
+  EXPECT_NEAR(curve.length(), kCorners + 1., 1e-4);
+  EXPECT_EQ(curve.marks().front(), 0.);
+  EXPECT_EQ(curve.marks().back(), curve.length());
+  int corners = 0;
+  for (int piece = 1; piece < curve.pieces(); ++piece) corners += curve.stopsAt(piece);
+  EXPECT_EQ(corners, kCorners);
 }
 
 TEST(MotionCurve, IsThatOfATimedPath) {

@@ -104,9 +104,13 @@ nb::typed<nb::list, nb::tuple> activeLimitsOf(const PyConfig& config, const Time
                                               const MaybeNumbers& jerk, bool torque,
                                               const std::map<std::string, double>& tool_speed) {
   const RobotLimits limits = robotLimits(motion.dimension(), velocity, acceleration, jerk, torque, tool_speed);
+  const Config scene(config);  // a copy, because the caller may change it
+  const std::vector<ActiveLimit> all = [&] {
+    const nb::gil_scoped_release unlock;
+    return activeLimits(scene, motion, limits);
+  }();
   nb::list list;
-  for (const ActiveLimit& active : activeLimits(Config(config), motion, limits))
-    list.append(nb::make_tuple(active.from, active.to, active.share, active.cause));
+  for (const ActiveLimit& active : all) list.append(nb::make_tuple(active.from, active.to, active.share, active.cause));
   return list;
 }
 

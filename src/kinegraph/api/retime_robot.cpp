@@ -139,10 +139,10 @@ class NearestCause {
       : curve_(motion.curve()),
         limits_(completeLimits("activeLimits", config, motion.dimension(), limits)),
         rows_(constraintsAlong(config, curve_, limits)),
-        joints_(dofNames(*config.model())) {
+        joints_(dofNames(*config.model())),
+        torques_(rows_.names.size() - limits.tool_speed.size()) {
     limits_.validate(motion.dimension());
-    const std::size_t torques = rows_.names.size() - limits.tool_speed.size();
-    for (std::size_t k = 0; k < torques; ++k) row_names_.push_back(cat("torque of '", rows_.names[k], "'"));
+    for (std::size_t k = 0; k < torques_; ++k) row_names_.push_back(cat("torque of '", rows_.names[k], "'"));
     for (const auto& [frame, speed] : limits.tool_speed) row_names_.push_back(cat("speed of '", frame, "'"));
   }
 
@@ -157,7 +157,7 @@ class NearestCause {
     const VectorXd value = row.a * state.acceleration + row.b * state.speed * state.speed + row.c;
     for (Eigen::Index k = 0; k < value.size(); ++k) {
       const double used = value[k] / (value[k] > 0. ? rows_.high[k] : rows_.low[k]);
-      const bool is_speed = row.a[k] == 0. && row.c[k] == 0.;  // the row is the square of a speed
+      const bool is_speed = std::size_t(k) >= torques_;  // the row is the square of a speed
       const double share = is_speed ? std::sqrt(used) : used;
       if (state.speed > 0. && share > active.share) active.share = share, active.cause = row_names_[std::size_t(k)];
     }
@@ -169,6 +169,7 @@ class NearestCause {
   MotionLimits limits_;
   const ConstraintSource rows_;
   const std::vector<std::string> joints_;
+  const std::size_t torques_;  ///< number of rows before those of speeds
   std::vector<std::string> row_names_;
 };
 

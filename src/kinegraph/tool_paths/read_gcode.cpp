@@ -88,12 +88,14 @@ class GcodeProgram {
     });
     const bool leaves = leaving != words.end();
     if (leaves) ignore(leaving->where, cat("the move with ", codeName('G', codeOf(*leaving))));
-    const bool moves = std::any_of(words.begin(), words.end(),
-                                   [](const GcodeWord& word) { return word.letter >= 'X' && word.letter <= 'Z'; });
+    const auto has = [&](char letter) {
+      return std::any_of(words.begin(), words.end(), [&](const GcodeWord& word) { return word.letter == letter; });
+    };
+    const bool is_of_extruder = has('E') && !has('X') && !has('Y') && !has('Z');
     for (const GcodeWord& word : words) {
       if (leaves && &word == &*leaving) continue;
-      if (word.letter == 'G' && codeOf(word) == 920 && !moves)
-        ignore(word.where, "G92");  // of an extruder
+      if (word.letter == 'G' && codeOf(word) == 920 && is_of_extruder)
+        ignore(word.where, "G92");  // others move the origin
       else if (word.letter == 'G')
         addCode(word, dwells, sets_blend);
       else if (word.letter == 'M')

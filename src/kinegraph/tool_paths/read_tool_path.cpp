@@ -18,6 +18,7 @@ namespace kinegraph {
 namespace {
 
 constexpr const char* kRowKinds = "expected 3 numbers (x y z), 6 (with a normal) or 7 (x y z qw qx qy qz)";
+constexpr const char* kBlanks = " \t\r";
 constexpr double kLeastNorm = 1e-9;
 
 /// A number or a name in a row.
@@ -29,7 +30,7 @@ struct RowWord {
 std::optional<double> rowNumber(const RowWord& word) {
   const char* rest = nullptr;
   const double number = readNumber(word.text.c_str(), &rest);
-  return *rest == '\0' ? std::optional(number) : std::nullopt;
+  return !word.text.empty() && *rest == '\0' ? std::optional(number) : std::nullopt;
 }
 
 /// Without the quotes that some programs put around all fields.
@@ -38,14 +39,40 @@ std::string unquoted(const std::string& text) {
   return is_quoted ? text.substr(1, text.size() - 2) : text;
 }
 
-/// Splits a line, without a comment behind #, at commas or semicolons, and at spaces.
-std::vector<RowWord> rowWords(const std::string& all, const std::string& file, int number) {
-  const std::string line = all.substr(0, all.find('#'));
+/// The comma, semicolon or tab between the fields of a line; 0 without one.
+char separatorOf(const std::string& line, const std::string& file, int number) {
   const bool has_commas = line.find(',') != std::string::npos, has_semicolons = line.find(';') != std::string::npos;
   if (has_commas && has_semicolons)
     throw ParseError({file, number, int(line.find(',')) + 1},
                      "the row has commas and semicolons; expected one separator, and points before decimals");
-  const char separator = has_semicolons ? ';' : ',';
+  if (has_commas || has_semicolons) return has_commas ? ',' : ';';
+  const std::size_t tab = line.find('\t', std::min(line.find_first_not_of(kBlanks), line.size()));
+  return line.find_first_not_of(kBlanks, std::min(tab, line.size())) != std::string::npos ? '\t' : '\0';
+}
+
+/// Splits a line at a separator only. A field in quotes may contain it.
+std::vector<RowWord> rowFields(const std::string& line, char separator) {
+  std::vector<RowWord> fields;
+  for (std::size_t begin = 0; begin <= line.size();) {
+    const std::size_t first = std::min(line.find_first_not_of(" \r", begin), line.size());
+    const std::size_t quote = first < line.size() && line[first] == '"' ? line.find('"', first + 1) : begin;
+    const std::size_t end = std::min(line.find(separator, quote == std::string::npos ? begin : quote), line.size());
+    const std::string field = line.substr(begin, end - begin);
+    const std::size_t from = field.find_first_not_of(kBlanks), to = field.find_last_not_of(kBlanks);
+    if (from == std::string::npos)
+      fields.push_back({"", int(begin) + 1});
+    else
+      fields.push_back({unquoted(field.substr(from, to + 1 - from)), int(begin + from) + 1});
+    begin = end + 1;
+  }
+  return fields;
+}
+
+/// Splits a line at commas or semicolons, and at spaces.
+std::vector<RowWord> rowWords(const std::string& line, const std::string& file, int number) {
+  const char found = separatorOf(line, file, number);
+  const bool has_separator = found == ',' || found == ';';
+  const char separator = has_separator ? found : ',';
   std::vector<RowWord> words;
   for (std::size_t begin = 0; begin <= line.size();) {
     const std::size_t end = std::min(line.find(separator, begin), line.size());
@@ -56,7 +83,7 @@ std::vector<RowWord> rowWords(const std::string& all, const std::string& file, i
     while (at < end) {
       const std::size_t after = std::min(line.find_first_of(" \t\r", at), end);
       const RowWord word{unquoted(line.substr(at, after - at)), int(at) + 1};
-      const bool is_second = (has_commas || has_semicolons) && !words.empty() && words.back().column > int(begin);
+      const bool is_second = has_separator && !words.empty() && words.back().column > int(begin);
       if (is_second && rowNumber(word) && rowNumber(words.back()))
         throw ParseError({file, number, word.column},
                          "the field has two numbers; expected one separator, and points before decimals");
@@ -66,23 +93,6 @@ std::vector<RowWord> rowWords(const std::string& all, const std::string& file, i
     begin = end + 1;
   }
   return words;
-}
-
-/// The fields of a line of names: "x (mm)" is one field if there are separators.
-std::vector<RowWord> nameFields(const std::string& all, const std::string& file, int number) {
-  const std::string line = all.substr(0, all.find('#'));
-  if (line.find_first_of(",;") == std::string::npos) return rowWords(all, file, number);
-  std::vector<RowWord> fields;
-  for (std::size_t begin = 0; begin < line.size();) {
-    const std::size_t end = std::min(line.find_first_of(",;", begin), line.size());
-    const std::size_t first = line.find_first_not_of(" \t\r", begin);
-    if (first < end) {
-      const std::size_t last = line.find_last_not_of(" \t\r", end - 1);
-      fields.push_back({unquoted(line.substr(first, last + 1 - first)), int(first) + 1});
-    }
-    begin = end + 1;
-  }
-  return fields;
 }
 
 /// A name of a column with its unit: "x_mm", "X [mm]" and "x (m)" are x.
@@ -180,15 +190,19 @@ class TableReader {
  public:
   explicit TableReader(const std::string& file) : file_(file) {}
 
-  void addLine(const std::string& line) {
+  void addLine(const std::string& all) {
     ++number_;
-    const std::vector<RowWord> words = rowWords(line, file_, number_);
-    if (words.empty()) return;
-    const bool is_names =
-        rows_.empty() && names_.empty() &&
-        std::none_of(words.begin(), words.end(), [](const RowWord& word) { return rowNumber(word).has_value(); });
-    if (is_names) return readNames(line);
-    rows_.push_back(named_.columns.empty() ? plainRow(words) : namedRow(words));
+    const std::string line = all.substr(0, all.find('#'));
+    const bool may_be_names = rows_.empty() && names_.empty();
+    if (may_be_names) separator_ = separatorOf(line, file_, number_);
+    const bool has_fields = separator_ && (may_be_names || !named_.columns.empty());
+    std::vector<RowWord> words = has_fields ? rowFields(line, separator_) : rowWords(line, file_, number_);
+    if (std::all_of(words.begin(), words.end(), [](const RowWord& word) { return word.text.empty(); })) return;
+    const auto is_number = [](const RowWord& word) { return rowNumber(word).has_value(); };
+    if (may_be_names && std::none_of(words.begin(), words.end(), is_number)) return readNames(std::move(words));
+    const bool has_names = !named_.columns.empty();
+    if (!has_names && has_fields) words = rowWords(line, file_, number_);
+    rows_.push_back(has_names ? namedRow(words) : plainRow(words));
     requireDirection(words);
   }
 
@@ -204,18 +218,21 @@ class TableReader {
     std::vector<std::string> all;
     for (const RowWord& field : named_.ignored)
       all.push_back(SourcePosition{file_, line_of_names_, field.column}.str() +
-                    cat(": the column '", field.text, "' is ignored"));
+                    (field.text.empty() ? ": a column without a name is ignored"
+                                        : cat(": the column '", field.text, "' is ignored")));
     return all;
   }
 
  private:
-  void readNames(const std::string& line) {
-    names_ = nameFields(line, file_, number_);
+  void readNames(std::vector<RowWord> names) {
+    if (names.back().text.empty()) names.pop_back();  // lines may end with a separator
+    names_ = std::move(names);
     line_of_names_ = number_;
     named_ = ColumnFinder(names_, file_, number_).find();
   }
 
   double numberOf(const RowWord& word) const {
+    if (word.text.empty()) throw ParseError({file_, number_, word.column}, "the field is empty; expected a number");
     const std::optional<double> value = rowNumber(word);
     if (!value || !std::isfinite(*value))
       throw ParseError({file_, number_, word.column}, cat("'", word.text, "' is not a number; ", kRowKinds));
@@ -237,7 +254,8 @@ class TableReader {
     return row;
   }
 
-  VectorXd namedRow(const std::vector<RowWord>& words) const {
+  VectorXd namedRow(std::vector<RowWord>& words) const {
+    if (words.size() == names_.size() + 1 && words.back().text.empty()) words.pop_back();
     if (words.size() != names_.size())
       throw ParseError({file_, number_, words.back().column},
                        cat("the row has ", words.size(), " fields; there are ", names_.size(), " names"));
@@ -259,6 +277,7 @@ class TableReader {
 
   const std::string file_;
   int number_ = 0, line_of_names_ = 0;
+  char separator_ = '\0';  ///< of the names
   std::vector<RowWord> names_;
   NamedColumns named_;
   std::vector<VectorXd> rows_;

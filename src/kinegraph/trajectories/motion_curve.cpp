@@ -39,8 +39,13 @@ class MotionSamples {
       points.push_back(now), times_.push_back(t), rests_.push_back(false);
     }
     sections_ = {0};
-    for (std::size_t k = 1; k + 1 < points.size(); ++k)
-      if (turn(points[k - 1], points[k], points[k + 1]) > kCorner && placeCorner(k)) sections_.push_back(k);
+    bool is_there = true;  // still at the last corner: at a slow stop, several samples are as near to it
+    for (std::size_t k = 1; k + 1 < points.size(); ++k) {
+      is_there = is_there && (points[k] - points[sections_.back()]).norm() <= kCornerWindow;
+      if (is_there || turn(points[k - 1], points[k], points[k + 1]) <= kCorner || !placeCorner(k)) continue;
+      sections_.push_back(k);
+      is_there = true;
+    }
     sections_.push_back(points.size() - 1);
   }
 
@@ -62,7 +67,7 @@ class MotionSamples {
   bool placeCorner(std::size_t k) {
     if (rests_[k]) return true;
     double from = times_[k - 1], to = times_[k + 1];
-    double angle = 0.;
+    double angle = turn(points[k - 1], points[k], points[k + 1]);
     for (int round = 0; round < kCornerRounds; ++round) {
       std::array<VectorXd, 5> p;
       for (int j = 0; j < 5; ++j) p[std::size_t(j)] = q(from + (to - from) * j / 4.);
@@ -126,16 +131,22 @@ PathCurve sectionThrough(const std::vector<VectorXd>& points, std::size_t first,
   }
 }
 
+/// Joins halves, because joining one curve after the other would copy the first ones again and again.
+PathCurve joinedAll(const PathCurve* curves, std::size_t count) {
+  if (count == 1) return curves[0];
+  return joined(joinedAll(curves, count / 2), joinedAll(curves + count / 2, count - count / 2));
+}
+
 }  // namespace
 
 PathCurve curveOf(const Trajectory& motion, const CancellationToken& cancellation) {
   if (const auto* timed = dynamic_cast<const TimedPath*>(&motion); timed && timed->feasible()) return timed->curve();
   const MotionSamples samples(motion, cancellation);
   const std::vector<std::size_t>& sections = samples.sections();
-  PathCurve curve = sectionThrough(samples.points, sections[0], sections[1], cancellation);
-  for (std::size_t k = 1; k + 1 < sections.size(); ++k)
-    curve = joined(curve, sectionThrough(samples.points, sections[k], sections[k + 1], cancellation));
-  return curve;
+  std::vector<PathCurve> curves;
+  for (std::size_t k = 0; k + 1 < sections.size(); ++k)
+    curves.push_back(sectionThrough(samples.points, sections[k], sections[k + 1], cancellation));
+  return joinedAll(curves.data(), curves.size());
 }
 
 }  // namespace kinegraph

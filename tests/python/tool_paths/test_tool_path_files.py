@@ -67,6 +67,11 @@ def test_rows_of_many_tables_are_the_same(scene, tmp_path, text):
         ("0,5\t0,2\t0,1\n0,5\t0,2\t0,2\n", r"1:5: the field has two numbers"),
         ("0,5 0,2 0,1\n0,5 0,2 0,2\n", r"1:5: the field has two numbers"),
         ("0,0,0\n0,,1\n", r"2:3: the field is empty"),
+        ('"0.1","0","0"\n"0.1","","0.3"\n', r"2:7: the field is empty"),
+        ('x,y,z\n"0.1","","0.3"\n', r"2:7: the field is empty"),
+        ("note,x,y,z\nseam,0.1,,0.3\n", r"2:10: the field is empty"),
+        ("note,x,y,z\nseam,0.1 0.2,0,0.3\n", r"2:6: '0.1 0.2' is not a number"),
+        ("x,y,z\n0,0,0,,\n", r"2:8: the row has 5 fields; there are 3 names"),
         ("x,y,z,rx,ry,rz\n0,0,0,0,0,0\n", r"1:7: the column 'rx' is an angle; expected a normal"),
         ("x,y,z\n0,0,0,1\n0,0,1,1\n", r"2:7: the row has 4 fields; there are 3 names"),
         ("x,y,z,qx,qy,qz,qz\n0,0,0,0,0,0,1\n", r"1:7: expected each of the columns qw, qx, qy, qz once"),
@@ -92,6 +97,31 @@ def test_other_columns_are_ignored_with_a_warning(tmp_path):
     assert ry.ToolPath.read(file).warnings == [f"{file}:1:1: the column 'id' is ignored"]
 
 
+@pytest.mark.parametrize(
+    "text",
+    [
+        "note,x,y,z,comment\nseg 1,0.1,0.2,0.3,\nseg 2,0.4,0.5,0.6,ok\n",
+        "note;x;y;z;comment\n;0.1;0.2;0.3;\nseg 2;0.4;0.5;0.6;7, 8;\n",
+        "note\tX [m]\tY [m]\tZ [m]\nseg 1\t0.1\t0.2\t0.3\n\t0.4\t0.5\t0.6\t\n",
+        ",x,y,z\n0,0.1,0.2,0.3\n1,0.4,0.5,0.6\n,,,\n",
+        '"a, b",x,y,z,\n"1, 2",0.1,0.2,0.3,\n"",0.4,0.5,0.6\n',
+        "seam 1, left\n0.1,0.2,0.3\n0.4,0.5,0.6\n",
+        "x y z\n0.1,0.2,0.3\n0.4\t0.5\t0.6\n",
+    ],
+)
+def test_columns_are_split_at_the_separator_of_their_names(tmp_path, text):
+    file = tmp_path / "seam.csv"
+    file.write_text(text)
+    first, elements = ry.ToolPath.read(file).__getstate__()[2:4]
+    np.testing.assert_allclose([first[:3], elements[-1][1][-1][:3]], [[0.1, 0.2, 0.3], [0.4, 0.5, 0.6]])
+
+
+def test_a_column_without_a_name_is_ignored_with_a_warning(tmp_path):
+    file = tmp_path / "seam.csv"
+    file.write_text(",x,y,z\n0,0,0,0\n1,0,0,1\n")
+    assert ry.ToolPath.read(file).warnings == [f"{file}:1:1: a column without a name is ignored"]
+
+
 def test_the_extruder_of_a_printer_is_ignored(tmp_path):
     file = tmp_path / "part.gcode"
     file.write_text("G92 E0\nG0 X0 Y0 Z0\nG1 X10 E1 F600\n")
@@ -100,9 +130,10 @@ def test_the_extruder_of_a_printer_is_ignored(tmp_path):
         f"{file}:1:5: E0 is ignored",
         f"{file}:3:8: E1 is ignored",
     ]
-    file.write_text("G92 X0\nG0 X0 Y0 Z0\nG1 X10\n")
-    with pytest.raises(ry.ParseError, match="1:1: unknown code G92"):
-        ry.ToolPath.read(file)
+    for line in ("G92 X0", "G92", "G92 E0 Z0"):  # they move the origin
+        file.write_text(f"{line}\nG0 X0 Y0 Z0\nG1 X10\n")
+        with pytest.raises(ry.ParseError, match="1:1: unknown code G92"):
+            ry.ToolPath.read(file)
 
 
 def test_coordinates_in_millimeters_are_asked_for(scene, tmp_path):

@@ -71,6 +71,22 @@ def test_active_limits_tell_why_a_motion_is_slow(panda):
         ry.activeLimits(C, timed)
 
 
+def test_the_share_of_a_torque_on_a_slide_at_rest_is_that_of_its_force():
+    C = ry.Config()
+    C.addText(
+        "base: {} arm (base): { joint: hingeZ, ctrl_limits: [5 100] } slide (arm): { joint: transX, ctrl_limits: [5 8], "
+        "shape: sphere, size: [.01], mass: 1 }"
+    )
+    q = [[0.0, 0.5], [3.0, 0.5]]
+    timed = ry.retime(C, q, velocity=2.0, acceleration=4.0)
+    limits = {"velocity": 4.0, "acceleration": 40.0, "torque": True}
+    share = max(share for *_, share, cause in ry.activeLimits(C, timed, **limits) if cause == "velocity of 'arm'")
+    assert share == pytest.approx(0.5)
+    limits["velocity"] = 40.0  # m r w^2 = 2 N of 8 N
+    active = [entry for entry in ry.activeLimits(C, timed, **limits) if entry[3] == "torque of 'slide'"]
+    assert max(share for *_, share, _ in active) == pytest.approx(0.25, abs=1e-3)
+
+
 def test_motions_stop_at_the_corners_of_a_way_and_timed_paths_are_kept_to_the_bit(panda):
     C = panda
     q = C.getJointState() + np.array([[0.0], [0.3], [0.1]]) * np.array([1, 0.5, -1, 0.3, 0.2, 0.4, 1])
