@@ -132,6 +132,15 @@ TEST(RobotLoop, IsStoppedIfItDoesNotFollow) {
   EXPECT_LT(driver->commands().back().q[0], .32);
 }
 
+TEST(RobotLoop, AddsTheWarningOfAJointThatDoesNotFollowToEarlierOnes) {
+  RobotLoop loop(goesWrong(4, state(.05, 1.)), .01, {.lag_stops = false});
+  loop.warn("the object is far away");
+  for (int i = 0; i < 10; ++i) loop.step();
+  const std::string warning = loop.takeWarning();
+  EXPECT_TRUE(warning.starts_with("the object is far away; joint 'arm1' is 1 from its command")) << warning;
+  EXPECT_EQ(loop.takeWarning(), "");
+}
+
 TEST(RobotLoop, DoesNotBeginWithARobotThatReportsAnError) {
   RobotState wrong = state(0.);
   wrong.error = "emergency stop";

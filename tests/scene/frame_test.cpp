@@ -209,9 +209,13 @@ TEST(Frame, GeometriesThatContradictThemselvesAreRefused) {
   refused(with([](Mesh& m) { m.texcoords.resize(2); }), "it has 2 texture coordinates for 3 vertices");
   refused(with([](Mesh& m) { m.parts = {0, 2, 1}; }), "its parts do not ascend within its 3 vertices");
   Geometry grid{ShapeType::sdf, {1., 1., 1.}, nullptr};
-  for (const int cells : {0, -5, 5}) {
+  for (const int cells : {0, -5, 1, 5}) {
     grid.grid = std::make_shared<const Grid>(Grid{{cells, 5, 5}, {}});
     refused(grid, "5 x 5 has 0 values");
   }
+  grid.grid = std::make_shared<const Grid>(Grid{{1, 2, 2}, std::vector<float>(4)});
+  refused(grid, "1 x 2 x 2 has 4 values; expected at least 2 x 2 x 2");
+  grid.grid = std::make_shared<const Grid>(Grid{{2, 2, 2}, std::vector<float>(8, NAN)});
+  refused(grid, "its grid has values that are not finite");
   EXPECT_NO_THROW(config.addFrame("a").setGeometry(with([](Mesh& m) { m.triangles = {{0, 1, 2}}; })));
 }

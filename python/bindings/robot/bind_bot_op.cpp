@@ -114,7 +114,9 @@ void bindState(nb::class_<PyBotOp>& bot) {
           "Returns the RobotInfo of the robot, with its limits.")
       .def("getFault", call(&BotOp::getFault), "Returns the cause of the fault; empty without one.")
       .def("takeWarning", call(&BotOp::takeWarning),
-           "Returns and clears the last warning: a joint that came too far from its command, with strict=False.")
+           "Returns and clears the warnings so far, joined; empty without one. With strict=False, a joint that came "
+           "too far "
+           "from its command is one.")
       .def("getMode", call(&BotOp::getMode), "Returns the present control mode.");
 }
 
@@ -272,12 +274,17 @@ void bindTime(nb::class_<PyBotOp>& bot) {
           docs::robot::wait);
 }
 
+/// Emits the warning of a call; the robot's thread may hold the robot, and wait for the interpreter.
+void emitWarnings(PyBotOp& bot) {
+  if (const std::string warning = call(&BotOp::takeWarning)(bot); !warning.empty()) emitWarning(warning);
+}
+
 void bindGrippers(nb::class_<PyBotOp>& bot) {
   bot.def(
          "gripperMove",
          [](PyBotOp& b, int id, double width, double speed) {
            call (&BotOp::gripperMove)(b, id, width, speed);
-           if (const std::string warning = b->takeWarning(); !warning.empty()) emitWarning(warning);
+           emitWarnings(b);
          },
          "id"_a, "width"_a = .075, "speed"_a = .2, docs::robot::gripperMove)
       .def("gripperClose", call(&BotOp::gripperClose), "id"_a, "force"_a = 10., "width"_a = .05, "speed"_a = .1,
@@ -286,7 +293,7 @@ void bindGrippers(nb::class_<PyBotOp>& bot) {
           "gripperCloseGrasp",
           [](PyBotOp& b, int id, const std::string& object, double force, double width, double speed) {
             call (&BotOp::gripperCloseGrasp)(b, id, object, force, width, speed);
-            if (const std::string warning = b->takeWarning(); !warning.empty()) emitWarning(warning);
+            emitWarnings(b);
           },
           "id"_a, "objName"_a, "force"_a = 10., "width"_a = .05, "speed"_a = .1, docs::robot::gripperCloseGrasp)
       .def("getGripperPos", call(&BotOp::getGripperPos), "id"_a, docs::robot::getGripperPos)

@@ -237,6 +237,8 @@ Raises:
 
 inline constexpr char gripperCloseGrasp[] = R"(Closes a gripper on a named object. Does not wait.
 
+An object that is far from the gripper, and not between its fingers, raises a KinegraphWarning.
+
 Args:
     id: Number of the gripper.
     objName: Frame of the object. With a KinematicDriver, it moves with the gripper from then on.
@@ -299,7 +301,7 @@ Args:
     pose: (7,) x y z in m, qw qx qy qz.
 Raises:
     FrameNotFound: There is no such frame.
-    ArgumentError: The pose is invalid.
+    ArgumentError: The pose is invalid, or the frame is a joint of the robot or fixed to one.
     RobotFault: The robot is not simulated.)";
 
 inline constexpr char getImageAndDepth[] = R"(Renders the view of a camera in the simulated world.

@@ -28,6 +28,14 @@ bool isQuarterTurn(double angle) {
   return quarters != 0. && std::abs(quarters) <= 4. && std::abs(angle - quarters * .5 * std::numbers::pi) < kRounding;
 }
 
+/// An attribute with its value, shortened.
+std::string shown(const MjcfElement& element, const XmlAttribute& attribute) {
+  constexpr std::size_t kLongest = 60;
+  const std::string& value = attribute.value;
+  return cat(element.describe(), " ", attribute.name, "=\"", value.substr(0, kLongest),
+             value.size() > kLongest ? "..." : "", "\"");
+}
+
 }  // namespace
 
 void MjcfAngleUnits::addRange(const SourcePosition& where, const std::vector<double>& range, bool degrees) {
@@ -64,15 +72,14 @@ std::optional<std::vector<double>> MjcfValues::parse(const MjcfElement& element,
                                                      std::size_t least, std::size_t most) {
   const auto fits = [&](const auto& found) { return found && found->size() >= least && found->size() <= most; };
   if (auto found = numbersIn(attribute.value); fits(found)) return found;
-  if (auto listed = numbersBetweenCommas(attribute.value); fits(listed)) {
-    findings_.warn(attribute.where, cat(element.describe(), " ", attribute.name, "=\"", attribute.value,
-                                        "\": the commas are read as blanks"));
+  const bool may_be_listed = least == most && least > 1;  // otherwise "0,8" may be the decimal number 0.8
+  if (auto listed = numbersBetweenCommas(attribute.value); may_be_listed && fits(listed)) {
+    findings_.warn(attribute.where, cat(shown(element, attribute), ": the commas are read as blanks"));
     return listed;
   }
-  const std::string shown = attribute.value.size() > 60 ? attribute.value.substr(0, 60) + "..." : attribute.value;
   findings_.error(attribute.where,
-                  cat(element.describe(), " ", attribute.name, "=\"", shown, "\": expected ",
-                      least == most ? "" : cat(least, " to "), most, most == 1 ? " number" : " numbers"));
+                  cat(shown(element, attribute), ": expected ", least == most ? "" : cat(least, " to "), most,
+                      most == 1 ? " number" : " numbers"));
   return std::nullopt;
 }
 
@@ -93,7 +100,7 @@ std::vector<double> MjcfValues::color(const MjcfElement& element) {
   std::vector<double> given = numbersIn(attribute->value).value_or(std::vector<double>{});
   if (given.size() == 4) return given;
   const bool enough = given.size() >= 3;
-  findings_.warn(attribute->where, cat(element.describe(), " rgba=\"", attribute->value, "\": expected 4 numbers; ",
+  findings_.warn(attribute->where, cat(shown(element, *attribute), ": expected 4 numbers; ",
                                        !enough             ? "the color is left out"
                                        : given.size() == 3 ? "the alpha is read as 1"
                                                            : "the first 4 are read"));

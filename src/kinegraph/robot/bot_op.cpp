@@ -7,6 +7,7 @@
 
 #include "kinegraph/common/text.h"
 #include "kinegraph/geometry/distance/proximity.h"
+#include "kinegraph/robot/robot_joint.h"
 #include "kinegraph/robot/robot_loop.h"
 #include "kinegraph/robot/scene_grippers.h"
 #include "kinegraph/scene/tree/scene_tree.h"
@@ -250,13 +251,12 @@ void BotOp::detach(const std::string& from, const std::string& to) {
 }
 
 void BotOp::setFramePose(const std::string& frame, const Pose& pose) {
-  const auto isOfRobot = [](const FrameData& moved) {
-    return moved.moves() && moved.joint->active && moved.joint->type != JointType::free;
-  };
   const FrameData* const moved = model_.scene()->find(frame);
   const FrameData* link = moved;
-  while (link && !link->joint) link = link->parent;
-  if (link && isOfRobot(*link))
+  if (link && !link->joint) {  // with a rigid joint it may be an object that is attached to the robot
+    while (link && !link->moves()) link = link->parent;
+  }
+  if (link && isRobotJoint(*link))
     throw ValueError(cat("BotOp::setFramePose: '", frame, "' is ",
                          link == moved ? std::string("a joint of the robot, which moveTo moves")
                                        : cat("fixed to '", link->name, "', a joint of the robot"),

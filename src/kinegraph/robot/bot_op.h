@@ -92,7 +92,8 @@ class BotOp {
   const RobotInfo& getInfo() const;
   LoopMode getMode() const;
   std::string getFault() const;  ///< cause of the fault; empty without one
-  /// Returns and clears the last warning: of a lag, without SafetyLimits::lag_stops, or of a width beyond a gripper.
+  /// Returns and clears the warnings so far, joined by "; ": of a lag, without SafetyLimits::lag_stops, and of calls of
+  /// grippers.
   std::string takeWarning();
 
   // --- motions
@@ -189,9 +190,12 @@ class BotOp {
   // --- grippers
   // --------------------------------------------------------------------------------------------------------
 
+  /// Moves the fingers to a width (m). A width beyond the gripper's opening is moved to the nearest one, and is told by
+  /// `takeWarning`.
   void gripperMove(int gripper, double width = .075, double speed = .2);
   /// Closes until an object stops the fingers, and holds it.
   void gripperClose(int gripper, double force = 10., double width = .05, double speed = .1);
+  /// Closes on a named object. One that is far from the gripper is told by `takeWarning`. Throws FrameNotFound.
   void gripperCloseGrasp(int gripper, const std::string& object, double force = 10., double width = .05,
                          double speed = .1);
   double getGripperPos(int gripper);  ///< width of the opening, m
@@ -206,6 +210,8 @@ class BotOp {
 
   void attach(const std::string& from, const std::string& to);
   void detach(const std::string& from, const std::string& to);
+  /// Sets the pose of an object. Throws FrameNotFound, and ValueError for a joint of the robot or a frame that is fixed
+  /// to one.
   void setFramePose(const std::string& frame, const Pose& pose);
 
   bool isSimulated() const;  ///< the robot moves in a simulated world

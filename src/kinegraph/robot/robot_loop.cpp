@@ -5,7 +5,9 @@
 #include <limits>
 
 #include "kinegraph/common/text.h"
+#include "kinegraph/robot/robot_joint.h"
 #include "kinegraph/robot/safety_limits.h"
+#include "kinegraph/scene/tree/scene_tree.h"
 
 namespace kinegraph {
 
@@ -17,10 +19,24 @@ void requireFit(const char* field, const VectorXd& numbers, std::size_t expected
     throw RobotFault(cat("the robot's state has a ", field, " of ", numbers.size(), " numbers; expected ", expected));
 }
 
-/// Names the pair of shapes that press on each other the most, in a simulated world; empty if none do.
+/// Returns whether a joint of the robot moves a frame.
+bool isOnRobot(const SceneTree& scene, const std::string& name) {
+  const FrameData* frame = scene.find(name);
+  while (frame && !isRobotJoint(*frame)) frame = frame->parent;
+  return frame;
+}
+
+/// Names the pair of shapes, one of them on the robot, that press on each other the most in a simulated world; empty
+/// if none do.
 std::string strongestContact(RobotDriver& driver) {
+  constexpr double kLeastForce = .5;  // N: less is rounded to none
   const SimulatedWorld* world = driver.world();
-  const std::vector<Contact> contacts = world ? world->contacts() : std::vector<Contact>{};
+  if (!world) return {};
+  std::vector<Contact> contacts = world->contacts();
+  const SceneTree& scene = *world->config().scene();
+  std::erase_if(contacts, [&](const Contact& c) {
+    return c.force.norm() < kLeastForce || !(isOnRobot(scene, c.frame_a) || isOnRobot(scene, c.frame_b));
+  });
   const auto weaker = [](const Contact& a, const Contact& b) { return a.force.norm() < b.force.norm(); };
   const auto most = std::ranges::max_element(contacts, weaker);
   if (most == contacts.end()) return {};
@@ -104,10 +120,10 @@ void RobotLoop::accept(const RobotState& state) {
     if (error.empty() && clock_pause_ > safety_.clock_timeout)
       error = cat("its clock has stood still for ", clock_pause_, " s");
     const std::string lag = error.empty() ? trackingFault() : "";
-    if (safety_.lag_stops) {
-      error = error.empty() ? lag : error;
+    if (!lag.empty() && safety_.lag_stops) {
+      error = lag + strongestContact(*driver_);
     } else if (!lag.empty() && !lags_) {
-      warning_ = lag;
+      warn(lag + strongestContact(*driver_));
     }
     lags_ = !lag.empty();
   }
@@ -123,8 +139,7 @@ std::string RobotLoop::trackingFault() const {
     const std::string& name = info_.joints[std::size_t(i)];
     const bool is_part = name.find(':') != std::string::npos;  // of a joint with several dofs
     return cat("joint '", name, "' is ", distance, " from its command; does an obstacle block it",
-               is_part ? ", or is it the free joint of a base or an object, which no motor moves?" : "?",
-               strongestContact(*driver_));
+               is_part ? ", or is it the free joint of a base or an object, which no motor moves?" : "?");
   }
   return {};
 }

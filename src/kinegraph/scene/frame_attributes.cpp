@@ -115,6 +115,7 @@ std::vector<std::string> setAttributes(Frame& frame, const Graph& attributes) {
       frame.setJointState(Eigen::Map<const VectorXd>(q.data(), Eigen::Index(q.size())));
     }
     frame.editAttributes().set(node);
+    if (node.key == "multibody") frame.scene()->structureChanged();  // what stands beside it may collide now
   }
   return warnings;
 }

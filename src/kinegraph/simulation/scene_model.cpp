@@ -178,14 +178,16 @@ class ModelMaker {
     return body > 0;
   }
 
-  /// Excludes links of robots that overlap parts of their tree, or the ground, in the scene's present state.
-  void excludeOverlaps() {
-    struct Placed {
-      const FrameData *frame, *root;
-      int body, robot;
-      SceneBody::Kind kind;
-      RigidTransform X;
-    };
+  struct Placed {
+    const FrameData *frame, *root;
+    int body, robot;
+    SceneBody::Kind kind;
+    RigidTransform X;
+    bool isLink() const { return kind == SceneBody::Kind::jointed || kind == SceneBody::Kind::fixed; }
+  };
+
+  /// Returns the shapes that collide, in the scene's present state.
+  std::vector<Placed> placedShapes() const {
     std::vector<Placed> all;
     for (const auto& frame : scene_.frames()) {
       const PlacedFrame& placed = model_.scene.frames[std::size_t(frame->id)];
@@ -195,14 +197,17 @@ class ModelMaker {
       all.push_back({frame.get(), root, placed.body == 0 ? fixedBody(frame->id) : placed.body, placed.robot,
                      model_.scene.bodies[std::size_t(placed.body)].kind, scene_.worldPose(*frame).transform()});
     }
-    std::map<int, std::pair<const FrameData*, double>> deepest;  // by root: the lowest shape of a floating robot
+    return all;
+  }
+
+  /// Excludes links of robots that overlap parts of their tree, or the ground.
+  void excludeOverlaps() {
+    const std::vector<Placed> all = placedShapes();
+    if (hasGround()) warnOfSunkenRobots(all);
     for (const Placed& a : all) {
-      if (a.kind != SceneBody::Kind::jointed && a.kind != SceneBody::Kind::fixed) continue;
+      if (!a.isLink()) continue;
       const CollisionBody& body = *a.frame->shape->body();
-      if (const double z = hasGround() ? lowest(body, a.X) : 0.; z < -kOverlap) {
-        exclude(kGroundBody, "ground", a.body, bodyName(a.body));
-        if (floats(a.body) && z < deepest[a.root->id].second) deepest[a.root->id] = {a.frame, z};
-      }
+      if (hasGround() && lowest(body, a.X) < -kOverlap) exclude(kGroundBody, "ground", a.body, bodyName(a.body));
       for (const Placed& b : all) {
         if (a.root != b.root || (a.robot == b.robot && (a.robot < 0 || model_.scene.declared[std::size_t(a.robot)])))
           continue;
@@ -214,19 +219,37 @@ class ModelMaker {
         exclude(a.body, bodyName(a.body), b.body, b.body < 0 ? fixedName(b.frame->id) : bodyName(b.body));
       }
     }
-    for (const auto& [root, lowest] : deepest) {
-      const std::string depth = numberText(-lowest.second, 3);
-      model_.scene.warnings.push_back(cat("Simulation: '", lowest.first->name, "' of a floating robot begins ", depth,
+  }
+
+  /// Tells by how much to raise floating robots of which a link begins below the ground.
+  void warnOfSunkenRobots(const std::vector<Placed>& all) {
+    struct Sunken {
+      const FrameData* link = nullptr;
+      double link_height = 0., height = 0.;  // m: of the lowest link, and of all shapes with those of the base
+    };
+    std::map<int, Sunken> robots;  // by base
+    for (const Placed& shape : all) {
+      const int base = floatingBase(shape.body);
+      if (base <= 0) continue;
+      Sunken& robot = robots[base];
+      const double z = lowest(*shape.frame->shape->body(), shape.X);
+      robot.height = std::min(robot.height, z);
+      if (shape.isLink() && z < std::min(-kOverlap, robot.link_height)) robot.link = shape.frame, robot.link_height = z;
+    }
+    for (const auto& [base, robot] : robots) {
+      if (!robot.link) continue;
+      model_.scene.warnings.push_back(cat("Simulation: '", robot.link->name, "' of a floating robot begins ",
+                                          numberText(-robot.link_height, 3),
                                           " m below the ground, through which it falls; raise the robot's base by ",
-                                          depth, " m or more"));
+                                          numberText(-robot.height, 3), " m or more"));
     }
   }
 
-  /// Returns whether a body belongs to a robot whose base moves freely.
-  bool floats(int body) const {
+  /// Returns the body at or above one that moves freely, the base of a floating robot; 0 or less if there is none.
+  int floatingBase(int body) const {
     while (body > 0 && model_.scene.bodies[std::size_t(body)].kind != SceneBody::Kind::free)
       body = model_.scene.bodies[std::size_t(body)].parent;
-    return body > 0;
+    return body;
   }
 
   /// Returns whether a body carries another one.

@@ -418,6 +418,17 @@ def test_frames_that_are_placed_are_there_in_the_configuration_and_joints_are_re
         bot.setFramePose("l_palm", [0, 0, 1, 1, 0, 0, 0])
 
 
+def test_an_attached_object_is_placed_and_its_parts_are_fixed_to_the_robot(panda: ry.Config) -> None:
+    panda.addFrame("ball", "world").setShape(ry.ST.sphere, [0.03]).setPosition([0.3, 0.4, 1])
+    panda.addFrame("label", "ball")
+    panda.getFrame("ball").setJoint(ry.JT.rigid)
+    panda.attach("l_gripper", "ball")
+    bot = ry.BotOp(panda, False)
+    bot.setFramePose("ball", [0.3, 0.4, 1.2, 1, 0, 0, 0])
+    with pytest.raises(ry.ArgumentError, match="'label' is fixed to 'l_panda_joint7', a joint of the robot"):
+        bot.setFramePose("label", [0, 0, 1, 1, 0, 0, 0])
+
+
 @pytest.mark.parametrize("far", [True, False])
 def test_grasping_an_object_that_is_not_between_the_fingers_is_told(panda: ry.Config, far: bool) -> None:
     place = panda.getFrame("l_gripper").getPosition() + np.array([0, 0.5 if far else 0, 0])

@@ -316,6 +316,31 @@ def test_a_driver_that_is_written_in_python_moves_a_robot(panda: ry.Config) -> N
     assert robot.q == pytest.approx(bot.get_qHome() + 0.1)
 
 
+class SlowHand(OwnRobot):
+    """A robot with a gripper, whose state takes a while to come."""
+
+    def info(self) -> ry.RobotInfo:
+        self._info.grippers = [ry.GripperInfo("hand", 0.0, 0.08, 0.1, 70.0)]
+        return self._info
+
+    def read(self) -> ry.RobotState:
+        time.sleep(0.002)  # other threads of Python run meanwhile
+        state = super().read()
+        return ry.RobotState(state.time, state.q, state.velocity, grippers=[ry.GripperState(0.08, True)])
+
+    def moveGripper(self, command: ry.GripperCommand) -> None:
+        pass
+
+
+def test_grippers_of_a_robot_in_real_time_are_told_while_its_driver_reads(panda: ry.Config) -> None:
+    bot = ry.BotOp(panda, driver=SlowHand(panda), realtime=True)
+    for _ in range(50):
+        with pytest.warns(ry.KinegraphWarning, match="a width of 0.2 m is beyond the opening of gripper 'hand'"):
+            bot.gripperMove(0, 0.2)
+        bot.gripperCloseGrasp(0, "l_gripper")
+    bot.close()
+
+
 def test_what_a_driver_raises_stops_the_robot_and_is_reported(panda: ry.Config) -> None:
     robot = OwnRobot(panda)
     bot = ry.BotOp(panda, driver=robot)

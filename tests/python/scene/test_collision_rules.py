@@ -388,3 +388,16 @@ def test_a_wall_on_the_table_of_a_panda_collides_with_its_first_link_and_the_tab
     pairs = own_pairs(C)
     assert {("l_panda_coll1", "wall"), ("l_panda_coll2", "wall")} <= pairs
     assert ("l_panda_coll1", "table") not in pairs
+
+
+@pytest.mark.parametrize("mark", ["true", "1", "0", "later"])
+def test_the_base_of_a_robot_is_marked_by_true_or_a_number_in_the_file_or_later(mark):
+    C = ry.Config()
+    C.addText(f"""table: {{}}
+      base (table): {{ {"" if mark == "later" else f"multibody: {mark}, "}shape: sphere, size: [.1], contact: 1 }}
+      a (base): {{ joint: hingeZ, shape: sphere, size: [.1], contact: -2 }}
+      wall (table): {{ shape: sphere, size: [.1], contact: 1 }}""")
+    if mark == "later":
+        assert ("a", "wall") not in own_pairs(C)
+        C.getFrame("base").setAttributes({"multibody": True})
+    assert (("a", "wall") in own_pairs(C)) == (mark != "0")

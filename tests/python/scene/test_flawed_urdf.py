@@ -207,6 +207,12 @@ def test_numbers_may_have_commas_between_them(tmp_path: Path) -> None:
     with pytest.warns(ry.KinegraphWarning, match='pos="1,2,3": the commas are read as blanks'):
         C.addFile(tmp_path / "m.xml")
     assert C.getFrame("b").getPosition().tolist() == [1, 2, 3]
+    for friction in ("0,8", "0," + "8" * 100):  # 0.8, or two numbers
+        (tmp_path / "m.xml").write_text(
+            f'<mujoco><worldbody><geom size="1" friction="{friction}"/></worldbody></mujoco>'
+        )
+        with pytest.raises(ry.ParseError, match=r'friction="0,8{1,58}(\.\.\.)?": expected 1 to 3 numbers'):
+            ry.Config().addFile(tmp_path / "m.xml")
 
 
 def test_a_mass_is_finite() -> None:

@@ -260,9 +260,12 @@ def test_what_stands_beside_the_first_joint_of_a_robot_is_no_part_of_its_base():
     C.addText(
         "base: {}\ntable (base): { shape: box, size: [.4 2 .1], X: [.5 0 .4] }\n"
         "j1 (base): { joint: hingeY, pre: [0 0 .8], limits: [-3 3] }\n"
-        "arm (j1): { shape: box, size: [.8 .05 .05], Q: [.4 0 0], mass: 1 }"
+        "arm (j1): { shape: box, size: [.8 .05 .05], Q: [.4 0 0], mass: 1 }\n"
+        "anvil: { shape: box, size: [.2 .2 .2], X: [3 0 .1], mass: 5000 }"
     )
     bot = ry.BotOp(C)
+    bot.sync(C, 0.1)
+    assert max(np.linalg.norm(c["force"]) for c in bot.getContacts()) > 1e4  # the anvil presses more, on the ground
     bot.moveTo([1.2])
     with pytest.raises(
         ry.RobotFault, match=r"does an obstacle block it\? 'arm' and 'table' press on each other with \d+ N"
@@ -285,3 +288,14 @@ def test_a_floating_robot_that_begins_in_the_ground_is_told_how_far_to_raise_it(
         str(w.message) for w in told if "'leg' of a floating robot begins 0.5 m below the ground" in str(w.message)
     ]
     assert len(depth) == (height == 0)
+
+
+def test_a_floating_robot_is_raised_by_as_much_as_its_base_needs():
+    C = ry.Config()
+    C.addText(
+        "world: {}\nbody (world): { joint: free, q: [0 0 -.3 1 0 0 0], shape: box, size: [.2 .2 .4], mass: 5 }\n"
+        "arm (body): { joint: hingeY, limits: [-1 1], shape: box, size: [.05 .05 .2], pre: [0 0 .3], mass: 1 }\n"
+        "stone (world): { joint: free, q: [2 0 -9 1 0 0 0], shape: sphere, size: [.1], mass: 1 }"
+    )
+    with pytest.warns(ry.KinegraphWarning, match="'arm' .* begins 0.1 m below the ground, .* base by 0.5 m or more"):
+        ry.Simulation(C)

@@ -38,11 +38,12 @@ std::string meshFlaw(const Mesh& mesh) {
 
 std::string gridFlaw(const Grid& grid) {
   const double needed = double(grid.cells[0]) * double(grid.cells[1]) * double(grid.cells[2]);
-  if (std::ranges::min(grid.cells) < 1 || double(grid.values.size()) != needed) {
+  if (std::ranges::min(grid.cells) < 2 || double(grid.values.size()) != needed) {
     return cat("its grid of ", grid.cells[0], " x ", grid.cells[1], " x ", grid.cells[2], " has ", grid.values.size(),
-               " values");
+               " values; expected at least 2 x 2 x 2, with one value each");
   }
-  return "";
+  const bool finite = std::ranges::all_of(grid.values, [](float value) { return std::isfinite(value); });
+  return finite ? "" : "its grid has values that are not finite";
 }
 
 }  // namespace

@@ -160,7 +160,9 @@ namespace {
 /// Whether a frame is the base of a robot.
 bool isRobotBase(const FrameData& frame) {
   const Node* node = frame.attributes->find("multibody");
-  const bool* flag = node ? node->value.as<bool>() : nullptr;
+  if (!node) return false;
+  if (const double* number = node->value.as<double>()) return *number != 0.;
+  const bool* flag = node->value.as<bool>();
   return flag && *flag;
 }
 
