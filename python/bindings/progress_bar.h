@@ -24,9 +24,9 @@ class ProgressBar {
     if (check_.checkIfDue() && verbose_ > 0 && seconds() > kLong) draw();
   }
 
-  /// Ends the line on the terminal, if there is one.
-  void finish() {
-    progress_.done = progress_.total;
+  /// Ends the line on the terminal, if there is one: full, or as it was last if the call has failed.
+  void finish(bool is_complete = true) {
+    if (is_complete) progress_.done = progress_.total;
     if (drawn_) draw(true);
   }
 
@@ -40,7 +40,7 @@ class ProgressBar {
     drawn_ = true;
     const nb::module_ progress = nb::module_::import_("kinegraph.progress");
     if (progress_.total > 1)
-      progress.attr("drawProgress")(call_, progress_.done, progress_.total, seconds());
+      progress.attr("drawProgress")(call_, progress_.done, progress_.total, seconds(), ends);
     else if (ends)
       progress.attr("clearLine")();
     else

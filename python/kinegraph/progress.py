@@ -4,16 +4,28 @@ import sys
 from typing import TextIO
 
 
-def drawProgress(what: str, done: int, total: int, seconds: float, stream: TextIO | None = None) -> None:
-    """Redraws the progress bar on `stream` (stderr), if it is a terminal; ends the line after the last item."""
+def drawProgress(
+    what: str, done: int, total: int, seconds: float, stream: TextIO | None = None, ends: bool = False
+) -> None:
+    """Redraws the progress bar on `stream` (stderr), if it is a terminal.
+
+    Args:
+        what: Name of the call.
+        done: Number of finished items.
+        total: Number of all items.
+        seconds: Duration so far, s.
+        stream: Output stream.
+        ends: Whether the call has ended: then the line stays, as after the last item.
+    """
     stream = stream or sys.stderr
     if not stream.isatty():
         return
     width = 30
     filled = width * done // max(total, 1)
-    left = f", {seconds * (total - done) / done:.0f} s left" if 0 < done < total else ""
+    left = f", {seconds * (total - done) / done:.0f} s left" if 0 < done < total and not ends else ""
     bar = "█" * filled + "·" * (width - filled)
-    stream.write(f"\r{what} {bar} {done}/{total}, {seconds:.0f} s{left}\x1b[K" + ("\n" if done >= total else ""))
+    end = "\n" if ends or done >= total else ""
+    stream.write(f"\r{what} {bar} {done}/{total}, {seconds:.0f} s{left}\x1b[K{end}")
     stream.flush()
 
 

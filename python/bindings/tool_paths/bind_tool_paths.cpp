@@ -362,7 +362,7 @@ void bindToolPaths(nb::module_& m) {
           return planToolPath(
               scene, all, options, [&bar] { bar.check(); }, std::ref(bar));
         }();
-        bar.finish();
+        bar.finish(plan.feasible());
         if (verbose > 0)
           logMessage(LogLevel::info, cat("planToolPath: ", inPython(plan.str()), ", ", bar.seconds(), " s"));
         return plan;
