@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 
 #include "tests/support/expect_error.h"
 
@@ -137,6 +138,78 @@ TEST_F(ViewerPicturesTest, PicturesAreOfTheAssignedScene) {
   config = other;
   EXPECT_EQ(&config.viewer(), &viewer);
   EXPECT_TRUE(isRed(0., 1.));
+}
+
+TEST_F(ViewerPicturesTest, PicturesAreOfTheSceneAgainAfterAnotherOneWasShown) {
+  Config other;
+  other.addText("ball: { X: [0 0 1], shape: sphere, size: [.3], color: [1 0 0] }");
+  viewer.update(other);
+  EXPECT_TRUE(isRed(0., 1.));
+  EXPECT_EQ(&config.viewer(), &viewer);
+  EXPECT_FALSE(isRed(0., 1.));
+}
+
+TEST_F(ViewerPicturesTest, TextsAreBrokenAnewInPicturesOfAnotherSize) {
+  const auto sized = [](ConfigViewer& shown, int width) {
+    shown.setWindow("", width, 120);
+    return shown.getRgb().rgb;
+  };
+  Config same = config;
+  const Camera camera = viewer.camera();
+  for (ConfigViewer* shown : {&viewer, &same.viewer()}) {
+    shown->setCamera(camera);
+    shown->label("note", {0., 0., 1.}, "some words that need several lines in narrow pictures");
+  }
+  sized(viewer, 400);
+  EXPECT_EQ(sized(viewer, 120), sized(same.viewer(), 120));
+}
+
+TEST_F(ViewerPicturesTest, AFailedPictureIsNotCounted) {
+  const std::string prefix = (fs::temp_directory_path() / ("not_counted_" + std::to_string(getpid()))).string();
+  ConfigViewer other;
+  expectError<ValueError>([&] { other.savePng(prefix); }, {"no scene yet"});
+  other.update(config);
+  EXPECT_EQ(other.savePng(prefix), prefix + "000000.png");
+  fs::remove(prefix + "000000.png");
+}
+
+TEST(ViewerPictures, ACameraThatFollowsAFrameKeepsNoScene) {
+  setenv("KINEGRAPH_HEADLESS", "1", 1);
+  std::weak_ptr<SceneTree> scene;
+  {
+    Config config;
+    config.addText("eye: { X: [0 0 1] }\n camera_track: { X: [0 0 2] }");
+    scene = config.scene();
+    config.viewer().setCamera(config.getFrame("eye"));
+    config.getFrame("camera_track").setPosition({0., 0., 3.});
+    EXPECT_NEAR(config.viewer().camera().pose.p.z(), 3., 1e-12);
+  }
+  EXPECT_TRUE(scene.expired());
+}
+
+TEST(ViewerPictures, ACameraStaysWhereItsFrameWasLast) {
+  Config config;
+  config.addText("eye: { X: [0 0 1] }");
+  ConfigViewer& viewer = config.viewer();
+  viewer.setCamera(config.getFrame("eye"));
+  config.getFrame("eye").setPosition({0., 0., 2.});
+  EXPECT_NEAR(viewer.camera().pose.p.z(), 2., 1e-12);
+  config.delFrame("eye");
+  EXPECT_NEAR(viewer.camera().pose.p.z(), 2., 1e-12);
+}
+
+TEST(ViewerPictures, PagesHaveTheCameraOfTheScene) {
+  setenv("KINEGRAPH_HEADLESS", "1", 1);
+  const auto isAimed = [](const std::string& scene) {
+    Config config;
+    config.addText(scene);
+    ConfigViewer plain;
+    plain.update(config);
+    config.view();
+    return config.viewer().recording() != plain.recording();
+  };
+  EXPECT_FALSE(isAimed("eye: { X: [0 0 1] }"));
+  EXPECT_TRUE(isAimed("camera_init: { X: [0 0 1] }"));
 }
 
 TEST(ViewerPictures, AViewerWithoutASceneSaysSo) {

@@ -7,7 +7,10 @@
 #include <iterator>
 
 #include "kinegraph/common/errors.h"
+#include "kinegraph/common/random.h"
+#include "kinegraph/scene/frame_setters.h"
 #include "kinegraph/viewer/client_page.h"
+#include "kinegraph/viewer/messages/merged_lines.h"
 
 using namespace kinegraph;
 
@@ -75,6 +78,29 @@ TEST(RecordedPage, MeshesGetCoarserUntilThePageIsSmallEnough) {
   EXPECT_GT(page.size(), empty + 5000);
   EXPECT_EQ(recordedScene(config, nullptr, "a ball", nullptr, whole + 1000).size(),
             recordedScene(config, nullptr, "a ball").size());
+}
+
+TEST(RecordedPage, LinesAreMergedUntilThePageIsSmallEnough) {
+  Config config;
+  Rng rng(0);
+  std::vector<Vector3d> points;
+  for (int i = 0; i < 4000; ++i) {
+    const Vector3d from(rng.uniform(), rng.uniform(), rng.uniform());
+    for (const double step : {0., .01}) points.push_back(from + Vector3d::Constant(step));
+  }
+  Frame frame = config.addFrame("roadmap");
+  setLines(frame, points);
+  const std::size_t whole = recordedScene(config, nullptr, "lines").size(), largest = whole - 50000;
+  EXPECT_LE(recordedScene(config, nullptr, "lines", nullptr, largest).size(), largest);
+}
+
+TEST(RecordedPage, MergedLinesHaveMeansOfEndsAndAreThereOnce) {
+  Mesh lines;
+  lines.vertices = {{0., 0., 0.}, {.9, 0., 0.}, {1.1, 0., 0.}, {.1, 0., 0.}, {0., 2., 0.}, {.1, 2., 0.}};
+  const Mesh merged = mergedLines(lines, 1.);
+  ASSERT_EQ(merged.vertices.size(), 2u);
+  EXPECT_NEAR(merged.vertices[0].x(), .05, 1e-12);
+  EXPECT_NEAR(merged.vertices[1].x(), 1., 1e-12);
 }
 
 TEST(RecordedPage, PagesShareTheScriptOfAFile) {

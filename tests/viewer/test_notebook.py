@@ -164,6 +164,32 @@ def test_a_roadmap_and_a_recording_show_themselves(config: kg.Config) -> None:
     assert page.startswith("<iframe") and len(page) < 600_000
 
 
+def test_a_recording_without_frames_shows_itself() -> None:
+    simulation = kg.Simulation(kg.Config(), kg.SimulationEngine.physx)
+    simulation.startRecording()
+    for _ in range(5):
+        simulation.step([], 0.01, kg.ControlMode.none)
+    assert simulation.stopRecording()._repr_html_().startswith("<iframe")
+
+
+def test_a_large_roadmap_is_a_small_element(config: kg.Config) -> None:
+    config.addFile(kg.raiPath("scenarios/pandaSingle.g"))
+    roadmap = kg.Roadmap(config)
+    roadmap.grow(220)
+    assert len(roadmap._repr_html_()) < 600_000
+
+
+def test_pictures_are_of_the_scene_after_a_plan_was_shown(config: kg.Config) -> None:
+    plan = plan_in(config)
+    plan.view(config, pause=False)
+    config.viewer().setWindow("", 160, 120)
+    before = config.viewer().getRgb()
+    config.setJointState(plan.path[-1])
+    assert np.abs(config.viewer().getRgb().astype(int) - before).max() > 40
+    config.addFrame("new").setPosition([1, 2, 3])
+    config.viewer().setCamera("new")
+
+
 def test_a_task_plan_shows_its_motion_or_only_its_text(config: kg.Config) -> None:
     config.addFile(kg.raiPath("scenarios/pandaSingle.g"))
     cup = config.addFrame("cup", "table").setShape(kg.ST.ssBox, [0.05, 0.05, 0.1, 0.01])

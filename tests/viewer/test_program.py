@@ -97,6 +97,37 @@ def test_a_logged_image_is_replaced_and_removed(
     browser.wait_for("document.querySelectorAll('.images figure').length === 0")
 
 
+def test_parts_and_mirror_images_of_arrays_are_images(
+    config: kg.Config, viewer: kg.ConfigurationViewer, browser: Browser
+) -> None:
+    rgb = np.zeros((2, 3, 3), np.uint8)
+    rgb[0, 1] = [10, 20, 30]
+    viewer.log("wrist", rgb[:, 1:, ::-1])
+    open_page(config, browser)
+    browser.wait_for("document.querySelector('.images canvas')?.width === 2")
+    pixel = "[...document.querySelector('.images canvas').getContext('2d').getImageData(0, 0, 1, 1).data]"
+    assert browser.evaluate(pixel) == [30, 20, 10, 255]
+
+
+def test_what_is_neither_numbers_nor_an_image_is_not_logged(viewer: kg.ConfigurationViewer) -> None:
+    image = np.zeros((4, 5, 3), np.uint8)
+    for wrong in (image.astype(float), image[:, :, 0], np.zeros((4, 5, 4), np.uint8)):
+        with pytest.raises(kg.ArgumentError, match=rf"log 'a': the value has {wrong.ndim} dimensions; .*uint8"):
+            viewer.log("a", wrong)
+        with pytest.raises(kg.ArgumentError, match="log 'a'"):
+            viewer.log({"a": wrong}, time=1)
+    for given in ({"time": 1.0}, {"unit": "m"}):
+        with pytest.raises(kg.ArgumentError, match="an image has no time and no unit"):
+            viewer.log("a", image, **given)
+    viewer.log({"a": image, "cost": 1.0}, time=1)
+
+
+def test_fractions_are_no_colors_of_points(viewer: kg.ConfigurationViewer) -> None:
+    with pytest.raises(kg.ArgumentError, match="did you mean 255 times"):
+        viewer.points("cloud", np.zeros((2, 3)), colors=np.full((2, 3), 0.5))
+    viewer.points("cloud", np.zeros((2, 3)), colors=np.ones((2, 3), np.uint8))
+
+
 def test_what_a_control_refuses(viewer: kg.ConfigurationViewer) -> None:
     width = viewer.slider("width", 0, 1, 0.5)
     for wrong in (

@@ -131,12 +131,13 @@ void bindRendering(nb::module_& m) {
       .def(
           "setCamera",
           [](PyCameraView& v, const FrameArgument& frame) {
-            v.camera.follow(toFrame(nb::cast<PyConfig&>(v.config), frame, "setCamera"));
+            const Frame given = toFrame(nb::cast<PyConfig&>(v.config), frame, "setCamera");
+            v.camera.follow(given.scene(), given.data());
             return v.camera.now();
           },
           "cameraFrameName"_a, docs::rendering::setCamera)
       .def(
-          "getFxycxy", [](const PyCameraView& v) { return fxycxyOf(v.camera.now()); },
+          "getFxycxy", [](PyCameraView& v) { return fxycxyOf(v.camera.now()); },
           "fx, fy, cx, cy in pixels, shape (4,).")
       .def("computeImageAndDepth", computeImageAndDepth, "config"_a.none() = nb::none(), "simulateDepthNoise"_a = false,
            "visualsOnly"_a = true, docs::rendering::computeImageAndDepth)

@@ -25,6 +25,9 @@ PointColors colorsOf(const std::optional<Numbers>& numbers, std::size_t n) {
     throw ValueError(cat("got ", size, " color numbers for ", n,
                          " points; expected 3 (rgb) or 4 (rgba) per point, or one color, in 0..255"));
   }
+  const VectorXd& given = numbers->values;
+  if (given.minCoeff() >= 0. && given.maxCoeff() <= 1. && given != VectorXd(given.array().round()))
+    throw ValueError("the color numbers are fractions in 0..1; expected 0 to 255, so did you mean 255 times these?");
   PointColors colors(size / columns, {0, 0, 0, 255});
   for (std::size_t i = 0; i < size; ++i) {
     const double x = numbers->values[Eigen::Index(i)];

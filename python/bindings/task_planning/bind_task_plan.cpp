@@ -73,11 +73,9 @@ std::optional<std::string> page(const PyTaskPlan& plan) {
     const ShownMotion motion = taskMotion(plan, plan.scenes.front());
     return notebookPage(plan.scenes.front(), &motion, "TaskPlan", text);
   }
-  const TaskBranch* longest = nullptr;
-  for (const TaskBranch& branch : plan.tree)
-    if (branch.failed_configuration && (!longest || branch.actions.size() > longest->actions.size())) longest = &branch;
-  if (!longest) return std::nullopt;
-  return notebookPage(*longest->failed_configuration, nullptr, "TaskPlan", text);
+  const TaskBranch* farthest = farthestFailed(plan);
+  if (!farthest) return std::nullopt;
+  return notebookPage(*farthest->failed_configuration, nullptr, "TaskPlan", text);
 }
 
 Array frames(const PyTaskPlan& plan, const PyConfig& C, double rate) {

@@ -121,18 +121,41 @@ void drawFrustum(PyViewer& v, const std::string& name, const std::variant<std::s
   v.frustum(name, seen.pose, focal_length.value_or(seen.focal_length), aspect, image, optionsOf(v, "frustum", look));
 }
 
-/// Numbers, or an image: rows and columns of rgb bytes.
-using Logged =
-    std::variant<nb::ndarray<const std::uint8_t, nb::shape<-1, -1, 3>, nb::c_contig, nb::device::cpu>, Numbers>;
+/// Rows and columns of rgb bytes, also parts and mirror images of arrays.
+using LoggedImage = nb::ndarray<const std::uint8_t, nb::shape<-1, -1, 3>, nb::device::cpu>;
+
+using Logged = std::variant<LoggedImage, Numbers>;
+
+PageImage pageImage(const LoggedImage& from) {
+  PageImage image{int(from.shape(1)), int(from.shape(0)), {}};
+  for (std::size_t row = 0; row < from.shape(0); ++row) {
+    for (std::size_t column = 0; column < from.shape(1); ++column)
+      for (std::size_t k = 0; k < 3; ++k) image.rgb.push_back(from(row, column, k));
+  }
+  return image;
+}
+
+/// Images have no times.
+void logAt(PyViewer& v, const std::string& name, const Logged& value, std::optional<double> time,
+           const std::string& unit) {
+  const auto* numbers = std::get_if<Numbers>(&value);
+  if (!numbers) return v.log(name, pageImage(std::get<LoggedImage>(value)));
+  if (numbers->rank > 1) {
+    throw ValueError(cat("log '", name, "': the value has ", numbers->rank,
+                         " dimensions; expected a number, a vector, or an image, uint8 (height, width, 3)"));
+  }
+  v.log(name, numbers->list(), time, unit);
+}
 
 void logOne(PyViewer& v, const std::string& name, const Logged& value, std::optional<double> time,
             const std::string& unit) {
-  if (const auto* numbers = std::get_if<Numbers>(&value)) return v.log(name, numbers->list(), time, unit);
-  v.log(name, imageOf(Rgb(std::get<0>(value)), "log"));
+  if (!std::holds_alternative<Numbers>(value) && (time || !unit.empty()))
+    throw ValueError(cat("log '", name, "': an image has no time and no unit; expected none, or numbers"));
+  logAt(v, name, value, time, unit);
 }
 
 void logAll(PyViewer& v, const std::map<std::string, Logged>& values, std::optional<double> time) {
-  for (const auto& [name, value] : values) logOne(v, name, value, time, "");
+  for (const auto& [name, value] : values) logAt(v, name, value, time, "");
 }
 
 template <class T>

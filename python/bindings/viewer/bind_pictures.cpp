@@ -17,8 +17,11 @@ namespace {
 /// Renders the viewer's scene, with a text on it.
 CameraImage picture(PyViewer& viewer, const std::string& text, bool has_depth = false) {
   takeAppearance(viewer);
+  ViewerPictures& pictures = viewer.pictures();
+  PictureContent content = pictures.content(has_depth);
+  content.scene = Config(*content.scene).scene();  // other threads may change the scene meanwhile
   const nb::gil_scoped_release unlock;
-  return viewer.pictures().draw(text, has_depth);
+  return pictures.draw(content, text);
 }
 
 Vector3d point(const Numbers& numbers, const char* what) {
@@ -37,8 +40,8 @@ void setViewCamera(PyViewer& viewer, nb::handle frame) {
 }  // namespace
 
 std::string savePicture(PyViewer& viewer, const std::string& path, int count, const std::optional<std::string>& text) {
-  const std::string file = viewer.pictures().fileOf(path, count);
   CameraImage image = picture(viewer, text.value_or(viewer.message()));
+  const std::string file = viewer.pictures().fileOf(path, count);
   nb::module_::import_("kinegraph.png").attr("writePng")(file, rgbOf(image));
   return file;
 }

@@ -226,7 +226,6 @@ void bindViews(nb::class_<PyConfig>& config) {
 
 int viewOnPage(PyConfig& config, Config shown, bool pause, const std::string& message) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
-  viewer->scene = shown.scene();
   if (!show(*viewer, message, false)) return pause ? kEscape : 0;
   const nb::gil_scoped_release unlock;
   return viewer->view(shown, pause, message, interrupted);
@@ -235,7 +234,6 @@ int viewOnPage(PyConfig& config, Config shown, bool pause, const std::string& me
 int playOnPage(PyConfig& config, const Config& shown, const ShownMotion& motion, bool pause,
                const std::string& message) {
   const std::shared_ptr<PyViewer> viewer = showIn(config);
-  viewer->scene = shown.scene();
   if (!openPage(*viewer)) return pause ? kEscape : 0;
   const nb::gil_scoped_release unlock;
   return viewer->showMotion(shown, motion, pause, message, interrupted);

@@ -27,7 +27,8 @@ std::vector<double> numbers(const char* name) { return parameter(name, std::vect
 /// Returns the motion with fewer slices, equally far apart, such that they have at most about `most` poses.
 ShownMotion thinned(const ShownMotion& motion, std::size_t most) {
   const std::size_t slices = motion.poses.size();
-  const std::size_t kept = slices < 2 ? slices : std::clamp<std::size_t>(most / motion.poses[0].size(), 2, slices);
+  const std::size_t kept =
+      slices < 2 ? slices : std::clamp<std::size_t>(most / std::max<std::size_t>(motion.poses[0].size(), 1), 2, slices);
   if (kept == slices) return motion;
   ShownMotion fewer;
   fewer.seconds = motion.seconds;

@@ -188,18 +188,18 @@ inline constexpr char log[] = R"(Appends a sample to a plot on the page, which g
 Args:
     name: Name of the plot or image.
     value: A number, or numbers, one curve for each; or an image, uint8 (height, width, 3), in place of the last one.
-    time: s; None: seconds since the first call. Pages keep the last 100,000 samples.
-    unit: Unit in the title of the plot.
+    time: s; None: seconds since the first call. Pages keep the last 100,000 samples. Not with an image.
+    unit: Unit in the title of the plot. Not with an image.
 Raises:
-    ArgumentError: The number of values differs from that of earlier samples.)";
+    ArgumentError: The number of values differs from that of earlier samples, or the value is neither of these.)";
 
 inline constexpr char logAll[] = R"(Appends samples to several plots on the page.
 
 Args:
     values: A dict of names and values, each a number, numbers (one curve for each), or an image, uint8 (h, w, 3).
-    time: s; None: seconds since the first call.
+    time: s, of the numbers; None: seconds since the first call.
 Raises:
-    ArgumentError: The number of values differs from that of earlier samples.)";
+    ArgumentError: The number of values differs from that of earlier samples, or a value is neither of these.)";
 
 inline constexpr char onClick[] = R"(Sets a function that is called after a click on the scene.
 

@@ -1,4 +1,5 @@
 // The methods of Config that need the rooms above the scene.
+#include "kinegraph/api/viewer_pictures.h"
 #include "kinegraph/common/log.h"
 #include "kinegraph/features/eval.h"
 #include "kinegraph/scene/tree/scene_tree.h"
@@ -22,17 +23,19 @@ Evaluation Config::eval(const FeatureSource& feature, const std::vector<std::str
 
 ConfigViewer& Config::viewer() {
   if (!scene_->viewer) scene_->viewer = std::make_shared<ConfigViewer>();
-  if (!scene_->viewer->pictured()) scene_->viewer->setScene(scene_);
+  scene_->viewer->setScene(scene_);  // it may have shown another one
   return *scene_->viewer;
 }
 
 int Config::view(bool pause, const std::string& message) {
+  viewer().pictures().aimPage();
   return viewer().view(*this, pause, shown(message), neverStops);
 }
 
 int Config::viewPath(const MatrixXd& path, double seconds, bool pause, const std::string& message) {
   ShownMotion motion = motionAlong(*this, path, seconds);
   motion.start = ShownMotion::Start::play;
+  viewer().pictures().aimPage();
   return viewer().showMotion(*this, motion, pause, shown(message), neverStops);
 }
 

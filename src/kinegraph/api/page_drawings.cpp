@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <set>
 
 #include "kinegraph/rendering/projection.h"
 #include "kinegraph/scene/tree/scene_tree.h"
@@ -114,26 +115,26 @@ bool overlap(const Text& a, const Text& b) {
 }  // namespace
 
 std::vector<PictureDrawing> PageDrawings::shapes(const Listed& drawings, SceneTree& scene) {
-  std::map<std::shared_ptr<const PageDrawing>, std::vector<PictureDrawing>> known;
   std::vector<PictureDrawing> all;
   for (const auto& drawing : drawings) {
-    const auto before = known_.find(drawing);
-    const auto& shapes = known[drawing] = before == known_.end() ? shapesOf(*drawing) : std::move(before->second);
+    auto known = known_.find(drawing);
+    if (known == known_.end()) known = known_.emplace(drawing, shapesOf(*drawing)).first;
     const std::optional<Pose> X_WF = framePose(*drawing, scene);
     if (!X_WF) continue;
-    for (PictureDrawing shape : shapes) {
+    for (PictureDrawing shape : known->second) {
       shape.pose = *X_WF * shape.pose;
       all.push_back(std::move(shape));
     }
   }
-  known_ = std::move(known);
+  const std::set<std::shared_ptr<const PageDrawing>> used(drawings.begin(), drawings.end());
+  std::erase_if(known_, [&](const auto& entry) { return !used.contains(entry.first); });
   return all;
 }
 
 void PageDrawings::write(const Listed& drawings, SceneTree& scene, const Camera& camera, CameraRenderer& writer,
                          CameraImage& image) {
   const Eigen::Matrix4d to_image = projection(withRange(camera));
-  std::map<std::string, Letters> letters;
+  std::set<const Letters*> used;
   std::vector<Text> texts;
   for (const auto& drawing : drawings) {
     const std::optional<Pose> X_WF = framePose(*drawing, scene);
@@ -142,13 +143,12 @@ void PageDrawings::write(const Listed& drawings, SceneTree& scene, const Camera&
     if (!(p[3] > 0.) || std::abs(p[2]) > p[3]) continue;  // not between the nearest and the farthest visible depth
     const Vector3d at = p.head<3>() / p[3];
     if (std::abs(at.x()) > 2. || std::abs(at.y()) > 2.) continue;
-    const auto [place, is_new] = letters.try_emplace(drawing->text);
-    if (is_new) {
-      const auto before = letters_.find(drawing->text);
-      place->second =
-          before == letters_.end() ? writer.write(drawing->text, image.width, image.height) : std::move(before->second);
-    }
-    texts.push_back({{.5 * (1. + at.x()) * image.width, .5 * (1. - at.y()) * image.height, at.z()}, &place->second});
+    const std::tuple key(drawing->text, image.width, image.height);
+    auto known = letters_.find(key);
+    if (known == letters_.end())
+      known = letters_.emplace(key, writer.write(drawing->text, image.width, image.height)).first;
+    used.insert(&known->second);
+    texts.push_back({{.5 * (1. + at.x()) * image.width, .5 * (1. - at.y()) * image.height, at.z()}, &known->second});
   }
   std::stable_sort(texts.begin(), texts.end(), [](const Text& a, const Text& b) { return a.at.z() < b.at.z(); });
   std::vector<Text> seen;
@@ -157,7 +157,7 @@ void PageDrawings::write(const Listed& drawings, SceneTree& scene, const Camera&
     drawLabel(image.rgb, image.width, *text.letters, int(std::lround(text.at.x())), int(std::lround(text.at.y())));
     seen.push_back(text);
   }
-  letters_ = std::move(letters);
+  std::erase_if(letters_, [&](const auto& entry) { return !used.contains(&entry.second); });
 }
 
 }  // namespace kinegraph

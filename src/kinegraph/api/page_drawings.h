@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "kinegraph/rendering/camera_renderer.h"
@@ -27,7 +28,7 @@ class PageDrawings {
 
  private:
   std::map<std::shared_ptr<const PageDrawing>, std::vector<PictureDrawing>> known_;
-  std::map<std::string, Letters> letters_;
+  std::map<std::tuple<std::string, int, int>, Letters> letters_;  ///< by text, width and height of the image
 };
 
 }  // namespace kinegraph

@@ -59,11 +59,16 @@ std::vector<MatrixXd> TaskPlan::frames(const Config& C, double rate) const {
   return poses;
 }
 
-Config TaskPlan::failedConfiguration(const Config& C) const {
+const TaskBranch* farthestFailed(const TaskPlan& plan) {
   const TaskBranch* farthest = nullptr;
-  for (const TaskBranch& branch : tree)
+  for (const TaskBranch& branch : plan.tree)
     if (branch.failed_configuration && (!farthest || branch.actions.size() > farthest->actions.size()))
       farthest = &branch;
+  return farthest;
+}
+
+Config TaskPlan::failedConfiguration(const Config& C) const {
+  const TaskBranch* farthest = farthestFailed(*this);
   if (!farthest) throw ValueError(cat("TaskPlan.failedConfiguration: no branch failed at a waypoint; ", summary()));
   Config scene = C;
   for (const Frame& frame : C.getFrames()) {
@@ -98,10 +103,7 @@ ShownMotion taskMotion(const TaskPlan& plan, const Config& C) {
 }
 
 Config failedScene(const TaskPlan& plan, const Config& C) {
-  const bool failed_there = std::any_of(plan.tree.begin(), plan.tree.end(), [](const TaskBranch& branch) {
-    return branch.failed_configuration != nullptr;
-  });
-  return failed_there ? plan.failedConfiguration(C) : Config(C);
+  return farthestFailed(plan) ? plan.failedConfiguration(C) : Config(C);
 }
 
 int TaskPlan::view(Config& C, bool pause) const {

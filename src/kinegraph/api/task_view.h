@@ -18,6 +18,9 @@ void playTask(const TaskPlan& plan, Config& C, bool pause, const ShowScene& show
 /// ValueError if the plan has no motion.
 ShownMotion taskMotion(const TaskPlan& plan, const Config& C);
 
+/// Returns the longest branch that failed at a waypoint; null if none did.
+const TaskBranch* farthestFailed(const TaskPlan& plan);
+
 /// Returns the scene for a plan without a motion: C, with a translucent red copy of the waypoint that failed in the
 /// longest branch, if one did.
 Config failedScene(const TaskPlan& plan, const Config& C);

@@ -35,6 +35,19 @@ PictureOptions optionsOf(const Appearance& appearance, double distance, bool has
 
 }  // namespace
 
+void ViewCamera::follow(const std::shared_ptr<SceneTree>& scene, const FrameData& frame) {
+  camera_ = cameraOf(Frame(scene, *scene->frames()[std::size_t(frame.id)]));
+  scene_ = scene;
+  frame_ = scene->frames()[std::size_t(frame.id)];
+}
+
+Camera ViewCamera::now() {
+  const std::shared_ptr<SceneTree> scene = scene_.lock();
+  const std::shared_ptr<FrameData> frame = frame_.lock();
+  if (scene && frame && frame->tree) camera_.pose = scene->worldPose(*frame);
+  return camera_;
+}
+
 PageCamera pageCameraOf(const Camera& camera) {
   PageCamera page{camera.pose};
   page.focal_length = camera.focal_length;
@@ -53,18 +66,28 @@ std::shared_ptr<SceneTree> ViewerPictures::scene() const {
   return scene;
 }
 
-CameraImage ViewerPictures::draw(const std::string& text, bool has_depth) {
+PictureContent ViewerPictures::content(bool has_depth) {
   const std::shared_ptr<SceneTree> shown = scene();
-  const Camera seen_by = camera();
-  const Appearance& appearance = viewer_.appearance();
-  const PageDrawings::Listed listed =
-      has_depth ? PageDrawings::Listed() : viewer_.content()->drawings();  // the depth is that of the scene
+  const Camera seen_by = camera();  // may set the distance
+  return {shown,
+          seen_by,
+          distance_,
+          viewer_.appearance(),
+          has_depth ? PageDrawings::Listed() : viewer_.content()->drawings(),  // the depth is that of the scene
+          viewer_.quads(),
+          has_depth};
+}
+
+CameraImage ViewerPictures::draw(const PictureContent& content, const std::string& text) {
+  const std::lock_guard lock(drawing_);
+  const Appearance& appearance = content.appearance;
   if (!renderer_) renderer_.emplace();
-  CameraImage image = renderer_->render(*shown, drawings_.shapes(listed, *shown), seen_by,
-                                        optionsOf(appearance, distance_, has_depth), appearance.visuals_only);
+  CameraImage image =
+      renderer_->render(*content.scene, drawings_.shapes(content.drawings, *content.scene), content.camera,
+                        optionsOf(appearance, content.distance, content.has_depth), appearance.visuals_only);
   if (!writer_) writer_.emplace();
-  drawings_.write(listed, *shown, seen_by, *writer_, image);
-  for (const auto& [id, quad] : viewer_.quads()) drawQuad(image.rgb, image.width, quad);
+  drawings_.write(content.drawings, *content.scene, content.camera, *writer_, image);
+  for (const auto& [id, quad] : content.quads) drawQuad(image.rgb, image.width, quad);
   if (appearance.text && !appearance.visuals_only && !text.empty()) {
     constexpr int kAround = 48;  // pixels of width and height that the text does not use
     const int width = std::max(image.width - kAround, 1), height = std::max(image.height - kAround, 1);
@@ -99,7 +122,7 @@ Camera ViewerPictures::camera() {
   FrameData* tracked = scene ? scene->find("camera_track") : nullptr;
   const std::optional<PageCamera> moved = viewer_.takeViewpoint();
   if (tracked) {
-    camera_.follow(Frame(scene, *tracked));
+    camera_.follow(scene, *tracked);
     camera_is_set_ = true;
   } else if (moved) {
     Camera camera = camera_.now();
@@ -138,7 +161,7 @@ void ViewerPictures::place(const Camera& camera, double distance) {
 
 void ViewerPictures::follow(const Frame& frame) {
   place(cameraOf(frame));
-  camera_.follow(frame);
+  camera_.follow(frame.scene(), frame.data());
 }
 
 /// The page may have any aspect.
@@ -196,13 +219,13 @@ ViewerPictures& ConfigViewer::pictures() {
   return *pictures_;
 }
 
-CameraImage ConfigViewer::getRgb() { return pictures().draw(message()); }
+CameraImage ConfigViewer::getRgb() { return pictures().draw(pictures().content(), message()); }
 
-CameraImage ConfigViewer::getDepth() { return pictures().draw(message(), true); }
+CameraImage ConfigViewer::getDepth() { return pictures().draw(pictures().content(true), message()); }
 
 std::string ConfigViewer::savePng(const std::string& path, int count) {
-  const std::string name = pictures().fileOf(path, count);
   CameraImage image = getRgb();
+  const std::string name = pictures().fileOf(path, count);
   std::error_code failed;  // then the file cannot be written, either
   std::filesystem::create_directories(std::filesystem::path(name).parent_path(), failed);
   std::ofstream file(name, std::ios::binary);

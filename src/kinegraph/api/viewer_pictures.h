@@ -1,5 +1,8 @@
 #pragma once
 
+#include <map>
+#include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -15,11 +18,8 @@ class ViewCamera {
  public:
   explicit ViewCamera(const Camera& camera) : camera_(camera) {}
 
-  /// Follows a frame, with the camera of its attributes.
-  void follow(const Frame& frame) {
-    camera_ = cameraOf(frame);
-    frame_ = frame;
-  }
+  /// Follows a frame, with the camera of its attributes. Without the frame, the camera stays where it was last.
+  void follow(const std::shared_ptr<SceneTree>& scene, const FrameData& frame);
   void place(const Camera& camera) {
     camera_ = camera;
     frame_.reset();
@@ -28,16 +28,24 @@ class ViewCamera {
     camera_.width = width;
     camera_.height = height;
   }
-  bool follows() const { return frame_.has_value(); }
-  Camera now() const {
-    Camera camera = camera_;
-    if (frame_) camera.pose = frame_->getPose();
-    return camera;
-  }
+  bool follows() const { return !frame_.expired(); }
+  Camera now();
 
  private:
   Camera camera_;
-  std::optional<Frame> frame_;
+  std::weak_ptr<SceneTree> scene_;  ///< of the frame; the scene may own the viewer
+  std::weak_ptr<FrameData> frame_;
+};
+
+/// What a picture shows.
+struct PictureContent {
+  std::shared_ptr<SceneTree> scene;
+  Camera camera;
+  double distance;  ///< m from the camera to the center of rotation
+  Appearance appearance;
+  PageDrawings::Listed drawings;
+  std::map<int, Quad> quads;
+  bool has_depth;
 };
 
 /// Converts a camera for pages.
@@ -48,8 +56,12 @@ class ViewerPictures {
  public:
   explicit ViewerPictures(ConfigViewer& viewer) : viewer_(viewer) {}
 
-  /// Renders what the page shows, with a text in the corner. The depth is empty unless asked for; it has no drawings.
-  CameraImage draw(const std::string& text, bool has_depth = false);
+  /// Returns what the page shows now. With `has_depth`, without drawings.
+  PictureContent content(bool has_depth = false);
+
+  /// Renders it, with a text in the corner. The depth is empty unless asked for. Changes nothing else, so that other
+  /// threads may call this viewer meanwhile, if they do not change the scene.
+  CameraImage draw(const PictureContent& content, const std::string& text);
 
   /// Returns the file of a picture; see ConfigViewer::savePng.
   std::string fileOf(const std::string& path, int count);
@@ -81,6 +93,7 @@ class ViewerPictures {
   std::optional<PageCamera> page_camera_;    ///< last camera sent to the pages
   double distance_ = PageCamera{}.distance;  ///< m from the camera to the center of rotation
   int saved_ = 0;                            ///< number of saved pictures
+  std::mutex drawing_;                       ///< for what is below
   PageDrawings drawings_;
   std::optional<PictureRenderer> renderer_;
   std::optional<CameraRenderer> writer_;  ///< of texts

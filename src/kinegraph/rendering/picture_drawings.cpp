@@ -23,7 +23,7 @@ PictureMesh pointsMesh(const std::vector<Vector3d>& points, const std::vector<Co
   return vertexMesh(ShapeType::pointCloud, points, colors);
 }
 
-PictureMesh imageMesh(const Pixels& pixels, double width, double height, double z) {
+PictureMesh imageMesh(Pixels pixels, double width, double height, double z) {
   PictureMesh picture;
   const auto add = [&](double x, double y, double side) {
     for (const double number : {x * width, y * height, z, 0., 0., side, x + .5, y + .5})
@@ -36,7 +36,7 @@ PictureMesh imageMesh(const Pixels& pixels, double width, double height, double 
   picture.is_file = true;
   picture.lower = {-.5 * width, -.5 * height, z};
   picture.upper = {.5 * width, .5 * height, z};
-  picture.parts.push_back({0, 12, std::nullopt, std::make_shared<Image>(encodePng(pixels))});
+  picture.parts.push_back({0, 12, std::nullopt, nullptr, std::make_shared<Pixels>(std::move(pixels))});
   return picture;
 }
 

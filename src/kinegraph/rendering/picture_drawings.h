@@ -32,6 +32,6 @@ PictureMesh linesMesh(const std::vector<Vector3d>& points, const std::vector<Col
 PictureMesh pointsMesh(const std::vector<Vector3d>& points, const std::vector<ColorBytes>& colors = {});
 
 /// Returns an image at z, its center at x = y = 0, x to the right and y down, seen from both sides. All in m.
-PictureMesh imageMesh(const Pixels& pixels, double width, double height, double z);
+PictureMesh imageMesh(Pixels pixels, double width, double height, double z);
 
 }  // namespace kinegraph

@@ -4,6 +4,7 @@
 #include <optional>
 #include <vector>
 
+#include "kinegraph/geometry/files/image_file.h"
 #include "kinegraph/geometry/shapes/geometry.h"
 
 namespace kinegraph {
@@ -17,6 +18,7 @@ struct PictureMesh {
     int first, count;  ///< vertices
     std::optional<Vector4d> color = {};
     std::shared_ptr<const Image> image = {};
+    std::shared_ptr<const Pixels> pixels = {};  ///< a decoded image, which belongs to this shape
   };
 
   Kind kind = Kind::surface;

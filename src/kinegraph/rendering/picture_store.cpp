@@ -2,6 +2,7 @@
 
 #include <cstring>
 #include <functional>
+#include <utility>
 
 #include "kinegraph/geometry/files/image_file.h"
 
@@ -28,6 +29,22 @@ struct IndexedVertices {
   std::vector<float> vertices;
   std::vector<unsigned> indices;
 };
+
+/// Uploads an image. Beyond its edges it continues as `beyond` says.
+unsigned uploaded(const Pixels& pixels, unsigned beyond) {
+  const GlFunctions& f = glFunctions();
+  unsigned texture = 0;
+  f.GenTextures(1, &texture);
+  f.BindTexture(gl::kTexture2D, texture);
+  f.PixelStorei(gl::kUnpackAlignment, 1);
+  f.TexImage2D(gl::kTexture2D, 0, int(gl::kSrgb8), pixels.width, pixels.height, 0, gl::kRgb, gl::kUnsignedByte,
+               pixels.rgb.data());
+  f.GenerateMipmap(gl::kTexture2D);
+  f.TexParameteri(gl::kTexture2D, gl::kMinFilter, int(gl::kLinearMipmap));
+  f.TexParameteri(gl::kTexture2D, gl::kMagFilter, int(gl::kLinear));
+  for (const unsigned direction : {gl::kWrapS, gl::kWrapT}) f.TexParameteri(gl::kTexture2D, direction, int(beyond));
+  return texture;
+}
 
 /// Finds a repetition if few other vertices are in between, as in surfaces of neighboring triangles.
 IndexedVertices indexed(const std::vector<float>& vertices, std::size_t stride) {
@@ -66,29 +83,25 @@ PictureStore::~PictureStore() {
 void PictureStore::release(StoredMesh& mesh) {
   gl_.DeleteVertexArrays(1, &mesh.array);
   for (const unsigned buffer : {mesh.buffer, mesh.indices}) gl_.DeleteBuffers(1, &buffer);
+  for (const unsigned texture : mesh.own) gl_.DeleteTextures(1, &texture);
 }
 
 unsigned PictureStore::textureOf(const Image& image) {
   if (const auto known = textures_.find(image.bytes); known != textures_.end()) return known->second;
-  const Pixels pixels = decodeImage(image);
-  unsigned texture = 0;
-  gl_.GenTextures(1, &texture);
-  gl_.BindTexture(gl::kTexture2D, texture);
-  gl_.PixelStorei(gl::kUnpackAlignment, 1);
-  gl_.TexImage2D(gl::kTexture2D, 0, int(gl::kSrgb8), pixels.width, pixels.height, 0, gl::kRgb, gl::kUnsignedByte,
-                 pixels.rgb.data());
-  gl_.GenerateMipmap(gl::kTexture2D);
-  gl_.TexParameteri(gl::kTexture2D, gl::kMinFilter, int(gl::kLinearMipmap));
-  gl_.TexParameteri(gl::kTexture2D, gl::kMagFilter, int(gl::kLinear));
-  for (const unsigned direction : {gl::kWrapS, gl::kWrapT})
-    gl_.TexParameteri(gl::kTexture2D, direction, int(gl::kRepeat));
-  return textures_[image.bytes] = texture;
+  return textures_[image.bytes] = uploaded(decodeImage(image), gl::kRepeat);
 }
 
 std::unique_ptr<StoredMesh> PictureStore::stored(PictureMesh mesh) {
   auto result = std::make_unique<StoredMesh>();
   result->serial = ++stored_;
-  for (const PictureMesh::Part& part : mesh.parts) result->textures.push_back(part.image ? textureOf(*part.image) : 0);
+  for (PictureMesh::Part& part : mesh.parts) {
+    unsigned texture = part.image ? textureOf(*part.image) : 0;
+    if (part.pixels) {
+      texture = uploaded(*std::exchange(part.pixels, nullptr), gl::kClampToEdge);
+      result->own.push_back(texture);
+    }
+    result->textures.push_back(texture);
+  }
   gl_.GenVertexArrays(1, &result->array);
   gl_.BindVertexArray(result->array);
   gl_.GenBuffers(1, &result->buffer);

@@ -16,6 +16,7 @@ namespace kinegraph {
 struct StoredMesh {
   PictureMesh mesh;                ///< without its vertices
   std::vector<unsigned> textures;  ///< per part; 0: none
+  std::vector<unsigned> own;       ///< textures of no other shape
   unsigned array = 0, buffer = 0, indices = 0;
   std::uint64_t serial = 0;  ///< of no other shape, even after its release
 };

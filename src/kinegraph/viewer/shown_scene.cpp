@@ -7,6 +7,7 @@
 #include "kinegraph/geometry/shapes/shape_types.h"
 #include "kinegraph/geometry/shapes/tessellation.h"
 #include "kinegraph/viewer/messages/binary_messages.h"
+#include "kinegraph/viewer/messages/merged_lines.h"
 #include "kinegraph/viewer/messages/messages.h"
 
 namespace kinegraph {
@@ -295,10 +296,15 @@ FrameMessage ShownScene::frameMessage(std::size_t index) const {
   return frame;
 }
 
-/// Returns the message of a mesh; vertices of one without images are merged if `cell` > 0.
+/// Returns the message of a mesh; vertices of one without images are merged if `cell` > 0, those of lines more, because
+/// plans may have very many.
 std::shared_ptr<const std::string> ShownScene::meshData(const Shown& shown, double cell) const {
   if (!(cell > 0.) || !shown.mesh->images.empty()) return shown.mesh->data;
-  return std::make_shared<std::string>(encodeMesh(shown.mesh->number, *surfaceOf(*shown.item.geometry), {}, cell));
+  constexpr double kCoarserLines = 8.;
+  std::shared_ptr<const Mesh> mesh = surfaceOf(*shown.item.geometry);
+  if (shown.item.geometry->type == ShapeType::lines)
+    mesh = std::make_shared<const Mesh>(mergedLines(*mesh, kCoarserLines * cell));
+  return std::make_shared<std::string>(encodeMesh(shown.mesh->number, *mesh, {}, cell));
 }
 
 double ShownScene::largestMesh() const {
