@@ -5,7 +5,7 @@ from typing import TextIO
 
 
 def drawProgress(
-    what: str, done: int, total: int, seconds: float, stream: TextIO | None = None, ends: bool = False
+    what: str, done: int, total: int, seconds: float, ends: bool = False, stream: TextIO | None = None
 ) -> None:
     """Redraws the progress bar on `stream` (stderr), if it is a terminal.
 
@@ -14,8 +14,8 @@ def drawProgress(
         done: Number of finished items.
         total: Number of all items.
         seconds: Duration so far, s.
-        stream: Output stream.
         ends: Whether the call has ended: then the line stays, as after the last item.
+        stream: Output stream.
     """
     stream = stream or sys.stderr
     if not stream.isatty():

@@ -12,21 +12,21 @@ class Terminal(io.StringIO):
 
 def test_the_bar_fills_and_the_line_ends_with_the_last_one():
     terminal = Terminal()
-    drawProgress("solveIk", 5, 20, 2.0, terminal)
+    drawProgress("solveIk", 5, 20, 2.0, stream=terminal)
     assert "5/20, 2 s, 6 s left" in terminal.getvalue() and "\n" not in terminal.getvalue()
-    drawProgress("solveIk", 20, 20, 8.0, terminal)
+    drawProgress("solveIk", 20, 20, 8.0, stream=terminal)
     assert terminal.getvalue().count("\r") == 2 and terminal.getvalue().endswith("\n")
 
 
 def test_the_line_of_a_call_that_fails_ends_where_it_was():
     terminal = Terminal()
-    drawProgress("planToolPath", 5, 20, 2.0, terminal, ends=True)
+    drawProgress("planToolPath", 5, 20, 2.0, ends=True, stream=terminal)
     assert terminal.getvalue().endswith("5/20, 2 s\x1b[K\n")
 
 
 def test_a_file_gets_no_bar():
     file = io.StringIO()
-    drawProgress("solveIk", 5, 20, 2.0, file)
+    drawProgress("solveIk", 5, 20, 2.0, stream=file)
     assert file.getvalue() == ""
 
 
